@@ -1,0 +1,209 @@
+use crate::{Dahl, Slip};
+
+/// Loads of the two elements of a [`BlimanSorine`] friction: its memory, in the unit of the load.
+pub type Loads = [f64; 2];
+
+/// Bliman–Sorine friction: one or two [`Dahl`] elements in parallel.
+///
+/// * First order: one element.
+/// * Second order [Bliman & Sorine 1995; Ngo Ngoc & Boivin 2004, eq. 2]: a fast element of plateau
+///   `$f_1$` and length `$\eta x_f$` less a slow one of plateau `$f_2$` and length `$x_f$`. The load
+///   overshoots (stiction) and settles to `$f_1 - f_2$` (the Stribeck drop).
+/// * Two positive elements: loops whose width depends on their amplitude, as fabrics show at small
+///   deformation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BlimanSorine {
+    /// The elements; one with a plateau of zero is absent.
+    pub elements: [Dahl; 2],
+}
+
+impl Default for BlimanSorine {
+    fn default() -> Self {
+        Self::none()
+    }
+}
+
+impl BlimanSorine {
+    /// No friction.
+    #[must_use]
+    pub fn none() -> Self {
+        Self::parallel(Dahl::NONE, Dahl::NONE)
+    }
+
+    /// One element with the given plateau (unit of the load) and pre-sliding length (unit of the
+    /// deformation).
+    #[must_use]
+    pub fn first_order(plateau: f64, length: f64) -> Self {
+        Self::parallel(Dahl::new(plateau, length), Dahl::NONE)
+    }
+
+    /// The fast element less the slow one: plateaus `fast_plateau` > `slow_plateau` ≥ 0 (unit of the
+    /// load), lengths `ratio × length` and `length` (unit of the deformation), 0 < `ratio` < 1.
+    #[must_use]
+    pub fn second_order(fast_plateau: f64, slow_plateau: f64, ratio: f64, length: f64) -> Self {
+        Self::parallel(
+            Dahl::new(fast_plateau, ratio * length),
+            Dahl::new(-slow_plateau, length),
+        )
+    }
+
+    /// Two elements side by side.
+    #[must_use]
+    pub fn parallel(first: Dahl, second: Dahl) -> Self {
+        Self {
+            elements: [first, second],
+        }
+    }
+
+    /// Plateau that a long slip reaches, in the unit of the load.
+    #[must_use]
+    pub fn plateau(&self) -> f64 {
+        self.elements[0].plateau + self.elements[1].plateau
+    }
+
+    /// Loads of the elements at the end of a piece, in the unit of the load.
+    #[must_use]
+    pub fn advance(&self, loads: Loads, slip: impl Into<Slip>) -> Loads {
+        let slip = slip.into();
+        let [first, second] = self.elements;
+        [
+            first.advance(loads[0], slip),
+            second.advance(loads[1], slip),
+        ]
+    }
+
+    /// Derivative of the total load at the end of a piece with respect to its amount, in load per
+    /// deformation. See [`Dahl::tangent`] for a piece of amount zero.
+    #[must_use]
+    pub fn tangent(&self, loads: Loads, slip: impl Into<Slip>) -> f64 {
+        let slip = slip.into();
+        let [first, second] = self.elements;
+        first.tangent(loads[0], slip) + second.tangent(loads[1], slip)
+    }
+
+    /// Work of the total load over a piece, in load times deformation. See [`Dahl::work`].
+    #[must_use]
+    pub fn work(&self, loads: Loads, slip: impl Into<Slip>) -> f64 {
+        let slip = slip.into();
+        let [first, second] = self.elements;
+        first.work(loads[0], slip) + second.work(loads[1], slip)
+    }
+
+    /// Energy that the elements give back when unloaded, in load times deformation.
+    #[must_use]
+    pub fn stored(&self, loads: Loads) -> f64 {
+        self.elements[0].stored(loads[0]) + self.elements[1].stored(loads[1])
+    }
+
+    /// Work lost over a piece, in load times deformation. See [`Dahl::dissipated`].
+    #[must_use]
+    pub fn dissipated(&self, loads: Loads, slip: impl Into<Slip>) -> f64 {
+        let slip = slip.into();
+        let [first, second] = self.elements;
+        first.dissipated(loads[0], slip) + second.dissipated(loads[1], slip)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sum(loads: Loads) -> f64 {
+        loads[0] + loads[1]
+    }
+
+    #[test]
+    fn second_order_shows_a_stiction_peak_and_settles() {
+        let (f1, f2, ratio, length) = (1.0, 0.4, 0.2, 0.1);
+        let friction = BlimanSorine::second_order(f1, f2, ratio, length);
+        let load = |u: f64| sum(friction.advance([0.0, 0.0], u));
+        // dF/du = 0 of the virgin curve f1(1 − e^{−u/ηx}) − f2(1 − e^{−u/x}).
+        let rate = 1.0 / (ratio * length) - 1.0 / length;
+        let peak_at = (f1 / (ratio * f2)).ln() / rate;
+        let peak = load(peak_at);
+        for u in [0.9 * peak_at, 0.99 * peak_at, 1.01 * peak_at, 1.1 * peak_at] {
+            assert!(
+                load(u) < peak,
+                "peak {peak} at {peak_at}, {} at {u}",
+                load(u)
+            );
+        }
+        assert!(
+            peak > f1 - f2 + 0.05,
+            "peak {peak} stands above the kinetic level"
+        );
+        let settled = load(40.0 * length);
+        assert!((settled - (f1 - f2)).abs() < 1e-9, "settled at {settled}");
+        assert!((friction.plateau() - (f1 - f2)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_steady_loop_has_the_known_tip_width_and_area() {
+        // Closed forms of a Dahl loop between ±q: tip Fc·tanh(q/x), width at p
+        // 2Fc(1 − cosh(p/x)/cosh(q/x)), area 4Fc(q − x·tanh(q/x)).
+        let (plateau, length, amplitude) = (0.6, 0.04, 0.25);
+        let friction = BlimanSorine::first_order(plateau, length);
+        let mut lower = [0.0, 0.0];
+        for _ in 0..20 {
+            let upper = friction.advance(lower, 2.0 * amplitude);
+            lower = friction.advance(upper, -2.0 * amplitude);
+        }
+        let upper = friction.advance(lower, 2.0 * amplitude);
+        let tip = plateau * (amplitude / length).tanh();
+        assert!(
+            (sum(upper) - tip).abs() < 1e-9,
+            "tip {} exact {tip}",
+            sum(upper)
+        );
+        for p in [-0.2, -0.1, 0.0, 0.07, 0.2, 0.24] {
+            let rising = sum(friction.advance(lower, p + amplitude));
+            let falling = sum(friction.advance(upper, p - amplitude));
+            let exact = 2.0 * plateau * (1.0 - (p / length).cosh() / (amplitude / length).cosh());
+            assert!(
+                (rising - falling - exact).abs() < 1e-9,
+                "at {p}: {}",
+                rising - falling
+            );
+        }
+        let area = friction.work(lower, 2.0 * amplitude) + friction.work(upper, -2.0 * amplitude);
+        let exact = 4.0 * plateau * (amplitude - length * (amplitude / length).tanh());
+        assert!((area - exact).abs() < 1e-9, "area {area} exact {exact}");
+    }
+
+    #[test]
+    fn two_positive_elements_give_loops_that_widen_with_amplitude() {
+        let friction = BlimanSorine::parallel(Dahl::new(0.2, 0.01), Dahl::new(0.5, 0.3));
+        let width = |amplitude: f64| {
+            let mut lower = [0.0, 0.0];
+            for _ in 0..200 {
+                lower = friction.advance(lower, 2.0 * amplitude);
+                lower = friction.advance(lower, -2.0 * amplitude);
+            }
+            let upper = friction.advance(lower, 2.0 * amplitude);
+            sum(friction.advance(lower, amplitude)) - sum(friction.advance(upper, -amplitude))
+        };
+        let widths = [0.02, 0.1, 0.4, 1.6].map(width);
+        assert!(widths.windows(2).all(|w| w[1] > 1.1 * w[0]), "{widths:?}");
+        assert!(
+            (widths[3] - 1.4).abs() < 0.02,
+            "wide loops reach twice the plateaus: {widths:?}"
+        );
+    }
+
+    #[test]
+    fn closed_loops_of_the_second_order_dissipate() {
+        let friction = BlimanSorine::second_order(1.0, 0.4, 0.2, 0.1);
+        for amplitude in [0.001, 0.01, 0.05, 0.2, 1.0] {
+            let mut loads = [0.0, 0.0];
+            let mut lost = 0.0;
+            for _ in 0..2000 {
+                lost = 0.0;
+                for slip in [2.0 * amplitude, -2.0 * amplitude] {
+                    lost += friction.work(loads, slip);
+                    loads = friction.advance(loads, slip);
+                }
+            }
+            assert!(lost > 0.0, "amplitude {amplitude}: loop gained {lost}");
+        }
+    }
+}
