@@ -1,0 +1,246 @@
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::{Diagnostic, closest};
+
+/// Largest TOML file that is read, in bytes. Sheets, fabrics and scenes have a few kilobytes; a
+/// larger file is a mistake, and refusing it early keeps a wrong path from filling the memory.
+const LARGEST: u64 = 1 << 20;
+
+/// The text of a TOML file with its path, from which structures and diagnostics are made.
+#[derive(Debug, Clone)]
+pub struct Document {
+    path: PathBuf,
+    text: String,
+}
+
+impl Document {
+    /// A document from text that is already in memory; `path` is used in messages only.
+    pub fn new(path: impl Into<PathBuf>, text: impl Into<String>) -> Self {
+        let text: String = text.into();
+        let text = text
+            .strip_prefix('\u{feff}')
+            .map(str::to_owned)
+            .unwrap_or(text);
+        Self {
+            path: path.into(),
+            text,
+        }
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// When the file is missing, larger than a mebibyte, or not UTF-8.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostic> {
+        let path = path.as_ref();
+        let fail = |message: String| Diagnostic::new(path, message);
+        let metadata = std::fs::metadata(path)
+            .map_err(|e| fail(format!("cannot open the file: {e}")).help(nearby(path)))?;
+        if !metadata.is_file() {
+            return Err(fail("this is not a file".into()).help("name a TOML file"));
+        }
+        if metadata.len() > LARGEST {
+            return Err(fail(format!(
+                "the file has {} bytes, more than {LARGEST}",
+                metadata.len()
+            ))
+            .help("a TOML input has a few kilobytes: is this the right file?"));
+        }
+        let text = std::fs::read_to_string(path)
+            .map_err(|e| fail(format!("cannot read the file: {e}")).help("save it as UTF-8"))?;
+        Ok(Self::new(path, text))
+    }
+
+    /// The path, as given.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The text, without a byte-order mark.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The structure that the text describes.
+    ///
+    /// # Errors
+    /// The first mistake of grammar, spelling or type, with its place.
+    pub fn decode<T: DeserializeOwned>(&self) -> Result<T, Diagnostic> {
+        toml::from_str(&self.text).map_err(|error| {
+            let message = error.message();
+            let headline = message.split(", expected").next().unwrap_or(message);
+            let mut diagnostic = self.locate(error.span(), headline);
+            let words: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+            if message.starts_with("unknown field") {
+                let known = words.iter().skip(1).copied();
+                diagnostic = match closest(words.first().unwrap_or(&""), known) {
+                    Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
+                    None if words.len() > 1 => {
+                        diagnostic.help(format!("known here: {}", words[1..].join(", ")))
+                    }
+                    None => diagnostic.help("remove it"),
+                };
+            } else if message.starts_with("missing field") {
+                diagnostic = diagnostic.help("add it");
+            } else if message != headline {
+                let expected = message[headline.len()..].trim_start_matches(", ");
+                diagnostic = diagnostic.help(expected.to_owned());
+            }
+            diagnostic
+        })
+    }
+
+    /// A mistake in the value at a key path such as `warp.traction.stiffness` or `curve[2].file`.
+    ///
+    /// If the value itself is not written in the text, the nearest table that is gives the place.
+    #[must_use]
+    pub fn at(&self, key: &str, message: impl Into<String>) -> Diagnostic {
+        let message = format!("{key}: {}", message.into());
+        self.locate(self.find(key), message)
+    }
+
+    fn locate(&self, span: Option<Range<usize>>, message: impl Into<String>) -> Diagnostic {
+        let mut diagnostic = Diagnostic::new(&self.path, message);
+        if let Some(span) = span {
+            let before = self.text.get(..span.start).unwrap_or(&self.text);
+            diagnostic.line = Some(before.matches('\n').count() + 1);
+            let start_of_line = before.rfind('\n').map_or(0, |end| end + 1);
+            diagnostic.column = Some(before[start_of_line..].chars().count() + 1);
+            diagnostic.span = Some(span);
+        }
+        diagnostic
+    }
+
+    fn find(&self, key: &str) -> Option<Range<usize>> {
+        let table = DeTable::parse(&self.text).ok()?;
+        let mut place = None;
+        let mut value: Option<&Spanned<DeValue<'_>>> = None;
+        for part in key.split('.') {
+            let (name, index) = match part.split_once('[') {
+                Some((name, index)) => (name, index.trim_end_matches(']').parse::<usize>().ok()),
+                None => (part, None),
+            };
+            let table = match value {
+                None => table.get_ref(),
+                Some(value) => value.get_ref().as_table()?,
+            };
+            let Some((found_key, found)) = table.iter().find(|(k, _)| k.get_ref() == name) else {
+                return place;
+            };
+            value = Some(found);
+            // A table header spans only its name; a value is better shown by itself.
+            place = Some(if found.get_ref().is_table() {
+                found_key.span()
+            } else {
+                found.span()
+            });
+            if let Some(index) = index {
+                let Some(element) = found.get_ref().as_array().and_then(|a| a.get(index)) else {
+                    return place;
+                };
+                value = Some(element);
+                place = Some(element.span());
+            }
+        }
+        place
+    }
+}
+
+/// What stands in the folder where a file was not found.
+fn nearby(path: &Path) -> String {
+    let folder = path
+        .parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return format!("there is no folder {}", folder.display());
+    };
+    let mut names: Vec<String> = entries
+        .flatten()
+        .map(|e| e.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let wanted = path
+        .file_name()
+        .map(|n| n.to_string_lossy().into_owned())
+        .unwrap_or_default();
+    match closest(&wanted, names.iter().map(String::as_str)) {
+        Some(name) => format!("did you mean {}?", folder.join(name).display()),
+        None => format!("looked in {}", folder.display()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)]
+    struct Outer {
+        dt: f64,
+        #[serde(default)]
+        curve: Vec<Inner>,
+    }
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)]
+    struct Inner {
+        file: String,
+    }
+
+    fn mistake(text: &str) -> Diagnostic {
+        Document::new("a.toml", text)
+            .decode::<Outer>()
+            .expect_err("the text is wrong")
+    }
+
+    #[test]
+    fn grammar_spelling_and_type_are_located() {
+        let wrong_type = mistake("# a comment\ndt = \"fast\"");
+        assert_eq!(
+            (wrong_type.line, wrong_type.column),
+            (Some(2), Some(6)),
+            "{wrong_type}"
+        );
+        let unknown = mistake("dt = 1\n[[curve]]\nfile = \"x\"\nfil = 2");
+        assert_eq!(unknown.line, Some(4), "{unknown}");
+        assert_eq!(unknown.help.as_deref(), Some("did you mean `file`?"));
+        let grammar = mistake("dt = 1\nx = = 2");
+        assert_eq!(grammar.line, Some(2), "{grammar}");
+        let missing = mistake("dt = 1\n[[curve]]\n");
+        assert!(
+            missing.message.contains("missing field `file`"),
+            "{missing}"
+        );
+        assert_eq!(missing.line, Some(2), "{missing}");
+    }
+
+    #[test]
+    fn a_key_path_finds_its_line_also_in_arrays_and_for_absent_keys() {
+        let text = "dt = 1\n[[curve]]\nfile = \"x\"\n[[curve]]\nfile = \"y\"\n[a.b]\nc = { d = 3 }";
+        let document = Document::new("a.toml", text);
+        let line = |key: &str| document.at(key, "").line;
+        assert_eq!(line("dt"), Some(1));
+        assert_eq!(line("curve[1].file"), Some(5));
+        assert_eq!(line("curve[1].unit"), Some(4));
+        assert_eq!(line("a.b.c.d"), Some(7));
+        assert_eq!(line("a.b.e"), Some(6));
+        assert_eq!(line("nothing"), None);
+    }
+
+    #[test]
+    fn a_missing_file_names_its_neighbour() {
+        let mistake = Document::read("Cargo.tml").expect_err("there is no such file");
+        let help = mistake.help.expect("a remedy");
+        assert!(help.contains("Cargo.toml"), "{help}");
+    }
+}
