@@ -5,7 +5,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::{Diagnostic, closest};
+use crate::{Diagnostic, Diagnostics, closest};
 
 /// Largest TOML file that is read, in bytes. Sheets, fabrics and scenes have a few kilobytes; a
 /// larger file is a mistake, and refusing it early keeps a wrong path from filling the memory.
@@ -36,20 +36,23 @@ impl Document {
     ///
     /// # Errors
     /// When the file is missing, larger than a mebibyte, or not UTF-8.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostic> {
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
         let path = path.as_ref();
         let fail = |message: String| Diagnostic::new(path, message);
         let metadata = std::fs::metadata(path)
             .map_err(|e| fail(format!("cannot open the file: {e}")).help(nearby(path)))?;
         if !metadata.is_file() {
-            return Err(fail("this is not a file".into()).help("name a TOML file"));
+            return Err(fail("this is not a file".into())
+                .help("name a TOML file")
+                .into());
         }
         if metadata.len() > LARGEST {
             return Err(fail(format!(
                 "the file has {} bytes, more than {LARGEST}",
                 metadata.len()
             ))
-            .help("a TOML input has a few kilobytes: is this the right file?"));
+            .help("a TOML input has a few kilobytes: is this the right file?")
+            .into());
         }
         let text = std::fs::read_to_string(path)
             .map_err(|e| fail(format!("cannot read the file: {e}")).help("save it as UTF-8"))?;
@@ -72,7 +75,7 @@ impl Document {
     ///
     /// # Errors
     /// The first mistake of grammar, spelling or type, with its place.
-    pub fn decode<T: DeserializeOwned>(&self) -> Result<T, Diagnostic> {
+    pub fn decode<T: DeserializeOwned>(&self) -> Result<T, Diagnostics> {
         toml::from_str(&self.text).map_err(|error| {
             let message = error.message();
             let headline = message.split(", expected").next().unwrap_or(message);
@@ -93,7 +96,7 @@ impl Document {
                 let expected = message[headline.len()..].trim_start_matches(", ");
                 diagnostic = diagnostic.help(expected.to_owned());
             }
-            diagnostic
+            diagnostic.into()
         })
     }
 
@@ -201,6 +204,8 @@ mod tests {
         Document::new("a.toml", text)
             .decode::<Outer>()
             .expect_err("the text is wrong")
+            .0
+            .remove(0)
     }
 
     #[test]
@@ -239,8 +244,8 @@ mod tests {
 
     #[test]
     fn a_missing_file_names_its_neighbour() {
-        let mistake = Document::read("Cargo.tml").expect_err("there is no such file");
-        let help = mistake.help.expect("a remedy");
+        let mistakes = Document::read("Cargo.tml").expect_err("there is no such file");
+        let help = mistakes.0[0].help.clone().expect("a remedy");
         assert!(help.contains("Cargo.toml"), "{help}");
     }
 }

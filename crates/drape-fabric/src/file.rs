@@ -1,0 +1,400 @@
+//! The TOML form of a fabric.
+
+use std::path::Path;
+
+use drape_hysteresis::{BlimanSorine, Dahl};
+use drape_input::{Diagnostic, Diagnostics, Document};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    BendingBackbone, BendingLaw, Buckling, Direction, Fabric, Locking, Piecewise, Polynomial,
+    Primed, Provenance, SURFACE_FRICTION, ShearBackbone, ShearLaw, TractionBackbone, TractionLaw,
+};
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FabricFile {
+    name: String,
+    #[serde(default)]
+    source: String,
+    density: f64,
+    thickness: f64,
+    #[serde(default = "surface_friction")]
+    surface_friction: f64,
+    warp: DirectionFile,
+    weft: DirectionFile,
+    shear: ShearFile,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    provenance: Option<Provenance>,
+}
+
+fn surface_friction() -> f64 {
+    SURFACE_FRICTION
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DirectionFile {
+    traction: TractionFile,
+    bending: BendingFile,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TractionFile {
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    friction: Vec<ElementFile>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    primed: Option<PrimedFile>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    polynomial: Option<PolynomialFile>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    buckling: Option<BucklingFile>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PrimedFile {
+    stiffness: f64,
+    toe_ratio: f64,
+    toe_strain: f64,
+    toe_strain_after: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PolynomialFile {
+    quadratic: f64,
+    quartic: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BucklingFile {
+    strain: f64,
+    stiffness: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ElementFile {
+    plateau: f64,
+    length: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PiecewiseFile {
+    slope: f64,
+    intercept: f64,
+    knot: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BendingFile {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rigidity: Option<f64>,
+    #[serde(default)]
+    rest_curvature: f64,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    friction: Vec<ElementFile>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    piecewise: Option<PiecewiseFile>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ShearFile {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stiffness: Option<f64>,
+    #[serde(default)]
+    growth: f64,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    friction: Vec<ElementFile>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    piecewise: Option<PiecewiseFile>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    locking: Option<LockingFile>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LockingFile {
+    onset: f64,
+    limit: f64,
+}
+
+impl Fabric {
+    /// Reads a `fabric.toml`.
+    ///
+    /// # Errors
+    /// Every mistake of the file, each with its line and a remedy.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
+        Self::from_document(&Document::read(path)?)
+    }
+
+    /// The fabric that a TOML document describes.
+    ///
+    /// # Errors
+    /// Every mistake of the document, each with its line and a remedy.
+    pub fn from_document(document: &Document) -> Result<Self, Diagnostics> {
+        let file: FabricFile = document.decode()?;
+        let mut mistakes = Vec::new();
+        let fabric = file.fabric(&mut |key, message, help| {
+            mistakes.push(document.at(key, message).help(help));
+        });
+        let problems = fabric.problems();
+        let located = |p: &crate::Problem| document.at(&p.key, p.message.clone()).help(&p.help);
+        mistakes.extend(problems.iter().map(located).collect::<Vec<Diagnostic>>());
+        Diagnostics::check(mistakes)?;
+        Ok(fabric)
+    }
+
+    /// The fabric as TOML, which [`Fabric::read`] reads back exactly.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        toml::to_string_pretty(&FabricFile::from(self))
+            .expect("numbers, strings and tables always have a TOML form")
+    }
+}
+
+type Report<'a> = dyn FnMut(&str, &str, &str) + 'a;
+
+impl FabricFile {
+    fn fabric(self, report: &mut Report<'_>) -> Fabric {
+        let warp = self.warp.direction("warp", report);
+        let weft = self.weft.direction("weft", report);
+        let shear = self.shear.law(report);
+        Fabric {
+            name: self.name,
+            source: self.source,
+            density: self.density,
+            thickness: self.thickness,
+            surface_friction: self.surface_friction,
+            warp,
+            weft,
+            shear,
+            provenance: self.provenance,
+        }
+    }
+}
+
+impl DirectionFile {
+    fn direction(self, key: &str, report: &mut Report<'_>) -> Direction {
+        let traction_key = format!("{key}.traction");
+        let backbone = match (self.traction.primed, self.traction.polynomial) {
+            (Some(p), None) => TractionBackbone::Primed(Primed {
+                stiffness: p.stiffness,
+                toe_ratio: p.toe_ratio,
+                toe_strain: p.toe_strain,
+                toe_strain_after: p.toe_strain_after,
+            }),
+            (None, Some(p)) => TractionBackbone::Polynomial(Polynomial {
+                quadratic: p.quadratic,
+                quartic: p.quartic,
+            }),
+            _ => {
+                report(
+                    &traction_key,
+                    "the tensile curve must be given once",
+                    "give one of the tables `primed` and `polynomial`",
+                );
+                TractionBackbone::Polynomial(Polynomial {
+                    quadratic: 1.0,
+                    quartic: 0.0,
+                })
+            }
+        };
+        let buckling = self
+            .traction
+            .buckling
+            .map_or(Buckling::default(), |b| Buckling {
+                strain: b.strain,
+                stiffness: b.stiffness,
+            });
+        let friction = friction(&self.traction.friction, &traction_key, report);
+        let traction = TractionLaw {
+            backbone,
+            friction,
+            buckling,
+        };
+
+        let bending_key = format!("{key}.bending");
+        let backbone = match (self.bending.rigidity, self.bending.piecewise) {
+            (Some(rigidity), None) => BendingBackbone::Linear { rigidity },
+            (None, Some(p)) => BendingBackbone::Piecewise(p.into()),
+            _ => {
+                report(
+                    &bending_key,
+                    "the bending curve must be given once",
+                    "give one of `rigidity` and the table `piecewise`",
+                );
+                BendingBackbone::Linear { rigidity: 1e-5 }
+            }
+        };
+        let rest_curvature = self.bending.rest_curvature;
+        let friction = self::friction(&self.bending.friction, &bending_key, report);
+        Direction {
+            traction,
+            bending: BendingLaw {
+                backbone,
+                rest_curvature,
+                friction,
+            },
+        }
+    }
+}
+
+impl ShearFile {
+    fn law(self, report: &mut Report<'_>) -> ShearLaw {
+        let backbone = match (self.stiffness, self.piecewise) {
+            (Some(stiffness), None) => ShearBackbone::Linear { stiffness },
+            (None, Some(p)) => ShearBackbone::Piecewise(p.into()),
+            _ => {
+                report(
+                    "shear",
+                    "the shear curve must be given once",
+                    "give one of `stiffness` and the table `piecewise`",
+                );
+                ShearBackbone::Linear { stiffness: 1.0 }
+            }
+        };
+        ShearLaw {
+            backbone,
+            friction: friction(&self.friction, "shear", report),
+            growth: self.growth,
+            locking: self.locking.map(|l| Locking {
+                onset: l.onset,
+                limit: l.limit,
+            }),
+        }
+    }
+}
+
+fn friction(elements: &[ElementFile], key: &str, report: &mut Report<'_>) -> BlimanSorine {
+    if elements.len() > 2 {
+        report(
+            &format!("{key}.friction[2]"),
+            "there are more than two friction elements",
+            "the model has one (first order) or two (second order, or nested loops)",
+        );
+    }
+    let element = |index: usize| {
+        elements
+            .get(index)
+            .map_or(Dahl::NONE, |e| Dahl::new(e.plateau, e.length))
+    };
+    BlimanSorine::parallel(element(0), element(1))
+}
+
+impl From<PiecewiseFile> for Piecewise {
+    fn from(file: PiecewiseFile) -> Self {
+        Self {
+            slope: file.slope,
+            intercept: file.intercept,
+            knot: file.knot,
+        }
+    }
+}
+
+impl From<&Piecewise> for PiecewiseFile {
+    fn from(law: &Piecewise) -> Self {
+        Self {
+            slope: law.slope,
+            intercept: law.intercept,
+            knot: law.knot,
+        }
+    }
+}
+
+fn elements(friction: &BlimanSorine) -> Vec<ElementFile> {
+    friction
+        .elements
+        .iter()
+        .filter(|e| e.plateau != 0.0)
+        .map(|e| ElementFile {
+            plateau: e.plateau,
+            length: e.length,
+        })
+        .collect()
+}
+
+impl From<&Fabric> for FabricFile {
+    fn from(fabric: &Fabric) -> Self {
+        Self {
+            name: fabric.name.clone(),
+            source: fabric.source.clone(),
+            density: fabric.density,
+            thickness: fabric.thickness,
+            surface_friction: fabric.surface_friction,
+            warp: (&fabric.warp).into(),
+            weft: (&fabric.weft).into(),
+            shear: (&fabric.shear).into(),
+            provenance: fabric.provenance.clone(),
+        }
+    }
+}
+
+impl From<&Direction> for DirectionFile {
+    fn from(direction: &Direction) -> Self {
+        let Direction { traction, bending } = direction;
+        let (mut primed, mut polynomial) = (None, None);
+        match &traction.backbone {
+            TractionBackbone::Primed(p) => {
+                primed = Some(PrimedFile {
+                    stiffness: p.stiffness,
+                    toe_ratio: p.toe_ratio,
+                    toe_strain: p.toe_strain,
+                    toe_strain_after: p.toe_strain_after,
+                });
+            }
+            TractionBackbone::Polynomial(p) => {
+                polynomial = Some(PolynomialFile {
+                    quadratic: p.quadratic,
+                    quartic: p.quartic,
+                });
+            }
+        }
+        let Buckling { strain, stiffness } = traction.buckling;
+        let (mut rigidity, mut piecewise) = (None, None);
+        match &bending.backbone {
+            BendingBackbone::Linear { rigidity: value } => rigidity = Some(*value),
+            BendingBackbone::Piecewise(p) => piecewise = Some(p.into()),
+        }
+        Self {
+            traction: TractionFile {
+                friction: elements(&traction.friction),
+                primed,
+                polynomial,
+                buckling: Some(BucklingFile { strain, stiffness }),
+            },
+            bending: BendingFile {
+                rigidity,
+                rest_curvature: bending.rest_curvature,
+                friction: elements(&bending.friction),
+                piecewise,
+            },
+        }
+    }
+}
+
+impl From<&ShearLaw> for ShearFile {
+    fn from(law: &ShearLaw) -> Self {
+        let (mut stiffness, mut piecewise) = (None, None);
+        match &law.backbone {
+            ShearBackbone::Linear { stiffness: value } => stiffness = Some(*value),
+            ShearBackbone::Piecewise(p) => piecewise = Some(p.into()),
+        }
+        Self {
+            stiffness,
+            growth: law.growth,
+            friction: elements(&law.friction),
+            piecewise,
+            locking: law.locking.map(|l| LockingFile {
+                onset: l.onset,
+                limit: l.limit,
+            }),
+        }
+    }
+}

@@ -1,0 +1,50 @@
+/// A quadratic through the origin that runs into a straight line, odd about the origin.
+///
+/// Breen's approximation of the first branch of a KES bending or shear curve [Breen, House & Wozny
+/// 1994, §5.1]: the line is fitted to the outer, stable part, and the quadratic continues it to the
+/// origin with the same value and slope at the knot:
+///
+/// ```math
+/// L(d) = \begin{cases} p\,d + q\,d^2, & 0 \le d \le d_k\\ c + s\,d, & d > d_k \end{cases}
+/// \qquad q = -c/d_k^2,\quad p = s + 2c/d_k
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piecewise {
+    /// Slope `$s$` of the line, in load per deformation, greater than 0.
+    pub slope: f64,
+    /// Load `$c$` at which the line meets the axis, in the unit of the load.
+    pub intercept: f64,
+    /// Deformation `$d_k$` where the pieces meet, greater than 0.
+    pub knot: f64,
+}
+
+impl Piecewise {
+    /// Load at a deformation, in the unit of the load.
+    #[must_use]
+    pub fn load(&self, deformation: f64) -> f64 {
+        let d = deformation.abs();
+        let load = if d <= self.knot {
+            let t = d / self.knot;
+            self.slope * d + self.intercept * t * (2.0 - t)
+        } else {
+            self.intercept + self.slope * d
+        };
+        load.copysign(load * deformation)
+    }
+
+    /// Slope of the load, in load per deformation.
+    #[must_use]
+    pub fn tangent(&self, deformation: f64) -> f64 {
+        let t = (deformation.abs() / self.knot).min(1.0);
+        self.slope + 2.0 * self.intercept / self.knot * (1.0 - t)
+    }
+
+    /// Integral of the load from 0, in load times deformation.
+    #[must_use]
+    pub fn energy(&self, deformation: f64) -> f64 {
+        let d = deformation.abs();
+        let t = (d / self.knot).min(1.0);
+        let beyond = (d - self.knot).max(0.0);
+        0.5 * self.slope * d * d + self.intercept * (self.knot * t * t * (1.0 - t / 3.0) + beyond)
+    }
+}
