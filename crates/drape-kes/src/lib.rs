@@ -1,1 +1,25 @@
 #![doc = include_str!("../README.md")]
+
+mod branch;
+mod curve;
+mod curve_file;
+mod diagnostic;
+mod error;
+mod loop_values;
+mod plausible;
+mod section;
+mod sheet;
+mod spelling;
+mod table;
+mod tensile;
+mod unit;
+mod values;
+
+pub use branch::{Branch, reversals};
+pub use curve::{Curve, Direction, Test};
+pub use diagnostic::Diagnostic;
+pub use error::Error;
+pub use loop_values::{BendingPoints, BendingValues, ShearPoints, ShearValues};
+pub use sheet::Sheet;
+pub use tensile::TensileValues;
+pub use values::Values;

@@ -1,0 +1,93 @@
+//! Everything that can go wrong between the laboratory's files and curves in SI.
+
+use std::path::PathBuf;
+
+use crate::Diagnostic;
+
+/// Why a sheet or a curve could not be used.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The sheet itself could not be opened: check the path.
+    #[error("cannot read {}: {source}", path.display())]
+    Unreadable {
+        /// The file that could not be read.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// The sheet or a file that it names has errors: correct them; all that were found are listed.
+    #[error("{}", list(diagnostics))]
+    Invalid {
+        /// Every error found, in the order of the file.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// Two columns of a curve differ in length: give one load for each deformation.
+    #[error("a curve has {deformations} deformations but {loads} loads")]
+    Unpaired {
+        /// How many deformations there are.
+        deformations: usize,
+        /// How many loads there are.
+        loads: usize,
+    },
+    /// A curve has too few points to be one: measure at least two.
+    #[error("a curve has {points} points; it needs at least two")]
+    TooShort {
+        /// How many points there are.
+        points: usize,
+    },
+    /// A curve holds a value that is not a finite number: correct the value.
+    #[error("point {index} of a curve is not finite: deformation {deformation}, load {load}")]
+    NotFinite {
+        /// The point, from 0.
+        index: usize,
+        /// Its deformation.
+        deformation: f64,
+        /// Its load.
+        load: f64,
+    },
+    /// All points of a curve have the same deformation: the test did not move.
+    #[error("all points of a curve have the deformation {deformation}: nothing was deformed")]
+    NoMotion {
+        /// That deformation.
+        deformation: f64,
+    },
+    /// A value was asked of a curve of another test: choose a curve of the right test.
+    #[error("a {found} curve was given where a {wanted} curve is needed")]
+    WrongTest {
+        /// The test of the curve.
+        found: &'static str,
+        /// The test that was needed.
+        wanted: &'static str,
+    },
+    /// A value needs a deformation that the curve does not reach in both senses: measure further, or move
+    /// the evaluation points.
+    #[error("the curve has no loop at a deformation of {deformation}; it spans {low} to {high}")]
+    OutOfRange {
+        /// The deformation needed, in SI.
+        deformation: f64,
+        /// The lowest deformation measured, in SI.
+        low: f64,
+        /// The highest deformation measured, in SI.
+        high: f64,
+    },
+}
+
+impl Error {
+    /// The findings to show to a person, each with its place when the error comes from a file.
+    pub fn diagnostics(&self) -> Vec<Diagnostic> {
+        match self {
+            Self::Unreadable { path, source } => vec![
+                Diagnostic::new(path, format!("cannot read the file: {source}"))
+                    .with_help("check the path and that the file can be read"),
+            ],
+            Self::Invalid { diagnostics } => diagnostics.clone(),
+            other => vec![Diagnostic::new("", other.to_string())],
+        }
+    }
+}
+
+fn list(diagnostics: &[Diagnostic]) -> String {
+    let lines: Vec<String> = diagnostics.iter().map(ToString::to_string).collect();
+    lines.join("\n")
+}

@@ -1,0 +1,286 @@
+//! A laboratory's sheet: KES values in its own units, and the curves measured with them.
+
+use std::path::{Path, PathBuf};
+
+use toml::de::DeTable;
+
+use crate::curve_file::{self, CURVE_KEYS};
+use crate::plausible;
+use crate::section::{Findings, Measured, Section, syntax_error};
+use crate::unit::Quantity;
+use crate::{Curve, Diagnostic, Direction, Error, Test, Values};
+
+/// Name of the file looked for when a folder is given.
+const SHEET_FILE: &str = "sheet.toml";
+
+const SHEET_KEYS: [&str; 8] = ["name", "source", "W", "T", "FM", "warp", "weft", "curve"];
+const VALUE_KEYS: [&str; 9] = ["B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM"];
+
+/// FM of the standard tensile test, in gf/cm; the "high sensitivity" test stops at 50.
+const STANDARD_MAXIMUM_TENSION: f64 = 500.0;
+
+/// What a laboratory hands over about one fabric: KES values, curves, and where they come from.
+///
+/// Fields named by a symbol are in the laboratory's units; curves are in SI.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sheet {
+    /// What the fabric is called.
+    pub name: String,
+    /// Who measured it, when, and under which licence.
+    pub source: String,
+    /// W, mass per area, in mg/cm².
+    pub w: Option<f64>,
+    /// T, thickness, in mm.
+    pub t: Option<f64>,
+    /// FM, maximum load of the tensile test, in gf/cm; 500 in the standard test when not given.
+    pub fm: Option<f64>,
+    /// Values along the warp.
+    pub warp: Values,
+    /// Values along the weft.
+    pub weft: Values,
+    /// Measured curves, in SI.
+    pub curves: Vec<Curve>,
+    warnings: Vec<Diagnostic>,
+}
+
+impl Sheet {
+    /// Reads a sheet and the curves it names; a folder means the `sheet.toml` in it.
+    ///
+    /// # Errors
+    /// The file cannot be read, or it or one of its curve files has errors: all that could be found are in
+    /// the error, each with file, line, value and remedy.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let path = if path.is_dir() {
+            path.join(SHEET_FILE)
+        } else {
+            path.to_owned()
+        };
+        let text = std::fs::read_to_string(&path).map_err(|source| Error::Unreadable {
+            path: path.clone(),
+            source,
+        })?;
+        Self::parse(path, &text)
+    }
+
+    fn parse(path: PathBuf, text: &str) -> Result<Self, Error> {
+        let document = DeTable::parse(text).map_err(|error| Error::Invalid {
+            diagnostics: vec![syntax_error(&path, text, &error)],
+        })?;
+        let mut findings = Findings {
+            path,
+            text,
+            errors: Vec::new(),
+            warnings: Vec::new(),
+        };
+        let root = Section::new("the sheet", 0..0, document.get_ref());
+        let sheet = Self::check(&root, &mut findings);
+        if findings.errors.is_empty() {
+            return Ok(Self {
+                warnings: findings.warnings,
+                ..sheet
+            });
+        }
+        Err(Error::Invalid {
+            diagnostics: findings.errors,
+        })
+    }
+
+    fn check(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
+        root.allow(&SHEET_KEYS, findings);
+        let text = |found: Option<(String, _)>| found.map(|(text, _)| text).unwrap_or_default();
+        let name = text(root.required_text("name", "\"cotton poplin\"", findings));
+        let source = text(root.text("source", findings));
+        let w = positive(root, "W", Quantity::MassPerArea, findings);
+        let t = positive(root, "T", Quantity::Length, findings);
+        let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
+        if let Some(w) = &w {
+            plausible::density(w, findings);
+        }
+        let warp = values(root, Direction::Warp, w.as_ref(), findings);
+        let weft = values(root, Direction::Weft, w.as_ref(), findings);
+        let curves = root
+            .sections("curve", findings)
+            .iter()
+            .filter_map(|section| {
+                section.allow(&CURVE_KEYS, findings);
+                curve_file::read(section, findings)
+            })
+            .collect();
+        let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
+        Self {
+            name,
+            source,
+            w: laboratory(w),
+            t: laboratory(t),
+            fm: laboratory(fm),
+            warp,
+            weft,
+            curves,
+            warnings: Vec::new(),
+        }
+    }
+
+    /// W: mass per area, in kg/m².
+    pub fn density(&self) -> Option<f64> {
+        self.w
+            .map(|w| w * Quantity::MassPerArea.laboratory().factor)
+    }
+
+    /// T: thickness, in metres.
+    pub fn thickness(&self) -> Option<f64> {
+        self.t.map(|t| t * Quantity::Length.laboratory().factor)
+    }
+
+    /// FM: the maximum load of the tensile test, given or standard, in N/m.
+    pub fn maximum_tension(&self) -> f64 {
+        self.fm.unwrap_or(STANDARD_MAXIMUM_TENSION) * Quantity::ForcePerWidth.laboratory().factor
+    }
+
+    /// The KES values of one direction.
+    pub fn values(&self, direction: Direction) -> &Values {
+        match direction {
+            Direction::Warp => &self.warp,
+            Direction::Weft => &self.weft,
+        }
+    }
+
+    /// The curves of one test and direction, in the order of the sheet.
+    pub fn curves_of(&self, test: Test, direction: Direction) -> impl Iterator<Item = &Curve> {
+        self.curves
+            .iter()
+            .filter(move |curve| curve.test == test && curve.direction == direction)
+    }
+
+    /// Values that are allowed and that few real fabrics have, found when the sheet was read.
+    pub fn warnings(&self) -> &[Diagnostic] {
+        &self.warnings
+    }
+}
+
+/// The values of one direction, each checked against what it can be.
+fn values(
+    root: &Section<'_>,
+    direction: Direction,
+    w: Option<&Measured>,
+    findings: &mut Findings<'_>,
+) -> Values {
+    let Some(section) = root.section(direction.name(), direction.name(), findings) else {
+        return Values::default();
+    };
+    section.allow(&VALUE_KEYS, findings);
+    let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
+    let b = section.measured("B", Quantity::BendingRigidity, findings);
+    let b = b.filter(|b| plausible::bending_rigidity(&section.field("B"), b, findings));
+    if let Some(b) = &b {
+        plausible::bending(direction, b, w, findings);
+    }
+    let mut at_least_zero =
+        |key, quantity| laboratory(zero_or_more(&section, key, quantity, findings));
+    let two_hb = at_least_zero("2HB", Quantity::MomentPerWidth);
+    let two_hg = at_least_zero("2HG", Quantity::ForcePerWidth);
+    let two_hg5 = at_least_zero("2HG5", Quantity::ForcePerWidth);
+    let mut above_zero = |key, quantity| laboratory(positive(&section, key, quantity, findings));
+    let g = above_zero("G", Quantity::ShearStiffness);
+    let wt = above_zero("WT", Quantity::WorkPerArea);
+    let em = above_zero("EM", Quantity::Ratio);
+    let lt = linearity(&section, findings);
+    let rt = resilience(&section, findings);
+    Values {
+        b: laboratory(b),
+        two_hb,
+        g,
+        two_hg,
+        two_hg5,
+        lt,
+        wt,
+        rt,
+        em,
+    }
+}
+
+/// LT is a pure number, not a percentage: its bare unit is one.
+fn linearity(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
+    let lt = positive(section, "LT", Quantity::Ratio, findings)?;
+    // A bare LT was read as a percentage, the laboratory's unit of every other ratio.
+    let ratio = if lt.written.parse::<f64>().is_ok() {
+        lt.number
+    } else {
+        lt.si
+    };
+    // The work under a curve of constant sign cannot exceed the box around it, twice the triangle.
+    if ratio < 2.0 {
+        return Some(ratio);
+    }
+    findings.error(
+        &lt.span,
+        format!(
+            "{} is {}; LT is between 0 and 2",
+            section.field("LT"),
+            lt.written
+        ),
+        "LT is a ratio, about 0.5 to 1; is this another value, or a percentage?",
+    );
+    None
+}
+
+fn resilience(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
+    let rt = positive(section, "RT", Quantity::Ratio, findings)?;
+    if rt.si <= 1.0 {
+        return Some(rt.laboratory);
+    }
+    findings.error(
+        &rt.span,
+        format!(
+            "{} is {}; no fabric gives back more than 100 %",
+            section.field("RT"),
+            rt.written
+        ),
+        "RT is recovered work over work spent, in percent",
+    );
+    None
+}
+
+fn positive(
+    section: &Section<'_>,
+    key: &str,
+    quantity: Quantity,
+    findings: &mut Findings<'_>,
+) -> Option<Measured> {
+    let value = section.measured(key, quantity, findings)?;
+    if value.si > 0.0 {
+        return Some(value);
+    }
+    findings.error(
+        &value.span,
+        format!(
+            "{} is {}; it must be positive",
+            section.field(key),
+            value.written
+        ),
+        "write the measured value, or remove the line if it was not measured",
+    );
+    None
+}
+
+fn zero_or_more(
+    section: &Section<'_>,
+    key: &str,
+    quantity: Quantity,
+    findings: &mut Findings<'_>,
+) -> Option<Measured> {
+    let value = section.measured(key, quantity, findings)?;
+    if value.si >= 0.0 {
+        return Some(value);
+    }
+    findings.error(
+        &value.span,
+        format!(
+            "{} is {}; it cannot be negative",
+            section.field(key),
+            value.written
+        ),
+        "a loop width is the distance between the two branches, without sign",
+    );
+    None
+}

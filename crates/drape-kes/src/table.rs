@@ -1,0 +1,291 @@
+//! Plain-text tables as instruments and spreadsheets write them.
+
+use std::path::{Path, PathBuf};
+
+use crate::Diagnostic;
+use crate::spelling;
+
+/// Which column of a table is meant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Column {
+    /// By its name in the header, without the unit.
+    Name(String),
+    /// By its place, from 1.
+    Place(usize),
+}
+
+/// A table of text cells: separators `,` `;` or tab, decimal point or comma, `#` comments.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    path: PathBuf,
+    header: Option<Vec<Heading>>,
+    /// Each row with its line in the file.
+    rows: Vec<(usize, Vec<String>)>,
+    decimal_comma: bool,
+}
+
+/// A cell of the header: `curvature (1/cm)` or `curvature [1/cm]`.
+#[derive(Clone, Debug)]
+struct Heading {
+    name: String,
+    unit: Option<String>,
+}
+
+impl Table {
+    pub(crate) fn read(path: &Path) -> Result<Self, Diagnostic> {
+        let bytes = std::fs::read(path).map_err(|error| {
+            Diagnostic::new(path, format!("cannot read the file: {error}"))
+                .with_help("check the path and that the file can be read")
+        })?;
+        Self::parse(path, &String::from_utf8_lossy(&bytes))
+    }
+
+    pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, Diagnostic> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let separator = separator(text);
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(separator)
+            .comment(Some(b'#'))
+            .has_headers(false)
+            .flexible(true)
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|error| {
+                let line = error
+                    .position()
+                    .map_or(1, |position| position.line() as usize);
+                Diagnostic::new(path, format!("not a table: {error}")).at_line(line)
+            })?;
+            let start = record
+                .position()
+                .map_or(0, |position| position.byte() as usize);
+            let line = line_of_row(text, start);
+            if record.iter().any(|cell| !cell.is_empty()) {
+                rows.push((line, record.iter().map(str::to_owned).collect::<Vec<_>>()));
+            }
+        }
+        let mut table = Self {
+            path: path.to_owned(),
+            header: None,
+            rows,
+            decimal_comma: separator != b',',
+        };
+        let first_is_header = table.rows.first().is_some_and(|(_, cells)| {
+            cells
+                .iter()
+                .all(|cell| cell.is_empty() || table.number(cell).is_none())
+        });
+        if first_is_header {
+            let (_, cells) = table.rows.remove(0);
+            table.header = Some(cells.iter().map(|cell| heading(cell)).collect());
+        }
+        if table.rows.is_empty() {
+            return Err(Diagnostic::new(path, "the file has no rows of numbers")
+                .with_help("a curve needs at least two points, one per line"));
+        }
+        Ok(table)
+    }
+
+    /// The place of a column, from 0.
+    pub(crate) fn find(&self, column: &Column) -> Result<usize, Diagnostic> {
+        let width = self
+            .rows
+            .iter()
+            .map(|(_, cells)| cells.len())
+            .max()
+            .unwrap_or(0);
+        match column {
+            Column::Place(place) if (1..=width).contains(place) => Ok(place - 1),
+            Column::Place(place) => Err(Diagnostic::new(
+                &self.path,
+                format!("there is no column {place}"),
+            )
+            .with_help(format!("columns are counted from 1; this file has {width}"))),
+            Column::Name(name) => self.find_name(name),
+        }
+    }
+
+    fn find_name(&self, name: &str) -> Result<usize, Diagnostic> {
+        let Some(header) = &self.header else {
+            return Err(Diagnostic::new(
+                &self.path,
+                format!("column \"{name}\" was asked for, but the file has no header"),
+            )
+            .with_help("give the column's place instead, counted from 1, such as column = 1"));
+        };
+        let same = |heading: &Heading| heading.name.eq_ignore_ascii_case(name.trim());
+        if let Some(place) = header.iter().position(same) {
+            return Ok(place);
+        }
+        let names: Vec<&str> = header.iter().map(|heading| heading.name.as_str()).collect();
+        let hint = spelling::closest(name, names.iter().copied())
+            .map(|close| format!("did you mean \"{close}\"? "))
+            .unwrap_or_default();
+        Err(
+            Diagnostic::new(&self.path, format!("there is no column \"{name}\""))
+                .at_line(1)
+                .with_help(format!("{hint}columns of the file: {}", names.join(", "))),
+        )
+    }
+
+    /// The unit named in the header of a column.
+    pub(crate) fn unit(&self, place: usize) -> Option<&str> {
+        self.header.as_ref()?.get(place)?.unit.as_deref()
+    }
+
+    /// The numbers of a column, each finite, with their lines.
+    pub(crate) fn numbers(&self, place: usize) -> Result<Vec<(usize, f64)>, Diagnostic> {
+        self.rows
+            .iter()
+            .map(|(line, cells)| {
+                let cell = cells.get(place).map_or("", String::as_str);
+                match self.number(cell) {
+                    Some(number) if number.is_finite() => Ok((*line, number)),
+                    _ => Err(self.not_a_number(*line, place, cell)),
+                }
+            })
+            .collect()
+    }
+
+    fn not_a_number(&self, line: usize, place: usize, cell: &str) -> Diagnostic {
+        let name = match self.header.as_ref().and_then(|header| header.get(place)) {
+            Some(heading) => format!("\"{}\"", heading.name),
+            None => (place + 1).to_string(),
+        };
+        let (message, help) = if cell.is_empty() {
+            (
+                format!("column {name} is empty"),
+                "fill the value in or remove the line",
+            )
+        } else {
+            (
+                format!("column {name} holds \"{cell}\", which is not a finite number"),
+                "correct the value or remove the line; start comments with #",
+            )
+        };
+        Diagnostic::new(&self.path, message)
+            .at_line(line)
+            .with_help(help)
+    }
+
+    /// A finding about this file.
+    pub(crate) fn finding(&self, message: String) -> Diagnostic {
+        Diagnostic::new(&self.path, message)
+    }
+
+    fn number(&self, cell: &str) -> Option<f64> {
+        if self.decimal_comma && cell.contains(',') {
+            cell.replace(',', ".").parse().ok()
+        } else {
+            cell.parse().ok()
+        }
+    }
+}
+
+/// The separator of the first line that is neither empty nor a comment.
+///
+/// Semicolon and tab come before the comma, which may be the decimal sign beside them.
+fn separator(text: &str) -> u8 {
+    let first = text
+        .lines()
+        .find(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    match first {
+        Some(line) if line.contains(';') => b';',
+        Some(line) if line.contains('\t') => b'\t',
+        _ => b',',
+    }
+}
+
+/// The line of the row that the parser began to look for at a byte of the text.
+///
+/// The parser reports where it began, before the empty lines and comments that it skipped.
+fn line_of_row(text: &str, start: usize) -> usize {
+    let before = text[..start].matches('\n').count();
+    let skipped = text[start..]
+        .lines()
+        .take_while(|line| line.trim().is_empty() || line.starts_with('#'))
+        .count();
+    before + skipped + 1
+}
+
+fn heading(cell: &str) -> Heading {
+    let bracketed = |open: char, close: char| {
+        let inside = cell.strip_suffix(close)?;
+        let (name, unit) = inside.split_once(open)?;
+        Some(Heading {
+            name: name.trim().to_owned(),
+            unit: Some(unit.trim().to_owned()),
+        })
+    };
+    bracketed('[', ']')
+        .or_else(|| bracketed('(', ')'))
+        .unwrap_or_else(|| Heading {
+            name: cell.to_owned(),
+            unit: None,
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(text: &str, column: &Column) -> Result<Vec<f64>, Diagnostic> {
+        let table = Table::parse(Path::new("curve.csv"), text)?;
+        let place = table.find(column)?;
+        Ok(table
+            .numbers(place)?
+            .into_iter()
+            .map(|(_, number)| number)
+            .collect())
+    }
+
+    #[test]
+    fn the_same_numbers_come_from_every_dialect() {
+        let dialects = [
+            "strain,force\n0.5,1.25\n1,2\n",
+            "\u{feff}strain;force\r\n0,5;1,25\r\n1;2\r\n",
+            "# KES FB1\nstrain\tforce\n0,5\t1,25\n\n1,0\t2\n# end\n",
+            "strain [%] , force (gf/cm) , note\n0.5 , 1.25 , a\n1 , 2 , b\n",
+            "Strain,\"FORCE\"\n\"0.5\",1.25,9\n1,2\n",
+        ];
+        for text in dialects {
+            let force = column(text, &Column::Name("force".to_owned())).unwrap();
+            assert_eq!(force, [1.25, 2.0], "{text}");
+        }
+        assert_eq!(
+            column("0.5,1.25\n1,2\n", &Column::Place(2)).unwrap(),
+            [1.25, 2.0]
+        );
+    }
+
+    #[test]
+    fn the_header_may_name_the_unit() {
+        let table = Table::parse(Path::new("a.csv"), "k [1/cm];m (gf.cm/cm)\n1;2\n").unwrap();
+        assert_eq!(table.unit(0), Some("1/cm"));
+        assert_eq!(table.unit(1), Some("gf.cm/cm"));
+        assert_eq!(table.find(&Column::Name("m".to_owned())), Ok(1));
+    }
+
+    #[test]
+    fn a_bad_cell_names_its_line_whatever_comes_before_it() {
+        let text = "# one\n# two\nk,m\n0,1\n\n0.5,nan\n";
+        let error = column(text, &Column::Name("m".to_owned())).unwrap_err();
+        assert_eq!(error.line, Some(6), "{error}");
+        let error = column("k,m\n0,1\n0.5,\n", &Column::Name("m".to_owned())).unwrap_err();
+        assert_eq!(
+            (error.line, error.message.as_str()),
+            (Some(3), "column \"m\" is empty")
+        );
+    }
+
+    #[test]
+    fn a_missing_column_is_answered_with_the_ones_there_are() {
+        let error = column("k,m\n0,1\n", &Column::Name("moment".to_owned())).unwrap_err();
+        assert_eq!(error.help.as_deref(), Some("columns of the file: k, m"));
+        assert!(column("k,m\n0,1\n", &Column::Place(3)).is_err());
+        assert!(column("0,1\n", &Column::Name("k".to_owned())).is_err());
+        assert!(column("k,m\n", &Column::Name("k".to_owned())).is_err());
+    }
+}

@@ -1,0 +1,334 @@
+//! Units of measurement as laboratories write them, and their factors to SI.
+
+use crate::spelling;
+
+/// Standard gram-force, in newtons.
+///
+/// A balance in one place reads differently in another, but the unit is defined: 980.665 dyn.
+pub(crate) const GRAM_FORCE: f64 = 9.806_65e-3;
+
+/// One degree, in radians.
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+/// What kind of quantity a number is, hence which units it may be written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Quantity {
+    /// A pure ratio: strain, linearity, resilience.
+    Ratio,
+    /// An angle, in radians.
+    Angle,
+    /// A length, in metres.
+    Length,
+    /// A curvature, in 1/m.
+    Curvature,
+    /// A force, in newtons.
+    Force,
+    /// A force per width, in N/m.
+    ForcePerWidth,
+    /// A moment, in N·m.
+    Moment,
+    /// A moment per width, in newtons.
+    MomentPerWidth,
+    /// A bending rigidity per width, in N·m.
+    BendingRigidity,
+    /// A shear stiffness, in N/(m·rad).
+    ShearStiffness,
+    /// Work per area, in J/m².
+    WorkPerArea,
+    /// Mass per area, in kg/m².
+    MassPerArea,
+}
+
+impl Quantity {
+    /// The name used in messages.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Ratio => "ratio",
+            Self::Angle => "angle",
+            Self::Length => "length",
+            Self::Curvature => "curvature",
+            Self::Force => "force",
+            Self::ForcePerWidth => "force per width",
+            Self::Moment => "moment",
+            Self::MomentPerWidth => "moment per width",
+            Self::BendingRigidity => "bending rigidity per width",
+            Self::ShearStiffness => "shear stiffness",
+            Self::WorkPerArea => "work per area",
+            Self::MassPerArea => "mass per area",
+        }
+    }
+
+    /// The units of this quantity, the laboratory's first, with their factor to SI.
+    ///
+    /// Spellings are in the normal form of [`normal_form`]: `.` between factors, digits for powers.
+    fn units(self) -> &'static [(&'static str, f64)] {
+        match self {
+            Self::Ratio => &[
+                ("%", 0.01),
+                ("-", 1.0),
+                ("1", 1.0),
+                ("m/m", 1.0),
+                ("mm/mm", 1.0),
+            ],
+            Self::Angle => &[("deg", DEGREE), ("rad", 1.0), ("mrad", 1e-3)],
+            Self::Length => &[("mm", 1e-3), ("cm", 1e-2), ("m", 1.0), ("um", 1e-6)],
+            Self::Curvature => &[
+                ("1/cm", 1e2),
+                ("cm-1", 1e2),
+                ("1/m", 1.0),
+                ("m-1", 1.0),
+                ("1/mm", 1e3),
+                ("mm-1", 1e3),
+            ],
+            Self::Force => &[
+                ("gf", GRAM_FORCE),
+                ("N", 1.0),
+                ("mN", 1e-3),
+                ("cN", 1e-2),
+                ("kgf", 1e3 * GRAM_FORCE),
+            ],
+            Self::ForcePerWidth => &[
+                ("gf/cm", 1e2 * GRAM_FORCE),
+                ("N/m", 1.0),
+                ("mN/m", 1e-3),
+                ("N/cm", 1e2),
+                ("cN/cm", 1.0),
+                ("mN/mm", 1.0),
+                ("N/mm", 1e3),
+                ("kgf/m", 1e3 * GRAM_FORCE),
+            ],
+            Self::Moment => &[
+                ("gf.cm", 1e-2 * GRAM_FORCE),
+                ("N.m", 1.0),
+                ("mN.m", 1e-3),
+                ("mN.mm", 1e-6),
+                ("uN.m", 1e-6),
+            ],
+            Self::MomentPerWidth => &[
+                ("gf.cm/cm", GRAM_FORCE),
+                ("N.m/m", 1.0),
+                ("mN.m/m", 1e-3),
+                ("mN.mm/mm", 1e-3),
+                ("mN.cm/cm", 1e-3),
+                ("N", 1.0),
+                ("mN", 1e-3),
+            ],
+            Self::BendingRigidity => &[
+                ("gf.cm2/cm", 1e-2 * GRAM_FORCE),
+                ("N.m", 1.0),
+                ("N.m2/m", 1.0),
+                ("mN.m", 1e-3),
+                ("uN.m", 1e-6),
+                ("mN.mm", 1e-6),
+                ("mN.cm2/cm", 1e-5),
+                ("gf.cm", 1e-2 * GRAM_FORCE),
+            ],
+            Self::ShearStiffness => &[
+                ("gf/(cm.deg)", 1e2 * GRAM_FORCE / DEGREE),
+                ("gf/cm.deg", 1e2 * GRAM_FORCE / DEGREE),
+                ("gf/cm/deg", 1e2 * GRAM_FORCE / DEGREE),
+                ("N/(m.rad)", 1.0),
+                ("N/m.rad", 1.0),
+                ("N/m/rad", 1.0),
+                ("N/(m.deg)", 1.0 / DEGREE),
+                ("N/m/deg", 1.0 / DEGREE),
+                ("N/m", 1.0),
+            ],
+            Self::WorkPerArea => &[
+                ("gf.cm/cm2", 1e2 * GRAM_FORCE),
+                ("J/m2", 1.0),
+                ("N.m/m2", 1.0),
+                ("N/m", 1.0),
+                ("mJ/m2", 1e-3),
+            ],
+            Self::MassPerArea => &[
+                ("mg/cm2", 1e-2),
+                ("kg/m2", 1.0),
+                ("g/m2", 1e-3),
+                ("gsm", 1e-3),
+            ],
+        }
+    }
+
+    /// The unit that a bare number of a sheet is in.
+    pub(crate) fn laboratory(self) -> Unit {
+        let (spelling, factor) = self.units()[0];
+        Unit {
+            quantity: self,
+            spelling,
+            factor,
+        }
+    }
+
+    fn list(self) -> String {
+        let spellings: Vec<&str> = self.units().iter().map(|unit| unit.0).collect();
+        spellings.join(", ")
+    }
+}
+
+/// A unit: its quantity and its factor to SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Unit {
+    pub(crate) quantity: Quantity,
+    pub(crate) spelling: &'static str,
+    pub(crate) factor: f64,
+}
+
+/// Why a unit was not accepted, with the remedy.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct UnitError {
+    pub(crate) message: String,
+    pub(crate) help: String,
+}
+
+/// The unit written as `text`, if it is one of the given quantities, which are tried in order.
+pub(crate) fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, UnitError> {
+    let wanted = normal_form(text);
+    for &quantity in accepted {
+        if let Some(&(spelling, factor)) = quantity.units().iter().find(|u| u.0 == wanted) {
+            return Ok(Unit {
+                quantity,
+                spelling,
+                factor,
+            });
+        }
+    }
+    let names: Vec<&str> = accepted.iter().map(|q| q.name()).collect();
+    let lists: Vec<String> = accepted.iter().map(|q| q.list()).collect();
+    let known = accepted.iter().flat_map(|q| q.units()).map(|u| u.0);
+    let hint = spelling::closest(&wanted, known)
+        .map(|close| format!("did you mean \"{close}\"? "))
+        .unwrap_or_default();
+    Err(UnitError {
+        message: format!("\"{text}\" is not a unit of {}", names.join(" or ")),
+        help: format!("{hint}units accepted here: {}", lists.join("; ")),
+    })
+}
+
+/// The number and its unit: `"1.2e-5 N.m"`, or `"0.118"` in the laboratory's unit.
+pub(crate) fn parse_quantity(text: &str, quantity: Quantity) -> Result<(f64, Unit), UnitError> {
+    let text = text.trim();
+    // The longest leading part that reads as a number; what follows is the unit.
+    let split = (1..=text.len())
+        .rev()
+        .filter(|&end| text.is_char_boundary(end))
+        .find_map(|end| {
+            text[..end]
+                .trim_end()
+                .parse::<f64>()
+                .ok()
+                .map(|number| (number, end))
+        });
+    let Some((number, end)) = split else {
+        let unit = quantity.laboratory().spelling;
+        return Err(UnitError {
+            message: format!("\"{text}\" does not begin with a number"),
+            help: format!("write the number and its unit, such as \"1.5 {unit}\""),
+        });
+    };
+    let rest = text[end..].trim();
+    let unit = match rest {
+        "" => quantity.laboratory(),
+        written => parse_unit(written, &[quantity])?,
+    };
+    Ok((number, unit))
+}
+
+/// One spelling for the many ways of writing the same unit: `gf·cm²/cm`, `gf*cm^2/cm`, `gf cm2/cm`.
+fn normal_form(text: &str) -> String {
+    let mut normal = String::with_capacity(text.len());
+    for c in text.trim().chars() {
+        match c {
+            '·' | '*' | '×' | '⋅' | ' ' => normal.push('.'),
+            '²' => normal.push('2'),
+            '⁻' | '−' => normal.push('-'),
+            '¹' => normal.push('1'),
+            '^' => {}
+            'µ' | 'μ' => normal.push('u'),
+            '°' => normal.push_str("deg"),
+            other => normal.push(other),
+        }
+    }
+    match normal.as_str() {
+        "degree" | "degrees" | "deg." => "deg".to_owned(),
+        "percent" => "%".to_owned(),
+        _ => normal,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn laboratory_units_convert_with_the_defined_gram_force() {
+        // By hand from 1 gf = 980.665 dyn and 1 degree = pi/180.
+        let cases = [
+            (Quantity::BendingRigidity, 9.806_65e-5),
+            (Quantity::MomentPerWidth, 9.806_65e-3),
+            (Quantity::ShearStiffness, 56.187_966),
+            (Quantity::ForcePerWidth, 0.980_665),
+            (Quantity::WorkPerArea, 0.980_665),
+            (Quantity::MassPerArea, 0.01),
+            (Quantity::Ratio, 0.01),
+        ];
+        for (quantity, factor) in cases {
+            let unit = quantity.laboratory();
+            let error = (unit.factor / factor - 1.0).abs();
+            assert!(
+                error < 1e-8,
+                "{}: {} against {factor}",
+                quantity.name(),
+                unit.factor
+            );
+        }
+    }
+
+    #[test]
+    fn one_unit_may_be_spelt_in_many_ways() {
+        for text in ["gf.cm2/cm", "gf·cm²/cm", "gf*cm^2/cm", " gf cm2/cm "] {
+            let unit = parse_unit(text, &[Quantity::BendingRigidity]).unwrap();
+            assert_eq!(unit.spelling, "gf.cm2/cm", "{text}");
+        }
+        for text in ["1/cm", "cm^-1", "cm⁻¹"] {
+            let unit = parse_unit(text, &[Quantity::Curvature]).unwrap();
+            assert_eq!(unit.factor, 100.0, "{text}");
+        }
+        assert_eq!(parse_unit("°", &[Quantity::Angle]).unwrap().spelling, "deg");
+    }
+
+    #[test]
+    fn a_unit_of_something_else_is_refused_with_the_list() {
+        let error = parse_unit("N/m", &[Quantity::BendingRigidity]).unwrap_err();
+        assert_eq!(
+            error.message,
+            "\"N/m\" is not a unit of bending rigidity per width"
+        );
+        assert!(
+            error.help.contains("did you mean \"N.m\"?"),
+            "{}",
+            error.help
+        );
+    }
+
+    #[test]
+    fn a_quantity_is_a_number_with_an_optional_unit() {
+        let cases = [
+            ("1.2e-5 N.m", Quantity::BendingRigidity, 1.2e-5),
+            ("105.6g/m2", Quantity::MassPerArea, 0.1056),
+            ("5 cm", Quantity::Length, 0.05),
+            ("12", Quantity::MassPerArea, 0.12),
+        ];
+        for (text, quantity, si) in cases {
+            let (number, unit) = parse_quantity(text, quantity).unwrap();
+            let error = (number * unit.factor / si - 1.0).abs();
+            assert!(
+                error < 1e-14,
+                "{text} reads as {} {}",
+                number,
+                unit.spelling
+            );
+        }
+        assert!(parse_quantity("thick", Quantity::Length).is_err());
+    }
+}

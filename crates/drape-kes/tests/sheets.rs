@@ -1,0 +1,256 @@
+//! Sheets as a laboratory writes them: what is read, and what is said about each slip.
+
+use std::path::Path;
+
+use drape_kes::{Diagnostic, Direction, Error, Sheet, Test};
+
+const CURVE: &str = r#"
+[[curve]]
+test = "tensile"
+direction = "warp"
+file = "pull.csv"
+deformation = { column = "strain", unit = "%" }
+load = { column = "force", unit = "gf/cm" }
+"#;
+
+/// A folder with a sheet and one curve file.
+fn folder(sheet: &str, curve: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("sheet.toml"), sheet).expect("written");
+    std::fs::write(folder.path().join("pull.csv"), curve).expect("written");
+    folder
+}
+
+fn read(sheet: &str, curve: &str) -> Result<Sheet, Error> {
+    Sheet::read(folder(sheet, curve).path())
+}
+
+/// The one finding of a bad sheet.
+fn finding(sheet: &str, curve: &str) -> Diagnostic {
+    let error = read(sheet, curve).expect_err("the sheet is bad");
+    let findings = error.diagnostics();
+    assert_eq!(findings.len(), 1, "{findings:#?}");
+    findings.into_iter().next().expect("one finding")
+}
+
+fn help(finding: &Diagnostic) -> &str {
+    finding.help.as_deref().expect("every finding has a remedy")
+}
+
+const GOOD_CURVE: &str = "strain,force\n0,0\n1,50\n2,200\n";
+
+#[test]
+fn a_whole_sheet_is_read_into_laboratory_values_and_si_curves() {
+    let text = format!(
+        "name = \"poplin\"\nsource = \"us\"\nW = 12.38\nT = 0.497\n[warp]\nB = 0.118\n2HB = 0.124\nLT = 0.7\n\
+         EM = 4\n[weft]\nB = \"1.2e-5 N.m\"\n{CURVE}"
+    );
+    let sheet = read(&text, GOOD_CURVE).unwrap();
+    assert_eq!(
+        (sheet.name.as_str(), sheet.w, sheet.warp.b),
+        ("poplin", Some(12.38), Some(0.118))
+    );
+    let close = |a: Option<f64>, b: f64| (a.unwrap() / b - 1.0).abs() < 1e-12;
+    assert!(close(sheet.density(), 0.1238));
+    assert!(close(sheet.thickness(), 0.497e-3));
+    assert!(close(Some(sheet.maximum_tension()), 490.3325));
+    assert!(close(sheet.warp.bending_rigidity(), 0.118 * 9.80665e-5));
+    assert!(close(sheet.warp.bending_loop_width(), 0.124 * 9.80665e-3));
+    assert!(close(sheet.warp.tensile_extension(), 0.04));
+    assert_eq!(sheet.warp.tensile_linearity(), Some(0.7));
+    assert!(close(sheet.weft.bending_rigidity(), 1.2e-5));
+    assert!(close(sheet.weft.b, 1.2e-5 / 9.80665e-5));
+    let curve = sheet
+        .curves_of(Test::Tensile, Direction::Warp)
+        .next()
+        .unwrap();
+    assert_eq!(curve.deformation(), [0.0, 0.01, 0.02]);
+    assert!((curve.load()[2] / (200.0 * 0.980665) - 1.0).abs() < 1e-12);
+    assert_eq!(sheet.warnings(), []);
+}
+
+#[test]
+fn clamp_distances_and_whole_forces_become_strains_and_forces_per_width() {
+    let text = r#"
+name = "strip"
+[[curve]]
+test = "tensile"
+direction = "weft"
+file = "pull.csv"
+slack = true
+deformation = { column = "d", unit = "mm", gauge = "gauge" }
+load = { column = "F", unit = "N", width = "5 cm" }
+[[curve]]
+test = "loop-bending"
+direction = "weft"
+file = "pull.csv"
+deformation = { column = 1, unit = "mm", gauge = "80 mm" }
+load = { column = 2, unit = "N", width = 0.05 }
+"#;
+    let sheet = read(text, "d;F;gauge\n79,5;0,1;0,08\n81;1;0,08\n").unwrap();
+    let strip = &sheet.curves[0];
+    assert!(strip.slack);
+    for (found, exact) in strip.deformation().iter().zip([-0.00625, 0.0125]) {
+        assert!((found - exact).abs() < 1e-15, "{found} against {exact}");
+    }
+    for (found, exact) in strip.load().iter().zip([2.0, 20.0]) {
+        assert!((found - exact).abs() < 1e-13, "{found} against {exact}");
+    }
+    let arch = &sheet.curves[1];
+    assert_eq!((arch.gauge, arch.slack), (Some(0.08), false));
+    assert_eq!(arch.deformation(), strip.deformation());
+}
+
+#[test]
+fn an_unknown_key_is_named_with_its_line_and_the_key_that_was_meant() {
+    let found = finding("name = \"a\"\nW = 10\n[warp]\n2BH = 0.1\n", GOOD_CURVE);
+    assert_eq!((found.line, found.column), (Some(4), Some(1)));
+    assert_eq!(found.message, "warp has no key \"2BH\"");
+    assert!(
+        help(&found).starts_with("did you mean \"2HB\"?"),
+        "{}",
+        help(&found)
+    );
+}
+
+#[test]
+fn a_missing_file_is_named_with_the_one_that_is_there() {
+    let text = format!("name = \"a\"\n{}", CURVE.replace("pull.csv", "pul.csv"));
+    let found = finding(&text, GOOD_CURVE);
+    assert_eq!(found.line, Some(6));
+    assert!(
+        found.message.starts_with("there is no file"),
+        "{}",
+        found.message
+    );
+    assert!(
+        help(&found).contains("did you mean \"pull.csv\"?"),
+        "{}",
+        help(&found)
+    );
+}
+
+#[test]
+fn a_missing_sheet_is_one_error_with_its_path() {
+    let error = Sheet::read("no/such/sheet.toml").unwrap_err();
+    assert!(matches!(error, Error::Unreadable { .. }));
+    assert_eq!(error.diagnostics()[0].path, Path::new("no/such/sheet.toml"));
+}
+
+#[test]
+fn a_wrong_unit_is_refused_with_the_units_accepted() {
+    let text = format!("name = \"a\"\n{}", CURVE.replace("gf/cm", "gf.cm"));
+    let found = finding(&text, GOOD_CURVE);
+    assert_eq!(found.line, Some(8));
+    assert!(
+        found
+            .message
+            .contains("\"gf.cm\" is not a unit of force per width"),
+        "{found}"
+    );
+    assert!(
+        help(&found).contains("did you mean \"gf/cm\"?"),
+        "{}",
+        help(&found)
+    );
+    let found = finding("name = \"a\"\nW = \"10 kg/m\"\n", GOOD_CURVE);
+    assert_eq!((found.line, found.column), (Some(2), Some(5)));
+}
+
+#[test]
+fn a_value_that_is_not_a_number_is_refused_in_sheet_and_file() {
+    let found = finding("name = \"a\"\n[warp]\nB = nan\n", GOOD_CURVE);
+    assert_eq!((found.line, found.column), (Some(3), Some(5)));
+    assert_eq!(
+        found.message,
+        "warp: B is nan, which is not a finite number"
+    );
+    let text = format!("name = \"a\"\n{CURVE}");
+    let found = finding(&text, "strain,force\n0,0\n1,NaN\n");
+    assert_eq!(
+        (found.line, found.path.file_name().unwrap().to_str()),
+        (Some(3), Some("pull.csv"))
+    );
+    assert!(found.message.contains("\"NaN\""), "{found}");
+}
+
+#[test]
+fn an_empty_curve_and_a_one_point_curve_are_refused() {
+    let text = format!("name = \"a\"\n{CURVE}");
+    for empty in ["", "strain,force\n", "# nothing\n"] {
+        let found = finding(&text, empty);
+        assert_eq!(
+            found.message, "the file has no rows of numbers",
+            "{empty:?}"
+        );
+    }
+    let found = finding(&text, "strain,force\n0,0\n");
+    assert_eq!(found.message, "a curve has 1 points; it needs at least two");
+    assert_eq!(found.path.file_name().unwrap().to_str(), Some("pull.csv"));
+}
+
+#[test]
+fn a_negative_density_is_refused() {
+    let found = finding("name = \"a\"\nW = -10\n", GOOD_CURVE);
+    assert_eq!((found.line, found.column), (Some(2), Some(5)));
+    assert_eq!(found.message, "the sheet: W is -10; it must be positive");
+}
+
+#[test]
+fn a_rigidity_no_fabric_has_is_refused_with_what_was_probably_meant() {
+    // The SI value where the laboratory's is expected.
+    let found = finding("name = \"a\"\n[warp]\nB = 1.2e-5\n", GOOD_CURVE);
+    assert_eq!(found.line, Some(3));
+    assert!(
+        help(&found).contains("did you mean \"0.000012 N.m\""),
+        "{}",
+        help(&found)
+    );
+    // The laboratory's value where it says SI.
+    let found = finding("name = \"a\"\n[warp]\nB = \"0.118 N.m\"\n", GOOD_CURVE);
+    assert!(
+        help(&found).contains("0.118 in gf.cm2/cm"),
+        "{}",
+        help(&found)
+    );
+    // Micronewton metres written bare.
+    let found = finding("name = \"a\"\n[warp]\nB = 12\n", GOOD_CURVE);
+    assert!(help(&found).contains("\"12 uN.m\""), "{}", help(&found));
+}
+
+#[test]
+fn every_error_of_a_sheet_is_reported_at_once_in_the_order_found() {
+    let text = "name = \"a\"\nW = -1\ncolour = \"red\"\n[warp]\nB = inf\nEM = 3\n[weft]\nRT = 140\n[[curve]]\ntest = \"tensil\"\n";
+    let error = read(text, GOOD_CURVE).unwrap_err();
+    let found = error.diagnostics();
+    let lines: Vec<_> = found.iter().map(|finding| finding.line).collect();
+    // The curve is told of its wrong test and of each of its four missing keys.
+    let last = [Some(10), Some(9), Some(9), Some(9), Some(9)];
+    let expected = [&[Some(3), Some(2), Some(5), Some(8)][..], &last].concat();
+    assert_eq!(lines, expected, "{error}");
+    assert!(
+        found.iter().all(|finding| finding.help.is_some()),
+        "{error}"
+    );
+}
+
+#[test]
+fn text_that_is_not_toml_is_one_error_at_its_line() {
+    let found = finding("name = \"a\"\nW = = 3\n", GOOD_CURVE);
+    assert_eq!(found.line, Some(2));
+    assert!(found.message.starts_with("not valid TOML"), "{found}");
+}
+
+#[test]
+fn an_unusual_value_is_a_warning_and_not_an_error() {
+    let sheet = read("name = \"a\"\nW = 60\n[warp]\nB = 0.1\n", GOOD_CURVE).unwrap();
+    // 0.6 kg/m² is beyond the 95th percentile; the bending length 11.9 mm is not below the 5th.
+    let warnings = sheet.warnings();
+    assert_eq!(warnings.len(), 1, "{warnings:#?}");
+    assert_eq!(warnings[0].line, Some(2));
+    assert!(
+        warnings[0].message.contains("W is unusual"),
+        "{}",
+        warnings[0]
+    );
+}
