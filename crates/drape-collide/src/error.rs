@@ -1,0 +1,177 @@
+use std::path::PathBuf;
+
+/// What keeps a body, a mesh or a contact from being built.
+///
+/// Every variant names one remedy and carries the values that led to it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CollideError {
+    /// A length of a shape, a friction coefficient or a setting is outside its range.
+    #[error("{what} is {value}, but it must be {range}")]
+    OutOfRange {
+        /// The quantity, in words.
+        what: String,
+        /// Its value as given.
+        value: f64,
+        /// The values that it may take, in words.
+        range: &'static str,
+    },
+
+    /// A position has a coordinate that is not finite or too far out.
+    #[error(
+        "{what}: the coordinates {place:?} are not usable; each must be a finite number of at most \
+         {limit:e} m in size (is the unit right?)"
+    )]
+    BadPlace {
+        /// Whose position, in words.
+        what: String,
+        /// The coordinates as given, in m.
+        place: [f64; 3],
+        /// Largest size that a coordinate may have, in m.
+        limit: f64,
+    },
+
+    /// A rotation is not a unit quaternion.
+    #[error(
+        "body `{body}`: the rotation {rotation:?} has length {length}; give a unit quaternion \
+         (x, y, z, w) or build the pose with `Pose::turned`"
+    )]
+    BadRotation {
+        /// Name of the body.
+        body: String,
+        /// The quaternion as given, scalar last.
+        rotation: [f64; 4],
+        /// Its length, which should be 1.
+        length: f64,
+    },
+
+    /// A mesh file cannot be opened or read.
+    #[error("mesh file {}: {reason}; check the path and the permissions", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system answered.
+        reason: String,
+    },
+
+    /// A mesh file is not a well-formed OBJ file.
+    #[error("mesh file {}: {reason}; export it again as a Wavefront OBJ of polygons", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What the parser says.
+        reason: String,
+    },
+
+    /// A mesh has no triangles.
+    #[error("the mesh has {vertices} vertices and no triangles; a body needs a closed surface")]
+    EmptyMesh {
+        /// Number of vertices.
+        vertices: usize,
+    },
+
+    /// A triangle refers to a vertex that does not exist.
+    #[error(
+        "triangle {triangle} refers to vertex {index}, but the mesh has {vertices} vertices \
+         (numbered from 0)"
+    )]
+    NoSuchVertex {
+        /// The triangle, from 0.
+        triangle: usize,
+        /// The vertex that it names.
+        index: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+
+    /// A triangle has no area although its corners differ.
+    #[error(
+        "triangle {triangle} near {place:?} has no area (twice the area is {area:e} m²); \
+         dissolve it in the modeller"
+    )]
+    FlatTriangle {
+        /// The triangle, from 0.
+        triangle: usize,
+        /// Its first corner, in m.
+        place: [f64; 3],
+        /// Twice its area, in m².
+        area: f64,
+    },
+
+    /// The surface has edges with a triangle on one side only.
+    #[error("the mesh is open: {edges} boundary edges, one of them at {place:?}; fill the holes")]
+    OpenMesh {
+        /// Number of boundary edges.
+        edges: usize,
+        /// Middle of one of them, in m.
+        place: [f64; 3],
+    },
+
+    /// The surface has edges with more than two triangles, or neighbours that disagree on which
+    /// side is out.
+    #[error(
+        "the mesh has {edges} edges whose triangles do not agree on inside and outside, one of \
+         them at {place:?}; make it manifold and its normals consistent"
+    )]
+    Inconsistent {
+        /// Number of such edges.
+        edges: usize,
+        /// Middle of one of them, in m.
+        place: [f64; 3],
+    },
+
+    /// The surface is closed but encloses nothing.
+    #[error("the mesh encloses a volume of {volume:e} m³ only; a body needs an inside")]
+    NoVolume {
+        /// Enclosed volume, in m³.
+        volume: f64,
+    },
+
+    /// The lumped area of a particle is negative or not finite.
+    #[error("the area of particle {particle} is {area}; it must be finite and not negative")]
+    BadArea {
+        /// The particle, from 0.
+        particle: usize,
+        /// The area as given, in m².
+        area: f64,
+    },
+}
+
+/// Checks one number against its range.
+pub(crate) fn check(
+    what: impl Into<String>,
+    value: f64,
+    range: &'static str,
+    holds: bool,
+) -> Result<(), CollideError> {
+    if value.is_finite() && holds {
+        return Ok(());
+    }
+    Err(CollideError::OutOfRange {
+        what: what.into(),
+        value,
+        range,
+    })
+}
+
+/// Largest coordinate that a body may have, in m.
+///
+/// At this size neighbouring numbers are 1e-10 m apart, a millionth of a usual contact gap; larger
+/// coordinates are a mistake of unit, and those near overflow would defeat the tree of boxes.
+const MAX_COORDINATE: f64 = 1e6;
+
+/// Checks a position: finite and not absurdly far.
+pub(crate) fn check_place(
+    what: impl FnOnce() -> String,
+    place: [f64; 3],
+) -> Result<(), CollideError> {
+    // Written so that NaN fails.
+    if place.iter().all(|value| value.abs() <= MAX_COORDINATE) {
+        return Ok(());
+    }
+    Err(CollideError::BadPlace {
+        what: what(),
+        place,
+        limit: MAX_COORDINATE,
+    })
+}

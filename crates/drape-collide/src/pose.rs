@@ -1,0 +1,155 @@
+use crate::error::{CollideError, check_place};
+use crate::vector::{Block, Vector, add, subtract, times, transposed_times};
+
+/// How far the length of a quaternion may be from 1 and still be taken for a rotation.
+///
+/// Six digits typed by hand give 1e-6; a forgotten normalisation gives far more.
+const UNIT_TOLERANCE: f64 = 1e-5;
+
+/// Where a body is and how it is turned.
+///
+/// A point `x` of the body's own frame lies at `position + R x`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Origin of the body's frame, in m.
+    pub position: [f64; 3],
+    /// Rotation as a unit quaternion (x, y, z, w), scalar last.
+    pub rotation: [f64; 4],
+}
+
+impl Default for Pose {
+    /// At the origin, not turned.
+    fn default() -> Pose {
+        Pose::new([0.0; 3])
+    }
+}
+
+impl Pose {
+    /// At a position in m, not turned.
+    pub fn new(position: [f64; 3]) -> Pose {
+        Pose {
+            position,
+            rotation: [0.0, 0.0, 0.0, 1.0],
+        }
+    }
+
+    /// The same position, turned further about a world axis by an angle in rad.
+    ///
+    /// The axis needs no unit length. An axis of no length gives no valid rotation: it is refused
+    /// where the pose is used.
+    pub fn turned(self, axis: [f64; 3], angle: f64) -> Pose {
+        let length = (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]).sqrt();
+        let (sine, cosine) = (0.5 * angle).sin_cos();
+        let [bx, by, bz] = axis.map(|a| a / length * sine);
+        let [x, y, z, w] = self.rotation;
+        Pose {
+            position: self.position,
+            rotation: [
+                cosine * x + bx * w + by * z - bz * y,
+                cosine * y + by * w + bz * x - bx * z,
+                cosine * z + bz * w + bx * y - by * x,
+                cosine * w - bx * x - by * y - bz * z,
+            ],
+        }
+    }
+}
+
+/// A pose that has been checked, with its rotation as a matrix.
+#[derive(Debug, Clone)]
+pub(crate) struct Frame {
+    origin: Vector,
+    pub(crate) rotation: Block,
+}
+
+impl Frame {
+    pub(crate) fn new(pose: &Pose, body: &str) -> Result<Frame, CollideError> {
+        check_place(|| format!("position of the body `{body}`"), pose.position)?;
+        let length = pose.rotation.iter().map(|q| q * q).sum::<f64>().sqrt();
+        // A length of NaN is in no range.
+        if !(1.0 - UNIT_TOLERANCE..=1.0 + UNIT_TOLERANCE).contains(&length) {
+            return Err(CollideError::BadRotation {
+                body: body.to_string(),
+                rotation: pose.rotation,
+                length,
+            });
+        }
+        let [x, y, z, w] = pose.rotation.map(|q| q / length);
+        let rotation = [
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - z * w),
+            2.0 * (x * z + y * w),
+            2.0 * (x * y + z * w),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - x * w),
+            2.0 * (x * z - y * w),
+            2.0 * (y * z + x * w),
+            1.0 - 2.0 * (x * x + y * y),
+        ];
+        Ok(Frame {
+            origin: pose.position,
+            rotation,
+        })
+    }
+
+    pub(crate) fn to_local(&self, point: Vector) -> Vector {
+        transposed_times(&self.rotation, subtract(point, self.origin))
+    }
+
+    pub(crate) fn to_world(&self, point: Vector) -> Vector {
+        add(self.origin, times(&self.rotation, point))
+    }
+
+    pub(crate) fn turn(&self, direction: Vector) -> Vector {
+        times(&self.rotation, direction)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vector::norm;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn a_quarter_turn_about_z_takes_x_to_y() {
+        let pose = Pose::new([1.0, 2.0, 3.0]).turned([0.0, 0.0, 5.0], FRAC_PI_2);
+        let frame = Frame::new(&pose, "test").unwrap();
+        let point = frame.to_world([1.0, 0.0, 0.0]);
+        let miss = norm(subtract(point, [1.0, 3.0, 3.0]));
+        assert!(miss < 1e-15, "{point:?}");
+        let back = norm(subtract(frame.to_local(point), [1.0, 0.0, 0.0]));
+        assert!(back < 1e-15, "{back:e}");
+    }
+
+    #[test]
+    fn turns_follow_each_other_in_world_axes() {
+        let pose = Pose::default()
+            .turned([0.0, 0.0, 1.0], FRAC_PI_2)
+            .turned([1.0, 0.0, 0.0], FRAC_PI_2);
+        let frame = Frame::new(&pose, "test").unwrap();
+        // x goes to y by the first turn, and y to z by the second.
+        let point = frame.turn([1.0, 0.0, 0.0]);
+        assert!(norm(subtract(point, [0.0, 0.0, 1.0])) < 1e-15, "{point:?}");
+    }
+
+    #[test]
+    fn rotations_that_are_none_are_refused() {
+        let axisless = Pose::default().turned([0.0; 3], 1.0);
+        let long = Pose {
+            rotation: [0.0, 0.0, 1.0, 1.0],
+            ..Pose::default()
+        };
+        for pose in [axisless, long] {
+            let answer = Frame::new(&pose, "cube");
+            assert!(
+                matches!(answer, Err(CollideError::BadRotation { .. })),
+                "{answer:?}"
+            );
+        }
+        let lost = Frame::new(&Pose::new([0.0, f64::NAN, 0.0]), "cube");
+        assert!(
+            matches!(lost, Err(CollideError::BadPlace { .. })),
+            "{lost:?}"
+        );
+    }
+}
