@@ -1,0 +1,42 @@
+/// Why a cloth cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ClothError {
+    /// A length that must be greater than 0 is not.
+    #[error("{what} is {value} m; it must be greater than 0")]
+    Length {
+        /// Name of the length.
+        what: &'static str,
+        /// Its value, in m.
+        value: f64,
+    },
+    /// The particles are too far apart for the panel.
+    #[error(
+        "a spacing of {spacing} m leaves fewer than 3 particles across {size} m; use {} m or less",
+        size / 2.0
+    )]
+    Spacing {
+        /// Distance between particles, in m.
+        spacing: f64,
+        /// Smallest size of the panel, in m.
+        size: f64,
+    },
+    /// More particles than the indices can count.
+    #[error("a spacing of {spacing} m makes {particles:.3e} particles, more than {limit:.0e}")]
+    TooMany {
+        /// Distance between particles, in m.
+        spacing: f64,
+        /// Particles it makes.
+        particles: f64,
+        /// Largest number of particles.
+        limit: f64,
+    },
+    /// The positions given do not fit the cloth.
+    #[error("{found} numbers were given for the positions of {particles} particles; give 3 each")]
+    Positions {
+        /// How many numbers were given.
+        found: usize,
+        /// How many particles the cloth has.
+        particles: usize,
+    },
+}

@@ -1,0 +1,300 @@
+use crate::ClothError;
+
+/// Most particles of one panel; beyond it a spacing in the wrong unit is far more likely.
+const PARTICLES_MAX: f64 = 4e6;
+
+/// Least part of a cell that must lie inside the outline for the cell to be kept.
+///
+/// Smaller slivers would be particles of nearly no mass; their area is given to the nearest cell
+/// that is kept, so that the total is exact. Larger values make the rim more ragged.
+const CELL_PART_MIN: f64 = 0.1;
+
+/// A panel cut into the cells of a grid that follows the yarns: the particles' places before the
+/// cloth is deformed.
+///
+/// The material coordinates of a particle are `u` along the weft and `v` along the warp. Every cell
+/// has four corners and the area of the panel in each of its four quadrants, from which the masses
+/// and the areas of all connectors follow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lattice {
+    /// Distance of the warp yarns along the weft and of the weft yarns along the warp, in m.
+    pub spacing: [f64; 2],
+    /// Material coordinates of the particles, in m.
+    pub coordinates: Vec<[f64; 2]>,
+    /// Cells kept, row by row along the warp.
+    pub cells: Vec<Cell>,
+    /// Particle at each grid point, `columns` to a row.
+    grid: Vec<Option<u32>>,
+    columns: usize,
+}
+
+/// A cell of a [`Lattice`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// Particles at the corners (u, v) = (0, 0), (1, 0), (1, 1), (0, 1).
+    pub corners: [u32; 4],
+    /// Area of the panel in the quadrant next to each corner, in m².
+    pub quadrants: [f64; 4],
+    /// Whether column and row of the cell add up to an even number.
+    pub even: bool,
+}
+
+impl Lattice {
+    /// A rectangle, `width` along the weft and `height` along the warp, in m.
+    ///
+    /// The spacing is stretched a little so that both sides are multiples of it.
+    ///
+    /// # Errors
+    /// When a length is not positive, or fewer than 3 particles would lie across the rectangle.
+    pub fn rectangle(width: f64, height: f64, spacing: f64) -> Result<Self, ClothError> {
+        check("the width", width)?;
+        check("the height", height)?;
+        check("the spacing", spacing)?;
+        let [across, along] = [width, height].map(|side| (side / spacing).round());
+        if across < 2.0 || along < 2.0 {
+            return Err(ClothError::Spacing {
+                spacing,
+                size: width.min(height),
+            });
+        }
+        let spacing = [width / across, height / along];
+        let quarter = 0.25 * spacing[0] * spacing[1];
+        Self::cut(spacing, [0.0, 0.0], [across, along], |_, _| [quarter; 4])
+    }
+
+    /// A disc of the given radius, in m, with a particle at its centre.
+    ///
+    /// The cells are those of the grid, so the rim is ragged by up to one spacing; mass and
+    /// connectors carry the exact area of the disc in every cell.
+    ///
+    /// # Errors
+    /// When a length is not positive, or fewer than 3 particles would lie across the disc.
+    pub fn disc(radius: f64, spacing: f64) -> Result<Self, ClothError> {
+        check("the radius", radius)?;
+        check("the spacing", spacing)?;
+        if radius < spacing {
+            return Err(ClothError::Spacing {
+                spacing,
+                size: 2.0 * radius,
+            });
+        }
+        let half = (radius / spacing).ceil();
+        let start = -half * spacing;
+        let area = |u0: f64, v0: f64, u1: f64, v1: f64| {
+            let corner = |u: f64, v: f64| disc_corner_area(radius, u, v);
+            corner(u1, v1) - corner(u0, v1) - corner(u1, v0) + corner(u0, v0)
+        };
+        Self::cut([spacing; 2], [start; 2], [2.0 * half; 2], |column, row| {
+            let at = |index: f64| start + index * spacing;
+            let (u0, um, u1) = (at(column), at(column + 0.5), at(column + 1.0));
+            let (v0, vm, v1) = (at(row), at(row + 0.5), at(row + 1.0));
+            [
+                area(u0, v0, um, vm),
+                area(um, v0, u1, vm),
+                area(um, vm, u1, v1),
+                area(u0, vm, um, v1),
+            ]
+        })
+    }
+
+    /// Cuts a grid of cells whose quadrants have the areas that `quadrants` gives for a cell's
+    /// column and row.
+    fn cut(
+        spacing: [f64; 2],
+        start: [f64; 2],
+        cells: [f64; 2],
+        quadrants: impl Fn(f64, f64) -> [f64; 4],
+    ) -> Result<Self, ClothError> {
+        let particles = (cells[0] + 1.0) * (cells[1] + 1.0);
+        if particles > PARTICLES_MAX {
+            let spacing = spacing[0].min(spacing[1]);
+            return Err(ClothError::TooMany {
+                spacing,
+                particles,
+                limit: PARTICLES_MAX,
+            });
+        }
+        let [across, along] = cells.map(|n| n as usize);
+        let columns = across + 1;
+        let full = spacing[0] * spacing[1];
+        let mut kept = Vec::new();
+        let mut slivers = Vec::new();
+        for row in 0..along {
+            for column in 0..across {
+                let areas = quadrants(column as f64, row as f64);
+                let area: f64 = areas.iter().sum();
+                if area >= CELL_PART_MIN * full {
+                    kept.push((column, row, areas));
+                } else if area > 0.0 {
+                    slivers.push((column, row, areas));
+                }
+            }
+        }
+        for (column, row, areas) in slivers {
+            let distance = |&(c, r, _): &(usize, usize, [f64; 4])| {
+                c.abs_diff(column).pow(2) + r.abs_diff(row).pow(2)
+            };
+            let nearest = (0..kept.len()).min_by_key(|&k| distance(&kept[k]));
+            if let Some(nearest) = nearest {
+                kept[nearest]
+                    .2
+                    .iter_mut()
+                    .zip(areas)
+                    .for_each(|(a, sliver)| *a += sliver);
+            }
+        }
+
+        let mut used = vec![false; columns * (along + 1)];
+        let corners = |column: usize, row: usize| {
+            let first = row * columns + column;
+            [first, first + 1, first + columns + 1, first + columns]
+        };
+        for &(column, row, _) in &kept {
+            for point in corners(column, row) {
+                used[point] = true;
+            }
+        }
+        let mut coordinates = Vec::new();
+        let mut grid = vec![None; used.len()];
+        for point in (0..used.len()).filter(|&point| used[point]) {
+            grid[point] = Some(coordinates.len() as u32);
+            let place = |axis: usize, index: usize| start[axis] + index as f64 * spacing[axis];
+            coordinates.push([place(0, point % columns), place(1, point / columns)]);
+        }
+        let cells = kept
+            .into_iter()
+            .map(|(column, row, quadrants)| Cell {
+                corners: corners(column, row)
+                    .map(|point| grid[point].expect("the corners of kept cells are particles")),
+                quadrants,
+                even: (column + row) % 2 == 0,
+            })
+            .collect();
+        Ok(Self {
+            spacing,
+            coordinates,
+            cells,
+            grid,
+            columns,
+        })
+    }
+
+    /// Area of the panel, in m².
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.cells.iter().flat_map(|cell| cell.quadrants).sum()
+    }
+
+    /// Triangles for pictures and contact: every cell halved, the diagonal alternating like the
+    /// fields of a chessboard.
+    #[must_use]
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let halves = |cell: &Cell| {
+            let [a, b, c, d] = cell.corners;
+            if cell.even {
+                [[a, b, c], [a, c, d]]
+            } else {
+                [[a, b, d], [b, c, d]]
+            }
+        };
+        self.cells.iter().flat_map(halves).collect()
+    }
+
+    /// Runs of consecutive particles along the yarns: of the warp, then of the weft.
+    pub(crate) fn yarns(&self) -> [Vec<Vec<u32>>; 2] {
+        let rows = self.grid.len() / self.columns;
+        let point = |column: usize, row: usize| self.grid[row * self.columns + column];
+        let warp = (0..self.columns).map(|c| (0..rows).map(|r| point(c, r)).collect());
+        let weft = (0..rows).map(|r| (0..self.columns).map(|c| point(c, r)).collect());
+        let split = |lines: Vec<Vec<Option<u32>>>| {
+            let runs = |line: Vec<Option<u32>>| -> Vec<Vec<u32>> {
+                line.split(Option::is_none)
+                    .map(|run| run.iter().flatten().copied().collect())
+                    .collect()
+            };
+            lines
+                .into_iter()
+                .flat_map(runs)
+                .filter(|run: &Vec<u32>| run.len() > 1)
+                .collect()
+        };
+        [split(warp.collect()), split(weft.collect())]
+    }
+}
+
+fn check(what: &'static str, value: f64) -> Result<(), ClothError> {
+    if value > 0.0 && value.is_finite() {
+        Ok(())
+    } else {
+        Err(ClothError::Length { what, value })
+    }
+}
+
+/// Signed area of the disc about the origin in the rectangle with the corners (0, 0) and (u, v).
+fn disc_corner_area(radius: f64, u: f64, v: f64) -> f64 {
+    let (a, b) = (u.abs().min(radius), v.abs().min(radius));
+    let segment = |x: f64| {
+        0.5 * (x * (radius * radius - x * x).max(0.0).sqrt()
+            + radius * radius * (x / radius).asin())
+    };
+    let meets = (radius * radius - b * b).max(0.0).sqrt();
+    let area = if a <= meets {
+        a * b
+    } else {
+        b * meets + segment(a) - segment(meets)
+    };
+    area * u.signum() * v.signum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rectangle_is_a_pure_grid_of_its_own_area() {
+        let lattice = Lattice::rectangle(1.0, 0.6, 0.021).expect("a rectangle");
+        assert_eq!(lattice.coordinates.len(), 49 * 30);
+        assert_eq!(lattice.triangles().len(), 2 * 48 * 29);
+        assert!((lattice.area() - 0.6).abs() < 1e-12);
+        assert!((lattice.coordinates[49 * 30 - 1][1] - 0.6).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_disc_has_its_own_area_at_every_spacing() {
+        for spacing in [0.1, 0.03, 0.01, 0.007] {
+            let lattice = Lattice::disc(0.15, spacing).expect("a disc");
+            let exact = std::f64::consts::PI * 0.15 * 0.15;
+            let area = lattice.area();
+            assert!(
+                (area / exact - 1.0).abs() < 1e-12,
+                "{spacing}: {area} against {exact}"
+            );
+            let quadrants = lattice.cells.iter().flat_map(|c| c.quadrants);
+            assert!(quadrants.into_iter().all(|q| q >= -1e-15));
+        }
+    }
+
+    #[test]
+    fn sizes_that_make_no_panel_are_refused() {
+        assert!(matches!(
+            Lattice::rectangle(-1.0, 1.0, 0.1),
+            Err(ClothError::Length { .. })
+        ));
+        assert!(matches!(
+            Lattice::rectangle(1.0, 1.0, f64::NAN),
+            Err(ClothError::Length { .. })
+        ));
+        assert!(matches!(
+            Lattice::rectangle(1.0, 1.0, 3.0),
+            Err(ClothError::Spacing { .. })
+        ));
+        assert!(matches!(
+            Lattice::rectangle(1.0, 1.0, 1e-5),
+            Err(ClothError::TooMany { .. })
+        ));
+        assert!(matches!(
+            Lattice::disc(0.1, 0.2),
+            Err(ClothError::Spacing { .. })
+        ));
+    }
+}

@@ -1,0 +1,44 @@
+use crate::vector::{Vector, at};
+
+/// Direction of a yarn at a particle, as a combination of three positions on the yarn.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tangent {
+    particles: [u32; 3],
+    weights: [f64; 3],
+}
+
+impl Tangent {
+    /// A vector along the yarn, in the rising direction of its material coordinate.
+    pub(crate) fn at(&self, positions: &[f64]) -> Vector {
+        let [a, b, c] = self.particles.map(|particle| at(positions, particle));
+        let [wa, wb, wc] = self.weights;
+        wa * a + wb * b + wc * c
+    }
+}
+
+/// Tangents along the warp and the weft at every particle: central differences, and at the ends of a
+/// yarn the one-sided difference of second order, so that the normals of a cylinder are right at its
+/// edges too.
+pub(crate) fn tangents(yarns: [&Vec<Vec<u32>>; 2], particles: usize) -> Vec<[Tangent; 2]> {
+    let none = Tangent {
+        particles: [0; 3],
+        weights: [0.0; 3],
+    };
+    let mut tangents = vec![[none; 2]; particles];
+    for (direction, yarns) in yarns.into_iter().enumerate() {
+        for yarn in yarns {
+            let last = yarn.len() - 1;
+            for (index, &particle) in yarn.iter().enumerate() {
+                let (places, weights) = match (index, last) {
+                    (_, 1) => ([0, 0, 1], [-1.0, 0.0, 1.0]),
+                    (0, _) => ([0, 1, 2], [-3.0, 4.0, -1.0]),
+                    (i, _) if i == last => ([last - 2, last - 1, last], [1.0, -4.0, 3.0]),
+                    (i, _) => ([i - 1, i, i + 1], [-1.0, 0.0, 1.0]),
+                };
+                let particles = places.map(|place| yarn[place]);
+                tangents[particle as usize][direction] = Tangent { particles, weights };
+            }
+        }
+    }
+    tangents
+}
