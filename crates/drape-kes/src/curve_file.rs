@@ -1,15 +1,15 @@
 //! A `[[curve]]` of a sheet and the table file it names, made into a curve in SI.
 
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use drape_input::{Diagnostics, closest};
+
 use crate::section::{ColumnOrLength, Findings, Section};
-use crate::spelling;
 use crate::table::{Column, Table};
 use crate::unit::{self, Quantity, Unit};
-use crate::{Curve, Diagnostic, Direction, Error, Test};
+use crate::{Curve, Direction, Error, Test};
 
-pub(crate) const CURVE_KEYS: [&str; 7] = [
+const CURVE_KEYS: [&str; 7] = [
     "name",
     "test",
     "direction",
@@ -24,35 +24,35 @@ const LOAD_KEYS: [&str; 3] = ["column", "unit", "width"];
 const TESTS: [Test; 4] = [Test::Tensile, Test::Shear, Test::Bending, Test::LoopBending];
 const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
 
-/// How one axis of a curve is found in the file.
+/// How one axis of a curve is found in the file, with its key paths for messages.
 struct Axis {
     column: Column,
-    column_span: Range<usize>,
-    unit: Option<(String, Range<usize>)>,
+    unit: Option<String>,
     /// The gauge of a deformation, or the width of a load.
     size: Option<ColumnOrLength>,
-    section_span: Range<usize>,
-    name: String,
+    unit_key: String,
+    size_key: String,
 }
 
 /// The curve that a section describes, or nothing after reporting why not.
 pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Curve> {
+    section.allow(&CURVE_KEYS, findings);
     let test = choice(section, "test", &TESTS, Test::name, findings);
     let direction = choice(section, "direction", &DIRECTIONS, Direction::name, findings);
     let name = section.text("name", findings);
     let slack = section.flag("slack", findings);
     let file = section.required_text("file", "\"tensile-warp.csv\"", findings);
-    let deformation = axis(section, "deformation", &DEFORMATION_KEYS, "gauge", findings);
-    let load = axis(section, "load", &LOAD_KEYS, "width", findings);
+    let deformation = axis(section, "deformation", &DEFORMATION_KEYS, findings);
+    let load = axis(section, "load", &LOAD_KEYS, findings);
     let (test, direction, file) = (test?, direction?, file?);
     let (deformation, load) = (deformation?, load?);
 
-    let table = open(&file, findings)?;
+    let table = open(&file, &section.key("file"), findings)?;
     let (strain, gauge) = deformations(test, &deformation, &table, findings)?;
     let force = loads(test, &load, &table, findings)?;
     match Curve::new(test, direction, strain, force) {
         Ok(mut curve) => {
-            if let Some((name, _)) = name {
+            if let Some(name) = name {
                 curve.name = name;
             }
             (curve.gauge, curve.slack) = (gauge, slack);
@@ -60,12 +60,12 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Option
         }
         Err(error) => {
             let help = match error {
-                Error::TooShort { .. } => "a curve needs at least two points, one per line",
+                Error::TooShort { .. } => "write one point per line",
                 _ => "check that the right column is named",
             };
-            let path = sibling(&findings.path, &file.0);
-            let finding = Diagnostic::new(path, error.to_string()).with_help(help);
-            findings.errors.push(finding);
+            findings
+                .errors
+                .push(table.finding(error.to_string()).help(help));
             None
         }
     }
@@ -81,72 +81,60 @@ fn choice<T: Copy>(
 ) -> Option<T> {
     let names: Vec<&str> = choices.iter().map(|&choice| name(choice)).collect();
     let example = format!("\"{}\"", names[0]);
-    let (written, span) = section.required_text(key, &example, findings)?;
+    let written = section.required_text(key, &example, findings)?;
     if let Some(place) = names.iter().position(|name| *name == written) {
         return Some(choices[place]);
     }
-    let hint = spelling::closest(&written, names.iter().copied())
-        .map(|close| format!("did you mean \"{close}\"? "))
-        .unwrap_or_default();
+    let help = match closest(&written, names.iter().copied()) {
+        Some(close) => format!("did you mean \"{close}\"?"),
+        None => format!("it is one of {}", names.join(", ")),
+    };
     findings.error(
-        &span,
-        format!(
-            "{} is \"{written}\", which is not known",
-            section.field(key)
-        ),
-        format!("{hint}it is one of {}", names.join(", ")),
+        &section.key(key),
+        format!("\"{written}\" is not known"),
+        help,
     );
     None
 }
 
+/// An axis; the last of its keys is that of its gauge or width.
 fn axis(
     section: &Section<'_>,
     key: &str,
-    keys: &[&str],
-    size_key: &str,
+    keys: &[&str; 3],
     findings: &mut Findings<'_>,
 ) -> Option<Axis> {
     let example = "{ column = \"name in the header\", unit = \"…\" }";
     let axis = section.required_section(key, example, findings)?;
     axis.allow(keys, findings);
     let unit = axis.text("unit", findings);
-    let size = axis.column_or_length(size_key, findings);
-    let (column, column_span) = axis.column("column", findings)?;
+    let size = axis.column_or_length(keys[2], findings);
+    let column = axis.column("column", findings)?;
     Some(Axis {
         column,
-        column_span,
         unit,
         size,
-        section_span: axis.span,
-        name: axis.name,
+        unit_key: axis.key("unit"),
+        size_key: axis.key(keys[2]),
     })
 }
 
-fn sibling(sheet: &Path, file: &str) -> PathBuf {
-    sheet
-        .parent()
-        .map_or_else(|| PathBuf::from(file), |folder| folder.join(file))
-}
-
 /// The table file, which stands beside the sheet.
-fn open(file: &(String, Range<usize>), findings: &mut Findings<'_>) -> Option<Table> {
-    let path = sibling(&findings.path, &file.0);
-    if !path.is_file() {
-        let help = neighbours(&path, &file.0);
-        findings.error(
-            &file.1,
-            format!("there is no file {}", path.display()),
-            help,
-        );
-        return None;
+fn open(file: &str, key: &str, findings: &mut Findings<'_>) -> Option<Table> {
+    let sheet = findings.document.path();
+    let path = sheet
+        .parent()
+        .map_or_else(|| PathBuf::from(file), |folder| folder.join(file));
+    if path.is_file() {
+        return found(Table::read(&path), findings);
     }
-    Table::read(&path)
-        .map_err(|finding| findings.errors.push(finding))
-        .ok()
+    let help = neighbour(&path, file);
+    findings.error(key, format!("there is no file {}", path.display()), help);
+    None
 }
 
 /// What could have been meant by the name of a file that is not there.
-fn neighbours(path: &Path, written: &str) -> String {
+fn neighbour(path: &Path, written: &str) -> String {
     let mut names: Vec<String> = path
         .parent()
         .and_then(|folder| std::fs::read_dir(folder).ok())
@@ -157,8 +145,8 @@ fn neighbours(path: &Path, written: &str) -> String {
         .filter(|name| !name.ends_with(".toml"))
         .collect();
     names.sort();
-    match spelling::closest(written, names.iter().map(String::as_str)) {
-        Some(close) => format!("did you mean \"{close}\"? files are looked for beside the sheet"),
+    match closest(written, names.iter().map(String::as_str)) {
+        Some(close) => format!("did you mean \"{close}\"?"),
         None => "files are looked for beside the sheet".to_owned(),
     }
 }
@@ -186,10 +174,11 @@ fn deformations(
         ));
     }
     let Some(gauge) = gauge else {
+        let help = "add gauge = \"5 cm\", or the name of the column that holds it in metres";
         findings.error(
-            &axis.section_span,
-            format!("{} is a clamp distance and has no \"gauge\"", axis.name),
-            "add gauge = \"5 cm\", or the name of the column that holds it in metres",
+            &axis.size_key,
+            "is missing: a clamp distance needs it",
+            help,
         );
         return None;
     };
@@ -202,15 +191,15 @@ fn deformations(
 
 /// The loads per width in SI.
 fn loads(test: Test, axis: &Axis, table: &Table, findings: &mut Findings<'_>) -> Option<Vec<f64>> {
-    let accepted: &[Quantity] = match test {
-        Test::Bending => &[Quantity::MomentPerWidth, Quantity::Moment],
-        _ => &[Quantity::ForcePerWidth, Quantity::Force],
+    let accepted = match test {
+        Test::Bending => [Quantity::MomentPerWidth, Quantity::Moment],
+        _ => [Quantity::ForcePerWidth, Quantity::Force],
     };
-    let (unit, numbers) = numbers(axis, accepted, table, findings)?;
+    let (unit, numbers) = numbers(axis, &accepted, table, findings)?;
     let width = sizes(axis, numbers.len(), table, findings)?;
     let per_width = unit.quantity == accepted[0];
     match (per_width, width) {
-        (true, None) => Some(numbers.iter().map(|&number| number * unit.factor).collect()),
+        (true, None) => Some(numbers.iter().map(|&load| load * unit.factor).collect()),
         (false, Some(width)) => Some(
             numbers
                 .iter()
@@ -219,23 +208,18 @@ fn loads(test: Test, axis: &Axis, table: &Table, findings: &mut Findings<'_>) ->
                 .collect(),
         ),
         (true, Some(_)) => {
+            let message = format!("given, but {} is per width already", unit.spelling);
             findings.error(
-                &axis.section_span,
-                format!("{} is per width already and has a \"width\" too", axis.name),
-                "remove width, or give the unit of the whole load",
+                &axis.size_key,
+                message,
+                "remove it, or give the unit of the whole load",
             );
             None
         }
         (false, None) => {
-            findings.error(
-                &axis.section_span,
-                format!(
-                    "{} is a {} and has no \"width\"",
-                    axis.name,
-                    unit.quantity.name()
-                ),
-                "add width = \"20 cm\", or the name of the column that holds it in metres",
-            );
+            let message = format!("is missing: a load in {} needs it", unit.spelling);
+            let help = "add width = \"20 cm\", or the name of the column that holds it in metres";
+            findings.error(&axis.size_key, message, help);
             None
         }
     }
@@ -249,41 +233,27 @@ fn numbers(
     findings: &mut Findings<'_>,
 ) -> Option<(Unit, Vec<f64>)> {
     let place = found(table.find(&axis.column), findings)?;
-    let (text, span) = match (&axis.unit, table.unit(place)) {
-        (Some((text, span)), _) => (text.as_str(), span),
-        (None, Some(text)) => (text, &axis.column_span),
-        (None, None) => {
-            let units = accepted[0].laboratory().spelling;
-            findings.error(
-                &axis.section_span,
-                format!(
-                    "{} has no unit, and the header of its column names none",
-                    axis.name
-                ),
-                format!("add unit = \"{units}\" or the unit it was written in"),
-            );
-            return None;
-        }
+    let Some(text) = axis.unit.as_deref().or(table.unit(place)) else {
+        let unit = accepted[0].laboratory().spelling;
+        let help = format!("add unit = \"{unit}\", or the unit that was used");
+        findings.error(
+            &axis.unit_key,
+            "is missing, and the column's header names none",
+            help,
+        );
+        return None;
     };
     let unit = match unit::parse_unit(text, accepted) {
         Ok(unit) => unit,
         Err(error) => {
-            findings.error(
-                span,
-                format!("{}: {}", axis.name, error.message),
-                error.help,
-            );
+            findings.error(&axis.unit_key, error.message, error.help);
             return None;
         }
     };
-    let numbers = found(table.numbers(place), findings)?;
-    Some((
-        unit,
-        numbers.into_iter().map(|(_, number)| number).collect(),
-    ))
+    Some((unit, found(table.numbers(place), findings)?))
 }
 
-/// A gauge or a width for each row, in metres.
+/// A gauge or a width for each row, in metres; none where none is given.
 fn sizes(
     axis: &Axis,
     rows: usize,
@@ -296,19 +266,20 @@ fn sizes(
         Some(ColumnOrLength::Column(column)) => {
             let place = found(table.find(column), findings)?;
             let sizes = found(table.numbers(place), findings)?;
-            if let Some((line, size)) = sizes.iter().find(|(_, size)| *size <= 0.0) {
-                let message = format!("{}: a length of {size} m in the file", axis.name);
-                let finding = table.finding(message).at_line(*line);
+            if let Some(size) = sizes.iter().find(|&&size| size <= 0.0) {
+                let message = format!("{}: the file has a length of {size} m", axis.size_key);
                 findings
                     .errors
-                    .push(finding.with_help("a gauge or a width is positive"));
+                    .push(table.finding(message).help("a length is positive"));
                 return None;
             }
-            Some(Some(sizes.into_iter().map(|(_, size)| size).collect()))
+            Some(Some(sizes))
         }
     }
 }
 
-fn found<T>(result: Result<T, Diagnostic>, findings: &mut Findings<'_>) -> Option<T> {
-    result.map_err(|finding| findings.errors.push(finding)).ok()
+fn found<T>(result: Result<T, Diagnostics>, findings: &mut Findings<'_>) -> Option<T> {
+    result
+        .map_err(|Diagnostics(mistakes)| findings.errors.extend(mistakes))
+        .ok()
 }

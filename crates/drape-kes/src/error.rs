@@ -1,27 +1,14 @@
 //! Everything that can go wrong between the laboratory's files and curves in SI.
 
-use std::path::PathBuf;
-
-use crate::Diagnostic;
+use drape_input::Diagnostics;
 
 /// Why a sheet or a curve could not be used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The sheet itself could not be opened: check the path.
-    #[error("cannot read {}: {source}", path.display())]
-    Unreadable {
-        /// The file that could not be read.
-        path: PathBuf,
-        /// What the operating system said.
-        source: std::io::Error,
-    },
-    /// The sheet or a file that it names has errors: correct them; all that were found are listed.
-    #[error("{}", list(diagnostics))]
-    Invalid {
-        /// Every error found, in the order of the file.
-        diagnostics: Vec<Diagnostic>,
-    },
+    /// The sheet or a file that it names has mistakes: correct them; all that were found are listed.
+    #[error(transparent)]
+    Input(#[from] Diagnostics),
     /// Two columns of a curve differ in length: give one load for each deformation.
     #[error("a curve has {deformations} deformations but {loads} loads")]
     Unpaired {
@@ -31,7 +18,7 @@ pub enum Error {
         loads: usize,
     },
     /// A curve has too few points to be one: measure at least two.
-    #[error("a curve has {points} points; it needs at least two")]
+    #[error("a curve needs at least two points; this one has {points}")]
     TooShort {
         /// How many points there are.
         points: usize,
@@ -71,23 +58,4 @@ pub enum Error {
         /// The highest deformation measured, in SI.
         high: f64,
     },
-}
-
-impl Error {
-    /// The findings to show to a person, each with its place when the error comes from a file.
-    pub fn diagnostics(&self) -> Vec<Diagnostic> {
-        match self {
-            Self::Unreadable { path, source } => vec![
-                Diagnostic::new(path, format!("cannot read the file: {source}"))
-                    .with_help("check the path and that the file can be read"),
-            ],
-            Self::Invalid { diagnostics } => diagnostics.clone(),
-            other => vec![Diagnostic::new("", other.to_string())],
-        }
-    }
-}
-
-fn list(diagnostics: &[Diagnostic]) -> String {
-    let lines: Vec<String> = diagnostics.iter().map(ToString::to_string).collect();
-    lines.join("\n")
 }

@@ -3,13 +3,11 @@
 mod branch;
 mod curve;
 mod curve_file;
-mod diagnostic;
 mod error;
 mod loop_values;
 mod plausible;
 mod section;
 mod sheet;
-mod spelling;
 mod table;
 mod tensile;
 mod unit;
@@ -17,7 +15,6 @@ mod values;
 
 pub use branch::{Branch, reversals};
 pub use curve::{Curve, Direction, Test};
-pub use diagnostic::Diagnostic;
 pub use error::Error;
 pub use loop_values::{BendingPoints, BendingValues, ShearPoints, ShearValues};
 pub use sheet::Sheet;

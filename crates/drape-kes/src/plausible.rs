@@ -26,18 +26,18 @@ const USUAL_BENDING_LENGTH: RangeInclusive<f64> = 0.011..=0.033;
 const GRAVITY: f64 = 9.806_65;
 
 /// Whether B can be a fabric's; if not, an error with the reading that was probably meant.
-pub(crate) fn bending_rigidity(field: &str, b: &Measured, findings: &mut Findings<'_>) -> bool {
+pub(crate) fn bending_rigidity(b: &Measured, findings: &mut Findings<'_>) -> bool {
     if BENDING_RIGIDITY.contains(&b.si) {
         return true;
     }
     let message = format!(
-        "{field} is {}, {:.3e} N.m; fabrics lie between {:e} and {:e} N.m",
+        "{} is {:.3e} N.m; fabrics lie between {:e} and {:e} N.m",
         b.written,
         b.si,
         BENDING_RIGIDITY.start(),
         BENDING_RIGIDITY.end()
     );
-    findings.error(&b.span, message, meant(b));
+    findings.error(&b.key, message, meant(b));
     false
 }
 
@@ -82,7 +82,14 @@ fn meant(b: &Measured) -> String {
 
 /// Warns about a mass per area that few fabrics have.
 pub(crate) fn density(w: &Measured, findings: &mut Findings<'_>) {
-    unusual("W", "kg/m2", w.si, &USUAL_DENSITY, &w.span, findings);
+    unusual(
+        "mass per area",
+        "kg/m2",
+        w.si,
+        &USUAL_DENSITY,
+        &w.key,
+        findings,
+    );
 }
 
 /// Warns about a bending rigidity or a bending length that few fabrics have.
@@ -96,12 +103,17 @@ pub(crate) fn bending(
         Direction::Warp => USUAL_WARP_BENDING,
         Direction::Weft => USUAL_WEFT_BENDING,
     };
-    let name = format!("{}: B", direction.name());
-    unusual(&name, "N.m", b.si, &usual, &b.span, findings);
+    unusual("bending rigidity", "N.m", b.si, &usual, &b.key, findings);
     if let Some(w) = w {
         let length = (b.si / (w.si * GRAVITY)).cbrt();
-        let name = format!("{}: bending length from B and W", direction.name());
-        unusual(&name, "m", length, &USUAL_BENDING_LENGTH, &b.span, findings);
+        unusual(
+            "bending length",
+            "m",
+            length,
+            &USUAL_BENDING_LENGTH,
+            &b.key,
+            findings,
+        );
     }
 }
 
@@ -110,19 +122,16 @@ fn unusual(
     unit: &str,
     value: f64,
     usual: &RangeInclusive<f64>,
-    span: &std::ops::Range<usize>,
+    key: &str,
     findings: &mut Findings<'_>,
 ) {
     if usual.contains(&value) {
         return;
     }
     let message = format!(
-        "{name} is unusual: {value:.3e} {unit}; nine fabrics in ten have {:.2e} to {:.2e}",
+        "a {name} of {value:.3e} {unit} is unusual; nine fabrics in ten have {:.2e} to {:.2e}",
         usual.start(),
         usual.end()
     );
-    let warning = findings
-        .at(span, message)
-        .with_help("check the value and its unit");
-    findings.warnings.push(warning);
+    findings.warn(key, message, "check the value and its unit");
 }

@@ -1,14 +1,15 @@
 //! A laboratory's sheet: KES values in its own units, and the curves measured with them.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use drape_input::{Diagnostic, Diagnostics, Document};
 use toml::de::DeTable;
 
-use crate::curve_file::{self, CURVE_KEYS};
+use crate::curve_file;
 use crate::plausible;
-use crate::section::{Findings, Measured, Section, syntax_error};
+use crate::section::{Findings, Measured, Section};
 use crate::unit::Quantity;
-use crate::{Curve, Diagnostic, Direction, Error, Test, Values};
+use crate::{Curve, Direction, Error, Test, Values};
 
 /// Name of the file looked for when a folder is given.
 const SHEET_FILE: &str = "sheet.toml";
@@ -51,46 +52,31 @@ impl Sheet {
     /// the error, each with file, line, value and remedy.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let path = if path.is_dir() {
-            path.join(SHEET_FILE)
+        let document = if path.is_dir() {
+            Document::read(path.join(SHEET_FILE))?
         } else {
-            path.to_owned()
+            Document::read(path)?
         };
-        let text = std::fs::read_to_string(&path).map_err(|source| Error::Unreadable {
-            path: path.clone(),
-            source,
-        })?;
-        Self::parse(path, &text)
-    }
-
-    fn parse(path: PathBuf, text: &str) -> Result<Self, Error> {
-        let document = DeTable::parse(text).map_err(|error| Error::Invalid {
-            diagnostics: vec![syntax_error(&path, text, &error)],
-        })?;
+        // Decoding into a plain table reports mistakes of grammar as every other file does.
+        document.decode::<toml::Table>()?;
+        let table = DeTable::parse(document.text()).expect("the text has just been decoded");
         let mut findings = Findings {
-            path,
-            text,
+            document: &document,
             errors: Vec::new(),
             warnings: Vec::new(),
         };
-        let root = Section::new("the sheet", 0..0, document.get_ref());
-        let sheet = Self::check(&root, &mut findings);
-        if findings.errors.is_empty() {
-            return Ok(Self {
-                warnings: findings.warnings,
-                ..sheet
-            });
-        }
-        Err(Error::Invalid {
-            diagnostics: findings.errors,
+        let sheet = Self::check(&Section::root(table.get_ref()), &mut findings);
+        Diagnostics::check(findings.errors)?;
+        Ok(Self {
+            warnings: findings.warnings,
+            ..sheet
         })
     }
 
     fn check(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
         root.allow(&SHEET_KEYS, findings);
-        let text = |found: Option<(String, _)>| found.map(|(text, _)| text).unwrap_or_default();
-        let name = text(root.required_text("name", "\"cotton poplin\"", findings));
-        let source = text(root.text("source", findings));
+        let name = root.required_text("name", "\"cotton poplin\"", findings);
+        let source = root.text("source", findings);
         let w = positive(root, "W", Quantity::MassPerArea, findings);
         let t = positive(root, "T", Quantity::Length, findings);
         let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
@@ -102,15 +88,12 @@ impl Sheet {
         let curves = root
             .sections("curve", findings)
             .iter()
-            .filter_map(|section| {
-                section.allow(&CURVE_KEYS, findings);
-                curve_file::read(section, findings)
-            })
+            .filter_map(|section| curve_file::read(section, findings))
             .collect();
         let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
         Self {
-            name,
-            source,
+            name: name.unwrap_or_default(),
+            source: source.unwrap_or_default(),
             w: laboratory(w),
             t: laboratory(t),
             fm: laboratory(fm),
@@ -165,13 +148,13 @@ fn values(
     w: Option<&Measured>,
     findings: &mut Findings<'_>,
 ) -> Values {
-    let Some(section) = root.section(direction.name(), direction.name(), findings) else {
+    let Some(section) = root.section(direction.name(), findings) else {
         return Values::default();
     };
     section.allow(&VALUE_KEYS, findings);
     let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
     let b = section.measured("B", Quantity::BendingRigidity, findings);
-    let b = b.filter(|b| plausible::bending_rigidity(&section.field("B"), b, findings));
+    let b = b.filter(|b| plausible::bending_rigidity(b, findings));
     if let Some(b) = &b {
         plausible::bending(direction, b, w, findings);
     }
@@ -213,12 +196,8 @@ fn linearity(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> 
         return Some(ratio);
     }
     findings.error(
-        &lt.span,
-        format!(
-            "{} is {}; LT is between 0 and 2",
-            section.field("LT"),
-            lt.written
-        ),
+        &lt.key,
+        format!("{} is not between 0 and 2", lt.written),
         "LT is a ratio, about 0.5 to 1; is this another value, or a percentage?",
     );
     None
@@ -230,10 +209,9 @@ fn resilience(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64>
         return Some(rt.laboratory);
     }
     findings.error(
-        &rt.span,
+        &rt.key,
         format!(
-            "{} is {}; no fabric gives back more than 100 %",
-            section.field("RT"),
+            "{} is more than 100 %, which no fabric gives back",
             rt.written
         ),
         "RT is recovered work over work spent, in percent",
@@ -252,12 +230,8 @@ fn positive(
         return Some(value);
     }
     findings.error(
-        &value.span,
-        format!(
-            "{} is {}; it must be positive",
-            section.field(key),
-            value.written
-        ),
+        &value.key,
+        format!("{} is not greater than 0", value.written),
         "write the measured value, or remove the line if it was not measured",
     );
     None
@@ -274,12 +248,8 @@ fn zero_or_more(
         return Some(value);
     }
     findings.error(
-        &value.span,
-        format!(
-            "{} is {}; it cannot be negative",
-            section.field(key),
-            value.written
-        ),
+        &value.key,
+        format!("{} is negative", value.written),
         "a loop width is the distance between the two branches, without sign",
     );
     None

@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::Diagnostic;
-use crate::spelling;
+use drape_input::{Diagnostic, Diagnostics, closest};
 
 /// Which column of a table is meant.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,6 +18,7 @@ pub(crate) enum Column {
 pub(crate) struct Table {
     path: PathBuf,
     header: Option<Vec<Heading>>,
+    header_line: usize,
     /// Each row with its line in the file.
     rows: Vec<(usize, Vec<String>)>,
     decimal_comma: bool,
@@ -32,15 +32,15 @@ struct Heading {
 }
 
 impl Table {
-    pub(crate) fn read(path: &Path) -> Result<Self, Diagnostic> {
+    pub(crate) fn read(path: &Path) -> Result<Self, Diagnostics> {
         let bytes = std::fs::read(path).map_err(|error| {
             Diagnostic::new(path, format!("cannot read the file: {error}"))
-                .with_help("check the path and that the file can be read")
+                .help("check the path and that the file can be read")
         })?;
         Self::parse(path, &String::from_utf8_lossy(&bytes))
     }
 
-    pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, Diagnostic> {
+    pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, Diagnostics> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let separator = separator(text);
         let mut reader = csv::ReaderBuilder::new()
@@ -56,7 +56,7 @@ impl Table {
                 let line = error
                     .position()
                     .map_or(1, |position| position.line() as usize);
-                Diagnostic::new(path, format!("not a table: {error}")).at_line(line)
+                Diagnostic::new(path, format!("not a table: {error}")).on_line(line)
             })?;
             let start = record
                 .position()
@@ -69,65 +69,67 @@ impl Table {
         let mut table = Self {
             path: path.to_owned(),
             header: None,
+            header_line: 0,
             rows,
             decimal_comma: separator != b',',
         };
-        let first_is_header = table.rows.first().is_some_and(|(_, cells)| {
-            cells
-                .iter()
-                .all(|cell| cell.is_empty() || table.number(cell).is_none())
-        });
+        let first_is_header = table
+            .rows
+            .first()
+            .is_some_and(|(_, cells)| cells.iter().all(|cell| table.number(cell).is_none()));
         if first_is_header {
-            let (_, cells) = table.rows.remove(0);
+            let (line, cells) = table.rows.remove(0);
+            table.header_line = line;
             table.header = Some(cells.iter().map(|cell| heading(cell)).collect());
         }
         if table.rows.is_empty() {
-            return Err(Diagnostic::new(path, "the file has no rows of numbers")
-                .with_help("a curve needs at least two points, one per line"));
+            let help = "a curve needs at least two points, one per line";
+            return Err(table
+                .finding("the file has no rows of numbers")
+                .help(help)
+                .into());
         }
         Ok(table)
     }
 
     /// The place of a column, from 0.
-    pub(crate) fn find(&self, column: &Column) -> Result<usize, Diagnostic> {
-        let width = self
-            .rows
-            .iter()
-            .map(|(_, cells)| cells.len())
-            .max()
-            .unwrap_or(0);
-        match column {
-            Column::Place(place) if (1..=width).contains(place) => Ok(place - 1),
-            Column::Place(place) => Err(Diagnostic::new(
-                &self.path,
-                format!("there is no column {place}"),
-            )
-            .with_help(format!("columns are counted from 1; this file has {width}"))),
-            Column::Name(name) => self.find_name(name),
+    pub(crate) fn find(&self, column: &Column) -> Result<usize, Diagnostics> {
+        match (column, &self.header) {
+            (Column::Place(place), _) => {
+                let width = self
+                    .rows
+                    .iter()
+                    .map(|(_, cells)| cells.len())
+                    .max()
+                    .unwrap_or(0);
+                if (1..=width).contains(place) {
+                    return Ok(place - 1);
+                }
+                let help = format!("columns are counted from 1; this file has {width}");
+                Err(self
+                    .finding(format!("there is no column {place}"))
+                    .help(help)
+                    .into())
+            }
+            (Column::Name(name), None) => {
+                let message = format!("column \"{name}\" is named, but the file has no header");
+                let help = "give the column's place instead, counted from 1";
+                Err(self.finding(message).help(help).into())
+            }
+            (Column::Name(name), Some(header)) => {
+                let same = |heading: &Heading| heading.name.eq_ignore_ascii_case(name.trim());
+                if let Some(place) = header.iter().position(same) {
+                    return Ok(place);
+                }
+                let names: Vec<&str> = header.iter().map(|h| h.name.as_str()).collect();
+                let hint = closest(name, names.iter().copied())
+                    .map(|close| format!("did you mean `{close}`? "))
+                    .unwrap_or_default();
+                let help = format!("{hint}columns of the file: {}", names.join(", "));
+                let finding = self.finding(format!("there is no column \"{name}\""));
+                Err(finding.on_line(self.header_line).help(help).into())
+            }
         }
-    }
-
-    fn find_name(&self, name: &str) -> Result<usize, Diagnostic> {
-        let Some(header) = &self.header else {
-            return Err(Diagnostic::new(
-                &self.path,
-                format!("column \"{name}\" was asked for, but the file has no header"),
-            )
-            .with_help("give the column's place instead, counted from 1, such as column = 1"));
-        };
-        let same = |heading: &Heading| heading.name.eq_ignore_ascii_case(name.trim());
-        if let Some(place) = header.iter().position(same) {
-            return Ok(place);
-        }
-        let names: Vec<&str> = header.iter().map(|heading| heading.name.as_str()).collect();
-        let hint = spelling::closest(name, names.iter().copied())
-            .map(|close| format!("did you mean \"{close}\"? "))
-            .unwrap_or_default();
-        Err(
-            Diagnostic::new(&self.path, format!("there is no column \"{name}\""))
-                .at_line(1)
-                .with_help(format!("{hint}columns of the file: {}", names.join(", "))),
-        )
     }
 
     /// The unit named in the header of a column.
@@ -135,15 +137,15 @@ impl Table {
         self.header.as_ref()?.get(place)?.unit.as_deref()
     }
 
-    /// The numbers of a column, each finite, with their lines.
-    pub(crate) fn numbers(&self, place: usize) -> Result<Vec<(usize, f64)>, Diagnostic> {
+    /// The numbers of a column, each finite.
+    pub(crate) fn numbers(&self, place: usize) -> Result<Vec<f64>, Diagnostics> {
         self.rows
             .iter()
             .map(|(line, cells)| {
                 let cell = cells.get(place).map_or("", String::as_str);
                 match self.number(cell) {
-                    Some(number) if number.is_finite() => Ok((*line, number)),
-                    _ => Err(self.not_a_number(*line, place, cell)),
+                    Some(number) if number.is_finite() => Ok(number),
+                    _ => Err(self.not_a_number(*line, place, cell).into()),
                 }
             })
             .collect()
@@ -166,12 +168,12 @@ impl Table {
             )
         };
         Diagnostic::new(&self.path, message)
-            .at_line(line)
-            .with_help(help)
+            .on_line(line)
+            .help(help)
     }
 
     /// A finding about this file.
-    pub(crate) fn finding(&self, message: String) -> Diagnostic {
+    pub(crate) fn finding(&self, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(&self.path, message)
     }
 
@@ -231,14 +233,10 @@ fn heading(cell: &str) -> Heading {
 mod tests {
     use super::*;
 
-    fn column(text: &str, column: &Column) -> Result<Vec<f64>, Diagnostic> {
+    fn column(text: &str, column: &Column) -> Result<Vec<f64>, Diagnostics> {
         let table = Table::parse(Path::new("curve.csv"), text)?;
         let place = table.find(column)?;
-        Ok(table
-            .numbers(place)?
-            .into_iter()
-            .map(|(_, number)| number)
-            .collect())
+        table.numbers(place)
     }
 
     #[test]
@@ -272,10 +270,10 @@ mod tests {
     fn a_bad_cell_names_its_line_whatever_comes_before_it() {
         let text = "# one\n# two\nk,m\n0,1\n\n0.5,nan\n";
         let error = column(text, &Column::Name("m".to_owned())).unwrap_err();
-        assert_eq!(error.line, Some(6), "{error}");
+        assert_eq!(error.0[0].line, Some(6), "{error}");
         let error = column("k,m\n0,1\n0.5,\n", &Column::Name("m".to_owned())).unwrap_err();
         assert_eq!(
-            (error.line, error.message.as_str()),
+            (error.0[0].line, error.0[0].message.as_str()),
             (Some(3), "column \"m\" is empty")
         );
     }
@@ -283,7 +281,10 @@ mod tests {
     #[test]
     fn a_missing_column_is_answered_with_the_ones_there_are() {
         let error = column("k,m\n0,1\n", &Column::Name("moment".to_owned())).unwrap_err();
-        assert_eq!(error.help.as_deref(), Some("columns of the file: k, m"));
+        assert_eq!(
+            error.0[0].help.as_deref(),
+            Some("columns of the file: k, m")
+        );
         assert!(column("k,m\n0,1\n", &Column::Place(3)).is_err());
         assert!(column("0,1\n", &Column::Name("k".to_owned())).is_err());
         assert!(column("k,m\n", &Column::Name("k".to_owned())).is_err());

@@ -1,6 +1,6 @@
 //! Units of measurement as laboratories write them, and their factors to SI.
 
-use crate::spelling;
+use drape_input::closest;
 
 /// Standard gram-force, in newtons.
 ///
@@ -196,8 +196,8 @@ pub(crate) fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, Unit
     let names: Vec<&str> = accepted.iter().map(|q| q.name()).collect();
     let lists: Vec<String> = accepted.iter().map(|q| q.list()).collect();
     let known = accepted.iter().flat_map(|q| q.units()).map(|u| u.0);
-    let hint = spelling::closest(&wanted, known)
-        .map(|close| format!("did you mean \"{close}\"? "))
+    let hint = closest(&wanted, known)
+        .map(|close| format!("did you mean `{close}`? "))
         .unwrap_or_default();
     Err(UnitError {
         message: format!("\"{text}\" is not a unit of {}", names.join(" or ")),
@@ -304,11 +304,7 @@ mod tests {
             error.message,
             "\"N/m\" is not a unit of bending rigidity per width"
         );
-        assert!(
-            error.help.contains("did you mean \"N.m\"?"),
-            "{}",
-            error.help
-        );
+        assert!(error.help.contains("did you mean `N.m`?"), "{}", error.help);
     }
 
     #[test]

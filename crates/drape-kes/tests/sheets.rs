@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use drape_kes::{Diagnostic, Direction, Error, Sheet, Test};
+use drape_input::{Diagnostic, Diagnostics};
+use drape_kes::{Direction, Error, Sheet, Test};
 
 const CURVE: &str = r#"
 [[curve]]
@@ -25,10 +26,16 @@ fn read(sheet: &str, curve: &str) -> Result<Sheet, Error> {
     Sheet::read(folder(sheet, curve).path())
 }
 
+fn mistakes(result: Result<Sheet, Error>) -> Vec<Diagnostic> {
+    match result {
+        Err(Error::Input(Diagnostics(mistakes))) => mistakes,
+        other => panic!("no mistakes of input: {other:?}"),
+    }
+}
+
 /// The one finding of a bad sheet.
 fn finding(sheet: &str, curve: &str) -> Diagnostic {
-    let error = read(sheet, curve).expect_err("the sheet is bad");
-    let findings = error.diagnostics();
+    let findings = mistakes(read(sheet, curve));
     assert_eq!(findings.len(), 1, "{findings:#?}");
     findings.into_iter().next().expect("one finding")
 }
@@ -103,14 +110,10 @@ load = { column = 2, unit = "N", width = 0.05 }
 
 #[test]
 fn an_unknown_key_is_named_with_its_line_and_the_key_that_was_meant() {
-    let found = finding("name = \"a\"\nW = 10\n[warp]\n2BH = 0.1\n", GOOD_CURVE);
-    assert_eq!((found.line, found.column), (Some(4), Some(1)));
-    assert_eq!(found.message, "warp has no key \"2BH\"");
-    assert!(
-        help(&found).starts_with("did you mean \"2HB\"?"),
-        "{}",
-        help(&found)
-    );
+    let found = finding("name = \"a\"\nW = 10\n[warp]\n2HBB = 0.1\n", GOOD_CURVE);
+    assert_eq!(found.line, Some(4));
+    assert_eq!(found.message, "warp.2HBB: there is no such key");
+    assert_eq!(help(&found), "did you mean `2HB`?");
 }
 
 #[test]
@@ -119,7 +122,7 @@ fn a_missing_file_is_named_with_the_one_that_is_there() {
     let found = finding(&text, GOOD_CURVE);
     assert_eq!(found.line, Some(6));
     assert!(
-        found.message.starts_with("there is no file"),
+        found.message.starts_with("curve[0].file: there is no file"),
         "{}",
         found.message
     );
@@ -132,9 +135,9 @@ fn a_missing_file_is_named_with_the_one_that_is_there() {
 
 #[test]
 fn a_missing_sheet_is_one_error_with_its_path() {
-    let error = Sheet::read("no/such/sheet.toml").unwrap_err();
-    assert!(matches!(error, Error::Unreadable { .. }));
-    assert_eq!(error.diagnostics()[0].path, Path::new("no/such/sheet.toml"));
+    let found = mistakes(Sheet::read("no/such/sheet.toml"));
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].file, Path::new("no/such/sheet.toml"));
 }
 
 #[test]
@@ -149,7 +152,7 @@ fn a_wrong_unit_is_refused_with_the_units_accepted() {
         "{found}"
     );
     assert!(
-        help(&found).contains("did you mean \"gf/cm\"?"),
+        help(&found).contains("did you mean `gf/cm`?"),
         "{}",
         help(&found)
     );
@@ -161,14 +164,11 @@ fn a_wrong_unit_is_refused_with_the_units_accepted() {
 fn a_value_that_is_not_a_number_is_refused_in_sheet_and_file() {
     let found = finding("name = \"a\"\n[warp]\nB = nan\n", GOOD_CURVE);
     assert_eq!((found.line, found.column), (Some(3), Some(5)));
-    assert_eq!(
-        found.message,
-        "warp: B is nan, which is not a finite number"
-    );
+    assert_eq!(found.message, "warp.B: NaN is not a finite number");
     let text = format!("name = \"a\"\n{CURVE}");
     let found = finding(&text, "strain,force\n0,0\n1,NaN\n");
     assert_eq!(
-        (found.line, found.path.file_name().unwrap().to_str()),
+        (found.line, found.file.file_name().unwrap().to_str()),
         (Some(3), Some("pull.csv"))
     );
     assert!(found.message.contains("\"NaN\""), "{found}");
@@ -185,15 +185,18 @@ fn an_empty_curve_and_a_one_point_curve_are_refused() {
         );
     }
     let found = finding(&text, "strain,force\n0,0\n");
-    assert_eq!(found.message, "a curve has 1 points; it needs at least two");
-    assert_eq!(found.path.file_name().unwrap().to_str(), Some("pull.csv"));
+    assert_eq!(
+        found.message,
+        "a curve needs at least two points; this one has 1"
+    );
+    assert_eq!(found.file.file_name().unwrap().to_str(), Some("pull.csv"));
 }
 
 #[test]
 fn a_negative_density_is_refused() {
     let found = finding("name = \"a\"\nW = -10\n", GOOD_CURVE);
     assert_eq!((found.line, found.column), (Some(2), Some(5)));
-    assert_eq!(found.message, "the sheet: W is -10; it must be positive");
+    assert_eq!(found.message, "W: -10 is not greater than 0");
 }
 
 #[test]
@@ -219,18 +222,16 @@ fn a_rigidity_no_fabric_has_is_refused_with_what_was_probably_meant() {
 }
 
 #[test]
-fn every_error_of_a_sheet_is_reported_at_once_in_the_order_found() {
+fn every_error_of_a_sheet_is_reported_at_once_in_the_order_of_the_file() {
     let text = "name = \"a\"\nW = -1\ncolour = \"red\"\n[warp]\nB = inf\nEM = 3\n[weft]\nRT = 140\n[[curve]]\ntest = \"tensil\"\n";
-    let error = read(text, GOOD_CURVE).unwrap_err();
-    let found = error.diagnostics();
+    let found = mistakes(read(text, GOOD_CURVE));
     let lines: Vec<_> = found.iter().map(|finding| finding.line).collect();
     // The curve is told of its wrong test and of each of its four missing keys.
-    let last = [Some(10), Some(9), Some(9), Some(9), Some(9)];
-    let expected = [&[Some(3), Some(2), Some(5), Some(8)][..], &last].concat();
-    assert_eq!(lines, expected, "{error}");
+    let expected = [2, 3, 5, 8, 9, 9, 9, 9, 10].map(Some);
+    assert_eq!(lines, expected, "{found:#?}");
     assert!(
         found.iter().all(|finding| finding.help.is_some()),
-        "{error}"
+        "{found:#?}"
     );
 }
 
@@ -238,7 +239,6 @@ fn every_error_of_a_sheet_is_reported_at_once_in_the_order_found() {
 fn text_that_is_not_toml_is_one_error_at_its_line() {
     let found = finding("name = \"a\"\nW = = 3\n", GOOD_CURVE);
     assert_eq!(found.line, Some(2));
-    assert!(found.message.starts_with("not valid TOML"), "{found}");
 }
 
 #[test]
@@ -249,7 +249,9 @@ fn an_unusual_value_is_a_warning_and_not_an_error() {
     assert_eq!(warnings.len(), 1, "{warnings:#?}");
     assert_eq!(warnings[0].line, Some(2));
     assert!(
-        warnings[0].message.contains("W is unusual"),
+        warnings[0]
+            .message
+            .contains("a mass per area of 6.000e-1 kg/m2 is unusual"),
         "{}",
         warnings[0]
     );
