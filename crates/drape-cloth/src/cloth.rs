@@ -65,62 +65,26 @@ pub struct Committed {
 }
 
 impl Cloth {
-    /// A cloth of one panel.
+    /// A cloth of panels, each with its fabric; the particles are numbered panel by panel.
     #[must_use]
-    pub fn new(lattice: &Lattice, fabric: &Fabric) -> Self {
-        let particles = lattice.coordinates.len();
-        let mut areas = vec![0.0; particles];
-        let mut corners = Vec::new();
-        for cell in &lattice.cells {
-            let [a, b, c, d] = cell.corners;
-            // Corner, neighbour along the warp (v), neighbour along the weft (u), sign.
-            let around = [
-                (a, d, b, 1.0),
-                (b, c, a, -1.0),
-                (c, b, d, 1.0),
-                (d, a, c, -1.0),
-            ];
-            for ((corner, warp, weft, sign), area) in around.into_iter().zip(cell.quadrants) {
-                areas[corner as usize] += area;
-                corners.push(([corner, warp, weft], sign, area));
-            }
-        }
-        let [warp_yarns, weft_yarns] = lattice.yarns();
-        let [across, along] = lattice.spacing;
+    pub fn new(panels: &[(&Lattice, &Fabric)]) -> Self {
         let mut cloth = Self {
-            masses: areas.iter().map(|area| area * fabric.density).collect(),
-            coordinates: lattice.coordinates.clone(),
-            triangles: lattice.triangles(),
-            tangents: tangents([&warp_yarns, &weft_yarns], particles),
-            traction: vec![
-                Traction::new(
-                    fabric.warp.traction,
-                    segments(lattice, &warp_yarns, along, 0),
-                ),
-                Traction::new(
-                    fabric.weft.traction,
-                    segments(lattice, &weft_yarns, across, 1),
-                ),
-            ],
-            shear: vec![Shear::new(fabric.shear, corners)],
-            bending: vec![
-                Bending::new(
-                    fabric.warp.bending,
-                    along,
-                    triples(lattice, &warp_yarns, &areas),
-                ),
-                Bending::new(
-                    fabric.weft.bending,
-                    across,
-                    triples(lattice, &weft_yarns, &areas),
-                ),
-            ],
+            masses: Vec::new(),
+            areas: Vec::new(),
+            coordinates: Vec::new(),
+            triangles: Vec::new(),
+            tangents: Vec::new(),
+            traction: Vec::new(),
+            shear: Vec::new(),
+            bending: Vec::new(),
             pattern: Pattern {
                 offsets: Vec::new(),
                 columns: Vec::new(),
             },
-            areas,
         };
+        panels
+            .iter()
+            .for_each(|(lattice, fabric)| cloth.add_panel(lattice, fabric));
         let edges = cloth
             .traction
             .iter()
@@ -136,7 +100,7 @@ impl Cloth {
             .iter()
             .flat_map(|b| &b.triples)
             .map(|t| t.as_slice());
-        cloth.pattern = Pattern::new(particles, edges.chain(corners).chain(triples));
+        cloth.pattern = Pattern::new(cloth.particles(), edges.chain(corners).chain(triples));
         cloth
             .traction
             .iter_mut()
@@ -150,6 +114,51 @@ impl Cloth {
             .iter_mut()
             .for_each(|b| b.connect(&cloth.pattern));
         cloth
+    }
+
+    fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric) {
+        let first = self.particles() as u32;
+        let mut areas = vec![0.0; lattice.coordinates.len()];
+        let mut corners = Vec::new();
+        for cell in &lattice.cells {
+            let [a, b, c, d] = cell.corners;
+            // Corner, neighbour along the warp (v), neighbour along the weft (u), sign.
+            let around = [
+                (a, d, b, 1.0),
+                (b, c, a, -1.0),
+                (c, b, d, 1.0),
+                (d, a, c, -1.0),
+            ];
+            for ((corner, warp, weft, sign), area) in around.into_iter().zip(cell.quadrants) {
+                areas[corner as usize] += area;
+                corners.push(([corner, warp, weft].map(|p| first + p), sign, area));
+            }
+        }
+        let yarns = lattice.yarns();
+        self.tangents.extend(tangents(&yarns, first, areas.len()));
+        let laws = [&fabric.warp, &fabric.weft];
+        let [across, along] = lattice.spacing;
+        for (direction, length) in [along, across].into_iter().enumerate() {
+            let mut edges = segments(lattice, &yarns[direction], length, direction);
+            let mut bends = triples(lattice, &yarns[direction], &areas);
+            edges
+                .iter_mut()
+                .for_each(|edge| edge.0 = edge.0.map(|p| first + p));
+            bends
+                .iter_mut()
+                .for_each(|bend| bend.0 = bend.0.map(|p| first + p));
+            self.traction
+                .push(Traction::new(laws[direction].traction, edges));
+            self.bending
+                .push(Bending::new(laws[direction].bending, length, bends));
+        }
+        self.shear.push(Shear::new(fabric.shear, corners));
+        self.masses
+            .extend(areas.iter().map(|area| area * fabric.density));
+        self.coordinates.extend(&lattice.coordinates);
+        self.triangles
+            .extend(lattice.triangles().iter().map(|t| t.map(|p| first + p)));
+        self.areas.extend(areas);
     }
 
     /// Number of particles.
@@ -191,11 +200,27 @@ impl Cloth {
     /// Area that the connectors of each kind stand for, in m².
     #[must_use]
     pub fn connector_areas(&self) -> Areas {
-        let sum = |areas: &[f64]| areas.iter().sum();
+        // Sets of connectors alternate between warp and weft.
+        let traction = |direction: usize| -> f64 {
+            self.traction
+                .iter()
+                .skip(direction)
+                .step_by(2)
+                .flat_map(|t| &t.areas)
+                .sum()
+        };
+        let bending = |direction: usize| -> f64 {
+            self.bending
+                .iter()
+                .skip(direction)
+                .step_by(2)
+                .flat_map(|b| &b.areas)
+                .sum()
+        };
         Areas {
-            traction: [sum(&self.traction[0].areas), sum(&self.traction[1].areas)],
-            shear: self.shear.iter().map(|s| s.areas.iter().sum::<f64>()).sum(),
-            bending: [sum(&self.bending[0].areas), sum(&self.bending[1].areas)],
+            traction: [traction(0), traction(1)],
+            shear: self.shear.iter().flat_map(|s| &s.areas).sum(),
+            bending: [bending(0), bending(1)],
         }
     }
 

@@ -18,14 +18,18 @@ impl Tangent {
 
 /// Tangents along the warp and the weft at every particle: central differences, and at the ends of a
 /// yarn the one-sided difference of second order, so that the normals of a cylinder are right at its
-/// edges too.
-pub(crate) fn tangents(yarns: [&Vec<Vec<u32>>; 2], particles: usize) -> Vec<[Tangent; 2]> {
+/// edges too. `first` is the number of the panel's first particle.
+pub(crate) fn tangents(
+    yarns: &[Vec<Vec<u32>>; 2],
+    first: u32,
+    particles: usize,
+) -> Vec<[Tangent; 2]> {
     let none = Tangent {
         particles: [0; 3],
         weights: [0.0; 3],
     };
     let mut tangents = vec![[none; 2]; particles];
-    for (direction, yarns) in yarns.into_iter().enumerate() {
+    for (direction, yarns) in yarns.iter().enumerate() {
         for yarn in yarns {
             let last = yarn.len() - 1;
             for (index, &particle) in yarn.iter().enumerate() {
@@ -35,7 +39,7 @@ pub(crate) fn tangents(yarns: [&Vec<Vec<u32>>; 2], particles: usize) -> Vec<[Tan
                     (i, _) if i == last => ([last - 2, last - 1, last], [1.0, -4.0, 3.0]),
                     (i, _) => ([i - 1, i, i + 1], [-1.0, 0.0, 1.0]),
                 };
-                let particles = places.map(|place| yarn[place]);
+                let particles = places.map(|place| first + yarn[place]);
                 tangents[particle as usize][direction] = Tangent { particles, weights };
             }
         }

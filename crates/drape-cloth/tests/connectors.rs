@@ -71,7 +71,7 @@ fn tried(
     (shake, radius): (f64, f64),
 ) -> (Cloth, State, Vec<f64>) {
     let mut random = Random(7);
-    let cloth = Cloth::new(lattice, fabric);
+    let cloth = Cloth::new(&[(lattice, fabric)]);
     let mut state = cloth
         .state(bent(lattice, 0.4, 0.0, &mut random))
         .expect("fits");
@@ -101,7 +101,7 @@ fn panels() -> Vec<(&'static str, Lattice)> {
 #[test]
 fn connector_areas_add_up_to_the_area_of_the_panel() {
     for (name, lattice) in panels() {
-        let areas = Cloth::new(&lattice, &fabric(LINEN)).connector_areas();
+        let areas = Cloth::new(&[(&lattice, &fabric(LINEN))]).connector_areas();
         let all = [areas.traction, areas.bending, [areas.shear; 2]].concat();
         for area in all {
             let error = area / lattice.area() - 1.0;
@@ -298,7 +298,7 @@ fn a_cylinder_has_the_energy_of_the_fabric_bent_to_its_curvature() {
     let mut errors = Vec::new();
     for spacing in [0.02, 0.01, 0.005] {
         let lattice = Lattice::rectangle(0.2, 0.2, spacing).expect("a rectangle");
-        let cloth = Cloth::new(&lattice, &fabric);
+        let cloth = Cloth::new(&[(&lattice, &fabric)]);
         let flat: Vec<f64> = lattice
             .coordinates
             .iter()
@@ -331,7 +331,7 @@ fn a_cylinder_has_the_energy_of_the_fabric_bent_to_its_curvature() {
 fn a_stretched_and_sheared_sheet_pulls_as_its_laws_say() {
     let fabric = fabric(&LINEN.replace("rest_curvature = 3.0", ""));
     let lattice = Lattice::rectangle(0.1, 0.1, 0.01).expect("a rectangle");
-    let cloth = Cloth::new(&lattice, &fabric);
+    let cloth = Cloth::new(&[(&lattice, &fabric)]);
     let flat: Vec<f64> = lattice
         .coordinates
         .iter()
