@@ -1,0 +1,191 @@
+use crate::Pattern;
+use crate::block::{self, Block};
+
+/// A symmetric sparse matrix of 3x3 blocks, upper half stored, in N/m when it is a stiffness.
+///
+/// Blocks are row-major and lie in the order of the [`Pattern`]; a block above the diagonal stands for
+/// itself and for its transpose below. Diagonal blocks are stored whole.
+#[derive(Clone, Debug)]
+pub struct BlockMatrix {
+    pattern: Pattern,
+    blocks: Vec<Block>,
+    stray: Option<(usize, usize)>,
+}
+
+impl BlockMatrix {
+    /// The matrix of zeros on a pattern.
+    pub fn zeros(pattern: Pattern) -> Self {
+        let blocks = vec![block::ZERO; pattern.blocks()];
+        Self { pattern, blocks, stray: None }
+    }
+
+    /// Its sparsity.
+    pub fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    /// The blocks, one per slot.
+    pub fn blocks(&self) -> &[[f64; 9]] {
+        &self.blocks
+    }
+
+    /// The blocks, one per slot, to write into.
+    pub fn blocks_mut(&mut self) -> &mut [[f64; 9]] {
+        &mut self.blocks
+    }
+
+    /// All entries, nine per slot.
+    pub fn values(&self) -> &[f64] {
+        self.blocks.as_flattened()
+    }
+
+    /// All entries, nine per slot, to write into.
+    pub fn values_mut(&mut self) -> &mut [f64] {
+        self.blocks.as_flattened_mut()
+    }
+
+    /// Sets every entry to zero.
+    pub fn clear(&mut self) {
+        self.blocks.fill(block::ZERO);
+        self.stray = None;
+    }
+
+    /// Adds to the block of a slot.
+    pub fn add_block(&mut self, slot: usize, value: &[f64; 9]) {
+        for (entry, value) in self.blocks[slot].iter_mut().zip(value) {
+            *entry += value;
+        }
+    }
+
+    /// Adds to the block in row `i` and column `j`, and so to its mirror image.
+    ///
+    /// Give each pair once, in either order. A block outside the pattern is left out and remembered
+    /// ([`stray`](Self::stray)); a step with one ends in an error.
+    pub fn add(&mut self, i: usize, j: usize, value: &[f64; 9]) {
+        match self.pattern.slot(i, j) {
+            Some(slot) if i <= j => self.add_block(slot, value),
+            Some(slot) => self.add_block(slot, &block::transposed(value)),
+            None => self.stray = self.stray.or(Some((i, j))),
+        }
+    }
+
+    /// The first block since the last [`clear`](Self::clear) that the pattern had no room for.
+    pub fn stray(&self) -> Option<(usize, usize)> {
+        self.stray
+    }
+
+    /// `y = A x`, both with three entries per particle.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        y.fill(0.0);
+        let x = block::triples(x);
+        let y = block::triples_mut(y);
+        for row in 0..self.pattern.particles() {
+            let slots = self.pattern.row(row);
+            let own = x[row];
+            let mut sum = [0.0; 3];
+            block::add_product(&self.blocks[slots.start], &own, &mut sum);
+            let beyond = slots.start + 1..slots.end;
+            let columns = &self.pattern.columns()[beyond.clone()];
+            for (&column, block) in columns.iter().zip(&self.blocks[beyond]) {
+                let column = column as usize;
+                block::add_product(block, &x[column], &mut sum);
+                block::add_transposed_product(block, &own, &mut y[column]);
+            }
+            for (y, sum) in y[row].iter_mut().zip(sum) {
+                *y += sum;
+            }
+        }
+    }
+
+    /// Turns a stiffness into the tangent of a step: adds the inertia (N/m per particle) to the diagonal and
+    /// cuts the held particles out, leaving their inertia alone in their rows.
+    pub(crate) fn complete(&mut self, inertia: &[f64], held: &[bool]) {
+        for (row, (&inertia, &row_held)) in inertia.iter().zip(held).enumerate() {
+            let slots = self.pattern.row(row);
+            for slot in slots.clone() {
+                if row_held || held[self.pattern.columns()[slot] as usize] {
+                    self.blocks[slot] = block::ZERO;
+                }
+            }
+            let diagonal = &mut self.blocks[slots.start];
+            for k in [0, 4, 8] {
+                diagonal[k] += inertia;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> BlockMatrix {
+        let pattern = Pattern::from_pairs(3, [(0, 1), (0, 2)]).unwrap();
+        let mut matrix = BlockMatrix::zeros(pattern);
+        for (k, value) in matrix.values_mut().iter_mut().enumerate() {
+            *value = (k as f64 * 0.7).sin();
+        }
+        // Diagonal blocks of a symmetric matrix are symmetric.
+        for row in 0..3 {
+            let slot = matrix.pattern().row(row).start;
+            let b = matrix.blocks()[slot];
+            let t = block::transposed(&b);
+            matrix.add_block(slot, &t);
+        }
+        matrix
+    }
+
+    #[test]
+    fn multiplication_agrees_with_the_dense_matrix() {
+        let matrix = sample();
+        let mut dense = vec![vec![0.0; 9]; 9];
+        for row in 0..3 {
+            for slot in matrix.pattern().row(row) {
+                let column = matrix.pattern().columns()[slot] as usize;
+                for r in 0..3 {
+                    for c in 0..3 {
+                        dense[3 * row + r][3 * column + c] = matrix.blocks()[slot][3 * r + c];
+                        dense[3 * column + c][3 * row + r] = matrix.blocks()[slot][3 * r + c];
+                    }
+                }
+            }
+        }
+        let x: Vec<f64> = (0..9).map(|k| (k as f64).cos()).collect();
+        let mut y = vec![f64::NAN; 9];
+        matrix.multiply(&x, &mut y);
+        for (row, y) in dense.iter().zip(&y) {
+            let expected: f64 = row.iter().zip(&x).map(|(a, x)| a * x).sum();
+            assert!((y - expected).abs() < 1e-14, "{y} against {expected}");
+        }
+    }
+
+    #[test]
+    fn a_block_given_below_the_diagonal_lands_transposed_above_it() {
+        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(2, [(0, 1)]).unwrap());
+        let value = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
+        matrix.add(1, 0, &value);
+        assert_eq!(matrix.blocks()[1], block::transposed(&value));
+        assert_eq!(matrix.stray(), None);
+    }
+
+    #[test]
+    fn a_block_outside_the_pattern_is_remembered() {
+        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(3, [(0, 1)]).unwrap());
+        matrix.add(2, 1, &[1.0; 9]);
+        matrix.add(0, 2, &[1.0; 9]);
+        assert_eq!(matrix.stray(), Some((2, 1)));
+        matrix.clear();
+        assert_eq!(matrix.stray(), None);
+    }
+
+    #[test]
+    fn held_particles_keep_nothing_but_their_inertia() {
+        let mut matrix = sample();
+        let free = matrix.blocks()[0];
+        matrix.complete(&[2.0, 3.0, 5.0], &[false, true, false]);
+        assert_eq!(matrix.blocks()[1], block::ZERO, "coupling to the held particle");
+        assert_eq!(matrix.blocks()[3], [3.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 3.0]);
+        assert_eq!(matrix.blocks()[0][0], free[0] + 2.0);
+        assert_eq!(matrix.blocks()[0][1], free[1]);
+    }
+}

@@ -1,0 +1,124 @@
+use crate::Stop;
+
+/// What can go wrong, one variant per remedy.
+///
+/// Whatever the error, the motion and the system's memory are those of the last accepted sub-step.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The equations of a step could not be solved, even with the shortest sub-step allowed.
+    #[error(
+        "the step from t = {time} s did not converge ({stop}): with dt = {dt:e} s the residual is {residual:e} \
+         against a tolerance of {tolerance:e} after {iterations} iterations; shorten the step or allow more halvings"
+    )]
+    NotConverged {
+        /// Time at which the failing sub-step starts, in s.
+        time: f64,
+        /// Its length, the shortest allowed, in s.
+        dt: f64,
+        /// Residual reached, relative as the tolerance is.
+        residual: f64,
+        /// Tolerance asked for.
+        tolerance: f64,
+        /// Iterations made in this attempt.
+        iterations: usize,
+        /// Why the attempt ended.
+        stop: Stop,
+    },
+    /// A NaN or an infinity where a number is needed, even with the shortest sub-step allowed.
+    #[error("{quantity} of particle {particle} not finite at t = {time} s (dt = {dt:e} s)")]
+    NotFinite {
+        /// What is not finite.
+        quantity: Quantity,
+        /// The first particle concerned.
+        particle: usize,
+        /// Time at which the failing (sub)step starts, in s.
+        time: f64,
+        /// Its length, in s.
+        dt: f64,
+    },
+    /// Two lengths that must agree do not.
+    #[error("{what}: {found} given for a system that needs {expected}")]
+    Dimension {
+        /// Which list is concerned.
+        what: &'static str,
+        /// Length that the number of particles asks for.
+        expected: usize,
+        /// Length found.
+        found: usize,
+    },
+    /// A mass is not a positive number.
+    #[error("particle {particle} has a mass of {mass} kg; masses must be positive and finite")]
+    Mass {
+        /// The first such particle.
+        particle: usize,
+        /// Its mass, in kg.
+        mass: f64,
+    },
+    /// The length of a step is not a positive number.
+    #[error("a step of {dt} s: its length must be positive and finite")]
+    StepLength {
+        /// The length, in s.
+        dt: f64,
+    },
+    /// A setting is out of range.
+    #[error("the setting {name} = {value} must be {range}")]
+    Setting {
+        /// Name of the field of [`Settings`](crate::Settings).
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The range it must lie in, in words.
+        range: &'static str,
+    },
+    /// A sparsity pattern is malformed.
+    #[error("row {row} of the pattern: {fault}")]
+    Pattern {
+        /// The row concerned.
+        row: usize,
+        /// What is wrong with it.
+        fault: &'static str,
+    },
+    /// The system's stiffness couples two particles that its pattern does not.
+    #[error("the stiffness couples particles {row} and {column}, which the pattern does not")]
+    OutsidePattern {
+        /// One particle.
+        row: usize,
+        /// The other.
+        column: usize,
+    },
+    /// The sparse factorisation does not fit into memory; conjugate gradients need far less.
+    #[error("no memory to factorise a matrix of {blocks} blocks; use conjugate gradients")]
+    TooLarge {
+        /// Blocks of the pattern.
+        blocks: usize,
+    },
+}
+
+/// A quantity that must be finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// Positions at the start of the step.
+    Position,
+    /// Velocities at the start of the step.
+    Velocity,
+    /// Prescribed end positions of held particles.
+    Target,
+    /// Forces, both at the predicted positions and at those of the start.
+    Force,
+    /// The stiffness.
+    Stiffness,
+}
+
+impl core::fmt::Display for Quantity {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Position => "position",
+            Self::Velocity => "velocity",
+            Self::Target => "prescribed position",
+            Self::Force => "force",
+            Self::Stiffness => "stiffness",
+        })
+    }
+}

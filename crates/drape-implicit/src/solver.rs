@@ -1,0 +1,238 @@
+//! Newton's method with a line search, and Broyden's on its tangents.
+
+use crate::broyden::Updates;
+use crate::error::Quantity;
+use crate::incremental::{Halt, Incremental, Point, first_not_finite};
+use crate::tangent::Tangent;
+use crate::vector::{add_scaled, dot};
+use crate::{Method, Settings, Stiffness, Stop};
+
+/// A full Newton step that shrinks the residual by this factor shows that the tangent describes the neighbourhood:
+/// only then is it kept for Broyden steps. Larger values keep tangents that waste iterations.
+const TRUSTED_CONTRACTION: f64 = 1.0 / 3.0;
+
+/// A Broyden step that leaves more than this of the residual is the last on its tangent.
+const SLOW_CONTRACTION: f64 = 0.5;
+
+/// Broyden updates are refused where the tangent has fallen below this fraction of the frozen one.
+const TANGENT_FLOOR: f64 = 0.1;
+
+/// Decrease that a line search asks for, as a fraction of what the slope promises: the customary value, small, so
+/// that it only excludes steps that gain nothing.
+pub(crate) const ARMIJO: f64 = 1e-4;
+
+/// Halvings in a line search before the direction is given up: 2⁻¹⁶ of a Newton step is no progress.
+pub(crate) const MAX_CUTS: usize = 16;
+
+/// Relative difference of two energies below which rounding may have made it; the slopes then decide in their
+/// place (Hager & Zhang 2005, SIAM J. Optim. 16, eq. 4.1).
+const ENERGY_NOISE: f64 = 1e-12;
+
+/// Part of the convergence limit that a linear solve need not go below.
+const LINEAR_SHARE: f64 = 0.3;
+
+/// The iteration and its work space. Nothing in it outlives a sub-step.
+#[derive(Debug)]
+pub(crate) struct Solver {
+    pub current: Point,
+    pub trial: Point,
+    pub direction: Vec<f64>,
+    pub image: Vec<f64>,
+    pub updates: Updates,
+    pub tangent: Tangent,
+    pub iterations: usize,
+}
+
+impl Solver {
+    pub(crate) fn new(tangent: Tangent) -> Self {
+        let length = 3 * tangent.matrix.pattern().particles();
+        Self {
+            current: Point::new(length),
+            trial: Point::new(length),
+            direction: vec![0.0; length],
+            image: vec![0.0; length],
+            updates: Updates::default(),
+            tangent,
+            iterations: 0,
+        }
+    }
+
+    /// Solves the equations from the deviations in `current`, or, if the forces there are not finite, from those
+    /// in `trial`. The solution is left in `current`.
+    pub(crate) fn solve(
+        &mut self,
+        problem: &mut Incremental<'_>,
+        settings: &Settings,
+    ) -> Result<(), Halt> {
+        self.iterations = 0;
+        problem.evaluate(&mut self.current);
+        if !self.current.norm.is_finite() {
+            core::mem::swap(&mut self.current, &mut self.trial);
+            problem.evaluate(&mut self.current);
+        }
+        if !self.current.norm.is_finite() {
+            let particle = first_not_finite(&self.current.residual).unwrap_or(0);
+            return Err(Halt::NotFinite(Quantity::Force, particle));
+        }
+        match settings.method {
+            Method::Textbook { initial } => self.textbook(problem, settings, initial),
+            Method::Newton => self.on_tangents(problem, settings, 1),
+            Method::Broyden => self.on_tangents(problem, settings, settings.tangent_iterations),
+        }
+    }
+
+    pub(crate) fn count(
+        &mut self,
+        problem: &mut Incremental<'_>,
+        settings: &Settings,
+    ) -> Result<(), Halt> {
+        if self.iterations == settings.max_iterations {
+            return Err(Halt::Stop(Stop::Iterations));
+        }
+        self.iterations += 1;
+        problem.report.iterations += 1;
+        Ok(())
+    }
+
+    /// Alternates one safeguarded Newton step and up to `uses − 1` Broyden steps on its tangent.
+    fn on_tangents(
+        &mut self,
+        problem: &mut Incremental<'_>,
+        settings: &Settings,
+        uses: usize,
+    ) -> Result<(), Halt> {
+        // The first tangent is a rough guess at the end of the step in any case; a later one means trouble.
+        let mut forcing = if uses > 1 { settings.broyden_forcing } else { settings.newton_forcing };
+        while !self.current.solves(problem.limit) {
+            self.count(problem, settings)?;
+            let before = self.current.norm;
+            let length = self.newton_step(problem, forcing)?;
+            forcing = settings.newton_forcing;
+            self.updates.forget();
+            let mut trusted =
+                length == 1.0 && self.current.norm <= TRUSTED_CONTRACTION * before;
+            let mut left = uses - 1;
+            while trusted && left > 0 && !self.current.solves(problem.limit) {
+                self.count(problem, settings)?;
+                trusted = self.broyden_step(problem, settings.broyden_forcing);
+                left -= 1;
+            }
+        }
+        Ok(())
+    }
+
+    /// A step along the exact tangent's direction, or along the definite one's if that fails. Returns its length.
+    fn newton_step(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> Result<f64, Halt> {
+        let mut stop = Stop::Indefinite;
+        for kind in [Stiffness::Exact, Stiffness::Definite] {
+            problem.assemble(&self.current, kind, &mut self.tangent)?;
+            let Some(slope) = self.newton_direction(problem, forcing) else {
+                if let Some(entry) = self.tangent.matrix.values().iter().position(|x| !x.is_finite()) {
+                    return Err(Halt::NotFinite(Quantity::Stiffness, self.row_of(entry / 9)));
+                }
+                problem.report.negative_curvatures += usize::from(kind == Stiffness::Exact);
+                continue;
+            };
+            if let Some(length) = self.line_search(problem, slope) {
+                return Ok(length);
+            }
+            stop = Stop::LineSearch;
+        }
+        Err(Halt::Stop(stop))
+    }
+
+    /// Solves for the Newton direction. Returns the slope of the energy along it, `None` unless negative.
+    fn newton_direction(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> Option<f64> {
+        self.tangent.prepare(problem.report).ok()?;
+        let target = linear_target(&self.current, forcing, problem.limit);
+        let Self { current, direction, tangent, .. } = self;
+        tangent.solve(&current.residual, direction, target, problem.report).ok()?;
+        for p in direction.iter_mut() {
+            *p = -*p;
+        }
+        let slope = dot(direction, &current.residual);
+        (slope < 0.0).then_some(slope)
+    }
+
+    /// Shortens the step until the residual falls or, failing that, the energy. Moves `current` there and returns
+    /// the length accepted.
+    fn line_search(&mut self, problem: &mut Incremental<'_>, slope: f64) -> Option<f64> {
+        let mut start = None;
+        let mut length = 1.0;
+        for _ in 0..=MAX_CUTS {
+            self.try_step(problem, length);
+            if self.trial.norm <= (1.0 - ARMIJO * length) * self.current.norm {
+                return Some(self.accept(length));
+            }
+            if self.trial.norm.is_finite() {
+                let start = *start.get_or_insert_with(|| problem.energy(&self.current));
+                let end = problem.energy(&self.trial);
+                let good = if (end - start).abs() <= ENERGY_NOISE * (start.abs() + end.abs()) {
+                    dot(&self.trial.residual, &self.direction) <= (2.0 * ARMIJO - 1.0) * slope
+                } else {
+                    end <= start + ARMIJO * length * slope
+                };
+                if good {
+                    return Some(self.accept(length));
+                }
+            }
+            problem.report.cuts += 1;
+            length *= 0.5;
+        }
+        None
+    }
+
+    /// One step with the updated inverse of the frozen tangent, taken only if the residual falls. Returns whether
+    /// the tangent is worth keeping.
+    fn broyden_step(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> bool {
+        let target = linear_target(&self.current, forcing, problem.limit);
+        let Self { current, image, tangent, .. } = self;
+        if tangent.solve(&current.residual, image, target, problem.report).is_err() {
+            return false;
+        }
+        if !self.turn(1.0, TANGENT_FLOOR) {
+            return false;
+        }
+        let before = self.current.norm;
+        self.try_step(problem, 1.0);
+        if self.trial.norm < before {
+            self.accept(1.0);
+        }
+        self.current.norm <= SLOW_CONTRACTION * before
+    }
+
+    /// Learns from the last step, of the given length along `direction`, with `image = H₀ φ` of its end; sets
+    /// `direction` to the next one.
+    pub(crate) fn turn(&mut self, length: f64, floor: f64) -> bool {
+        self.updates.apply(&mut self.image);
+        if !self.updates.learn(&self.direction, length, &self.image, floor) {
+            return false;
+        }
+        self.updates.apply_last(&mut self.image);
+        for (p, z) in self.direction.iter_mut().zip(&self.image) {
+            *p = -z;
+        }
+        true
+    }
+
+    pub(crate) fn try_step(&mut self, problem: &mut Incremental<'_>, length: f64) {
+        self.trial.deviation.copy_from_slice(&self.current.deviation);
+        add_scaled(&mut self.trial.deviation, length, &self.direction);
+        problem.evaluate(&mut self.trial);
+    }
+
+    pub(crate) fn accept(&mut self, length: f64) -> f64 {
+        core::mem::swap(&mut self.current, &mut self.trial);
+        length
+    }
+
+    fn row_of(&self, slot: usize) -> usize {
+        let offsets = self.tangent.matrix.pattern().offsets();
+        offsets.partition_point(|&offset| offset <= slot) - 1
+    }
+}
+
+/// How exactly a linear system is worth solving: relative to the residual, but not beyond what convergence needs.
+fn linear_target(point: &Point, forcing: f64, limit: f64) -> f64 {
+    (forcing * point.norm).max(LINEAR_SHARE * limit)
+}

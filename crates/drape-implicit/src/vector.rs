@@ -1,0 +1,53 @@
+//! Sums over flat vectors, in an order that depends on their length alone.
+
+/// Number of partial sums: enough for the compiler to use the widest registers of the machine, and the
+/// same on every machine, so that the bits are too.
+const LANES: usize = 8;
+
+/// `Σ aᵢ bᵢ`.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (heads, tail) = a.as_chunks::<LANES>();
+    let (other_heads, other_tail) = b.as_chunks::<LANES>();
+    let mut partial = [0.0; LANES];
+    for (x, y) in heads.iter().zip(other_heads) {
+        for k in 0..LANES {
+            partial[k] += x[k] * y[k];
+        }
+    }
+    let mut sum = 0.0;
+    for (x, y) in tail.iter().zip(other_tail) {
+        sum += x * y;
+    }
+    for half in [4, 2, 1] {
+        for k in 0..half {
+            partial[k] += partial[k + half];
+        }
+    }
+    partial[0] + sum
+}
+
+/// Euclidean length; NaN if an entry is NaN.
+pub(crate) fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// `y + factor · x`.
+pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y += factor * x;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sum_of_squares_of_the_first_integers_is_the_closed_form() {
+        for n in [0_u32, 1, 7, 8, 9, 100] {
+            let a: Vec<f64> = (1..=n).map(f64::from).collect();
+            let closed = f64::from(n) * f64::from(n + 1) * f64::from(2 * n + 1) / 6.0;
+            assert_eq!(dot(&a, &a), closed, "n = {n}");
+        }
+    }
+}

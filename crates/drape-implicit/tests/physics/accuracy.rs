@@ -1,0 +1,130 @@
+//! Against exact solutions and the known errors of the formulas.
+
+use drape_implicit::{Integrator, Motion, Settings, Stepper};
+
+use crate::springs::Springs;
+use crate::well::Well;
+
+/// Angular frequency of the oscillator below, 1/s.
+const OMEGA: f64 = 10.0;
+
+fn spring_law(x: f64) -> [f64; 3] {
+    [0.5 * OMEGA * OMEGA * x * x, OMEGA * OMEGA * x, OMEGA * OMEGA]
+}
+
+/// Solves each step to rounding, so that what is left is the formula's error.
+fn exact(integrator: Integrator) -> Settings {
+    Settings { integrator, tolerance: 1e-12, energy_balance: true, ..Settings::default() }
+}
+
+fn oscillate(integrator: Integrator, dt: impl Fn(usize) -> f64, steps: usize) -> Motion {
+    let mut system = Well::new(spring_law);
+    let mut stepper = Stepper::new(&system, exact(integrator)).unwrap();
+    let mut motion = Motion::at_rest(vec![1.0, 0.0, 0.0]);
+    for step in 0..steps {
+        stepper.advance(&mut system, &mut motion, dt(step)).unwrap();
+    }
+    motion
+}
+
+fn error(motion: &Motion) -> f64 {
+    let phase = OMEGA * motion.time;
+    let (x, v) = (motion.positions[0] - phase.cos(), motion.velocities[0] / OMEGA + phase.sin());
+    x.hypot(v)
+}
+
+#[test]
+fn free_fall_is_exact_for_the_backward_euler_formula() {
+    let mut system = Springs::chain(1, 1.0, 0.3, 0.0);
+    let mut stepper = Stepper::new(&system, exact(Integrator::BackwardEuler)).unwrap();
+    let mut motion = Motion::new(vec![0.0; 6], vec![1.0, 2.0, 3.0, -1.0, 0.0, 0.5]);
+    // No springs, or their force at zero length would be undefined.
+    system.springs.clear();
+    let (dt, steps) = (0.01, 100.0);
+    for _ in 0..100 {
+        stepper.advance(&mut system, &mut motion, dt).unwrap();
+    }
+    let time = dt * steps;
+    // The sum of the velocities at the ends of the steps falls behind the integral by half a step.
+    let fall = 0.5 * system.gravity * time * (time + dt);
+    for (found, expected) in [
+        (motion.positions[0], time),
+        (motion.positions[1], 2.0 * time - fall),
+        (motion.positions[4], -fall),
+        (motion.velocities[1], 2.0 - system.gravity * time),
+    ] {
+        assert!((found - expected).abs() < 1e-12, "{found} against {expected}");
+    }
+}
+
+#[test]
+fn backward_euler_is_of_first_order_and_bdf2_of_second() {
+    for (integrator, order) in [(Integrator::BackwardEuler, 1.0), (Integrator::Bdf2, 2.0)] {
+        let errors = [400, 800, 1600].map(|steps| error(&oscillate(integrator, |_| 1.0 / steps as f64, steps)));
+        for pair in errors.windows(2) {
+            let observed = (pair[0] / pair[1]).log2();
+            // Errors of the next order are a few per cent at these steps.
+            assert!((observed - order).abs() < 0.06, "{integrator:?}: {observed} from {errors:?}");
+        }
+    }
+}
+
+#[test]
+fn bdf2_keeps_its_order_when_the_step_varies() {
+    let uneven = |base: f64| move |step: usize| if step % 3 == 0 { base } else { 0.5 * base };
+    let errors = [150, 300, 600].map(|rounds| {
+        let dt = uneven(0.5 / f64::from(rounds));
+        error(&oscillate(Integrator::Bdf2, dt, 3 * rounds as usize))
+    });
+    for pair in errors.windows(2) {
+        let observed = (pair[0] / pair[1]).log2();
+        assert!((observed - 2.0).abs() < 0.1, "{observed} from {errors:?}");
+    }
+}
+
+#[test]
+fn backward_euler_damps_by_its_amplification_factor() {
+    // The last damps to 2e-6 of the start, still a thousand times what a step may leave unsolved.
+    for (dt, steps) in [(0.001, 50), (0.02, 50), (0.5, 8)] {
+        let motion = oscillate(Integrator::BackwardEuler, |_| dt, steps as usize);
+        let amplitude = motion.positions[0].hypot(motion.velocities[0] / OMEGA);
+        let expected = (1.0 + (OMEGA * dt).powi(2)).powf(-0.5 * f64::from(steps));
+        let relative = amplitude / expected - 1.0;
+        assert!(relative.abs() < 1e-9, "dt = {dt}: {amplitude} against {expected}");
+    }
+}
+
+#[test]
+fn bdf2_damps_a_slow_oscillation_by_the_fourth_power_of_the_step() {
+    let dt = 0.01;
+    let theta: f64 = OMEGA * dt;
+    let amplitude = |steps| {
+        let motion = oscillate(Integrator::Bdf2, |_| dt, steps);
+        motion.positions[0].hypot(motion.velocities[0] / OMEGA)
+    };
+    // Whole periods apart, so that the formula's elliptic orbit is met at the same phase.
+    let period = (core::f64::consts::TAU / theta).round() as usize;
+    let loss = -(amplitude(20 * period) / amplitude(10 * period)).ln() / (10 * period) as f64;
+    let expected = theta.powi(4) / 4.0;
+    assert!((loss / expected - 1.0).abs() < 0.05, "{loss:e} against {expected:e}");
+}
+
+#[test]
+fn the_energy_balance_accounts_for_what_the_oscillator_loses() {
+    for integrator in [Integrator::BackwardEuler, Integrator::Bdf2] {
+        let mut system = Well::new(spring_law);
+        let mut stepper = Stepper::new(&system, exact(integrator)).unwrap();
+        let mut motion = Motion::at_rest(vec![1.0, 0.0, 0.0]);
+        let energy = |motion: &Motion| {
+            0.5 * motion.velocities[0].powi(2) + spring_law(motion.positions[0])[0]
+        };
+        let (mut lost, before) = (0.0, energy(&motion));
+        for _ in 0..100 {
+            let report = stepper.advance(&mut system, &mut motion, 0.01).unwrap();
+            lost += report.energy.unwrap().numerical_dissipation;
+        }
+        let expected = before - energy(&motion);
+        assert!((lost - expected).abs() < 1e-12 * before, "{lost} against {expected}");
+        assert!(lost > 0.0);
+    }
+}
