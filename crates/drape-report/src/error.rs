@@ -1,0 +1,78 @@
+use std::path::PathBuf;
+
+/// What keeps a picture from being made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReportError {
+    /// There is no triangle to show.
+    #[error("the scene has no triangles; give it a cloth or a body")]
+    EmptyScene,
+
+    /// A surface has incomplete or superfluous numbers.
+    #[error("{surface}: {what} has {length} numbers, not {expected}")]
+    BadLength {
+        /// The surface, as in "cloth 0".
+        surface: String,
+        /// The list, in words.
+        what: &'static str,
+        /// Its length.
+        length: usize,
+        /// The length that fits, in words.
+        expected: String,
+    },
+
+    /// A triangle refers to a vertex that does not exist.
+    #[error("{surface}: triangle {triangle} refers to vertex {index} of {vertices}")]
+    NoSuchVertex {
+        /// The surface, as in "cloth 0".
+        surface: String,
+        /// The triangle, from 0.
+        triangle: usize,
+        /// The vertex that it names.
+        index: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+
+    /// A coordinate is not finite or absurdly far out.
+    #[error(
+        "{surface}: {what} of vertex {vertex} has the coordinate {value}; did the simulation fail?"
+    )]
+    BadCoordinate {
+        /// The surface, as in "cloth 0".
+        surface: String,
+        /// The list, in words.
+        what: &'static str,
+        /// The vertex, from 0.
+        vertex: usize,
+        /// The coordinate.
+        value: f64,
+    },
+
+    /// A number of the view or of a surface's look is outside its range.
+    #[error("{what} is {value}, but it must be {range}")]
+    OutOfRange {
+        /// The quantity, in words.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// The values that it may take, in words.
+        range: &'static str,
+    },
+
+    /// A picture cannot be encoded.
+    #[error("the picture cannot be encoded as PNG: {reason}")]
+    Encoding {
+        /// What the encoder says.
+        reason: String,
+    },
+
+    /// A file cannot be written.
+    #[error("{}: {reason}; check that the folder exists and can be written", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system answered.
+        reason: String,
+    },
+}

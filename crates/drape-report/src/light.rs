@@ -1,0 +1,147 @@
+use crate::facets::{Facet, Part};
+use crate::triangle::Flat;
+use crate::vector::{Vector, add, dot, frame, scale, subtract};
+use rayon::prelude::*;
+
+/// Directions of the sky. Fewer show as steps in the shade, more cost time.
+const SKY_DIRECTIONS: usize = 64;
+
+/// Texels along the side of the map of one sky direction.
+///
+/// Its texels are 0.3 % of the scene wide: finer ones would only sharpen single
+/// directions of a light that is soft.
+const SKY_TEXELS: usize = 320;
+
+/// Turn from one direction of the sky to the next, in rad, which spreads them evenly.
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+
+/// Distance in texels by which a point is moved out along its normal before it looks for light,
+/// lest its own facet shade it.
+const LIFT: f64 = 1.6;
+
+/// What one distant light sees: the height towards it of the first surface in each texel.
+pub(crate) struct LightMap {
+    /// Unit vector towards the light.
+    pub(crate) direction: Vector,
+    axes: [Vector; 2],
+    center: Vector,
+    texel: f64,
+    side: usize,
+    heights: Vec<f32>,
+}
+
+impl LightMap {
+    /// The map of all facets but the floor, which lie within `reach` of the centre.
+    pub(crate) fn new(
+        facets: &[Facet],
+        direction: Vector,
+        (center, reach): (Vector, f64),
+        side: usize,
+    ) -> Self {
+        let mut map = LightMap {
+            direction,
+            axes: frame(scale(direction, -1.0)),
+            center,
+            texel: 2.0 * reach / side as f64,
+            side,
+            heights: vec![f32::NEG_INFINITY; side * side],
+        };
+        for facet in facets.iter().filter(|facet| facet.part != Part::Floor) {
+            let corners = facet.corners.map(|corner| map.place(corner.position));
+            let Some(flat) = Flat::new(corners.map(|[x, y, _]| [x, y])) else {
+                continue;
+            };
+            let heights = corners.map(|[_, _, height]| height);
+            flat.cover([side, side], |x, y, shares| {
+                let height = (0..3).map(|k| shares[k] * heights[k]).sum::<f64>() as f32;
+                let held = &mut map.heights[y * side + x];
+                *held = held.max(height);
+            });
+        }
+        map
+    }
+
+    /// Texels to the right and down, and height towards the light in m.
+    fn place(&self, point: Vector) -> Vector {
+        let from_center = subtract(point, self.center);
+        let half = 0.5 * self.side as f64;
+        [
+            half + dot(from_center, self.axes[0]) / self.texel,
+            half - dot(from_center, self.axes[1]) / self.texel,
+            dot(from_center, self.direction),
+        ]
+    }
+
+    /// Share of the light that reaches a point of a surface, blurred over a square of texels.
+    pub(crate) fn reaches(&self, point: Vector, normal: Vector, blur: i64) -> f64 {
+        let [x, y, height] = self.place(add(point, scale(normal, LIFT * self.texel)));
+        let (column, row) = ((x - 0.5).floor(), (y - 0.5).floor());
+        let (right, down) = (x - 0.5 - column, y - 0.5 - row);
+        let lit = |column: i64, row: i64| -> f64 {
+            let side = self.side as i64;
+            let inside = (0..side).contains(&column) && (0..side).contains(&row);
+            let seen = !inside || f64::from(self.heights[(row * side + column) as usize]) <= height;
+            f64::from(u8::from(seen))
+        };
+        // A box of whole texels, whose borders move with the point: bilinear at both ends.
+        let weight = |k: i64, part: f64| match k {
+            k if k == -blur => 1.0 - part,
+            k if k == blur + 1 => part,
+            _ => 1.0,
+        };
+        let mut sum = 0.0;
+        for j in -blur..=blur + 1 {
+            for i in -blur..=blur + 1 {
+                sum += weight(i, right) * weight(j, down) * lit(column as i64 + i, row as i64 + j);
+            }
+        }
+        sum / ((2 * blur + 1) * (2 * blur + 1)) as f64
+    }
+
+    /// Light of this direction of the sky at the corners of a facet, on its front and its back.
+    fn share(&self, facet: &Facet) -> [[f64; 3]; 2] {
+        let mut light = [[0.0; 3]; 2];
+        for (corner, place) in facet.corners.iter().enumerate() {
+            let slant = dot(place.normal, self.direction);
+            let (side, normal) = if slant > 0.0 {
+                (0, place.normal)
+            } else {
+                (1, scale(place.normal, -1.0))
+            };
+            let part = self.reaches(place.position, normal, 0);
+            light[side][corner] = 2.0 * slant.abs() * part / SKY_DIRECTIONS as f64;
+        }
+        light
+    }
+}
+
+/// For each facet the light of an even sky at its corners, on its front and on its back.
+///
+/// 1 is the light of the whole sky on a level surface.
+pub(crate) fn sky(facets: &[Facet], ball: (Vector, f64)) -> Vec<[[f64; 3]; 2]> {
+    let directions = (0..SKY_DIRECTIONS).into_par_iter();
+    let shares: Vec<Vec<[[f64; 3]; 2]>> = directions
+        .map(|k| {
+            // Equal areas of the half sphere, turned by the golden angle from one to the next.
+            let rise = (k as f64 + 0.5) / SKY_DIRECTIONS as f64;
+            let level = (1.0 - rise * rise).sqrt();
+            let (sine, cosine) = (k as f64 * GOLDEN_ANGLE).sin_cos();
+            let direction = [level * sine, rise, level * cosine];
+            let map = LightMap::new(facets, direction, ball, SKY_TEXELS);
+            facets.iter().map(|facet| map.share(facet)).collect()
+        })
+        .collect();
+    let mut light = vec![[[0.0; 3]; 2]; facets.len()];
+    for share in &shares {
+        for (sum, part) in light
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(share.as_flattened())
+        {
+            for (sum, part) in sum.iter_mut().zip(part) {
+                *sum += part;
+            }
+        }
+    }
+    light
+}
