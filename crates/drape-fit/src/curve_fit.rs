@@ -1,0 +1,143 @@
+//! The search that every test shares: several starts, one history, one best set of parameters.
+
+use drape_kes::{Curve, Direction, Test};
+use rayon::prelude::*;
+
+use crate::Error;
+use crate::lm::{self, Parameter, Report, Settings, Stop};
+
+/// How well a law follows a measured curve, and with which parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurveFit {
+    /// The curve's name.
+    pub name: String,
+    /// The test.
+    pub test: Test,
+    /// The yarns along which the strip was loaded.
+    pub direction: Direction,
+    /// Root mean square residual over the range of the measured load, a ratio.
+    pub misfit: f64,
+    /// Steps of the best start.
+    pub iterations: usize,
+    /// Evaluations of the law along the whole history, over all starts.
+    pub evaluations: usize,
+    /// Why the best start ended.
+    pub stop: Stop,
+    /// The fitted parameters by name, in SI.
+    pub parameters: Vec<(&'static str, f64)>,
+    /// The law's load at each point of the curve, in the curve's unit.
+    pub load: Vec<f64>,
+}
+
+/// A fitted law with its fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Identified<L> {
+    /// The law.
+    pub law: L,
+    /// How well it follows the curve.
+    pub fit: CurveFit,
+}
+
+/// A named parameter of a law.
+pub(crate) type Named = (&'static str, Parameter);
+
+/// Finds the parameters with which `predict` comes nearest to the curve's loads, over several starts.
+///
+/// The starts run side by side; the first of equally good ones is taken, so the number of threads does not
+/// matter.
+pub(crate) fn fit(
+    curve: &Curve,
+    starts: &[Vec<Named>],
+    predict: impl Fn(&[f64], &mut [f64]) + Sync,
+) -> CurveFit {
+    let (low, high) = curve.load_range();
+    let problem = Residuals {
+        load: curve.load(),
+        scale: 1.0 / (high - low),
+        predict: &predict,
+    };
+    let reports: Vec<Report> = starts
+        .par_iter()
+        .map(|start| {
+            let parameters: Vec<Parameter> = start.iter().map(|(_, p)| *p).collect();
+            lm::minimise(&problem, &parameters, &Settings::default())
+        })
+        .collect();
+    let evaluations = reports.iter().map(|report| report.evaluations).sum();
+    let best = reports
+        .into_iter()
+        .enumerate()
+        .min_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms))
+        .expect("every law gives at least one start");
+    let (start, report) = (&starts[best.0], best.1);
+    let mut load = vec![0.0; curve.load().len()];
+    predict(&report.parameters, &mut load);
+    let names = start.iter().map(|(name, _)| *name);
+    CurveFit {
+        name: curve.name.clone(),
+        test: curve.test,
+        direction: curve.direction,
+        misfit: report.rms,
+        iterations: report.iterations,
+        evaluations,
+        stop: report.stop,
+        parameters: names.zip(report.parameters).collect(),
+        load,
+    }
+}
+
+impl CurveFit {
+    pub(crate) fn values(&self) -> Vec<f64> {
+        self.parameters.iter().map(|(_, value)| *value).collect()
+    }
+}
+
+/// Checks that a curve is of the right test and has a load that changes.
+pub(crate) fn expect(curve: &Curve, wanted: Test) -> Result<(), Error> {
+    let name = curve.name.clone();
+    if curve.test != wanted {
+        return Err(Error::WrongTest {
+            name,
+            found: curve.test,
+            wanted,
+        });
+    }
+    let (low, high) = curve.load_range();
+    if low == high {
+        return Err(Error::NoLoad { name, load: low });
+    }
+    Ok(())
+}
+
+/// Slope and intercept of the straight line through points, by least squares.
+pub(crate) fn line(points: impl Iterator<Item = (f64, f64)> + Clone) -> Option<(f64, f64)> {
+    let count = points.clone().count() as f64;
+    let (sx, sy) = points
+        .clone()
+        .fold((0.0, 0.0), |(sx, sy), (x, y)| (sx + x, sy + y));
+    let (mx, my) = (sx / count, sy / count);
+    let (xx, xy) = points.fold((0.0, 0.0), |(xx, xy), (x, y)| {
+        (xx + (x - mx).powi(2), xy + (x - mx) * (y - my))
+    });
+    let slope = xy / xx;
+    slope.is_finite().then_some((slope, my - slope * mx))
+}
+
+struct Residuals<'a, F> {
+    load: &'a [f64],
+    scale: f64,
+    predict: &'a F,
+}
+
+impl<F: Fn(&[f64], &mut [f64])> lm::Problem for Residuals<'_, F> {
+    fn residual_count(&self) -> usize {
+        self.load.len()
+    }
+
+    fn residuals(&self, parameters: &[f64], out: &mut [f64]) {
+        (self.predict)(parameters, out);
+        for (residual, load) in out.iter_mut().zip(self.load) {
+            *residual = (*residual - load) * self.scale;
+        }
+    }
+}

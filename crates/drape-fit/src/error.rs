@@ -1,0 +1,71 @@
+//! Why a fabric could not be identified.
+
+use drape_kes::Test;
+
+/// Why a curve or a sheet does not give a law.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A curve of another test was given: choose a curve of the right one.
+    #[error("{name}: a {} curve was given where a {} curve is needed", found.name(), wanted.name())]
+    WrongTest {
+        /// The curve's name.
+        name: String,
+        /// Its test.
+        found: Test,
+        /// The test that is needed.
+        wanted: Test,
+    },
+    /// The load of a curve never changes: check the column and the clamps.
+    #[error(
+        "{name}: the load is {load} throughout; check the column, and that the strip was clamped"
+    )]
+    NoLoad {
+        /// The curve's name.
+        name: String,
+        /// That load, in SI.
+        load: f64,
+    },
+    /// A curve never rises from its start: check the sign of its columns.
+    #[error("{name}: the load does not rise with the deformation; check the signs of the columns")]
+    Falling {
+        /// The curve's name.
+        name: String,
+    },
+    /// A loop-bending curve does not say how long its strip is: give the gauge.
+    #[error("{name}: the length of the strip is not known; give the gauge of the deformation")]
+    NoGauge {
+        /// The curve's name.
+        name: String,
+    },
+    /// A loop-bending strip is hardly bent: bring the clamps closer.
+    #[error("{name}: the clamps came closer by less than {needed:.0} % of the strip's length")]
+    HardlyBent {
+        /// The curve's name.
+        name: String,
+        /// The shortening needed, in percent.
+        needed: f64,
+    },
+    /// A tensile curve is rounder, or less round, than any law here: check LT, or WT and EM.
+    #[error(
+        "a linearity LT of {linearity:.3} is outside what a tensile curve can have, {low} to {high}; check LT, or WT and EM"
+    )]
+    Linearity {
+        /// The linearity asked for, a ratio.
+        linearity: f64,
+        /// The lowest that is possible.
+        low: f64,
+        /// The highest that is possible.
+        high: f64,
+    },
+    /// The numbers found are not those of a fabric: check the sheet's units.
+    #[error("the fabric identified has {key} that {message}; check the sheet ({help})")]
+    Impossible {
+        /// Key path of the value in the fabric.
+        key: String,
+        /// What is wrong with it.
+        message: String,
+        /// What it should be.
+        help: String,
+    },
+}

@@ -1,0 +1,94 @@
+//! A law driven along a measured history.
+
+use drape_fabric::{Law, TractionLaw};
+
+/// Halvings when looking for the strain at which a strip goes slack: as many as a double has bits to give.
+const HALVINGS: usize = 60;
+
+/// Writes the loads that a virgin fabric shows along a history.
+///
+/// The history need not start at zero: the way to its first point is part of it, in one straight stretch.
+pub(crate) fn along(law: &impl Law, history: impl Iterator<Item = f64>, out: &mut [f64]) {
+    let mut memory = law.virgin();
+    for (load, deformation) in out.iter_mut().zip(history) {
+        *load = law.respond(&memory, deformation).load;
+        memory = law.commit(&memory, deformation);
+    }
+}
+
+/// Writes the loads of a strip between clamps that may come closer than its length.
+///
+/// A strip carries no compression: where the law's load would be negative the strip sags instead. It then
+/// keeps the strain at which its load vanished, and takes up load again once the clamps pass that strain.
+pub(crate) fn along_slack(law: &TractionLaw, clamps: impl Iterator<Item = f64>, out: &mut [f64]) {
+    let mut memory = law.virgin();
+    for (load, strain) in out.iter_mut().zip(clamps) {
+        *load = law.respond(&memory, strain).load;
+        let mut reached = strain;
+        if *load < 0.0 {
+            *load = 0.0;
+            let (mut slack, mut taut) = (strain, memory.position);
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (slack + taut);
+                if law.respond(&memory, middle).load < 0.0 {
+                    slack = middle;
+                } else {
+                    taut = middle;
+                }
+            }
+            reached = taut;
+        }
+        memory = law.commit(&memory, reached);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drape_fabric::{BlimanSorine, Buckling, Primed, TractionBackbone};
+
+    fn law() -> TractionLaw {
+        TractionLaw {
+            backbone: TractionBackbone::Primed(Primed {
+                stiffness: 1e4,
+                toe_ratio: 0.6,
+                toe_strain: 0.01,
+                toe_strain_after: 0.014,
+            }),
+            friction: BlimanSorine::first_order(4.0, 0.001),
+            buckling: Buckling::default(),
+        }
+    }
+
+    #[test]
+    fn a_taut_strip_follows_the_law_and_a_slack_one_carries_nothing() {
+        let law = law();
+        let history = [0.01, 0.03, 0.05, 0.045, 0.05];
+        let (mut plain, mut strip) = ([0.0; 5], [0.0; 5]);
+        along(&law, history.into_iter(), &mut plain);
+        along_slack(&law, history.into_iter(), &mut strip);
+        assert_eq!(plain, strip);
+        let mut slack = [1.0; 3];
+        along_slack(&law, [-0.02, -0.01, 0.0].into_iter(), &mut slack);
+        assert_eq!(slack, [0.0; 3]);
+    }
+
+    #[test]
+    fn how_far_a_strip_sags_does_not_matter_to_its_next_pull() {
+        let law = law();
+        let pull_again = |slack: f64| {
+            let mut loads = [0.0; 4];
+            along_slack(&law, [0.04, slack, 0.02, 0.03].into_iter(), &mut loads);
+            loads
+        };
+        let (little, much) = (pull_again(-0.001), pull_again(-0.02));
+        assert_eq!(little[1], 0.0);
+        for (a, b) in little.iter().zip(&much) {
+            // The strain at which it went slack is found to the last bits.
+            assert!(
+                (a - b).abs() < 1e-9 * little[0],
+                "{little:?} against {much:?}"
+            );
+        }
+    }
+}
