@@ -15,6 +15,16 @@ pub(crate) struct Updates {
 }
 
 impl Updates {
+    /// Room for so many updates; more are made room for when they come.
+    pub(crate) fn with_room(updates: usize, length: usize) -> Self {
+        let room = vec![vec![0.0; length]; updates];
+        Self {
+            steps: room.clone(),
+            gains: room,
+            count: 0,
+        }
+    }
+
     pub(crate) fn forget(&mut self) {
         self.count = 0;
     }
@@ -74,9 +84,8 @@ mod tests {
     fn a_linear_problem_is_solved_in_twice_its_dimension() {
         let a = [[4.0, 1.0, 0.0], [1.0, 3.0, -1.0], [0.0, -1.0, 2.5]];
         let b = [1.0, -2.0, 0.5];
-        let residual = |x: &[f64]| -> Vec<f64> {
-            a.iter().zip(b).map(|(row, b)| dot(row, x) - b).collect()
-        };
+        let residual =
+            |x: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(row, b)| dot(row, x) - b).collect() };
         let mut updates = Updates::default();
         let mut x = vec![0.0; 3];
         let mut phi = residual(&x);
@@ -95,6 +104,9 @@ mod tests {
             direction = z.iter().map(|z| -z).collect();
         }
         let left = dot(&phi, &phi).sqrt();
-        assert!(steps <= 6 && left <= 1e-12, "residual {left:e} after {steps} steps");
+        assert!(
+            steps <= 6 && left <= 1e-12,
+            "residual {left:e} after {steps} steps"
+        );
     }
 }

@@ -29,7 +29,9 @@ pub(crate) struct Cholesky {
 
 impl core::fmt::Debug for Cholesky {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Cholesky").field("factor", &self.factor.len()).finish_non_exhaustive()
+        f.debug_struct("Cholesky")
+            .field("factor", &self.factor.len())
+            .finish_non_exhaustive()
     }
 }
 
@@ -94,16 +96,31 @@ impl Cholesky {
 /// the time.
 fn order(pattern: &Pattern) -> Result<(Vec<usize>, Vec<usize>), faer::sparse::FaerError> {
     let particles = pattern.particles();
-    let columns: Vec<usize> = pattern.columns().iter().map(|&column| column as usize).collect();
-    let graph =
-        SymbolicSparseColMatRef::new_checked(particles, particles, pattern.offsets(), None, &columns);
+    let columns: Vec<usize> = pattern
+        .columns()
+        .iter()
+        .map(|&column| column as usize)
+        .collect();
+    let graph = SymbolicSparseColMatRef::new_checked(
+        particles,
+        particles,
+        pattern.offsets(),
+        None,
+        &columns,
+    );
     let mut forward = vec![0; particles];
     let mut inverse = vec![0; particles];
     let request = amd::order_maybe_unsorted_scratch::<usize>(particles, columns.len());
-    let mut memory = MemBuffer::try_new(request).map_err(|_| faer::sparse::FaerError::OutOfMemory)?;
+    let mut memory =
+        MemBuffer::try_new(request).map_err(|_| faer::sparse::FaerError::OutOfMemory)?;
     let stack = MemStack::new(&mut memory);
     amd::order_maybe_unsorted(&mut forward, &mut inverse, graph, Default::default(), stack)?;
-    let expand = |order: &[usize]| order.iter().flat_map(|&p| [3 * p, 3 * p + 1, 3 * p + 2]).collect();
+    let expand = |order: &[usize]| {
+        order
+            .iter()
+            .flat_map(|&p| [3 * p, 3 * p + 1, 3 * p + 2])
+            .collect()
+    };
     Ok((expand(&forward), expand(&inverse)))
 }
 
@@ -138,5 +155,47 @@ fn fill_lower(matrix: &BlockMatrix, entries: &mut [f64]) {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A band matrix with unsymmetric blocks off the diagonal, dominated by its diagonal or not.
+    fn band(own: f64) -> BlockMatrix {
+        let pairs = (1..12)
+            .map(|i| (i - 1, i))
+            .chain((4..12).map(|i| (i - 4, i)));
+        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(12, pairs.clone()).unwrap());
+        for i in 0..12 {
+            matrix.add(i, i, &[own, 0.2, 0.1, 0.2, own, -0.3, 0.1, -0.3, own]);
+        }
+        for (k, (i, j)) in pairs.enumerate() {
+            let value = core::array::from_fn(|entry| (k as f64 + 1.3 * entry as f64).sin());
+            matrix.add(i, j, &value);
+        }
+        matrix
+    }
+
+    #[test]
+    fn the_factor_undoes_the_multiplication() {
+        let matrix = band(10.0);
+        let mut cholesky = Cholesky::new(matrix.pattern()).unwrap();
+        assert_eq!(cholesky.factorise(&matrix), Ok(()));
+        let expected: Vec<f64> = (0..36).map(|k| (k as f64).cos()).collect();
+        let mut x = vec![0.0; 36];
+        matrix.multiply(&expected, &mut x);
+        cholesky.solve(&mut x);
+        for (x, expected) in x.iter().zip(&expected) {
+            assert!((x - expected).abs() < 1e-14, "{x} against {expected}");
+        }
+    }
+
+    #[test]
+    fn an_indefinite_matrix_is_reported() {
+        let matrix = band(0.5);
+        let mut cholesky = Cholesky::new(matrix.pattern()).unwrap();
+        assert_eq!(cholesky.factorise(&matrix), Err(NotDefinite));
     }
 }

@@ -57,7 +57,11 @@ impl Incomplete {
                     let (i, j) = (pattern.columns()[left], pattern.columns()[right]);
                     if let Some(target) = pattern.slot(i as usize, j as usize) {
                         let [left, right, target] = [left, right, target].map(|slot| slot as u32);
-                        updates.push(Update { left, right, target });
+                        updates.push(Update {
+                            left,
+                            right,
+                            target,
+                        });
                     }
                 }
             }
@@ -85,7 +89,11 @@ impl Incomplete {
             if self.try_factorise(matrix, 1.0 + shift) {
                 return Ok(tried);
             }
-            shift = if tried == 0 { FIRST_SHIFT } else { shift * SHIFT_GROWTH };
+            shift = if tried == 0 {
+                FIRST_SHIFT
+            } else {
+                shift * SHIFT_GROWTH
+            };
         }
         self.diagonal_only = true;
         for row in 0..pattern.particles() {
@@ -206,9 +214,15 @@ mod tests {
     fn an_indefinite_diagonal_block_is_reported() {
         let mut matrix = chain(3, 3.0, -1.0);
         matrix.add(1, 1, &[-9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(Incomplete::new(matrix.pattern()).factorise(&matrix), Err(NotDefinite));
+        assert_eq!(
+            Incomplete::new(matrix.pattern()).factorise(&matrix),
+            Err(NotDefinite)
+        );
         matrix.blocks_mut()[0][0] = f64::NAN;
-        assert_eq!(Incomplete::new(matrix.pattern()).factorise(&matrix), Err(NotDefinite));
+        assert_eq!(
+            Incomplete::new(matrix.pattern()).factorise(&matrix),
+            Err(NotDefinite)
+        );
     }
 
     #[test]

@@ -1,3 +1,5 @@
+use core::ops::AddAssign;
+
 /// What one call of [`Stepper::advance`](crate::Stepper::advance) took, rejected attempts included.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -33,6 +35,28 @@ pub struct Report {
     pub energy: Option<Energy>,
 }
 
+impl AddAssign<&Report> for Report {
+    /// Adds up the work of several steps; the residual is the largest of them.
+    fn add_assign(&mut self, other: &Report) {
+        self.sub_steps += other.sub_steps;
+        self.rejected += other.rejected;
+        self.iterations += other.iterations;
+        self.force_evaluations += other.force_evaluations;
+        self.potential_evaluations += other.potential_evaluations;
+        self.tangents += other.tangents;
+        self.linear_solves += other.linear_solves;
+        self.linear_iterations += other.linear_iterations;
+        self.linear_truncations += other.linear_truncations;
+        self.pivot_shifts += other.pivot_shifts;
+        self.negative_curvatures += other.negative_curvatures;
+        self.cuts += other.cuts;
+        self.residual = self.residual.max(other.residual);
+        if let Some(energy) = other.energy {
+            *self.energy.get_or_insert_default() += energy;
+        }
+    }
+}
+
 /// Energy balance over accepted sub-steps: `work = kinetic + potential + numerical_dissipation`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
@@ -44,6 +68,15 @@ pub struct Energy {
     pub work: f64,
     /// What the formula of the step lost, in J.
     pub numerical_dissipation: f64,
+}
+
+impl AddAssign for Energy {
+    fn add_assign(&mut self, other: Self) {
+        self.kinetic += other.kinetic;
+        self.potential += other.potential;
+        self.work += other.work;
+        self.numerical_dissipation += other.numerical_dissipation;
+    }
 }
 
 /// Why an attempt at a step was given up.

@@ -39,21 +39,32 @@ pub(crate) struct Solver {
     pub direction: Vec<f64>,
     pub image: Vec<f64>,
     pub updates: Updates,
+    /// What textbook Broyden starts from, N/m.
+    pub diagonal: Vec<f64>,
     pub tangent: Tangent,
     pub iterations: usize,
+    /// The last exact tangent had a direction of negative curvature: the next one would, most likely.
+    cautious: bool,
 }
 
 impl Solver {
-    pub(crate) fn new(tangent: Tangent) -> Self {
+    pub(crate) fn new(tangent: Tangent, settings: &Settings) -> Self {
         let length = 3 * tangent.matrix.pattern().particles();
+        let updates = if settings.method == Method::Broyden {
+            settings.tangent_iterations - 1
+        } else {
+            0
+        };
         Self {
             current: Point::new(length),
             trial: Point::new(length),
             direction: vec![0.0; length],
             image: vec![0.0; length],
-            updates: Updates::default(),
+            updates: Updates::with_room(updates, length),
+            diagonal: Vec::new(),
             tangent,
             iterations: 0,
+            cautious: false,
         }
     }
 
@@ -65,6 +76,7 @@ impl Solver {
         settings: &Settings,
     ) -> Result<(), Halt> {
         self.iterations = 0;
+        self.cautious = false;
         problem.evaluate(&mut self.current);
         if !self.current.norm.is_finite() {
             core::mem::swap(&mut self.current, &mut self.trial);
@@ -102,15 +114,18 @@ impl Solver {
         uses: usize,
     ) -> Result<(), Halt> {
         // The first tangent is a rough guess at the end of the step in any case; a later one means trouble.
-        let mut forcing = if uses > 1 { settings.broyden_forcing } else { settings.newton_forcing };
+        let mut forcing = if uses > 1 {
+            settings.broyden_forcing
+        } else {
+            settings.newton_forcing
+        };
         while !self.current.solves(problem.limit) {
             self.count(problem, settings)?;
             let before = self.current.norm;
             let length = self.newton_step(problem, forcing)?;
             forcing = settings.newton_forcing;
             self.updates.forget();
-            let mut trusted =
-                length == 1.0 && self.current.norm <= TRUSTED_CONTRACTION * before;
+            let mut trusted = length == 1.0 && self.current.norm <= TRUSTED_CONTRACTION * before;
             let mut left = uses - 1;
             while trusted && left > 0 && !self.current.solves(problem.limit) {
                 self.count(problem, settings)?;
@@ -122,15 +137,31 @@ impl Solver {
     }
 
     /// A step along the exact tangent's direction, or along the definite one's if that fails. Returns its length.
+    ///
+    /// After a direction of negative curvature the exact tangent is left out once: tried at every iteration, most of
+    /// them were assembled in vain.
     fn newton_step(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> Result<f64, Halt> {
         let mut stop = Stop::Indefinite;
-        for kind in [Stiffness::Exact, Stiffness::Definite] {
+        let kinds: &[Stiffness] = match core::mem::take(&mut self.cautious) {
+            true => &[Stiffness::Definite],
+            false => &[Stiffness::Exact, Stiffness::Definite],
+        };
+        for &kind in kinds {
             problem.assemble(&self.current, kind, &mut self.tangent)?;
             let Some(slope) = self.newton_direction(problem, forcing) else {
-                if let Some(entry) = self.tangent.matrix.values().iter().position(|x| !x.is_finite()) {
+                if let Some(entry) = self
+                    .tangent
+                    .matrix
+                    .values()
+                    .iter()
+                    .position(|x| !x.is_finite())
+                {
                     return Err(Halt::NotFinite(Quantity::Stiffness, self.row_of(entry / 9)));
                 }
-                problem.report.negative_curvatures += usize::from(kind == Stiffness::Exact);
+                if kind == Stiffness::Exact {
+                    problem.report.negative_curvatures += 1;
+                    self.cautious = true;
+                }
                 continue;
             };
             if let Some(length) = self.line_search(problem, slope) {
@@ -145,8 +176,15 @@ impl Solver {
     fn newton_direction(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> Option<f64> {
         self.tangent.prepare(problem.report).ok()?;
         let target = linear_target(&self.current, forcing, problem.limit);
-        let Self { current, direction, tangent, .. } = self;
-        tangent.solve(&current.residual, direction, target, problem.report).ok()?;
+        let Self {
+            current,
+            direction,
+            tangent,
+            ..
+        } = self;
+        tangent
+            .solve(&current.residual, direction, target, problem.report)
+            .ok()?;
         for p in direction.iter_mut() {
             *p = -*p;
         }
@@ -167,10 +205,11 @@ impl Solver {
             if self.trial.norm.is_finite() {
                 let start = *start.get_or_insert_with(|| problem.energy(&self.current));
                 let end = problem.energy(&self.trial);
-                let good = if (end - start).abs() <= ENERGY_NOISE * (start.abs() + end.abs()) {
+                let noise = ENERGY_NOISE * (start.abs() + end.abs());
+                let good = if noise.is_finite() && (end - start).abs() <= noise {
                     dot(&self.trial.residual, &self.direction) <= (2.0 * ARMIJO - 1.0) * slope
                 } else {
-                    end <= start + ARMIJO * length * slope
+                    end.is_finite() && end <= start + ARMIJO * length * slope
                 };
                 if good {
                     return Some(self.accept(length));
@@ -186,8 +225,16 @@ impl Solver {
     /// the tangent is worth keeping.
     fn broyden_step(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> bool {
         let target = linear_target(&self.current, forcing, problem.limit);
-        let Self { current, image, tangent, .. } = self;
-        if tangent.solve(&current.residual, image, target, problem.report).is_err() {
+        let Self {
+            current,
+            image,
+            tangent,
+            ..
+        } = self;
+        if tangent
+            .solve(&current.residual, image, target, problem.report)
+            .is_err()
+        {
             return false;
         }
         if !self.turn(1.0, TANGENT_FLOOR) {
@@ -205,7 +252,10 @@ impl Solver {
     /// `direction` to the next one.
     pub(crate) fn turn(&mut self, length: f64, floor: f64) -> bool {
         self.updates.apply(&mut self.image);
-        if !self.updates.learn(&self.direction, length, &self.image, floor) {
+        if !self
+            .updates
+            .learn(&self.direction, length, &self.image, floor)
+        {
             return false;
         }
         self.updates.apply_last(&mut self.image);
@@ -216,7 +266,9 @@ impl Solver {
     }
 
     pub(crate) fn try_step(&mut self, problem: &mut Incremental<'_>, length: f64) {
-        self.trial.deviation.copy_from_slice(&self.current.deviation);
+        self.trial
+            .deviation
+            .copy_from_slice(&self.current.deviation);
         add_scaled(&mut self.trial.deviation, length, &self.direction);
         problem.evaluate(&mut self.trial);
     }

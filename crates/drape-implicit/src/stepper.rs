@@ -58,7 +58,11 @@ impl Formula {
                     reach: (1.0 + ratio) / whole * dt,
                 }
             }
-            _ => Self { current: 1.0, previous: 0.0, reach: dt },
+            _ => Self {
+                current: 1.0,
+                previous: 0.0,
+                reach: dt,
+            },
         }
     }
 }
@@ -123,7 +127,11 @@ impl Stepper {
             } else {
                 origin + dt * (next as f64 / whole as f64)
             };
-            let span = Span { start: motion.time, end, dt: dt / (1_u64 << halvings) as f64 };
+            let span = Span {
+                start: motion.time,
+                end,
+                dt: dt / (1_u64 << halvings) as f64,
+            };
             match self.attempt(system, motion, span, &mut report) {
                 Ok(()) => {
                     report.sub_steps += 1;
@@ -151,7 +159,15 @@ impl Stepper {
         }
         let particles = self.masses.len();
         let agree = |what, expected, found| {
-            if expected == found { Ok(()) } else { Err(Error::Dimension { what, expected, found }) }
+            if expected == found {
+                Ok(())
+            } else {
+                Err(Error::Dimension {
+                    what,
+                    expected,
+                    found,
+                })
+            }
         };
         agree("particles", particles, system.particles())?;
         agree("masses", particles, system.masses().len())?;
@@ -159,23 +175,51 @@ impl Stepper {
         agree("positions", 3 * particles, motion.positions.len())?;
         agree("velocities", 3 * particles, motion.velocities.len())?;
         if let Some(previous) = &motion.previous {
-            agree("previous positions", 3 * particles, previous.positions.len())?;
-            agree("previous velocities", 3 * particles, previous.velocities.len())?;
+            agree(
+                "previous positions",
+                3 * particles,
+                previous.positions.len(),
+            )?;
+            agree(
+                "previous velocities",
+                3 * particles,
+                previous.velocities.len(),
+            )?;
         }
         self.masses.copy_from_slice(system.masses());
-        let bad = self.masses.iter().position(|&mass| !(mass > 0.0 && mass.is_finite()));
+        let bad = self
+            .masses
+            .iter()
+            .position(|&mass| !(mass > 0.0 && mass.is_finite()));
         if let Some(particle) = bad {
-            return Err(Error::Mass { particle, mass: self.masses[particle] });
+            return Err(Error::Mass {
+                particle,
+                mass: self.masses[particle],
+            });
         }
         let start = [
             (Quantity::Position, Some(&motion.positions)),
             (Quantity::Velocity, Some(&motion.velocities)),
-            (Quantity::Position, motion.previous.as_ref().map(|previous| &previous.positions)),
-            (Quantity::Velocity, motion.previous.as_ref().map(|previous| &previous.velocities)),
+            (
+                Quantity::Position,
+                motion.previous.as_ref().map(|previous| &previous.positions),
+            ),
+            (
+                Quantity::Velocity,
+                motion
+                    .previous
+                    .as_ref()
+                    .map(|previous| &previous.velocities),
+            ),
         ];
         for (quantity, values) in start {
             if let Some(particle) = values.and_then(|values| first_not_finite(values)) {
-                return Err(Error::NotFinite { quantity, particle, time: motion.time, dt });
+                return Err(Error::NotFinite {
+                    quantity,
+                    particle,
+                    time: motion.time,
+                    dt,
+                });
             }
         }
         if system.pattern_version() != self.version {
@@ -186,13 +230,17 @@ impl Stepper {
     }
 
     fn first_halvings(&self, motion: &Motion, dt: f64) -> u32 {
-        let Some(previous) = &motion.previous else { return 0 };
+        let Some(previous) = &motion.previous else {
+            return 0;
+        };
         if self.settings.integrator != Integrator::Bdf2 {
             return 0;
         }
         let finest = self.settings.max_halvings;
         let length = |halvings: u32| dt / (1_u64 << halvings) as f64;
-        (0..=finest).find(|&h| grows_gently(length(h), previous)).unwrap_or(finest)
+        (0..=finest)
+            .find(|&h| grows_gently(length(h), previous))
+            .unwrap_or(finest)
     }
 
     fn attempt(
@@ -211,7 +259,10 @@ impl Stepper {
         let limit = self.place(motion, formula, span.dt)?;
         let start = self.settings.energy_balance.then(|| {
             report.potential_evaluations += 1;
-            (self.kinetic(&motion.velocities), system.potential(&motion.positions))
+            (
+                self.kinetic(&motion.velocities),
+                system.potential(&motion.positions),
+            )
         });
 
         let mut problem = Incremental {
@@ -229,11 +280,7 @@ impl Stepper {
             let balance = self.balance(system, motion, formula, start);
             report.potential_evaluations += 1;
             report.force_evaluations += 1;
-            let total = report.energy.get_or_insert_default();
-            total.kinetic += balance.kinetic;
-            total.potential += balance.potential;
-            total.work += balance.work;
-            total.numerical_dissipation += balance.numerical_dissipation;
+            *report.energy.get_or_insert_default() += balance;
         }
         let end = &self.solver.current;
         report.residual = report.residual.max(relative(end.norm, limit));
@@ -253,14 +300,31 @@ impl Stepper {
             }
         };
         let previous = motion.previous.as_ref();
-        combine(&mut self.drift, &motion.positions, previous.map(|p| &p.positions[..]));
-        combine(&mut self.momentum, &motion.velocities, previous.map(|p| &p.velocities[..]));
+        combine(
+            &mut self.drift,
+            &motion.positions,
+            previous.map(|p| &p.positions[..]),
+        );
+        combine(
+            &mut self.momentum,
+            &motion.velocities,
+            previous.map(|p| &p.velocities[..]),
+        );
     }
 
     /// Turns targets into the base of deviations, and sets the first guess and the one to fall back on. Returns the
     /// norm that residuals are relative to, N.
     fn place(&mut self, motion: &Motion, formula: Formula, dt: f64) -> Result<f64, Halt> {
-        let Self { solver, base, drift, momentum, held, inertia, masses, .. } = self;
+        let Self {
+            solver,
+            base,
+            drift,
+            momentum,
+            held,
+            inertia,
+            masses,
+            ..
+        } = self;
         let mut squares = 0.0;
         for (particle, &held) in held.iter().enumerate() {
             let mass = masses[particle];
@@ -325,16 +389,30 @@ impl Stepper {
         }
         let kinetic = self.kinetic(&self.velocities) - kinetic;
         let potential = system.potential(&end.positions) - potential;
-        Energy { kinetic, potential, work, numerical_dissipation: work - kinetic - potential }
+        Energy {
+            kinetic,
+            potential,
+            work,
+            numerical_dissipation: work - kinetic - potential,
+        }
     }
 
     fn failure(&self, halt: Halt, span: Span) -> Error {
         let (time, dt) = (span.start, span.dt);
         match halt {
             Halt::Fatal(error) => error,
-            Halt::NotFinite(quantity, particle) => Error::NotFinite { quantity, particle, time, dt },
+            Halt::NotFinite(quantity, particle) => Error::NotFinite {
+                quantity,
+                particle,
+                time,
+                dt,
+            },
             Halt::Stop(stop) => {
-                let free = self.masses.iter().zip(&self.held).filter(|(_, held)| !**held);
+                let free = self
+                    .masses
+                    .iter()
+                    .zip(&self.held)
+                    .filter(|(_, held)| !**held);
                 let squares: f64 = free.map(|(mass, _)| mass * mass).sum();
                 let unit = self.settings.acceleration * squares.sqrt();
                 Error::NotConverged {
@@ -354,9 +432,13 @@ fn solver_for(system: &dyn System, settings: &Settings) -> Result<Solver, Error>
     let pattern = system.pattern();
     let (expected, found) = (system.particles(), pattern.particles());
     if expected != found {
-        return Err(Error::Dimension { what: "pattern", expected, found });
+        return Err(Error::Dimension {
+            what: "pattern",
+            expected,
+            found,
+        });
     }
-    Ok(Solver::new(Tangent::new(pattern, settings)?))
+    Ok(Solver::new(Tangent::new(pattern, settings)?, settings))
 }
 
 fn relative(norm: f64, unit: f64) -> f64 {

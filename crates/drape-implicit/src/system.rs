@@ -19,8 +19,8 @@ pub enum Stiffness {
 /// alone; only `accept` may change it for good. Velocity-dependent forces use the step's mean velocity, which
 /// is such a function too.
 ///
-/// A trial position may be unphysical, inside an obstacle for instance: a NaN or infinite force or potential
-/// says so and is never accepted.
+/// A trial position may be unphysical, inside an obstacle for instance: a NaN or infinite force says so, and is
+/// never accepted.
 pub trait System {
     /// Number of particles.
     fn particles(&self) -> usize;

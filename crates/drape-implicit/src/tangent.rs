@@ -27,7 +27,11 @@ impl Tangent {
         let length = 3 * pattern.particles();
         let direct = settings.linear_solver == LinearSolver::Cholesky && length > 0;
         Ok(Self {
-            cholesky: if direct { Some(Cholesky::new(&pattern)?) } else { None },
+            cholesky: if direct {
+                Some(Cholesky::new(&pattern)?)
+            } else {
+                None
+            },
             incomplete: None,
             gradient: ConjugateGradient::new(length),
             direct,
@@ -48,7 +52,9 @@ impl Tangent {
 
     fn precondition(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
         let matrix = &self.matrix;
-        let incomplete = self.incomplete.get_or_insert_with(|| Incomplete::new(matrix.pattern()));
+        let incomplete = self
+            .incomplete
+            .get_or_insert_with(|| Incomplete::new(matrix.pattern()));
         report.pivot_shifts += incomplete.factorise(matrix)?;
         Ok(())
     }
@@ -73,7 +79,8 @@ impl Tangent {
         }
         let incomplete = self.incomplete.as_ref().ok_or(NotDefinite)?;
         let (iterations, ending) =
-            self.gradient.solve((&self.matrix, incomplete), x, target, self.limit);
+            self.gradient
+                .solve((&self.matrix, incomplete), x, target, self.limit);
         report.linear_iterations += iterations;
         match ending {
             Ending::Converged => Ok(()),
@@ -87,7 +94,9 @@ impl Tangent {
 
     /// Whether the factorisation gave a solution of the system it was made for.
     fn solve_directly(&mut self, b: &[f64], x: &mut [f64]) -> bool {
-        let Some(cholesky) = &mut self.cholesky else { return false };
+        let Some(cholesky) = &mut self.cholesky else {
+            return false;
+        };
         cholesky.solve(x);
         self.matrix.multiply(x, &mut self.check);
         add_scaled(&mut self.check, -1.0, b);

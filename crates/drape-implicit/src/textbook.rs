@@ -16,11 +16,13 @@ impl Solver {
         settings: &Settings,
         initial: Initial,
     ) -> Result<(), Halt> {
-        let mut diagonal: Vec<f64> = problem.inertia.iter().flat_map(|&m| [m; 3]).collect();
+        self.diagonal.clear();
+        self.diagonal
+            .extend(problem.inertia.iter().flat_map(|&inertia| [inertia; 3]));
         if initial == Initial::Diagonal {
             problem.assemble(&self.current, Stiffness::Exact, &mut self.tangent)?;
             let matrix = &self.tangent.matrix;
-            for (row, own) in diagonal.as_chunks_mut::<3>().0.iter_mut().enumerate() {
+            for (row, own) in self.diagonal.as_chunks_mut::<3>().0.iter_mut().enumerate() {
                 let block = &matrix.blocks()[matrix.pattern().row(row).start];
                 // At least the inertia: a negative stiffness makes no start for a minimisation.
                 for k in 0..3 {
@@ -29,13 +31,13 @@ impl Solver {
             }
         }
         self.updates.forget();
-        self.image_from(&diagonal);
+        self.image_from_diagonal();
         self.descend_from_image();
         while !self.current.solves(problem.limit) {
             self.count(problem, settings)?;
             match self.residual_search(problem) {
                 Some(length) => {
-                    self.image_from(&diagonal);
+                    self.image_from_diagonal();
                     if self.turn(length, BREAKDOWN) {
                         continue;
                     }
@@ -44,14 +46,19 @@ impl Solver {
                 None if self.updates.is_empty() => return Err(Halt::Stop(Stop::LineSearch)),
                 None => self.updates.forget(),
             }
-            self.image_from(&diagonal);
+            self.image_from_diagonal();
             self.descend_from_image();
         }
         Ok(())
     }
 
-    fn image_from(&mut self, diagonal: &[f64]) {
-        for ((z, phi), own) in self.image.iter_mut().zip(&self.current.residual).zip(diagonal) {
+    fn image_from_diagonal(&mut self) {
+        for ((z, phi), own) in self
+            .image
+            .iter_mut()
+            .zip(&self.current.residual)
+            .zip(&self.diagonal)
+        {
             *z = phi / own;
         }
     }

@@ -1,4 +1,5 @@
 //! The crate against mechanics: exact solutions, conservation laws, and systems made to break it.
+#![allow(clippy::unwrap_used)]
 
 mod accuracy;
 mod chains;
