@@ -32,6 +32,8 @@ pub(crate) struct Corner {
     pub(crate) normal: Vector,
     /// Material coordinates, in m.
     pub(crate) coordinates: [f64; 2],
+    /// Whether it lies on a hem of the cloth.
+    pub(crate) on_hem: bool,
 }
 
 /// A small triangle of the picture.
@@ -51,22 +53,46 @@ impl Facet {
     }
 }
 
-/// All facets of a scene, and the centre and half diagonal of those that are no floor.
-pub(crate) fn facets(scene: &Scene) -> (Vec<Facet>, Vector, f64) {
-    let surfaces = scene.cloths.iter().chain(&scene.bodies);
-    let (center, reach) = surround(surfaces.flat_map(|surface| surface.points()));
-    let longest = FINEST * reach;
-    let mut facets = Vec::new();
-    for (k, cloth) in scene.cloths.iter().enumerate() {
-        add_surface(&mut facets, cloth, (Part::Cloth(k), longest));
+/// A scene cut into facets.
+pub(crate) struct Stage {
+    pub(crate) facets: Vec<Facet>,
+    /// Centre and half diagonal of the box around all that is no floor, in m.
+    pub(crate) center: Vector,
+    pub(crate) reach: f64,
+    /// How far bodies step back behind cloth, for the eye and for the light, in m.
+    pub(crate) setback: f64,
+}
+
+impl Stage {
+    pub(crate) fn new(scene: &Scene, setback: f64) -> Stage {
+        let surfaces = scene.cloths.iter().chain(&scene.bodies);
+        let (center, reach) = surround(surfaces.flat_map(|surface| surface.points()));
+        let longest = FINEST * reach;
+        let mut facets = Vec::new();
+        for (k, cloth) in scene.cloths.iter().enumerate() {
+            add_surface(&mut facets, cloth, (Part::Cloth(k), longest));
+        }
+        for (k, body) in scene.bodies.iter().enumerate() {
+            add_surface(&mut facets, body, (Part::Body(k), longest));
+        }
+        if let Some(height) = scene.floor {
+            add_floor(&mut facets, center, FLOOR_REACH * reach, height);
+        }
+        Stage {
+            facets,
+            center,
+            reach,
+            setback,
+        }
     }
-    for (k, body) in scene.bodies.iter().enumerate() {
-        add_surface(&mut facets, body, (Part::Body(k), longest));
+
+    /// How far a part steps back, in m.
+    pub(crate) fn setback(&self, part: Part) -> f64 {
+        match part {
+            Part::Body(_) => self.setback,
+            Part::Cloth(_) | Part::Floor => 0.0,
+        }
     }
-    if let Some(height) = scene.floor {
-        add_floor(&mut facets, center, FLOOR_REACH * reach, height);
-    }
-    (facets, center, reach)
 }
 
 fn add_surface(facets: &mut Vec<Facet>, surface: &Surface, (part, longest): (Part, f64)) {
@@ -83,6 +109,12 @@ fn add_surface(facets: &mut Vec<Facet>, surface: &Surface, (part, longest): (Par
             around[triangle[k] as usize].push(t);
             *sides.entry(edge(triangle, k)).or_insert(0) += 1;
         }
+    }
+    let is_hem = |edge: &(u32, u32)| is_cloth && sides.get(edge) == Some(&1);
+    let mut on_hem = vec![false; around.len()];
+    for (a, b) in sides.keys().filter(|edge| is_hem(edge)) {
+        on_hem[*a as usize] = true;
+        on_hem[*b as usize] = true;
     }
     for (t, triangle) in surface.triangles.iter().enumerate() {
         if norm(areas[t]) == 0.0 {
@@ -108,9 +140,10 @@ fn add_surface(facets: &mut Vec<Facet>, surface: &Surface, (part, longest): (Par
                     own
                 },
                 coordinates,
+                on_hem: on_hem[index],
             }
         });
-        let hems = [0, 1, 2].map(|k| is_cloth && sides.get(&edge(triangle, k)) == Some(&1));
+        let hems = [0, 1, 2].map(|k| is_hem(&edge(triangle, k)));
         split(
             facets,
             Facet {
@@ -152,6 +185,7 @@ fn split(facets: &mut Vec<Facet>, facet: Facet, longest: f64) {
         position: scale(add(one.position, other.position), 0.5),
         normal: unit(add(one.normal, other.normal)),
         coordinates: [0, 1].map(|i| 0.5 * (one.coordinates[i] + other.coordinates[i])),
+        on_hem: facet.hems[k],
     };
     for (replaced, cut) in [(c, b), (b, c)] {
         let mut half = facet.clone();
@@ -169,6 +203,7 @@ fn add_floor(facets: &mut Vec<Facet>, center: Vector, reach: f64, height: f64) {
             position: [center[0] + place(i), height, center[2] + place(j)],
             normal: [0.0, 1.0, 0.0],
             coordinates: [0.0; 2],
+            on_hem: false,
         }
     };
     for i in 0..FLOOR_CELLS {
@@ -187,5 +222,104 @@ fn add_floor(facets: &mut Vec<Facet>, center: Vector, reach: f64, height: f64) {
                 });
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of side 1 and a far larger one beside it, to be split.
+    #[test]
+    fn splitting_keeps_the_area_and_the_hem() {
+        let positions = [
+            0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 4.0, 0.0, 0.0, 4.0, 0.0,
+            1.0,
+        ];
+        let triangles = [[0, 2, 1], [0, 3, 2], [1, 5, 4], [1, 2, 5]];
+        let scene = Scene {
+            cloths: vec![Surface::cloth(&positions, &triangles)],
+            ..Scene::default()
+        };
+        let Stage { facets, reach, .. } = Stage::new(&scene, 0.0);
+        let area: f64 = facets.iter().map(|f| 0.5 * norm(f.area())).sum();
+        assert!((area - 4.0).abs() < 1e-12, "area {area}");
+        let mut hem = 0.0;
+        for facet in &facets {
+            for k in 0..3 {
+                let [a, b] = [1, 2].map(|i| facet.corners[(k + i) % 3]);
+                let length = norm(subtract(a.position, b.position));
+                assert!(length <= FINEST * reach, "an edge of {length}");
+                if facet.hems[k] {
+                    hem += length;
+                    assert!(a.on_hem && b.on_hem, "a hem between corners off the hem");
+                }
+            }
+        }
+        assert!((hem - 10.0).abs() < 1e-12, "hem {hem}");
+    }
+
+    /// Neighbours that cut a common edge differently would leave a corner without a partner.
+    #[test]
+    fn split_neighbours_share_all_corners() {
+        let positions = [
+            0.0, 0.0, 0.0, 1.0, 0.3, 0.0, 0.9, 0.0, 1.1, 0.0, 0.2, 0.8, 0.3, 1.5, 0.4,
+        ];
+        let triangles = [
+            [0, 1, 2],
+            [0, 2, 3],
+            [0, 4, 1],
+            [1, 4, 2],
+            [2, 4, 3],
+            [3, 4, 0],
+        ];
+        let scene = Scene {
+            bodies: vec![Surface::body(&positions, &triangles)],
+            ..Scene::default()
+        };
+        let facets = Stage::new(&scene, 0.0).facets;
+        let mut sides = BTreeMap::new();
+        for facet in &facets {
+            let keys = facet.corners.map(|c| c.position.map(f64::to_bits));
+            for k in 0..3 {
+                let (a, b) = (keys[k], keys[(k + 1) % 3]);
+                *sides.entry((a.min(b), a.max(b))).or_insert(0) += 1;
+            }
+        }
+        let lonely = sides.values().filter(|count| **count != 2).count();
+        assert_eq!(
+            lonely,
+            0,
+            "edges of {} facets without a partner",
+            facets.len()
+        );
+        assert!(facets.len() > 1000, "only {} facets", facets.len());
+    }
+
+    #[test]
+    fn a_cube_keeps_its_edges_and_a_cloth_does_not() {
+        let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        let triangles = [[0, 1, 2], [0, 2, 3]];
+        let normal_at_the_fold = |scene: Scene| {
+            let corners = Stage::new(&scene, 0.0)
+                .facets
+                .into_iter()
+                .flat_map(|f| f.corners);
+            let mut at_origin = corners.filter(|c| c.position == [0.0; 3]);
+            at_origin.next().expect("the first vertex").normal
+        };
+        let surface = Surface::body(&positions, &triangles);
+        let body = normal_at_the_fold(Scene {
+            bodies: vec![surface],
+            ..Scene::default()
+        });
+        let cloth = normal_at_the_fold(Scene {
+            cloths: vec![surface],
+            ..Scene::default()
+        });
+        assert_eq!(body, [0.0, 0.0, 1.0]);
+        let middle = 0.5f64.sqrt();
+        let miss = norm(subtract(cloth, [middle, 0.0, middle]));
+        assert!(miss < 1e-12, "{cloth:?}");
     }
 }

@@ -1,4 +1,4 @@
-use crate::facets::{Facet, Part};
+use crate::facets::{Facet, Part, Stage};
 use crate::triangle::Flat;
 use crate::vector::{Vector, add, dot, frame, scale, subtract};
 use rayon::prelude::*;
@@ -17,7 +17,9 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 /// Distance in texels by which a point is moved out along its normal before it looks for light,
 /// lest its own facet shade it.
-const LIFT: f64 = 1.6;
+///
+/// Over a blur of `n` texels a tilted facet rises by up to the `n`-fold, which comes on top.
+const LIFT: f64 = 1.5;
 
 /// What one distant light sees: the height towards it of the first surface in each texel.
 pub(crate) struct LightMap {
@@ -31,27 +33,23 @@ pub(crate) struct LightMap {
 }
 
 impl LightMap {
-    /// The map of all facets but the floor, which lie within `reach` of the centre.
-    pub(crate) fn new(
-        facets: &[Facet],
-        direction: Vector,
-        (center, reach): (Vector, f64),
-        side: usize,
-    ) -> Self {
+    /// The map of all but the floor.
+    pub(crate) fn new(stage: &Stage, direction: Vector, side: usize) -> LightMap {
         let mut map = LightMap {
             direction,
             axes: frame(scale(direction, -1.0)),
-            center,
-            texel: 2.0 * reach / side as f64,
+            center: stage.center,
+            texel: 2.0 * stage.reach / side as f64,
             side,
             heights: vec![f32::NEG_INFINITY; side * side],
         };
-        for facet in facets.iter().filter(|facet| facet.part != Part::Floor) {
+        let solid = |facet: &&Facet| facet.part != Part::Floor;
+        for facet in stage.facets.iter().filter(solid) {
             let corners = facet.corners.map(|corner| map.place(corner.position));
             let Some(flat) = Flat::new(corners.map(|[x, y, _]| [x, y])) else {
                 continue;
             };
-            let heights = corners.map(|[_, _, height]| height);
+            let heights = corners.map(|[_, _, height]| height - stage.setback(facet.part));
             flat.cover([side, side], |x, y, shares| {
                 let height = (0..3).map(|k| shares[k] * heights[k]).sum::<f64>() as f32;
                 let held = &mut map.heights[y * side + x];
@@ -74,7 +72,8 @@ impl LightMap {
 
     /// Share of the light that reaches a point of a surface, blurred over a square of texels.
     pub(crate) fn reaches(&self, point: Vector, normal: Vector, blur: i64) -> f64 {
-        let [x, y, height] = self.place(add(point, scale(normal, LIFT * self.texel)));
+        let lift = (LIFT + blur as f64) * self.texel;
+        let [x, y, height] = self.place(add(point, scale(normal, lift)));
         let (column, row) = ((x - 0.5).floor(), (y - 0.5).floor());
         let (right, down) = (x - 0.5 - column, y - 0.5 - row);
         let lit = |column: i64, row: i64| -> f64 {
@@ -118,7 +117,7 @@ impl LightMap {
 /// For each facet the light of an even sky at its corners, on its front and on its back.
 ///
 /// 1 is the light of the whole sky on a level surface.
-pub(crate) fn sky(facets: &[Facet], ball: (Vector, f64)) -> Vec<[[f64; 3]; 2]> {
+pub(crate) fn sky(stage: &Stage) -> Vec<[[f64; 3]; 2]> {
     let directions = (0..SKY_DIRECTIONS).into_par_iter();
     let shares: Vec<Vec<[[f64; 3]; 2]>> = directions
         .map(|k| {
@@ -127,11 +126,12 @@ pub(crate) fn sky(facets: &[Facet], ball: (Vector, f64)) -> Vec<[[f64; 3]; 2]> {
             let level = (1.0 - rise * rise).sqrt();
             let (sine, cosine) = (k as f64 * GOLDEN_ANGLE).sin_cos();
             let direction = [level * sine, rise, level * cosine];
-            let map = LightMap::new(facets, direction, ball, SKY_TEXELS);
-            facets.iter().map(|facet| map.share(facet)).collect()
+            let map = LightMap::new(stage, direction, SKY_TEXELS);
+            let facets = stage.facets.iter();
+            facets.map(|facet| map.share(facet)).collect()
         })
         .collect();
-    let mut light = vec![[[0.0; 3]; 2]; facets.len()];
+    let mut light = vec![[[0.0; 3]; 2]; stage.facets.len()];
     for share in &shares {
         for (sum, part) in light
             .as_flattened_mut()
@@ -144,4 +144,73 @@ pub(crate) fn sky(facets: &[Facet], ball: (Vector, f64)) -> Vec<[[f64; 3]; 2]> {
         }
     }
     light
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::facets::Corner;
+
+    fn stage(facets: Vec<Facet>, center: Vector, reach: f64) -> Stage {
+        Stage {
+            facets,
+            center,
+            reach,
+            setback: 0.0,
+        }
+    }
+
+    /// A fan of triangles around the y axis, facing up, as a disc.
+    fn disc(radius: f64, height: f64, pieces: usize) -> Vec<Facet> {
+        let corner = |radius: f64, k: usize| {
+            let (sine, cosine) = (k as f64 * std::f64::consts::TAU / pieces as f64).sin_cos();
+            Corner {
+                position: [radius * sine, height, radius * cosine],
+                normal: [0.0, 1.0, 0.0],
+                coordinates: [0.0; 2],
+                on_hem: false,
+            }
+        };
+        let piece = |k| Facet {
+            part: Part::Body(0),
+            corners: [corner(0.0, 0), corner(radius, k), corner(radius, k + 1)],
+            hems: [false; 3],
+        };
+        (0..pieces).map(piece).collect()
+    }
+
+    #[test]
+    fn the_open_sky_lights_a_level_plate_fully_and_its_underside_not_at_all() {
+        let facets = disc(1.0, 0.0, 40);
+        for [front, back] in sky(&stage(facets, [0.0; 3], 1.5)) {
+            for (front, back) in front.into_iter().zip(back) {
+                assert!((front - 1.0).abs() < 1e-3, "front {front}");
+                assert_eq!(back, 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn a_lid_takes_its_view_factor_of_the_sky() {
+        // A disc of radius R at the height h hides R²/(R² + h²) of the light below its centre.
+        let (radius, height) = (0.5, 0.5);
+        let mut facets = disc(0.1, 0.0, 6);
+        facets.extend(disc(radius, height, 60));
+        let light = sky(&stage(facets, [0.0, 0.25, 0.0], 0.7))[0][0][0];
+        let expected = 1.0 - radius * radius / (radius * radius + height * height);
+        // Of 64 directions some three lie at the rim.
+        assert!((light - expected).abs() < 0.04, "{light}, not {expected}");
+    }
+
+    #[test]
+    fn a_shadow_ends_where_the_ray_past_the_edge_ends() {
+        let facets = disc(0.5, 1.0, 200);
+        let direction = [0.6, 0.8, 0.0];
+        let map = LightMap::new(&stage(facets, [0.0, 1.0, 0.0], 0.8), direction, 1000);
+        // On the level below by 1 the shadow is the disc moved by 0.75 away from the light.
+        for (x, lit) in [(-1.27, 1.0), (-1.23, 0.0), (-0.27, 0.0), (-0.23, 1.0)] {
+            let part = map.reaches([x, 0.0, 0.0], [0.0, 1.0, 0.0], 2);
+            assert_eq!(part, lit, "at {x}");
+        }
+    }
 }

@@ -1,6 +1,6 @@
 use crate::camera::Camera;
 use crate::error::ReportError;
-use crate::facets::{Facet, Part, facets};
+use crate::facets::{Facet, Part, Stage};
 use crate::picture::Picture;
 use crate::scene::Scene;
 use crate::shade::{Shader, encode};
@@ -38,15 +38,17 @@ pub(crate) struct Projected<'a> {
 ///
 /// Cloth is lit from both sides by an even sky and one main light with soft shadows; its front and
 /// its back, its warp lines (blue), its weft lines (red) and its hem differ in colour. The same
-/// input gives the same bytes.
+/// input gives the same bytes, with any number of threads.
+///
+/// The rasteriser is of this crate's own making: no maintained one that works without a graphics
+/// card was to be found.
 pub fn render(scene: &Scene, view: &View) -> Result<Picture, ReportError> {
     let camera = view.camera(scene)?;
-    let (facets, center, reach) = facets(scene);
-    let shader = Shader::new(scene, &facets, (&camera, view), (center, reach));
-    let projected: Vec<Projected> = facets
-        .iter()
-        .enumerate()
-        .filter_map(|(index, facet)| project(index, facet, &camera, view))
+    let stage = Stage::new(scene, view.body_setback);
+    let shader = Shader::new(scene, &stage, &camera, view);
+    let places = 0..stage.facets.len();
+    let projected: Vec<Projected> = places
+        .filter_map(|index| project(&stage, index, &camera))
         .collect();
 
     let height = view.height as usize;
@@ -61,21 +63,18 @@ pub fn render(scene: &Scene, view: &View) -> Result<Picture, ReportError> {
     Ok(Picture::new(view.width, view.height, bands.concat()))
 }
 
-fn project<'a>(
-    index: usize,
-    facet: &'a Facet,
-    camera: &Camera,
-    view: &View,
-) -> Option<Projected<'a>> {
+fn project<'a>(stage: &'a Stage, index: usize, camera: &Camera) -> Option<Projected<'a>> {
+    let facet = &stage.facets[index];
     let places = facet.corners.map(|corner| camera.project(corner.position));
     // The eye is outside of everything that matters; what is behind it is left out whole.
     if places.iter().any(|place| place[2] <= 1e-6) {
         return None;
     }
-    let setback = match facet.part {
-        Part::Cloth(_) => 0.0,
-        Part::Body(_) | Part::Floor => view.body_setback,
-    };
+    if facet.part == Part::Floor && camera.eye()[1] < facet.corners[0].position[1] {
+        // From below the floor would hide all.
+        return None;
+    }
+    let setback = stage.setback(facet.part);
     Some(Projected {
         facet,
         index,

@@ -1,5 +1,5 @@
 use crate::camera::Camera;
-use crate::facets::{FLOOR_REACH, Facet, Part};
+use crate::facets::{FLOOR_REACH, Part, Stage};
 use crate::light::{LightMap, sky};
 use crate::render::Projected;
 use crate::scene::{Colour, Scene, Surface};
@@ -41,7 +41,7 @@ const INK: [Colour; 3] = [[34, 58, 110], [150, 54, 44], [40, 44, 52]];
 /// How far a line covers the cloth below it.
 const INK_COVER: [f64; 3] = [0.72, 0.72, 0.75];
 
-/// Width of a line as a share of the picture's height.
+/// Width of a line as a share of the picture's height; a pixel at least.
 const LINE_WIDTH: f64 = 1.6 / 900.0;
 
 /// A distance of lines in line widths below which they fade into an even tone.
@@ -60,12 +60,7 @@ pub(crate) struct Shader<'a> {
 }
 
 impl<'a> Shader<'a> {
-    pub(crate) fn new(
-        scene: &'a Scene,
-        facets: &[Facet],
-        (camera, view): (&Camera, &View),
-        ball: (Vector, f64),
-    ) -> Shader<'a> {
+    pub(crate) fn new(scene: &'a Scene, stage: &Stage, camera: &Camera, view: &View) -> Shader<'a> {
         let (sine, cosine) = SUN_LEFT.sin_cos();
         // Level directions from the scene to the eye and to the left of it.
         let right = camera.right();
@@ -76,12 +71,12 @@ impl<'a> Shader<'a> {
         Shader {
             scene,
             eye: camera.eye(),
-            sky: sky(facets, ball),
-            sun: LightMap::new(facets, direction, ball, SUN_TEXELS),
-            sun_on_floor: LightMap::new(facets, direction, ball, FLOOR_TEXELS),
-            center: ball.0,
-            reach: ball.1,
-            line_width: LINE_WIDTH * f64::from(view.height),
+            sky: sky(stage),
+            sun: LightMap::new(stage, direction, SUN_TEXELS),
+            sun_on_floor: LightMap::new(stage, direction, FLOOR_TEXELS),
+            center: stage.center,
+            reach: stage.reach,
+            line_width: (LINE_WIDTH * f64::from(view.height)).max(1.0),
         }
     }
 
@@ -163,17 +158,22 @@ impl<'a> Shader<'a> {
                         / surface.line_spacing
                 };
                 let (place, slope) = steep(&along);
-                // Of lines that are too close only the share of ink is left.
+                // Lines that are too close leave their share of ink, within measure.
                 let apart = 1.0 / (slope * self.line_width);
                 let sharp = (apart / LINES_MERGE - 1.0).clamp(0.0, 1.0);
                 let line = cover((place - place.round()).abs() / slope);
-                *ink = sharp * line + (1.0 - sharp) / apart.max(1.0);
+                *ink = sharp * line + (1.0 - sharp) / apart.max(LINES_MERGE);
             }
         }
         for corner in 0..3 {
             if item.facet.hems[corner] {
                 let (share, slope) = steep(&|shares: [f64; 3]| shares[corner]);
                 ink[2] = cover(share / slope - half).max(ink[2]);
+            }
+            if item.facet.corners[corner].on_hem {
+                // A dot closes the line where only a tip of this facet touches the hem.
+                let [cx, cy] = item.flat.corners[corner];
+                ink[2] = cover((x - cx).hypot(y - cy) - half).max(ink[2]);
             }
         }
         [0, 1, 2].map(|k| INK_COVER[k] * ink[k])

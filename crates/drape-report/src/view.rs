@@ -15,7 +15,7 @@ pub struct View {
     pub width: u32,
     /// Height of the picture, in pixels.
     pub height: u32,
-    /// How far behind their true place bodies are drawn where cloth covers them, in m.
+    /// How far bodies step back behind the cloth that covers them, in m.
     ///
     /// The chord between two particles on either side of a convex edge dips below the edge. With
     /// a setback of that depth the edge does not show through the cloth.
