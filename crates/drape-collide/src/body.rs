@@ -67,7 +67,8 @@ impl Body {
 
     /// How a point in m lies to the surface of the body.
     ///
-    /// Exact to rounding for all shapes, inside and outside. A point that is not finite gets an
+    /// Exact to rounding for all shapes, inside and outside; where several points of the surface
+    /// are equally near, the normal is that of one of them. A point that is not finite gets an
     /// answer of NaN throughout. The body is checked each time: for many points use
     /// [`Contact`](crate::Contact).
     pub fn proximity(&self, point: [f64; 3]) -> Result<Proximity, CollideError> {
@@ -183,7 +184,8 @@ impl Solid {
 
     /// The proximity if the distance is below `reach`, else how far off the body surely is.
     pub(crate) fn reach(&self, point: Vector, reach: f64) -> Reach {
-        if let Shape::Mesh(mesh) = &self.shape {
+        let finite = point.iter().all(|value| value.is_finite());
+        if let (Shape::Mesh(mesh), true) = (&self.shape, finite) {
             let bound = mesh.distance_to_box(self.frame.to_local(point));
             if bound >= reach {
                 return Reach::Clear(bound);

@@ -64,7 +64,8 @@ impl Settings {
 /// Only particles are tested: a triangle or a yarn between two particles can cut through a convex
 /// edge of a body by about its length squared over eight radii of the edge.
 ///
-/// A position that is not finite gives forces, a potential and a stiffness of NaN.
+/// A position that is not finite gives NaN for its force, its stiffness and the potential, so that
+/// no solver can take it for a place out of reach.
 #[derive(Debug, Clone)]
 pub struct Contact {
     bodies: Vec<Body>,
@@ -127,7 +128,7 @@ impl Contact {
     ///
     /// # Panics
     ///
-    /// Like all methods that take positions, if there are not three per particle.
+    /// Like all methods that take positions, if there are not three coordinates per particle.
     pub fn begin(&mut self, start: &[f64], dt: f64) {
         self.detect(start);
         self.stick = if dt > 0.0 {

@@ -12,6 +12,9 @@ const SKY_DIRECTIONS: usize = 64;
 /// directions of a light that is soft.
 const SKY_TEXELS: usize = 320;
 
+/// Half of the side of a map as a share of the scene's half diagonal: its border stays empty.
+const MARGIN: f64 = 1.02;
+
 /// Turn from one direction of the sky to the next, in rad, which spreads them evenly.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
@@ -39,7 +42,7 @@ impl LightMap {
             direction,
             axes: frame(scale(direction, -1.0)),
             center: stage.center,
-            texel: 2.0 * stage.reach / side as f64,
+            texel: 2.0 * MARGIN * stage.reach / side as f64,
             side,
             heights: vec![f32::NEG_INFINITY; side * side],
         };
@@ -76,11 +79,11 @@ impl LightMap {
         let [x, y, height] = self.place(add(point, scale(normal, lift)));
         let (column, row) = ((x - 0.5).floor(), (y - 0.5).floor());
         let (right, down) = (x - 0.5 - column, y - 0.5 - row);
+        // Beyond its border the map is as empty as on it.
+        let within = |k: i64| k.clamp(0, self.side as i64 - 1) as usize;
         let lit = |column: i64, row: i64| -> f64 {
-            let side = self.side as i64;
-            let inside = (0..side).contains(&column) && (0..side).contains(&row);
-            let seen = !inside || f64::from(self.heights[(row * side + column) as usize]) <= height;
-            f64::from(u8::from(seen))
+            let seen = self.heights[within(row) * self.side + within(column)];
+            f64::from(u8::from(f64::from(seen) <= height))
         };
         // A box of whole texels, whose borders move with the point: bilinear at both ends.
         let weight = |k: i64, part: f64| match k {

@@ -54,12 +54,22 @@ impl Flat {
         };
         for row in first..last {
             let start = self.shares(left as f64 + 0.5, row as f64 + 0.5);
-            for column in left..right {
-                let way = (column - left) as f64;
-                let shares = [0, 1, 2].map(|k| start[k] + way * step[k]);
-                if shares.iter().all(|share| *share >= -EDGE) {
-                    visit(column, row, shares);
+            // Columns, counted from the left, in which no share is below zero.
+            let (mut from, mut to) = (0.0f64, (right - left) as f64 - 1.0);
+            for k in 0..3 {
+                let zero = -(start[k] + EDGE) / step[k];
+                if step[k] > 0.0 {
+                    from = from.max(zero);
+                } else if step[k] < 0.0 {
+                    to = to.min(zero);
+                } else if start[k] < -EDGE {
+                    to = -1.0;
                 }
+            }
+            // A cast takes care of what is below 0.
+            for way in from.ceil() as usize..(to + 1.0).floor() as usize {
+                let shares = [0, 1, 2].map(|k| start[k] + way as f64 * step[k]);
+                visit(left + way, row, shares);
             }
         }
     }
