@@ -1,1 +1,12 @@
 #![doc = include_str!("../../README.md")]
+
+pub use drape_cloth as cloth;
+pub use drape_collide as collide;
+pub use drape_fabric as fabric;
+pub use drape_fit as fit;
+pub use drape_hysteresis as hysteresis;
+pub use drape_implicit as implicit;
+pub use drape_input as input;
+pub use drape_kes as kes;
+pub use drape_report as report;
+pub use drape_scene as scene;

@@ -69,10 +69,9 @@ impl Bending {
 
     /// Friction moment at a signed curvature and its slope.
     fn friction(&self, memory: &Memory, curvature: f64) -> (f64, f64) {
-        let slip = curvature - memory.position;
-        let friction = &self.law.friction;
-        let [first, second] = friction.advance(memory.friction, slip);
-        (first + second, friction.tangent(memory.friction, slip))
+        self.law
+            .friction
+            .respond(memory.friction, curvature - memory.position)
     }
 
     pub(crate) fn add_forces(

@@ -68,11 +68,12 @@ impl BendingLaw {
 impl Law for BendingLaw {
     fn respond(&self, memory: &Memory, curvature: f64) -> Response {
         let elastic = self.backbone.respond(curvature - self.rest_curvature);
-        let slip = self.slip(memory, curvature);
-        let [fast, slow] = self.friction.advance(memory.friction, slip);
+        let (load, tangent) = self
+            .friction
+            .respond(memory.friction, self.slip(memory, curvature));
         Response {
-            load: elastic.load + fast + slow,
-            tangent: elastic.tangent + self.friction.tangent(memory.friction, slip),
+            load: elastic.load + load,
+            tangent: elastic.tangent + tangent,
         }
     }
 

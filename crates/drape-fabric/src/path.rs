@@ -47,8 +47,7 @@ impl Path {
         let loads = before
             .iter()
             .fold(loads, |loads, slip| friction.advance(loads, *slip));
-        let end = friction.advance(loads, last);
-        (end[0] + end[1], friction.tangent(loads, last))
+        friction.respond(loads, last)
     }
 
     /// Work of the friction over the path.

@@ -72,13 +72,17 @@ impl BlimanSorine {
         ]
     }
 
-    /// Derivative of the total load at the end of a piece with respect to its amount, in load per
-    /// deformation. See [`Dahl::tangent`] for a piece of amount zero.
+    /// Total load at the end of a piece and its derivative with respect to the amount of the piece,
+    /// in the unit of the load and in load per deformation. See [`Dahl::respond`] for a reversal.
     #[must_use]
-    pub fn tangent(&self, loads: Loads, slip: impl Into<Slip>) -> f64 {
+    pub fn respond(&self, loads: Loads, slip: impl Into<Slip>) -> (f64, f64) {
         let slip = slip.into();
         let [first, second] = self.elements;
-        first.tangent(loads[0], slip) + second.tangent(loads[1], slip)
+        let (first, second) = (
+            first.respond(loads[0], slip),
+            second.respond(loads[1], slip),
+        );
+        (first.0 + second.0, first.1 + second.1)
     }
 
     /// Work of the total load over a piece, in load times deformation. See [`Dahl::work`].

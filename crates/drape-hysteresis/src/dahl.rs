@@ -73,19 +73,22 @@ impl Dahl {
         load * kept + plateau * (slip.weight_from * lost + ramp * lag)
     }
 
-    /// Derivative of the load at the end of a piece with respect to its amount, in load per
-    /// deformation.
+    /// Load at the end of a piece and its derivative with respect to the amount of the piece, in the
+    /// unit of the load and in load per deformation.
     ///
     /// At a reversal the derivative has two sides: a piece of amount `+0.0` gives the one for an
     /// increasing deformation, `-0.0` the other.
     #[must_use]
-    pub fn tangent(&self, load: f64, slip: impl Into<Slip>) -> f64 {
+    pub fn respond(&self, load: f64, slip: impl Into<Slip>) -> (f64, f64) {
         let slip = slip.into();
         if self.plateau == 0.0 {
-            return 0.0;
+            return (load, 0.0);
         }
         let end = self.advance(load, slip);
-        (self.plateau * slip.weight_to - slip.amount.signum() * end) / self.length
+        (
+            end,
+            (self.plateau * slip.weight_to - slip.amount.signum() * end) / self.length,
+        )
     }
 
     /// Work of the load over a piece, `$\int F\,\mathrm{d}q$`, in load times deformation.
@@ -224,7 +227,7 @@ mod tests {
                 "{load} {slip:?}: {force}"
             );
             let tangent = slope(&|s| ELEMENT.advance(load, s));
-            let exact = ELEMENT.tangent(load, slip);
+            let exact = ELEMENT.respond(load, slip).1;
             assert!(
                 (tangent - exact).abs() < 1e-7,
                 "{load} {slip:?}: {tangent} against {exact}"
@@ -240,7 +243,7 @@ mod tests {
                 assert!(change.abs() < 1e-6, "{load}: jumped by {change}");
             }
             let stiffness = ELEMENT.presliding_stiffness();
-            let (up, down) = (ELEMENT.tangent(load, 0.0), ELEMENT.tangent(load, -0.0));
+            let (up, down) = (ELEMENT.respond(load, 0.0).1, ELEMENT.respond(load, -0.0).1);
             assert!(
                 (up + down - 2.0 * stiffness).abs() < 1e-12,
                 "{load}: {up} {down}"

@@ -1,0 +1,220 @@
+//! The TOML form of a scene. `SceneFile` mirrors the text; nothing here is checked beyond its type.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SceneFile {
+    pub(crate) name: Option<String>,
+    /// Unit of all lengths of the file: `m`, `cm` or `mm`.
+    pub(crate) length: Option<String>,
+    /// Distance between particles.
+    pub(crate) spacing: Option<f64>,
+    /// In m/s².
+    pub(crate) gravity: Option<[f64; 3]>,
+    pub(crate) air: Option<AirFile>,
+    #[serde(default)]
+    pub(crate) fabric: BTreeMap<String, FabricFile>,
+    #[serde(default)]
+    pub(crate) panel: Vec<PanelFile>,
+    #[serde(default)]
+    pub(crate) pin: Vec<PinFile>,
+    #[serde(default)]
+    pub(crate) collider: ColliderFile,
+    #[serde(default)]
+    pub(crate) contact: ContactFile,
+    pub(crate) time: TimeFile,
+    #[serde(default)]
+    pub(crate) solver: SolverFile,
+    #[serde(default)]
+    pub(crate) output: OutputFile,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AirFile {
+    /// In kg/m³.
+    pub(crate) density: Option<f64>,
+    pub(crate) drag: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FabricFile {
+    pub(crate) file: String,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PanelFile {
+    pub(crate) name: String,
+    pub(crate) fabric: String,
+    /// Weft × warp.
+    pub(crate) rectangle: Option<[f64; 2]>,
+    /// Diameter.
+    pub(crate) disc: Option<f64>,
+    pub(crate) spacing: Option<f64>,
+    /// Where the middle of the panel is.
+    #[serde(default)]
+    pub(crate) center: [f64; 3],
+    /// Turns about the x, y and z axes, one after the other, in degrees.
+    #[serde(default)]
+    pub(crate) turn: [f64; 3],
+    pub(crate) ripple: Option<RippleFile>,
+    pub(crate) noise: Option<NoiseFile>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RippleFile {
+    pub(crate) amplitude: f64,
+    pub(crate) wavelength: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct NoiseFile {
+    pub(crate) amplitude: f64,
+    #[serde(default)]
+    pub(crate) seed: u64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PinFile {
+    pub(crate) panel: String,
+    /// Places on the panel, weft × warp from its lower left corner (a disc's middle).
+    #[serde(default)]
+    pub(crate) points: Vec<[f64; 2]>,
+    /// `top`, `bottom`, `left` or `right`.
+    pub(crate) edge: Option<String>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ColliderFile {
+    #[serde(default)]
+    pub(crate) sphere: Vec<SphereFile>,
+    #[serde(default, rename = "box")]
+    pub(crate) boxes: Vec<BoxFile>,
+    #[serde(default)]
+    pub(crate) cylinder: Vec<CylinderFile>,
+    #[serde(default)]
+    pub(crate) plane: Vec<PlaneFile>,
+    #[serde(default)]
+    pub(crate) mesh: Vec<MeshFile>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SphereFile {
+    pub(crate) name: Option<String>,
+    pub(crate) radius: f64,
+    #[serde(default)]
+    pub(crate) center: [f64; 3],
+    pub(crate) friction: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BoxFile {
+    pub(crate) name: Option<String>,
+    /// Lengths of the sides.
+    pub(crate) size: [f64; 3],
+    #[serde(default)]
+    pub(crate) edge_radius: f64,
+    #[serde(default)]
+    pub(crate) center: [f64; 3],
+    #[serde(default)]
+    pub(crate) turn: [f64; 3],
+    pub(crate) friction: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CylinderFile {
+    pub(crate) name: Option<String>,
+    pub(crate) radius: f64,
+    pub(crate) height: f64,
+    #[serde(default)]
+    pub(crate) edge_radius: f64,
+    #[serde(default)]
+    pub(crate) center: [f64; 3],
+    #[serde(default)]
+    pub(crate) turn: [f64; 3],
+    pub(crate) friction: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlaneFile {
+    pub(crate) name: Option<String>,
+    #[serde(default)]
+    pub(crate) center: [f64; 3],
+    #[serde(default)]
+    pub(crate) turn: [f64; 3],
+    pub(crate) friction: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MeshFile {
+    pub(crate) name: Option<String>,
+    pub(crate) file: String,
+    /// Unit of the file's coordinates, in m.
+    pub(crate) scale: Option<f64>,
+    #[serde(default)]
+    pub(crate) center: [f64; 3],
+    #[serde(default)]
+    pub(crate) turn: [f64; 3],
+    pub(crate) friction: Option<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ContactFile {
+    /// Distance at which contact begins.
+    pub(crate) offset: Option<f64>,
+    /// In N/m³.
+    pub(crate) stiffness: Option<f64>,
+    /// In m/s.
+    pub(crate) slip_speed: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TimeFile {
+    /// In s.
+    pub(crate) step: f64,
+    /// In s.
+    pub(crate) step_max: Option<f64>,
+    /// In s.
+    pub(crate) end: f64,
+    /// In m/s.
+    pub(crate) rest_speed: Option<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SolverFile {
+    /// `bdf2` or `backward-euler`.
+    pub(crate) integrator: Option<String>,
+    /// `broyden`, `newton`, `textbook-mass` or `textbook-diagonal`.
+    pub(crate) method: Option<String>,
+    /// `conjugate-gradient` or `cholesky`.
+    pub(crate) linear: Option<String>,
+    pub(crate) tolerance: Option<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OutputFile {
+    pub(crate) folder: Option<String>,
+    /// Seconds between frames.
+    pub(crate) every: Option<f64>,
+    /// From where the picture is taken, in degrees.
+    pub(crate) azimuth: Option<f64>,
+    pub(crate) elevation: Option<f64>,
+}

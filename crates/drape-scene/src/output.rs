@@ -1,0 +1,107 @@
+use std::fs;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use crate::{Frame, SceneError, Summary};
+
+/// The folder where a run stores its frames and its summary.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Output {
+    folder: PathBuf,
+}
+
+/// File that marks a folder as one of results.
+const SUMMARY: &str = "summary.json";
+
+/// Makes the folder for a run, emptied of the frames of an earlier one if `replace` allows it.
+///
+/// # Errors
+/// When it holds results and `replace` is false, or cannot be made.
+pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, SceneError> {
+    let output = Output {
+        folder: folder.to_owned(),
+    };
+    let fail = |reason| SceneError::Write {
+        path: folder.to_owned(),
+        reason,
+    };
+    if folder.exists() {
+        let frames: Vec<PathBuf> = fs::read_dir(folder)
+            .map_err(fail)?
+            .flatten()
+            .map(|entry| entry.path())
+            .filter(|path| is_result(path))
+            .collect();
+        if !frames.is_empty() && !replace {
+            return Err(SceneError::Occupied {
+                folder: folder.to_owned(),
+            });
+        }
+        for path in frames {
+            fs::remove_file(&path).map_err(|reason| SceneError::Write { path, reason })?;
+        }
+    }
+    fs::create_dir_all(folder).map_err(fail)?;
+    Ok(output)
+}
+
+fn is_result(path: &Path) -> bool {
+    let name = path
+        .file_name()
+        .map(|n| n.to_string_lossy().into_owned())
+        .unwrap_or_default();
+    name == SUMMARY || (name.starts_with("frame-") && name.ends_with(".obj"))
+}
+
+impl Output {
+    /// Path of a file in the folder.
+    #[must_use]
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// Stores a frame as `frame-00012.obj`.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn frame(
+        &self,
+        frame: &Frame,
+        coordinates: &[[f64; 2]],
+        triangles: &[[u32; 3]],
+    ) -> Result<(), SceneError> {
+        let path = self.path(&format!("frame-{:05}.obj", frame.number));
+        self.write(&path, |to| frame.write_obj(coordinates, triangles, to))
+    }
+
+    /// Stores the summary as `summary.json`.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn summary(&self, summary: &Summary) -> Result<(), SceneError> {
+        let path = self.path(SUMMARY);
+        self.write(&path, |mut to| {
+            serde_json::to_writer_pretty(&mut to, summary)?;
+            writeln!(to)
+        })
+    }
+
+    /// Writes to a temporary file first, so that a reader never sees half of one.
+    fn write(
+        &self,
+        path: &Path,
+        content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+    ) -> Result<(), SceneError> {
+        let temporary = path.with_extension("part");
+        let write = || -> std::io::Result<()> {
+            let mut to = BufWriter::new(fs::File::create(&temporary)?);
+            content(&mut to)?;
+            to.into_inner().map_err(|e| e.into_error())?.sync_all()?;
+            fs::rename(&temporary, path)
+        };
+        write().map_err(|reason| SceneError::Write {
+            path: path.to_owned(),
+            reason,
+        })
+    }
+}

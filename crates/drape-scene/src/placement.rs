@@ -1,0 +1,78 @@
+use drape_cloth::Lattice;
+
+use crate::file::{NoiseFile, PanelFile, RippleFile};
+
+/// Where a panel is before the simulation begins, in m.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Placement {
+    pub(crate) center: [f64; 3],
+    pub(crate) turn: [f64; 3],
+    ripple: Option<(f64, f64)>,
+    noise: Option<(f64, u64)>,
+}
+
+impl Placement {
+    pub(crate) fn new(panel: &PanelFile, unit: f64) -> Self {
+        let ripple = |r: &RippleFile| (r.amplitude * unit, r.wavelength * unit);
+        let noise = |n: &NoiseFile| (n.amplitude * unit, n.seed);
+        Self {
+            center: panel.center.map(|x| x * unit),
+            turn: panel.turn,
+            ripple: panel.ripple.as_ref().map(ripple),
+            noise: panel.noise.as_ref().map(noise),
+        }
+    }
+
+    /// Positions of a panel's particles: in the panel's own frame the weft is x, the warp y and the
+    /// right side z; the middle of the panel is turned and brought to the centre.
+    pub(crate) fn positions(&self, lattice: &Lattice) -> Vec<f64> {
+        let bounds = |axis: usize| {
+            let values = lattice.coordinates.iter().map(|c| c[axis]);
+            let low = values.clone().fold(f64::INFINITY, f64::min);
+            (low, values.fold(f64::NEG_INFINITY, f64::max))
+        };
+        let ((u0, u1), (v0, v1)) = (bounds(0), bounds(1));
+        let middle = [0.5 * (u0 + u1), 0.5 * (v0 + v1)];
+        let mut random = Random(self.noise.map_or(0, |(_, seed)| seed));
+        let mut positions = Vec::with_capacity(3 * lattice.coordinates.len());
+        for &[u, v] in &lattice.coordinates {
+            let mut height = 0.0;
+            if let Some((amplitude, wavelength)) = self.ripple {
+                height += amplitude * (std::f64::consts::TAU * (u - u0) / wavelength).sin();
+            }
+            if let Some((amplitude, _)) = self.noise {
+                height += amplitude * random.next();
+            }
+            let turned = turned([u - middle[0], v - middle[1], height], self.turn);
+            positions.extend((0..3).map(|axis| turned[axis] + self.center[axis]));
+        }
+        positions
+    }
+}
+
+/// A point turned about the x, y and z axes, one after the other, by angles in degrees.
+pub(crate) fn turned(point: [f64; 3], degrees: [f64; 3]) -> [f64; 3] {
+    let mut point = point;
+    for (axis, angle) in degrees.into_iter().enumerate() {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+        (point[i], point[j]) = (
+            cos * point[i] - sin * point[j],
+            sin * point[i] + cos * point[j],
+        );
+    }
+    point
+}
+
+/// SplitMix64: the same numbers on every machine, between −1 and 1.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}

@@ -1,0 +1,114 @@
+use serde::Serialize;
+
+/// How a run went: the content of `summary.json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// `ok`, or why the run ended.
+    pub status: Status,
+    /// Version of the program.
+    pub version: String,
+    /// Hash of the scene and its fabrics.
+    pub scene_hash: String,
+    /// Number of particles.
+    pub particles: usize,
+    /// Steps made.
+    pub steps: usize,
+    /// Time reached, in s.
+    pub simulated_seconds: f64,
+    /// Time taken, in s.
+    pub wall_seconds: f64,
+    /// Processor time taken by all threads, in s, where the system tells.
+    pub cpu_seconds: Option<f64>,
+    /// Number of threads.
+    pub threads: usize,
+    /// What the solver did.
+    pub solver: Solver,
+    /// Where the energy is and went.
+    pub energy: Energy,
+    /// How far the cloth is deformed at the end.
+    pub strain: Strain,
+    /// How it touches the bodies at the end.
+    pub contact: Contacts,
+    /// Whether it came to rest by the scene's criterion.
+    pub settled: bool,
+    /// Largest speed of a particle at the end, in m/s.
+    pub speed_max: f64,
+    /// Hash of the final positions, velocities and memories.
+    pub state_hash: String,
+    /// What the scene asks to be measured.
+    pub measures: serde_json::Map<String, serde_json::Value>,
+}
+
+/// Why a run ended.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub enum Status {
+    /// It reached its end, or came to rest.
+    #[serde(rename = "ok")]
+    Ok,
+    /// The end came before the rest that the scene asks for.
+    #[serde(rename = "did not settle")]
+    DidNotSettle,
+    /// A step could not be solved.
+    #[serde(rename = "solver failed")]
+    SolverFailed,
+}
+
+/// Work of the solver.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Solver {
+    /// Mean number of iterations per step.
+    pub iterations_mean: f64,
+    /// Largest number of iterations of a step.
+    pub iterations_max: usize,
+    /// Attempts that were given up for a shorter step.
+    pub rejected_steps: usize,
+    /// Largest residual of an accepted step: rms acceleration error relative to g.
+    pub residual_max: f64,
+    /// Evaluations of all forces.
+    pub force_evaluations: usize,
+    /// Iterations of the linear solver.
+    pub linear_iterations: usize,
+}
+
+/// Energies, in J.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Energy {
+    /// Of motion.
+    pub kinetic: f64,
+    /// Stored in the fabric.
+    pub elastic: f64,
+    /// Of weight, 0 at the start.
+    pub gravity: f64,
+    /// Lost in the fabric's friction.
+    pub friction_dissipated: f64,
+    /// Lost to the air.
+    pub air_dissipated: f64,
+    /// What is left of the balance: lost by the integrator and in the friction with bodies.
+    pub numerical_dissipated: f64,
+    /// Work done by whatever moves held particles.
+    pub work_in: f64,
+}
+
+/// Deformation at the end.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Strain {
+    /// Largest strain of a yarn segment, a ratio.
+    pub traction_max: f64,
+    /// Strain that 99 of 100 segments do not exceed, a ratio.
+    pub traction_p99: f64,
+    /// Largest shear angle, in rad.
+    pub shear_max: f64,
+    /// Curvature that 99 of 100 places do not exceed, in 1/m.
+    pub curvature_p99: f64,
+}
+
+/// Contact with bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Contacts {
+    /// Largest number of particles that touched a body after a step.
+    pub pairs_max: usize,
+    /// Smallest distance of a particle from a body at the end, in m; none where nothing is near.
+    pub min_distance: Option<f64>,
+    /// Particles inside a body at the end.
+    pub intersections: usize,
+}

@@ -1,0 +1,53 @@
+use std::path::PathBuf;
+
+use clap::{Args, Parser};
+
+use crate::failure::Failure;
+use crate::{check, run};
+
+/// From measured fabric to moving cloth.
+#[derive(Parser)]
+#[command(name = "drape", version, propagate_version = true)]
+pub(crate) enum Command {
+    /// Simulates a scene: frames, a picture and summary.json.
+    Run(RunArguments),
+    /// Validates scenes, fabrics and sheets without simulating.
+    Check(CheckArguments),
+}
+
+#[derive(Args)]
+pub(crate) struct RunArguments {
+    /// The scene, a TOML file.
+    pub(crate) scene: PathBuf,
+    /// Folder for the results [default: the scene's, or out/NAME].
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// Number of threads [default: all].
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+    /// Ends the simulation at this time, in seconds.
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) until: Option<f64>,
+    /// Replaces the results of an earlier run.
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Prints the summary as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct CheckArguments {
+    /// Scenes, fabrics or sheets.
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+}
+
+impl Command {
+    pub(crate) fn execute(&self) -> Result<(), Failure> {
+        match self {
+            Self::Run(arguments) => run::run(arguments),
+            Self::Check(arguments) => check::check(arguments),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+use std::process::ExitCode;
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use drape::input::{Diagnostic, Diagnostics};
+use drape::scene::SceneError;
+
+/// Why a command ends early, with its exit code.
+pub(crate) enum Failure {
+    /// Exit code 2: the arguments do not fit together.
+    Usage(String),
+    /// Exit code 3: the input has mistakes.
+    Input(Diagnostics),
+    /// Exit code 5: the solver failed, or the cloth did not settle.
+    Solver(String),
+    /// Exit code 6: a file could not be written.
+    Output(String),
+}
+
+impl Failure {
+    /// Prints the failure and gives its exit code.
+    #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
+    pub(crate) fn report(&self) -> ExitCode {
+        match self {
+            Self::Usage(message) => eprintln!("error: {message}"),
+            Self::Input(mistakes) => mistakes.0.iter().for_each(|m| eprintln!("{}", render(m))),
+            Self::Solver(message) | Self::Output(message) => eprintln!("error: {message}"),
+        }
+        ExitCode::from(match self {
+            Self::Usage(_) => 2,
+            Self::Input(_) => 3,
+            Self::Solver(_) => 5,
+            Self::Output(_) => 6,
+        })
+    }
+}
+
+impl From<Diagnostics> for Failure {
+    fn from(mistakes: Diagnostics) -> Self {
+        Self::Input(mistakes)
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        match error {
+            SceneError::Input(mistakes) => Self::Input(mistakes),
+            SceneError::Occupied { .. } => Self::Usage(error.to_string()),
+            SceneError::Write { .. } => Self::Output(error.to_string()),
+            error => Self::Solver(error.to_string()),
+        }
+    }
+}
+
+/// A mistake with the line of the file it is in.
+fn render(mistake: &Diagnostic) -> String {
+    let path = mistake.file.display().to_string();
+    let source = mistake
+        .span
+        .as_ref()
+        .and_then(|_| std::fs::read_to_string(&mistake.file).ok());
+    let (Some(source), Some(span)) = (source, mistake.span.clone()) else {
+        return format!("error: {mistake}");
+    };
+    let source = source.trim_start_matches('\u{feff}');
+    if source.get(span.clone()).is_none() {
+        return format!("error: {mistake}");
+    }
+    let annotation = AnnotationKind::Primary.span(span);
+    let snippet = Snippet::source(source).path(&path).annotation(annotation);
+    let mut group = Level::ERROR
+        .primary_title(&mistake.message)
+        .element(snippet);
+    if let Some(help) = &mistake.help {
+        group = group.element(Level::HELP.message(help));
+    }
+    Renderer::plain().render(&[group])
+}

@@ -1,0 +1,57 @@
+use std::time::Duration;
+
+use drape::scene::{Frame, Output, Progress, SceneError, Step};
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Shows a run on a terminal and stores its frames.
+pub(crate) struct Screen<'a> {
+    bar: ProgressBar,
+    output: &'a Output,
+    coordinates: Vec<[f64; 2]>,
+    triangles: Vec<[u32; 3]>,
+    pub(crate) last: Option<Frame>,
+}
+
+impl<'a> Screen<'a> {
+    /// A bar on stderr, which stays silent where stderr is not a terminal.
+    pub(crate) fn new(
+        steps: usize,
+        output: &'a Output,
+        (coordinates, triangles): (Vec<[f64; 2]>, Vec<[u32; 3]>),
+    ) -> Self {
+        let bar = ProgressBar::new(steps as u64);
+        let style = "{elapsed_precise} {bar:32} {pos}/{len} steps, {per_sec}, {eta} left  {msg}";
+        bar.set_style(ProgressStyle::with_template(style).expect("the template is right"));
+        bar.enable_steady_tick(Duration::from_millis(250));
+        Self {
+            bar,
+            output,
+            coordinates,
+            triangles,
+            last: None,
+        }
+    }
+
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Progress for Screen<'_> {
+    fn step(&mut self, step: &Step, ticks: usize) {
+        self.bar.set_message(format!(
+            "t {:.3} s, fastest {:.1} mm/s, {} iterations",
+            step.time,
+            1e3 * step.speed_max,
+            step.report.iterations
+        ));
+        self.bar.set_position(ticks as u64);
+    }
+
+    fn frame(&mut self, frame: &Frame) -> Result<(), SceneError> {
+        self.output
+            .frame(frame, &self.coordinates, &self.triangles)?;
+        self.last = Some(frame.clone());
+        Ok(())
+    }
+}

@@ -1,0 +1,111 @@
+use std::path::PathBuf;
+
+use drape::scene::{Scene, Simulation, Status, Summary, prepare_folder};
+
+use crate::command::RunArguments;
+use crate::failure::Failure;
+use crate::picture;
+use crate::progress::Screen;
+
+/// `drape run`.
+#[expect(
+    clippy::print_stdout,
+    reason = "the result of the command goes to stdout"
+)]
+pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    if let Some(threads) = arguments.threads {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global();
+        pool.map_err(|error| Failure::Usage(format!("--threads {threads}: {error}")))?;
+    }
+    let mut scene = Scene::read(&arguments.scene)?;
+    if let Some(end) = arguments.until {
+        if !(end >= scene.clock.step) {
+            let step = scene.clock.step;
+            return Err(Failure::Usage(format!(
+                "--until {end}: a step takes {step} s already"
+            )));
+        }
+        scene.clock.end = end;
+    }
+    let folder = arguments.output.clone().or_else(|| scene.folder.clone());
+    let folder = folder.unwrap_or_else(|| {
+        let name = arguments.scene.file_stem().unwrap_or(scene.name.as_ref());
+        PathBuf::from("out").join(name)
+    });
+    let output = prepare_folder(&folder, arguments.force || arguments.output.is_none())?;
+    let view = scene.view;
+    let mut simulation = Simulation::new(scene)?;
+    let surface = (
+        simulation.coordinates().to_vec(),
+        simulation.triangles().to_vec(),
+    );
+    let mut screen = Screen::new(simulation.ticks_to_do(), &output, surface);
+    let summary = simulation.run(&mut screen);
+    screen.finish();
+    let summary = summary?;
+    output.summary(&summary)?;
+    if let Some(frame) = &screen.last {
+        picture::draw(&simulation, frame, view, &output)?;
+    }
+    if arguments.json {
+        let json = serde_json::to_string_pretty(&summary);
+        println!("{}", json.expect("a summary always has a JSON form"));
+    } else {
+        println!("{}", describe(&summary));
+        println!("results in {}", folder.display());
+    }
+    match summary.status {
+        Status::Ok => Ok(()),
+        Status::DidNotSettle => Err(Failure::Solver(format!(
+            "the cloth did not come to rest in {} s: its fastest particle moves at {:.1} mm/s; \
+             give it more time, or allow a higher rest_speed",
+            summary.simulated_seconds,
+            1e3 * summary.speed_max
+        ))),
+        Status::SolverFailed => Err(Failure::Solver(format!(
+            "the step after {} s could not be solved; the last good state was written",
+            summary.simulated_seconds
+        ))),
+    }
+}
+
+fn describe(summary: &Summary) -> String {
+    let Summary {
+        energy,
+        strain,
+        contact,
+        ..
+    } = summary;
+    let rest = if summary.settled { "at rest" } else { "moving" };
+    let cpu = summary
+        .cpu_seconds
+        .map_or(String::new(), |cpu| format!(", {cpu:.1} s of processor"));
+    let nearest = contact
+        .min_distance
+        .map_or("none near".into(), |d| format!("{:.3} mm", 1e3 * d));
+    format!(
+        "{} particles, {} steps, {:.3} s simulated in {:.1} s{cpu}\n\
+         {rest}, fastest particle {:.2} mm/s\n\
+         strain: largest {:.2} %, 99 of 100 below {:.2} %; shear up to {:.1}°; 99 of 100 curvatures below {:.0} 1/m\n\
+         bodies: nearest particle {nearest}, {} inside\n\
+         energy: elastic {:.4} J, kinetic {:.1e} J, lost in the fabric {:.4} J, to the air {:.4} J, \
+         in the integration and on bodies {:.4} J",
+        summary.particles,
+        summary.steps,
+        summary.simulated_seconds,
+        summary.wall_seconds,
+        1e3 * summary.speed_max,
+        100.0 * strain.traction_max,
+        100.0 * strain.traction_p99,
+        strain.shear_max.to_degrees(),
+        strain.curvature_p99,
+        contact.intersections,
+        energy.elastic,
+        energy.kinetic,
+        energy.friction_dissipated,
+        energy.air_dissipated,
+        energy.numerical_dissipated,
+    )
+}
