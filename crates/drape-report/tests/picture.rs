@@ -295,6 +295,25 @@ fn the_same_scene_gives_the_same_bytes() {
 }
 
 #[test]
+fn a_saved_picture_reads_back_pixel_by_pixel() {
+    let (shape, coordinates) = square(0.5, 0.0, 6);
+    let scene = Scene {
+        cloths: vec![cloth(&shape).with_lines(&coordinates, 0.1)],
+        ..Scene::default()
+    };
+    let picture = render(&scene, &SMALL).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("square.png");
+    picture.save(&path).unwrap();
+    let file = std::io::BufReader::new(std::fs::File::open(&path).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let frame = reader.next_frame(&mut bytes).unwrap();
+    assert_eq!((frame.width, frame.height), (400, 300));
+    assert!(bytes == picture.pixels(), "pixels changed on the way");
+}
+
+#[test]
 fn scenes_that_are_none_are_refused() {
     let (shape, coordinates) = square(0.5, 0.0, 2);
     let refused = |scene: &Scene, view: &View| render(scene, view).expect_err("refused");
