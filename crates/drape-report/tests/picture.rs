@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_report::{Picture, ReportError, Scene, Surface, View, render};
+use drape_report::{Picture, Scene, Surface, View, render};
 use std::f64::consts::{PI, TAU};
 
 type Shape = (Vec<f64>, Vec<[u32; 3]>);
@@ -311,98 +311,4 @@ fn a_saved_picture_reads_back_pixel_by_pixel() {
     let frame = reader.next_frame(&mut bytes).unwrap();
     assert_eq!((frame.width, frame.height), (400, 300));
     assert!(bytes == picture.pixels(), "pixels changed on the way");
-}
-
-#[test]
-fn scenes_that_are_none_are_refused() {
-    let (shape, coordinates) = square(0.5, 0.0, 2);
-    let refused = |scene: &Scene, view: &View| render(scene, view).expect_err("refused");
-    let only = |surface: Surface<'_>| -> ReportError {
-        let scene = Scene {
-            cloths: vec![surface],
-            ..Scene::default()
-        };
-        refused(&scene, &SMALL)
-    };
-    assert_eq!(refused(&Scene::default(), &SMALL), ReportError::EmptyScene);
-    assert_eq!(only(Surface::cloth(&shape.0, &[])), ReportError::EmptyScene);
-    for bad in [f64::NAN, f64::INFINITY, 1e9] {
-        let mut lost = shape.clone();
-        lost.0[7] = bad;
-        let error = only(cloth(&lost));
-        let named = matches!(&error, ReportError::BadCoordinate { vertex: 2, .. });
-        assert!(named, "{error}");
-        let mut lost = coordinates.clone();
-        lost[3] = bad;
-        let error = only(cloth(&shape).with_lines(&lost, 0.1));
-        let named = matches!(&error, ReportError::BadCoordinate { vertex: 1, .. });
-        assert!(named, "{error}");
-    }
-    let error = only(Surface::cloth(&shape.0, &[[0, 1, 9]]));
-    assert!(
-        matches!(error, ReportError::NoSuchVertex { index: 9, .. }),
-        "{error}"
-    );
-    let error = only(Surface::cloth(&shape.0[1..], &shape.1));
-    assert!(
-        matches!(error, ReportError::BadLength { length: 26, .. }),
-        "{error}"
-    );
-    let error = only(cloth(&shape).with_lines(&coordinates[2..], 0.1));
-    assert!(
-        matches!(error, ReportError::BadLength { length: 16, .. }),
-        "{error}"
-    );
-    let error = only(cloth(&shape).with_lines(&coordinates, 0.0));
-    assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
-
-    let scene = Scene {
-        cloths: vec![cloth(&shape)],
-        ..Scene::default()
-    };
-    let views = [
-        View { width: 0, ..SMALL },
-        View {
-            height: 1 << 20,
-            ..SMALL
-        },
-        View {
-            azimuth_deg: f64::NAN,
-            ..SMALL
-        },
-        View {
-            elevation_deg: 91.0,
-            ..SMALL
-        },
-        View {
-            field_deg: 0.0,
-            ..SMALL
-        },
-        View {
-            body_setback: -1.0,
-            ..SMALL
-        },
-    ];
-    for view in views {
-        let error = refused(&scene, &view);
-        assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
-    }
-    let picture = render(&scene, &SMALL).unwrap();
-    let error = picture
-        .save("no/such/folder/picture.png")
-        .expect_err("nowhere");
-    assert!(error.to_string().contains("no/such/folder"), "{error}");
-}
-
-#[test]
-fn a_cloth_of_one_point_or_no_area_does_not_panic() {
-    let scene = |positions: &'static [f64]| Scene {
-        cloths: vec![Surface::cloth(positions, &[[0, 1, 2]])],
-        floor: Some(0.0),
-        ..Scene::default()
-    };
-    for positions in [&[1.0; 9], &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0, 0.0, 0.0]] {
-        let picture = render(&scene(positions), &SMALL).unwrap();
-        assert_eq!(picture.width(), 400);
-    }
 }
