@@ -55,6 +55,9 @@ impl BlockMatrix {
     }
 
     /// Adds to the block of a slot.
+    ///
+    /// # Panics
+    /// If the pattern has no such slot.
     pub fn add_block(&mut self, slot: usize, value: &[f64; 9]) {
         for (entry, value) in self.blocks[slot].iter_mut().zip(value) {
             *entry += value;
@@ -78,7 +81,10 @@ impl BlockMatrix {
         self.stray
     }
 
-    /// `y = A x`, both with three entries per particle.
+    /// `y = A x`.
+    ///
+    /// # Panics
+    /// If one of them has fewer than three entries per particle.
     pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
         y.fill(0.0);
         let x = block::triples(x);

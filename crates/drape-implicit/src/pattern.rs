@@ -103,6 +103,9 @@ impl Pattern {
     }
 
     /// The slots of a row, its diagonal first.
+    ///
+    /// # Panics
+    /// If there is no such row.
     pub fn row(&self, row: usize) -> core::ops::Range<usize> {
         self.offsets[row]..self.offsets[row + 1]
     }

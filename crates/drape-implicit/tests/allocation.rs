@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 // Its other test file uses the rest.
-#[allow(dead_code)]
+#[expect(dead_code)]
 #[path = "physics/springs.rs"]
 mod springs;
 
