@@ -6,7 +6,7 @@ use drape_kes::{Curve, Test};
 use crate::curve_fit::{self, Identified, Named, line};
 use crate::history::along;
 use crate::lm::Parameter;
-use crate::{Error, FrictionOrder};
+use crate::{Error, FrictionOrder, LoopModel};
 
 /// Pre-sliding lengths to start from, over the largest deformation.
 ///
@@ -18,29 +18,50 @@ pub(crate) const RATIO_STARTS: [f64; 2] = [0.1, 0.4];
 /// Slow plateaus to start a second order from, over the fast one.
 pub(crate) const SLOW_STARTS: [f64; 2] = [-0.4, 0.5];
 
-/// Identifies the bending law of one direction from a bending curve, along its whole history.
+/// Identifies the bending law of one direction from a bending curve.
 ///
-/// The zero of the moment is fitted too: it absorbs the offset of the instrument, and the difference
-/// between the two sides of the fabric, which the law does not have.
+/// A line with friction is driven along the whole history. The zero of the moment is fitted too: it absorbs
+/// the offset of the instrument, and the difference between the two sides of the fabric, which the law does
+/// not have. A quadratic and a line is fitted to the first loading branch.
 ///
 /// # Errors
-/// The curve is of another test, or has no load.
-pub fn identify_bending(
-    curve: &Curve,
-    order: FrictionOrder,
-) -> Result<Identified<BendingLaw>, Error> {
+/// The curve is of another test, has no load, or does not rise.
+pub fn identify_bending(curve: &Curve, model: LoopModel) -> Result<Identified<BendingLaw>, Error> {
     curve_fit::expect(curve, Test::Bending)?;
+    match model {
+        LoopModel::Linear(order) => linear(curve, order),
+        LoopModel::Piecewise => {
+            let first = first_branch(curve)?;
+            let law = |p: &[f64]| BendingLaw {
+                backbone: BendingBackbone::Piecewise(piecewise(p)),
+                rest_curvature: 0.0,
+                friction: BlimanSorine::none(),
+            };
+            let fit = curve_fit::fit(&first, &piecewise_starts(&first)?, |p, out| {
+                along(&law(p), first.deformation().iter().copied(), out);
+            });
+            Ok(Identified {
+                law: law(&fit.values()),
+                fit,
+            })
+        }
+    }
+}
+
+fn linear(curve: &Curve, order: FrictionOrder) -> Result<Identified<BendingLaw>, Error> {
     let reach = reach(curve.deformation());
     let slope = mean_slope(curve)?;
     let plateau = half_width(curve, 0.4 * reach);
-    let rigidity = Parameter::new(slope).between(1e-3 * slope, 10.0 * slope);
+    let own = [
+        (
+            "rigidity",
+            Parameter::new(slope).between(1e-3 * slope, 10.0 * slope),
+        ),
+        ("zero", zero(curve)),
+    ];
     let starts: Vec<Vec<Named>> = friction_starts(order, plateau, reach, span(curve))
         .into_iter()
-        .map(|friction| {
-            let mut start = vec![("rigidity", rigidity), ("zero", zero(curve))];
-            start.extend(friction);
-            start
-        })
+        .map(|friction| own.into_iter().chain(friction).collect())
         .collect();
     let law = |p: &[f64]| BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: p[0] },
@@ -57,60 +78,43 @@ pub fn identify_bending(
     })
 }
 
-/// Identifies Breen's quadratic and line from the first loading branch, without friction
-/// [Breen, House & Wozny 1994, §5.1].
-///
-/// # Errors
-/// The curve is of another test, has no load, or does not rise.
-pub fn identify_bending_piecewise(curve: &Curve) -> Result<Identified<BendingLaw>, Error> {
-    curve_fit::expect(curve, Test::Bending)?;
-    let first = first_branch(curve)?;
+/// Parameters of a quadratic and a line: the line through the outer part, and a few knots.
+pub(crate) fn piecewise_starts(first: &Curve) -> Result<Vec<Vec<Named>>, Error> {
     let top = reach(first.deformation());
-    let points = || {
-        first
-            .deformation()
-            .iter()
-            .copied()
-            .zip(first.load().iter().copied())
-    };
-    let outer = line(points().filter(|(q, _)| *q > 0.6 * top));
+    let points = first
+        .deformation()
+        .iter()
+        .copied()
+        .zip(first.load().iter().copied());
+    let outer = line(points.filter(|(q, _)| *q > 0.6 * top));
     let (slope, intercept) = outer
         .filter(|(slope, _)| *slope > 0.0)
-        .ok_or_else(|| falling(curve))?;
-    let load = span(curve);
-    let starts: Vec<Vec<Named>> = [0.1, 0.3, 0.6]
-        .map(|knot| {
-            vec![
-                (
-                    "slope",
-                    Parameter::new(slope).between(1e-3 * slope, 1e3 * slope),
-                ),
-                (
-                    "intercept",
-                    Parameter::new(intercept)
-                        .with_scale(load)
-                        .between(-load, load),
-                ),
-                ("knot", Parameter::new(knot * top).between(1e-3 * top, top)),
-            ]
-        })
-        .into();
-    let law = |p: &[f64]| BendingLaw {
-        backbone: BendingBackbone::Piecewise(Piecewise {
-            slope: p[0],
-            intercept: p[1],
-            knot: p[2],
-        }),
-        rest_curvature: 0.0,
-        friction: BlimanSorine::none(),
+        .ok_or_else(|| falling(first))?;
+    let load = span(first);
+    let start = |knot: f64| {
+        vec![
+            (
+                "slope",
+                Parameter::new(slope).between(1e-3 * slope, 1e3 * slope),
+            ),
+            (
+                "intercept",
+                Parameter::new(intercept)
+                    .with_scale(load)
+                    .between(-load, load),
+            ),
+            ("knot", Parameter::new(knot * top).between(1e-3 * top, top)),
+        ]
     };
-    let fit = curve_fit::fit(&first, &starts, |p, out| {
-        along(&law(p), first.deformation().iter().copied(), out);
-    });
-    Ok(Identified {
-        law: law(&fit.values()),
-        fit,
-    })
+    Ok([0.1, 0.3, 0.6].map(start).into())
+}
+
+pub(crate) fn piecewise(p: &[f64]) -> Piecewise {
+    Piecewise {
+        slope: p[0],
+        intercept: p[1],
+        knot: p[2],
+    }
 }
 
 /// The first branch of a curve, which must rise from near zero.

@@ -38,6 +38,13 @@ pub struct Identified<L> {
     pub fit: CurveFit,
 }
 
+/// Steps that every start is given before the best are chosen.
+///
+/// Enough to leave the start's own neighbourhood, and a small part of a full search.
+const SCOUT_ITERATIONS: usize = 12;
+/// Starts that are searched to the end; more than one because the nearest valley is not always the deepest.
+const FINALISTS: usize = 3;
+
 /// A named parameter of a law.
 pub(crate) type Named = (&'static str, Parameter);
 
@@ -56,20 +63,47 @@ pub(crate) fn fit(
         scale: 1.0 / (high - low),
         predict: &predict,
     };
-    let reports: Vec<Report> = starts
+    let search = |start: &[Named], from: Option<&Report>, iterations: usize| {
+        let mut parameters: Vec<Parameter> = start.iter().map(|(_, p)| *p).collect();
+        if let Some(report) = from {
+            for (parameter, value) in parameters.iter_mut().zip(&report.parameters) {
+                parameter.start = *value;
+            }
+        }
+        lm::minimise(
+            &problem,
+            &parameters,
+            &Settings {
+                iterations,
+                ..Settings::default()
+            },
+        )
+    };
+    let mut scouts: Vec<(usize, Report)> = (0..starts.len())
+        .into_par_iter()
+        .map(|index| (index, search(&starts[index], None, SCOUT_ITERATIONS)))
+        .collect();
+    scouts.sort_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms));
+    let mut evaluations = scouts.iter().map(|(_, report)| report.evaluations).sum();
+    scouts.truncate(FINALISTS);
+    let finals: Vec<(usize, Report)> = scouts
         .par_iter()
-        .map(|start| {
-            let parameters: Vec<Parameter> = start.iter().map(|(_, p)| *p).collect();
-            lm::minimise(&problem, &parameters, &Settings::default())
+        .map(|(index, scout)| {
+            let iterations = Settings::default().iterations;
+            let mut report = search(&starts[*index], Some(scout), iterations);
+            report.iterations += scout.iterations;
+            (*index, report)
         })
         .collect();
-    let evaluations = reports.iter().map(|report| report.evaluations).sum();
-    let best = reports
+    evaluations += finals
+        .iter()
+        .map(|(_, report)| report.evaluations)
+        .sum::<usize>();
+    let (index, report) = finals
         .into_iter()
-        .enumerate()
         .min_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms))
         .expect("every law gives at least one start");
-    let (start, report) = (&starts[best.0], best.1);
+    let start = &starts[index];
     let mut load = vec![0.0; curve.load().len()];
     predict(&report.parameters, &mut load);
     let names = start.iter().map(|(name, _)| *name);

@@ -46,17 +46,15 @@ pub enum Error {
         /// The shortening needed, in percent.
         needed: f64,
     },
-    /// A tensile curve is rounder, or less round, than any law here: check LT, or WT and EM.
+    /// No law has these tensile values: check LT, RT, WT and EM.
     #[error(
-        "a linearity LT of {linearity:.3} is outside what a tensile curve can have, {low} to {high}; check LT, or WT and EM"
+        "no fabric has a linearity LT of {linearity:.3} with a resilience RT of {resilience:.3}; check LT, RT, WT and EM"
     )]
-    Linearity {
-        /// The linearity asked for, a ratio.
+    Unreachable {
+        /// LT asked for, a ratio.
         linearity: f64,
-        /// The lowest that is possible.
-        low: f64,
-        /// The highest that is possible.
-        high: f64,
+        /// RT asked for, a ratio.
+        resilience: f64,
     },
     /// The numbers found are not those of a fabric: check the sheet's units.
     #[error("the fabric identified has {key} that {message}; check the sheet ({help})")]

@@ -13,10 +13,18 @@ use crate::lm::Parameter;
 
 /// Toe ratios to start from: a deep toe, and a shallow one.
 const TOE_RATIO_STARTS: [f64; 2] = [0.55, 0.8];
+/// Toes to start from, over the largest strain.
+const TOE_STARTS: [f64; 3] = [0.2, 0.5, 1.0];
 /// Pre-sliding lengths to start from, over the largest strain.
 const LENGTH_STARTS: [f64; 2] = [0.02, 0.15];
 /// Part of the load range by which a slack strip's load has begun to rise.
 const SLACK_LOAD: f64 = 0.02;
+
+/// Misfit with a toe that moves over misfit with one that does not, below which the motion is believed.
+///
+/// The motion is one more parameter: it lowers the misfit of pure noise by about one part in as many as there
+/// are points, some hundred.
+const MOVING_TOE: f64 = 0.98;
 
 /// Which elastic load a tensile curve is fitted with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,7 +40,8 @@ pub enum TractionModel {
 ///
 /// Of a strip that hung slack, the strain at which it becomes taut and the zero of the force are fitted too.
 /// A curve that never turns back says nothing of friction, nor of how the fabric changes once it has been
-/// stretched: the law then has no friction, and a toe that does not move.
+/// stretched: the law then has no friction, and a toe that does not move. The toe does not move either where
+/// its motion hardly improves the fit, as when the whole curve lies within the toe.
 ///
 /// # Errors
 /// The curve is of another test, has no load, or does not rise.
@@ -42,63 +51,95 @@ pub fn identify_tensile(
 ) -> Result<Identified<TractionLaw>, Error> {
     curve_fit::expect(curve, Test::Tensile)?;
     let guess = Guess::new(curve)?;
-    let starts = guess.starts(model);
-    let (slack, recovers) = (curve.slack, guess.recovers);
-    let split = if slack { 2 } else { 0 };
-    let fit = curve_fit::fit(curve, &starts, |p, out| {
-        let law = law(model, recovers, &p[split..]);
-        let strains = curve.deformation().iter();
-        if slack {
-            along_slack(&law, strains.map(|strain| strain - p[0]), out);
-            out.iter_mut().for_each(|load| *load += p[1]);
-        } else {
-            along(&law, strains.copied(), out);
-        }
-    });
-    Ok(Identified {
-        law: law(model, recovers, &fit.values()[split..]),
-        fit,
-    })
+    let form = Form {
+        model,
+        slack: curve.slack,
+        recovers: guess.recovers,
+        moves: false,
+    };
+    let fixed = form.identify(curve, &guess);
+    if model == TractionModel::Polynomial || !guess.recovers {
+        return Ok(fixed);
+    }
+    let moving = Form {
+        moves: true,
+        ..form
+    }
+    .identify(curve, &guess);
+    let better = moving.fit.misfit < MOVING_TOE * fixed.fit.misfit;
+    Ok(if better { moving } else { fixed })
 }
 
-/// The law with the parameters of [`Guess::starts`], the zeros of strain and force left out.
-fn law(model: TractionModel, recovers: bool, p: &[f64]) -> TractionLaw {
-    let (backbone, rest) = match model {
-        TractionModel::Primed => {
-            let after = if recovers { p[3] } else { 1.0 };
-            let primed = Primed {
-                stiffness: p[0],
-                toe_ratio: p[1],
-                toe_strain: p[2],
-                toe_strain_after: p[2] * after,
-            };
-            (
-                TractionBackbone::Primed(primed),
-                &p[if recovers { 4 } else { 3 }..],
-            )
+/// Which parameters a tensile fit has.
+#[derive(Clone, Copy)]
+struct Form {
+    model: TractionModel,
+    /// Whether the zeros of strain and force are fitted.
+    slack: bool,
+    /// Whether there is a way back, hence friction.
+    recovers: bool,
+    /// Whether the toe moves once the fabric has been stretched.
+    moves: bool,
+}
+
+impl Form {
+    fn identify(&self, curve: &Curve, guess: &Guess) -> Identified<TractionLaw> {
+        let fit = curve_fit::fit(curve, &guess.starts(self), |p, out| {
+            let (zeros, law) = self.law(p);
+            let strains = curve.deformation().iter();
+            match zeros {
+                Some([strain, load]) => {
+                    along_slack(&law, strains.map(|measured| measured - strain), out);
+                    out.iter_mut().for_each(|value| *value += load);
+                }
+                None => along(&law, strains.copied(), out),
+            }
+        });
+        Identified {
+            law: self.law(&fit.values()).1,
+            fit,
         }
-        TractionModel::Polynomial => {
-            let polynomial = Polynomial {
-                quadratic: p[0],
-                quartic: p[1],
-            };
-            (TractionBackbone::Polynomial(polynomial), &p[2..])
-        }
-    };
-    let friction = match *rest {
-        [plateau, length] => BlimanSorine::first_order(plateau, length),
-        _ => BlimanSorine::none(),
-    };
-    TractionLaw {
-        backbone,
-        friction,
-        buckling: Buckling::default(),
+    }
+
+    /// The zeros of strain and load, and the law, with the parameters of [`Guess::starts`].
+    fn law(&self, p: &[f64]) -> (Option<[f64; 2]>, TractionLaw) {
+        let mut p = p.iter().copied();
+        let mut next = || p.next().expect("as many parameters as the starts have");
+        let zeros = self.slack.then(|| [next(), next()]);
+        let backbone = match self.model {
+            TractionModel::Primed => {
+                let (stiffness, toe_ratio, toe_strain) = (next(), next(), next());
+                let growth = if self.moves { next() } else { 1.0 };
+                let toe_strain_after = growth * toe_strain;
+                TractionBackbone::Primed(Primed {
+                    stiffness,
+                    toe_ratio,
+                    toe_strain,
+                    toe_strain_after,
+                })
+            }
+            TractionModel::Polynomial => TractionBackbone::Polynomial(Polynomial {
+                quadratic: next(),
+                quartic: next(),
+            }),
+        };
+        let friction = match self.recovers {
+            true => BlimanSorine::first_order(next(), next()),
+            false => BlimanSorine::none(),
+        };
+        (
+            zeros,
+            TractionLaw {
+                backbone,
+                friction,
+                buckling: Buckling::default(),
+            },
+        )
     }
 }
 
 /// What the curve itself says before any search.
 struct Guess {
-    slack: bool,
     /// Whether the curve turns back.
     recovers: bool,
     /// Strain and load where the strip becomes taut.
@@ -153,7 +194,6 @@ impl Guess {
         };
         let recovers = branches.len() > 1;
         Ok(Self {
-            slack: curve.slack,
             recovers,
             zero,
             top,
@@ -162,36 +202,27 @@ impl Guess {
         })
     }
 
-    fn starts(&self, model: TractionModel) -> Vec<Vec<Named>> {
-        let backbones: Vec<Vec<Named>> = match model {
+    fn starts(&self, form: &Form) -> Vec<Vec<Named>> {
+        let backbones: Vec<Vec<Named>> = match form.model {
             TractionModel::Primed => TOE_RATIO_STARTS
-                .map(|toe_ratio| self.primed(toe_ratio))
-                .into(),
+                .iter()
+                .flat_map(|&ratio| TOE_STARTS.map(|toe| self.primed(ratio, toe, form.moves)))
+                .collect(),
             TractionModel::Polynomial => vec![self.polynomial()],
         };
-        let lengths: &[f64] = if self.recovers {
-            &LENGTH_STARTS
-        } else {
-            &LENGTH_STARTS[..1]
+        let frictions: Vec<Vec<Named>> = match form.recovers {
+            true => LENGTH_STARTS.map(|length| self.friction(length)).into(),
+            false => vec![Vec::new()],
         };
-        let mut starts = Vec::new();
-        for backbone in &backbones {
-            for length in lengths {
-                let mut start = self.zeros();
-                start.extend(backbone.iter().copied());
-                if self.recovers {
-                    start.extend(self.friction(*length));
-                }
-                starts.push(start);
-            }
-        }
-        starts
+        let zeros = if form.slack { self.zeros() } else { Vec::new() };
+        let starts = backbones.iter().flat_map(|backbone| {
+            let start = |friction| [&zeros, backbone, friction].map(Clone::clone).concat();
+            frictions.iter().map(start)
+        });
+        starts.collect()
     }
 
     fn zeros(&self) -> Vec<Named> {
-        if !self.slack {
-            return Vec::new();
-        }
         let ((strain, load), (top_strain, top_load)) = (self.zero, self.top);
         let around = |value: f64, half: f64| {
             Parameter::new(value)
@@ -204,11 +235,10 @@ impl Guess {
         ]
     }
 
-    /// The line through the upper part meets the axis at (1 − r)ε₁.
-    fn primed(&self, toe_ratio: f64) -> Vec<Named> {
-        let (strain, load) = self.top;
-        let meets = (strain - load / self.stiffness).clamp(0.0, strain);
-        let toe = (meets / (1.0 - toe_ratio)).clamp(0.05 * strain, 0.9 * strain);
+    /// With a given toe ratio, and a toe that is a given part of the largest strain.
+    fn primed(&self, toe_ratio: f64, toe: f64, moves: bool) -> Vec<Named> {
+        let (strain, _) = self.top;
+        let toe = toe * strain;
         let k = self.stiffness;
         let mut start = vec![
             ("stiffness", Parameter::new(k).between(1e-2 * k, 1e2 * k)),
@@ -221,7 +251,7 @@ impl Guess {
                 Parameter::new(toe).between(1e-3 * strain, 2.0 * strain),
             ),
         ];
-        if self.recovers {
+        if moves {
             start.push(("toe_growth", Parameter::new(1.2).between(1.0, 2.0)));
         }
         start

@@ -3,13 +3,15 @@
 //! The fabrics are random within the ranges of real ones, and the search starts from what it sees in the
 //! curve, never from the truth.
 
+#![allow(clippy::print_stdout)]
+
 use drape_fabric::{
     BendingBackbone, BendingLaw, BlimanSorine, Buckling, Law, Piecewise, Polynomial, Primed,
     ShearBackbone, ShearLaw, TractionBackbone, TractionLaw, drive,
 };
 use drape_fit::{
-    FrictionOrder, Identified, TractionModel, identify_bending, identify_bending_piecewise,
-    identify_shear, identify_tensile,
+    FrictionOrder, Identified, LoopModel, TractionModel, identify_bending, identify_shear,
+    identify_tensile,
 };
 use drape_kes::{Curve, Direction, Test};
 
@@ -225,7 +227,7 @@ fn a_bending_law_with_first_order_friction_is_recovered() {
         let truth = vec![rigidity, zero, plateau, length];
         (
             truth,
-            identify_bending(&curve, FrictionOrder::First).expect("identified"),
+            identify_bending(&curve, LoopModel::Linear(FrictionOrder::First)).expect("identified"),
         )
     });
 }
@@ -247,7 +249,7 @@ fn a_bending_law_with_second_order_friction_is_recovered() {
         let truth = vec![rigidity, zero, plateau, length, slow, ratio];
         (
             truth,
-            identify_bending(&curve, FrictionOrder::Second).expect("identified"),
+            identify_bending(&curve, LoopModel::Linear(FrictionOrder::Second)).expect("identified"),
         )
     });
 }
@@ -269,7 +271,7 @@ fn breens_quadratic_and_line_are_recovered_from_the_first_branch() {
         let curve = curve(Test::Bending, &law, bending_history(), 0.0);
         (
             vec![slope, plateau, knot],
-            identify_bending_piecewise(&curve).expect("identified"),
+            identify_bending(&curve, LoopModel::Piecewise).expect("identified"),
         )
     });
 }
@@ -307,7 +309,7 @@ fn a_shear_law_with_a_growing_plateau_is_recovered() {
         let (truth, curve) = shear(random, true);
         (
             truth,
-            identify_shear(&curve, FrictionOrder::First).expect("identified"),
+            identify_shear(&curve, LoopModel::Linear(FrictionOrder::First)).expect("identified"),
         )
     });
 }
@@ -318,7 +320,7 @@ fn a_shear_law_with_a_constant_plateau_is_recovered() {
         let (truth, curve) = shear(random, false);
         (
             truth,
-            identify_shear(&curve, FrictionOrder::First).expect("identified"),
+            identify_shear(&curve, LoopModel::Linear(FrictionOrder::First)).expect("identified"),
         )
     });
 }
