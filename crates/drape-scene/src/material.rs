@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 
 use drape_fabric::Fabric;
 use drape_input::{Diagnostic, Diagnostics, Document};
+use drape_kes::Sheet;
 
 /// A fabric of a scene and where it comes from.
 #[derive(Debug, Clone)]
@@ -13,29 +14,23 @@ pub struct Material {
     /// What the simulation uses.
     pub fabric: Fabric,
     /// The identification, if the file was a sheet of measurements.
-    pub fit: Option<()>,
+    pub fit: Option<drape_fit::Fit>,
 }
 
 impl Material {
     /// Reads a `fabric.toml`, or a `sheet.toml` (or its folder), which is fitted on the way.
     pub(crate) fn read(name: &str, path: &Path) -> Result<Self, Diagnostics> {
-        let file = if path.is_dir() {
-            path.join("sheet.toml")
-        } else {
-            path.to_owned()
-        };
+        let file = if path.is_dir() { path.join("sheet.toml") } else { path.to_owned() };
         let document = Document::read(&file)?;
         let (fabric, fit) = if is_fabric(&document) {
             (Fabric::from_document(&document)?, None)
         } else {
-            return Err(Diagnostic::new(&file, "sheets come later").into());
+            let sheet = Sheet::read(&file).map_err(|error| located(&file, error))?;
+            let fit = drape_fit::identify(&sheet)
+                .map_err(|error| Diagnostics::from(Diagnostic::new(&file, error.to_string())))?;
+            (fit.fabric.clone(), Some(fit))
         };
-        Ok(Self {
-            name: name.to_owned(),
-            file,
-            fabric,
-            fit,
-        })
+        Ok(Self { name: name.to_owned(), file, fabric, fit })
     }
 }
 
@@ -43,4 +38,11 @@ impl Material {
 fn is_fabric(document: &Document) -> bool {
     let table: Result<toml::Table, _> = document.decode();
     table.is_ok_and(|t| t.contains_key("density") || t.contains_key("shear"))
+}
+
+fn located(file: &Path, error: drape_kes::Error) -> Diagnostics {
+    match error {
+        drape_kes::Error::Input(diagnostics) => diagnostics,
+        other => Diagnostic::new(file, other.to_string()).into(),
+    }
 }
