@@ -37,13 +37,13 @@ pub fn identify_bending(curve: &Curve, model: LoopModel) -> Result<Identified<Be
                 rest_curvature: 0.0,
                 friction: BlimanSorine::none(),
             };
-            let fit = curve_fit::fit(&first, &piecewise_starts(&first)?, |p, out| {
+            let mut fit = curve_fit::fit(&first, &piecewise_starts(&first)?, |p, out| {
                 along(&law(p), first.deformation().iter().copied(), out);
             });
-            Ok(Identified {
-                law: law(&fit.values()),
-                fit,
-            })
+            let law = law(&fit.values());
+            fit.load.resize(curve.load().len(), 0.0);
+            along(&law, curve.deformation().iter().copied(), &mut fit.load);
+            Ok(Identified { law, fit })
         }
     }
 }

@@ -48,10 +48,66 @@ const FINALISTS: usize = 3;
 /// A named parameter of a law.
 pub(crate) type Named = (&'static str, Parameter);
 
-/// Finds the parameters with which `predict` comes nearest to the curve's loads, over several starts.
+/// The best end of a search from several starts.
+pub(crate) struct Found {
+    pub(crate) parameters: Vec<(&'static str, f64)>,
+    pub(crate) report: Report,
+    /// Evaluations over all starts.
+    pub(crate) evaluations: usize,
+}
+
+/// Searches from every start a little way, and from the best of them to the end.
 ///
 /// The starts run side by side; the first of equally good ones is taken, so the number of threads does not
 /// matter.
+pub(crate) fn search(problem: &(impl lm::Problem + Sync), starts: &[Vec<Named>]) -> Found {
+    let minimise = |start: &[Named], from: Option<&Report>, iterations: usize| {
+        let mut parameters: Vec<Parameter> = start.iter().map(|(_, p)| *p).collect();
+        if let Some(report) = from {
+            for (parameter, value) in parameters.iter_mut().zip(&report.parameters) {
+                parameter.start = *value;
+            }
+        }
+        lm::minimise(
+            problem,
+            &parameters,
+            &Settings {
+                iterations,
+                ..Settings::default()
+            },
+        )
+    };
+    let mut scouts: Vec<(usize, Report)> = (0..starts.len())
+        .into_par_iter()
+        .map(|index| (index, minimise(&starts[index], None, SCOUT_ITERATIONS)))
+        .collect();
+    scouts.sort_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms));
+    let scouted: usize = scouts.iter().map(|(_, report)| report.evaluations).sum();
+    scouts.truncate(FINALISTS);
+    let finals: Vec<(usize, Report)> = scouts
+        .par_iter()
+        .map(|(index, scout)| {
+            let iterations = Settings::default().iterations;
+            let mut report = minimise(&starts[*index], Some(scout), iterations);
+            report.iterations += scout.iterations;
+            (*index, report)
+        })
+        .collect();
+    let searched: usize = finals.iter().map(|(_, report)| report.evaluations).sum();
+    let (index, report) = finals
+        .into_iter()
+        .min_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms))
+        .expect("every law gives at least one start");
+    let names = starts[index].iter().map(|(name, _)| *name);
+    let parameters = names.zip(report.parameters.iter().copied()).collect();
+    Found {
+        parameters,
+        report,
+        evaluations: scouted + searched,
+    }
+}
+
+/// Finds the parameters with which `predict` comes nearest to the curve's loads.
 pub(crate) fn fit(
     curve: &Curve,
     starts: &[Vec<Named>],
@@ -63,64 +119,27 @@ pub(crate) fn fit(
         scale: 1.0 / (high - low),
         predict: &predict,
     };
-    let search = |start: &[Named], from: Option<&Report>, iterations: usize| {
-        let mut parameters: Vec<Parameter> = start.iter().map(|(_, p)| *p).collect();
-        if let Some(report) = from {
-            for (parameter, value) in parameters.iter_mut().zip(&report.parameters) {
-                parameter.start = *value;
-            }
-        }
-        lm::minimise(
-            &problem,
-            &parameters,
-            &Settings {
-                iterations,
-                ..Settings::default()
-            },
-        )
-    };
-    let mut scouts: Vec<(usize, Report)> = (0..starts.len())
-        .into_par_iter()
-        .map(|index| (index, search(&starts[index], None, SCOUT_ITERATIONS)))
-        .collect();
-    scouts.sort_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms));
-    let mut evaluations = scouts.iter().map(|(_, report)| report.evaluations).sum();
-    scouts.truncate(FINALISTS);
-    let finals: Vec<(usize, Report)> = scouts
-        .par_iter()
-        .map(|(index, scout)| {
-            let iterations = Settings::default().iterations;
-            let mut report = search(&starts[*index], Some(scout), iterations);
-            report.iterations += scout.iterations;
-            (*index, report)
-        })
-        .collect();
-    evaluations += finals
-        .iter()
-        .map(|(_, report)| report.evaluations)
-        .sum::<usize>();
-    let (index, report) = finals
-        .into_iter()
-        .min_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms))
-        .expect("every law gives at least one start");
-    let start = &starts[index];
+    let found = search(&problem, starts);
     let mut load = vec![0.0; curve.load().len()];
-    predict(&report.parameters, &mut load);
-    let names = start.iter().map(|(name, _)| *name);
-    CurveFit {
-        name: curve.name.clone(),
-        test: curve.test,
-        direction: curve.direction,
-        misfit: report.rms,
-        iterations: report.iterations,
-        evaluations,
-        stop: report.stop,
-        parameters: names.zip(report.parameters).collect(),
-        load,
-    }
+    predict(&found.report.parameters, &mut load);
+    CurveFit::new(curve, found.report.rms, found, load)
 }
 
 impl CurveFit {
+    pub(crate) fn new(curve: &Curve, misfit: f64, found: Found, load: Vec<f64>) -> Self {
+        Self {
+            name: curve.name.clone(),
+            test: curve.test,
+            direction: curve.direction,
+            misfit,
+            iterations: found.report.iterations,
+            evaluations: found.evaluations,
+            stop: found.report.stop,
+            parameters: found.parameters,
+            load,
+        }
+    }
+
     pub(crate) fn values(&self) -> Vec<f64> {
         self.parameters.iter().map(|(_, value)| *value).collect()
     }

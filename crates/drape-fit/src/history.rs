@@ -1,6 +1,6 @@
 //! A law driven along a measured history.
 
-use drape_fabric::{Law, TractionLaw};
+use drape_fabric::{Law, Memory, TractionLaw};
 
 /// Halvings when looking for the strain at which a strip goes slack: as many as a double has bits to give.
 const HALVINGS: usize = 60;
@@ -22,24 +22,35 @@ pub(crate) fn along(law: &impl Law, history: impl Iterator<Item = f64>, out: &mu
 /// keeps the strain at which its load vanished, and takes up load again once the clamps pass that strain.
 pub(crate) fn along_slack(law: &TractionLaw, clamps: impl Iterator<Item = f64>, out: &mut [f64]) {
     let mut memory = law.virgin();
+    let mut sags = false;
     for (load, strain) in out.iter_mut().zip(clamps) {
-        *load = law.respond(&memory, strain).load;
-        let mut reached = strain;
-        if *load < 0.0 {
-            *load = 0.0;
-            let (mut slack, mut taut) = (strain, memory.position);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (slack + taut);
-                if law.respond(&memory, middle).load < 0.0 {
-                    slack = middle;
-                } else {
-                    taut = middle;
-                }
-            }
-            reached = taut;
+        *load = 0.0;
+        if sags && strain <= memory.position {
+            continue;
         }
-        memory = law.commit(&memory, reached);
+        *load = law.respond(&memory, strain).load;
+        sags = *load < 0.0;
+        if sags {
+            *load = 0.0;
+            memory = law.commit(&memory, vanishing(law, &memory, strain));
+        } else {
+            memory = law.commit(&memory, strain);
+        }
     }
+}
+
+/// The strain at which the load vanishes, between the remembered one and a lower one with a negative load.
+fn vanishing(law: &TractionLaw, memory: &Memory, strain: f64) -> f64 {
+    let (mut slack, mut taut) = (strain, memory.position);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (slack + taut);
+        if law.respond(memory, middle).load < 0.0 {
+            slack = middle;
+        } else {
+            taut = middle;
+        }
+    }
+    taut
 }
 
 #[cfg(test)]

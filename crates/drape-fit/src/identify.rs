@@ -2,7 +2,7 @@
 
 use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
 use drape_fabric::{BendingLaw, ShearLaw, TractionLaw};
-use drape_kes::{BendingPoints, Curve, Direction, ShearPoints, Sheet, Test, Values};
+use drape_kes::{Curve, Direction, ShearPoints, Sheet, Test, Values};
 use rayon::prelude::*;
 
 use crate::from_values::{
@@ -29,8 +29,6 @@ pub struct Settings {
     pub bending: LoopModel,
     /// The shear law.
     pub shear: LoopModel,
-    /// Where the sheet's B and 2HB were read.
-    pub bending_points: BendingPoints,
     /// Where the sheet's G, 2HG and 2HG5 were read.
     pub shear_points: ShearPoints,
 }
@@ -40,7 +38,8 @@ pub struct Settings {
 pub struct Fit {
     /// The fabric.
     pub fabric: Fabric,
-    /// How well a law follows each of the sheet's curves, in the order of the sheet.
+    /// How well a law follows each of the sheet's curves, in the order of the sheet; of loop bending, the curves
+    /// of a direction stand together.
     pub curves: Vec<CurveFit>,
     /// What the sheet does not have, and what was taken instead.
     pub assumed: Vec<String>,
@@ -57,21 +56,20 @@ pub fn identify(sheet: &Sheet) -> Result<Fit, Error> {
 /// Identifies a fabric from a sheet.
 ///
 /// Curves come before values, values before assumptions, and each assumption is named. Of several curves of
-/// one test and direction the first gives the law; of loop-bending curves their mean does, because arches up
-/// and down err to opposite sides. What is missing of one direction is taken from the other.
+/// one test and direction the first gives the law, except that loop-bending curves give one law together.
+/// What is missing of one direction is taken from the other.
 ///
 /// # Errors
 /// A curve or a set of values that gives no law, or a fabric that no fabric is.
 pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
-    let laws: Result<Vec<Laws>, Error> = sheet
-        .curves
+    let laws: Result<Vec<Vec<Laws>>, Error> = groups(sheet)
         .par_iter()
-        .map(|curve| Laws::of(curve, settings))
+        .map(|group| Laws::of(group, settings))
         .collect();
     let measured = Measured {
         sheet,
         settings,
-        laws: laws?,
+        laws: laws?.into_iter().flatten().collect(),
     };
     let mut notes = Vec::new();
 
@@ -159,14 +157,36 @@ enum Laws {
     Shear(Identified<ShearLaw>),
 }
 
-impl Laws {
-    fn of(curve: &Curve, settings: &Settings) -> Result<Self, Error> {
-        match curve.test {
-            Test::Tensile => traction(curve, settings.traction).map(Self::Traction),
-            Test::Bending => identify_bending(curve, settings.bending).map(Self::Bending),
-            Test::LoopBending => identify_loop_bending(curve).map(Self::LoopBending),
-            Test::Shear => identify_shear(curve, settings.shear).map(Self::Shear),
+/// The curves that are identified together, in the order of the sheet: the loop-bending curves of a
+/// direction, every other curve by itself.
+fn groups(sheet: &Sheet) -> Vec<Vec<&Curve>> {
+    let mut groups: Vec<Vec<&Curve>> = Vec::new();
+    for curve in &sheet.curves {
+        let together = |group: &&mut Vec<&Curve>| {
+            curve.test == Test::LoopBending
+                && group[0].test == curve.test
+                && group[0].direction == curve.direction
+        };
+        match groups.iter_mut().find(together) {
+            Some(group) => group.push(curve),
+            None => groups.push(vec![curve]),
         }
+    }
+    groups
+}
+
+impl Laws {
+    fn of(group: &[&Curve], settings: &Settings) -> Result<Vec<Self>, Error> {
+        let curve = group[0];
+        Ok(match curve.test {
+            Test::Tensile => vec![Self::Traction(traction(curve, settings.traction)?)],
+            Test::Bending => vec![Self::Bending(identify_bending(curve, settings.bending)?)],
+            Test::Shear => vec![Self::Shear(identify_shear(curve, settings.shear)?)],
+            Test::LoopBending => identify_loop_bending(group)?
+                .into_iter()
+                .map(Self::LoopBending)
+                .collect(),
+        })
     }
 
     fn into_fit(self) -> CurveFit {
@@ -238,11 +258,15 @@ impl Measured<'_> {
     }
 
     fn bending(&self, direction: Direction) -> Found<BendingLaw> {
-        let bent = self.laws.iter().find_map(|laws| match laws {
+        let curve = self.laws.iter().find_map(|laws| match laws {
             Laws::Bending(found) if found.fit.direction == direction => Some(found.law),
             _ => None,
         });
-        if let Some(law) = bent.or_else(|| self.mean_of_loops(direction)) {
+        let arches = self.laws.iter().find_map(|laws| match laws {
+            Laws::LoopBending(found) if found.fit.direction == direction => Some(found.law),
+            _ => None,
+        });
+        if let Some(law) = curve.or(arches) {
             return Ok(Some((law, Vec::new())));
         }
         let values = self.sheet.values(direction);
@@ -267,28 +291,6 @@ impl Measured<'_> {
             ));
         }
         Ok(Some((bending_from_values(rigidity, width), notes)))
-    }
-
-    /// The mean of the laws of a direction's loop-bending curves.
-    fn mean_of_loops(&self, direction: Direction) -> Option<BendingLaw> {
-        let laws: Vec<BendingLaw> = self
-            .laws
-            .iter()
-            .filter_map(|laws| match laws {
-                Laws::LoopBending(found) if found.fit.direction == direction => Some(found.law),
-                _ => None,
-            })
-            .collect();
-        let count = laws.len() as f64;
-        let mean = |value: fn(&BendingLaw) -> f64| laws.iter().map(value).sum::<f64>() / count;
-        let rigidity = mean(|law| law.backbone.respond(0.0).tangent);
-        let plateau = mean(|law| law.friction.plateau());
-        let length = mean(|law| law.friction.elements[0].length);
-        (!laws.is_empty()).then(|| BendingLaw {
-            backbone: fabric::BendingBackbone::Linear { rigidity },
-            rest_curvature: 0.0,
-            friction: fabric::BlimanSorine::first_order(plateau, length),
-        })
     }
 
     /// The law of the first shear curve, or of the mean of the values of both directions.

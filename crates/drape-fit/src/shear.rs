@@ -94,18 +94,18 @@ fn linear(curve: &Curve, order: FrictionOrder) -> Result<Identified<ShearLaw>, E
 
 fn breen(curve: &Curve) -> Result<Identified<ShearLaw>, Error> {
     let first = first_branch(curve)?;
-    let sines = sines(&first);
     let law = |p: &[f64]| ShearLaw {
         backbone: ShearBackbone::Piecewise(piecewise(p)),
         friction: BlimanSorine::none(),
         growth: 0.0,
         locking: None,
     };
-    let fit = curve_fit::fit(&first, &piecewise_starts(&first)?, |p, out| {
-        along(&law(p), sines.iter().copied(), out);
+    let branch = sines(&first);
+    let mut fit = curve_fit::fit(&first, &piecewise_starts(&first)?, |p, out| {
+        along(&law(p), branch.iter().copied(), out);
     });
-    Ok(Identified {
-        law: law(&fit.values()),
-        fit,
-    })
+    let law = law(&fit.values());
+    fit.load.resize(curve.load().len(), 0.0);
+    along(&law, sines(curve).into_iter(), &mut fit.load);
+    Ok(Identified { law, fit })
 }

@@ -15,8 +15,8 @@ use crate::lm::Parameter;
 const TOE_RATIO_STARTS: [f64; 2] = [0.55, 0.8];
 /// Toes to start from, over the largest strain.
 const TOE_STARTS: [f64; 3] = [0.2, 0.5, 1.0];
-/// Pre-sliding lengths to start from, over the largest strain.
-const LENGTH_STARTS: [f64; 2] = [0.02, 0.15];
+/// Pre-sliding length to start from, over the largest strain.
+const LENGTH_START: f64 = 0.05;
 /// Part of the load range by which a slack strip's load has begun to rise.
 const SLACK_LOAD: f64 = 0.02;
 
@@ -51,23 +51,25 @@ pub fn identify_tensile(
 ) -> Result<Identified<TractionLaw>, Error> {
     curve_fit::expect(curve, Test::Tensile)?;
     let guess = Guess::new(curve)?;
+    let (slack, recovers) = (curve.slack, guess.recovers);
+    let moves = recovers && model == TractionModel::Primed;
     let form = Form {
         model,
-        slack: curve.slack,
-        recovers: guess.recovers,
-        moves: false,
+        slack,
+        recovers,
+        moves,
     };
-    let fixed = form.identify(curve, &guess);
-    if model == TractionModel::Polynomial || !guess.recovers {
-        return Ok(fixed);
+    let found = form.identify(curve, &guess.starts(&form));
+    if !moves {
+        return Ok(found);
     }
-    let moving = Form {
-        moves: true,
+    let form = Form {
+        moves: false,
         ..form
-    }
-    .identify(curve, &guess);
-    let better = moving.fit.misfit < MOVING_TOE * fixed.fit.misfit;
-    Ok(if better { moving } else { fixed })
+    };
+    let still = form.identify(curve, &[guess.start_from(&form, &found.fit.parameters)]);
+    let better = found.fit.misfit < MOVING_TOE * still.fit.misfit;
+    Ok(if better { found } else { still })
 }
 
 /// Which parameters a tensile fit has.
@@ -83,8 +85,8 @@ struct Form {
 }
 
 impl Form {
-    fn identify(&self, curve: &Curve, guess: &Guess) -> Identified<TractionLaw> {
-        let fit = curve_fit::fit(curve, &guess.starts(self), |p, out| {
+    fn identify(&self, curve: &Curve, starts: &[Vec<Named>]) -> Identified<TractionLaw> {
+        let fit = curve_fit::fit(curve, starts, |p, out| {
             let (zeros, law) = self.law(p);
             let strains = curve.deformation().iter();
             match zeros {
@@ -210,16 +212,25 @@ impl Guess {
                 .collect(),
             TractionModel::Polynomial => vec![self.polynomial()],
         };
-        let frictions: Vec<Vec<Named>> = match form.recovers {
-            true => LENGTH_STARTS.map(|length| self.friction(length)).into(),
-            false => vec![Vec::new()],
+        let friction = if form.recovers {
+            self.friction(LENGTH_START)
+        } else {
+            Vec::new()
         };
         let zeros = if form.slack { self.zeros() } else { Vec::new() };
-        let starts = backbones.iter().flat_map(|backbone| {
-            let start = |friction| [&zeros, backbone, friction].map(Clone::clone).concat();
-            frictions.iter().map(start)
-        });
-        starts.collect()
+        let start = |backbone| [&zeros, backbone, &friction].map(Clone::clone).concat();
+        backbones.iter().map(start).collect()
+    }
+
+    /// A start at the parameters that a fit of another form has found.
+    fn start_from(&self, form: &Form, found: &[(&'static str, f64)]) -> Vec<Named> {
+        let mut start = self.starts(form).swap_remove(0);
+        for (name, parameter) in &mut start {
+            if let Some((_, value)) = found.iter().find(|(other, _)| other == name) {
+                parameter.start = *value;
+            }
+        }
+        start
     }
 
     fn zeros(&self) -> Vec<Named> {

@@ -1,0 +1,219 @@
+//! A fabric from values alone, and what is said about everything that a sheet does not have.
+
+use drape_fabric::{Fabric, Law, drive};
+use drape_fit::{Error, identify};
+use drape_kes::{BendingPoints, Curve, Direction, ShearPoints, Sheet, Test, Values};
+
+const STEPS: usize = 4000;
+
+/// The curve that a KES instrument would draw of a law.
+fn cycle(test: Test, law: &impl Law, turns: &[f64]) -> Curve {
+    let mut q = vec![turns[0]];
+    for ends in turns.windows(2) {
+        q.extend((1..=STEPS).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / STEPS as f64));
+    }
+    let driven: Vec<f64> = match test {
+        Test::Shear => q.iter().map(|angle| angle.sin()).collect(),
+        _ => q.clone(),
+    };
+    let load = drive(law, law.virgin(), &driven);
+    Curve::new(test, Direction::Warp, q, load).expect("a curve of a law")
+}
+
+/// All sixteen values of a fabric, as the instrument would find them.
+fn values_of(fabric: &Fabric, direction: Direction, extension: f64) -> Values {
+    let laws = match direction {
+        Direction::Warp => &fabric.warp,
+        Direction::Weft => &fabric.weft,
+    };
+    let pull = cycle(Test::Tensile, &laws.traction, &[0.0, extension, 0.0]);
+    let tensile = pull.tensile_values().expect("a pull");
+    let loop_ = cycle(Test::Bending, &laws.bending, &[0.0, 250.0, -250.0, 250.0]);
+    let bending = loop_
+        .bending_values(&BendingPoints::default())
+        .expect("a loop");
+    let turns = [0.0, 8.0, -8.0, 8.0].map(f64::to_radians);
+    let loop_ = cycle(Test::Shear, &fabric.shear, &turns);
+    let shear = loop_.shear_values(&ShearPoints::default()).expect("a loop");
+    Values {
+        b: Some(bending.rigidity / 9.806_65e-5),
+        two_hb: Some(bending.loop_width / 9.806_65e-3),
+        g: Some(shear.stiffness / 56.187_966),
+        two_hg: Some(shear.loop_width / 0.980_665),
+        two_hg5: Some(shear.wide_loop_width / 0.980_665),
+        lt: Some(tensile.linearity),
+        wt: Some(tensile.work / 0.980_665),
+        rt: tensile.resilience.map(|resilience| 100.0 * resilience),
+        em: Some(100.0 * tensile.extension),
+    }
+}
+
+fn sheet(warp: Values, weft: Values) -> Sheet {
+    let mut sheet = Sheet::default();
+    sheet.name = "by values".to_owned();
+    sheet.w = Some(15.0);
+    sheet.t = Some(0.4);
+    sheet.warp = warp;
+    sheet.weft = weft;
+    sheet
+}
+
+const WARP: Values = Values {
+    b: Some(0.09),
+    two_hb: Some(0.06),
+    g: Some(0.7),
+    two_hg: Some(0.9),
+    two_hg5: Some(1.8),
+    lt: Some(0.72),
+    wt: None,
+    rt: Some(62.0),
+    em: Some(4.5),
+};
+
+#[test]
+fn a_fabric_from_values_has_these_values() {
+    let weft = Values {
+        b: Some(0.05),
+        em: Some(7.0),
+        lt: Some(0.62),
+        ..WARP
+    };
+    let fit = identify(&sheet(WARP, weft)).expect("identified");
+    for (direction, exact) in [(Direction::Warp, WARP), (Direction::Weft, weft)] {
+        let extension = exact.em.expect("given") / 100.0;
+        let found = values_of(&fit.fabric, direction, extension);
+        let work = exact
+            .lt
+            .zip(exact.em)
+            .map(|(lt, em)| 0.5 * lt * 500.0 * em / 100.0);
+        let pairs = [
+            (found.b, exact.b),
+            (found.two_hb, exact.two_hb),
+            (found.g, exact.g),
+            (found.two_hg, exact.two_hg),
+            (found.two_hg5, exact.two_hg5),
+            (found.lt, exact.lt),
+            (found.wt, work),
+            (found.rt, exact.rt),
+        ];
+        for (found, exact) in pairs {
+            let (found, exact) = (found.expect("measured"), exact.expect("given"));
+            // The curve is drawn with 4000 points a branch and read by lines between them; that the law has
+            // the values is exact.
+            assert!(
+                (found / exact - 1.0).abs() < 1e-4,
+                "{direction:?}: {found} against {exact}"
+            );
+        }
+    }
+}
+
+#[test]
+fn work_stands_in_for_linearity_or_extension() {
+    // WT = ½·LT·FM·EM in gf·cm/cm², EM in percent.
+    let work = 0.5 * 0.72 * 500.0 * 0.045;
+    let without_linearity = Values {
+        lt: None,
+        wt: Some(work),
+        ..WARP
+    };
+    let without_extension = Values {
+        em: None,
+        wt: Some(work),
+        ..WARP
+    };
+    let whole = identify(&sheet(WARP, WARP)).expect("identified").fabric;
+    for values in [without_linearity, without_extension] {
+        let fabric = identify(&sheet(values, values)).expect("identified").fabric;
+        let load = |fabric: &Fabric| {
+            let law = &fabric.warp.traction;
+            law.respond(&law.virgin(), 0.03).load
+        };
+        let error = load(&fabric) / load(&whole) - 1.0;
+        assert!(error.abs() < 1e-9, "{values:?}: {error}");
+    }
+}
+
+#[test]
+fn everything_that_is_missing_is_named_and_a_whole_sheet_leaves_little() {
+    let mut bare = Sheet::default();
+    bare.name = "nothing known".to_owned();
+    let fit = identify(&bare).expect("a fabric of assumptions");
+    for what in [
+        "density",
+        "thickness",
+        "surface_friction",
+        "traction",
+        "bending",
+        "shear stiffness",
+        "shear loop",
+    ] {
+        let named = fit
+            .assumed
+            .iter()
+            .any(|note| note.starts_with(&format!("{what}: not measured")));
+        assert!(named, "{what} is not in {:#?}", fit.assumed);
+    }
+    assert_eq!(fit.fabric.problems(), []);
+    let provenance = fit
+        .fabric
+        .provenance
+        .as_ref()
+        .expect("a fitted fabric says so");
+    assert_eq!(provenance.assumed, fit.assumed);
+
+    let whole = identify(&sheet(WARP, WARP)).expect("identified");
+    for what in [
+        "density",
+        "thickness",
+        "traction:",
+        "bending:",
+        "shear stiffness",
+        "shear loop",
+    ] {
+        let named = whole.assumed.iter().any(|note| note.starts_with(what));
+        assert!(!named, "{what} was given: {:#?}", whole.assumed);
+    }
+}
+
+#[test]
+fn a_missing_direction_is_taken_from_the_other() {
+    let fit = identify(&sheet(WARP, Values::default())).expect("identified");
+    assert_eq!(fit.fabric.weft.bending, fit.fabric.warp.bending);
+    assert_eq!(fit.fabric.weft.traction, fit.fabric.warp.traction);
+    assert!(
+        fit.assumed
+            .contains(&"weft bending: not measured, the warp's taken".to_owned())
+    );
+}
+
+#[test]
+fn values_that_contradict_each_other_are_refused() {
+    // Ten times the work that a straight line could do.
+    let values = Values {
+        lt: None,
+        wt: Some(100.0),
+        ..WARP
+    };
+    let error = identify(&sheet(values, values)).expect_err("no such fabric");
+    assert!(matches!(error, Error::Unreachable { .. }), "{error}");
+}
+
+#[test]
+fn a_curve_comes_before_the_values() {
+    let law = drape_fit::bending_from_values(2e-5, 1e-3);
+    let mut sheet = sheet(WARP, WARP);
+    sheet
+        .curves
+        .push(cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]));
+    let fit = identify(&sheet).expect("identified");
+    let rigidity = |law: &drape_fabric::BendingLaw| law.backbone.respond(0.0).tangent;
+    let warp = rigidity(&fit.fabric.warp.bending);
+    assert!((warp / 2e-5 - 1.0).abs() < 1e-6, "{warp:e}");
+    let weft = rigidity(&fit.fabric.weft.bending);
+    assert!(
+        (weft / (0.09 * 9.806_65e-5) - 1.0).abs() < 1e-12,
+        "{weft:e}"
+    );
+    assert_eq!(fit.curves.len(), 1);
+}

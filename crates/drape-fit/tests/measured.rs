@@ -1,0 +1,130 @@
+//! The shipped fabrics: how well the laws follow what was measured.
+
+#![allow(clippy::print_stdout)]
+
+use std::path::PathBuf;
+
+use drape_fabric::{BendingBackbone, TractionBackbone};
+use drape_fit::{CurveFit, Fit, identify};
+use drape_kes::Sheet;
+
+fn fabric(name: &str) -> Fit {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("../../fabrics")
+        .join(name);
+    let sheet = Sheet::read(folder).expect("a shipped sheet is good");
+    let fit = identify(&sheet).expect("a shipped fabric is identified");
+    for curve in &fit.curves {
+        let CurveFit {
+            name,
+            misfit,
+            iterations,
+            stop,
+            ..
+        } = curve;
+        println!(
+            "{name}: {:.3} % in {iterations} iterations, {stop:?}",
+            100.0 * misfit
+        );
+    }
+    fit
+}
+
+fn misfit(fit: &Fit, name: &str) -> f64 {
+    let curve = fit.curves.iter().find(|curve| curve.name == name);
+    curve.expect("a curve of that name").misfit
+}
+
+#[test]
+fn three_growing_cycles_of_the_cupro_strips_are_followed_within_two_percent() {
+    let fit = fabric("cupro-weave");
+    for name in ["stretch 8 cm, warp", "stretch 8 cm, weft"] {
+        // 2 % is what Ngo Ngoc and Boivin reached, on one cycle each; here it is 1 %.
+        let misfit = misfit(&fit, name);
+        assert!(misfit < 0.0105, "{name}: {misfit}");
+    }
+}
+
+#[test]
+fn the_cupro_arches_give_rigidities_within_the_scatter_of_the_instrument() {
+    let fit = fabric("cupro-weave");
+    // Fits of the elastica alone to the single files scatter over these ranges.
+    let ranges = [
+        (fit.fabric.warp, 4e-6..1.7e-5),
+        (fit.fabric.weft, 4e-6..2.3e-5),
+    ];
+    for (direction, range) in ranges {
+        let rigidity = direction.bending.backbone.respond(0.0).tangent;
+        assert!(range.contains(&rigidity), "{rigidity:e} outside {range:?}");
+        assert!(direction.bending.friction.plateau() > 0.0);
+    }
+}
+
+#[test]
+fn tagawas_law_is_found_again_in_the_loops_generated_from_it() {
+    let fit = fabric("tagawa-2003");
+    let BendingBackbone::Linear { rigidity } = fit.fabric.warp.bending.backbone else {
+        panic!("a line was asked for")
+    };
+    let friction = fit.fabric.warp.bending.friction.elements[0];
+    let gram_force = 9.806_65e-3;
+    let exact = [
+        (rigidity, 0.12266e-2 * gram_force),
+        (friction.plateau, 0.5 * 0.1181 * gram_force),
+        (friction.length, 100.0 / 24.94),
+    ];
+    for (found, exact) in exact {
+        // The file gives five decimals of gf·cm/cm, 1e-5 of its range: rounding is all that is left.
+        assert!(
+            (found / exact - 1.0).abs() < 2e-4,
+            "{found:e} against {exact:e}"
+        );
+    }
+    assert!(misfit(&fit, "bending loops, warp") < 1e-5);
+}
+
+#[test]
+fn tagawas_tensile_polynomial_is_found_again() {
+    let fit = fabric("tagawa-2003");
+    let TractionBackbone::Polynomial(found) = fit.fabric.warp.traction.backbone else {
+        panic!("the priming zone was taken for a curve that it follows to 4 % only")
+    };
+    // gf/cm to N/m, and percent to ratio to the power of each term.
+    let unit = 0.980_665;
+    for (found, exact) in [
+        (found.quadratic, 8.5748e4 * unit),
+        (found.quartic, 0.1191e8 * unit),
+    ] {
+        assert!(
+            (found / exact - 1.0).abs() < 1e-5,
+            "{found:e} against {exact:e}"
+        );
+    }
+    assert!(misfit(&fit, "tensile, warp") < 1e-6);
+}
+
+#[test]
+fn matsudairas_values_become_fabrics_that_have_them() {
+    for (name, b, two_hb) in [
+        ("matsudaira-a", 0.118, 0.124),
+        ("matsudaira-b", 0.067, 0.033),
+    ] {
+        let fit = fabric(name);
+        let bending = fit.fabric.weft.bending;
+        let rigidity = bending.backbone.respond(0.0).tangent / 9.806_65e-5;
+        let width = 2.0 * bending.friction.plateau() / 9.806_65e-3;
+        assert!(
+            (rigidity / b - 1.0).abs() < 1e-12,
+            "{name}: B is {rigidity}"
+        );
+        assert!(
+            (width / two_hb - 1.0).abs() < 1e-12,
+            "{name}: 2HB is {width}"
+        );
+        assert!(
+            fit.assumed
+                .iter()
+                .any(|note| note.starts_with("traction: not measured"))
+        );
+    }
+}
