@@ -1,7 +1,5 @@
 //! What is taken where a sheet says nothing, always named in the result.
 
-use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine};
-
 /// Mass per area: the median of 251 measured fabrics, in kg/m².
 pub(crate) const DENSITY: f64 = 0.197;
 /// Thickness of a shirting, in metres. Contact at rest sees it, the drape hardly does.
@@ -32,13 +30,7 @@ pub(crate) const SHEAR_SLIP: f64 = 3.49e-3;
 /// Strain over which tensile friction slips, over EM. RT, an area, hardly depends on it.
 pub(crate) const TENSILE_SLIP: f64 = 0.03;
 
-/// A bending law of the median bending length and no friction.
-pub(crate) fn bending(density: f64) -> BendingLaw {
-    BendingLaw {
-        backbone: BendingBackbone::Linear {
-            rigidity: density * GRAVITY * BENDING_LENGTH.powi(3),
-        },
-        rest_curvature: 0.0,
-        friction: BlimanSorine::none(),
-    }
+/// Bending rigidity of the median bending length, in N·m.
+pub(crate) fn bending_rigidity(density: f64) -> f64 {
+    density * GRAVITY * BENDING_LENGTH.powi(3)
 }

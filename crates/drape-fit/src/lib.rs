@@ -12,6 +12,7 @@ mod identify;
 pub mod lm;
 mod loop_bending;
 mod loop_model;
+mod measured;
 mod shear;
 mod tensile;
 

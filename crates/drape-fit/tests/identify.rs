@@ -217,3 +217,45 @@ fn a_curve_comes_before_the_values() {
     );
     assert_eq!(fit.curves.len(), 1);
 }
+
+#[test]
+fn a_value_is_used_even_where_its_companion_is_missing() {
+    let friction_only = Values {
+        two_hb: Some(0.06),
+        ..Values::default()
+    };
+    let resilience_only = Values {
+        rt: Some(80.0),
+        ..Values::default()
+    };
+    let fit = identify(&sheet(friction_only, resilience_only)).expect("identified");
+    let plateau = fit.fabric.warp.bending.friction.plateau();
+    assert!(
+        (plateau / (0.03 * 9.806_65e-3) - 1.0).abs() < 1e-12,
+        "{plateau:e}"
+    );
+    let found = values_of(&fit.fabric, Direction::Weft, 0.05);
+    assert!(
+        (found.rt.expect("measured") - 80.0).abs() < 0.01,
+        "{found:?}"
+    );
+    for what in ["warp B:", "weft EM:", "weft LT:"] {
+        let named = fit.assumed.iter().any(|note| note.starts_with(what));
+        assert!(named, "{what} is not in {:#?}", fit.assumed);
+    }
+}
+
+#[test]
+fn a_work_that_linearity_and_extension_contradict_is_named() {
+    let values = Values {
+        wt: Some(16.2),
+        ..WARP
+    };
+    let fit = identify(&sheet(values, WARP)).expect("identified");
+    // ½·0.72·500·0.045 = 8.1 gf·cm/cm².
+    let named = fit
+        .assumed
+        .iter()
+        .any(|note| note.starts_with("warp WT: 15.887 J/m² not used"));
+    assert!(named, "{:#?}", fit.assumed);
+}
