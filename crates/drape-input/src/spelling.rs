@@ -1,7 +1,7 @@
 /// The word among `known` that `word` was probably meant to be, or none that is near enough.
 ///
-/// Nearness is the number of letters to insert, delete or exchange, case aside; a third of the
-/// letters may be wrong.
+/// Nearness is the number of letters to insert, delete, exchange or swap with their neighbour, case
+/// aside; a third of the letters may be wrong.
 #[must_use]
 pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = (word.chars().count() / 3).max(1);
@@ -18,20 +18,23 @@ pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, candidate)| candidate)
 }
 
-/// Levenshtein distance.
+/// Levenshtein distance, with the swap of two neighbours as one slip (optimal string alignment).
 fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, letter) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, other) in b.iter().enumerate() {
-            let exchanged = diagonal + usize::from(letter != *other);
-            diagonal = row[j + 1];
-            row[j + 1] = exchanged.min(row[j] + 1).min(diagonal + 1);
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
+    rows[0] = (0..=b.len()).collect();
+    for i in 1..=a.len() {
+        rows[i][0] = i;
+        for j in 1..=b.len() {
+            let exchanged = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut least = exchanged.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                least = least.min(rows[i - 2][j - 2] + 1);
+            }
+            rows[i][j] = least;
         }
     }
-    row[b.len()]
+    rows[a.len()][b.len()]
 }
 
 #[cfg(test)]
@@ -43,7 +46,11 @@ mod tests {
         let known = ["density", "thickness", "warp", "weft"];
         assert_eq!(closest("densty", known), Some("density"));
         assert_eq!(closest("Weft", known), Some("weft"));
-        assert_eq!(closest("wrap", ["warp"]), None);
+        assert_eq!(
+            closest("wrap", ["warp", "weft"]),
+            Some("warp"),
+            "neighbours swapped"
+        );
         assert_eq!(closest("gravity", known), None);
     }
 }

@@ -94,10 +94,15 @@ impl<'t> Section<'t> {
         self.table.get(key).map(|value| value.get_ref())
     }
 
-    /// Whether a key is there; if not, that is reported with an example of its line.
+    /// Whether a key is there; if not, that is reported with an example of its line, unless the key is
+    /// there misspelt, which is reported as such.
     fn has(&self, key: &str, example: &str, findings: &mut Findings<'_>) -> bool {
         let there = self.get(key).is_some();
-        if !there {
+        let misspelt = || {
+            let mut keys = self.table.keys().map(|k| k.get_ref().as_ref());
+            keys.any(|k: &str| k != key && closest(k, [key]).is_some())
+        };
+        if !there && !misspelt() {
             let help = format!("add a line such as {key} = {example}");
             findings.error(&self.key(key), "is missing", help);
         }

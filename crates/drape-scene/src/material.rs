@@ -20,7 +20,11 @@ pub struct Material {
 impl Material {
     /// Reads a `fabric.toml`, or a `sheet.toml` (or its folder), which is fitted on the way.
     pub(crate) fn read(name: &str, path: &Path) -> Result<Self, Diagnostics> {
-        let file = if path.is_dir() { path.join("sheet.toml") } else { path.to_owned() };
+        let file = if path.is_dir() {
+            path.join("sheet.toml")
+        } else {
+            path.to_owned()
+        };
         let document = Document::read(&file)?;
         let (fabric, fit) = if is_fabric(&document) {
             (Fabric::from_document(&document)?, None)
@@ -30,7 +34,12 @@ impl Material {
                 .map_err(|error| Diagnostics::from(Diagnostic::new(&file, error.to_string())))?;
             (fit.fabric.clone(), Some(fit))
         };
-        Ok(Self { name: name.to_owned(), file, fabric, fit })
+        Ok(Self {
+            name: name.to_owned(),
+            file,
+            fabric,
+            fit,
+        })
     }
 }
 

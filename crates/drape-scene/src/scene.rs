@@ -190,15 +190,17 @@ impl Reader<'_> {
             .push(self.document.at(key, message).help(help));
     }
 
-    /// Reports a number that is not within its inclusive bounds.
-    fn within(&mut self, key: &str, value: f64, (low, high): (f64, f64), help: &str) {
-        if !(value >= low && value <= high) {
+    /// Whether a number is within its inclusive bounds; if not, that is reported.
+    fn within(&mut self, key: &str, value: f64, (low, high): (f64, f64), help: &str) -> bool {
+        let sound = value >= low && value <= high;
+        if !sound {
             self.fail(
                 key,
                 format!("{value} is not between {low} and {high}"),
                 help,
             );
         }
+        sound
     }
 
     /// One of several words, or the first of them when none is given.
@@ -360,11 +362,13 @@ impl Reader<'_> {
 
     fn clock(&mut self, file: &SceneFile) -> Clock {
         let time = &file.time;
-        self.within("time.step", time.step, (1e-7, 0.1), "in s; 0.005 is usual");
+        let sound = self.within("time.step", time.step, (1e-7, 0.1), "in s; 0.005 is usual");
+        // A wrong step would make the other times wrong too.
+        let shortest = if sound { time.step } else { 0.0 };
         self.within(
             "time.end",
             time.end,
-            (time.step, 1e5),
+            (shortest, 1e5),
             "in s, at least one step",
         );
         if let Some(speed) = time.rest_speed {
@@ -379,15 +383,15 @@ impl Reader<'_> {
             self.within(
                 "time.step_max",
                 longest,
-                (time.step, 10.0),
+                (shortest, 10.0),
                 "in s, at least one step",
             );
         }
-        let interval = file.output.every.unwrap_or(FRAME_INTERVAL.max(time.step));
+        let interval = file.output.every.unwrap_or(FRAME_INTERVAL.max(shortest));
         self.within(
             "output.every",
             interval,
-            (time.step, 1e5),
+            (shortest, 1e5),
             "in s, at least one step",
         );
         Clock {
