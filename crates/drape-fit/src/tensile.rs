@@ -15,8 +15,11 @@ use crate::lm::Parameter;
 const TOE_RATIO_STARTS: [f64; 2] = [0.55, 0.8];
 /// Toes to start from, over the largest strain.
 const TOE_STARTS: [f64; 3] = [0.2, 0.5, 1.0];
-/// Pre-sliding length to start from, over the largest strain.
-const LENGTH_START: f64 = 0.05;
+/// Pre-sliding lengths to start from, over the largest strain.
+///
+/// Without a toe, whose friction begins small, a search from afar may mistake the length for none.
+const PRIMED_LENGTH_STARTS: [f64; 1] = [0.05];
+const POLYNOMIAL_LENGTH_STARTS: [f64; 3] = [0.01, 0.05, 0.2];
 /// Part of the load range by which a slack strip's load has begun to rise.
 const SLACK_LOAD: f64 = 0.02;
 
@@ -205,21 +208,30 @@ impl Guess {
     }
 
     fn starts(&self, form: &Form) -> Vec<Vec<Named>> {
-        let backbones: Vec<Vec<Named>> = match form.model {
-            TractionModel::Primed => TOE_RATIO_STARTS
-                .iter()
-                .flat_map(|&ratio| TOE_STARTS.map(|toe| self.primed(ratio, toe, form.moves)))
-                .collect(),
-            TractionModel::Polynomial => vec![self.polynomial()],
+        let (backbones, lengths): (Vec<Vec<Named>>, &[f64]) = match form.model {
+            TractionModel::Primed => {
+                let backbones = TOE_RATIO_STARTS
+                    .iter()
+                    .flat_map(|&ratio| TOE_STARTS.map(|toe| self.primed(ratio, toe, form.moves)));
+                (backbones.collect(), &PRIMED_LENGTH_STARTS)
+            }
+            TractionModel::Polynomial => (vec![self.polynomial()], &POLYNOMIAL_LENGTH_STARTS),
         };
-        let friction = if form.recovers {
-            self.friction(LENGTH_START)
-        } else {
-            Vec::new()
+        let frictions: Vec<Vec<Named>> = match form.recovers {
+            true => lengths
+                .iter()
+                .map(|&length| self.friction(length))
+                .collect(),
+            false => vec![Vec::new()],
         };
         let zeros = if form.slack { self.zeros() } else { Vec::new() };
-        let start = |backbone| [&zeros, backbone, &friction].map(Clone::clone).concat();
-        backbones.iter().map(start).collect()
+        let mut starts = Vec::new();
+        for backbone in &backbones {
+            for friction in &frictions {
+                starts.push([&zeros, backbone, friction].map(Clone::clone).concat());
+            }
+        }
+        starts
     }
 
     /// A start at the parameters that a fit of another form has found.
