@@ -301,3 +301,67 @@ impl Guess {
         vec![("plateau", plateau), ("length", length)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drape_kes::Direction;
+
+    /// Three growing cycles of a strip that hangs slack by 2 % between them.
+    fn clamps(top: f64) -> Vec<f64> {
+        let turns = [-0.02, 0.6 * top, -0.02, 0.8 * top, -0.02, top, -0.02];
+        let steps = 60;
+        let branch = |ends: &[f64]| {
+            let (from, to) = (ends[0], ends[1]);
+            (0..steps).map(move |i| from + (to - from) * f64::from(i) / f64::from(steps))
+        };
+        turns.windows(2).flat_map(branch).collect()
+    }
+
+    #[test]
+    fn a_slack_strip_gives_its_law_and_both_of_its_zeros() {
+        for (toe_ratio, toe, growth) in [(0.55, 0.02, 1.3), (0.7, 0.012, 1.6), (0.8, 0.025, 1.15)] {
+            let (top, free_strain, zero) = (0.04, 0.003, 0.4);
+            let exact = TractionLaw {
+                backbone: TractionBackbone::Primed(Primed {
+                    stiffness: 6e3,
+                    toe_ratio,
+                    toe_strain: toe,
+                    toe_strain_after: growth * toe,
+                }),
+                friction: BlimanSorine::first_order(4.0, 0.002),
+                buckling: Buckling::default(),
+            };
+            let taut = clamps(top);
+            let mut load = vec![0.0; taut.len()];
+            along_slack(&exact, taut.iter().copied(), &mut load);
+            let load = load.iter().map(|load| load + zero).collect();
+            let strain = taut.iter().map(|strain| strain + free_strain).collect();
+            let mut curve = Curve::new(Test::Tensile, Direction::Warp, strain, load).unwrap();
+            curve.slack = true;
+            let found = identify_tensile(&curve, TractionModel::Primed).unwrap();
+            let truth = [free_strain, zero, 6e3, toe_ratio, toe, growth, 4.0, 0.002];
+            for ((name, value), exact) in found.fit.parameters.iter().zip(truth) {
+                let error = (value / exact - 1.0).abs();
+                assert!(
+                    error < 1e-6,
+                    "{name} is {value:e}, exactly {exact:e}; {:?}",
+                    found.fit
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_pull_without_a_way_back_gives_no_friction_and_a_toe_that_does_not_move() {
+        let strain: Vec<f64> = (0..=50).map(|i| 0.001 * f64::from(i)).collect();
+        let load = strain.iter().map(|e| 4e3 * e + 5e4 * e * e).collect();
+        let curve = Curve::new(Test::Tensile, Direction::Weft, strain, load).unwrap();
+        let law = identify_tensile(&curve, TractionModel::Primed).unwrap().law;
+        assert_eq!(law.friction, BlimanSorine::none());
+        let TractionBackbone::Primed(primed) = law.backbone else {
+            panic!("primed was asked for")
+        };
+        assert_eq!(primed.toe_strain, primed.toe_strain_after);
+    }
+}
