@@ -124,6 +124,12 @@ impl Curve {
         })
     }
 
+    /// The same curve through other points, in SI.
+    pub(crate) fn with_points(mut self, points: Vec<(f64, f64)>) -> Self {
+        (self.deformation, self.load) = points.into_iter().unzip();
+        self
+    }
+
     /// The deformation at each point, in SI: see [`Test`].
     pub fn deformation(&self) -> &[f64] {
         &self.deformation

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use drape_input::{Diagnostics, closest};
 
 use crate::section::{ColumnOrLength, Findings, Section};
+use crate::suspect::{self, Factors, Keys};
 use crate::table::{Column, Table};
 use crate::unit::{self, Quantity, Unit};
 use crate::{Curve, Direction, Error, Test};
@@ -50,13 +51,26 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Option
     let table = open(&file, &section.key("file"), findings)?;
     let (strain, gauge) = deformations(test, &deformation, &table, findings)?;
     let force = loads(test, &load, &table, findings)?;
+    let factors = Factors {
+        deformation: factor(&deformation, &table, &strain),
+        load: factor(&load, &table, &force),
+    };
     match Curve::new(test, direction, strain, force) {
         Ok(mut curve) => {
             if let Some(name) = name {
                 curve.name = name;
             }
             (curve.gauge, curve.slack) = (gauge, slack);
-            Some(curve)
+            if let Some(line) = table.truncated() {
+                let message = format!("line {line} of {} breaks off", table.path().display());
+                findings.warn(&section.key("file"), message, "it was left out");
+            }
+            let keys = Keys {
+                file: section.key("file"),
+                deformation: section.key("deformation"),
+                load: section.key("load"),
+            };
+            suspect::examine(curve, &factors, &keys, findings)
         }
         Err(error) => {
             let help = match error {
@@ -69,6 +83,16 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Option
             None
         }
     }
+}
+
+/// What the largest number of a column was multiplied by on its way to SI.
+fn factor(axis: &Axis, table: &Table, si: &[f64]) -> f64 {
+    let written = table
+        .find(&axis.column)
+        .and_then(|place| table.numbers(place));
+    let pairs = written.iter().flatten().zip(si);
+    let largest = pairs.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+    largest.map_or(1.0, |(written, si)| si / written)
 }
 
 /// One of a few words, with a suggestion when it is none of them.

@@ -8,6 +8,7 @@ mod loop_values;
 mod plausible;
 mod section;
 mod sheet;
+mod suspect;
 mod table;
 mod tensile;
 mod unit;

@@ -80,8 +80,35 @@ fn meant(b: &Measured) -> String {
     )
 }
 
-/// Warns about a mass per area that few fabrics have.
+/// Masses per area that a fabric can have, in kg/m²: from a veil to a carpet.
+const DENSITY: RangeInclusive<f64> = 5e-3..=5.0;
+
+/// Refuses a mass per area that no fabric has, with the reading that was probably meant, and warns
+/// about one that few have.
 pub(crate) fn density(w: &Measured, findings: &mut Findings<'_>) {
+    if !DENSITY.contains(&w.si) {
+        let message = format!("{} is {:.3e} kg/m2; no fabric has that", w.written, w.si);
+        let readings = [
+            ("mg/cm2", 0.01),
+            ("g/m2", 1e-3),
+            ("kg/m2", 1.0),
+            ("g/cm2", 10.0),
+        ];
+        let likely: Vec<String> = readings
+            .into_iter()
+            .filter(|(_, factor)| USUAL_DENSITY.contains(&(w.number * factor)))
+            .map(|(unit, _)| format!("\"{} {unit}\"", w.number))
+            .collect();
+        let help = match likely.as_slice() {
+            [] => "a bare number is in mg/cm2: check value and unit".to_owned(),
+            readings => format!(
+                "did you mean {}? a bare number is in mg/cm2",
+                readings.join(" or ")
+            ),
+        };
+        findings.error(&w.key, message, help);
+        return;
+    }
     unusual(
         "mass per area",
         "kg/m2",

@@ -308,7 +308,9 @@ fn starts_with_number(text: &str) -> bool {
 
 fn bare_number(value: &DeValue<'_>) -> Option<f64> {
     match value {
-        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+        DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+            .ok()
+            .map(|integer| integer as f64),
         DeValue::Float(float) => float.as_str().parse().ok(),
         _ => None,
     }

@@ -4,6 +4,10 @@ use std::path::{Path, PathBuf};
 
 use drape_input::{Diagnostic, Diagnostics, closest};
 
+/// Largest table that is read, in bytes: half a million points. A curve has some hundred; refusing early
+/// keeps a wrong path from filling the memory.
+const LARGEST: u64 = 32 << 20;
+
 /// Which column of a table is meant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Column {
@@ -22,6 +26,7 @@ pub(crate) struct Table {
     /// Each row with its line in the file.
     rows: Vec<(usize, Vec<String>)>,
     decimal_comma: bool,
+    truncated: Option<usize>,
 }
 
 /// A cell of the header: `curvature (1/cm)` or `curvature [1/cm]`.
@@ -33,10 +38,17 @@ struct Heading {
 
 impl Table {
     pub(crate) fn read(path: &Path) -> Result<Self, Diagnostics> {
-        let bytes = std::fs::read(path).map_err(|error| {
+        let unreadable = |error: std::io::Error| {
             Diagnostic::new(path, format!("cannot read the file: {error}"))
                 .help("check the path and that the file can be read")
-        })?;
+        };
+        let size = std::fs::metadata(path).map_err(unreadable)?.len();
+        if size > LARGEST {
+            return Err(Diagnostic::new(path, format!("the file has {size} bytes"))
+                .help("a curve has some thousand lines: is this the right file?")
+                .into());
+        }
+        let bytes = std::fs::read(path).map_err(unreadable)?;
         Self::parse(path, &String::from_utf8_lossy(&bytes))
     }
 
@@ -72,7 +84,9 @@ impl Table {
             header_line: 0,
             rows,
             decimal_comma: separator != b',',
+            truncated: None,
         };
+        table.drop_broken_end(text.ends_with('\n'));
         let first_is_header = table
             .rows
             .first()
@@ -90,6 +104,28 @@ impl Table {
                 .into());
         }
         Ok(table)
+    }
+
+    /// Leaves out a last row with fewer cells than the first, at the end of a text that breaks off
+    /// within a line.
+    fn drop_broken_end(&mut self, whole: bool) {
+        let [(_, first), .., (line, last)] = self.rows.as_slice() else {
+            return;
+        };
+        if !whole && last.len() < first.len() {
+            self.truncated = Some(*line);
+            self.rows.pop();
+        }
+    }
+
+    /// The line that was left out because the file breaks off in it.
+    pub(crate) fn truncated(&self) -> Option<usize> {
+        self.truncated
+    }
+
+    /// The file.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// The place of a column, from 0.
