@@ -195,6 +195,7 @@ fn a_strain_that_does_not_start_at_zero_is_shifted_or_refused() {
 fn loop_bending_and_slack_strips_keep_their_offsets() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fabrics/cupro-weave");
     let sheet = Sheet::read(root).expect("the shipped sheet is right");
+    assert!(sheet.warnings().is_empty(), "{:?}", sheet.warnings());
     let strips: Vec<_> = sheet.curves_of(Test::Tensile, Direction::Warp).collect();
     assert!(
         !strips.is_empty() && strips[0].deformation()[0] < 0.0,
