@@ -182,6 +182,9 @@ impl Guess {
         let (_, top_strain) = curve.deformation_range();
         let (_, top_load) = curve.load_range();
         let top = (top_strain - zero.0, top_load - zero.1);
+        if !(top.0 > 0.0 && top.1 > 0.0) {
+            return Err(falling(curve));
+        }
         let pull_top = strain[pull.end - 1];
         let upper = zero.0 + 0.6 * (pull_top - zero.0);
         let points = pull
@@ -350,6 +353,15 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_pull_into_compression_is_refused() {
+        let strain = vec![-0.03, -0.02, -0.01];
+        let load = vec![-3.0, -2.0, -1.0];
+        let curve = Curve::new(Test::Tensile, Direction::Weft, strain, load).unwrap();
+        let result = identify_tensile(&curve, TractionModel::Primed);
+        assert!(matches!(result, Err(Error::Falling { .. })), "{result:?}");
     }
 
     #[test]

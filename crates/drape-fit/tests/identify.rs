@@ -259,3 +259,32 @@ fn a_work_that_linearity_and_extension_contradict_is_named() {
         .any(|note| note.starts_with("warp WT: 15.887 J/m² not used"));
     assert!(named, "{:#?}", fit.assumed);
 }
+
+#[test]
+fn the_number_of_threads_does_not_matter() {
+    let law = drape_fit::bending_from_values(2e-5, 1e-3);
+    let mut sheet = sheet(WARP, WARP);
+    let mut loop_ = cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]);
+    // Noise, so that the search does not end where every path ends.
+    let noisy = loop_
+        .load()
+        .iter()
+        .enumerate()
+        .map(|(i, m)| m + 1e-5 * ((i * i) as f64).sin());
+    loop_ = Curve::new(
+        Test::Bending,
+        Direction::Warp,
+        loop_.deformation().to_vec(),
+        noisy.collect(),
+    )
+    .expect("a curve");
+    sheet.curves.push(loop_);
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("a pool");
+        pool.install(|| identify(&sheet).expect("identified"))
+    };
+    assert_eq!(with(1), with(4));
+}

@@ -20,6 +20,20 @@ fn read_text(test: &str, (q, f): (&str, &str), table: &str) -> Result<Sheet, Err
     Sheet::read(folder.path())
 }
 
+#[test]
+fn a_strip_that_hangs_slack_further_than_it_is_stretched_is_not_turned() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let sheet = "name = \"strip\"\n[[curve]]\ntest = \"tensile\"\ndirection = \"warp\"\nfile = \"a.csv\"\n\
+                 slack = true\ndeformation = { column = \"q\", unit = \"%\" }\n\
+                 load = { column = \"f\", unit = \"N/m\" }\n";
+    let table = "q,f\n-2,0\n-1,0\n0,0\n1,30\n1.5,80\n1,20\n0,0\n-2,0\n";
+    std::fs::write(folder.path().join("sheet.toml"), sheet).expect("written");
+    std::fs::write(folder.path().join("a.csv"), table).expect("written");
+    let sheet = Sheet::read(folder.path()).expect("a good strip");
+    assert_eq!(sheet.curves[0].deformation()[0], -0.02);
+    assert_eq!(sheet.warnings(), []);
+}
+
 fn refusal(result: Result<Sheet, Error>) -> Diagnostic {
     match result {
         Err(Error::Input(Diagnostics(mut mistakes))) if mistakes.len() == 1 => mistakes.remove(0),
