@@ -38,15 +38,13 @@ fn heights(output: &Path) -> Vec<f64> {
         .collect();
     frames.sort();
     let last = std::fs::read_to_string(frames.last().expect("frames were written"));
-    let heights = last
-        .expect("reads")
+    last.expect("reads")
         .lines()
         .filter_map(|line| {
             let mut numbers = line.strip_prefix("v ")?.split(' ');
             numbers.nth(1)?.parse().ok()
         })
-        .collect();
-    heights
+        .collect()
 }
 
 #[test]
