@@ -30,9 +30,23 @@
 //! assert!((report.parameters[2] - 300.0).abs() < 1e-6, "{report:?}");
 //! ```
 
+mod covariance;
+mod criterion;
+mod distribution;
 mod jacobian;
+mod linked;
+mod loss;
 mod minimise;
 mod problem;
+mod profile;
+mod region;
+mod search;
 
+pub use covariance::{Covariance, Undetermined};
+pub use criterion::akaike;
+pub use distribution::student_quantile;
+pub use linked::Linked;
+pub use loss::Loss;
 pub use minimise::{Report, Settings, Stop, minimise};
 pub use problem::{Parameter, Problem};
+pub use profile::{End, Interval, profile};

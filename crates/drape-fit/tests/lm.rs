@@ -212,6 +212,10 @@ fn an_analytic_jacobian_and_differences_end_at_the_same_place() {
             .all(|value| (value - 1.0).abs() < 1e-12),
         "{report:?}"
     );
-    // Without differences each iteration costs one evaluation; the start and the last step cost one each.
-    assert!(report.evaluations <= report.iterations + 2, "{report:?}");
+    // Without differences each iteration costs one evaluation, or two where its step is bent; the start and
+    // the last steps cost one each.
+    assert!(
+        report.evaluations <= 2 * report.iterations + 3,
+        "{report:?}"
+    );
 }
