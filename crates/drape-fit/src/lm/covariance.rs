@@ -60,6 +60,8 @@ pub struct Covariance {
     pub conditioning: f64,
     /// Rise of the sum of the losses, over the variance, where a parameter is one standard error off.
     rise: f64,
+    /// Errors of the parameters if all others were known.
+    alone: Vec<f64>,
     matrix: DMatrix<f64>,
     undetermined: Vec<Option<Undetermined>>,
 }
@@ -78,6 +80,7 @@ impl Covariance {
             degrees: 0,
             conditioning: 0.0,
             rise: 1.0,
+            alone: vec![0.0; n],
             matrix: DMatrix::zeros(n, n),
             undetermined: vec![Some(Undetermined::NotFinite); n],
         };
@@ -150,6 +153,9 @@ impl Covariance {
         if !(self.deviation >= 0.0 && self.deviation.is_finite()) {
             return;
         }
+        for (alone, column) in self.alone.iter_mut().zip(jacobian.column_iter()) {
+            *alone = self.deviation / column.norm();
+        }
         for (a, &i) in free.iter().enumerate() {
             for (b, &j) in free.iter().enumerate() {
                 let terms = (0..singular.len()).filter(|&k| effect[k]);
@@ -206,6 +212,11 @@ impl Covariance {
         } else {
             f64::from(i == j)
         })
+    }
+
+    /// Standard error of a parameter if all others were known: never larger than its own, and there at a bound.
+    pub(super) fn error_alone(&self, parameter: usize) -> f64 {
+        self.alone[parameter]
     }
 
     /// Rise of the sum of the losses where a parameter is one standard error off and the others follow.

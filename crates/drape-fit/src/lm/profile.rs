@@ -146,12 +146,12 @@ impl<P: Problem> Profile<'_, P> {
     /// Half the width of the interval of the linear model; from a bound, a guess to be corrected.
     fn first_step(&self, j: usize) -> f64 {
         let error = self.covariance.standard_error(j);
-        let step = error.map_or(0.0, |error| error * self.quantile);
+        let step = self.quantile * error.unwrap_or_else(|_| self.covariance.error_alone(j));
         let size = self.report.parameters[j]
             .abs()
             .max(self.parameters[j].scale);
-        // Shorter steps than this are rounding: the residuals are, too.
-        step.max(1e3 * f64::EPSILON * size)
+        // Shorter steps than this are rounding, and longer ones are of a parameter without effect.
+        step.clamp(1e3 * f64::EPSILON * size, size / f64::EPSILON)
     }
 
     fn end(&self, j: usize, first: f64) -> End {

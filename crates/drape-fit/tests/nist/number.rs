@@ -133,6 +133,7 @@ impl Mul for Dual {
 
 impl Div for Dual {
     type Output = Self;
+    #[allow(clippy::suspicious_arithmetic_impl)]
     fn div(self, other: Self) -> Self {
         self * other.inverse()
     }
