@@ -29,7 +29,7 @@ pub enum Undetermined {
     /// It can change together with these others (or alone, if there are none) without any effect on the
     /// residuals: fix one of them, or measure something that tells them apart.
     Unidentifiable(Vec<usize>),
-    /// There are not more residuals than free parameters.
+    /// There are not more residuals than free parameters, or the level is none.
     NoFreedom,
     /// The model has no derivative at the minimum.
     NotFinite,
@@ -141,7 +141,8 @@ impl Covariance {
         let floor = RANK * singular.iter().copied().fold(0.0, f64::max);
         let effect: Vec<bool> = singular.iter().map(|s| *s > floor).collect();
         let rank = effect.iter().filter(|effect| **effect).count();
-        let count = residuals.len() - weights.iter().filter(|weight| **weight == 0.0).count();
+        let idle = |weight: &&f64| **weight == 0.0;
+        let count = residuals.len() - weights.iter().take(residuals.len()).filter(idle).count();
         self.degrees = count.saturating_sub(rank);
         if self.degrees == 0 {
             for &j in &free {

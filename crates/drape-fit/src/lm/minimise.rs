@@ -7,8 +7,8 @@ use super::{Loss, Parameter, Problem};
 /// First radius over the length of the parameters at the start.
 ///
 /// Large trusts the linear model far from the data, small creeps. Of the 54 starts of the NIST reference
-/// problems, 53 are solved from one half to six almost without exception; the far start of MGH10, where the
-/// model is 500 times the data, is solved for some radii and not for others, and from 0.6 to 0.8 for all.
+/// problems, 53 are solved for radii from 0.2 to 3.6, but for one more at 0.9; the far start of MGH10, where the
+/// model is 500 times the data, is solved for some radii and not for others, and for all from 0.6 to 0.8.
 const FIRST_RADIUS: f64 = 0.7;
 /// Longest second-order part of a step, over the first-order part, that is taken.
 ///
