@@ -28,9 +28,10 @@ pub struct Candidate {
     pub misfit: f64,
     /// Akaike's criterion for small samples, [`lm::akaike`]; nothing where the points are too few.
     ///
-    /// Counted are the independent residuals of the candidate that leaves the least
-    /// ([`CurveFit::independent`](crate::CurveFit::independent)): residuals of a law that misses the curve
-    /// systematically are alike, and each would vote for any law with more parameters.
+    /// Its logarithm counts the independent residuals ([`CurveFit::independent`](crate::CurveFit::independent))
+    /// of the candidate that leaves the least, not all: the quasi-likelihood criterion of [Burnham &
+    /// Anderson 2002, §2.5]. Residuals of a law that misses the curve systematically are alike, and each would
+    /// vote for any law with more parameters. For independent noise both are the same.
     pub criterion: Option<f64>,
 }
 
@@ -69,15 +70,17 @@ pub(crate) fn choose(curve: &Curve, models: &[Model<'_>]) -> Choice {
     let candidate = |(model, found): (&Model<'_>, &Found)| {
         let count = found.named.len();
         let square = found.report.rms.max(RESOLUTION).powi(2);
+        // The criterion of residuals of size one is its price of the parameters.
         let report = Report {
-            sum: square * independent.floor(),
+            sum: points as f64,
             ..found.report.clone()
         };
+        let price = lm::akaike(&report, points, count);
         Candidate {
             law: model.name.clone(),
             parameters: count,
             misfit: found.report.rms,
-            criterion: lm::akaike(&report, independent as usize, count),
+            criterion: price.map(|price| independent * square.ln() + price),
         }
     };
     let candidates: Vec<Candidate> = models.iter().zip(&found).map(candidate).collect();

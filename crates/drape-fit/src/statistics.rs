@@ -21,24 +21,30 @@ const CHANCE: f64 = 2.0;
 pub(crate) struct Independence {
     /// Correlation of the residuals of neighbouring points.
     pub correlation: f64,
-    /// Number of independent residuals that would tell as much.
+    /// Number of independent residuals that would tell a mean as well.
     pub count: f64,
+    /// Number of independent residuals that would tell their variance as well.
+    pub squares: f64,
 }
 
 impl Independence {
     /// Of residuals in the order of measurement, as if each kept the part `$\rho$` of the one before:
-    /// `$n(1-\rho)/(1+\rho)$` of them are independent.
+    /// `$n(1-\rho)/(1+\rho)$` of them are independent, and `$n(1-\rho^2)/(1+\rho^2)$` of their squares
+    /// [Bartlett 1935].
     pub fn of(residuals: &[f64]) -> Self {
         let n = residuals.len() as f64;
         let square: f64 = residuals.iter().map(|r| r * r).sum();
         let pairs: f64 = residuals.windows(2).map(|pair| pair[0] * pair[1]).sum();
         let correlation = if square > 0.0 { pairs / square } else { 0.0 };
-        let count = if correlation * n.sqrt() > CHANCE {
-            n * (1.0 - correlation) / (1.0 + correlation)
-        } else {
-            n
+        let part = |kept: f64| match correlation * n.sqrt() > CHANCE {
+            true => n * (1.0 - kept) / (1.0 + kept),
+            false => n,
         };
-        Self { correlation, count }
+        Self {
+            correlation,
+            count: part(correlation),
+            squares: part(correlation * correlation),
+        }
     }
 }
 
@@ -84,7 +90,7 @@ pub(crate) fn statistics(
     let covariance = Covariance::of(problem, &parameters, report, Loss::Squares);
     let sandwich = sandwich(problem, &parameters, report, (&covariance, &residuals));
     let widening = residuals.len() as f64 / independence.count;
-    let degrees = (independence.count - count as f64).max(1.0) as usize;
+    let degrees = (independence.squares - count as f64).max(1.0) as usize;
     let quantile = student_quantile(LEVEL, degrees);
     let error = |j: usize| match covariance.standard_error(j) {
         Ok(_) => Ok((widening * sandwich[(j, j)]).max(0.0).sqrt()),
