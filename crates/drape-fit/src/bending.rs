@@ -3,20 +3,13 @@
 use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Piecewise};
 use drape_kes::{Curve, Test};
 
-use crate::curve_fit::{self, Identified, Named, line};
+use crate::choice::Model;
+use crate::curve_fit::{self, CurveFit, Identified, line};
 use crate::history::along;
+use crate::line::{Form, Line, Loop};
 use crate::lm::Parameter;
-use crate::{Error, FrictionOrder, LoopModel};
-
-/// Pre-sliding lengths to start from, over the largest deformation.
-///
-/// The length is the one parameter whose influence is not smooth from afar: with a start beyond the whole
-/// loop the friction looks like stiffness, with one far below the sampling it looks like a step.
-pub(crate) const LENGTH_STARTS: [f64; 3] = [0.01, 0.06, 0.3];
-/// Ratios of fast to slow length to start a second order from.
-pub(crate) const RATIO_STARTS: [f64; 2] = [0.1, 0.4];
-/// Slow plateaus to start a second order from, over the fast one.
-pub(crate) const SLOW_STARTS: [f64; 2] = [-0.4, 0.5];
+use crate::search::Named;
+use crate::{Error, FrictionOrder, LoopModel, Plateau, Settings};
 
 /// Identifies the bending law of one direction from a bending curve.
 ///
@@ -26,56 +19,87 @@ pub(crate) const SLOW_STARTS: [f64; 2] = [-0.4, 0.5];
 ///
 /// # Errors
 /// The curve is of another test, has no load, or does not rise.
-pub fn identify_bending(curve: &Curve, model: LoopModel) -> Result<Identified<BendingLaw>, Error> {
+pub fn identify_bending(
+    curve: &Curve,
+    settings: &Settings,
+) -> Result<Identified<BendingLaw>, Error> {
     curve_fit::expect(curve, Test::Bending)?;
-    match model {
-        LoopModel::Linear(order) => linear(curve, order),
-        LoopModel::Piecewise => {
-            let first = first_branch(curve)?;
+    let weights = settings.weighting.weights(curve, 0.0);
+    match settings.bending {
+        Some(LoopModel::Piecewise) => {
             let law = |p: &[f64]| BendingLaw {
                 backbone: BendingBackbone::Piecewise(piecewise(p)),
                 rest_curvature: 0.0,
                 friction: BlimanSorine::none(),
             };
-            let mut fit = curve_fit::fit(&first, &piecewise_starts(&first)?, |p, out| {
-                along(&law(p), first.deformation().iter().copied(), out);
+            let curvature = curve.deformation();
+            breen(curve, (curvature, settings), |p, path, out| {
+                along(&law(p), path.iter().copied(), out);
+            })
+            .map(|fit| Identified {
+                law: law(&fit.values()),
+                fit,
+            })
+        }
+        model => {
+            let law = |line: &Line| BendingLaw {
+                backbone: BendingBackbone::Linear {
+                    rigidity: line.stiffness,
+                },
+                rest_curvature: 0.0,
+                friction: line.friction,
+            };
+            let curvature = curve.deformation();
+            let drive = |line: &Line, out: &mut [f64]| {
+                along(&law(line), curvature.iter().copied(), out);
+            };
+            let search = Loop::new(curve, ("rigidity", curvature), &drive)?;
+            let forms = orders(model).map(|order| Form {
+                order,
+                plateau: Plateau::Constant,
             });
-            let law = law(&fit.values());
-            fit.load.resize(curve.load().len(), 0.0);
-            along(&law, curve.deformation().iter().copied(), &mut fit.load);
-            Ok(Identified { law, fit })
+            let forms: Vec<Form> = forms.collect();
+            let model = |form: &Form| search.model(*form, form.order.name().into());
+            let models: Vec<Model<'_>> = forms.iter().map(model).collect();
+            let fit = curve_fit::fit(curve, &models, (weights, settings.intervals));
+            let (line, _) = forms[fit.chosen].law(&fit.values());
+            Ok(Identified {
+                law: law(&line),
+                fit,
+            })
         }
     }
 }
 
-fn linear(curve: &Curve, order: FrictionOrder) -> Result<Identified<BendingLaw>, Error> {
-    let reach = reach(curve.deformation());
-    let slope = mean_slope(curve)?;
-    let plateau = half_width(curve, 0.4 * reach);
-    let own = [
-        (
-            "rigidity",
-            Parameter::new(slope).between(1e-3 * slope, 10.0 * slope),
-        ),
-        ("zero", zero(curve)),
-    ];
-    let starts: Vec<Vec<Named>> = friction_starts(order, plateau, reach, span(curve))
-        .into_iter()
-        .map(|friction| own.into_iter().chain(friction).collect())
-        .collect();
-    let law = |p: &[f64]| BendingLaw {
-        backbone: BendingBackbone::Linear { rigidity: p[0] },
-        rest_curvature: 0.0,
-        friction: friction(&p[2..]),
+/// The orders of friction that a setting leaves to choose from.
+pub(crate) fn orders(model: Option<LoopModel>) -> impl Iterator<Item = FrictionOrder> {
+    let wanted = move |order: &FrictionOrder| match model {
+        Some(LoopModel::Linear(wanted)) => *order == wanted,
+        _ => true,
     };
-    let fit = curve_fit::fit(curve, &starts, |p, out| {
-        along(&law(p), curve.deformation().iter().copied(), out);
-        out.iter_mut().for_each(|load| *load += p[1]);
-    });
-    Ok(Identified {
-        law: law(&fit.values()),
-        fit,
-    })
+    FrictionOrder::ALL.into_iter().filter(wanted)
+}
+
+/// Fits a quadratic and a line to the first branch of a curve, driven along a path.
+pub(crate) fn breen(
+    curve: &Curve,
+    (path, settings): (&[f64], &Settings),
+    drive: impl Fn(&[f64], &[f64], &mut [f64]) + Sync + Send,
+) -> Result<CurveFit, Error> {
+    let first = first_branch(curve)?;
+    let branch = &path[..first.load().len()];
+    let model = Model {
+        name: "a quadratic and a line on the first branch".into(),
+        starts: piecewise_starts(&first)?,
+        predict: Box::new(|p, out| drive(p, branch, out)),
+    };
+    let weights = settings.weighting.weights(&first, 0.0);
+    let mut fit = curve_fit::fit(&first, &[model], (weights, settings.intervals));
+    let points = curve.load().len();
+    fit.load.resize(points, 0.0);
+    drive(&fit.values(), path, &mut fit.load);
+    fit.branches = curve_fit::branches(curve);
+    Ok(fit)
 }
 
 /// Parameters of a quadratic and a line: the line through the outer part, and a few knots.
@@ -162,69 +186,10 @@ pub(crate) fn mean_slope(curve: &Curve) -> Result<f64, Error> {
         .ok_or_else(|| falling(curve))
 }
 
-/// Half the width of the loop near a deformation: the friction's plateau.
-///
-/// Of a curve that never turns back, a twentieth of its load: the search finds the rest.
-pub(crate) fn half_width(curve: &Curve, deformation: f64) -> f64 {
-    let width = curve.loop_width(deformation).unwrap_or(0.0);
-    if width > 0.0 {
-        0.5 * width
-    } else {
-        0.05 * span(curve)
-    }
-}
-
 /// The unknown zero of the load, at most half of its range away.
 pub(crate) fn zero(curve: &Curve) -> Parameter {
     let load = span(curve);
     Parameter::new(0.0)
         .with_scale(load)
         .between(-0.5 * load, 0.5 * load)
-}
-
-/// The friction's parameters: plateau, length, and for the second order the slow plateau over the fast one
-/// and the fast length over the slow one.
-pub(crate) fn friction_starts(
-    order: FrictionOrder,
-    plateau: f64,
-    reach: f64,
-    load: f64,
-) -> Vec<Vec<Named>> {
-    let plateau = Parameter::new(plateau)
-        .with_scale(0.01 * load)
-        .between(0.0, 2.0 * load);
-    let length =
-        |part: f64| Parameter::new(part * reach).between(LEAST_LENGTH * reach, 5.0 * reach);
-    let first = LENGTH_STARTS.map(|part| vec![("plateau", plateau), ("length", length(part))]);
-    match order {
-        FrictionOrder::First => first.into(),
-        FrictionOrder::Second => {
-            let mut starts = Vec::new();
-            for start in &first {
-                for ratio in RATIO_STARTS {
-                    for slow in SLOW_STARTS {
-                        let mut start = start.clone();
-                        start.push(("slow", Parameter::new(slow).between(-0.95, 5.0)));
-                        start.push(("ratio", Parameter::new(ratio).between(0.01, 0.95)));
-                        starts.push(start);
-                    }
-                }
-            }
-            starts
-        }
-    }
-}
-
-/// Shortest friction length over the largest deformation: below it a friction is a step at any sampling.
-pub(crate) const LEAST_LENGTH: f64 = 1e-4;
-
-/// The friction with the parameters of [`friction_starts`].
-pub(crate) fn friction(p: &[f64]) -> BlimanSorine {
-    match *p {
-        [plateau, length] => BlimanSorine::first_order(plateau, length),
-        [plateau, length, slow, ratio] => {
-            BlimanSorine::second_order(plateau, -slow * plateau, ratio, length)
-        }
-        _ => BlimanSorine::none(),
-    }
 }

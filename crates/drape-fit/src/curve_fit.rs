@@ -1,10 +1,13 @@
-//! The search that every test shares: several starts, one history, one best set of parameters.
+//! How a curve is fitted, and what comes of it.
 
 use drape_kes::{Curve, Direction, Test};
-use rayon::prelude::*;
 
-use crate::Error;
-use crate::lm::{self, Parameter, Report, Settings, Stop};
+use crate::choice::{Candidate, Model, choose};
+use crate::estimate::Estimate;
+use crate::lm::{Problem, Stop};
+use crate::search::{Found, Residuals, refine};
+use crate::statistics::{Independence, Statistics, statistics};
+use crate::{Error, Intervals};
 
 /// How well a law follows a measured curve, and with which parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,18 +18,38 @@ pub struct CurveFit {
     pub test: Test,
     /// The yarns along which the strip was loaded.
     pub direction: Direction,
-    /// Root mean square residual over the range of the measured load, a ratio.
+    /// Root mean square residual over the range of the measured load, a ratio; all points count alike.
     pub misfit: f64,
+    /// Root mean square residual, in the unit of the load.
+    pub rms: f64,
+    /// The same with the weights of the fit, over the range of the measured load, a ratio.
+    pub weighted_misfit: f64,
+    /// Part of the variance of the load that the law explains, `$R^2$`; all points count alike.
+    pub determination: f64,
+    /// Correlation of the residuals of neighbouring points, a ratio: zero for a law that leaves nothing but
+    /// noise, near one for a law that misses the curve systematically.
+    pub autocorrelation: f64,
+    /// Number of independent residuals that would tell as much: `$n(1-\rho)/(1+\rho)$` with the
+    /// autocorrelation `$\rho$`, where that is more than chance.
+    pub independent: f64,
     /// Steps of the best start.
     pub iterations: usize,
-    /// Evaluations of the law along the whole history, over all starts.
+    /// Evaluations of the law along the whole history, over all starts of all candidates.
     pub evaluations: usize,
-    /// Why the best start ended.
+    /// Why the search ended.
     pub stop: Stop,
-    /// The fitted parameters by name, in SI.
-    pub parameters: Vec<(&'static str, f64)>,
+    /// The fitted parameters.
+    pub parameters: Vec<Estimate>,
+    /// Correlations of the parameters, in their order; nothing where one is not determined.
+    pub correlations: Vec<Vec<Option<f64>>>,
+    /// The laws that were compared, in the order of preference.
+    pub candidates: Vec<Candidate>,
+    /// Which of them was taken.
+    pub chosen: usize,
     /// The law's load at each point of the curve, in the curve's unit.
     pub load: Vec<f64>,
+    /// The branch that each point belongs to, counted from zero; a turn belongs to the branch it ends.
+    pub branches: Vec<usize>,
 }
 
 /// A fitted law with its fit.
@@ -38,111 +61,94 @@ pub struct Identified<L> {
     pub fit: CurveFit,
 }
 
-/// Steps that every start is given before the best are chosen.
+/// Chooses among models, and fits the one chosen with its weights.
 ///
-/// Enough to leave the start's own neighbourhood, and a small part of a full search.
-const SCOUT_ITERATIONS: usize = 12;
-/// Starts that are searched to the end; more than one because the nearest valley is not always the deepest.
-const FINALISTS: usize = 3;
-
-/// A named parameter of a law.
-pub(crate) type Named = (&'static str, Parameter);
-
-/// The best end of a search from several starts.
-pub(crate) struct Found {
-    pub(crate) parameters: Vec<(&'static str, f64)>,
-    pub(crate) report: Report,
-    /// Evaluations over all starts.
-    pub(crate) evaluations: usize,
-}
-
-/// Searches from every start a little way, and from the best of them to the end.
-///
-/// The starts run side by side; the first of equally good ones is taken, so the number of threads does not
-/// matter.
-pub(crate) fn search(problem: &(impl lm::Problem + Sync), starts: &[Vec<Named>]) -> Found {
-    let minimise = |start: &[Named], from: Option<&Report>, iterations: usize| {
-        let mut parameters: Vec<Parameter> = start.iter().map(|(_, p)| *p).collect();
-        if let Some(report) = from {
-            for (parameter, value) in parameters.iter_mut().zip(&report.parameters) {
-                parameter.start = *value;
-            }
-        }
-        lm::minimise(
-            problem,
-            &parameters,
-            &Settings {
-                iterations,
-                ..Settings::default()
-            },
-        )
-    };
-    let mut scouts: Vec<(usize, Report)> = (0..starts.len())
-        .into_par_iter()
-        .map(|index| (index, minimise(&starts[index], None, SCOUT_ITERATIONS)))
-        .collect();
-    scouts.sort_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms));
-    let scouted: usize = scouts.iter().map(|(_, report)| report.evaluations).sum();
-    scouts.truncate(FINALISTS);
-    let finals: Vec<(usize, Report)> = scouts
-        .par_iter()
-        .map(|(index, scout)| {
-            let iterations = Settings::default().iterations;
-            let mut report = minimise(&starts[*index], Some(scout), iterations);
-            report.iterations += scout.iterations;
-            (*index, report)
-        })
-        .collect();
-    let searched: usize = finals.iter().map(|(_, report)| report.evaluations).sum();
-    let (index, report) = finals
-        .into_iter()
-        .min_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms))
-        .expect("every law gives at least one start");
-    let names = starts[index].iter().map(|(name, _)| *name);
-    let parameters = names.zip(report.parameters.iter().copied()).collect();
-    Found {
-        parameters,
-        report,
-        evaluations: scouted + searched,
-    }
-}
-
-/// Finds the parameters with which `predict` comes nearest to the curve's loads.
+/// The choice is made, and its criterion computed, with all points counting alike: a criterion of weighted
+/// residuals would take the noise of heavy points for structure.
 pub(crate) fn fit(
     curve: &Curve,
-    starts: &[Vec<Named>],
-    predict: impl Fn(&[f64], &mut [f64]) + Sync,
+    models: &[Model<'_>],
+    (weights, intervals): (Vec<f64>, Intervals),
 ) -> CurveFit {
-    let (low, high) = curve.load_range();
-    let problem = Residuals {
-        load: curve.load(),
-        scale: 1.0 / (high - low),
-        predict: &predict,
-    };
-    let found = search(&problem, starts);
+    let choice = choose(curve, models);
+    let model = &models[choice.chosen];
+    let problem = Residuals::new(curve, &model.predict).weighted(weights);
+    let unweighted = choice.found.report.parameters.clone();
+    let found = refine(&problem, choice.found);
     let mut load = vec![0.0; curve.load().len()];
-    predict(&found.report.parameters, &mut load);
-    CurveFit::new(curve, found.report.rms, found, load)
+    (model.predict)(&found.report.parameters, &mut load);
+    let weighted = !problem.weights().is_empty();
+    let compared = if weighted {
+        &unweighted
+    } else {
+        &found.report.parameters
+    };
+    let statistics = statistics(&problem, &found.named, &found.report, (compared, intervals));
+    let mut fit = CurveFit::new(curve, found, statistics, load);
+    fit.evaluations += choice.evaluations;
+    (fit.candidates, fit.chosen) = (choice.candidates, choice.chosen);
+    fit
 }
 
 impl CurveFit {
-    pub(crate) fn new(curve: &Curve, misfit: f64, found: Found, load: Vec<f64>) -> Self {
+    /// The fit of a curve by one law, with the law's loads; a load equal to the measured one to the last bit
+    /// marks a point that was not used.
+    pub(crate) fn new(curve: &Curve, found: Found, statistics: Statistics, load: Vec<f64>) -> Self {
+        let (low, high) = curve.load_range();
+        let residuals: Vec<f64> = load.iter().zip(curve.load()).map(|(a, b)| a - b).collect();
+        let n = residuals.len() as f64;
+        let square: f64 = residuals.iter().map(|r| r * r).sum();
+        let mean = curve.load().iter().sum::<f64>() / n;
+        let variance: f64 = curve.load().iter().map(|load| (load - mean).powi(2)).sum();
+        let independence = Independence::of(&residuals);
+        let rms = (square / n).sqrt();
         Self {
             name: curve.name.clone(),
             test: curve.test,
             direction: curve.direction,
-            misfit,
+            misfit: rms / (high - low),
+            rms,
+            weighted_misfit: found.report.rms,
+            determination: 1.0 - square / variance,
+            autocorrelation: independence.correlation,
+            independent: independence.count,
             iterations: found.report.iterations,
             evaluations: found.evaluations,
             stop: found.report.stop,
-            parameters: found.parameters,
+            parameters: statistics.estimates,
+            correlations: statistics.correlations,
+            candidates: Vec::new(),
+            chosen: 0,
             load,
+            branches: branches(curve),
         }
     }
 
+    /// The values of the parameters.
     pub(crate) fn values(&self) -> Vec<f64> {
-        self.parameters.iter().map(|(_, value)| *value).collect()
+        self.parameters
+            .iter()
+            .map(|estimate| estimate.value)
+            .collect()
     }
+
+    /// Akaike's criterion of the law taken, [`lm::akaike`](crate::lm::akaike), from the independent residuals;
+    /// nothing where they are too few.
+    #[must_use]
+    pub fn criterion(&self) -> Option<f64> {
+        self.candidates.get(self.chosen)?.criterion
+    }
+}
+
+/// The branch of each point.
+pub(crate) fn branches(curve: &Curve) -> Vec<usize> {
+    let mut branches = vec![0; curve.load().len()];
+    for (index, branch) in curve.branches().iter().enumerate() {
+        // The first point of a later branch is the turn, which ends the one before.
+        let first = branch.points.start + usize::from(index > 0);
+        branches[first..branch.points.end].fill(index);
+    }
+    branches
 }
 
 /// Checks that a curve is of the right test and has a load that changes.
@@ -174,23 +180,4 @@ pub(crate) fn line(points: impl Iterator<Item = (f64, f64)> + Clone) -> Option<(
     });
     let slope = xy / xx;
     slope.is_finite().then_some((slope, my - slope * mx))
-}
-
-struct Residuals<'a, F> {
-    load: &'a [f64],
-    scale: f64,
-    predict: &'a F,
-}
-
-impl<F: Fn(&[f64], &mut [f64])> lm::Problem for Residuals<'_, F> {
-    fn residual_count(&self) -> usize {
-        self.load.len()
-    }
-
-    fn residuals(&self, parameters: &[f64], out: &mut [f64]) {
-        (self.predict)(parameters, out);
-        for (residual, load) in out.iter_mut().zip(self.load) {
-            *residual = (*residual - load) * self.scale;
-        }
-    }
 }

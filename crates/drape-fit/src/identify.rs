@@ -1,23 +1,46 @@
 //! A whole fabric from a sheet.
 
 use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
-use drape_kes::{Direction, ShearPoints, Sheet};
+use drape_kes::{BendingPoints, Direction, ShearPoints, Sheet};
 
 use crate::from_values::bending_from_values;
 use crate::measured::{Found, Measured};
-use crate::{CurveFit, Error, LoopModel, TractionModel, assumed};
+use crate::{CurveFit, Error, LoopModel, Plateau, Toe, TractionModel, Weighting, assumed};
 
-/// Which laws to identify, and where KES values are read.
+/// Which laws to identify, how, and where KES values are read.
+///
+/// Every law that is not set is chosen by Akaike's criterion, and [`CurveFit::candidates`] says among which.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Settings {
-    /// Elastic load of the traction laws; whichever follows the curve better unless set.
+    /// Elastic load of the traction laws.
     pub traction: Option<TractionModel>,
-    /// The bending laws.
-    pub bending: LoopModel,
-    /// The shear law.
-    pub shear: LoopModel,
+    /// Whether the priming zone of the traction laws moves.
+    pub toe: Option<Toe>,
+    /// The bending laws; of those with a line, unless set.
+    pub bending: Option<LoopModel>,
+    /// The shear law; of those with a line, unless set.
+    pub shear: Option<LoopModel>,
+    /// Whether the plateau of the shear friction grows.
+    pub plateau: Option<Plateau>,
+    /// How much each point of a curve counts.
+    pub weighting: Weighting,
+    /// How the intervals of the parameters are found.
+    pub intervals: Intervals,
+    /// Where the sheet's B and 2HB were read.
+    pub bending_points: BendingPoints,
     /// Where the sheet's G, 2HG and 2HG5 were read.
     pub shear_points: ShearPoints,
+}
+
+/// How the intervals of the parameters are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Intervals {
+    /// From the standard errors: right where the law is nearly linear over them.
+    #[default]
+    Wald,
+    /// From the residuals themselves, [`lm::profile`](crate::lm::profile): right for curved laws and at bounds,
+    /// for some hundred times the work.
+    Profile,
 }
 
 /// An identified fabric, with how it came about.

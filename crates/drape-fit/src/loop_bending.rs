@@ -3,17 +3,23 @@
 use drape_fabric::{BendingBackbone, BendingLaw};
 use drape_kes::{Curve, Test};
 
-use crate::bending::{friction, friction_starts, span};
-use crate::curve_fit::{self, Found, Identified, Named};
+use crate::bending::span;
+use crate::curve_fit::{self, Identified};
 use crate::elastica::Arch;
+use crate::line::{LEAST_LENGTH, friction};
 use crate::lm::{Parameter, Problem};
-use crate::{CurveFit, Error, FrictionOrder};
+use crate::search::{Named, refine, search};
+use crate::statistics::statistics;
+use crate::{CurveFit, Error, Settings};
 
 /// Least shortening of the strip that is used, a part of its length.
 ///
 /// Below it the arch is so flat that the clamp distance hardly tells its height: an error of 0.1 mm in the
 /// length of a strip of 2 cm is a quarter of this.
 const LEAST_SHORTENING: f64 = 0.02;
+
+/// Friction lengths to start from, over the largest curvature.
+const LENGTH_STARTS: [f64; 3] = [0.01, 0.06, 0.3];
 
 /// Parameters that all strips share: rigidity, plateau, length.
 const SHARED: usize = 3;
@@ -36,15 +42,24 @@ const OWN: usize = 3;
 ///
 /// # Errors
 /// A curve is of another test, has no load or no gauge, or its strip is hardly bent.
-pub fn identify_loop_bending(curves: &[&Curve]) -> Result<Vec<Identified<BendingLaw>>, Error> {
+pub fn identify_loop_bending(
+    curves: &[&Curve],
+    settings: &Settings,
+) -> Result<Vec<Identified<BendingLaw>>, Error> {
     let strips: Result<Vec<Strip<'_>>, Error> =
         curves.iter().map(|&curve| Strip::new(curve)).collect();
     let problem = Strips(strips?);
     if problem.0.is_empty() {
         return Ok(Vec::new());
     }
-    let found = curve_fit::search(&problem, &problem.starts());
+    let found = refine(&problem, search(&problem, &problem.starts()));
     let p = &found.report.parameters;
+    let statistics = statistics(
+        &problem,
+        &found.named,
+        &found.report,
+        (p, settings.intervals),
+    );
     let law = BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: p[0] },
         rest_curvature: 0.0,
@@ -55,21 +70,12 @@ pub fn identify_loop_bending(curves: &[&Curve]) -> Result<Vec<Identified<Bending
         let mut out = vec![0.0; strip.load.len()];
         strip.residuals(p, &p[own..own + OWN], &mut out);
         let squares: f64 = out.iter().map(|residual| residual * residual).sum();
-        let misfit = (squares / out.len() as f64).sqrt();
-        let parameters = [
-            &found.parameters[..SHARED],
-            &found.parameters[own..own + OWN],
-        ]
-        .concat();
-        let share = Found {
-            parameters,
-            report: found.report.clone(),
-            ..found
-        };
-        Identified {
-            law,
-            fit: CurveFit::new(strip.curve, misfit, share, strip.whole(&out)),
-        }
+        let share = statistics.of((0..SHARED).chain(own..own + OWN));
+        let mut fit = CurveFit::new(strip.curve, found.clone(), share, strip.whole(&out));
+        // Points that are too flat are not used, and do not count.
+        fit.misfit = (squares / out.len() as f64).sqrt();
+        fit.rms = fit.misfit / strip.scale;
+        Identified { law, fit }
     });
     Ok(identified.collect())
 }
@@ -182,10 +188,15 @@ impl Strips<'_> {
         let moment = mean(&|strip| 1.0 / (strip.scale * strip.range(|arch| arch.turning).0));
         let reach = mean(&|strip| strip.range(|arch| arch.curvature).1);
         let own: Vec<Named> = self.0.iter().flat_map(Strip::own).collect();
-        friction_starts(FrictionOrder::First, 0.1 * moment, reach, moment)
-            .into_iter()
-            .map(|friction| [&[shared], friction.as_slice(), &own].concat())
-            .collect()
+        let plateau = Parameter::new(0.1 * moment)
+            .with_scale(0.01 * moment)
+            .between(0.0, 2.0 * moment);
+        let start = |part: f64| {
+            let length = Parameter::new(part * reach).between(LEAST_LENGTH * reach, 5.0 * reach);
+            let shared = [shared, ("plateau", plateau), ("length", length)];
+            [&shared, own.as_slice()].concat()
+        };
+        LENGTH_STARTS.map(start).into()
     }
 }
 
@@ -248,10 +259,11 @@ mod tests {
         let friction = BlimanSorine::first_order(plateau, slip);
         let own = [[0.7, 0.2, -0.4], [-0.3, 0.1, 0.6]];
         let curves = own.map(|own| strip(rigidity, &friction, own));
-        let found = identify_loop_bending(&[&curves[0], &curves[1]]).unwrap();
+        let found = identify_loop_bending(&[&curves[0], &curves[1]], &Settings::default()).unwrap();
         for (found, own) in found.iter().zip(own) {
             let exact = [rigidity, plateau, slip].into_iter().chain(own);
-            for ((name, value), exact) in found.fit.parameters.iter().zip(exact) {
+            for (estimate, exact) in found.fit.parameters.iter().zip(exact) {
+                let (name, value) = (estimate.name, estimate.value);
                 let error = (value / exact - 1.0).abs();
                 assert!(error < 1e-6, "{name} is {value:e}, exactly {exact:e}");
             }
@@ -265,12 +277,12 @@ mod tests {
         let load = vec![0.0, -0.1, -0.11];
         let mut curve = Curve::new(Test::LoopBending, Direction::Warp, strain, load).unwrap();
         assert!(matches!(
-            identify_loop_bending(&[&curve]),
+            identify_loop_bending(&[&curve], &Settings::default()),
             Err(Error::NoGauge { .. })
         ));
         curve.gauge = Some(0.02);
         assert!(matches!(
-            identify_loop_bending(&[&curve]),
+            identify_loop_bending(&[&curve], &Settings::default()),
             Err(Error::HardlyBent { .. })
         ));
     }

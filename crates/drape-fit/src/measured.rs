@@ -8,16 +8,9 @@ use crate::from_values::{
     TensileTarget, bending_from_values, shear_from_values, tensile_from_values,
 };
 use crate::{
-    CurveFit, Error, Identified, Settings, TractionModel, assumed, identify_bending,
-    identify_loop_bending, identify_shear, identify_tensile,
+    CurveFit, Error, Identified, Settings, assumed, identify_bending, identify_loop_bending,
+    identify_shear, identify_tensile,
 };
-
-/// How much better the polynomial must follow a tensile curve than the priming zone to be taken, as a ratio
-/// of their misfits.
-///
-/// The priming zone is the model, and its parameters mean something; the polynomial is for curves that go on
-/// bending upwards to their end.
-const CLEARLY_BETTER: f64 = 0.5;
 
 /// Difference between WT and ½·LT·FM·EM, relative, that rounding of printed values does not explain.
 const CONTRADICTION: f64 = 0.05;
@@ -55,10 +48,10 @@ impl Laws {
     fn of(group: &[&Curve], settings: &Settings) -> Result<Vec<Self>, Error> {
         let curve = group[0];
         Ok(match curve.test {
-            Test::Tensile => vec![Self::Traction(traction(curve, settings.traction)?)],
-            Test::Bending => vec![Self::Bending(identify_bending(curve, settings.bending)?)],
-            Test::Shear => vec![Self::Shear(identify_shear(curve, settings.shear)?)],
-            Test::LoopBending => identify_loop_bending(group)?
+            Test::Tensile => vec![Self::Traction(identify_tensile(curve, settings)?)],
+            Test::Bending => vec![Self::Bending(identify_bending(curve, settings)?)],
+            Test::Shear => vec![Self::Shear(identify_shear(curve, settings)?)],
+            Test::LoopBending => identify_loop_bending(group, settings)?
                 .into_iter()
                 .map(Self::LoopBending)
                 .collect(),
@@ -72,16 +65,6 @@ impl Laws {
             Self::Shear(found) => found.fit,
         }
     }
-}
-
-fn traction(curve: &Curve, model: Option<TractionModel>) -> Result<Identified<TractionLaw>, Error> {
-    if let Some(model) = model {
-        return identify_tensile(curve, model);
-    }
-    let primed = identify_tensile(curve, TractionModel::Primed)?;
-    let polynomial = identify_tensile(curve, TractionModel::Polynomial)?;
-    let better = polynomial.fit.misfit < CLEARLY_BETTER * primed.fit.misfit;
-    Ok(if better { polynomial } else { primed })
 }
 
 /// The sheet with the laws of its curves.

@@ -3,19 +3,12 @@
 use drape_fabric::{BlimanSorine, Locking, ShearBackbone, ShearLaw};
 use drape_kes::{Curve, Test};
 
-use crate::bending::{
-    first_branch, friction, friction_starts, half_width, mean_slope, piecewise, piecewise_starts,
-    reach, span, zero,
-};
-use crate::curve_fit::{self, Identified, Named};
+use crate::bending::{breen, orders, piecewise, reach};
+use crate::choice::Model;
+use crate::curve_fit::{self, Identified};
 use crate::history::along;
-use crate::lm::Parameter;
-use crate::{Error, FrictionOrder, LoopModel};
-
-/// Growths of the plateau to start from, per unit of the sine.
-const GROWTH_STARTS: [f64; 2] = [0.5, 8.0];
-/// Largest growth looked for: a plateau that grows a hundredfold over the KES range.
-const LARGEST_GROWTH: f64 = 700.0;
+use crate::line::{Form, Line, Loop};
+use crate::{Error, LoopModel, Plateau, Settings};
 
 /// Identifies the shear law from a shear curve.
 ///
@@ -26,14 +19,30 @@ const LARGEST_GROWTH: f64 = 700.0;
 ///
 /// # Errors
 /// The curve is of another test, has no load, or does not rise.
-pub fn identify_shear(curve: &Curve, model: LoopModel) -> Result<Identified<ShearLaw>, Error> {
+pub fn identify_shear(curve: &Curve, settings: &Settings) -> Result<Identified<ShearLaw>, Error> {
     curve_fit::expect(curve, Test::Shear)?;
-    let found = match model {
-        LoopModel::Linear(order) => linear(curve, order)?,
-        LoopModel::Piecewise => breen(curve)?,
+    let angles = curve.deformation().iter();
+    let sines: Vec<f64> = angles.map(|angle| angle.sin()).collect();
+    let found = match settings.shear {
+        Some(LoopModel::Piecewise) => {
+            let law = |p: &[f64]| ShearLaw {
+                backbone: ShearBackbone::Piecewise(piecewise(p)),
+                friction: BlimanSorine::none(),
+                growth: 0.0,
+                locking: None,
+            };
+            let fit = breen(curve, (&sines, settings), |p, path, out| {
+                along(&law(p), path.iter().copied(), out);
+            })?;
+            Identified {
+                law: law(&fit.values()),
+                fit,
+            }
+        }
+        _ => line(curve, &sines, settings)?,
     };
     let default = Locking::default();
-    let onset = default.onset.max(reach(&sines(curve)));
+    let onset = default.onset.max(reach(&sines));
     let locking = (onset < default.limit).then_some(Locking { onset, ..default });
     Ok(Identified {
         law: ShearLaw {
@@ -44,68 +53,39 @@ pub fn identify_shear(curve: &Curve, model: LoopModel) -> Result<Identified<Shea
     })
 }
 
-fn sines(curve: &Curve) -> Vec<f64> {
-    curve
-        .deformation()
-        .iter()
-        .map(|angle| angle.sin())
-        .collect()
-}
-
-fn linear(curve: &Curve, order: FrictionOrder) -> Result<Identified<ShearLaw>, Error> {
-    let sines = sines(curve);
-    let reach = reach(&sines);
-    let slope = mean_slope(curve)?;
-    let plateau = half_width(curve, 0.3 * reach);
-    let own = |growth: f64| {
-        [
-            (
-                "stiffness",
-                Parameter::new(slope).between(1e-3 * slope, 10.0 * slope),
-            ),
-            ("zero", zero(curve)),
-            (
-                "growth",
-                Parameter::new(growth).between(0.0, LARGEST_GROWTH),
-            ),
-        ]
-    };
-    let starts: Vec<Vec<Named>> = friction_starts(order, plateau, reach, span(curve))
-        .iter()
-        .flat_map(|friction| {
-            GROWTH_STARTS.map(|growth| own(growth).into_iter().chain(friction.clone()).collect())
-        })
-        .collect();
-    let law = |p: &[f64]| ShearLaw {
-        backbone: ShearBackbone::Linear { stiffness: p[0] },
-        friction: friction(&p[3..]),
-        growth: p[2],
+fn line(curve: &Curve, sines: &[f64], settings: &Settings) -> Result<Identified<ShearLaw>, Error> {
+    let law = |line: &Line| ShearLaw {
+        backbone: ShearBackbone::Linear {
+            stiffness: line.stiffness,
+        },
+        friction: line.friction,
+        growth: line.growth,
         locking: None,
     };
-    let fit = curve_fit::fit(curve, &starts, |p, out| {
-        along(&law(p), sines.iter().copied(), out);
-        out.iter_mut().for_each(|load| *load += p[1]);
-    });
+    let drive = |line: &Line, out: &mut [f64]| {
+        along(&law(line), sines.iter().copied(), out);
+    };
+    let search = Loop::new(curve, ("stiffness", sines), &drive)?;
+    let plateaus: Vec<Plateau> = match settings.plateau {
+        Some(plateau) => vec![plateau],
+        None => vec![Plateau::Constant, Plateau::Growing],
+    };
+    let forms: Vec<Form> = orders(settings.shear)
+        .flat_map(|order| plateaus.iter().map(move |&plateau| Form { order, plateau }))
+        .collect();
+    let model = |form: &Form| {
+        let plateau = match form.plateau {
+            Plateau::Constant => "constant plateau",
+            Plateau::Growing => "growing plateau",
+        };
+        search.model(*form, format!("{}, {plateau}", form.order.name()))
+    };
+    let models: Vec<Model<'_>> = forms.iter().map(model).collect();
+    let weights = settings.weighting.weights(curve, 0.0);
+    let fit = curve_fit::fit(curve, &models, (weights, settings.intervals));
+    let (line, _) = forms[fit.chosen].law(&fit.values());
     Ok(Identified {
-        law: law(&fit.values()),
+        law: law(&line),
         fit,
     })
-}
-
-fn breen(curve: &Curve) -> Result<Identified<ShearLaw>, Error> {
-    let first = first_branch(curve)?;
-    let law = |p: &[f64]| ShearLaw {
-        backbone: ShearBackbone::Piecewise(piecewise(p)),
-        friction: BlimanSorine::none(),
-        growth: 0.0,
-        locking: None,
-    };
-    let branch = sines(&first);
-    let mut fit = curve_fit::fit(&first, &piecewise_starts(&first)?, |p, out| {
-        along(&law(p), branch.iter().copied(), out);
-    });
-    let law = law(&fit.values());
-    fit.load.resize(curve.load().len(), 0.0);
-    along(&law, sines(curve).into_iter(), &mut fit.load);
-    Ok(Identified { law, fit })
 }

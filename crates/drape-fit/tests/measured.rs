@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 
 use drape_fabric::{BendingBackbone, TractionBackbone};
-use drape_fit::{CurveFit, Fit, identify};
+use drape_fit::{Candidate, CurveFit, Fit, identify};
 use drape_kes::Sheet;
 
 fn fabric(name: &str) -> Fit {
@@ -14,20 +14,42 @@ fn fabric(name: &str) -> Fit {
         .join(name);
     let sheet = Sheet::read(folder).expect("a shipped sheet is good");
     let fit = identify(&sheet).expect("a shipped fabric is identified");
-    for curve in &fit.curves {
-        let CurveFit {
-            name,
+    fit.curves.iter().for_each(print);
+    fit
+}
+
+fn print(fit: &CurveFit) {
+    println!(
+        "{}: {:.3} % (weighted {:.3} %), R² {:.5}, neighbours {:.3}, {:.0} independent, {} steps, {} evaluations, {:?}",
+        fit.name,
+        100.0 * fit.misfit,
+        100.0 * fit.weighted_misfit,
+        fit.determination,
+        fit.autocorrelation,
+        fit.independent,
+        fit.iterations,
+        fit.evaluations,
+        fit.stop
+    );
+    for (i, candidate) in fit.candidates.iter().enumerate() {
+        let mark = if i == fit.chosen { "*" } else { " " };
+        let Candidate {
+            law,
+            parameters,
             misfit,
-            iterations,
-            stop,
-            ..
-        } = curve;
+            criterion,
+        } = candidate;
         println!(
-            "{name}: {:.3} % in {iterations} iterations, {stop:?}",
+            "  {mark} {law}: {parameters} parameters, {:.3} %, {criterion:.1?}",
             100.0 * misfit
         );
     }
-    fit
+    for estimate in &fit.parameters {
+        println!(
+            "    {:12} {:12.5e} ± {:?} unweighted {:.5e}",
+            estimate.name, estimate.value, estimate.error, estimate.unweighted
+        );
+    }
 }
 
 fn misfit(fit: &Fit, name: &str) -> f64 {

@@ -10,8 +10,8 @@ use drape_fabric::{
     ShearBackbone, ShearLaw, TractionBackbone, TractionLaw, drive,
 };
 use drape_fit::{
-    FrictionOrder, Identified, LoopModel, TractionModel, identify_bending, identify_shear,
-    identify_tensile,
+    CurveFit, FrictionOrder, Identified, LoopModel, Plateau, Settings, Toe, TractionModel,
+    identify_bending, identify_shear, identify_tensile,
 };
 use drape_kes::{Curve, Direction, Test};
 
@@ -44,6 +44,24 @@ impl Random {
     }
 }
 
+fn primed_settings() -> Settings {
+    Settings {
+        traction: Some(TractionModel::Primed),
+        toe: Some(Toe::Moving),
+        ..Settings::default()
+    }
+}
+
+/// One law for bending and shear, with a plateau that may grow.
+fn loops(model: LoopModel) -> Settings {
+    Settings {
+        bending: Some(model),
+        shear: Some(model),
+        plateau: Some(Plateau::Growing),
+        ..Settings::default()
+    }
+}
+
 /// A history through the given turning points, in steps of about the given size.
 fn history(turns: &[f64], step: f64) -> Vec<f64> {
     let mut history = vec![turns[0]];
@@ -67,6 +85,13 @@ fn curve(test: Test, law: &impl Law, deformation: Vec<f64>, zero: f64) -> Curve 
     Curve::new(test, Direction::Warp, deformation, load).expect("a curve of a law")
 }
 
+fn values(fit: &CurveFit) -> Vec<f64> {
+    fit.parameters
+        .iter()
+        .map(|estimate| estimate.value)
+        .collect()
+}
+
 /// The largest relative error over many fabrics, with the fabric and the parameter it belongs to.
 fn worst<L>(
     name: &str,
@@ -81,7 +106,8 @@ fn worst<L>(
         iterations += found.fit.iterations;
         assert_eq!(truth.len(), found.fit.parameters.len());
         let mut bad = false;
-        for (exact, (parameter, value)) in truth.iter().zip(&found.fit.parameters) {
+        for (exact, estimate) in truth.iter().zip(&found.fit.parameters) {
+            let (parameter, value) = (estimate.name, estimate.value);
             // A parameter whose true value is zero is judged by the misfit alone.
             let error = if *exact == 0.0 {
                 0.0
@@ -92,7 +118,9 @@ fn worst<L>(
             if !(error <= worst.0) {
                 let text = format!(
                     "fabric {seed}: {parameter} is {value:e}, exactly {exact:e}; misfit {:e}, {:?}; {truth:?} {:?}",
-                    found.fit.misfit, found.fit.stop, found.fit.parameters
+                    found.fit.misfit,
+                    found.fit.stop,
+                    values(&found.fit)
                 );
                 worst = (error, text);
             }
@@ -154,7 +182,7 @@ fn a_primed_traction_law_is_recovered_from_one_kes_cycle() {
         );
         (
             truth,
-            identify_tensile(&curve, TractionModel::Primed).expect("identified"),
+            identify_tensile(&curve, &primed_settings()).expect("identified"),
         )
     });
 }
@@ -167,7 +195,7 @@ fn a_primed_traction_law_is_recovered_from_three_growing_cycles() {
         let curve = curve(Test::Tensile, &law, history(&turns, top / 60.0), 0.0);
         (
             truth,
-            identify_tensile(&curve, TractionModel::Primed).expect("identified"),
+            identify_tensile(&curve, &primed_settings()).expect("identified"),
         )
     });
 }
@@ -199,7 +227,14 @@ fn a_polynomial_traction_law_is_recovered() {
         let truth = vec![quadratic, quartic, plateau, length];
         (
             truth,
-            identify_tensile(&curve, TractionModel::Polynomial).expect("identified"),
+            identify_tensile(
+                &curve,
+                &Settings {
+                    traction: Some(TractionModel::Polynomial),
+                    ..Settings::default()
+                },
+            )
+            .expect("identified"),
         )
     });
 }
@@ -231,7 +266,8 @@ fn a_bending_law_with_first_order_friction_is_recovered() {
         let truth = vec![rigidity, zero, plateau, length];
         (
             truth,
-            identify_bending(&curve, LoopModel::Linear(FrictionOrder::First)).expect("identified"),
+            identify_bending(&curve, &loops(LoopModel::Linear(FrictionOrder::First)))
+                .expect("identified"),
         )
     });
 }
@@ -242,7 +278,11 @@ fn a_bending_law_with_second_order_friction_is_recovered() {
         let (rigidity, plateau, zero) = bending(random);
         let length = random.logarithmic(15.0, 80.0);
         // The slow element takes away (stiction) or adds (loops that grow with their amplitude).
-        let slow = if random.unit() < 0.5 { -1.0 } else { 2.0 } * random.between(0.2, 0.7);
+        let (order, sign) = match random.unit() < 0.5 {
+            true => (FrictionOrder::Second, -1.0),
+            false => (FrictionOrder::Parallel, 2.0),
+        };
+        let slow = sign * random.between(0.2, 0.7);
         let ratio = random.logarithmic(0.08, 0.5);
         let law = BendingLaw {
             backbone: BendingBackbone::Linear { rigidity },
@@ -253,7 +293,7 @@ fn a_bending_law_with_second_order_friction_is_recovered() {
         let truth = vec![rigidity, zero, plateau, length, slow, ratio];
         (
             truth,
-            identify_bending(&curve, LoopModel::Linear(FrictionOrder::Second)).expect("identified"),
+            identify_bending(&curve, &loops(LoopModel::Linear(order))).expect("identified"),
         )
     });
 }
@@ -275,7 +315,7 @@ fn breens_quadratic_and_line_are_recovered_from_the_first_branch() {
         let curve = curve(Test::Bending, &law, bending_history(), 0.0);
         (
             vec![slope, plateau, knot],
-            identify_bending(&curve, LoopModel::Piecewise).expect("identified"),
+            identify_bending(&curve, &loops(LoopModel::Piecewise)).expect("identified"),
         )
     });
 }
@@ -313,7 +353,8 @@ fn a_shear_law_with_a_growing_plateau_is_recovered() {
         let (truth, curve) = shear(random, true);
         (
             truth,
-            identify_shear(&curve, LoopModel::Linear(FrictionOrder::First)).expect("identified"),
+            identify_shear(&curve, &loops(LoopModel::Linear(FrictionOrder::First)))
+                .expect("identified"),
         )
     });
 }
@@ -324,7 +365,8 @@ fn a_shear_law_with_a_constant_plateau_is_recovered() {
         let (truth, curve) = shear(random, false);
         (
             truth,
-            identify_shear(&curve, LoopModel::Linear(FrictionOrder::First)).expect("identified"),
+            identify_shear(&curve, &loops(LoopModel::Linear(FrictionOrder::First)))
+                .expect("identified"),
         )
     });
 }

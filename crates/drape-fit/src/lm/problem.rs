@@ -66,6 +66,18 @@ impl Parameter {
         Self { scale, ..self }
     }
 
+    /// The same parameter kept at its start.
+    #[must_use]
+    pub fn fixed(self) -> Self {
+        self.between(self.start, self.start)
+    }
+
+    /// Whether the bounds leave it only one value.
+    #[must_use]
+    pub fn is_fixed(&self) -> bool {
+        !(self.lower < self.upper)
+    }
+
     pub(crate) fn clamp(&self, value: f64) -> f64 {
         value.max(self.lower).min(self.upper)
     }

@@ -1,0 +1,120 @@
+//! Which of several laws a curve bears out.
+
+use drape_kes::Curve;
+use rayon::prelude::*;
+
+use crate::lm::{self, Report};
+use crate::search::{Found, Named, Residuals, search};
+use crate::statistics::Independence;
+
+/// Lead in Akaike's criterion that a law less preferred must have.
+///
+/// A lead of four to seven leaves the other law considerably less support [Burnham & Anderson 2002, §2.6]. The
+/// criterion alone takes a second friction element that is not there in one of six noisy loops, because its
+/// length is free to find the noise; with this lead it is one in a hundred.
+const LEAD: f64 = 6.0;
+/// Root mean square residual, over the range of the load, that no instrument resolves: that of a converter
+/// with 24 bits. Below it, rounding would decide between laws.
+const RESOLUTION: f64 = 1e-7;
+
+/// A law that was compared with others on one curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// The law, in words.
+    pub law: String,
+    /// Number of fitted parameters.
+    pub parameters: usize,
+    /// Root mean square residual over the range of the load, all points counting alike; a ratio.
+    pub misfit: f64,
+    /// Akaike's criterion for small samples, [`lm::akaike`]; nothing where the points are too few.
+    ///
+    /// Its logarithm counts the independent residuals ([`CurveFit::independent`](crate::CurveFit::independent))
+    /// of the candidate that leaves the least, not all: the quasi-likelihood criterion of [Burnham &
+    /// Anderson 2002, §2.5]. Residuals of a law that misses the curve systematically are alike, and each would
+    /// vote for any law with more parameters. For independent noise both are the same.
+    pub criterion: Option<f64>,
+}
+
+/// A law that a curve may be fitted with.
+pub(crate) struct Model<'a> {
+    pub name: String,
+    pub starts: Vec<Vec<Named>>,
+    pub predict: Predict<'a>,
+}
+
+/// Writes the loads of a law with some parameters along a curve.
+pub(crate) type Predict<'a> = Box<dyn Fn(&[f64], &mut [f64]) + Sync + Send + 'a>;
+
+/// The law chosen, and what it was compared with.
+pub(crate) struct Choice {
+    pub candidates: Vec<Candidate>,
+    pub chosen: usize,
+    /// The fit of the law chosen.
+    pub found: Found,
+    /// Evaluations of the others.
+    pub evaluations: usize,
+}
+
+/// Fits every law and takes the first whose criterion is within [`LEAD`] of the least.
+pub(crate) fn choose(curve: &Curve, models: &[Model<'_>]) -> Choice {
+    let points = curve.load().len();
+    let mut found: Vec<Found> = models
+        .par_iter()
+        .map(|model| search(&Residuals::new(curve, &model.predict), &model.starts))
+        .collect();
+    let independent = if models.len() > 1 {
+        independent(curve, models, &found)
+    } else {
+        points as f64
+    };
+    let candidate = |(model, found): (&Model<'_>, &Found)| {
+        let count = found.named.len();
+        let square = found.report.rms.max(RESOLUTION).powi(2);
+        // The criterion of residuals of size one is its price of the parameters.
+        let report = Report {
+            sum: points as f64,
+            ..found.report.clone()
+        };
+        let price = lm::akaike(&report, points, count);
+        Candidate {
+            law: model.name.clone(),
+            parameters: count,
+            misfit: found.report.rms,
+            criterion: price.map(|price| independent * square.ln() + price),
+        }
+    };
+    let candidates: Vec<Candidate> = models.iter().zip(&found).map(candidate).collect();
+    let criteria = || {
+        candidates
+            .iter()
+            .filter_map(|candidate| candidate.criterion)
+    };
+    let least = criteria().fold(f64::INFINITY, f64::min);
+    let near = |candidate: &Candidate| candidate.criterion.is_some_and(|c| c <= least + LEAD);
+    // Too few points for any criterion: the law most preferred.
+    let chosen = candidates.iter().position(near).unwrap_or(0);
+    let all: usize = found.iter().map(|found| found.evaluations).sum();
+    let found = found.swap_remove(chosen);
+    Choice {
+        candidates,
+        chosen,
+        evaluations: all - found.evaluations,
+        found,
+    }
+}
+
+/// Number of independent residuals of the law that leaves the least.
+fn independent(curve: &Curve, models: &[Model<'_>], found: &[Found]) -> f64 {
+    let pairs = models.iter().zip(found);
+    let best = pairs.min_by(|(_, a), (_, b)| a.report.sum.total_cmp(&b.report.sum));
+    let (model, found) = best.expect("there are several models");
+    let mut residuals = vec![0.0; curve.load().len()];
+    if found.report.rms < RESOLUTION {
+        return residuals.len() as f64;
+    }
+    (model.predict)(&found.report.parameters, &mut residuals);
+    for (residual, load) in residuals.iter_mut().zip(curve.load()) {
+        *residual -= load;
+    }
+    Independence::of(&residuals).count
+}

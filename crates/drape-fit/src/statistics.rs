@@ -1,0 +1,229 @@
+//! How well a curve tells the parameters of a law.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::estimate::{Estimate, Unknown};
+use crate::lm::{self, Covariance, Interval, Loss, Parameter, Problem, Report, student_quantile};
+use crate::{Intervals, search::Named};
+
+/// Level of the intervals.
+const LEVEL: f64 = 0.95;
+/// Step of central differences over the size of the parameter: the cube root of the rounding unit.
+const STEP: f64 = 6e-6;
+/// Size taken for a parameter near zero, over its scale.
+const LEAST_SIZE: f64 = 0.01;
+/// Correlation of neighbours, times the root of the number of points, that chance exceeds in one of forty
+/// curves of independent noise: below it the points are taken for independent.
+const CHANCE: f64 = 2.0;
+
+/// What the residuals say about their own independence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Independence {
+    /// Correlation of the residuals of neighbouring points.
+    pub correlation: f64,
+    /// Number of independent residuals that would tell a mean as well.
+    pub count: f64,
+    /// Number of independent residuals that would tell their variance as well.
+    pub squares: f64,
+}
+
+impl Independence {
+    /// Of residuals in the order of measurement, as if each kept the part `$\rho$` of the one before:
+    /// `$n(1-\rho)/(1+\rho)$` of them are independent, and `$n(1-\rho^2)/(1+\rho^2)$` of their squares
+    /// [Bartlett 1935].
+    pub fn of(residuals: &[f64]) -> Self {
+        let n = residuals.len() as f64;
+        let square: f64 = residuals.iter().map(|r| r * r).sum();
+        let pairs: f64 = residuals.windows(2).map(|pair| pair[0] * pair[1]).sum();
+        let correlation = if square > 0.0 { pairs / square } else { 0.0 };
+        let part = |kept: f64| match correlation * n.sqrt() > CHANCE {
+            true => n * (1.0 - kept) / (1.0 + kept),
+            false => n,
+        };
+        Self {
+            correlation,
+            count: part(correlation),
+            squares: part(correlation * correlation),
+        }
+    }
+}
+
+/// The parameters with their errors, and the correlations between them.
+pub(crate) struct Statistics {
+    pub estimates: Vec<Estimate>,
+    pub correlations: Vec<Vec<Option<f64>>>,
+}
+
+impl Statistics {
+    /// Those of some of the parameters.
+    pub fn of(&self, parameters: impl Iterator<Item = usize>) -> Self {
+        let chosen: Vec<usize> = parameters.collect();
+        let row = |&i: &usize| chosen.iter().map(|&j| self.correlations[i][j]).collect();
+        Self {
+            estimates: chosen.iter().map(|&i| self.estimates[i].clone()).collect(),
+            correlations: chosen.iter().map(row).collect(),
+        }
+    }
+}
+
+/// The statistics of a fit at its end.
+///
+/// With residuals `$r$` of one variance and weights `$W$` the covariance is
+///
+/// ```math
+/// \sigma^2 A^{-1} B A^{-1}, \qquad A = J^T W J, \quad B = J^T W^2 J
+/// ```
+///
+/// which is `$\sigma^2 (J^TJ)^{-1}$` where all weights are one.
+pub(crate) fn statistics(
+    problem: &(impl Problem + Sync),
+    named: &[Named],
+    report: &Report,
+    (unweighted, intervals): (&[f64], Intervals),
+) -> Statistics {
+    let parameters: Vec<Parameter> = named.iter().map(|(_, parameter)| *parameter).collect();
+    let names: Vec<&'static str> = named.iter().map(|(name, _)| *name).collect();
+    let count = parameters.len();
+    let mut residuals = vec![0.0; problem.residual_count()];
+    problem.residuals(&report.parameters, &mut residuals);
+    let independence = Independence::of(&residuals);
+    let covariance = Covariance::of(problem, &parameters, report, Loss::Squares);
+    let sandwich = sandwich(problem, &parameters, report, (&covariance, &residuals));
+    let widening = residuals.len() as f64 / independence.count;
+    let degrees = (independence.squares - count as f64).max(1.0) as usize;
+    let quantile = student_quantile(LEVEL, degrees);
+    let error = |j: usize| match covariance.standard_error(j) {
+        Ok(_) => Ok((widening * sandwich[(j, j)]).max(0.0).sqrt()),
+        Err(reason) => Err(Unknown::new(reason, &names)),
+    };
+    let profiles = (intervals == Intervals::Profile).then(|| {
+        let settings = lm::Settings::default();
+        lm::profile(problem, &parameters, report, (LEVEL, &settings))
+    });
+    let interval = |j: usize| {
+        let value = report.parameters[j];
+        let half = error(j).map(|error| error * quantile);
+        let Some(profiles) = &profiles else {
+            return half.map(|half| [value - half, value + half]);
+        };
+        let naive = covariance.half_width(j, LEVEL);
+        let stretch = match (&half, &naive) {
+            (Ok(half), Ok(naive)) if *naive > 0.0 => half / naive,
+            _ => widening.sqrt(),
+        };
+        match &profiles[j] {
+            Ok(profile) => stretched(profile, value, (stretch, &parameters[j])),
+            Err(reason) => Err(Unknown::new(reason.clone(), &names)),
+        }
+    };
+    let estimate = |j: usize| Estimate {
+        name: names[j],
+        value: report.parameters[j],
+        error: error(j),
+        interval: interval(j),
+        unweighted: unweighted[j],
+    };
+    let correlation = |i: usize, j: usize| {
+        let naive = covariance.correlation(i, j)?;
+        let sizes = (sandwich[(i, i)] * sandwich[(j, j)]).sqrt();
+        Some(if sizes > 0.0 {
+            (sandwich[(i, j)] / sizes).clamp(-1.0, 1.0)
+        } else {
+            naive
+        })
+    };
+    Statistics {
+        estimates: (0..count).map(estimate).collect(),
+        correlations: (0..count)
+            .map(|i| (0..count).map(|j| correlation(i, j)).collect())
+            .collect(),
+    }
+}
+
+/// A profile whose distances from the value are stretched to the noise there is.
+fn stretched(
+    profile: &Interval,
+    value: f64,
+    (stretch, parameter): (f64, &Parameter),
+) -> Result<[f64; 2], Unknown> {
+    let end = |end: &lm::End| {
+        let end = end.value().ok_or(Unknown::NoEnd)?;
+        let stretched = value + stretch * (end - value);
+        Ok(stretched.clamp(parameter.lower, parameter.upper))
+    };
+    Ok([end(&profile.lower)?, end(&profile.upper)?])
+}
+
+/// Covariance of the parameters for noise of one size; zero for those that are not determined.
+fn sandwich(
+    problem: &impl Problem,
+    parameters: &[Parameter],
+    report: &Report,
+    (covariance, residuals): (&Covariance, &[f64]),
+) -> DMatrix<f64> {
+    let count = parameters.len();
+    let variance = covariance.deviation.powi(2);
+    let mut inverse = DMatrix::from_fn(count, count, |i, j| {
+        covariance.covariance(i, j).unwrap_or(0.0)
+    });
+    if problem.weights().is_empty() || !(variance > 0.0 && variance.is_finite()) {
+        return inverse;
+    }
+    inverse /= variance;
+    // Left out of the middle, a parameter that is not determined is taken as known.
+    let known = |j: usize| covariance.reason(j).is_none();
+    let weights = problem.weights();
+    let jacobian = weighted_derivatives(problem, parameters, &report.parameters, known);
+    let middle = jacobian.transpose() * &jacobian;
+    let square: f64 = residuals.iter().map(|r| r * r).sum();
+    let spare = weights.len().saturating_sub(count).max(1) as f64;
+    &inverse * middle * &inverse * (square / spare)
+}
+
+/// Derivatives of the residuals times their weights.
+fn weighted_derivatives(
+    problem: &impl Problem,
+    parameters: &[Parameter],
+    at: &[f64],
+    wanted: impl Fn(usize) -> bool,
+) -> DMatrix<f64> {
+    let rows = problem.residual_count();
+    let weights = DVector::from_column_slice(problem.weights());
+    let mut jacobian = DMatrix::zeros(rows, parameters.len());
+    let (mut high, mut low) = (DVector::zeros(rows), DVector::zeros(rows));
+    let mut trial = at.to_vec();
+    for (j, parameter) in parameters.iter().enumerate().filter(|(j, _)| wanted(*j)) {
+        let step = STEP * at[j].abs().max(LEAST_SIZE * parameter.scale);
+        let ends =
+            [at[j] + step, at[j] - step].map(|end| end.clamp(parameter.lower, parameter.upper));
+        for (end, out) in ends.iter().zip([&mut high, &mut low]) {
+            trial[j] = *end;
+            problem.residuals(&trial, out.as_mut_slice());
+        }
+        trial[j] = at[j];
+        let slope = (&high - &low) / (ends[0] - ends[1]);
+        jacobian.set_column(j, &slope.component_mul(&weights));
+    }
+    jacobian
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_that_are_alike_count_less() {
+        let alternating: Vec<f64> = (0..100)
+            .map(|i| if i % 2 == 0 { 1.0 } else { -1.0 })
+            .collect();
+        assert_eq!(Independence::of(&alternating).count, 100.0);
+        // Each value ten times: nine of ten neighbours are equal.
+        let blocks: Vec<f64> = (0..100)
+            .map(|i| if (i / 10) % 2 == 0 { 1.0 } else { -1.0 })
+            .collect();
+        let blocks = Independence::of(&blocks);
+        // 90 pairs of one sign less 9 of the other, of 100.
+        assert!((blocks.correlation - 0.81).abs() < 1e-12, "{blocks:?}");
+        assert!((blocks.count - 19.0 / 1.81).abs() < 1e-9, "{blocks:?}");
+    }
+}
