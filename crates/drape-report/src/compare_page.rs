@@ -11,7 +11,7 @@ use crate::shown::Shown;
 use crate::table::Table;
 
 /// Two fabrics beside each other: their curves overlaid, their values with the ratio.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ComparePage {
     /// The two fabrics.
     pub fabrics: [FabricName; 2],
@@ -23,8 +23,27 @@ pub struct ComparePage {
     pub values: Vec<ComparedValue>,
     /// What a reader must know: assumed numbers, curves that only one fabric has.
     pub notes: Vec<String>,
-    /// Values further apart than this are marked, as a ratio of the first; 0 marks every difference.
+    /// Values further apart than this are marked, as a ratio of the first.
     pub limit: f64,
+}
+
+/// Difference between two fabrics that is marked, as a ratio.
+///
+/// Lower, and the scatter of repeated tests is marked; higher, and real differences are not.
+const LIMIT: f64 = 0.25;
+
+impl Default for ComparePage {
+    /// Nothing to compare yet, with the usual limit.
+    fn default() -> ComparePage {
+        ComparePage {
+            fabrics: Default::default(),
+            version: String::new(),
+            overlays: Vec::new(),
+            values: Vec::new(),
+            notes: Vec::new(),
+            limit: LIMIT,
+        }
+    }
 }
 
 /// A fabric of a comparison.

@@ -86,7 +86,9 @@ pub enum ReportError {
     },
 
     /// A correlation matrix does not belong to its names.
-    #[error("{names} names need a {names} x {names} correlation matrix, but row {row} has {length}")]
+    #[error(
+        "{names} names need a {names} x {names} correlation matrix, but row {row} has {length}"
+    )]
     BadMatrix {
         /// Number of names.
         names: usize,

@@ -75,7 +75,7 @@ impl KesValue {
     pub fn differences(&self) -> [Option<f64>; 2] {
         let from = |reference: Option<f64>, value: Option<f64>| {
             let reference = reference.filter(|reference| *reference != 0.0)?;
-            Some((value? - reference) / reference.abs())
+            Some((value? - reference) / reference.abs()).filter(|ratio| ratio.is_finite())
         };
         [
             from(self.sheet, self.curve),
@@ -163,7 +163,13 @@ mod tests {
             value(Some(2.0), Some(2.2), Some(1.9)).differences(),
             [Some(0.1), Some(-0.05)],
         );
-        near(value(None, Some(2.0), Some(1.9)).differences(), [None, Some(-0.05)]);
-        near(value(Some(0.0), Some(2.0), None).differences(), [None, None]);
+        near(
+            value(None, Some(2.0), Some(1.9)).differences(),
+            [None, Some(-0.05)],
+        );
+        near(
+            value(Some(0.0), Some(2.0), None).differences(),
+            [None, None],
+        );
     }
 }

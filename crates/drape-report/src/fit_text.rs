@@ -144,7 +144,15 @@ fn statistics_lines(lines: &mut Vec<String>, law: &LawReport, statistics: &Stati
 }
 
 fn models(law: &LawReport) -> Vec<String> {
-    let head = ["model", "parameters", "misfit", "AICc", "above best", "weight", ""];
+    let head = [
+        "model",
+        "parameters",
+        "misfit",
+        "AICc",
+        "above best",
+        "weight",
+        "",
+    ];
     let mut table = Table::new(&head, &[1, 2, 3, 4, 5]);
     for (model, (above, weight)) in law.models.iter().zip(law.evidence()) {
         table.row(vec![
@@ -161,8 +169,18 @@ fn models(law: &LawReport) -> Vec<String> {
 }
 
 fn parameters(law: &LawReport) -> Vec<String> {
-    let head = ["parameter", "", "value", "", "error", "95 % interval", "SI value", "", ""];
+    let head = [
+        "parameter",
+        "",
+        "value",
+        "",
+        "error",
+        "95 % interval",
+        "SI value",
+        "",
+    ];
     let mut table = Table::new(&head, &[2, 4, 5, 6]);
+    let mut reasons = Vec::new();
     for parameter in &law.parameters {
         let shown = ShownParameter::new(parameter);
         let first = shown.first();
@@ -176,14 +194,20 @@ fn parameters(law: &LawReport) -> Vec<String> {
             shown.interval.clone(),
             si.map_or_else(String::new, |si| format!("{}{}", si.value, si.power)),
             si.map_or_else(String::new, |si| si.unit.clone()),
-            shown.reason.unwrap_or_default().to_owned(),
         ]);
+        if let Some(reason) = shown.reason {
+            wrap(&mut reasons, &format!("    {}: ", parameter.symbol), reason);
+        }
     }
-    table.lines(2)
+    let mut lines = table.lines(2);
+    lines.extend(reasons);
+    lines
 }
 
 fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
-    let head = ["", "", "", "unit", "sheet", "curve", "", "law", "", "", "SI", ""];
+    let head = [
+        "", "", "", "unit", "sheet", "curve", "", "law", "", "", "SI", "",
+    ];
     let mut table = Table::new(&head, &[4, 5, 6, 7, 8, 10]);
     for value in values {
         let shown = |number: Option<f64>| {
@@ -194,7 +218,10 @@ fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
         };
         let differences = value.differences();
         let difference = |ratio: Option<f64>| ratio.map_or_else(String::new, signed_percent);
-        let apart = differences.iter().flatten().any(|d| d.abs() > limits.difference);
+        let apart = differences
+            .iter()
+            .flatten()
+            .any(|d| d.abs() > limits.difference);
         let best = value.sheet.or(value.curve).or(value.law);
         let si = best.filter(|_| value.units.kes.is_some());
         let si = si.map(|number| Shown::bare(number, &value.units.si));
@@ -218,7 +245,11 @@ fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
 
 /// The laboratory's unit, or SI where there is none.
 fn unit(units: &Units) -> String {
-    units.kes.as_ref().map_or(&units.si, |unit| &unit.name).clone()
+    units
+        .kes
+        .as_ref()
+        .map_or(&units.si, |unit| &unit.name)
+        .clone()
 }
 
 /// A difference in per cent with its sign.

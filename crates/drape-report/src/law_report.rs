@@ -142,7 +142,10 @@ impl LawReport {
             reasons.push(reason);
         };
         if !statistics.converged {
-            against(Trust::Poor, format!("the search did not end: {}", statistics.stop));
+            against(
+                Trust::Poor,
+                format!("the search did not end: {}", statistics.stop),
+            );
         }
         let misfit = statistics.misfit;
         if misfit > limits.misfit {
@@ -159,16 +162,19 @@ impl LawReport {
             let found: Vec<&str> = found.map(|parameter| parameter.symbol.as_str()).collect();
             (!found.is_empty()).then(|| found.join(", "))
         };
-        if let Some(symbols) = symbols(&|parameter| parameter.interval.reason().is_some()) {
+        if let Some(symbols) = symbols(&|parameter| parameter.is_undetermined()) {
             against(Trust::Doubtful, format!("no 95 % interval for {symbols}"));
         }
-        let vague = |p: &&Parameter| {
-            let error = p.relative_error();
-            p.interval.reason().is_none() && error.is_some_and(|error| error > limits.error)
+        let vague = |parameter: &&Parameter| {
+            let error = parameter.relative_error();
+            !parameter.is_undetermined() && error.is_some_and(|error| error > limits.error)
         };
         if let Some(symbols) = symbols(&vague) {
             let limit = percent(limits.error);
-            against(Trust::Doubtful, format!("standard error above {limit} for {symbols}"));
+            against(
+                Trust::Doubtful,
+                format!("standard error above {limit} for {symbols}"),
+            );
         }
         Verdict { trust, reasons }
     }
@@ -195,7 +201,10 @@ impl LawReport {
             number("the misfit", statistics.misfit)?;
             number("the rms residual", statistics.rms)?;
             number("R²", statistics.r_squared)?;
-            check::text(&format!("{title}: the reason for stopping"), &statistics.stop)?;
+            check::text(
+                &format!("{title}: the reason for stopping"),
+                &statistics.stop,
+            )?;
         }
         for model in &self.models {
             check::text(&format!("{title}: the name of a model"), &model.name)?;

@@ -23,14 +23,22 @@ pub(crate) struct Notation {
 impl Notation {
     /// The notation that shows a value as far as its uncertainty allows.
     pub(crate) fn of(value: f64, uncertainty: Option<f64>) -> Notation {
-        let top = power_of_ten(value);
-        let last = match uncertainty {
-            Some(error) if error > 0.0 => {
-                let last = power_of_ten(error) - (ERROR_DIGITS - 1);
-                // A value that drowns in its uncertainty still shows two digits.
-                last.clamp(top - (MOST_DIGITS - 1), top - 1)
+        let error = uncertainty.filter(|error| *error > 0.0);
+        let error_top = error.map(power_of_ten);
+        let value_top = if value == 0.0 {
+            error_top.unwrap_or(0)
+        } else {
+            power_of_ten(value)
+        };
+        let top = value_top.max(error_top.unwrap_or(value_top));
+        let last = match error_top {
+            // A value that drowns in its uncertainty still shows two digits where there is room.
+            Some(error) if error > value_top => (value_top - 1).max(top - (DIGITS - 1)),
+            Some(error) => {
+                let last = error - (ERROR_DIGITS - 1);
+                last.clamp(value_top - (MOST_DIGITS - 1), value_top - 1)
             }
-            _ => top - (DIGITS - 1),
+            None => value_top - (DIGITS - 1),
         };
         let exponent = if PLAIN.contains(&top) { 0 } else { top };
         Notation {
@@ -42,7 +50,11 @@ impl Notation {
     /// A number in this notation, without the power of ten.
     pub(crate) fn mantissa(&self, number: f64) -> String {
         let text = format!("{:.*}", self.decimals, shift(number, -self.exponent));
-        if text.trim_start_matches('-').chars().all(|c| "0.".contains(c)) {
+        if text
+            .trim_start_matches('-')
+            .chars()
+            .all(|c| "0.".contains(c))
+        {
             text.trim_start_matches('-').to_owned()
         } else {
             text
@@ -94,8 +106,9 @@ pub(crate) fn percent(ratio: f64) -> String {
         let bound = if percent < 0.0 { "> -0.01" } else { "< 0.01" };
         return format!("{bound} %");
     }
-    if size >= 1e5 {
-        return format!("{} %", significant(percent, 2));
+    if size >= 1e6 {
+        let bound = if percent < 0.0 { "< -1e6" } else { "> 1e6" };
+        return format!("{bound} %");
     }
     let decimals = match size {
         s if s >= 99.95 => 0,
@@ -122,7 +135,11 @@ pub(crate) fn typeset(text: &str) -> String {
             printed.push(superscript(letter));
         } else {
             in_power = false;
-            printed.push(if letter == '-' && number_after { '−' } else { letter });
+            printed.push(if letter == '-' && number_after {
+                '−'
+            } else {
+                letter
+            });
         }
     }
     printed
@@ -131,7 +148,9 @@ pub(crate) fn typeset(text: &str) -> String {
 /// A minus sign or a digit as a superscript.
 fn superscript(letter: char) -> char {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    letter.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])
+    letter
+        .to_digit(10)
+        .map_or('⁻', |digit| DIGITS[digit as usize])
 }
 
 #[cfg(test)]
@@ -148,8 +167,10 @@ mod tests {
         assert_eq!(shown(1258.34, 11.7), "1258 ± 12 ");
         assert_eq!(shown(1.157_34e-5, 1.2e-7), "1.157 ± 0.012 e-5");
         assert_eq!(shown(0.123_456, 0.000_987), "0.12346 ± 0.00099 ");
-        assert_eq!(shown(-24.94, 300.0), "-24.9 ± 300.0 ");
+        assert_eq!(shown(-24.94, 300.0), "-25 ± 300 ");
         assert_eq!(shown(0.0, 0.5), "0.00 ± 0.50 ");
+        assert_eq!(shown(1e-5, 5.0), "0.000 ± 5.000 ");
+        assert_eq!(shown(1e-310, 1e-2), "0.00000 ± 0.01000 ");
     }
 
     #[test]
@@ -175,6 +196,7 @@ mod tests {
         assert_eq!(percent(3.0), "300 %");
         assert_eq!(percent(1e-6), "< 0.01 %");
         assert_eq!(percent(0.0), "0.00 %");
+        assert_eq!(percent(-1e305), "< -1e6 %");
     }
 
     #[test]

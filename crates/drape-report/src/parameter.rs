@@ -73,9 +73,14 @@ pub enum Interval {
         /// Why there is no lower end.
         reason: String,
     },
-    /// Anywhere.
+    /// Anywhere: the data do not tell.
     Unknown {
-        /// Why: fixed, assumed, at a bound, not identifiable.
+        /// Why: at a bound, not identifiable, no curve.
+        reason: String,
+    },
+    /// Not asked: the parameter was not fitted.
+    Fixed {
+        /// Why: set by hand, tied to another one.
         reason: String,
     },
 }
@@ -85,9 +90,10 @@ impl Interval {
     pub fn reason(&self) -> Option<&str> {
         match self {
             Self::Between { .. } => None,
-            Self::Above { reason, .. } | Self::Below { reason, .. } | Self::Unknown { reason } => {
-                Some(reason)
-            }
+            Self::Above { reason, .. }
+            | Self::Below { reason, .. }
+            | Self::Unknown { reason }
+            | Self::Fixed { reason } => Some(reason),
         }
     }
 }
@@ -114,8 +120,14 @@ impl Parameter {
     pub fn relative_error(&self) -> Option<f64> {
         let size = self.value.abs();
         self.standard_error
-            .filter(|_| size > 0.0)
             .map(|error| error / size)
+            .filter(|ratio| ratio.is_finite())
+    }
+
+    /// Whether the data were asked for its interval and did not give all of it.
+    pub fn is_undetermined(&self) -> bool {
+        let fixed = matches!(self.interval, Interval::Fixed { .. });
+        !fixed && self.interval.reason().is_some()
     }
 
     /// Refuses numbers that are none, a negative standard error, an interval that is upside down.
@@ -154,7 +166,7 @@ impl Parameter {
             }
             Interval::Above { lower, .. } => bound(lower),
             Interval::Below { upper, .. } => bound(upper),
-            Interval::Unknown { .. } => Ok(()),
+            Interval::Unknown { .. } | Interval::Fixed { .. } => Ok(()),
         }
     }
 }

@@ -108,7 +108,7 @@ fn scaled(parameter: &Parameter, in_si: f64, unit: &str) -> (Shown, String) {
         }
         Interval::Above { lower, .. } => format!("> {}{power}", write(lower)),
         Interval::Below { upper, .. } => format!("< {}{power}", write(upper)),
-        Interval::Unknown { .. } => String::new(),
+        Interval::Unknown { .. } | Interval::Fixed { .. } => String::new(),
     };
     let shown = Shown {
         value: write(parameter.value),

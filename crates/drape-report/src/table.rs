@@ -27,7 +27,12 @@ impl Table {
         let cell = |row: &'_ [String], column: usize| -> String {
             row.get(column).cloned().unwrap_or_default()
         };
-        let used = |column: &usize| self.rows.iter().skip(1).any(|r| !cell(r, *column).is_empty());
+        let used = |column: &usize| {
+            self.rows
+                .iter()
+                .skip(1)
+                .any(|r| !cell(r, *column).is_empty())
+        };
         let columns: Vec<usize> = (0..columns).filter(used).collect();
         let length = |text: &str| text.chars().count();
         let width = |column: usize| {

@@ -40,8 +40,10 @@ impl Axis {
     }
 }
 
-/// Fewest marks that an axis should have; with 1-2-5 steps there are then at most some 2.5 times as many.
-const FEWEST_TICKS: f64 = 4.0;
+/// Room for a mark of an axis with its label, in px; with 1-2-5 steps there are up to 2.5 times as many.
+const TICK_ROOM: f64 = 85.0;
+/// Fewest marks that a short and a long axis should have.
+const FEWEST_TICKS: [f64; 2] = [2.0, 4.0];
 
 /// Part of the range that stays free at both ends of an axis, so that no point sits on the frame.
 const MARGIN: f64 = 0.04;
@@ -50,6 +52,9 @@ const MARGIN: f64 = 0.04;
 ///
 /// A narrower one is widened: its marks would all carry the same label.
 const LEAST_WIDTH: f64 = 1e-9;
+
+/// Least width of a range: the logarithms and powers of the marks stay ordinary numbers.
+const LEAST: f64 = 1e-90;
 
 /// A range of shown values laid on a stretch of pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +77,11 @@ impl Map {
         });
         let (low, high) = if low > high { (0.0, 1.0) } else { (low, high) };
         let size = low.abs().max(high.abs());
-        let least = if size == 0.0 { 1.0 } else { LEAST_WIDTH * size };
+        let least = if size == 0.0 {
+            1.0
+        } else {
+            (LEAST_WIDTH * size).max(LEAST)
+        };
         let margin = if high - low > least {
             MARGIN * (high - low)
         } else {
@@ -104,33 +113,46 @@ impl Map {
 
     /// Round values along the axis with their labels.
     pub(crate) fn ticks(&self) -> Vec<(f64, String)> {
-        let rough = (self.high - self.low) / FEWEST_TICKS;
+        let [least, most] = FEWEST_TICKS;
+        let fewest = ((self.to - self.from).abs() / TICK_ROOM).clamp(least, most);
+        let rough = (self.high - self.low) / fewest;
         let power = 10f64.powf(rough.log10().floor());
         let step = [5.0, 2.0, 1.0]
             .map(|round| round * power)
             .into_iter()
             .find(|step| *step <= rough)
             .unwrap_or(power);
-        let decimals = (-step.log10().floor()).max(0.0) as usize;
         let first = (self.low / step).ceil() as i64;
         let last = (self.high / step).floor() as i64;
+        let largest = step * first.abs().max(last.abs()) as f64;
         let values = (first..=last).map(|k| k as f64 * step);
         values
-            .map(|value| (self.pixel(value), label(value, step, decimals)))
+            .map(|value| (self.pixel(value), label(value, step, largest)))
             .collect()
     }
 }
 
-/// Steps outside of this range are labelled with a power of ten.
-const PLAIN_STEPS: std::ops::Range<f64> = 1e-4..1e5;
+/// Axes whose largest label is outside of this range are labelled with a power of ten.
+const PLAIN: std::ops::Range<f64> = 1e-3..1e5;
 
-fn label(value: f64, step: f64, decimals: usize) -> String {
-    let text = if PLAIN_STEPS.contains(&step) || value == 0.0 {
-        format!("{value:.*}", if value == 0.0 { 0 } else { decimals })
+/// The label of a mark, with as many digits as the step between marks needs.
+fn label(value: f64, step: f64, largest: f64) -> String {
+    let power = |number: f64| number.log10().floor() as i32;
+    let exponent = if PLAIN.contains(&largest) {
+        0
     } else {
-        crate::number::significant(value, 3)
+        power(largest)
     };
-    crate::number::typeset(&text)
+    let decimals = usize::try_from(exponent - power(step)).unwrap_or(0);
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let mantissa = format!("{:.decimals$}", value / 10f64.powi(exponent));
+    let text = match exponent {
+        0 => mantissa,
+        _ => format!("{mantissa}e{exponent}"),
+    };
+    crate::number::typeset(&text).replace(" × ", "×")
 }
 
 #[cfg(test)]
@@ -142,7 +164,7 @@ mod tests {
             low,
             high,
             from: 0.0,
-            to: 1.0,
+            to: 340.0,
         };
         map.ticks().into_iter().map(|(_, label)| label).collect()
     }
@@ -155,6 +177,8 @@ mod tests {
             ["−0.2", "−0.1", "0", "0.1", "0.2", "0.3"]
         );
         assert_eq!(labels(98.0, 508.0), ["100", "200", "300", "400", "500"]);
+        assert_eq!(labels(0.0, 8.5e-6)[1], "2×10⁻⁶");
+        assert_eq!(labels(0.0, 1.3e6)[1..3], ["0.2×10⁶", "0.4×10⁶"]);
     }
 
     #[test]
@@ -178,7 +202,7 @@ mod tests {
 
     #[test]
     fn a_range_without_width_is_widened() {
-        for value in [0.0, 5.0, -1e-30, 1e90] {
+        for value in [0.0, 5.0, -1e-30, 1e-310, 1e90] {
             let map = Map::around([value, value].into_iter(), [0.0, 100.0]);
             let pixel = map.pixel(value);
             assert!((pixel - 50.0).abs() < 1e-6, "{value} is drawn at {pixel}");

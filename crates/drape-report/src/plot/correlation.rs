@@ -123,7 +123,11 @@ pub(crate) fn correlation_figure(correlation: &Correlation, place: Place) -> Str
                 },
                 opacity: px(r.abs().min(1.0)),
                 symbol: Symbol::new(if diagonal { &symbols[i] } else { "" }),
-                text: if diagonal { String::new() } else { text.clone() },
+                text: if diagonal {
+                    String::new()
+                } else {
+                    text.clone()
+                },
                 dark: r.abs() > DARK,
                 tip: format!("{} and {}: {text}", symbols[j], symbols[i]),
             });
@@ -152,9 +156,6 @@ mod tests {
                 vec![-0.9, 0.2, 1.0],
             ],
         };
-        assert_eq!(
-            correlation.above(0.5),
-            [("a", "c", -0.9), ("a", "b", 0.6)]
-        );
+        assert_eq!(correlation.above(0.5), [("a", "c", -0.9), ("a", "b", 0.6)]);
     }
 }

@@ -14,9 +14,9 @@ pub(crate) const BOTTOM: f64 = 46.0;
 pub(crate) const KEY: f64 = 24.0;
 
 /// Width of a letter of a label, in px: wide enough for the digits of common sans-serif faces at 13 px.
-const LETTER: f64 = 6.7;
+const LETTER: f64 = 6.4;
 /// Width of the sign before an entry of the key with the room around it, in px.
-const KEY_SIGN: f64 = 48.0;
+const KEY_SIGN: f64 = 50.0;
 
 /// A mark of an axis.
 pub(crate) struct Tick {
@@ -48,7 +48,9 @@ impl Frame {
         let right = WIDTH - RIGHT;
         let ticks = |map: &Map| {
             let ticks = map.ticks().into_iter();
-            ticks.map(|(at, label)| Tick { at: px(at), label }).collect()
+            ticks
+                .map(|(at, label)| Tick { at: px(at), label })
+                .collect()
         };
         let zero = |map: &Map| map.holds(0.0).then(|| px(map.pixel(0.0)));
         let inverse: Vec<String> = [x.inverse(), y.inverse()]
@@ -116,7 +118,7 @@ pub(crate) fn key(entries: Vec<(Sign, String, String)>) -> (Vec<KeyEntry>, f64) 
                 label,
                 x: px(at),
                 y: px(KEY * (row + 0.5)),
-                text: px(at + 28.0),
+                text: px(at + 30.0),
                 sign,
             }
         })
@@ -162,7 +164,13 @@ mod tests {
 
     #[test]
     fn a_long_key_goes_on_in_the_next_row() {
-        let entry = || (Sign::Line, "fit".to_owned(), "a long name of thirty letters".to_owned());
+        let entry = || {
+            (
+                Sign::Line,
+                "fit".to_owned(),
+                "a long name of thirty letters".to_owned(),
+            )
+        };
         let (entries, height) = key(vec![entry(), entry(), entry(), entry()]);
         assert_eq!(height, 2.0 * KEY);
         assert_eq!(entries[0].x, entries[2].x);

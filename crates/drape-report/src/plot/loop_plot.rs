@@ -1,9 +1,9 @@
 use askama::Template;
 use serde::Serialize;
 
+use super::Place;
 use super::axis::{Axis, Map};
 use super::frame::{BOTTOM, Frame, KeyEntry, Sign, WIDTH, dots, key, line, px};
-use super::Place;
 use crate::check;
 use crate::error::ReportError;
 
@@ -109,13 +109,17 @@ impl LoopPlot {
         self.branches.iter().flat_map(|branch| &branch.points)
     }
 
-    /// Lowest and highest measured load, in SI; none without a measurement or where it never changes.
-    pub(crate) fn measured_range(&self) -> Option<[f64; 2]> {
+    /// Range of the measured load, in SI; none without a measurement or where it hardly changes.
+    fn measured_range(&self) -> Option<f64> {
         let loads = self.points().filter_map(|point| point.measured);
         let [low, high] = loads.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], load| {
             [low.min(load), high.max(load)]
         });
-        (low < high).then_some([low, high])
+        let sizes = self
+            .points()
+            .flat_map(|point| point.measured.into_iter().chain(point.fitted));
+        let size = sizes.map(f64::abs).fold(0.0, f64::max);
+        Some(high - low).filter(|range| *range > LEAST_RANGE * size)
     }
 }
 
@@ -126,10 +130,16 @@ const RESIDUAL_HEIGHT: f64 = 92.0;
 /// Room between both, in px.
 const GAP: f64 = 14.0;
 
+/// Least range of the measured load relative to the largest load: below it residuals in % mean nothing.
+const LEAST_RANGE: f64 = 1e-9;
+
+/// Least size of residual that the frame shows, in % of the range: below it they would only show rounding.
+const LEAST_RESIDUAL: f64 = 0.1;
+
 /// Opacity of the points of each further cycle relative to the one before.
-const FADING: f64 = 0.62;
+const FADING: f64 = 0.72;
 /// Least opacity of points.
-const FAINTEST: f64 = 0.28;
+const FAINTEST: f64 = 0.35;
 
 /// A drawn series.
 struct Series {
@@ -184,19 +194,21 @@ pub(crate) fn loop_figure(plot: &LoopPlot, place: Place) -> String {
     let y = Map::around(loads.map(y_of), [bottom, top]);
     let frame = Frame::new(&x, &y, [top, bottom], plot.load.title());
 
-    let scale = plot.measured_range().map(|[low, high]| 100.0 / (high - low));
-    let residual = |point: &Point| Some(scale? * (point.measured? - point.fitted?));
+    let range = plot.measured_range();
+    let residual = |point: &Point| Some(100.0 * (point.measured? - point.fitted?) / range?);
     let largest = plot.points().filter_map(residual).map(f64::abs);
     let largest = largest.reduce(f64::max);
     let residual_bounds = [bottom + GAP, bottom + GAP + RESIDUAL_HEIGHT];
     let residual_map = largest.map(|size| {
-        let size = if size > 0.0 { size } else { 1.0 };
+        let size = size.max(LEAST_RESIDUAL);
         let [top, bottom] = residual_bounds;
         Map::around([-size, size].into_iter(), [bottom, top])
     });
-    let residual_frame = residual_map
-        .map(|map| Frame::new(&x, &map, residual_bounds, "residual, %".to_owned()));
-    let end = residual_frame.as_ref().map_or(bottom, |_| residual_bounds[1]);
+    let residual_frame =
+        residual_map.map(|map| Frame::new(&x, &map, residual_bounds, "residual, %".to_owned()));
+    let end = residual_frame
+        .as_ref()
+        .map_or(bottom, |_| residual_bounds[1]);
 
     let series = |data: &dyn Fn(&Branch) -> String| -> Vec<Series> {
         let drawn = plot.branches.iter().map(|branch| Series {
@@ -229,8 +241,12 @@ pub(crate) fn loop_figure(plot: &LoopPlot, place: Place) -> String {
         x_middle: px(0.5 * (Frame::across()[0] + Frame::across()[1])),
         x_title_y: px(end + 38.0),
         axes: [&plot.deformation, &plot.load],
-        bands: bands(plot, |point, load| [x.pixel(x_of(point)), y.pixel(y_of(load))]),
-        fits: fits(plot, |point, load| [x.pixel(x_of(point)), y.pixel(y_of(load))]),
+        bands: bands(plot, |point, load| {
+            [x.pixel(x_of(point)), y.pixel(y_of(load))]
+        }),
+        fits: fits(plot, |point, load| {
+            [x.pixel(x_of(point)), y.pixel(y_of(load))]
+        }),
         points,
         residuals,
     };
@@ -249,7 +265,10 @@ fn key_entries(plot: &LoopPlot) -> Vec<(Sign, String, String)> {
     let measured = |branch: &&Branch| branch.points.iter().any(|p| p.measured.is_some());
     for kind in BranchKind::ALL {
         let branches = plot.branches.iter().filter(|branch| branch.kind == kind);
-        let cycles: Vec<usize> = branches.filter(measured).map(|branch| branch.cycle).collect();
+        let cycles: Vec<usize> = branches
+            .filter(measured)
+            .map(|branch| branch.cycle)
+            .collect();
         let (Some(first), Some(last)) = (cycles.iter().min(), cycles.iter().max()) else {
             continue;
         };
@@ -293,7 +312,10 @@ fn bands(plot: &LoopPlot, pixel: impl Fn(&Point, f64) -> [f64; 2]) -> Vec<String
             .filter_map(|point| Some((point, point.band?)))
             .collect();
         let lower = bounded.iter().map(|(point, band)| pixel(point, band[0]));
-        let upper = bounded.iter().rev().map(|(point, band)| pixel(point, band[1]));
+        let upper = bounded
+            .iter()
+            .rev()
+            .map(|(point, band)| pixel(point, band[1]));
         line(lower.chain(upper))
     });
     let areas = areas.filter(|data| !data.is_empty());

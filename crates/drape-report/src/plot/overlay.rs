@@ -1,9 +1,9 @@
 use askama::Template;
 use serde::Serialize;
 
+use super::Place;
 use super::axis::{Axis, Map};
 use super::frame::{BOTTOM, Frame, KeyEntry, Sign, WIDTH, key, line, px};
-use super::Place;
 use crate::check;
 use crate::error::ReportError;
 
@@ -124,7 +124,12 @@ pub(crate) fn overlay_figure(plot: &OverlayPlot, place: Place) -> String {
     let y = Map::around(points().map(y_of), [bottom, top]);
     let lines = all().map(|(side, trace)| Series {
         class: class(side, trace),
-        data: line(trace.points.iter().map(|p| [x.pixel(x_of(p)), y.pixel(y_of(p))])),
+        data: line(
+            trace
+                .points
+                .iter()
+                .map(|p| [x.pixel(x_of(p)), y.pixel(y_of(p))]),
+        ),
         fabric: &plot.fabrics[side],
         label: &trace.label,
     });

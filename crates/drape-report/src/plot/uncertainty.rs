@@ -2,7 +2,7 @@ use askama::Template;
 
 use super::Place;
 use super::axis::Map;
-use super::frame::{Tick, WIDTH, px};
+use super::frame::{Tick, px};
 use crate::error::ReportError;
 use crate::number::percent;
 use crate::parameter::{Interval, Parameter};
@@ -22,6 +22,8 @@ const LARGEST: f64 = 1.0;
 /// Least deviation at the end of the axis, as a ratio.
 const SMALLEST: f64 = 0.001;
 
+/// Width of the plot, in px: it stands beside the correlations.
+const WIDTH: f64 = 540.0;
 /// Height of a row, in px.
 const ROW: f64 = 26.0;
 /// Room above the rows, in px.
@@ -29,9 +31,9 @@ const TOP: f64 = 8.0;
 /// Room below the rows for the axis, in px.
 const BOTTOM: f64 = 42.0;
 /// Room for the symbols, in px.
-const LEFT: f64 = 74.0;
+const LEFT: f64 = 48.0;
 /// Room for the size of the error, in px.
-const RIGHT: f64 = 92.0;
+const RIGHT: f64 = 78.0;
 
 struct Row<'a> {
     symbol: Symbol<'a>,
@@ -83,8 +85,12 @@ pub fn uncertainty_svg(plot: &UncertaintyPlot<'_>) -> Result<String, ReportError
 pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, place: Place) -> String {
     let spans = plot.parameters.iter().map(deviations);
     let spans: Vec<([f64; 2], Option<f64>)> = spans.collect();
-    let sizes = spans.iter().flat_map(|(bounds, error)| bounds.iter().chain(error));
-    let finite = sizes.map(|d| d.abs()).filter(|d| d.is_finite() && *d <= LARGEST);
+    let sizes = spans
+        .iter()
+        .flat_map(|(bounds, error)| bounds.iter().chain(error));
+    let finite = sizes
+        .map(|d| d.abs())
+        .filter(|d| d.is_finite() && *d <= LARGEST);
     let reach = finite.fold(SMALLEST, f64::max);
     let across = [LEFT, WIDTH - RIGHT];
     let map = Map::around([-100.0 * reach, 100.0 * reach].into_iter(), across);
@@ -101,7 +107,9 @@ pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, place: Place) -> St
             error: error.map(|error| [pixel(-error), pixel(error)]),
             arrows: [0, 1].map(|end| beyond(bounds[end]).then(|| arrow(across[end], middle, end))),
             reason: match &parameter.interval {
-                Interval::Unknown { reason } if error.is_none() => Some(reason.as_str()),
+                Interval::Unknown { reason } | Interval::Fixed { reason } if error.is_none() => {
+                    Some(reason.as_str())
+                }
                 _ => None,
             },
             size: error.map_or_else(String::new, |error| format!("± {}", percent(error))),
@@ -144,9 +152,9 @@ fn deviations(parameter: &Parameter) -> ([f64; 2], Option<f64>) {
         Interval::Between { lower, upper } => [deviation(lower), deviation(upper)],
         Interval::Above { lower, .. } => [deviation(lower), f64::INFINITY],
         Interval::Below { upper, .. } => [f64::NEG_INFINITY, deviation(upper)],
-        Interval::Unknown { .. } => [f64::NAN; 2],
+        Interval::Unknown { .. } | Interval::Fixed { .. } => [f64::NAN; 2],
     };
-    (bounds, parameter.standard_error.map(|error| error / size))
+    (bounds, parameter.relative_error())
 }
 
 /// An arrow head at an end of the axis, pointing outwards.
