@@ -7,7 +7,9 @@ use crate::fit_text::signed_percent;
 use crate::law_report::{LawReport, Limits, ModelScore, Trust, Verdict};
 use crate::number::{percent, significant, typeset};
 use crate::parameter::Interval;
-use crate::plot::{Place, UncertaintyPlot, correlation_figure, loop_figure, uncertainty_figure};
+use crate::plot::{
+    Place, UncertaintyPlot, correlation_figure, correlation_side, loop_figure, uncertainty_figure,
+};
 use crate::shown::{Shown, ShownParameter};
 use crate::symbol::Symbol;
 
@@ -44,7 +46,8 @@ struct LawView<'a> {
     bar: String,
     parameters: Vec<ShownParameter<'a>>,
     uncertainty: Option<String>,
-    correlation: Option<String>,
+    /// The heat map with its width in px, beyond which it is not stretched.
+    correlation: Option<(String, f64)>,
     models: Vec<(&'a ModelScore, [String; 4])>,
 }
 
@@ -208,10 +211,10 @@ fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
             };
             uncertainty_figure(&plot, Place::InPage)
         }),
-        correlation: law
-            .correlation
-            .as_ref()
-            .map(|correlation| correlation_figure(correlation, Place::InPage)),
+        correlation: law.correlation.as_ref().map(|correlation| {
+            let figure = correlation_figure(correlation, Place::InPage);
+            (figure, correlation_side(correlation))
+        }),
         models: models
             .map(|(model, (above, weight))| {
                 let texts = [

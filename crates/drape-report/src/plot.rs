@@ -17,7 +17,7 @@ pub use loop_plot::{Branch, BranchKind, LoopPlot, Point, loop_svg};
 pub use overlay::{OverlayPlot, Trace, overlay_svg};
 pub use uncertainty::{UncertaintyPlot, uncertainty_svg};
 
-pub(crate) use correlation::correlation_figure;
+pub(crate) use correlation::{correlation_figure, correlation_side};
 pub(crate) use loop_plot::loop_figure;
 pub(crate) use overlay::overlay_figure;
 pub(crate) use uncertainty::uncertainty_figure;

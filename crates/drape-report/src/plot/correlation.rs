@@ -102,6 +102,11 @@ pub fn correlation_svg(correlation: &Correlation) -> Result<String, ReportError>
     Ok(correlation_figure(correlation, Place::Alone))
 }
 
+/// Width and height of the heat map of a matrix, in px.
+pub(crate) fn correlation_side(correlation: &Correlation) -> f64 {
+    2.0 * ROOM + CELL * correlation.symbols.len() as f64
+}
+
 /// Draws a matrix that has been checked.
 pub(crate) fn correlation_figure(correlation: &Correlation, place: Place) -> String {
     let symbols = &correlation.symbols;
@@ -135,7 +140,7 @@ pub(crate) fn correlation_figure(correlation: &Correlation, place: Place) -> Str
     }
     let figure = CorrelationFigure {
         style: place.style(),
-        side: px(2.0 * ROOM + CELL * symbols.len() as f64),
+        side: px(correlation_side(correlation)),
         cell: px(CELL),
         cells,
     };

@@ -13,10 +13,12 @@ pub(crate) const BOTTOM: f64 = 46.0;
 /// Height of a row of the key, in px.
 pub(crate) const KEY: f64 = 24.0;
 
-/// Width of a letter of a label, in px: wide enough for the digits of common sans-serif faces at 13 px.
-const LETTER: f64 = 6.4;
+/// Mean width of a letter of a label, in px: that of lower-case words in common sans-serif faces at 13 px.
+///
+/// The room around the sign takes up what wider words need.
+const LETTER: f64 = 5.9;
 /// Width of the sign before an entry of the key with the room around it, in px.
-const KEY_SIGN: f64 = 50.0;
+const KEY_SIGN: f64 = 46.0;
 
 /// A mark of an axis.
 pub(crate) struct Tick {

@@ -44,8 +44,8 @@ struct Row<'a> {
     error: Option<[String; 2]>,
     /// Arrows where a bar leaves the axis or has no end.
     arrows: [Option<String>; 2],
-    /// Why there is no bar.
-    reason: Option<&'a str>,
+    /// What stands in place of a bar; the reason is too long for a plot.
+    reason: Option<&'static str>,
     size: String,
 }
 
@@ -106,10 +106,9 @@ pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, place: Place) -> St
             interval: (!bounds[0].is_nan()).then(|| bounds.map(pixel)),
             error: error.map(|error| [pixel(-error), pixel(error)]),
             arrows: [0, 1].map(|end| beyond(bounds[end]).then(|| arrow(across[end], middle, end))),
-            reason: match &parameter.interval {
-                Interval::Unknown { reason } | Interval::Fixed { reason } if error.is_none() => {
-                    Some(reason.as_str())
-                }
+            reason: match parameter.interval {
+                Interval::Unknown { .. } if error.is_none() => Some("not determined"),
+                Interval::Fixed { .. } if error.is_none() => Some("not fitted"),
                 _ => None,
             },
             size: error.map_or_else(String::new, |error| format!("± {}", percent(error))),
