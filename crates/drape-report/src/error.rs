@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-/// What keeps a picture from being made.
+/// What keeps a picture, a plot or a report from being made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReportError {
@@ -58,6 +58,53 @@ pub enum ReportError {
         value: f64,
         /// The values that it may take, in words.
         range: &'static str,
+    },
+
+    /// A report has nothing to report.
+    #[error("the report of {name} has neither curves nor values; give it what was fitted")]
+    EmptyReport {
+        /// The name of the sheet or fabric.
+        name: String,
+    },
+
+    /// A plot has nothing to plot.
+    #[error("{plot}: {what} has no points to draw")]
+    EmptyPlot {
+        /// The title of the plot.
+        plot: String,
+        /// The empty part, in words.
+        what: String,
+    },
+
+    /// A number of a report cannot be shown.
+    #[error("{what} is {value}; a report needs numbers of at most 1e90")]
+    NotFinite {
+        /// The quantity, in words.
+        what: String,
+        /// Its value.
+        value: f64,
+    },
+
+    /// A correlation matrix does not belong to its names.
+    #[error(
+        "{names} names need a {names} x {names} correlation matrix, but row {row} has {length}"
+    )]
+    BadMatrix {
+        /// Number of names.
+        names: usize,
+        /// The row, from 0; the number of rows where that is wrong.
+        row: usize,
+        /// Its length.
+        length: usize,
+    },
+
+    /// A text holds a character that neither a page nor a terminal can show.
+    #[error("{what} holds the control character {character:?}; remove it")]
+    ControlCharacter {
+        /// The text, in words.
+        what: String,
+        /// The character.
+        character: char,
     },
 
     /// A picture cannot be encoded.

@@ -1,0 +1,171 @@
+use askama::Template;
+
+use super::Place;
+use super::axis::Map;
+use super::frame::{Tick, px};
+use crate::error::ReportError;
+use crate::number::percent;
+use crate::parameter::{Interval, Parameter};
+use crate::symbol::Symbol;
+
+/// The parameters whose relative uncertainty is compared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UncertaintyPlot<'a> {
+    /// The parameters, from top to bottom.
+    pub parameters: &'a [Parameter],
+}
+
+/// Largest deviation that the axis shows, as a ratio: beyond it bars end in arrows.
+///
+/// A parameter known no better than its own size is unknown; how much worse does not matter.
+const LARGEST: f64 = 1.0;
+/// Least deviation at the end of the axis, as a ratio.
+const SMALLEST: f64 = 0.001;
+
+/// Width of the plot, in px: it stands beside the correlations.
+const WIDTH: f64 = 540.0;
+/// Height of a row, in px.
+const ROW: f64 = 26.0;
+/// Room above the rows, in px.
+const TOP: f64 = 8.0;
+/// Room below the rows for the axis, in px.
+const BOTTOM: f64 = 42.0;
+/// Room for the symbols, in px.
+const LEFT: f64 = 48.0;
+/// Room for the size of the error, in px.
+const RIGHT: f64 = 78.0;
+
+struct Row<'a> {
+    symbol: Symbol<'a>,
+    middle: String,
+    baseline: String,
+    /// Ends of the interval and of the standard error.
+    interval: Option<[String; 2]>,
+    error: Option<[String; 2]>,
+    /// Arrows where a bar leaves the axis or has no end.
+    arrows: [Option<String>; 2],
+    /// What stands in place of a bar; the reason is too long for a plot.
+    reason: Option<&'static str>,
+    size: String,
+}
+
+#[derive(Template)]
+#[template(path = "uncertainty.svg", escape = "html")]
+struct UncertaintyFigure<'a> {
+    style: Option<&'static str>,
+    width: String,
+    height: String,
+    right: String,
+    top: String,
+    bottom: String,
+    text: String,
+    reason: String,
+    zero: String,
+    title_x: String,
+    title_y: String,
+    ticks: Vec<Tick>,
+    rows: Vec<Row<'a>>,
+}
+
+/// Draws the relative uncertainty of parameters as an SVG file: 95 % intervals with standard errors inside.
+pub fn uncertainty_svg(plot: &UncertaintyPlot<'_>) -> Result<String, ReportError> {
+    if plot.parameters.is_empty() {
+        return Err(ReportError::EmptyPlot {
+            plot: "uncertainty".to_owned(),
+            what: "the list of parameters".to_owned(),
+        });
+    }
+    for parameter in plot.parameters {
+        parameter.check()?;
+    }
+    Ok(uncertainty_figure(plot, Place::Alone))
+}
+
+/// Draws parameters that have been checked.
+pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, place: Place) -> String {
+    let spans = plot.parameters.iter().map(deviations);
+    let spans: Vec<([f64; 2], Option<f64>)> = spans.collect();
+    let sizes = spans
+        .iter()
+        .flat_map(|(bounds, error)| bounds.iter().chain(error));
+    let finite = sizes
+        .map(|d| d.abs())
+        .filter(|d| d.is_finite() && *d <= LARGEST);
+    let reach = finite.fold(SMALLEST, f64::max);
+    let across = [LEFT, WIDTH - RIGHT];
+    let map = Map::around([-100.0 * reach, 100.0 * reach].into_iter(), across);
+    let pixel = |deviation: f64| px(map.pixel(100.0 * deviation).clamp(across[0], across[1]));
+    let rows = plot.parameters.iter().zip(&spans).enumerate();
+    let rows = rows.map(|(index, (parameter, (bounds, error)))| {
+        let middle = TOP + ROW * (index as f64 + 0.5);
+        let beyond = |bound: f64| !bound.is_nan() && !map.holds(100.0 * bound);
+        Row {
+            symbol: Symbol::new(&parameter.symbol),
+            middle: px(middle),
+            baseline: px(middle + 4.5),
+            interval: (!bounds[0].is_nan()).then(|| bounds.map(pixel)),
+            error: error.map(|error| [pixel(-error), pixel(error)]),
+            arrows: [0, 1].map(|end| beyond(bounds[end]).then(|| arrow(across[end], middle, end))),
+            reason: match parameter.interval {
+                Interval::Unknown { .. } if error.is_none() => Some("not determined"),
+                Interval::Fixed { .. } if error.is_none() => Some("not fitted"),
+                _ => None,
+            },
+            size: error.map_or_else(String::new, |error| format!("± {}", percent(error))),
+        }
+    });
+    let rows: Vec<Row<'_>> = rows.collect();
+    let bottom = TOP + ROW * rows.len() as f64;
+    let figure = UncertaintyFigure {
+        style: place.style(),
+        width: px(WIDTH),
+        height: px(bottom + BOTTOM),
+        right: px(across[1]),
+        top: px(TOP),
+        bottom: px(bottom),
+        text: px(LEFT - 10.0),
+        reason: px(LEFT + 10.0),
+        zero: pixel(0.0),
+        title_x: px(0.5 * (across[0] + across[1])),
+        title_y: px(bottom + 36.0),
+        ticks: map
+            .ticks()
+            .into_iter()
+            .map(|(at, label)| Tick { at: px(at), label })
+            .collect(),
+        rows,
+    };
+    figure.render().expect("writing to a string does not fail")
+}
+
+/// The ends of the interval and the standard error, relative to the value.
+///
+/// An end that is not known is infinite, an interval that is not known is NaN.
+fn deviations(parameter: &Parameter) -> ([f64; 2], Option<f64>) {
+    let size = parameter.value.abs();
+    if size == 0.0 {
+        return ([f64::NAN; 2], None);
+    }
+    let deviation = |bound: f64| (bound - parameter.value) / size;
+    let bounds = match parameter.interval {
+        Interval::Between { lower, upper } => [deviation(lower), deviation(upper)],
+        Interval::Above { lower, .. } => [deviation(lower), f64::INFINITY],
+        Interval::Below { upper, .. } => [f64::NEG_INFINITY, deviation(upper)],
+        Interval::Unknown { .. } | Interval::Fixed { .. } => [f64::NAN; 2],
+    };
+    (bounds, parameter.relative_error())
+}
+
+/// An arrow head at an end of the axis, pointing outwards.
+fn arrow(x: f64, y: f64, end: usize) -> String {
+    let out = if end == 0 { -7.0 } else { 7.0 };
+    format!(
+        "M{} {}L{} {}L{} {}Z",
+        px(x),
+        px(y - 4.5),
+        px(x + out),
+        px(y),
+        px(x),
+        px(y + 4.5)
+    )
+}

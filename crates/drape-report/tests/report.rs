@@ -1,0 +1,269 @@
+//! Pages and texts, read back.
+
+#![allow(clippy::unwrap_used)]
+
+mod samples;
+
+use drape_report::plot::{Point, UncertaintyPlot, correlation_svg, loop_svg, uncertainty_svg};
+use drape_report::{ComparePage, ComparedValue, FabricName, FitPage, Interval, ReportError, Units};
+use proptest::prelude::*;
+use samples::{a_loop, a_page, an_overlay, classes, text_of, tree};
+
+#[test]
+fn names_with_markup_stay_names() {
+    let name = r#"<b onclick="x()">R&D's "best" ]]> --> </script>"#.to_owned();
+    let mut page = a_page();
+    page.name.clone_from(&name);
+    page.source.clone_from(&name);
+    page.warnings.push(name.clone());
+    page.laws[0].title.clone_from(&name);
+    page.laws[0].plots[0].title.clone_from(&name);
+    page.laws[0].plots[0].load.label.clone_from(&name);
+    page.laws[0].parameters[0].symbol.clone_from(&name);
+    page.values[0].symbol.clone_from(&name);
+    let html = page.to_html().unwrap();
+    let tree = tree(&html);
+    let heading = tree.descendants().find(|n| n.has_tag_name("h1")).unwrap();
+    assert_eq!(text_of(heading), name);
+    assert!(!tree.descendants().any(|n| n.attribute("onclick").is_some()));
+    assert_eq!(
+        tree.descendants()
+            .filter(|n| n.has_tag_name("script"))
+            .count(),
+        1
+    );
+}
+
+#[test]
+fn pages_and_plots_need_no_network() {
+    let compared = ComparePage {
+        overlays: vec![an_overlay()],
+        ..ComparePage::default()
+    };
+    for page in [a_page().to_html().unwrap(), compared.to_html().unwrap()] {
+        for reference in ["http", "//cdn", "@import", "url(", "src="] {
+            assert!(!page.contains(reference), "the page holds {reference}");
+        }
+    }
+    let correlation = a_page().laws[0].correlation.clone().unwrap();
+    for svg in [
+        loop_svg(&a_loop()).unwrap(),
+        correlation_svg(&correlation).unwrap(),
+    ] {
+        let namespace = r#"xmlns="http://www.w3.org/2000/svg""#;
+        assert!(!svg.replacen(namespace, "", 1).contains("http"), "{svg}");
+        assert_eq!(tree(&svg).root_element().tag_name().name(), "svg");
+    }
+}
+
+#[test]
+fn the_same_fit_gives_the_same_bytes() {
+    let (a, b) = (a_page(), a_page());
+    assert_eq!(a.to_html().unwrap(), b.to_html().unwrap());
+    assert_eq!(a.to_text().unwrap(), b.to_text().unwrap());
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused_with_its_place() {
+    let refused = |change: &dyn Fn(&mut FitPage)| {
+        let mut page = a_page();
+        change(&mut page);
+        let error = page.to_html().unwrap_err();
+        assert_eq!(page.to_text().unwrap_err().to_string(), error.to_string());
+        error
+    };
+    let nan = refused(&|p| p.laws[0].plots[0].branches[1].points[3].measured = Some(f64::NAN));
+    let expected = "bending, warp: the load at point 3 of branch 1 is NaN";
+    assert!(nan.to_string().starts_with(expected), "{nan}");
+    let error = refused(&|p| p.laws[0].parameters[0].value = f64::INFINITY);
+    assert!(matches!(error, ReportError::NotFinite { .. }), "{error}");
+    let error = refused(&|p| p.laws[0].parameters[0].standard_error = Some(-1.0));
+    assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
+    let error = refused(&|p| {
+        p.laws[0].parameters[0].interval = Interval::Between {
+            lower: 2.0,
+            upper: 1.0,
+        };
+    });
+    assert!(
+        matches!(error, ReportError::OutOfRange { value: 1.0, .. }),
+        "{error}"
+    );
+    let error = refused(&|p| p.laws[0].plots[0].branches.clear());
+    assert!(matches!(error, ReportError::EmptyPlot { .. }), "{error}");
+    let error = refused(&|p| p.laws[0].plots[0].branches[2].points.clear());
+    assert!(error.to_string().contains("branch 2"), "{error}");
+    let error = refused(&|p| p.laws[0].plots[0].load.in_si = 0.0);
+    assert!(
+        matches!(error, ReportError::OutOfRange { value: 0.0, .. }),
+        "{error}"
+    );
+    let error = refused(&|p| p.laws[0].correlation.as_mut().unwrap().matrix[1].truncate(1));
+    assert!(
+        matches!(
+            error,
+            ReportError::BadMatrix {
+                row: 1,
+                length: 1,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let error = refused(&|p| p.laws[0].correlation.as_mut().unwrap().matrix[0][1] = f64::NAN);
+    assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
+    let error = refused(&|p| p.name.push('\u{1b}'));
+    assert!(
+        matches!(error, ReportError::ControlCharacter { .. }),
+        "{error}"
+    );
+    let error = refused(&|p| {
+        *p = FitPage {
+            name: "none".to_owned(),
+            ..FitPage::default()
+        };
+    });
+    assert!(matches!(error, ReportError::EmptyReport { .. }), "{error}");
+    let error = ComparePage::default().to_html().unwrap_err();
+    assert!(matches!(error, ReportError::EmptyReport { .. }), "{error}");
+    let none = UncertaintyPlot { parameters: &[] };
+    let error = uncertainty_svg(&none).unwrap_err();
+    assert!(matches!(error, ReportError::EmptyPlot { .. }), "{error}");
+}
+
+#[test]
+fn the_text_reads_like_a_fitting_report() {
+    let text = a_page().to_text().unwrap();
+    for line in [
+        "[bending, warp]  doubtful",
+        "  ! no 95 % interval for x_f",
+        "  misfit   1.23 % of the range (rms 0.00673 gf·cm/cm), R² 0.99870, 63 points",
+        "  k_b        bending rigidity  0.1180 ± 0.0023  gf·cm²/cm  1.99 %  [0.1135, 0.1227]  1.157e-5  N·m",
+        "    x_f: at its lower bound",
+        "    k_b, x_f: -0.830",
+        "  - thickness: 0.4 mm taken",
+    ] {
+        assert!(
+            text.lines().any(|l| l == line),
+            "no line\n{line}\nin\n{text}"
+        );
+    }
+}
+
+#[test]
+fn only_values_beyond_the_limit_are_marked() {
+    let html = a_page().to_html().unwrap();
+    let tree = tree(&html);
+    let cells = tree
+        .descendants()
+        .filter(|n| classes(n).contains(&"difference"));
+    let found: Vec<_> = cells
+        .map(|n| (text_of(n), classes(&n).contains(&"apart")))
+        .collect();
+    assert_eq!(
+        found,
+        [("−9.68 %".to_owned(), true), ("+0.40 %".to_owned(), false)]
+    );
+}
+
+#[test]
+fn two_fabrics_are_compared_by_the_ratio_of_their_values() {
+    let page = ComparePage {
+        fabrics: ["A", "B"].map(|name| FabricName {
+            name: name.to_owned(),
+            source: String::new(),
+        }),
+        values: vec![ComparedValue {
+            symbol: "W".to_owned(),
+            name: "mass per area".to_owned(),
+            direction: String::new(),
+            units: Units::si("kg/m²").with_kes("mg/cm²", 0.01),
+            values: [Some(0.1), Some(0.23)],
+        }],
+        ..ComparePage::default()
+    };
+    let text = page.to_text().unwrap();
+    assert!(
+        text.contains("W  mass per area  mg/cm²  10.00  23.00   2.30  !"),
+        "{text}"
+    );
+    let html = page.to_html().unwrap();
+    assert!(
+        html.contains(r#"<span class="apart">2.30</span>"#),
+        "{html}"
+    );
+    tree(&html);
+}
+
+#[test]
+fn the_machines_report_holds_the_numbers_in_si() {
+    let json = serde_json::to_value(a_page()).unwrap();
+    let parameter = &json["laws"][0]["parameters"][0];
+    assert_eq!(parameter["value"], 1.157e-5);
+    assert_eq!(parameter["units"]["si"], "N·m");
+    assert_eq!(parameter["interval"]["between"]["lower"], 1.113e-5);
+    assert_eq!(
+        json["laws"][0]["plots"][0]["branches"][0]["kind"],
+        "loading"
+    );
+}
+
+#[test]
+fn a_law_set_from_values_alone_is_drawn_without_residuals() {
+    let mut page = a_page();
+    let points = page.laws[0].plots[0]
+        .branches
+        .iter_mut()
+        .flat_map(|b| &mut b.points);
+    points.for_each(|point| (point.measured, point.band) = (None, None));
+    page.laws[0].statistics = None;
+    let html = page.to_html().unwrap();
+    let tree = tree(&html);
+    let frames = tree
+        .descendants()
+        .filter(|n| n.attribute("data-map").is_some())
+        .count();
+    assert_eq!(frames, 1);
+    assert!(html.contains("not judged"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 500,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn any_data_gives_a_well_formed_page_or_an_error(
+        name in any::<String>(),
+        numbers in prop::collection::vec(
+            prop_oneof![any::<f64>(), -1e3..1e3, Just(0.0), Just(1e90), Just(1e-90), Just(1e-310)], 10),
+    ) {
+        let mut page = a_page();
+        page.name = name;
+        let plot = &mut page.laws[0].plots[0];
+        plot.branches.truncate(1);
+        plot.branches[0].points.truncate(2);
+        for (point, n) in plot.branches[0].points.iter_mut().zip(numbers.chunks(3)) {
+            *point = Point {
+                deformation: n[0],
+                measured: Some(n[1]),
+                fitted: Some(n[2]),
+                band: None,
+            };
+        }
+        page.laws[0].parameters[0].value = numbers[6];
+        page.laws[0].parameters[0].standard_error = Some(numbers[7].abs());
+        page.laws[0].models[0].aicc = numbers[8];
+        page.values[0].sheet = Some(numbers[9]);
+        if let Ok(html) = page.to_html() {
+            let shown = html.split("<script>").next().unwrap_or_default();
+            for none in ["NaN", ">inf", " inf", "-inf", "−inf"] {
+                prop_assert!(!shown.contains(none), "{none} for {numbers:?}");
+            }
+            tree(&html);
+            prop_assert!(page.to_text().is_ok());
+        }
+    }
+}
