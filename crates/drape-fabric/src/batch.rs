@@ -1,0 +1,442 @@
+//! Many connectors of one law side by side, in arithmetic that compilers turn into vector instructions.
+
+use drape_hysteresis::{Bend, BlimanSorine, Slider, Stroke};
+
+use crate::Memory;
+
+/// Connectors that are evaluated side by side.
+///
+/// A parameter of the speed alone: eight vectors of four numbers are enough to hide the latency of
+/// the exponentials, and few enough that a rare case costs few neighbours.
+pub const LANES: usize = 32;
+
+/// A number for each of the connectors that are evaluated side by side.
+pub type Lanes = [f64; LANES];
+
+/// Memories of many connectors, column by column; what [`Memory`] is for one.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Memories {
+    position: Vec<f64>,
+    friction: [Vec<f64>; 2],
+    peak: Vec<f64>,
+    toe: Vec<f64>,
+}
+
+/// Memories of [`LANES`] neighbours.
+#[derive(Debug, Clone, Copy)]
+pub struct Remembered<'a> {
+    pub(crate) position: &'a Lanes,
+    pub(crate) friction: [&'a Lanes; 2],
+    pub(crate) peak: &'a Lanes,
+    pub(crate) toe: &'a Lanes,
+}
+
+/// Memories of some neighbours, to be moved on.
+#[derive(Debug)]
+pub struct Moving<'a> {
+    position: &'a mut [f64],
+    friction: [&'a mut [f64]; 2],
+    peak: &'a mut [f64],
+    toe: &'a mut [f64],
+}
+
+/// The memory of one lane, without the friction.
+#[derive(Debug, Clone, Copy)]
+pub struct Lane {
+    /// Deformation when the memory was last written.
+    pub position: f64,
+    /// Largest deformation ever reached.
+    pub peak: f64,
+    /// What the law keeps of the peak, see [`BatchLaw::toe`].
+    pub toe: f64,
+}
+
+fn lanes(column: &[f64], start: usize) -> &Lanes {
+    column[start..]
+        .first_chunk()
+        .expect("the columns are longer than the connectors by a batch")
+}
+
+impl Memories {
+    /// As many memories as asked for, all virgin, of a law.
+    #[must_use]
+    pub fn new(law: &impl BatchLaw, count: usize) -> Self {
+        let zeros = || vec![0.0; count];
+        Self {
+            position: zeros(),
+            friction: [zeros(), zeros()],
+            peak: zeros(),
+            toe: vec![law.toe(0.0); count],
+        }
+    }
+
+    /// One of the memories.
+    #[must_use]
+    pub fn get(&self, index: usize) -> Memory {
+        Memory {
+            position: self.position[index],
+            friction: [self.friction[0][index], self.friction[1][index]],
+            peak: self.peak[index],
+        }
+    }
+
+    /// Puts a memory into its place.
+    pub fn set(&mut self, law: &impl BatchLaw, index: usize, memory: Memory) {
+        self.position[index] = memory.position;
+        self.friction[0][index] = memory.friction[0];
+        self.friction[1][index] = memory.friction[1];
+        self.peak[index] = memory.peak;
+        self.toe[index] = law.toe(memory.peak);
+    }
+
+    /// Deformations when the memories were last written, in the unit of the deformation.
+    #[must_use]
+    pub fn positions(&self) -> &[f64] {
+        &self.position
+    }
+
+    /// The [`LANES`] memories from `start` on, which must exist.
+    #[inline(always)]
+    #[must_use]
+    pub fn from(&self, start: usize) -> Remembered<'_> {
+        Remembered {
+            position: lanes(&self.position, start),
+            friction: [
+                lanes(&self.friction[0], start),
+                lanes(&self.friction[1], start),
+            ],
+            peak: lanes(&self.peak, start),
+            toe: lanes(&self.toe, start),
+        }
+    }
+
+    /// All memories from `start` on, to be moved on.
+    pub fn moving(&mut self, start: usize) -> Moving<'_> {
+        let [first, second] = &mut self.friction;
+        Moving {
+            position: &mut self.position[start..],
+            friction: [&mut first[start..], &mut second[start..]],
+            peak: &mut self.peak[start..],
+            toe: &mut self.toe[start..],
+        }
+    }
+}
+
+impl<'a> Moving<'a> {
+    /// The first `count` memories and the others.
+    #[must_use]
+    pub fn split(self, count: usize) -> (Self, Self) {
+        let (position, positions) = self.position.split_at_mut(count);
+        let [first, second] = self.friction;
+        let (first, firsts) = first.split_at_mut(count);
+        let (second, seconds) = second.split_at_mut(count);
+        let (peak, peaks) = self.peak.split_at_mut(count);
+        let (toe, toes) = self.toe.split_at_mut(count);
+        let head = Self {
+            position,
+            friction: [first, second],
+            peak,
+            toe,
+        };
+        let tail = Self {
+            position: positions,
+            friction: [firsts, seconds],
+            peak: peaks,
+            toe: toes,
+        };
+        (head, tail)
+    }
+
+    #[inline(always)]
+    fn from(&self, start: usize) -> Remembered<'_> {
+        Remembered {
+            position: lanes(self.position, start),
+            friction: [
+                lanes(self.friction[0], start),
+                lanes(self.friction[1], start),
+            ],
+            peak: lanes(self.peak, start),
+            toe: lanes(self.toe, start),
+        }
+    }
+}
+
+impl Remembered<'_> {
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> Lane {
+        Lane {
+            position: self.position[lane],
+            peak: self.peak[lane],
+            toe: self.toe[lane],
+        }
+    }
+}
+
+/// Whether the condition holds in any lane: a sum of bits, which needs no branch per lane.
+#[inline(always)]
+pub(crate) fn any(condition: impl Fn(usize) -> bool) -> bool {
+    (0..LANES).fold(0_u64, |bits, lane| bits | u64::from(condition(lane))) != 0
+}
+
+/// `$\max(x, 0)$`, and NaN of NaN.
+#[inline(always)]
+pub(crate) fn positive(x: f64) -> f64 {
+    if x < 0.0 { 0.0 } else { x }
+}
+
+/// A law prepared for many connectors side by side; its results are those of [`Law`](crate::Law) up
+/// to rounding.
+///
+/// What a law has to give is written for one lane, without branches; the methods that are provided
+/// run it over a batch. Everything is inlined into the caller, so that it is compiled for the vector
+/// instructions that the caller has switched on.
+pub trait BatchLaw {
+    /// Number of deformations where the weight of the friction changes its slope.
+    const KNOTS: usize;
+
+    /// Whether the elastic load depends on the largest deformation.
+    const AGES: bool;
+
+    /// The elements of the friction.
+    fn sliders(&self) -> &Sliders;
+
+    /// What the law keeps of the largest deformation, because it is dear to compute.
+    fn toe(&self, peak: f64) -> f64;
+
+    /// Largest deformation after a trial has been accepted, in the unit of the deformation.
+    fn peak(&self, peak: f64, trial: f64) -> f64;
+
+    /// Weight of the friction at a deformation.
+    fn weight(&self, lane: Lane, deformation: f64) -> f64;
+
+    /// Slope of that weight where a path sets out from the memory, up or down.
+    fn slope(&self, lane: Lane, rising: bool) -> f64;
+
+    /// Where the weight changes its slope, and by how much.
+    fn knot(&self, knot: usize, lane: Lane) -> (f64, f64);
+
+    /// Elastic loads, and their slopes if `TANGENT`, in the units of [`Response`](crate::Response).
+    fn elastic<const TANGENT: bool>(
+        &self,
+        memory: &Remembered<'_>,
+        trial: &Lanes,
+        responses: &mut Responses,
+    );
+
+    /// Elastic energies per area, in J/m².
+    fn energy(&self, memory: &Remembered<'_>, trial: &Lanes, energies: &mut Lanes);
+
+    /// Loads, and tangents if `TANGENT`, at trial deformations.
+    #[inline(always)]
+    fn respond<const TANGENT: bool>(
+        &self,
+        memory: &Remembered<'_>,
+        trial: &Lanes,
+        responses: &mut Responses,
+    ) {
+        self.elastic::<TANGENT>(memory, trial, responses);
+        self.slide::<TANGENT>(memory, trial, responses);
+    }
+
+    /// Adds the loads of the friction, and their slopes if `TANGENT`.
+    #[inline(always)]
+    fn slide<const TANGENT: bool>(
+        &self,
+        memory: &Remembered<'_>,
+        trial: &Lanes,
+        responses: &mut Responses,
+    ) {
+        let Responses { load, tangent } = responses;
+        for (element, slider) in self.sliders().present() {
+            let before = memory.friction[element];
+            for lane in 0..LANES {
+                let stroke = self.stroke(memory.lane(lane), trial[lane]);
+                let end = slider.load(before[lane], stroke);
+                load[lane] += end;
+                if TANGENT {
+                    let weight = self.weight(memory.lane(lane), trial[lane]);
+                    tangent[lane] += slider.tangent(end, stroke.sign, weight);
+                }
+            }
+        }
+        for knot in self.passed(memory, trial) {
+            for (_, slider) in self.sliders().present() {
+                for lane in 0..LANES {
+                    let Stroke { sign, .. } = self.stroke(memory.lane(lane), trial[lane]);
+                    let bend = self.bend(knot, memory.lane(lane), trial[lane]);
+                    let gained = slider.bend_load(sign, bend);
+                    load[lane] += gained;
+                    if TANGENT {
+                        tangent[lane] += slider.tangent(gained, sign, 0.0);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the works of the friction per area from the memory to the trial, in J/m².
+    #[inline(always)]
+    fn slide_work(&self, memory: &Remembered<'_>, trial: &Lanes, works: &mut Lanes) {
+        for (element, slider) in self.sliders().present() {
+            let before = memory.friction[element];
+            for lane in 0..LANES {
+                let stroke = self.stroke(memory.lane(lane), trial[lane]);
+                works[lane] += slider.work(before[lane], stroke);
+            }
+        }
+        for knot in self.passed(memory, trial) {
+            for (_, slider) in self.sliders().present() {
+                for lane in 0..LANES {
+                    let bend = self.bend(knot, memory.lane(lane), trial[lane]);
+                    works[lane] += slider.bend_work(bend);
+                }
+            }
+        }
+    }
+
+    /// Elastic energies at the trial and works of the friction on the way there per area, in J/m²:
+    /// the potential within a step, up to a constant of the step.
+    #[inline(always)]
+    fn work(&self, memory: &Remembered<'_>, trial: &Lanes, works: &mut Lanes) {
+        self.energy(memory, trial, works);
+        self.slide_work(memory, trial, works);
+    }
+
+    /// Moves the memories from `start` on, and returns the energies per area that were lost on the
+    /// way, in J/m².
+    #[inline(always)]
+    fn commit(&self, moving: &mut Moving<'_>, start: usize, trial: &Lanes) -> Lanes {
+        let mut lost = [0.0; LANES];
+        let mut ends = [[0.0; LANES]; 2];
+        let memory = moving.from(start);
+        self.slide_work(&memory, trial, &mut lost);
+        for (element, slider) in self.sliders().present() {
+            let (before, end) = (memory.friction[element], &mut ends[element]);
+            for lane in 0..LANES {
+                end[lane] = slider.load(before[lane], self.stroke(memory.lane(lane), trial[lane]));
+            }
+            for knot in self.passed(&memory, trial) {
+                for lane in 0..LANES {
+                    let Stroke { sign, .. } = self.stroke(memory.lane(lane), trial[lane]);
+                    end[lane] +=
+                        slider.bend_load(sign, self.bend(knot, memory.lane(lane), trial[lane]));
+                }
+            }
+            for lane in 0..LANES {
+                lost[lane] += slider.stored(before[lane]) - slider.stored(end[lane]);
+            }
+        }
+        let ages = Self::AGES && any(|lane| trial[lane] > memory.peak[lane]);
+        let mut energies = [[0.0; LANES]; 2];
+        if ages {
+            self.energy(&memory, trial, &mut energies[0]);
+        }
+        for lane in 0..LANES {
+            let index = start + lane;
+            moving.peak[index] = self.peak(moving.peak[index], trial[lane]);
+        }
+        moving.position[start..start + LANES].copy_from_slice(trial);
+        for (element, _) in self.sliders().present() {
+            moving.friction[element][start..start + LANES].copy_from_slice(&ends[element]);
+        }
+        if ages {
+            for index in start..start + LANES {
+                moving.toe[index] = self.toe(moving.peak[index]);
+            }
+            self.energy(&moving.from(start), trial, &mut energies[1]);
+            for lane in 0..LANES {
+                lost[lane] += energies[0][lane] - energies[1][lane];
+            }
+        }
+        lost
+    }
+
+    /// Adds the energies per area that the memories can give back, in J/m².
+    #[inline(always)]
+    fn stored(&self, memory: &Remembered<'_>, energies: &mut Lanes) {
+        self.energy(memory, memory.position, energies);
+        self.slide_stored(memory, energies);
+    }
+
+    /// Adds the energies per area that the friction can give back, in J/m².
+    #[inline(always)]
+    fn slide_stored(&self, memory: &Remembered<'_>, energies: &mut Lanes) {
+        for (element, slider) in self.sliders().present() {
+            for lane in 0..LANES {
+                energies[lane] += slider.stored(memory.friction[element][lane]);
+            }
+        }
+    }
+
+    /// The path from the memory to a trial.
+    #[inline(always)]
+    fn stroke(&self, lane: Lane, trial: f64) -> Stroke {
+        let rising = trial >= lane.position;
+        let sign = if rising { 1.0 } else { -1.0 };
+        Stroke {
+            sign,
+            way: (trial - lane.position).abs(),
+            weight: self.weight(lane, lane.position),
+            ramp: sign * self.slope(lane, rising),
+        }
+    }
+
+    /// What becomes of the path at a knot.
+    #[inline(always)]
+    fn bend(&self, knot: usize, lane: Lane, trial: f64) -> Bend {
+        let (place, ramp) = self.knot(knot, lane);
+        let beyond = trial - place;
+        // The path passes the knot if its ends lie on two sides of it.
+        let passes = (lane.position - place) * beyond < 0.0;
+        let way = if passes { beyond.abs() } else { 0.0 };
+        Bend { ramp, way }
+    }
+
+    /// The knots that some lane passes.
+    #[inline(always)]
+    fn passed(&self, memory: &Remembered<'_>, trial: &Lanes) -> impl Iterator<Item = usize> {
+        let passed =
+            |knot: &usize| any(|lane| self.bend(*knot, memory.lane(lane), trial[lane]).way > 0.0);
+        (0..Self::KNOTS).filter(passed)
+    }
+}
+
+/// Loads and tangents of a batch, in the units of [`Response`](crate::Response).
+#[derive(Debug, Clone, Copy)]
+pub struct Responses {
+    /// Loads per width.
+    pub load: Lanes,
+    /// Derivatives of the loads with respect to the deformations.
+    pub tangent: Lanes,
+}
+
+impl Default for Responses {
+    fn default() -> Self {
+        Self {
+            load: [0.0; LANES],
+            tangent: [0.0; LANES],
+        }
+    }
+}
+
+/// The elements of a friction, prepared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sliders([Option<Slider>; 2]);
+
+impl Sliders {
+    /// Prepares a friction.
+    #[must_use]
+    pub fn new(friction: &BlimanSorine) -> Self {
+        let prepare = |element: drape_hysteresis::Dahl| {
+            (element.plateau != 0.0).then(|| Slider::new(element))
+        };
+        Self(friction.elements.map(prepare))
+    }
+
+    /// The elements that are there, with their places in the memory.
+    #[inline(always)]
+    fn present(&self) -> impl Iterator<Item = (usize, Slider)> {
+        let places = self.0.into_iter().enumerate();
+        places.filter_map(|(place, slider)| slider.map(|slider| (place, slider)))
+    }
+}
