@@ -1,4 +1,7 @@
-use drape_fabric::Memory;
+use drape_fabric::{Memories, Memory};
+
+use crate::field::Field;
+use crate::panel::Panel;
 
 /// Where a cloth is and what its yarns remember: everything that changes in time.
 ///
@@ -12,12 +15,35 @@ pub struct State {
     pub velocities: Vec<f64>,
     /// Unit normals of the surface at the particles.
     pub(crate) normals: Vec<f64>,
-    /// Memories of the segments, one list per set of connectors.
-    pub(crate) traction: Vec<Vec<Memory>>,
-    /// Memories of the corners.
-    pub(crate) shear: Vec<Vec<Memory>>,
-    /// Memories of the triples.
-    pub(crate) bending: Vec<Vec<Memory>>,
+    pub(crate) panels: Vec<PanelState>,
+}
+
+/// Memories of a panel's connectors in the panel's columns.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PanelState {
+    /// Of the segments along the warp and the weft.
+    pub(crate) traction: [Memories; 2],
+    /// Of the four corners of the cells.
+    pub(crate) shear: [Memories; 4],
+    /// Of the triples along the warp and the weft.
+    pub(crate) bending: [Memories; 2],
+    /// Unit normals, as in [`State::normals`].
+    pub(crate) normals: Field,
+}
+
+impl PanelState {
+    /// Memories of a virgin panel.
+    pub(crate) fn new(panel: &Panel) -> Self {
+        let [warp, weft] = &panel.yarns;
+        let length = panel.length();
+        let corner = || Memories::new(&panel.shear, length);
+        Self {
+            traction: [warp, weft].map(|yarns| Memories::new(&yarns.traction, length)),
+            shear: [corner(), corner(), corner(), corner()],
+            bending: [warp, weft].map(|yarns| Memories::new(&yarns.bending, length)),
+            normals: Field::new(length),
+        }
+    }
 }
 
 impl State {
@@ -27,12 +53,16 @@ impl State {
         &self.normals
     }
 
-    /// All memories, for hashing and comparing: set by set, connector by connector.
-    pub fn memories(&self) -> impl Iterator<Item = &Memory> {
-        self.traction
-            .iter()
-            .chain(&self.shear)
-            .chain(&self.bending)
-            .flatten()
+    /// All memories, for hashing and comparing, in a fixed order. Where there is no connector, as at
+    /// the end of a row, the memory is that of a virgin one.
+    pub fn memories(&self) -> impl Iterator<Item = Memory> {
+        self.panels.iter().flat_map(|panel| {
+            let sets = panel
+                .traction
+                .iter()
+                .chain(&panel.shear)
+                .chain(&panel.bending);
+            sets.flat_map(Memories::iter)
+        })
     }
 }

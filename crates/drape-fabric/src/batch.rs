@@ -80,13 +80,21 @@ impl Memories {
         }
     }
 
-    /// Puts a memory into its place.
-    pub fn set(&mut self, law: &impl BatchLaw, index: usize, memory: Memory) {
-        self.position[index] = memory.position;
-        self.friction[0][index] = memory.friction[0];
-        self.friction[1][index] = memory.friction[1];
-        self.peak[index] = memory.peak;
-        self.toe[index] = law.toe(memory.peak);
+    /// All memories, in the order of their places.
+    pub fn iter(&self) -> impl Iterator<Item = Memory> {
+        (0..self.position.len()).map(|index| self.get(index))
+    }
+
+    /// Makes the [`LANES`] memories from `start` on those of connectors that were brought to the given
+    /// deformations without friction.
+    pub fn start(&mut self, law: &impl BatchLaw, start: usize, deformations: &Lanes) {
+        for (index, &deformation) in (start..).zip(deformations) {
+            self.position[index] = deformation;
+            self.friction[0][index] = 0.0;
+            self.friction[1][index] = 0.0;
+            self.peak[index] = law.peak(0.0, deformation);
+            self.toe[index] = law.toe(self.peak[index]);
+        }
     }
 
     /// Deformations when the memories were last written, in the unit of the deformation.
