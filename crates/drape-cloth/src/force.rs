@@ -175,16 +175,14 @@ fn gather(scratch: &mut Scratch, trial: &Trial<'_>, forces: &mut [f64]) {
             let (pulls, moments) = (&scratch.pulls[direction], &scratch.moments[direction]);
             let [before, here, after] = [start - step, start, start + step];
             let (from, to) = (pulls.from(before), pulls.from(here));
-            let bends = [
-                moments.from(before),
-                moments.from(here),
-                moments.from(after),
-            ];
+            let (before, here, after) =
+                (moments.from(before), moments.from(here), moments.from(after));
             for axis in 0..3 {
+                let (from, to) = (from.0[axis], to.0[axis]);
+                let (a, c, b) = (before.0[axis], here.0[axis], after.0[axis]);
                 for lane in 0..LANES {
-                    let pull = to.0[axis][lane] - from.0[axis][lane];
-                    let [a, c, b] = [0, 1, 2].map(|k| bends[k].0[axis][lane]);
-                    sums[axis][lane] += pull - (a - 2.0 * c + b);
+                    let bend = a[lane] - 2.0 * c[lane] + b[lane];
+                    sums[axis][lane] += to[lane] - from[lane] - bend;
                 }
             }
         }

@@ -1,7 +1,9 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::cloth::Committed;
+use crate::panel::{Panel, Strip};
 use crate::scratch::{Scratch, Trial};
+use crate::state::PanelState;
 use crate::{Cloth, State, energy, force, stiffness};
 
 /// Room for evaluating one cloth again and again: after it has been made, nothing allocates.
@@ -47,6 +49,17 @@ impl WithSimd for Potential<'_> {
     }
 }
 
+struct Commit<'a>(&'a mut Scratch, (&'a Panel, &'a Strip), &'a mut PanelState, &'a [f64]);
+
+impl WithSimd for Commit<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        energy::commit(self.0, self.1, self.2, self.3)
+    }
+}
+
 impl Workspace {
     pub(crate) fn new(cloth: &Cloth) -> Self {
         let reach = cloth.panels.iter().map(|panel| panel.reach()).max();
@@ -86,7 +99,8 @@ impl Workspace {
         let mut dissipated = 0.0;
         for (panel, state) in cloth.panels.iter().zip(&mut state.panels) {
             for strip in &panel.strips {
-                dissipated += energy::commit(&mut self.scratch, (panel, strip), state, positions);
+                let commit = Commit(&mut self.scratch, (panel, strip), state, positions);
+                dissipated += self.arch.dispatch(commit);
             }
         }
         Committed { dissipated }

@@ -19,7 +19,7 @@ pub struct Memories {
     position: Vec<f64>,
     friction: [Vec<f64>; 2],
     peak: Vec<f64>,
-    toe: Vec<f64>,
+    toe: [Vec<f64>; 2],
 }
 
 /// Memories of [`LANES`] neighbours.
@@ -28,7 +28,7 @@ pub struct Remembered<'a> {
     pub(crate) position: &'a Lanes,
     pub(crate) friction: [&'a Lanes; 2],
     pub(crate) peak: &'a Lanes,
-    pub(crate) toe: &'a Lanes,
+    pub(crate) toe: [&'a Lanes; 2],
 }
 
 /// Memories of some neighbours, to be moved on.
@@ -37,7 +37,7 @@ pub struct Moving<'a> {
     position: &'a mut [f64],
     friction: [&'a mut [f64]; 2],
     peak: &'a mut [f64],
-    toe: &'a mut [f64],
+    toe: [&'a mut [f64]; 2],
 }
 
 /// The memory of one lane, without the friction.
@@ -47,8 +47,8 @@ pub struct Lane {
     pub position: f64,
     /// Largest deformation ever reached.
     pub peak: f64,
-    /// What the law keeps of the peak, see [`BatchLaw::toe`].
-    pub toe: f64,
+    /// End of the priming zone and slope of the friction's weight in it, see [`BatchLaw::toe`].
+    pub toe: [f64; 2],
 }
 
 fn lanes(column: &[f64], start: usize) -> &Lanes {
@@ -66,7 +66,7 @@ impl Memories {
             position: zeros(),
             friction: [zeros(), zeros()],
             peak: zeros(),
-            toe: vec![law.toe(0.0); count],
+            toe: law.toe(0.0).map(|toe| vec![toe; count]),
         }
     }
 
@@ -93,7 +93,10 @@ impl Memories {
             self.friction[0][index] = 0.0;
             self.friction[1][index] = 0.0;
             self.peak[index] = law.peak(0.0, deformation);
-            self.toe[index] = law.toe(self.peak[index]);
+            let toe = law.toe(self.peak[index]);
+            for (column, value) in self.toe.iter_mut().zip(toe) {
+                column[index] = value;
+            }
         }
     }
 
@@ -114,18 +117,19 @@ impl Memories {
                 lanes(&self.friction[1], start),
             ],
             peak: lanes(&self.peak, start),
-            toe: lanes(&self.toe, start),
+            toe: [lanes(&self.toe[0], start), lanes(&self.toe[1], start)],
         }
     }
 
     /// All memories from `start` on, to be moved on.
     pub fn moving(&mut self, start: usize) -> Moving<'_> {
         let [first, second] = &mut self.friction;
+        let [end, slope] = &mut self.toe;
         Moving {
             position: &mut self.position[start..],
             friction: [&mut first[start..], &mut second[start..]],
             peak: &mut self.peak[start..],
-            toe: &mut self.toe[start..],
+            toe: [&mut end[start..], &mut slope[start..]],
         }
     }
 }
@@ -139,18 +143,20 @@ impl<'a> Moving<'a> {
         let (first, firsts) = first.split_at_mut(count);
         let (second, seconds) = second.split_at_mut(count);
         let (peak, peaks) = self.peak.split_at_mut(count);
-        let (toe, toes) = self.toe.split_at_mut(count);
+        let [end, slope] = self.toe;
+        let (end, ends) = end.split_at_mut(count);
+        let (slope, slopes) = slope.split_at_mut(count);
         let head = Self {
             position,
             friction: [first, second],
             peak,
-            toe,
+            toe: [end, slope],
         };
         let tail = Self {
             position: positions,
             friction: [firsts, seconds],
             peak: peaks,
-            toe: toes,
+            toe: [ends, slopes],
         };
         (head, tail)
     }
@@ -164,7 +170,7 @@ impl<'a> Moving<'a> {
                 lanes(self.friction[1], start),
             ],
             peak: lanes(self.peak, start),
-            toe: lanes(self.toe, start),
+            toe: [lanes(self.toe[0], start), lanes(self.toe[1], start)],
         }
     }
 }
@@ -175,7 +181,7 @@ impl Remembered<'_> {
         Lane {
             position: self.position[lane],
             peak: self.peak[lane],
-            toe: self.toe[lane],
+            toe: [self.toe[0][lane], self.toe[1][lane]],
         }
     }
 }
@@ -208,8 +214,9 @@ pub trait BatchLaw {
     /// The elements of the friction.
     fn sliders(&self) -> &Sliders;
 
-    /// What the law keeps of the largest deformation, because it is dear to compute.
-    fn toe(&self, peak: f64) -> f64;
+    /// What follows from the largest deformation and is dear to compute: the end of the priming zone,
+    /// and the slope of the friction's weight in it.
+    fn toe(&self, peak: f64) -> [f64; 2];
 
     /// Largest deformation after a trial has been accepted, in the unit of the deformation.
     fn peak(&self, peak: f64, trial: f64) -> f64;
@@ -255,7 +262,8 @@ pub trait BatchLaw {
         responses: &mut Responses,
     ) {
         let Responses { load, tangent } = responses;
-        for (element, slider) in self.sliders().present() {
+        for (element, slider) in self.sliders().0.into_iter().enumerate() {
+            let Some(slider) = slider else { continue };
             let before = memory.friction[element];
             for lane in 0..LANES {
                 let stroke = self.stroke(memory.lane(lane), trial[lane]);
@@ -267,10 +275,16 @@ pub trait BatchLaw {
                 }
             }
         }
-        for knot in self.passed(memory, trial) {
-            for (_, slider) in self.sliders().present() {
+        if !self.passes_any(memory, trial) {
+            return;
+        }
+        for knot in 0..Self::KNOTS {
+            if !self.passes(knot, memory, trial) {
+                continue;
+            }
+            for slider in self.sliders().0.into_iter().flatten() {
                 for lane in 0..LANES {
-                    let Stroke { sign, .. } = self.stroke(memory.lane(lane), trial[lane]);
+                    let sign = self.stroke(memory.lane(lane), trial[lane]).sign;
                     let bend = self.bend(knot, memory.lane(lane), trial[lane]);
                     let gained = slider.bend_load(sign, bend);
                     load[lane] += gained;
@@ -285,15 +299,22 @@ pub trait BatchLaw {
     /// Adds the works of the friction per area from the memory to the trial, in J/m².
     #[inline(always)]
     fn slide_work(&self, memory: &Remembered<'_>, trial: &Lanes, works: &mut Lanes) {
-        for (element, slider) in self.sliders().present() {
+        for (element, slider) in self.sliders().0.into_iter().enumerate() {
+            let Some(slider) = slider else { continue };
             let before = memory.friction[element];
             for lane in 0..LANES {
                 let stroke = self.stroke(memory.lane(lane), trial[lane]);
                 works[lane] += slider.work(before[lane], stroke);
             }
         }
-        for knot in self.passed(memory, trial) {
-            for (_, slider) in self.sliders().present() {
+        if !self.passes_any(memory, trial) {
+            return;
+        }
+        for knot in 0..Self::KNOTS {
+            if !self.passes(knot, memory, trial) {
+                continue;
+            }
+            for slider in self.sliders().0.into_iter().flatten() {
                 for lane in 0..LANES {
                     let bend = self.bend(knot, memory.lane(lane), trial[lane]);
                     works[lane] += slider.bend_work(bend);
@@ -318,16 +339,20 @@ pub trait BatchLaw {
         let mut ends = [[0.0; LANES]; 2];
         let memory = moving.from(start);
         self.slide_work(&memory, trial, &mut lost);
-        for (element, slider) in self.sliders().present() {
+        for (element, slider) in self.sliders().0.into_iter().enumerate() {
+            let Some(slider) = slider else { continue };
             let (before, end) = (memory.friction[element], &mut ends[element]);
             for lane in 0..LANES {
                 end[lane] = slider.load(before[lane], self.stroke(memory.lane(lane), trial[lane]));
             }
-            for knot in self.passed(&memory, trial) {
+            for knot in 0..Self::KNOTS {
+                if !self.passes(knot, &memory, trial) {
+                    continue;
+                }
                 for lane in 0..LANES {
-                    let Stroke { sign, .. } = self.stroke(memory.lane(lane), trial[lane]);
-                    end[lane] +=
-                        slider.bend_load(sign, self.bend(knot, memory.lane(lane), trial[lane]));
+                    let sign = self.stroke(memory.lane(lane), trial[lane]).sign;
+                    let bend = self.bend(knot, memory.lane(lane), trial[lane]);
+                    end[lane] += slider.bend_load(sign, bend);
                 }
             }
             for lane in 0..LANES {
@@ -344,12 +369,16 @@ pub trait BatchLaw {
             moving.peak[index] = self.peak(moving.peak[index], trial[lane]);
         }
         moving.position[start..start + LANES].copy_from_slice(trial);
-        for (element, _) in self.sliders().present() {
-            moving.friction[element][start..start + LANES].copy_from_slice(&ends[element]);
+        for (element, slider) in self.sliders().0.iter().enumerate() {
+            if slider.is_some() {
+                moving.friction[element][start..start + LANES].copy_from_slice(&ends[element]);
+            }
         }
         if ages {
             for index in start..start + LANES {
-                moving.toe[index] = self.toe(moving.peak[index]);
+                let [end, slope] = self.toe(moving.peak[index]);
+                moving.toe[0][index] = end;
+                moving.toe[1][index] = slope;
             }
             self.energy(&moving.from(start), trial, &mut energies[1]);
             for lane in 0..LANES {
@@ -369,7 +398,8 @@ pub trait BatchLaw {
     /// Adds the energies per area that the friction can give back, in J/m².
     #[inline(always)]
     fn slide_stored(&self, memory: &Remembered<'_>, energies: &mut Lanes) {
-        for (element, slider) in self.sliders().present() {
+        for (element, slider) in self.sliders().0.into_iter().enumerate() {
+            let Some(slider) = slider else { continue };
             for lane in 0..LANES {
                 energies[lane] += slider.stored(memory.friction[element][lane]);
             }
@@ -400,12 +430,21 @@ pub trait BatchLaw {
         Bend { ramp, way }
     }
 
-    /// The knots that some lane passes.
+    /// Whether some lane passes the knot.
     #[inline(always)]
-    fn passed(&self, memory: &Remembered<'_>, trial: &Lanes) -> impl Iterator<Item = usize> {
-        let passed =
-            |knot: &usize| any(|lane| self.bend(*knot, memory.lane(lane), trial[lane]).way > 0.0);
-        (0..Self::KNOTS).filter(passed)
+    fn passes(&self, knot: usize, memory: &Remembered<'_>, trial: &Lanes) -> bool {
+        any(|lane| self.bend(knot, memory.lane(lane), trial[lane]).way > 0.0)
+    }
+
+    /// Whether some lane passes some knot.
+    #[inline(always)]
+    fn passes_any(&self, memory: &Remembered<'_>, trial: &Lanes) -> bool {
+        any(|lane| {
+            (0..Self::KNOTS).fold(false, |passes, knot| {
+                let (place, _) = self.knot(knot, memory.lane(lane));
+                passes | ((memory.position[lane] - place) * (trial[lane] - place) < 0.0)
+            })
+        })
     }
 }
 
@@ -439,12 +478,5 @@ impl Sliders {
             (element.plateau != 0.0).then(|| Slider::new(element))
         };
         Self(friction.elements.map(prepare))
-    }
-
-    /// The elements that are there, with their places in the memory.
-    #[inline(always)]
-    fn present(&self) -> impl Iterator<Item = (usize, Slider)> {
-        let places = self.0.into_iter().enumerate();
-        places.filter_map(|(place, slider)| slider.map(|slider| (place, slider)))
     }
 }

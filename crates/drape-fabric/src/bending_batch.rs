@@ -33,8 +33,8 @@ impl BatchLaw for BendingBatch {
     }
 
     #[inline(always)]
-    fn toe(&self, _peak: f64) -> f64 {
-        0.0
+    fn toe(&self, _peak: f64) -> [f64; 2] {
+        [0.0; 2]
     }
 
     #[inline(always)]

@@ -49,8 +49,9 @@ impl TractionBatch {
         } = *primed;
         let bow = 1.0 - toe_ratio;
         for lane in 0..LANES {
-            let (strain, toe) = (positive(trial[lane]), memory.toe[lane]);
-            let bend = bow * strain / toe;
+            let (strain, toe) = (positive(trial[lane]), memory.toe[0][lane]);
+            // The weight's slope in the toe is (1 − r)/(r ε_c).
+            let bend = toe_ratio * memory.toe[1][lane] * strain;
             let within = stiffness * strain * (bend + 2.0 * toe_ratio - 1.0);
             let beyond = stiffness * (strain - bow * toe);
             let bends = strain <= toe;
@@ -66,7 +67,7 @@ impl TractionBatch {
                 let new = strain > memory.peak[lane].max(toe_strain);
                 // The toe moves along: it takes the place of the one that was kept.
                 let toe = toe_after(primed, strain);
-                let softer = stiffness * bow * (memory.toe[lane] - toe);
+                let softer = stiffness * bow * (memory.toe[0][lane] - toe);
                 load[lane] += if new { softer } else { 0.0 };
                 if TANGENT {
                     let growth = (toe_strain_after - toe) / toe_strain;
@@ -118,10 +119,13 @@ impl BatchLaw for TractionBatch {
     }
 
     #[inline(always)]
-    fn toe(&self, peak: f64) -> f64 {
+    fn toe(&self, peak: f64) -> [f64; 2] {
         match &self.law.backbone {
-            TractionBackbone::Primed(primed) => toe_after(primed, peak),
-            TractionBackbone::Polynomial(_) => 1.0,
+            TractionBackbone::Primed(primed) => {
+                let end = toe_after(primed, peak);
+                [end, (1.0 - self.at_rest) / end]
+            }
+            TractionBackbone::Polynomial(_) => [1.0, 0.0],
         }
     }
 
@@ -132,18 +136,19 @@ impl BatchLaw for TractionBatch {
 
     #[inline(always)]
     fn weight(&self, lane: Lane, strain: f64) -> f64 {
-        let stretched = self.at_rest + (1.0 - self.at_rest) * strain / lane.toe;
+        let [toe, priming] = lane.toe;
+        let stretched = self.at_rest + priming * strain;
         let squeezed = positive(self.at_rest + self.straightening * strain);
         let within = if strain >= 0.0 { stretched } else { squeezed };
-        if strain >= lane.toe { 1.0 } else { within }
+        if strain >= toe { 1.0 } else { within }
     }
 
     #[inline(always)]
     fn slope(&self, lane: Lane, rising: bool) -> f64 {
         let at = lane.position;
         let below = |knot: f64| (at < knot) | (!rising & (at == knot));
-        let priming = (1.0 - self.at_rest) / lane.toe;
-        let mut slope = if below(lane.toe) { priming } else { 0.0 };
+        let [toe, priming] = lane.toe;
+        let mut slope = if below(toe) { priming } else { 0.0 };
         slope = if below(0.0) {
             self.straightening
         } else {
@@ -158,11 +163,11 @@ impl BatchLaw for TractionBatch {
 
     #[inline(always)]
     fn knot(&self, knot: usize, lane: Lane) -> (f64, f64) {
-        let priming = (1.0 - self.at_rest) / lane.toe;
+        let [toe, priming] = lane.toe;
         match knot {
             0 => (-self.law.buckling.strain, self.straightening),
             1 => (0.0, priming - self.straightening),
-            _ => (lane.toe, -priming),
+            _ => (toe, -priming),
         }
     }
 
@@ -200,7 +205,7 @@ impl BatchLaw for TractionBatch {
             TractionBackbone::Primed(primed) => {
                 for lane in 0..LANES {
                     let strain = positive(trial[lane]);
-                    energies[lane] += primed.fixed_energy(memory.toe[lane], strain);
+                    energies[lane] += primed.fixed_energy(memory.toe[0][lane], strain);
                 }
                 if self.lengthens(primed, memory, trial) {
                     let Primed {
@@ -210,7 +215,7 @@ impl BatchLaw for TractionBatch {
                         toe_strain_after,
                     } = *primed;
                     for lane in 0..LANES {
-                        let (strain, toe) = (trial[lane], memory.toe[lane]);
+                        let (strain, toe) = (trial[lane], memory.toe[0][lane]);
                         let seen = memory.peak[lane].max(toe_strain);
                         // The moving toe's integral less that of the one that was kept.
                         let way = strain - seen;
