@@ -175,8 +175,11 @@ fn gather(scratch: &mut Scratch, trial: &Trial<'_>, forces: &mut [f64]) {
             let (pulls, moments) = (&scratch.pulls[direction], &scratch.moments[direction]);
             let [before, here, after] = [start - step, start, start + step];
             let (from, to) = (pulls.from(before), pulls.from(here));
-            let (before, here, after) =
-                (moments.from(before), moments.from(here), moments.from(after));
+            let (before, here, after) = (
+                moments.from(before),
+                moments.from(here),
+                moments.from(after),
+            );
             for axis in 0..3 {
                 let (from, to) = (from.0[axis], to.0[axis]);
                 let (a, c, b) = (before.0[axis], here.0[axis], after.0[axis]);

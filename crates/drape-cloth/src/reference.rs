@@ -1,125 +1,252 @@
-use drape_fabric::Fabric;
+use drape_fabric::{BendingLaw, Fabric, Law, Memory, ShearLaw, TractionLaw};
 
-use crate::bending::Bending;
-use crate::shear::Shear;
-use crate::state::State;
-use crate::tangent::{Tangent, tangents};
-use crate::traction::Traction;
-use crate::vector::Vector;
-use crate::{ClothError, Lattice, Pattern};
+use crate::connectors::{segments, triples};
+use crate::field::{Vector, add, dot, scale, subtract};
+use crate::{Lattice, Pattern};
 
-/// A cloth: particles joined by traction, shearing and bending connectors. Constant in time.
+/// The connectors of a cloth one by one through the scalar laws, by the textbook.
 ///
-/// A connector is a measure (a strain of a few particles) × a law of the fabric × the area of cloth
-/// that it stands for, and pulls its particles with the derivative of area times work density,
-///
-/// ```math
-/// f_i = -W\,T(s)\,\frac{\partial s}{\partial x_i}
-/// ```
-///
-/// which conserves momentum exactly and does not depend on the spacing of the particles. The forces
-/// of [Ngo Ngoc & Boivin 2004, eqs. 4–5] agree with it to first order if the lever arm is the length
-/// of a yarn segment.
+/// It is what [`Cloth`](crate::Cloth) is tested and measured against: the same numbers up to
+/// rounding, from code that shares with it which particles a connector joins, and nothing else.
 #[derive(Debug, Clone)]
-pub struct Cloth {
-    masses: Vec<f64>,
-    areas: Vec<f64>,
-    coordinates: Vec<[f64; 2]>,
-    triangles: Vec<[u32; 3]>,
-    tangents: Vec<[Tangent; 2]>,
-    traction: Vec<Traction>,
-    shear: Vec<Shear>,
-    bending: Vec<Bending>,
+pub struct Reference {
+    segments: Vec<Connector<TractionLaw, 2>>,
+    corners: Vec<Connector<ShearLaw, 3>>,
+    triples: Vec<Connector<BendingLaw, 3>>,
     pattern: Pattern,
+    /// Unit normals at the particles.
+    normals: Vec<f64>,
 }
 
-/// Area that the connectors of each kind stand for, in m²; each is the area of the cloth.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Areas {
-    /// Segments along the warp and along the weft.
-    pub traction: [f64; 2],
-    /// Corners.
-    pub shear: f64,
-    /// Triples along the warp and along the weft.
-    pub bending: [f64; 2],
+/// A connector: a law, the particles of its measure, and the cloth that it stands for.
+#[derive(Debug, Clone)]
+struct Connector<L, const N: usize> {
+    law: L,
+    particles: [u32; N],
+    /// Rest length of a segment; sign of a corner.
+    measure: f64,
+    area: f64,
+    memory: Memory,
+    /// Blocks of the pairs 00, 11, 01 and, with three particles, 22, 02, 12.
+    blocks: [usize; 6],
 }
 
-/// How far a cloth is deformed.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Strains {
-    /// Largest strain of a segment, a ratio.
-    pub traction_max: f64,
-    /// Strain that 99 of 100 segments do not exceed, a ratio.
-    pub traction_p99: f64,
-    /// Largest shear angle of a corner, in rad.
-    pub shear_max: f64,
-    /// Curvature that 99 of 100 triples do not exceed, in 1/m.
-    pub curvature_p99: f64,
+/// Places in [`Connector::particles`] of the pairs in [`Connector::blocks`].
+const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (0, 1), (2, 2), (0, 2), (1, 2)];
+
+/// A 3 × 3 block, row by row.
+type Block = [Vector; 3];
+
+fn outer(a: Vector, b: Vector) -> Block {
+    a.map(|a| b.map(|b| a * b))
 }
 
-/// What a step has cost.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Committed {
-    /// Energy lost in the fabric's friction, in J.
-    pub dissipated: f64,
+fn one() -> Block {
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 }
 
-impl Cloth {
-    /// A cloth of panels, each with its fabric; the particles are numbered panel by panel.
-    #[must_use]
-    pub fn new(panels: &[(&Lattice, &Fabric)]) -> Self {
-        let mut cloth = Self {
-            masses: Vec::new(),
-            areas: Vec::new(),
-            coordinates: Vec::new(),
-            triangles: Vec::new(),
-            tangents: Vec::new(),
-            traction: Vec::new(),
-            shear: Vec::new(),
-            bending: Vec::new(),
-            pattern: Pattern {
-                offsets: Vec::new(),
-                columns: Vec::new(),
-            },
+/// Sum of blocks, each with a factor.
+fn sum<const N: usize>(parts: [(f64, Block); N]) -> Block {
+    let mut sum = [[0.0; 3]; 3];
+    for (factor, block) in parts {
+        for (row, part) in sum.iter_mut().zip(block) {
+            *row = add(*row, scale(part, factor));
+        }
+    }
+    sum
+}
+
+fn transposed(block: Block) -> Block {
+    [0, 1, 2].map(|row| [block[0][row], block[1][row], block[2][row]])
+}
+
+fn at(flat: &[f64], particle: u32) -> Vector {
+    let start = 3 * particle as usize;
+    [flat[start], flat[start + 1], flat[start + 2]]
+}
+
+fn push(flat: &mut [f64], particle: u32, vector: Vector) {
+    let start = 3 * particle as usize;
+    for (value, part) in flat[start..start + 3].iter_mut().zip(vector) {
+        *value += part;
+    }
+}
+
+/// Length and direction of the way from the first to the second particle.
+fn way(positions: &[f64], from: u32, to: u32) -> (f64, Vector) {
+    let span = subtract(at(positions, to), at(positions, from));
+    let length = dot(span, span).sqrt();
+    (length, scale(span, 1.0 / length))
+}
+
+/// A corner's sine, the directions and lengths of its two edges, and the gradients of the sine.
+struct Corner {
+    sine: f64,
+    units: [Vector; 2],
+    lengths: [f64; 2],
+    gradients: [Vector; 2],
+}
+
+impl Connector<ShearLaw, 3> {
+    fn corner(&self, positions: &[f64]) -> Corner {
+        let [centre, warp, weft] = self.particles;
+        let (warp_length, warp) = way(positions, centre, warp);
+        let (weft_length, weft) = way(positions, centre, weft);
+        let cosine = dot(warp, weft);
+        let gradient = |along: Vector, other: Vector, length: f64| {
+            scale(subtract(other, scale(along, cosine)), self.measure / length)
         };
-        panels
-            .iter()
-            .for_each(|(lattice, fabric)| cloth.add_panel(lattice, fabric));
-        let edges = cloth
-            .traction
-            .iter()
-            .flat_map(|t| &t.ends)
-            .map(|e| e.as_slice());
-        let corners = cloth
-            .shear
-            .iter()
-            .flat_map(|s| &s.corners)
-            .map(|c| c.as_slice());
-        let triples = cloth
-            .bending
-            .iter()
-            .flat_map(|b| &b.triples)
-            .map(|t| t.as_slice());
-        cloth.pattern = Pattern::new(cloth.particles(), edges.chain(corners).chain(triples));
-        cloth
-            .traction
-            .iter_mut()
-            .for_each(|t| t.connect(&cloth.pattern));
-        cloth
-            .shear
-            .iter_mut()
-            .for_each(|s| s.connect(&cloth.pattern));
-        cloth
-            .bending
-            .iter_mut()
-            .for_each(|b| b.connect(&cloth.pattern));
-        cloth
+        Corner {
+            sine: self.measure * cosine,
+            units: [warp, weft],
+            lengths: [warp_length, weft_length],
+            gradients: [
+                gradient(warp, weft, warp_length),
+                gradient(weft, warp, weft_length),
+            ],
+        }
     }
 
-    fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric) {
-        let first = self.particles() as u32;
+    /// Blocks of the pairs warp–warp, weft–weft and warp–weft.
+    fn blocks(&self, positions: &[f64], definite: bool) -> [Block; 3] {
+        let Corner {
+            sine,
+            units: [p, q],
+            lengths: [lp, lq],
+            gradients: [gp, gq],
+        } = self.corner(positions);
+        let response = self.law.respond(&self.memory, sine);
+        let tangent = self.area * response.tangent;
+        if definite {
+            let tangent = tangent.max(0.0);
+            return [(gp, gp), (gq, gq), (gp, gq)].map(|(a, b)| sum([(tangent, outer(a, b))]));
+        }
+        let (load, sign) = (self.area * response.load, self.measure);
+        let cosine = sign * sine;
+        let across = |e: Vector| sum([(1.0, one()), (-1.0, outer(e, e))]);
+        // Second derivatives of the cosine of the angle between two vectors.
+        let own = |e: Vector, gradient: Vector, length: f64| {
+            sum([
+                (tangent, outer(gradient, gradient)),
+                (-load / length, outer(gradient, e)),
+                (-load / length, outer(e, gradient)),
+                (-load * sign * cosine / (length * length), across(e)),
+            ])
+        };
+        let (left, right) = (across(p), across(q));
+        let both = [0, 1, 2].map(|i| [0, 1, 2].map(|j| dot(left[i], right[j])));
+        let mixed = sum([(tangent, outer(gp, gq)), (load * sign / (lp * lq), both)]);
+        [own(p, gp, lp), own(q, gq, lq), mixed]
+    }
+}
+
+impl<L, const N: usize> Connector<L, N> {
+    fn new(law: L, particles: [u32; N], (measure, area): (f64, f64), pattern: &Pattern) -> Self {
+        let block = |(i, j): (usize, usize)| {
+            let pair = (particles.get(i)?, particles.get(j)?);
+            pattern.block(*pair.0.min(pair.1), *pair.0.max(pair.1))
+        };
+        Self {
+            law,
+            particles,
+            measure,
+            area,
+            memory: Memory::default(),
+            // A segment has the first three.
+            blocks: PAIRS.map(|pair| block(pair).unwrap_or(usize::MAX)),
+        }
+    }
+
+    /// Adds a block of one of the [`PAIRS`].
+    fn put(&self, pair: usize, block: Block, values: &mut [f64]) {
+        let (i, j) = PAIRS[pair];
+        let turned = self.particles[i] > self.particles[j];
+        let block = if turned { transposed(block) } else { block };
+        let values = &mut values[9 * self.blocks[pair]..][..9];
+        for (value, entry) in values.iter_mut().zip(block.as_flattened()) {
+            *value += entry;
+        }
+    }
+}
+
+impl<L> Connector<L, 3> {
+    /// Curvature vector of a triple whose segments are `measure` long.
+    fn curvature(&self, positions: &[f64]) -> Vector {
+        let [before, middle, after] = self.particles.map(|p| at(positions, p));
+        let bow = subtract(add(before, after), scale(middle, 2.0));
+        scale(bow, 1.0 / (self.measure * self.measure))
+    }
+}
+
+impl Connector<BendingLaw, 3> {
+    /// Moment at the trial, its derivative with respect to the curvature vector, and the energy.
+    fn bend(&self, positions: &[f64], normals: &[f64], definite: bool) -> (Vector, Block, f64) {
+        let normal = at(normals, self.particles[1]);
+        let curvature = self.curvature(positions);
+        let excess = subtract(curvature, scale(normal, self.law.rest_curvature));
+        let size = dot(excess, excess).sqrt();
+        let elastic = self.law.backbone.respond(size);
+        let slip = dot(curvature, normal) - self.memory.position;
+        let loads = self.memory.friction;
+        let (friction, slope) = self.law.friction.respond(loads, slip);
+        let slope = if definite { slope.max(0.0) } else { slope };
+        let (secant, unit) = if size > 0.0 {
+            (elastic.load / size, scale(excess, 1.0 / size))
+        } else {
+            (elastic.tangent, excess)
+        };
+        let moment = add(scale(excess, secant), scale(normal, friction));
+        let block = sum([
+            (slope, outer(normal, normal)),
+            (secant, one()),
+            (elastic.tangent - secant, outer(unit, unit)),
+        ]);
+        let energy = self.law.backbone.energy(size) + self.law.friction.work(loads, slip);
+        (moment, block, energy)
+    }
+}
+
+impl Reference {
+    /// The connectors of panels in a given shape, with no friction in any of them. The pattern and
+    /// the normals are those of the cloth and its state.
+    #[must_use]
+    pub fn new(
+        panels: &[(&Lattice, &Fabric)],
+        pattern: &Pattern,
+        (positions, normals): (&[f64], &[f64]),
+    ) -> Self {
+        let mut all = Self {
+            segments: Vec::new(),
+            corners: Vec::new(),
+            triples: Vec::new(),
+            pattern: pattern.clone(),
+            normals: normals.to_vec(),
+        };
+        let mut first = 0;
+        for (lattice, fabric) in panels {
+            all.add_panel(lattice, fabric, first);
+            first += lattice.coordinates.len() as u32;
+        }
+        for segment in &mut all.segments {
+            let (length, _) = way(positions, segment.particles[0], segment.particles[1]);
+            segment.memory.position = length / segment.measure - 1.0;
+            segment.memory.peak = segment.memory.position.max(0.0);
+        }
+        for corner in &mut all.corners {
+            corner.memory.position = corner.corner(positions).sine;
+            corner.memory.peak = corner.memory.position.abs();
+        }
+        for triple in &mut all.triples {
+            let normal = at(normals, triple.particles[1]);
+            triple.memory.position = dot(triple.curvature(positions), normal);
+            triple.memory.peak = triple.memory.position.abs();
+        }
+        all
+    }
+
+    fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric, first: u32) {
+        let Self { pattern, .. } = self;
         let mut areas = vec![0.0; lattice.coordinates.len()];
-        let mut corners = Vec::new();
         for cell in &lattice.cells {
             let [a, b, c, d] = cell.corners;
             // Corner, neighbour along the warp (v), neighbour along the weft (u), sign.
@@ -131,315 +258,141 @@ impl Cloth {
             ];
             for ((corner, warp, weft, sign), area) in around.into_iter().zip(cell.quadrants) {
                 areas[corner as usize] += area;
-                corners.push(([corner, warp, weft].map(|p| first + p), sign, area));
+                let particles = [corner, warp, weft].map(|p| first + p);
+                let corner = Connector::new(fabric.shear, particles, (sign, area), pattern);
+                self.corners.push(corner);
             }
         }
-        let yarns = lattice.yarns();
-        self.tangents.extend(tangents(&yarns, first, areas.len()));
-        let laws = [&fabric.warp, &fabric.weft];
         let [across, along] = lattice.spacing;
-        for (direction, length) in [along, across].into_iter().enumerate() {
-            let mut edges = segments(lattice, &yarns[direction], length, direction);
-            let mut bends = triples(lattice, &yarns[direction], &areas);
-            edges
-                .iter_mut()
-                .for_each(|edge| edge.0 = edge.0.map(|p| first + p));
-            bends
-                .iter_mut()
-                .for_each(|bend| bend.0 = bend.0.map(|p| first + p));
-            self.traction
-                .push(Traction::new(laws[direction].traction, edges));
-            self.bending
-                .push(Bending::new(laws[direction].bending, length, bends));
-        }
-        self.shear.push(Shear::new(fabric.shear, corners));
-        self.masses
-            .extend(areas.iter().map(|area| area * fabric.density));
-        self.coordinates.extend(&lattice.coordinates);
-        self.triangles
-            .extend(lattice.triangles().iter().map(|t| t.map(|p| first + p)));
-        self.areas.extend(areas);
-    }
-
-    /// Number of particles.
-    #[must_use]
-    pub fn particles(&self) -> usize {
-        self.masses.len()
-    }
-
-    /// Masses of the particles, in kg.
-    #[must_use]
-    pub fn masses(&self) -> &[f64] {
-        &self.masses
-    }
-
-    /// Areas that the particles stand for, in m².
-    #[must_use]
-    pub fn areas(&self) -> &[f64] {
-        &self.areas
-    }
-
-    /// Material coordinates (u along the weft, v along the warp) of the particles, in m.
-    #[must_use]
-    pub fn coordinates(&self) -> &[[f64; 2]] {
-        &self.coordinates
-    }
-
-    /// Triangles of the surface.
-    #[must_use]
-    pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
-    }
-
-    /// Which pairs of particles the connectors couple.
-    #[must_use]
-    pub fn pattern(&self) -> &Pattern {
-        &self.pattern
-    }
-
-    /// Area that the connectors of each kind stand for, in m².
-    #[must_use]
-    pub fn connector_areas(&self) -> Areas {
-        // Sets of connectors alternate between warp and weft.
-        let traction = |direction: usize| -> f64 {
-            self.traction
-                .iter()
-                .skip(direction)
-                .step_by(2)
-                .flat_map(|t| &t.areas)
-                .sum()
-        };
-        let bending = |direction: usize| -> f64 {
-            self.bending
-                .iter()
-                .skip(direction)
-                .step_by(2)
-                .flat_map(|b| &b.areas)
-                .sum()
-        };
-        Areas {
-            traction: [traction(0), traction(1)],
-            shear: self.shear.iter().flat_map(|s| &s.areas).sum(),
-            bending: [bending(0), bending(1)],
+        let sides = [(&fabric.warp, along), (&fabric.weft, across)];
+        for (direction, yarns) in lattice.yarns().iter().enumerate() {
+            let (laws, measure) = sides[direction];
+            for (ends, area) in segments(lattice, yarns, direction) {
+                let (ends, size) = (ends.map(|p| first + p), (measure, area));
+                self.segments
+                    .push(Connector::new(laws.traction, ends, size, pattern));
+            }
+            for (triple, area) in triples(lattice, yarns, &areas) {
+                let (triple, size) = (triple.map(|p| first + p), (measure, area));
+                self.triples
+                    .push(Connector::new(laws.bending, triple, size, pattern));
+            }
         }
     }
 
-    /// The cloth at rest in a given shape, with no friction in any connector.
-    ///
-    /// # Errors
-    /// When there are not three numbers for every particle.
-    pub fn state(&self, positions: Vec<f64>) -> Result<State, ClothError> {
-        let particles = self.particles();
-        if positions.len() != 3 * particles {
-            return Err(ClothError::Positions {
-                found: positions.len(),
-                particles,
-            });
+    /// As [`Cloth::add_forces`](crate::Cloth::add_forces).
+    pub fn add_forces(&self, trial: &[f64], forces: &mut [f64]) {
+        for segment in &self.segments {
+            let [a, b] = segment.particles;
+            let (length, unit) = way(trial, a, b);
+            let strain = length / segment.measure - 1.0;
+            let load = segment.law.respond(&segment.memory, strain).load;
+            let pull = scale(unit, load * segment.area / segment.measure);
+            push(forces, a, pull);
+            push(forces, b, scale(pull, -1.0));
         }
-        let mut normals = vec![0.0; positions.len()];
-        self.write_normals(&positions, &mut normals);
-        Ok(State {
-            velocities: vec![0.0; positions.len()],
-            traction: self.traction.iter().map(|t| t.start(&positions)).collect(),
-            shear: self.shear.iter().map(|s| s.start(&positions)).collect(),
-            bending: self
-                .bending
-                .iter()
-                .map(|b| b.start(&normals, &positions))
-                .collect(),
-            normals,
-            positions,
-        })
-    }
-
-    /// Adds the forces of all connectors at trial positions, in N.
-    pub fn add_forces(&self, state: &State, trial: &[f64], forces: &mut [f64]) {
-        for (set, memory) in self.traction.iter().zip(&state.traction) {
-            set.add_forces(memory, trial, forces);
+        for corner in &self.corners {
+            let [c, p, f] = corner.particles;
+            let Corner {
+                sine,
+                gradients: [warp, weft],
+                ..
+            } = corner.corner(trial);
+            let load = corner.area * corner.law.respond(&corner.memory, sine).load;
+            push(forces, p, scale(warp, -load));
+            push(forces, f, scale(weft, -load));
+            push(forces, c, scale(add(warp, weft), load));
         }
-        for (set, memory) in self.shear.iter().zip(&state.shear) {
-            set.add_forces(memory, trial, forces);
-        }
-        for (set, memory) in self.bending.iter().zip(&state.bending) {
-            set.add_forces((memory, &state.normals), trial, forces);
+        for triple in &self.triples {
+            let (moment, ..) = triple.bend(trial, &self.normals, false);
+            let pull = scale(moment, triple.area / (triple.measure * triple.measure));
+            for (particle, weight) in triple.particles.into_iter().zip([-1.0, 2.0, -1.0]) {
+                push(forces, particle, scale(pull, weight));
+            }
         }
     }
 
-    /// Potential of the connectors within a step, in J: its negative derivative with respect to the
-    /// trial positions is [`Cloth::add_forces`]. Only differences at one state mean anything.
+    /// As [`Cloth::potential`](crate::Cloth::potential), but another constant.
     #[must_use]
-    pub fn potential(&self, state: &State, trial: &[f64]) -> f64 {
-        let traction = self
-            .traction
+    pub fn potential(&self, trial: &[f64]) -> f64 {
+        let segments = self.segments.iter().map(|segment| {
+            let (length, _) = way(trial, segment.particles[0], segment.particles[1]);
+            let strain = length / segment.measure - 1.0;
+            segment.area * segment.law.work(&segment.memory, strain)
+        });
+        let corners = self.corners.iter().map(|corner| {
+            let sine = corner.corner(trial).sine;
+            corner.area * corner.law.work(&corner.memory, sine)
+        });
+        let triples = self
+            .triples
             .iter()
-            .zip(&state.traction)
-            .map(|(s, m)| s.work(m, trial));
-        let shear = self
-            .shear
-            .iter()
-            .zip(&state.shear)
-            .map(|(s, m)| s.work(m, trial));
-        let bending = self.bending.iter().zip(&state.bending);
-        let bending = bending.map(|(s, m)| s.work((m, &state.normals), trial));
-        traction.chain(shear).chain(bending).sum()
+            .map(|triple| triple.area * triple.bend(trial, &self.normals, false).2);
+        segments.chain(corners).chain(triples).sum()
     }
 
-    /// Adds the derivative of the forces with respect to the trial positions, negated, in N/m, to
-    /// the blocks of [`Cloth::pattern`].
-    ///
-    /// With `definite`, parts that make the matrix indefinite are left out: compression across a
-    /// segment, and the turning of the shear's gradient.
-    pub fn add_stiffness(&self, state: &State, trial: &[f64], definite: bool, values: &mut [f64]) {
-        for (set, memory) in self.traction.iter().zip(&state.traction) {
-            set.add_stiffness(memory, trial, definite, values);
+    /// As [`Cloth::add_stiffness`](crate::Cloth::add_stiffness).
+    pub fn add_stiffness(&self, trial: &[f64], definite: bool, values: &mut [f64]) {
+        for segment in &self.segments {
+            let [a, b] = segment.particles;
+            let (length, unit) = way(trial, a, b);
+            let (rest, area) = (segment.measure, segment.area);
+            let response = segment.law.respond(&segment.memory, length / rest - 1.0);
+            let mut along = area * response.tangent / (rest * rest);
+            let mut across = area * response.load / (rest * length);
+            if definite {
+                (along, across) = (along.max(0.0), across.max(0.0));
+            }
+            let block = sum([(across, one()), (along - across, outer(unit, unit))]);
+            segment.put(0, block, values);
+            segment.put(1, block, values);
+            segment.put(2, sum([(-1.0, block)]), values);
         }
-        for (set, memory) in self.shear.iter().zip(&state.shear) {
-            set.add_stiffness(memory, trial, definite, values);
+        for corner in &self.corners {
+            let [pp, ff, pf] = corner.blocks(trial, definite);
+            let cp = sum([(-1.0, pp), (-1.0, transposed(pf))]);
+            let cf = sum([(-1.0, pf), (-1.0, ff)]);
+            let cc = sum([(-1.0, cp), (-1.0, cf)]);
+            for (pair, block) in [cc, pp, cp, ff, cf, pf].into_iter().enumerate() {
+                corner.put(pair, block, values);
+            }
         }
-        for (set, memory) in self.bending.iter().zip(&state.bending) {
-            set.add_stiffness((memory, &state.normals), trial, definite, values);
-        }
-    }
-
-    /// Accepts a step: moves positions, velocities and all memories on. Nothing else writes memory.
-    pub fn commit(&self, state: &mut State, positions: &[f64], velocities: &[f64]) -> Committed {
-        state.positions.copy_from_slice(positions);
-        state.velocities.copy_from_slice(velocities);
-        self.write_normals(positions, &mut state.normals);
-        let mut dissipated = 0.0;
-        for (set, memory) in self.traction.iter().zip(&mut state.traction) {
-            dissipated += set.commit(memory, positions);
-        }
-        for (set, memory) in self.shear.iter().zip(&mut state.shear) {
-            dissipated += set.commit(memory, positions);
-        }
-        for (set, memory) in self.bending.iter().zip(&mut state.bending) {
-            dissipated += set.commit(memory, &state.normals, positions);
-        }
-        Committed { dissipated }
-    }
-
-    /// Energy that the connectors can give back, in J.
-    #[must_use]
-    pub fn stored(&self, state: &State) -> f64 {
-        let traction = self
-            .traction
-            .iter()
-            .zip(&state.traction)
-            .map(|(s, m)| s.stored(m));
-        let shear = self
-            .shear
-            .iter()
-            .zip(&state.shear)
-            .map(|(s, m)| s.stored(m));
-        let bending = self.bending.iter().zip(&state.bending);
-        let bending = bending.map(|(s, m)| s.stored((m, &state.normals), &state.positions));
-        traction.chain(shear).chain(bending).sum()
-    }
-
-    /// How far the cloth is deformed.
-    #[must_use]
-    pub fn strains(&self, state: &State) -> Strains {
-        let sorted = |mut values: Vec<f64>| {
-            values.sort_by(f64::total_cmp);
-            values
-        };
-        let p99 = |values: &[f64]| values[(values.len() - 1) * 99 / 100];
-        let set = |memories: &[Vec<drape_fabric::Memory>], map: fn(f64) -> f64| {
-            sorted(memories.iter().flatten().map(|m| map(m.position)).collect())
-        };
-        let traction = set(&state.traction, |strain| strain);
-        let shear = set(&state.shear, f64::abs);
-        let curvature = set(&state.bending, f64::abs);
-        Strains {
-            traction_max: traction[traction.len() - 1],
-            traction_p99: p99(&traction),
-            shear_max: shear[shear.len() - 1].min(1.0).asin(),
-            curvature_p99: p99(&curvature),
+        for triple in &self.triples {
+            let (_, block, _) = triple.bend(trial, &self.normals, definite);
+            let size = triple.area / triple.measure.powi(4);
+            // Products of the weights 1, −2, 1.
+            for (pair, weight) in [1.0, 4.0, -2.0, 1.0, 1.0, -2.0].into_iter().enumerate() {
+                triple.put(pair, sum([(weight * size, block)]), values);
+            }
         }
     }
 
-    /// Normals at the particles: `$u \times v$` of the yarns' tangents.
-    fn write_normals(&self, positions: &[f64], normals: &mut [f64]) {
-        for (normal, [warp, weft]) in normals.chunks_exact_mut(3).zip(&self.tangents) {
-            let vector = weft.at(positions).cross(&warp.at(positions));
-            let length = vector.norm();
-            let unit = if length > 0.0 {
-                vector / length
-            } else {
-                Vector::y()
-            };
-            normal.copy_from_slice(unit.as_slice());
+    /// As [`Cloth::commit`](crate::Cloth::commit), with the normals of the state after it; returns
+    /// the energy lost on the way, in J.
+    pub fn commit(&mut self, positions: &[f64], normals: &[f64]) -> f64 {
+        fn move_on<L: Law, const N: usize>(connector: &mut Connector<L, N>, to: f64) -> f64 {
+            let after = connector.law.commit(&connector.memory, to);
+            let gained = connector.law.stored(&after) - connector.law.stored(&connector.memory);
+            let lost = connector.law.work(&connector.memory, to) - gained;
+            connector.memory = after;
+            connector.area * lost
         }
-    }
-}
-
-/// Segments of the yarns with their rest length and area: half of each cell beside them.
-fn segments(
-    lattice: &Lattice,
-    yarns: &[Vec<u32>],
-    length: f64,
-    direction: usize,
-) -> Vec<([u32; 2], f64, f64)> {
-    let mut halves = std::collections::BTreeMap::new();
-    for cell in &lattice.cells {
-        let [a, b, c, d] = cell.corners;
-        let q = cell.quadrants;
-        let sides = if direction == 0 {
-            [([a, d], q[0] + q[3]), ([b, c], q[1] + q[2])]
-        } else {
-            [([a, b], q[0] + q[1]), ([d, c], q[3] + q[2])]
-        };
-        for (ends, area) in sides {
-            *halves.entry(ends).or_insert(0.0) += area;
+        self.normals.copy_from_slice(normals);
+        let mut lost = 0.0;
+        for segment in &mut self.segments {
+            let (length, _) = way(positions, segment.particles[0], segment.particles[1]);
+            let strain = length / segment.measure - 1.0;
+            lost += move_on(segment, strain);
         }
-    }
-    let pairs = yarns.iter().flat_map(|yarn| yarn.windows(2));
-    let segment = |pair: &[u32]| {
-        let ends = [pair[0], pair[1]];
-        halves.get(&ends).map(|&area| (ends, length, area))
-    };
-    pairs.filter_map(segment).collect()
-}
-
-/// Triples of the yarns with their area: that of the middle particle, and of particles that are in
-/// the middle of no triple, which the nearest one takes over.
-fn triples(lattice: &Lattice, yarns: &[Vec<u32>], areas: &[f64]) -> Vec<([u32; 3], f64)> {
-    let mut triples: Vec<([u32; 3], f64)> = Vec::new();
-    let mut middle_of = vec![None; areas.len()];
-    let windows = yarns.iter().flat_map(|yarn| yarn.windows(3));
-    for window in windows {
-        middle_of[window[1] as usize] = Some(triples.len());
-        triples.push(([window[0], window[1], window[2]], areas[window[1] as usize]));
-    }
-    // First the neighbour on the same yarn, which lies in the direction of the curvature.
-    let mut along = vec![None; areas.len()];
-    for yarn in yarns {
-        let ends = [
-            (yarn[0], yarn[1]),
-            (yarn[yarn.len() - 1], yarn[yarn.len() - 2]),
-        ];
-        for (end, next) in ends {
-            along[end as usize] = middle_of[next as usize];
+        for corner in &mut self.corners {
+            let sine = corner.corner(positions).sine;
+            lost += move_on(corner, sine);
         }
-    }
-    for (particle, &area) in areas.iter().enumerate() {
-        if middle_of[particle].is_some() {
-            continue;
+        for triple in &mut self.triples {
+            let normal = at(normals, triple.particles[1]);
+            let curvature = dot(triple.curvature(positions), normal);
+            lost += move_on(triple, curvature);
         }
-        let nearest = || {
-            let [u, v] = lattice.coordinates[particle];
-            let distance = |triple: &([u32; 3], f64)| {
-                let [x, y] = lattice.coordinates[triple.0[1] as usize];
-                (x - u).powi(2) + (y - v).powi(2)
-            };
-            let by_distance =
-                |&a: &usize, &b: &usize| distance(&triples[a]).total_cmp(&distance(&triples[b]));
-            (0..triples.len()).min_by(by_distance)
-        };
-        if let Some(taker) = along[particle].or_else(nearest) {
-            triples[taker].1 += area;
-        }
+        lost
     }
-    triples
 }

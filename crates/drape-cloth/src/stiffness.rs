@@ -334,20 +334,15 @@ fn gather(scratch: &Scratch, trial: &Trial<'_>, values: &mut [f64]) {
         let mut own = [[0.0; LANES]; 6];
         for (k, (row, column)) in HALF.into_iter().enumerate() {
             let (entry, turned) = (3 * row + column, 3 * column + row);
-            for blocks in next {
-                for lane in 0..LANES {
-                    own[k][lane] -= blocks.0[entry][lane];
-                }
-            }
-            for blocks in before {
-                for lane in 0..LANES {
-                    own[k][lane] -= blocks.0[turned][lane];
-                }
-            }
-            for blocks in far.into_iter().chain(far_before) {
-                for lane in 0..LANES {
-                    own[k][lane] -= blocks.0[k][lane];
-                }
+            let [a, b, c, d] = next.map(|blocks| blocks.0[entry]);
+            let [e, f, g, h] = before.map(|blocks| blocks.0[turned]);
+            let [i, j] = far.map(|blocks| blocks.0[k]);
+            let [l, m] = far_before.map(|blocks| blocks.0[k]);
+            for lane in 0..LANES {
+                let near = (a[lane] + e[lane]) + (b[lane] + f[lane]);
+                let cell = (c[lane] + g[lane]) + (d[lane] + h[lane]);
+                let bows = (i[lane] + l[lane]) + (j[lane] + m[lane]);
+                own[k][lane] = -(near + cell + bows);
             }
         }
         let [near, slant, up, over] = next.map(|batch| batch.0);

@@ -49,7 +49,12 @@ impl WithSimd for Potential<'_> {
     }
 }
 
-struct Commit<'a>(&'a mut Scratch, (&'a Panel, &'a Strip), &'a mut PanelState, &'a [f64]);
+struct Commit<'a>(
+    &'a mut Scratch,
+    (&'a Panel, &'a Strip),
+    &'a mut PanelState,
+    &'a [f64],
+);
 
 impl WithSimd for Commit<'_> {
     type Output = f64;
