@@ -1,8 +1,8 @@
 use drape_fabric::{Fabric, Memories};
 
 use crate::field::dot;
-use crate::panel::Panel;
-use crate::state::{PanelState, State};
+use crate::panel::{Panel, Strip};
+use crate::state::{History, State};
 use crate::tangent::{Tangent, tangents};
 use crate::{ClothError, Lattice, Pattern, Workspace};
 
@@ -26,6 +26,7 @@ pub struct Cloth {
     triangles: Vec<[u32; 3]>,
     tangents: Vec<[Tangent; 2]>,
     pub(crate) panels: Vec<Panel>,
+    pub(crate) strips: Vec<Strip>,
     pattern: Pattern,
 }
 
@@ -71,6 +72,7 @@ impl Cloth {
             triangles: Vec::new(),
             tangents: Vec::new(),
             panels: Vec::new(),
+            strips: Vec::new(),
             pattern: Pattern::default(),
         };
         panels
@@ -78,10 +80,10 @@ impl Cloth {
             .for_each(|(lattice, fabric)| cloth.add_panel(lattice, fabric));
         let pairs = cloth.panels.iter().flat_map(Panel::pairs);
         cloth.pattern = Pattern::new(cloth.particles(), pairs);
-        cloth
-            .panels
-            .iter_mut()
-            .for_each(|panel| panel.connect(&cloth.pattern));
+        for (index, panel) in cloth.panels.iter_mut().enumerate() {
+            panel.connect(&cloth.pattern);
+            panel.cut(index, &cloth.pattern, &mut cloth.strips);
+        }
         cloth
     }
 
@@ -95,7 +97,9 @@ impl Cloth {
         }
         let tangents = tangents(&lattice.yarns(), first, areas.len());
         self.tangents.extend(tangents);
-        self.panels.push(Panel::new(lattice, fabric, first, &areas));
+        let base = self.panels.iter().map(Panel::length).sum();
+        let panel = Panel::new(lattice, fabric, (first, base), &areas);
+        self.panels.push(panel);
         self.masses
             .extend(areas.iter().map(|area| area * fabric.density));
         self.coordinates.extend(&lattice.coordinates);
@@ -170,7 +174,7 @@ impl Cloth {
         let mut state = State {
             velocities: vec![0.0; positions.len()],
             normals: vec![0.0; positions.len()],
-            panels: self.panels.iter().map(PanelState::new).collect(),
+            history: History::new(&self.panels),
             positions,
         };
         self.turn_normals(&mut state);
@@ -223,16 +227,22 @@ impl Cloth {
     #[must_use]
     pub fn strains(&self, state: &State) -> Strains {
         let (mut traction, mut shear, mut curvature) = (Vec::new(), Vec::new(), Vec::new());
-        for (panel, state) in self.panels.iter().zip(&state.panels) {
+        let History {
+            traction: strains,
+            shear: sines,
+            bending: bends,
+            ..
+        } = &state.history;
+        for panel in &self.panels {
             let at = |memories: &Memories, places: &[usize], map: fn(f64) -> f64| -> Vec<f64> {
-                let positions = memories.positions();
+                let positions = &memories.positions()[panel.base..];
                 places.iter().map(|&place| map(positions[place])).collect()
             };
             for (direction, yarns) in panel.yarns.iter().enumerate() {
-                traction.extend(at(&state.traction[direction], &yarns.segments, |s| s));
-                curvature.extend(at(&state.bending[direction], &yarns.triples, f64::abs));
+                traction.extend(at(&strains[direction], &yarns.segments, |s| s));
+                curvature.extend(at(&bends[direction], &yarns.triples, f64::abs));
             }
-            for memories in &state.shear {
+            for memories in sines {
                 shear.extend(at(memories, &panel.cells, f64::abs));
             }
         }
@@ -268,12 +278,12 @@ impl Cloth {
             };
             normal.copy_from_slice(&unit);
         }
-        for (panel, columns) in self.panels.iter().zip(&mut state.panels) {
+        for panel in &self.panels {
             for (point, _) in panel.occupied.iter().enumerate().filter(|(_, o)| **o) {
                 let place = panel.margin + point;
                 let start = 3 * panel.particles[place] as usize;
                 let normal = std::array::from_fn(|axis| state.normals[start + axis]);
-                columns.normals.set(place, normal);
+                state.history.normals.set(panel.base + place, normal);
             }
         }
     }

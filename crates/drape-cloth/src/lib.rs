@@ -11,6 +11,7 @@ mod panel;
 mod pattern;
 mod reference;
 mod scratch;
+mod share;
 mod state;
 mod stiffness;
 mod tangent;

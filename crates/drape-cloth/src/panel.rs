@@ -42,7 +42,8 @@ pub(crate) struct Panel {
     pub(crate) corners: [Vec<f64>; 4],
     /// Places of the cells in a column.
     pub(crate) cells: Vec<usize>,
-    pub(crate) strips: Vec<Strip>,
+    /// Place of the panel's columns in those of the cloth.
+    pub(crate) base: usize,
     /// Blocks of each point with those at [`Panel::block_steps`], or [`NO_BLOCK`].
     pub(crate) slots: Vec<[u32; BLOCKS]>,
 }
@@ -69,6 +70,12 @@ pub(crate) struct Yarns {
 /// A run of points that is evaluated as one, whatever the number of threads.
 #[derive(Debug, Clone)]
 pub(crate) struct Strip {
+    /// Place among the strips of the cloth.
+    pub(crate) index: usize,
+    /// Panel that it is part of.
+    pub(crate) panel: usize,
+    /// Place of its first point, less the panel's margin, in the columns of the cloth.
+    pub(crate) offset: usize,
     /// Points, starting at a multiple of [`LANES`].
     pub(crate) points: Range<usize>,
     /// Particles at the points, counted over the cloth.
@@ -78,8 +85,14 @@ pub(crate) struct Strip {
 }
 
 impl Panel {
-    /// A panel whose particles are numbered from `first` on; `areas` are those of its particles.
-    pub(crate) fn new(lattice: &Lattice, fabric: &Fabric, first: u32, areas: &[f64]) -> Self {
+    /// A panel whose particles are numbered from `first` on and whose columns begin at `base`; `areas`
+    /// are those of its particles.
+    pub(crate) fn new(
+        lattice: &Lattice,
+        fabric: &Fabric,
+        (first, base): (u32, usize),
+        areas: &[f64],
+    ) -> Self {
         let stride = lattice.columns;
         let points = lattice.grid.len();
         let margin = 2 * stride + 1;
@@ -129,7 +142,6 @@ impl Panel {
             yarns
         });
         let occupied: Vec<bool> = lattice.grid.iter().map(Option::is_some).collect();
-        let strips = strips(&occupied, stride, first as usize);
         Self {
             points,
             stride,
@@ -140,7 +152,7 @@ impl Panel {
             shear: ShearBatch::new(fabric.shear),
             corners,
             cells,
-            strips,
+            base,
             slots: Vec::new(),
         }
     }
@@ -159,10 +171,6 @@ impl Panel {
         self.slots = (0..self.points)
             .map(|point| steps.map(|step| slot(point, step)))
             .collect();
-        for strip in &mut self.strips {
-            let Range { start, end } = strip.particles;
-            strip.blocks = pattern.offsets[start]..pattern.offsets[end];
-        }
     }
 
     /// Steps from a point to those that it has a block with, itself first.
@@ -228,30 +236,32 @@ impl Panel {
         self.points + 2 * self.margin + LANES
     }
 
-    /// Points of the longest strip with the margins around it.
-    pub(crate) fn reach(&self) -> usize {
-        let points = self.strips.iter().map(|s| s.points.len()).max();
-        points.unwrap_or(0) + 2 * self.margin + LANES
+    /// Cuts the points into strips of about the same length, and puts them to those of other panels.
+    pub(crate) fn cut(&self, panel: usize, pattern: &Pattern, strips: &mut Vec<Strip>) {
+        let wanted = STRIP_POINTS.max(STRIP_ROWS * self.stride);
+        let count = (self.points as f64 / wanted as f64).round().max(1.0) as usize;
+        let length = self.points.div_ceil(count).next_multiple_of(LANES);
+        let mut first = strips.last().map_or(0, |strip| strip.particles.end);
+        for start in (0..self.points).step_by(length) {
+            let points = start..(start + length).min(self.points);
+            let occupied = self.occupied[points.clone()].iter().filter(|o| **o);
+            let particles = first..first + occupied.count();
+            first = particles.end;
+            strips.push(Strip {
+                index: strips.len(),
+                panel,
+                offset: self.base + start,
+                blocks: pattern.offsets[particles.start]..pattern.offsets[particles.end],
+                points,
+                particles,
+            });
+        }
     }
 }
 
-/// Cuts the points into strips of about the same length.
-fn strips(occupied: &[bool], stride: usize, first: usize) -> Vec<Strip> {
-    let wanted = STRIP_POINTS.max(STRIP_ROWS * stride);
-    let count = (occupied.len() as f64 / wanted as f64).round().max(1.0) as usize;
-    let length = occupied.len().div_ceil(count).next_multiple_of(LANES);
-    let mut particle = first;
-    let starts = (0..occupied.len()).step_by(length);
-    let strip = |start: usize| {
-        let points = start..(start + length).min(occupied.len());
-        let particles =
-            particle..particle + occupied[points.clone()].iter().filter(|o| **o).count();
-        particle = particles.end;
-        Strip {
-            points,
-            particles,
-            blocks: 0..0,
-        }
-    };
-    starts.map(strip).collect()
+impl Strip {
+    /// Places of a point and its margins, at most, where the panel's margin is given.
+    pub(crate) fn reach(&self, margin: usize) -> usize {
+        self.points.len() + 2 * margin + LANES
+    }
 }

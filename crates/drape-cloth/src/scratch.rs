@@ -4,7 +4,8 @@ use drape_fabric::{LANES, Lanes};
 
 use crate::field::{Columns, Field, Vector, add, dot, lanes, put, scale, set, subtract};
 use crate::panel::{Panel, Strip, Yarns};
-use crate::state::PanelState;
+use crate::state::History;
+use crate::{Cloth, State};
 
 /// Length below which an edge counts as this long, in m: it has no direction, its forces are huge
 /// but finite, and so are their derivatives.
@@ -50,9 +51,24 @@ pub(crate) struct Edges {
 #[derive(Clone, Copy)]
 pub(crate) struct Trial<'a> {
     pub(crate) panel: &'a Panel,
-    pub(crate) state: &'a PanelState,
+    pub(crate) history: &'a History,
     pub(crate) strip: &'a Strip,
     pub(crate) positions: &'a [f64],
+}
+
+impl<'a> Trial<'a> {
+    pub(crate) fn new(
+        cloth: &'a Cloth,
+        state: &'a State,
+        (strip, positions): (&'a Strip, &'a [f64]),
+    ) -> Self {
+        Self {
+            panel: &cloth.panels[strip.panel],
+            history: &state.history,
+            strip,
+            positions,
+        }
+    }
 }
 
 impl Edges {
@@ -133,10 +149,10 @@ impl Scratch {
         &self,
         yarns: &Yarns,
         direction: usize,
-        (start, offset): (usize, usize),
+        (start, strip): (usize, &Strip),
     ) -> Lanes {
         let length = lanes(&self.edges[direction].length, start);
-        let areas = lanes(&yarns.segment_areas, offset + start);
+        let areas = lanes(&yarns.segment_areas, strip.points.start + start);
         let inverse = 1.0 / yarns.length;
         let mut strains = [0.0; LANES];
         for lane in 0..LANES {
@@ -170,11 +186,11 @@ impl Scratch {
         &self,
         yarns: &Yarns,
         normals: &Field,
-        (start, offset): (usize, usize),
+        (start, strip): (usize, &Strip),
     ) -> Lanes {
         let curvatures = self.curvatures(yarns, start);
-        let normals = normals.from(offset + start);
-        let areas = lanes(&yarns.triple_areas, offset + start);
+        let normals = normals.from(strip.offset + start);
+        let areas = lanes(&yarns.triple_areas, strip.points.start + start);
         let mut bends = [0.0; LANES];
         for lane in 0..LANES {
             let bend = dot(curvatures.at(lane), normals.at(lane));
@@ -190,12 +206,12 @@ impl Scratch {
         &self,
         panel: &Panel,
         corner: usize,
-        (start, offset): (usize, usize),
+        (start, strip): (usize, &Strip),
     ) -> Lanes {
         let (warp, weft) = panel.corner_edges(corner);
         let warp = self.edges[0].unit.from(start + warp);
         let weft = self.edges[1].unit.from(start + weft);
-        let areas = lanes(&panel.corners[corner], offset + start);
+        let areas = lanes(&panel.corners[corner], strip.points.start + start);
         let mut sines = [0.0; LANES];
         for lane in 0..LANES {
             let sine = dot(warp.at(lane), weft.at(lane));

@@ -15,12 +15,14 @@ pub struct State {
     pub velocities: Vec<f64>,
     /// Unit normals of the surface at the particles.
     pub(crate) normals: Vec<f64>,
-    pub(crate) panels: Vec<PanelState>,
+    /// What the yarns remember.
+    pub(crate) history: History,
 }
 
-/// Memories of a panel's connectors in the panel's columns.
+/// Memories of the connectors, and the normals that the bending was measured along, in columns: panel
+/// after panel, each with its margins.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PanelState {
+pub(crate) struct History {
     /// Of the segments along the warp and the weft.
     pub(crate) traction: [Memories; 2],
     /// Of the four corners of the cells.
@@ -31,18 +33,62 @@ pub(crate) struct PanelState {
     pub(crate) normals: Field,
 }
 
-impl PanelState {
-    /// Memories of a virgin panel.
-    pub(crate) fn new(panel: &Panel) -> Self {
-        let [warp, weft] = &panel.yarns;
-        let length = panel.length();
-        let corner = || Memories::new(&panel.shear, length);
-        Self {
-            traction: [warp, weft].map(|yarns| Memories::new(&yarns.traction, length)),
-            shear: [corner(), corner(), corner(), corner()],
-            bending: [warp, weft].map(|yarns| Memories::new(&yarns.bending, length)),
-            normals: Field::new(length),
+/// The memories of some strips, to be moved on.
+pub(crate) struct Moving<'a> {
+    pub(crate) traction: [drape_fabric::Moving<'a>; 2],
+    pub(crate) shear: [drape_fabric::Moving<'a>; 4],
+    pub(crate) bending: [drape_fabric::Moving<'a>; 2],
+}
+
+impl History {
+    /// Memories of virgin panels.
+    pub(crate) fn new(panels: &[Panel]) -> Self {
+        let mut history = Self {
+            traction: Default::default(),
+            shear: Default::default(),
+            bending: Default::default(),
+            normals: Field::new(panels.iter().map(Panel::length).sum()),
+        };
+        for panel in panels {
+            let length = panel.length();
+            for (direction, yarns) in panel.yarns.iter().enumerate() {
+                history.traction[direction].extend(&yarns.traction, length);
+                history.bending[direction].extend(&yarns.bending, length);
+            }
+            for memories in &mut history.shear {
+                memories.extend(&panel.shear, length);
+            }
         }
+        history
+    }
+
+    /// All memories from a place on, to be moved on, and the normals.
+    pub(crate) fn moving(&mut self, start: usize) -> (Moving<'_>, &Field) {
+        let moving = Moving {
+            traction: self.traction.each_mut().map(|m| m.moving(start)),
+            shear: self.shear.each_mut().map(|m| m.moving(start)),
+            bending: self.bending.each_mut().map(|m| m.moving(start)),
+        };
+        (moving, &self.normals)
+    }
+}
+
+impl Moving<'_> {
+    /// The first `count` places and the others.
+    pub(crate) fn split(self, count: usize) -> (Self, Self) {
+        let ([a, b], [c, d, e, f], [g, h]) = (self.traction, self.shear, self.bending);
+        let [a, b, c, d, e, f, g, h] = [a, b, c, d, e, f, g, h].map(|m| m.split(count));
+        let head = Self {
+            traction: [a.0, b.0],
+            shear: [c.0, d.0, e.0, f.0],
+            bending: [g.0, h.0],
+        };
+        let tail = Self {
+            traction: [a.1, b.1],
+            shear: [c.1, d.1, e.1, f.1],
+            bending: [g.1, h.1],
+        };
+        (head, tail)
     }
 }
 
@@ -56,13 +102,13 @@ impl State {
     /// All memories, for hashing and comparing, in a fixed order. Where there is no connector, as at
     /// the end of a row, the memory is that of a virgin one.
     pub fn memories(&self) -> impl Iterator<Item = Memory> {
-        self.panels.iter().flat_map(|panel| {
-            let sets = panel
-                .traction
-                .iter()
-                .chain(&panel.shear)
-                .chain(&panel.bending);
-            sets.flat_map(Memories::iter)
-        })
+        let History {
+            traction,
+            shear,
+            bending,
+            ..
+        } = &self.history;
+        let sets = traction.iter().chain(shear).chain(bending);
+        sets.flat_map(Memories::iter)
     }
 }

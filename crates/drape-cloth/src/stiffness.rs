@@ -49,15 +49,14 @@ pub(crate) fn add_stiffness(
 #[inline(always)]
 fn turns(scratch: &mut Scratch, trial: &Trial<'_>, (corner, definite): (usize, bool)) {
     let Trial { panel, strip, .. } = *trial;
-    let offset = strip.points.start;
     let places = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
     let (to_warp, to_weft) = panel.corner_edges(corner);
     for start in places.step_by(LANES) {
-        let memory = trial.state.shear[corner].from(offset + start);
-        let sines = scratch.sines(panel, corner, (start, offset));
+        let memory = trial.history.shear[corner].from(strip.offset + start);
+        let sines = scratch.sines(panel, corner, (start, strip));
         let mut responses = Responses::default();
         panel.shear.respond::<true>(&memory, &sines, &mut responses);
-        let areas = lanes(&panel.corners[corner], offset + start);
+        let areas = lanes(&panel.corners[corner], strip.points.start + start);
         let mut loads = [0.0; LANES];
         let mut slopes = [0.0; LANES];
         for lane in 0..LANES {
@@ -135,16 +134,15 @@ fn bows_of(
     let yarns = &panel.yarns[direction];
     let rest = yarns.bending.law().rest_curvature;
     let inverse_square = 1.0 / (yarns.length * yarns.length);
-    let offset = strip.points.start;
     let places = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
     for start in places.step_by(LANES) {
         let curvatures = scratch.curvatures(yarns, start);
-        let normals = trial.state.normals.from(offset + start);
-        let memory = trial.state.bending[direction].from(offset + start);
-        let along = scratch.bends(yarns, &trial.state.normals, (start, offset));
+        let normals = trial.history.normals.from(strip.offset + start);
+        let memory = trial.history.bending[direction].from(strip.offset + start);
+        let along = scratch.bends(yarns, &trial.history.normals, (start, strip));
         let mut friction = Responses::default();
         yarns.bending.slide::<true>(&memory, &along, &mut friction);
-        let areas = lanes(&yarns.triple_areas, offset + start);
+        let areas = lanes(&yarns.triple_areas, strip.points.start + start);
         let mut blocks = [[0.0; LANES]; 6];
         for lane in 0..LANES {
             let normal = normals.at(lane);
@@ -184,15 +182,14 @@ fn edge_blocks(
 ) -> [Lanes; 6] {
     let Trial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
-    let offset = strip.points.start;
     let (edges, other) = (&scratch.edges[direction], &scratch.edges[1 - direction]);
-    let memory = trial.state.traction[direction].from(offset + start);
-    let strains = scratch.strains(yarns, direction, (start, offset));
+    let memory = trial.history.traction[direction].from(strip.offset + start);
+    let strains = scratch.strains(yarns, direction, (start, strip));
     let mut responses = Responses::default();
     yarns
         .traction
         .respond::<true>(&memory, &strains, &mut responses);
-    let areas = lanes(&yarns.segment_areas, offset + start);
+    let areas = lanes(&yarns.segment_areas, strip.points.start + start);
     let (units, inverse) = (edges.unit.from(start), lanes(&edges.inverse, start));
     let rest = 1.0 / yarns.length;
 

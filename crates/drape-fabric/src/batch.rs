@@ -61,12 +61,20 @@ impl Memories {
     /// As many memories as asked for, all virgin, of a law.
     #[must_use]
     pub fn new(law: &impl BatchLaw, count: usize) -> Self {
-        let zeros = || vec![0.0; count];
-        Self {
-            position: zeros(),
-            friction: [zeros(), zeros()],
-            peak: zeros(),
-            toe: law.toe(0.0).map(|toe| vec![toe; count]),
+        let mut memories = Self::default();
+        memories.extend(law, count);
+        memories
+    }
+
+    /// Adds virgin memories of a law.
+    pub fn extend(&mut self, law: &impl BatchLaw, count: usize) {
+        let [first, second] = &mut self.friction;
+        let length = self.position.len() + count;
+        for column in [&mut self.position, &mut self.peak, first, second] {
+            column.resize(length, 0.0);
+        }
+        for (column, toe) in self.toe.iter_mut().zip(law.toe(0.0)) {
+            column.resize(length, toe);
         }
     }
 
