@@ -1,3 +1,8 @@
+#![allow(
+    clippy::needless_range_loop,
+    reason = "a lane is a place in many arrays"
+)]
+
 use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes};
 
 use crate::field::{Field, Vector, dot, lanes, scale, subtract};

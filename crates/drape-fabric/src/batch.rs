@@ -1,8 +1,12 @@
 //! Many connectors of one law side by side, in arithmetic that compilers turn into vector instructions.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "a lane is a place in many arrays"
+)]
 
 use drape_hysteresis::{Bend, BlimanSorine, Slider, Stroke};
 
-use crate::Memory;
+use crate::memories::{Lane, Moving, Remembered};
 
 /// Connectors that are evaluated side by side.
 ///
@@ -12,187 +16,6 @@ pub const LANES: usize = 32;
 
 /// A number for each of the connectors that are evaluated side by side.
 pub type Lanes = [f64; LANES];
-
-/// Memories of many connectors, column by column; what [`Memory`] is for one.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Memories {
-    position: Vec<f64>,
-    friction: [Vec<f64>; 2],
-    peak: Vec<f64>,
-    toe: [Vec<f64>; 2],
-}
-
-/// Memories of [`LANES`] neighbours.
-#[derive(Debug, Clone, Copy)]
-pub struct Remembered<'a> {
-    pub(crate) position: &'a Lanes,
-    pub(crate) friction: [&'a Lanes; 2],
-    pub(crate) peak: &'a Lanes,
-    pub(crate) toe: [&'a Lanes; 2],
-}
-
-/// Memories of some neighbours, to be moved on.
-#[derive(Debug)]
-pub struct Moving<'a> {
-    position: &'a mut [f64],
-    friction: [&'a mut [f64]; 2],
-    peak: &'a mut [f64],
-    toe: [&'a mut [f64]; 2],
-}
-
-/// The memory of one lane, without the friction.
-#[derive(Debug, Clone, Copy)]
-pub struct Lane {
-    /// Deformation when the memory was last written.
-    pub position: f64,
-    /// Largest deformation ever reached.
-    pub peak: f64,
-    /// End of the priming zone and slope of the friction's weight in it, see [`BatchLaw::toe`].
-    pub toe: [f64; 2],
-}
-
-fn lanes(column: &[f64], start: usize) -> &Lanes {
-    column[start..]
-        .first_chunk()
-        .expect("the columns are longer than the connectors by a batch")
-}
-
-impl Memories {
-    /// As many memories as asked for, all virgin, of a law.
-    #[must_use]
-    pub fn new(law: &impl BatchLaw, count: usize) -> Self {
-        let mut memories = Self::default();
-        memories.extend(law, count);
-        memories
-    }
-
-    /// Adds virgin memories of a law.
-    pub fn extend(&mut self, law: &impl BatchLaw, count: usize) {
-        let [first, second] = &mut self.friction;
-        let length = self.position.len() + count;
-        for column in [&mut self.position, &mut self.peak, first, second] {
-            column.resize(length, 0.0);
-        }
-        for (column, toe) in self.toe.iter_mut().zip(law.toe(0.0)) {
-            column.resize(length, toe);
-        }
-    }
-
-    /// One of the memories.
-    #[must_use]
-    pub fn get(&self, index: usize) -> Memory {
-        Memory {
-            position: self.position[index],
-            friction: [self.friction[0][index], self.friction[1][index]],
-            peak: self.peak[index],
-        }
-    }
-
-    /// All memories, in the order of their places.
-    pub fn iter(&self) -> impl Iterator<Item = Memory> {
-        (0..self.position.len()).map(|index| self.get(index))
-    }
-
-    /// Makes the [`LANES`] memories from `start` on those of connectors that were brought to the given
-    /// deformations without friction.
-    pub fn start(&mut self, law: &impl BatchLaw, start: usize, deformations: &Lanes) {
-        for (index, &deformation) in (start..).zip(deformations) {
-            self.position[index] = deformation;
-            self.friction[0][index] = 0.0;
-            self.friction[1][index] = 0.0;
-            self.peak[index] = law.peak(0.0, deformation);
-            let toe = law.toe(self.peak[index]);
-            for (column, value) in self.toe.iter_mut().zip(toe) {
-                column[index] = value;
-            }
-        }
-    }
-
-    /// Deformations when the memories were last written, in the unit of the deformation.
-    #[must_use]
-    pub fn positions(&self) -> &[f64] {
-        &self.position
-    }
-
-    /// The [`LANES`] memories from `start` on, which must exist.
-    #[inline(always)]
-    #[must_use]
-    pub fn from(&self, start: usize) -> Remembered<'_> {
-        Remembered {
-            position: lanes(&self.position, start),
-            friction: [
-                lanes(&self.friction[0], start),
-                lanes(&self.friction[1], start),
-            ],
-            peak: lanes(&self.peak, start),
-            toe: [lanes(&self.toe[0], start), lanes(&self.toe[1], start)],
-        }
-    }
-
-    /// All memories from `start` on, to be moved on.
-    pub fn moving(&mut self, start: usize) -> Moving<'_> {
-        let [first, second] = &mut self.friction;
-        let [end, slope] = &mut self.toe;
-        Moving {
-            position: &mut self.position[start..],
-            friction: [&mut first[start..], &mut second[start..]],
-            peak: &mut self.peak[start..],
-            toe: [&mut end[start..], &mut slope[start..]],
-        }
-    }
-}
-
-impl<'a> Moving<'a> {
-    /// The first `count` memories and the others.
-    #[must_use]
-    pub fn split(self, count: usize) -> (Self, Self) {
-        let (position, positions) = self.position.split_at_mut(count);
-        let [first, second] = self.friction;
-        let (first, firsts) = first.split_at_mut(count);
-        let (second, seconds) = second.split_at_mut(count);
-        let (peak, peaks) = self.peak.split_at_mut(count);
-        let [end, slope] = self.toe;
-        let (end, ends) = end.split_at_mut(count);
-        let (slope, slopes) = slope.split_at_mut(count);
-        let head = Self {
-            position,
-            friction: [first, second],
-            peak,
-            toe: [end, slope],
-        };
-        let tail = Self {
-            position: positions,
-            friction: [firsts, seconds],
-            peak: peaks,
-            toe: [ends, slopes],
-        };
-        (head, tail)
-    }
-
-    #[inline(always)]
-    fn from(&self, start: usize) -> Remembered<'_> {
-        Remembered {
-            position: lanes(self.position, start),
-            friction: [
-                lanes(self.friction[0], start),
-                lanes(self.friction[1], start),
-            ],
-            peak: lanes(self.peak, start),
-            toe: [lanes(self.toe[0], start), lanes(self.toe[1], start)],
-        }
-    }
-}
-
-impl Remembered<'_> {
-    #[inline(always)]
-    pub(crate) fn lane(&self, lane: usize) -> Lane {
-        Lane {
-            position: self.position[lane],
-            peak: self.peak[lane],
-            toe: [self.toe[0][lane], self.toe[1][lane]],
-        }
-    }
-}
 
 /// Whether the condition holds in any lane: a sum of bits, which needs no branch per lane.
 #[inline(always)]
@@ -272,7 +95,7 @@ pub trait BatchLaw {
         let Responses { load, tangent } = responses;
         for (element, slider) in self.sliders().0.into_iter().enumerate() {
             let Some(slider) = slider else { continue };
-            let before = memory.friction[element];
+            let before = memory.friction(element);
             for lane in 0..LANES {
                 let stroke = self.stroke(memory.lane(lane), trial[lane]);
                 let end = slider.load(before[lane], stroke);
@@ -309,7 +132,7 @@ pub trait BatchLaw {
     fn slide_work(&self, memory: &Remembered<'_>, trial: &Lanes, works: &mut Lanes) {
         for (element, slider) in self.sliders().0.into_iter().enumerate() {
             let Some(slider) = slider else { continue };
-            let before = memory.friction[element];
+            let before = memory.friction(element);
             for lane in 0..LANES {
                 let stroke = self.stroke(memory.lane(lane), trial[lane]);
                 works[lane] += slider.work(before[lane], stroke);
@@ -349,7 +172,7 @@ pub trait BatchLaw {
         self.slide_work(&memory, trial, &mut lost);
         for (element, slider) in self.sliders().0.into_iter().enumerate() {
             let Some(slider) = slider else { continue };
-            let (before, end) = (memory.friction[element], &mut ends[element]);
+            let (before, end) = (memory.friction(element), &mut ends[element]);
             for lane in 0..LANES {
                 end[lane] = slider.load(before[lane], self.stroke(memory.lane(lane), trial[lane]));
             }
@@ -367,27 +190,20 @@ pub trait BatchLaw {
                 lost[lane] += slider.stored(before[lane]) - slider.stored(end[lane]);
             }
         }
-        let ages = Self::AGES && any(|lane| trial[lane] > memory.peak[lane]);
+        let mut peaks = [0.0; LANES];
+        for lane in 0..LANES {
+            peaks[lane] = self.peak(memory.lane(lane).peak, trial[lane]);
+        }
+        let ages = Self::AGES && any(|lane| peaks[lane] > memory.lane(lane).peak);
         let mut energies = [[0.0; LANES]; 2];
         if ages {
             self.energy(&memory, trial, &mut energies[0]);
         }
-        for lane in 0..LANES {
-            let index = start + lane;
-            moving.peak[index] = self.peak(moving.peak[index], trial[lane]);
-        }
-        moving.position[start..start + LANES].copy_from_slice(trial);
-        for (element, slider) in self.sliders().0.iter().enumerate() {
-            if slider.is_some() {
-                moving.friction[element][start..start + LANES].copy_from_slice(&ends[element]);
-            }
-        }
+        let [first, second] = self.sliders().0;
+        let loads = [first.map(|_| &ends[0]), second.map(|_| &ends[1])];
+        moving.write(start, (trial, &peaks), loads);
         if ages {
-            for index in start..start + LANES {
-                let [end, slope] = self.toe(moving.peak[index]);
-                moving.toe[0][index] = end;
-                moving.toe[1][index] = slope;
-            }
+            moving.age(self, start);
             self.energy(&moving.from(start), trial, &mut energies[1]);
             for lane in 0..LANES {
                 lost[lane] += energies[0][lane] - energies[1][lane];
@@ -399,7 +215,7 @@ pub trait BatchLaw {
     /// Adds the energies per area that the memories can give back, in J/m².
     #[inline(always)]
     fn stored(&self, memory: &Remembered<'_>, energies: &mut Lanes) {
-        self.energy(memory, memory.position, energies);
+        self.energy(memory, memory.position(), energies);
         self.slide_stored(memory, energies);
     }
 
@@ -409,7 +225,7 @@ pub trait BatchLaw {
         for (element, slider) in self.sliders().0.into_iter().enumerate() {
             let Some(slider) = slider else { continue };
             for lane in 0..LANES {
-                energies[lane] += slider.stored(memory.friction[element][lane]);
+                energies[lane] += slider.stored(memory.friction(element)[lane]);
             }
         }
     }
@@ -449,8 +265,7 @@ pub trait BatchLaw {
     fn passes_any(&self, memory: &Remembered<'_>, trial: &Lanes) -> bool {
         any(|lane| {
             (0..Self::KNOTS).fold(false, |passes, knot| {
-                let (place, _) = self.knot(knot, memory.lane(lane));
-                passes | ((memory.position[lane] - place) * (trial[lane] - place) < 0.0)
+                passes | (self.bend(knot, memory.lane(lane), trial[lane]).way > 0.0)
             })
         })
     }

@@ -1,5 +1,11 @@
+#![allow(
+    clippy::needless_range_loop,
+    reason = "a lane is a place in many arrays"
+)]
+
 use crate::BendingLaw;
-use crate::batch::{BatchLaw, LANES, Lane, Lanes, Remembered, Responses, Sliders};
+use crate::batch::{BatchLaw, LANES, Lanes, Responses, Sliders};
+use crate::memories::{Lane, Remembered};
 
 /// A [`BendingLaw`] for many triples side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,4 +1,10 @@
-use crate::batch::{BatchLaw, LANES, Lane, Lanes, Remembered, Responses, Sliders, any};
+#![allow(
+    clippy::needless_range_loop,
+    reason = "a lane is a place in many arrays"
+)]
+
+use crate::batch::{BatchLaw, LANES, Lanes, Responses, Sliders, any};
+use crate::memories::{Lane, Remembered};
 use crate::{Locking, ShearBackbone, ShearLaw};
 
 /// A [`ShearLaw`] for many corners side by side.

@@ -1,6 +1,12 @@
+#![allow(
+    clippy::needless_range_loop,
+    reason = "a lane is a place in many arrays"
+)]
+
 use drape_hysteresis::exp_m1;
 
-use crate::batch::{BatchLaw, LANES, Lane, Lanes, Remembered, Responses, Sliders, any, positive};
+use crate::batch::{BatchLaw, LANES, Lanes, Responses, Sliders, any, positive};
+use crate::memories::{Lane, Remembered};
 use crate::{Buckling, Polynomial, Primed, TractionBackbone, TractionLaw};
 
 /// A [`TractionLaw`] for many segments side by side.
@@ -49,9 +55,9 @@ impl TractionBatch {
         } = *primed;
         let bow = 1.0 - toe_ratio;
         for lane in 0..LANES {
-            let (strain, toe) = (positive(trial[lane]), memory.toe[0][lane]);
+            let (strain, [toe, priming]) = (positive(trial[lane]), memory.lane(lane).toe);
             // The weight's slope in the toe is (1 − r)/(r ε_c).
-            let bend = toe_ratio * memory.toe[1][lane] * strain;
+            let bend = toe_ratio * priming * strain;
             let within = stiffness * strain * (bend + 2.0 * toe_ratio - 1.0);
             let beyond = stiffness * (strain - bow * toe);
             let bends = strain <= toe;
@@ -64,10 +70,10 @@ impl TractionBatch {
         if self.lengthens(primed, memory, trial) {
             for lane in 0..LANES {
                 let strain = trial[lane];
-                let new = strain > memory.peak[lane].max(toe_strain);
+                let new = strain > memory.lane(lane).peak.max(toe_strain);
                 // The toe moves along: it takes the place of the one that was kept.
                 let toe = toe_after(primed, strain);
-                let softer = stiffness * bow * (memory.toe[0][lane] - toe);
+                let softer = stiffness * bow * (memory.lane(lane).toe[0] - toe);
                 load[lane] += if new { softer } else { 0.0 };
                 if TANGENT {
                     let growth = (toe_strain_after - toe) / toe_strain;
@@ -80,7 +86,7 @@ impl TractionBatch {
     /// Whether some lane is stretched further than ever and its toe with it.
     #[inline(always)]
     fn lengthens(&self, primed: &Primed, memory: &Remembered<'_>, trial: &Lanes) -> bool {
-        any(|lane| trial[lane] > memory.peak[lane].max(primed.toe_strain))
+        any(|lane| trial[lane] > memory.lane(lane).peak.max(primed.toe_strain))
     }
 
     #[inline(always)]
@@ -205,7 +211,7 @@ impl BatchLaw for TractionBatch {
             TractionBackbone::Primed(primed) => {
                 for lane in 0..LANES {
                     let strain = positive(trial[lane]);
-                    energies[lane] += primed.fixed_energy(memory.toe[0][lane], strain);
+                    energies[lane] += primed.fixed_energy(memory.lane(lane).toe[0], strain);
                 }
                 if self.lengthens(primed, memory, trial) {
                     let Primed {
@@ -215,8 +221,8 @@ impl BatchLaw for TractionBatch {
                         toe_strain_after,
                     } = *primed;
                     for lane in 0..LANES {
-                        let (strain, toe) = (trial[lane], memory.toe[0][lane]);
-                        let seen = memory.peak[lane].max(toe_strain);
+                        let (strain, toe) = (trial[lane], memory.lane(lane).toe[0]);
+                        let seen = memory.lane(lane).peak.max(toe_strain);
                         // The moving toe's integral less that of the one that was kept.
                         let way = strain - seen;
                         let toes = (toe_strain_after - toe) * way

@@ -83,7 +83,6 @@ fn compare<L: Law, B: BatchLaw>(law: &L, batch: &B, range: (f64, f64), places: &
             apart[lane].friction = found.friction;
         }
     }
-    println!("errors {errors:.1?} on scales {scales:.1?}");
     for kind in 0..4 {
         let error = errors[kind] / scales[kind];
         assert!(error < TOLERANCE, "relative error {error:e} of kind {kind}");

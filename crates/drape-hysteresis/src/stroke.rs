@@ -132,8 +132,13 @@ mod tests {
     fn a_bent_stroke_is_its_pieces_one_after_the_other() {
         let slider = Slider::new(ELEMENT);
         for load in [-0.7, 0.0, 0.3] {
-            for (from, to) in [(0.002, 0.03), (0.03, 0.002), (0.0, 0.011), (0.2, -0.002)] {
-                let sign = (to - from as f64).signum();
+            for (from, to) in [
+                (0.002_f64, 0.03),
+                (0.03, 0.002),
+                (0.0, 0.011),
+                (0.2, -0.002),
+            ] {
+                let sign = (to - from).signum();
                 let start = if from < 0.01 { 60.0 * sign } else { 0.0 };
                 let stroke = Stroke {
                     sign,
