@@ -24,8 +24,8 @@ pub struct Lattice {
     /// Cells kept, row by row along the warp.
     pub cells: Vec<Cell>,
     /// Particle at each grid point, `columns` to a row.
-    grid: Vec<Option<u32>>,
-    columns: usize,
+    pub(crate) grid: Vec<Option<u32>>,
+    pub(crate) columns: usize,
 }
 
 /// A cell of a [`Lattice`].

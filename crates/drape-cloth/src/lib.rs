@@ -1,18 +1,26 @@
 #![doc = include_str!("../README.md")]
 
-mod bending;
 mod cloth;
+mod connectors;
+mod energy;
 mod error;
+mod field;
+mod force;
 mod lattice;
+mod panel;
 mod pattern;
-mod shear;
+mod reference;
+mod scratch;
+mod share;
 mod state;
+mod stiffness;
 mod tangent;
-mod traction;
-mod vector;
+mod workspace;
 
 pub use cloth::{Areas, Cloth, Committed, Strains};
 pub use error::ClothError;
 pub use lattice::Lattice;
 pub use pattern::Pattern;
+pub use reference::Reference;
 pub use state::State;
+pub use workspace::Workspace;

@@ -1,4 +1,7 @@
-use drape_fabric::Memory;
+use drape_fabric::{Memories, Memory};
+
+use crate::field::Field;
+use crate::panel::Panel;
 
 /// Where a cloth is and what its yarns remember: everything that changes in time.
 ///
@@ -12,12 +15,81 @@ pub struct State {
     pub velocities: Vec<f64>,
     /// Unit normals of the surface at the particles.
     pub(crate) normals: Vec<f64>,
-    /// Memories of the segments, one list per set of connectors.
-    pub(crate) traction: Vec<Vec<Memory>>,
-    /// Memories of the corners.
-    pub(crate) shear: Vec<Vec<Memory>>,
-    /// Memories of the triples.
-    pub(crate) bending: Vec<Vec<Memory>>,
+    /// What the yarns remember.
+    pub(crate) history: History,
+}
+
+/// Memories of the connectors, and the normals that the bending was measured along, in columns: panel
+/// after panel, each with its margins.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct History {
+    /// Of the segments along the warp and the weft.
+    pub(crate) traction: [Memories; 2],
+    /// Of the four corners of the cells.
+    pub(crate) shear: [Memories; 4],
+    /// Of the triples along the warp and the weft.
+    pub(crate) bending: [Memories; 2],
+    /// Unit normals, as in [`State::normals`].
+    pub(crate) normals: Field,
+}
+
+/// The memories of some strips, to be moved on.
+pub(crate) struct Moving<'a> {
+    pub(crate) traction: [drape_fabric::Moving<'a>; 2],
+    pub(crate) shear: [drape_fabric::Moving<'a>; 4],
+    pub(crate) bending: [drape_fabric::Moving<'a>; 2],
+}
+
+impl History {
+    /// Memories of virgin panels.
+    pub(crate) fn new(panels: &[Panel]) -> Self {
+        let mut history = Self {
+            traction: Default::default(),
+            shear: Default::default(),
+            bending: Default::default(),
+            normals: Field::new(panels.iter().map(Panel::length).sum()),
+        };
+        for panel in panels {
+            let length = panel.length();
+            for (direction, yarns) in panel.yarns.iter().enumerate() {
+                history.traction[direction].extend(&yarns.traction, length);
+                history.bending[direction].extend(&yarns.bending, length);
+            }
+            for memories in &mut history.shear {
+                memories.extend(&panel.shear, length);
+            }
+        }
+        history
+    }
+
+    /// All memories from a place on, to be moved on, and the normals.
+    pub(crate) fn moving(&mut self, start: usize) -> (Moving<'_>, &Field) {
+        let moving = Moving {
+            traction: self.traction.each_mut().map(|m| m.moving(start)),
+            shear: self.shear.each_mut().map(|m| m.moving(start)),
+            bending: self.bending.each_mut().map(|m| m.moving(start)),
+        };
+        (moving, &self.normals)
+    }
+}
+
+impl Moving<'_> {
+    /// The first `count` places and the others.
+    pub(crate) fn split(self, count: usize) -> (Self, Self) {
+        let ([a, b], [c, d, e, f], [g, h]) = (self.traction, self.shear, self.bending);
+        let [a, b, c, d, e, f, g, h] = [a, b, c, d, e, f, g, h].map(|m| m.split(count));
+        let head = Self {
+            traction: [a.0, b.0],
+            shear: [c.0, d.0, e.0, f.0],
+            bending: [g.0, h.0],
+        };
+        let tail = Self {
+            traction: [a.1, b.1],
+            shear: [c.1, d.1, e.1, f.1],
+            bending: [g.1, h.1],
+        };
+        (head, tail)
+    }
 }
 
 impl State {
@@ -27,12 +99,16 @@ impl State {
         &self.normals
     }
 
-    /// All memories, for hashing and comparing: set by set, connector by connector.
-    pub fn memories(&self) -> impl Iterator<Item = &Memory> {
-        self.traction
-            .iter()
-            .chain(&self.shear)
-            .chain(&self.bending)
-            .flatten()
+    /// All memories, for hashing and comparing, in a fixed order. Where there is no connector, as at
+    /// the end of a row, the memory is that of a virgin one.
+    pub fn memories(&self) -> impl Iterator<Item = Memory> {
+        let History {
+            traction,
+            shear,
+            bending,
+            ..
+        } = &self.history;
+        let sets = traction.iter().chain(shear).chain(bending);
+        sets.flat_map(Memories::iter)
     }
 }

@@ -1,4 +1,4 @@
-use crate::vector::{Vector, at};
+use crate::field::Vector;
 
 /// Direction of a yarn at a particle, as a combination of three positions on the yarn.
 #[derive(Debug, Clone, Copy)]
@@ -10,9 +10,9 @@ pub(crate) struct Tangent {
 impl Tangent {
     /// A vector along the yarn, in the rising direction of its material coordinate.
     pub(crate) fn at(&self, positions: &[f64]) -> Vector {
-        let [a, b, c] = self.particles.map(|particle| at(positions, particle));
+        let [a, b, c] = self.particles.map(|particle| 3 * particle as usize);
         let [wa, wb, wc] = self.weights;
-        wa * a + wb * b + wc * c
+        [0, 1, 2].map(|k| wa * positions[a + k] + wb * positions[b + k] + wc * positions[c + k])
     }
 }
 

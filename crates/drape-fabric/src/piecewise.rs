@@ -32,6 +32,20 @@ impl Piecewise {
         load.copysign(load * deformation)
     }
 
+    /// Load over deformation at a deformation of at least 0, in load per deformation; at 0 its limit.
+    #[must_use]
+    #[inline]
+    pub fn secant(&self, deformation: f64) -> f64 {
+        let t = deformation / self.knot;
+        let within = self.slope + self.intercept / self.knot * (2.0 - t);
+        let beyond = self.slope + self.intercept / deformation;
+        if deformation <= self.knot {
+            within
+        } else {
+            beyond
+        }
+    }
+
     /// Slope of the load, in load per deformation.
     #[must_use]
     pub fn tangent(&self, deformation: f64) -> f64 {

@@ -67,7 +67,7 @@ impl Default for Locking {
 }
 
 impl ShearBackbone {
-    fn respond(&self, shear: f64) -> Response {
+    pub(crate) fn respond(&self, shear: f64) -> Response {
         match self {
             Self::Linear { stiffness } => Response {
                 load: stiffness * shear,
@@ -80,7 +80,7 @@ impl ShearBackbone {
         }
     }
 
-    fn energy(&self, shear: f64) -> f64 {
+    pub(crate) fn energy(&self, shear: f64) -> f64 {
         match self {
             Self::Linear { stiffness } => 0.5 * stiffness * shear * shear,
             Self::Piecewise(piecewise) => piecewise.energy(shear),
@@ -90,7 +90,7 @@ impl ShearBackbone {
 
 impl Locking {
     /// Response at a shear of at least the onset, with the energy from the onset on.
-    fn respond(&self, at_onset: Response, shear: f64) -> (Response, f64) {
+    pub(crate) fn respond(&self, at_onset: Response, shear: f64) -> (Response, f64) {
         let reach = self.limit - self.onset;
         let pole = at_onset.tangent * reach * reach;
         let end = self.onset + STRAIGHT_FROM * reach;
@@ -114,7 +114,7 @@ impl Locking {
 
 impl ShearLaw {
     /// Elastic load and slope, and the elastic energy per area, at a shear.
-    fn elastic(&self, shear: f64) -> (Response, f64) {
+    pub(crate) fn elastic(&self, shear: f64) -> (Response, f64) {
         let size = shear.abs();
         match self.locking {
             Some(locking) if size > locking.onset => {

@@ -164,7 +164,7 @@ impl Primed {
     }
 
     /// Integral of the load from 0 to a strain of at least 0 with a toe of fixed length, in J/m².
-    fn fixed_energy(&self, toe: f64, strain: f64) -> f64 {
+    pub(crate) fn fixed_energy(&self, toe: f64, strain: f64) -> f64 {
         let Self {
             stiffness,
             toe_ratio,

@@ -1,4 +1,4 @@
-use drape_cloth::{Cloth, State};
+use drape_cloth::{Cloth, State, Workspace};
 use drape_collide::Contact;
 use drape_implicit::{BlockMatrix, Pattern, Stiffness, System};
 
@@ -8,6 +8,7 @@ use crate::scene::Scene;
 #[derive(Debug)]
 pub(crate) struct World {
     pub(crate) cloth: Cloth,
+    workspace: Workspace,
     pub(crate) state: State,
     pub(crate) contact: Contact,
     pub(crate) gravity: [f64; 3],
@@ -46,6 +47,7 @@ impl World {
         let pattern = Pattern::new(offsets, columns).expect("a cloth's pattern is sorted");
         let drag = vec![0.0; cloth.particles()];
         Self {
+            workspace: cloth.workspace(),
             cloth,
             state,
             contact,
@@ -133,7 +135,8 @@ impl System for World {
                 .zip(self.gravity)
                 .for_each(|(f, g)| *f = mass * g);
         }
-        self.cloth.add_forces(&self.state, positions, forces);
+        self.workspace
+            .add_forces(&self.cloth, &self.state, positions, forces);
         self.each_drag(positions, |particle, way, normal| {
             let pull = self.drag[particle] * way;
             for axis in 0..3 {
@@ -148,14 +151,20 @@ impl System for World {
         self.each_drag(positions, |particle, way, _| {
             drag += 0.5 * self.drag[particle] * way * way
         });
-        let cloth = self.cloth.potential(&self.state, positions);
+        let cloth = self
+            .workspace
+            .potential(&self.cloth, &self.state, positions);
         cloth + self.weight_energy(positions) + drag + self.contact.potential(positions)
     }
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
         let definite = kind == Stiffness::Definite;
-        self.cloth
-            .add_stiffness(&self.state, positions, definite, matrix.values_mut());
+        self.workspace.add_stiffness(
+            &self.cloth,
+            &self.state,
+            (positions, definite),
+            matrix.values_mut(),
+        );
         let offsets = self.cloth.pattern().offsets.as_slice();
         self.each_drag(positions, |particle, _, normal| {
             let drag = self.drag[particle];
@@ -178,9 +187,9 @@ impl System for World {
             air += self.drag[particle] * way * way
         });
         self.losses.air += air;
-        self.losses.friction += self
-            .cloth
-            .commit(&mut self.state, positions, velocities)
-            .dissipated;
+        let committed =
+            self.workspace
+                .commit(&self.cloth, &mut self.state, (positions, velocities));
+        self.losses.friction += committed.dissipated;
     }
 }

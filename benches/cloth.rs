@@ -1,0 +1,238 @@
+//! The cloth's kernels, each against the connectors one by one through the scalar laws in the same
+//! run. Everything is per call; the element of the throughput is a particle.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::measurement::WallTime;
+use criterion::{
+    BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
+};
+use drape_cloth::{Cloth, Lattice, Reference, State, Workspace};
+use drape_fabric::{
+    BendingBackbone, BendingLaw, BlimanSorine, Buckling, Direction, Fabric, Locking, Primed,
+    SURFACE_FRICTION, ShearBackbone, ShearLaw, TractionBackbone, TractionLaw,
+};
+use rayon::ThreadPoolBuilder;
+
+/// Particles along a side of the square sheet.
+const SIDES: [usize; 6] = [20, 50, 70, 100, 141, 200];
+
+/// A 200 g/m² fabric with friction in every law, each of one element.
+fn fabric() -> Fabric {
+    let direction = |rigidity: f64| Direction {
+        traction: TractionLaw {
+            backbone: TractionBackbone::Primed(Primed {
+                stiffness: 5000.0,
+                toe_ratio: 0.6,
+                toe_strain: 0.015,
+                toe_strain_after: 0.02,
+            }),
+            friction: BlimanSorine::first_order(3.0, 0.001),
+            buckling: Buckling::default(),
+        },
+        bending: BendingLaw {
+            backbone: BendingBackbone::Linear { rigidity },
+            rest_curvature: 0.0,
+            friction: BlimanSorine::first_order(4e-4, 10.0),
+        },
+    };
+    Fabric {
+        name: "hung".into(),
+        source: String::new(),
+        density: 0.2,
+        thickness: 3e-4,
+        surface_friction: SURFACE_FRICTION,
+        warp: direction(1.0e-5),
+        weft: direction(1.2e-5),
+        shear: ShearLaw {
+            backbone: ShearBackbone::Linear { stiffness: 56.0 },
+            friction: BlimanSorine::first_order(0.4, 0.006),
+            growth: 6.0,
+            locking: Some(Locking::default()),
+        },
+        provenance: None,
+    }
+}
+
+/// A square metre that hangs in folds, after two steps, with the next step's shape as the trial.
+struct Sheet {
+    cloth: Cloth,
+    state: State,
+    reference: Reference,
+    trial: Vec<f64>,
+}
+
+impl Sheet {
+    fn new(side: usize) -> Self {
+        let fabric = fabric();
+        let spacing = 1.0 / (side - 1) as f64;
+        let lattice = Lattice::rectangle(1.0, 1.0, spacing).expect("a square");
+        let panels = [(&lattice, &fabric)];
+        let cloth = Cloth::new(&panels);
+        // Strains of some tenths of a per cent of either sign and a shear of some degrees.
+        let shape = |time: f64| -> Vec<f64> {
+            let fold = |&[u, v]: &[f64; 2]| {
+                let ripple = 0.004 * (9.0 * u - 14.0 * v + time).sin();
+                let depth = 0.02 * (1.0 + 0.02 * time) * (12.0 * u + 3.0 * v).sin();
+                [
+                    0.985 * u + 0.05 * u * v,
+                    v + 0.2 * ripple * u,
+                    depth + ripple,
+                ]
+            };
+            lattice.coordinates.iter().flat_map(fold).collect()
+        };
+        let mut state = cloth.state(shape(0.0)).expect("it fits");
+        let start = (state.positions.as_slice(), state.normals());
+        let mut reference = Reference::new(&panels, cloth.pattern(), start);
+        let rest = vec![0.0; 3 * cloth.particles()];
+        for time in [0.1, 0.2] {
+            cloth.commit(&mut state, &shape(time), &rest);
+            reference.commit(&shape(time), state.normals());
+        }
+        Self {
+            trial: shape(0.3),
+            cloth,
+            state,
+            reference,
+        }
+    }
+
+    fn particles(&self) -> usize {
+        self.cloth.particles()
+    }
+
+    /// Room for as many threads as asked for.
+    fn workspace(&self, threads: usize) -> Workspace {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads start")
+            .install(|| self.cloth.workspace())
+    }
+}
+
+type Group<'a> = BenchmarkGroup<'a, WallTime>;
+
+/// One kernel at every size: on the grid with one thread and with all, and connector by connector.
+fn compare(
+    criterion: &mut Criterion,
+    name: &str,
+    grid: impl Fn(&mut Group<'_>, BenchmarkId, &Sheet, Workspace),
+    reference: impl Fn(&mut Group<'_>, BenchmarkId, &Sheet),
+) {
+    let mut group = criterion.benchmark_group(name);
+    group
+        .sample_size(20)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_millis(1000));
+    for side in SIDES {
+        let sheet = Sheet::new(side);
+        group.throughput(Throughput::Elements(sheet.particles() as u64));
+        let id = |name: &str| BenchmarkId::new(name, side);
+        grid(&mut group, id("grid"), &sheet, sheet.workspace(1));
+        let all = rayon::current_num_threads();
+        let name = format!("grid, {all} threads");
+        grid(&mut group, id(&name), &sheet, sheet.workspace(all));
+        reference(&mut group, id("one by one"), &sheet);
+    }
+    group.finish();
+}
+
+fn forces(criterion: &mut Criterion) {
+    compare(
+        criterion,
+        "forces",
+        |group, id, sheet, mut workspace| {
+            let mut forces = vec![0.0; 3 * sheet.particles()];
+            group.bench_function(id, |bencher| {
+                bencher.iter(|| {
+                    workspace.add_forces(&sheet.cloth, &sheet.state, &sheet.trial, &mut forces);
+                });
+            });
+        },
+        |group, id, sheet| {
+            let mut forces = vec![0.0; 3 * sheet.particles()];
+            group.bench_function(id, |bencher| {
+                bencher.iter(|| sheet.reference.add_forces(&sheet.trial, &mut forces));
+            });
+        },
+    );
+}
+
+fn potential(criterion: &mut Criterion) {
+    compare(
+        criterion,
+        "potential",
+        |group, id, sheet, mut workspace| {
+            group.bench_function(id, |bencher| {
+                bencher.iter(|| {
+                    let potential = workspace.potential(&sheet.cloth, &sheet.state, &sheet.trial);
+                    black_box(potential)
+                });
+            });
+        },
+        |group, id, sheet| {
+            group.bench_function(id, |bencher| {
+                bencher.iter(|| black_box(sheet.reference.potential(&sheet.trial)));
+            });
+        },
+    );
+}
+
+fn stiffness(criterion: &mut Criterion) {
+    compare(
+        criterion,
+        "stiffness",
+        |group, id, sheet, mut workspace| {
+            let mut values = vec![0.0; 9 * sheet.cloth.pattern().blocks()];
+            group.bench_function(id, |bencher| {
+                bencher.iter(|| {
+                    let trial = (sheet.trial.as_slice(), false);
+                    workspace.add_stiffness(&sheet.cloth, &sheet.state, trial, &mut values);
+                });
+            });
+        },
+        |group, id, sheet| {
+            let mut values = vec![0.0; 9 * sheet.cloth.pattern().blocks()];
+            group.bench_function(id, |bencher| {
+                bencher.iter(|| {
+                    sheet
+                        .reference
+                        .add_stiffness(&sheet.trial, false, &mut values)
+                });
+            });
+        },
+    );
+}
+
+/// There and back: two steps per call.
+fn commit(criterion: &mut Criterion) {
+    compare(
+        criterion,
+        "commit there and back",
+        |group, id, sheet, mut workspace| {
+            let (mut state, start) = (sheet.state.clone(), sheet.state.positions.clone());
+            let rest = vec![0.0; 3 * sheet.particles()];
+            group.bench_function(id, |bencher| {
+                bencher.iter(|| {
+                    for shape in [&sheet.trial, &start] {
+                        workspace.commit(&sheet.cloth, &mut state, (shape, &rest));
+                    }
+                });
+            });
+        },
+        |group, id, sheet| {
+            let (mut reference, normals) = (sheet.reference.clone(), sheet.state.normals());
+            group.bench_function(id, |bencher| {
+                bencher.iter(|| {
+                    for shape in [&sheet.trial, &sheet.state.positions] {
+                        black_box(reference.commit(shape, normals));
+                    }
+                });
+            });
+        },
+    );
+}
+
+criterion_group!(kernels, forces, potential, stiffness, commit);
+criterion_main!(kernels);

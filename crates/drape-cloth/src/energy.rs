@@ -1,0 +1,176 @@
+#![allow(
+    clippy::needless_range_loop,
+    reason = "a lane is a place in many arrays"
+)]
+
+use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes};
+
+use crate::field::{Field, Vector, dot, lanes, scale, subtract};
+use crate::panel::{Panel, Strip};
+use crate::scratch::{Scratch, Trial};
+use crate::state::{History, Moving};
+
+/// Potential of a strip's connectors within a step, in J.
+#[inline(always)]
+pub(crate) fn potential(scratch: &mut Scratch, trial: &Trial<'_>) -> f64 {
+    let Trial {
+        panel,
+        history,
+        strip,
+        positions,
+    } = *trial;
+    scratch.lay((panel, strip), positions);
+    let mut sums = [0.0; LANES];
+    for start in own(panel, strip) {
+        let place = strip.offset + start;
+        for (direction, yarns) in panel.yarns.iter().enumerate() {
+            let memory = history.traction[direction].from(place);
+            let strains = scratch.strains(yarns, direction, (start, strip));
+            let mut works = [0.0; LANES];
+            yarns.traction.work(&memory, &strains, &mut works);
+            weigh(&mut sums, &works, (&yarns.segment_areas, strip, start));
+
+            let memory = history.bending[direction].from(place);
+            let along = scratch.bends(yarns, &history.normals, (start, strip));
+            let mut works = bent(scratch, trial, direction, start);
+            yarns.bending.slide_work(&memory, &along, &mut works);
+            weigh(&mut sums, &works, (&yarns.triple_areas, strip, start));
+        }
+        for (corner, areas) in panel.corners.iter().enumerate() {
+            let memory = history.shear[corner].from(place);
+            let sines = scratch.sines(panel, corner, (start, strip));
+            let mut works = [0.0; LANES];
+            panel.shear.work(&memory, &sines, &mut works);
+            weigh(&mut sums, &works, (areas, strip, start));
+        }
+    }
+    sums.iter().sum()
+}
+
+/// Moves the memories of a strip on to the given positions and normals; returns the energy lost on
+/// the way, in J.
+#[inline(always)]
+pub(crate) fn commit(
+    scratch: &mut Scratch,
+    (panel, strip): (&Panel, &Strip),
+    mut moving: Moving<'_>,
+    (positions, normals): (&[f64], &Field),
+) -> f64 {
+    scratch.lay((panel, strip), positions);
+    let mut sums = [0.0; LANES];
+    for start in own(panel, strip) {
+        let place = start - panel.margin;
+        for (direction, yarns) in panel.yarns.iter().enumerate() {
+            let strains = scratch.strains(yarns, direction, (start, strip));
+            let memories = &mut moving.traction[direction];
+            let lost = yarns.traction.commit(memories, place, &strains);
+            weigh(&mut sums, &lost, (&yarns.segment_areas, strip, start));
+
+            let along = scratch.bends(yarns, normals, (start, strip));
+            let memories = &mut moving.bending[direction];
+            let lost = yarns.bending.commit(memories, place, &along);
+            weigh(&mut sums, &lost, (&yarns.triple_areas, strip, start));
+        }
+        for (corner, areas) in panel.corners.iter().enumerate() {
+            let sines = scratch.sines(panel, corner, (start, strip));
+            let memories = &mut moving.shear[corner];
+            let lost = panel.shear.commit(memories, place, &sines);
+            weigh(&mut sums, &lost, (areas, strip, start));
+        }
+    }
+    sums.iter().sum()
+}
+
+/// Writes the memories of a strip that starts in the given shape without friction.
+pub(crate) fn start(
+    scratch: &mut Scratch,
+    (panel, strip): (&Panel, &Strip),
+    history: &mut History,
+    positions: &[f64],
+) {
+    scratch.lay((panel, strip), positions);
+    for start in own(panel, strip) {
+        let place = strip.offset + start;
+        for (direction, yarns) in panel.yarns.iter().enumerate() {
+            let strains = scratch.strains(yarns, direction, (start, strip));
+            history.traction[direction].start(&yarns.traction, place, &strains);
+            let along = scratch.bends(yarns, &history.normals, (start, strip));
+            history.bending[direction].start(&yarns.bending, place, &along);
+        }
+        for (corner, memories) in history.shear.iter_mut().enumerate() {
+            let sines = scratch.sines(panel, corner, (start, strip));
+            memories.start(&panel.shear, place, &sines);
+        }
+    }
+}
+
+/// Energy that a strip's connectors can give back, in J.
+pub(crate) fn stored(scratch: &mut Scratch, trial: &Trial<'_>) -> f64 {
+    let Trial {
+        panel,
+        history,
+        strip,
+        positions,
+    } = *trial;
+    scratch.lay((panel, strip), positions);
+    let mut sums = [0.0; LANES];
+    for start in own(panel, strip) {
+        let place = strip.offset + start;
+        for (direction, yarns) in panel.yarns.iter().enumerate() {
+            let mut energies = [0.0; LANES];
+            let memory = history.traction[direction].from(place);
+            yarns.traction.stored(&memory, &mut energies);
+            weigh(&mut sums, &energies, (&yarns.segment_areas, strip, start));
+
+            let mut energies = bent(scratch, trial, direction, start);
+            let memory = history.bending[direction].from(place);
+            yarns.bending.slide_stored(&memory, &mut energies);
+            weigh(&mut sums, &energies, (&yarns.triple_areas, strip, start));
+        }
+        for (corner, areas) in panel.corners.iter().enumerate() {
+            let mut energies = [0.0; LANES];
+            let memory = history.shear[corner].from(place);
+            panel.shear.stored(&memory, &mut energies);
+            weigh(&mut sums, &energies, (areas, strip, start));
+        }
+    }
+    sums.iter().sum()
+}
+
+/// Places of a strip's own points, batch by batch.
+fn own(panel: &Panel, strip: &Strip) -> impl Iterator<Item = usize> {
+    (panel.margin..panel.margin + strip.points.len()).step_by(LANES)
+}
+
+/// Adds energies per area times the areas of the connectors from a place on.
+#[inline(always)]
+fn weigh(sums: &mut Lanes, energies: &Lanes, (areas, strip, start): (&[f64], &Strip, usize)) {
+    let areas = lanes(areas, strip.points.start + start);
+    for lane in 0..LANES {
+        sums[lane] += energies[lane] * areas[lane];
+    }
+}
+
+/// Elastic energies of bending per area, in J/m².
+#[inline(always)]
+fn bent(scratch: &Scratch, trial: &Trial<'_>, direction: usize, start: usize) -> Lanes {
+    let yarns = &trial.panel.yarns[direction];
+    let rest = yarns.bending.law().rest_curvature;
+    let curvatures = scratch.curvatures(yarns, start);
+    let normals = trial.history.normals.from(trial.strip.offset + start);
+    let excess = |lane| -> Vector { subtract(curvatures.at(lane), scale(normals.at(lane), rest)) };
+    let mut energies = [0.0; LANES];
+    match yarns.bending.law().backbone {
+        BendingBackbone::Linear { rigidity } => {
+            for lane in 0..LANES {
+                energies[lane] = 0.5 * rigidity * dot(excess(lane), excess(lane));
+            }
+        }
+        BendingBackbone::Piecewise(piecewise) => {
+            for lane in 0..LANES {
+                energies[lane] = piecewise.energy(dot(excess(lane), excess(lane)).sqrt());
+            }
+        }
+    }
+    energies
+}
