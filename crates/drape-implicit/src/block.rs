@@ -7,6 +7,7 @@ pub(crate) type Block = [f64; 9];
 pub(crate) const ZERO: Block = [0.0; 9];
 
 /// Transpose of a block.
+#[inline(always)]
 pub(crate) fn transposed(a: &Block) -> Block {
     [a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]]
 }
@@ -27,26 +28,48 @@ pub(crate) fn add_transposed_product(a: &Block, x: &[f64; 3], y: &mut [f64; 3]) 
     y[2] += a[2] * x[0] + a[5] * x[1] + a[8] * x[2];
 }
 
-/// `a b`.
+/// A block by rows, each with a fourth entry to fill a register: what it holds is never read as part of the block.
+pub(crate) type Rows = [[f64; 4]; 3];
+
 #[inline(always)]
-pub(crate) fn product(a: &Block, b: &Block) -> Block {
-    let mut c = ZERO;
-    for i in 0..3 {
-        for j in 0..3 {
-            c[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+pub(crate) fn by_rows([a, b, c, d, e, f, g, h, i]: &Block) -> Rows {
+    [[*a, *b, *c, 0.0], [*d, *e, *f, 0.0], [*g, *h, *i, 0.0]]
+}
+
+#[inline(always)]
+pub(crate) fn from_rows(rows: &Rows) -> Block {
+    let [[a, b, c, _], [d, e, f, _], [g, h, i, _]] = *rows;
+    [a, b, c, d, e, f, g, h, i]
+}
+
+/// `aᵀ b`.
+#[inline(always)]
+pub(crate) fn transposed_product(a: &Block, b: &Rows) -> Rows {
+    let mut c = [[0.0; 4]; 3];
+    for (k, row) in c.iter_mut().enumerate() {
+        for (lane, entry) in row.iter_mut().enumerate() {
+            *entry = (b[0][lane] * a[k] + b[1][lane] * a[3 + k]) + b[2][lane] * a[6 + k];
         }
     }
     c
 }
 
-/// `c - aᵀ b`.
+/// `a − b`.
 #[inline(always)]
-pub(crate) fn subtract_transposed_product(a: &Block, b: &Block, c: &mut Block) {
-    for i in 0..3 {
-        for j in 0..3 {
-            c[3 * i + j] -= a[i] * b[j] + a[3 + i] * b[3 + j] + a[6 + i] * b[6 + j];
+pub(crate) fn subtract(a: &mut Rows, b: &Rows) {
+    for (a, b) in a.iter_mut().zip(b) {
+        for (a, b) in a.iter_mut().zip(b) {
+            *a -= b;
         }
     }
+}
+
+/// `factor (a + aᵀ)/2`.
+#[inline(always)]
+pub(crate) fn symmetric_part(a: &Block, factor: f64) -> Rows {
+    let [b, c, f] = [a[1] + a[3], a[2] + a[6], a[5] + a[7]].map(|sum| 0.5 * factor * sum);
+    let [d, e, g] = [a[0], a[4], a[8]].map(|entry| factor * entry);
+    by_rows(&[d, b, c, b, e, f, c, f, g])
 }
 
 /// Determinant of a symmetric block, from its upper half.
@@ -99,7 +122,8 @@ mod tests {
     fn a_symmetric_block_times_its_inverse_is_the_identity() {
         let a = [4.0, 1.0, -0.5, 1.0, 3.0, 0.25, -0.5, 0.25, 2.0];
         let det = definite_determinant(&a).unwrap();
-        let identity = product(&a, &symmetric_inverse(&a, det));
+        let product = transposed_product(&a, &by_rows(&symmetric_inverse(&a, det)));
+        let identity = from_rows(&product);
         for (k, value) in identity.iter().enumerate() {
             let expected = if k % 4 == 0 { 1.0 } else { 0.0 };
             assert!((value - expected).abs() < 1e-15, "entry {k}: {value}");

@@ -2,7 +2,7 @@
 
 use crate::BlockMatrix;
 use crate::incomplete::Incomplete;
-use crate::vector::{add_scaled, dot, norm};
+use crate::vector::{descend, dot, norm};
 
 /// How conjugate gradients ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl ConjugateGradient {
     /// entry. Returns the iterations made and how they ended.
     pub(crate) fn solve(
         &mut self,
-        (matrix, preconditioner): (&BlockMatrix, &Incomplete),
+        (matrix, preconditioner): (&BlockMatrix, &mut Incomplete),
         x: &mut [f64],
         target: f64,
         limit: usize,
@@ -52,7 +52,7 @@ impl ConjugateGradient {
         } = self;
         residual.copy_from_slice(x);
         x.fill(0.0);
-        preconditioner.solve(matrix.pattern(), residual, preconditioned);
+        preconditioner.solve(residual, preconditioned, norm(residual));
         direction.copy_from_slice(preconditioned);
         let mut weight = dot(residual, preconditioned);
         for iteration in 1..=limit {
@@ -64,12 +64,11 @@ impl ConjugateGradient {
                 return (iteration, Ending::Indefinite);
             }
             let step = weight / curvature;
-            add_scaled(x, step, direction);
-            add_scaled(residual, -step, product);
-            if norm(residual) <= target {
+            let length = descend(step, (&mut *x, direction), (residual, product));
+            if length <= target {
                 return (iteration, Ending::Converged);
             }
-            preconditioner.solve(matrix.pattern(), residual, preconditioned);
+            preconditioner.solve(residual, preconditioned, length);
             let next = dot(residual, preconditioned);
             let turn = next / weight;
             weight = next;
@@ -85,6 +84,7 @@ impl ConjugateGradient {
 mod tests {
     use super::*;
     use crate::Pattern;
+    use crate::vector::add_scaled;
 
     /// The Laplacian of an n × n grid, shifted: its incomplete factor is not exact.
     fn grid(n: usize, shift: f64) -> BlockMatrix {
@@ -114,7 +114,7 @@ mod tests {
         let mut back = vec![0.0; size];
         let target = 1e-10 * norm(&b);
         let mut gradient = ConjugateGradient::new(size);
-        let (iterations, ending) = gradient.solve((matrix, &incomplete), &mut x, target, limit);
+        let (iterations, ending) = gradient.solve((matrix, &mut incomplete), &mut x, target, limit);
         matrix.multiply(&x, &mut back);
         add_scaled(&mut back, -1.0, &b);
         assert!(

@@ -6,6 +6,7 @@ mod broyden;
 mod check;
 mod cholesky;
 mod conjugate_gradient;
+mod elimination;
 mod error;
 mod formula;
 mod incomplete;

@@ -80,13 +80,13 @@ pub struct Settings {
     pub max_iterations: usize,
     /// How often a failing step may be halved. Default 10: sub-steps down to `dt/1024`.
     pub max_halvings: u32,
-    /// Broyden: iterations on one tangent, the first (Newton's) included. Default 6: beyond, the updates no longer
-    /// make up for what the tangent has lost, and a new one is cheaper.
+    /// Broyden: iterations on one tangent, the first (Newton's) included. Default 3: a tangent is kept only close to
+    /// the solution, where two more steps on it are enough or it was not worth keeping.
     pub tangent_iterations: usize,
     /// Broyden: the linear residual relative to the nonlinear one at which conjugate gradients stop. Default 0.03.
     pub broyden_forcing: f64,
-    /// The same for Newton steps. Default 0.01: looser costs more tangents than it saves iterations, and one tangent
-    /// costs as much as ten to fifteen of these.
+    /// The same for Newton steps. Default 0.003: looser costs more tangents than it saves iterations, and one tangent
+    /// costs as much as ten to fifteen of these; from 0.01 to 0.001 the cost is flat.
     pub newton_forcing: f64,
     /// Conjugate-gradient iterations after which the direction found so far is taken. Default 2000.
     pub max_linear_iterations: usize,
@@ -104,9 +104,9 @@ impl Default for Settings {
             acceleration: 9.81,
             max_iterations: 100,
             max_halvings: 10,
-            tangent_iterations: 6,
+            tangent_iterations: 3,
             broyden_forcing: 0.03,
-            newton_forcing: 0.01,
+            newton_forcing: 0.003,
             max_linear_iterations: 2000,
             energy_balance: false,
         }

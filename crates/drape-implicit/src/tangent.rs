@@ -77,7 +77,7 @@ impl Tangent {
             self.direct = false;
             x.copy_from_slice(b);
         }
-        let incomplete = self.incomplete.as_ref().ok_or(NotDefinite)?;
+        let incomplete = self.incomplete.as_mut().ok_or(NotDefinite)?;
         let (iterations, ending) =
             self.gradient
                 .solve((&self.matrix, incomplete), x, target, self.limit);

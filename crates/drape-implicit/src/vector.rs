@@ -38,6 +38,30 @@ pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
+/// `x + step · direction` and `r − step · product` in one pass, with the new `‖r‖₂`.
+pub(crate) fn descend(
+    step: f64,
+    (x, direction): (&mut [f64], &[f64]),
+    (r, product): (&mut [f64], &[f64]),
+) -> f64 {
+    add_scaled(x, step, direction);
+    let mut partial = [0.0; LANES];
+    let (heads, tail) = r.as_chunks_mut::<LANES>();
+    let (products, product_tail) = product.as_chunks::<LANES>();
+    for (r, p) in heads.iter_mut().zip(products) {
+        for k in 0..LANES {
+            r[k] -= step * p[k];
+            partial[k] += r[k] * r[k];
+        }
+    }
+    let mut sum = partial.iter().sum::<f64>();
+    for (r, p) in tail.iter_mut().zip(product_tail) {
+        *r -= step * p;
+        sum += *r * *r;
+    }
+    sum.sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -180,6 +180,8 @@ impl Simulation {
         self.solver.residual_max = self.solver.residual_max.max(report.residual);
         self.solver.force_evaluations += report.force_evaluations;
         self.solver.linear_iterations += report.linear_iterations;
+        self.solver.tangents += report.tangents;
+        self.solver.potential_evaluations += report.potential_evaluations;
         self.iterations += report.iterations;
         let survey = self.world.contact.survey(&self.motion.positions);
         self.pairs_max = self.pairs_max.max(survey.touching);

@@ -66,6 +66,10 @@ pub struct Solver {
     pub residual_max: f64,
     /// Evaluations of all forces.
     pub force_evaluations: usize,
+    /// Assemblies of the stiffness.
+    pub tangents: usize,
+    /// Evaluations of the potential.
+    pub potential_evaluations: usize,
     /// Iterations of the linear solver.
     pub linear_iterations: usize,
 }
