@@ -79,8 +79,8 @@ fn report(sheet: &Sheet, fit: &Fit) -> String {
             curve.iterations,
             stop(curve.stop)
         );
-        for (name, value) in &curve.parameters {
-            let _ = writeln!(text, "    {name:<28} {value:>13.5e}");
+        for estimate in &curve.parameters {
+            let _ = writeln!(text, "    {:<28} {:>13.5e}", estimate.name, estimate.value);
         }
     }
     for assumed in &fit.assumed {
@@ -108,7 +108,12 @@ fn json(fit: &Fit) -> String {
         let parameters = curve
             .parameters
             .iter()
-            .map(|(name, value)| ((*name).to_owned(), serde_json::Value::from(*value)));
+            .map(|estimate| {
+                (
+                    estimate.name.to_owned(),
+                    serde_json::Value::from(estimate.value),
+                )
+            });
         serde_json::json!({
             "name": curve.name,
             "test": curve.test.name(),
