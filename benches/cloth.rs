@@ -75,11 +75,7 @@ impl Sheet {
             let fold = |&[u, v]: &[f64; 2]| {
                 let ripple = 0.004 * (9.0 * u - 14.0 * v + time).sin();
                 let depth = 0.02 * (1.0 + 0.02 * time) * (12.0 * u + 3.0 * v).sin();
-                [
-                    0.985 * u + 0.05 * u * v,
-                    v + 0.2 * ripple * u,
-                    depth + ripple,
-                ]
+                [0.985 * u + 0.05 * u * v, v + 0.2 * ripple * u, depth + ripple]
             };
             lattice.coordinates.iter().flat_map(fold).collect()
         };
@@ -91,12 +87,7 @@ impl Sheet {
             cloth.commit(&mut state, &shape(time), &rest);
             reference.commit(&shape(time), state.normals());
         }
-        Self {
-            trial: shape(0.3),
-            cloth,
-            state,
-            reference,
-        }
+        Self { trial: shape(0.3), cloth, state, reference }
     }
 
     fn particles(&self) -> usize {
@@ -106,8 +97,7 @@ impl Sheet {
     /// Room for as many threads as asked for.
     fn workspace(&self, threads: usize) -> Workspace {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.expect("threads start")
-            .install(|| self.cloth.workspace())
+        pool.expect("threads start").install(|| self.cloth.workspace())
     }
 }
 
@@ -195,11 +185,7 @@ fn stiffness(criterion: &mut Criterion) {
         |group, id, sheet| {
             let mut values = vec![0.0; 9 * sheet.cloth.pattern().blocks()];
             group.bench_function(id, |bencher| {
-                bencher.iter(|| {
-                    sheet
-                        .reference
-                        .add_stiffness(&sheet.trial, false, &mut values)
-                });
+                bencher.iter(|| sheet.reference.add_stiffness(&sheet.trial, false, &mut values));
             });
         },
     );

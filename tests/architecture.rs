@@ -8,14 +8,7 @@ type Uses = BTreeMap<String, BTreeSet<String>>;
 /// The workspace's own crates with those that they use outside their tests.
 fn manifests() -> Uses {
     let metadata = Command::new(env!("CARGO"))
-        .args([
-            "metadata",
-            "--no-deps",
-            "--format-version",
-            "1",
-            "--locked",
-            "--offline",
-        ])
+        .args(["metadata", "--no-deps", "--format-version", "1", "--locked", "--offline"])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .expect("cargo runs");
@@ -29,10 +22,7 @@ fn manifests() -> Uses {
         let normal = dependencies.iter().filter(|d| d["kind"].is_null());
         normal.map(name).filter(|name| own.contains(name)).collect()
     };
-    packages
-        .iter()
-        .map(|package| (name(package), uses(package)))
-        .collect()
+    packages.iter().map(|package| (name(package), uses(package))).collect()
 }
 
 /// The same from the table in the map.
@@ -41,11 +31,7 @@ fn map() -> Uses {
     let rows = text.lines().filter(|line| line.starts_with("| drape-"));
     rows.map(|row| {
         let cells: Vec<&str> = row.split('|').map(str::trim).collect();
-        let uses = cells[2]
-            .split(", ")
-            .filter(|c| !c.is_empty())
-            .map(str::to_owned)
-            .collect();
+        let uses = cells[2].split(", ").filter(|c| !c.is_empty()).map(str::to_owned).collect();
         (cells[1].to_owned(), uses)
     })
     .collect()
@@ -55,10 +41,7 @@ fn map() -> Uses {
 fn the_map_of_the_crates_is_true() {
     let (manifests, mut map) = (manifests(), map());
     let all: BTreeSet<String> = map.keys().filter(|k| *k != "drape-sim").cloned().collect();
-    assert_eq!(
-        map.insert("drape-sim".into(), all),
-        Some(["all of them".into()].into())
-    );
+    assert_eq!(map.insert("drape-sim".into(), all), Some(["all of them".into()].into()));
     assert_eq!(manifests, map);
 }
 

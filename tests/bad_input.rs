@@ -63,11 +63,7 @@ fn folder() -> TempDir {
 
 fn drape(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::cargo_bin("drape").expect("the binary is built");
-    command
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("it runs")
+    command.current_dir(folder).args(arguments).output().expect("it runs")
 }
 
 /// Changes one file, runs a command and returns what it says; it must exit with 3, report one error
@@ -84,15 +80,8 @@ fn mistake(file: &str, (good, bad): (&str, &str), arguments: &[&str], words: &[&
 fn check(folder: &Path, arguments: &[&str], words: &[&str]) {
     let output = drape(folder, arguments);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(
-        output.status.code(),
-        Some(3),
-        "{arguments:?} said: {message}"
-    );
-    let errors = message
-        .lines()
-        .filter(|line| line.starts_with("error"))
-        .count();
+    assert_eq!(output.status.code(), Some(3), "{arguments:?} said: {message}");
+    let errors = message.lines().filter(|line| line.starts_with("error")).count();
     assert_eq!(errors, 1, "one error, not: {message}");
     for word in words {
         assert!(message.contains(word), "{word:?} is missing in: {message}");
@@ -108,129 +97,54 @@ const FIT: &[&str] = &["fit", "sheet.toml", "-o", "fabric.toml"];
 fn the_files_are_right_before_they_are_made_wrong() {
     let folder = folder();
     let output = drape(folder.path(), RUN);
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(folder.path().join("results/summary.json").exists());
     let output = drape(folder.path(), FIT);
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(folder.path().join("fabric.toml").exists());
 }
 
 #[test]
 fn an_unknown_key_names_the_one_that_was_meant() {
     let change = ("fabric = \"plain\"", "fabirc = \"plain\"");
-    mistake(
-        "towel.toml",
-        change,
-        RUN,
-        &["towel.toml:7", "fabirc", "did you mean `fabric`?"],
-    );
-    mistake(
-        "plain.toml",
-        ("density", "densty"),
-        RUN,
-        &["plain.toml:2", "densty", "density"],
-    );
-    mistake(
-        "sheet.toml",
-        ("load =", "laod ="),
-        FIT,
-        &["sheet.toml:9", "laod", "load"],
-    );
+    mistake("towel.toml", change, RUN, &["towel.toml:7", "fabirc", "did you mean `fabric`?"]);
+    mistake("plain.toml", ("density", "densty"), RUN, &["plain.toml:2", "densty", "density"]);
+    mistake("sheet.toml", ("load =", "laod ="), FIT, &["sheet.toml:9", "laod", "load"]);
 }
 
 #[test]
 fn a_missing_file_is_named_with_its_line() {
     let change = ("file = \"plain.toml\"", "file = \"plane.toml\"");
-    mistake(
-        "towel.toml",
-        change,
-        RUN,
-        &["towel.toml:4", "plane.toml", "folder"],
-    );
+    mistake("towel.toml", change, RUN, &["towel.toml:4", "plane.toml", "folder"]);
     let change = ("file = \"bending.csv\"", "file = \"binding.csv\"");
     mistake("sheet.toml", change, FIT, &["sheet.toml:7", "binding.csv"]);
-    check(
-        folder().path(),
-        &["run", "trowel.toml"],
-        &["trowel.toml", "did you mean", "towel.toml"],
-    );
+    check(folder().path(), &["run", "trowel.toml"], &["trowel.toml", "did you mean", "towel.toml"]);
 }
 
 #[test]
 fn a_wrong_unit_names_the_known_ones() {
-    let change = (
-        "name = \"towel\"\nspacing",
-        "name = \"towel\"\nlength = \"inch\"\nspacing",
-    );
+    let change = ("name = \"towel\"\nspacing", "name = \"towel\"\nlength = \"inch\"\nspacing");
     mistake("towel.toml", change, RUN, &["towel.toml:2", "inch", "mm"]);
-    mistake(
-        "sheet.toml",
-        ("\"1/cm\"", "\"1/yard\""),
-        FIT,
-        &["sheet.toml:8", "1/yard", "1/cm"],
-    );
+    mistake("sheet.toml", ("\"1/cm\"", "\"1/yard\""), FIT, &["sheet.toml:8", "1/yard", "1/cm"]);
 }
 
 #[test]
 fn nan_is_refused_wherever_it_stands() {
-    mistake(
-        "towel.toml",
-        ("step = 0.005", "step = nan"),
-        RUN,
-        &["towel.toml:10", "NaN"],
-    );
-    mistake(
-        "plain.toml",
-        ("density = 0.12", "density = nan"),
-        RUN,
-        &["plain.toml:2", "NaN"],
-    );
-    mistake(
-        "bending.csv",
-        ("2,0.32", "2,nan"),
-        FIT,
-        &["bending.csv:4", "nan"],
-    );
+    mistake("towel.toml", ("step = 0.005", "step = nan"), RUN, &["towel.toml:10", "NaN"]);
+    mistake("plain.toml", ("density = 0.12", "density = nan"), RUN, &["plain.toml:2", "NaN"]);
+    mistake("bending.csv", ("2,0.32", "2,nan"), FIT, &["bending.csv:4", "nan"]);
 }
 
 #[test]
 fn a_curve_of_no_or_one_point_is_refused() {
-    mistake(
-        "bending.csv",
-        (&CURVE[17..], ""),
-        FIT,
-        &["bending.csv", "point"],
-    );
-    mistake(
-        "bending.csv",
-        (&CURVE[21..], ""),
-        FIT,
-        &["bending.csv", "point"],
-    );
+    mistake("bending.csv", (&CURVE[17..], ""), FIT, &["bending.csv", "point"]);
+    mistake("bending.csv", (&CURVE[21..], ""), FIT, &["bending.csv", "point"]);
 }
 
 #[test]
 fn a_negative_density_is_refused() {
-    mistake(
-        "plain.toml",
-        ("0.12", "-0.12"),
-        RUN,
-        &["plain.toml:2", "-0.12", "help"],
-    );
-    mistake(
-        "sheet.toml",
-        ("W = 18.0", "W = -18.0"),
-        FIT,
-        &["sheet.toml:2", "-18", "help"],
-    );
+    mistake("plain.toml", ("0.12", "-0.12"), RUN, &["plain.toml:2", "-0.12", "help"]);
+    mistake("sheet.toml", ("W = 18.0", "W = -18.0"), FIT, &["sheet.toml:2", "-18", "help"]);
 }
 
 #[test]
@@ -246,9 +160,7 @@ fn a_spacing_larger_than_the_panel_is_refused() {
 #[test]
 fn several_mistakes_are_reported_together() {
     let folder = folder();
-    let text = SCENE
-        .replace("step = 0.005", "step = -1")
-        .replace("[0.2, 0.3]", "[0.2, -0.3]");
+    let text = SCENE.replace("step = 0.005", "step = -1").replace("[0.2, 0.3]", "[0.2, -0.3]");
     std::fs::write(folder.path().join("towel.toml"), text).expect("writes");
     let output = drape(folder.path(), &["check", "towel.toml"]);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -264,9 +176,5 @@ fn earlier_results_are_kept_unless_their_loss_is_allowed() {
     let arguments = ["run", "towel.toml", "-o", "mine"];
     assert!(drape(folder.path(), &arguments).status.success());
     assert_eq!(drape(folder.path(), &arguments).status.code(), Some(2));
-    assert!(
-        drape(folder.path(), &[&arguments[..], &["--force"]].concat())
-            .status
-            .success()
-    );
+    assert!(drape(folder.path(), &[&arguments[..], &["--force"]].concat()).status.success());
 }

@@ -9,16 +9,8 @@ use serde_json::Value;
 fn run(scene: &str, arguments: &[&str], output: &Path) -> Value {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut command = Command::cargo_bin("drape").expect("the binary is built");
-    command
-        .arg("run")
-        .arg(root.join("scenes").join(scene))
-        .arg("-o")
-        .arg(output);
-    let result = command
-        .args(arguments)
-        .arg("--json")
-        .output()
-        .expect("it runs");
+    command.arg("run").arg(root.join("scenes").join(scene)).arg("-o").arg(output);
+    let result = command.args(arguments).arg("--json").output().expect("it runs");
     let message = String::from_utf8_lossy(&result.stderr);
     assert!(result.status.success(), "{scene}: {message}");
     serde_json::from_slice(&result.stdout).expect("the summary is JSON")
@@ -55,34 +47,19 @@ fn a_measured_fabric_comes_to_rest_on_a_cube() {
     assert_eq!(summary["particles"], 51 * 51);
     assert_eq!(summary["settled"], true);
     assert_eq!(summary["contact"]["intersections"], 0);
-    assert!(
-        number(&summary, "contact.min_distance") > 1e-3,
-        "half the contact offset is kept"
-    );
+    assert!(number(&summary, "contact.min_distance") > 1e-3, "half the contact offset is kept");
     assert!(number(&summary, "solver.residual_max") <= 1e-4);
     // A metre of this cloth weighs 1 N/m. Its law reaches that load below 1 % of strain; over the
     // corners of the cube the load of a quarter of the cloth converges.
     let p99 = number(&summary, "strain.traction_p99");
-    assert!(
-        (1e-4..1e-2).contains(&p99),
-        "99 of 100 segments are strained by less than {p99}"
-    );
+    assert!((1e-4..1e-2).contains(&p99), "99 of 100 segments are strained by less than {p99}");
     assert!(number(&summary, "strain.traction_max") < 0.03);
     // Nothing is gained: what the fall set free is stored or lost, and every loss is one.
     let energy = |part: &str| number(&summary, &format!("energy.{part}"));
-    for part in [
-        "elastic",
-        "friction_dissipated",
-        "air_dissipated",
-        "numerical_dissipated",
-    ] {
+    for part in ["elastic", "friction_dissipated", "air_dissipated", "numerical_dissipated"] {
         assert!(energy(part) > 0.0, "{part} is {} J", energy(part));
     }
-    assert!(
-        energy("kinetic") < 1e-6 * -energy("gravity"),
-        "at rest: {} J",
-        energy("kinetic")
-    );
+    assert!(energy("kinetic") < 1e-6 * -energy("gravity"), "at rest: {} J", energy("kinetic"));
 
     // Four corners hang, each below the middle of its sides; the fabric is anisotropic, so the
     // corners agree with their opposites better than with their neighbours.
@@ -92,21 +69,12 @@ fn a_measured_fabric_comes_to_rest_on_a_cube() {
     let sides = [at(25, 0), at(50, 25), at(25, 50), at(0, 25)];
     for corner in corners {
         for side in sides {
-            assert!(
-                corner < side - 0.05,
-                "corners {corners:?} hang below sides {sides:?}"
-            );
+            assert!(corner < side - 0.05, "corners {corners:?} hang below sides {sides:?}");
         }
     }
-    let spread = corners
-        .iter()
-        .fold(0.0, |s: f64, c| s.max((c - corners[0]).abs()));
+    let spread = corners.iter().fold(0.0, |s: f64, c| s.max((c - corners[0]).abs()));
     assert!(spread < 0.02, "the corners hang alike: {corners:?}");
-    assert!(
-        (at(25, 25) - 0.502).abs() < 2e-3,
-        "the middle lies on the cube: {}",
-        at(25, 25)
-    );
+    assert!((at(25, 25) - 0.502).abs() < 2e-3, "the middle lies on the cube: {}", at(25, 25));
 }
 
 #[test]
@@ -115,11 +83,8 @@ fn the_same_scene_gives_the_same_bits_for_any_number_of_threads() {
         .iter()
         .map(|threads| {
             let folder = tempfile::tempdir().expect("a folder");
-            let summary = run(
-                "curtain.toml",
-                &["--threads", threads, "--until", "0.1"],
-                folder.path(),
-            );
+            let summary =
+                run("curtain.toml", &["--threads", threads, "--until", "0.1"], folder.path());
             summary["state_hash"].as_str().expect("a hash").to_owned()
         })
         .collect();
@@ -132,15 +97,8 @@ fn a_run_that_does_not_settle_says_so_and_keeps_its_results() {
     let folder = tempfile::tempdir().expect("a folder");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut command = Command::cargo_bin("drape").expect("the binary is built");
-    command
-        .arg("run")
-        .arg(root.join("scenes/cube.toml"))
-        .arg("-o")
-        .arg(folder.path());
-    let result = command
-        .args(["--until", "0.1", "--force"])
-        .output()
-        .expect("it runs");
+    command.arg("run").arg(root.join("scenes/cube.toml")).arg("-o").arg(folder.path());
+    let result = command.args(["--until", "0.1", "--force"]).output().expect("it runs");
     assert_eq!(result.status.code(), Some(5));
     let message = String::from_utf8_lossy(&result.stderr);
     assert!(message.contains("did not come to rest"), "{message}");

@@ -10,10 +10,7 @@ use crate::command::CheckArguments;
 use crate::failure::Failure;
 
 /// `drape check`: all files are read, all mistakes reported together.
-#[expect(
-    clippy::print_stdout,
-    reason = "the result of the command goes to stdout"
-)]
+#[expect(clippy::print_stdout, reason = "the result of the command goes to stdout")]
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let mut mistakes = Vec::new();
     for file in &arguments.files {
@@ -66,10 +63,7 @@ fn scene(scene: &Scene) -> String {
             material.file.display()
         );
     }
-    scene
-        .materials
-        .iter()
-        .for_each(|material| text += &indent(&fabric(&material.fabric)));
+    scene.materials.iter().for_each(|material| text += &indent(&fabric(&material.fabric)));
     text
 }
 
@@ -81,11 +75,7 @@ fn fabric(fabric: &Fabric) -> String {
     for (name, direction) in [("warp", &fabric.warp), ("weft", &fabric.weft)] {
         let stretch = match direction.traction.backbone {
             TractionBackbone::Primed(p) => {
-                format!(
-                    "{:.4e} N/m after a toe of {:.2} %",
-                    p.stiffness,
-                    100.0 * p.toe_strain
-                )
+                format!("{:.4e} N/m after a toe of {:.2} %", p.stiffness, 100.0 * p.toe_strain)
             }
             TractionBackbone::Polynomial(p) => {
                 format!("{:.4e} ε² + {:.4e} ε⁴ N/m", p.quadratic, p.quartic)
@@ -108,21 +98,15 @@ fn fabric(fabric: &Fabric) -> String {
         ShearBackbone::Piecewise(piecewise) => piecewise.slope,
     };
     let plateau = fabric.shear.friction.plateau();
-    let _ = writeln!(
-        text,
-        "  shear {stiffness:.4e} N/m, friction {plateau:.3e} N/m"
-    );
+    let _ = writeln!(text, "  shear {stiffness:.4e} N/m, friction {plateau:.3e} N/m");
     text
 }
 
 fn sheet(file: &Path) -> Result<String, Diagnostics> {
     let sheet = Sheet::read(file).map_err(|error| crate::fit::input(file, error))?;
     let density = sheet.density().map_or("no".into(), |w| format!("{w}"));
-    let mut text = format!(
-        "sheet \"{}\": {density} kg/m², {} curves\n",
-        sheet.name,
-        sheet.curves.len()
-    );
+    let mut text =
+        format!("sheet \"{}\": {density} kg/m², {} curves\n", sheet.name, sheet.curves.len());
     for curve in &sheet.curves {
         let ((low, high), (least, most)) = (curve.deformation_range(), curve.load_range());
         let _ = writeln!(
@@ -140,6 +124,5 @@ fn sheet(file: &Path) -> Result<String, Diagnostics> {
 }
 
 fn indent(text: &str) -> String {
-    text.lines()
-        .fold(String::new(), |all, line| all + "  " + line + "\n")
+    text.lines().fold(String::new(), |all, line| all + "  " + line + "\n")
 }

@@ -54,10 +54,7 @@ impl From<SceneError> for Failure {
 /// A mistake with the line of the file it is in.
 fn render(mistake: &Diagnostic) -> String {
     let path = mistake.file.display().to_string();
-    let source = mistake
-        .span
-        .as_ref()
-        .and_then(|_| std::fs::read_to_string(&mistake.file).ok());
+    let source = mistake.span.as_ref().and_then(|_| std::fs::read_to_string(&mistake.file).ok());
     let (Some(source), Some(span)) = (source, mistake.span.clone()) else {
         return format!("error: {mistake}");
     };
@@ -67,9 +64,7 @@ fn render(mistake: &Diagnostic) -> String {
     }
     let annotation = AnnotationKind::Primary.span(span);
     let snippet = Snippet::source(source).path(&path).annotation(annotation);
-    let mut group = Level::ERROR
-        .primary_title(&mistake.message)
-        .element(snippet);
+    let mut group = Level::ERROR.primary_title(&mistake.message).element(snippet);
     if let Some(help) = &mistake.help {
         group = group.element(Level::HELP.message(help));
     }

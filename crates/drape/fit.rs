@@ -9,28 +9,16 @@ use crate::command::FitArguments;
 use crate::failure::Failure;
 
 /// `drape fit`.
-#[expect(
-    clippy::print_stdout,
-    reason = "the result of the command goes to stdout"
-)]
+#[expect(clippy::print_stdout, reason = "the result of the command goes to stdout")]
 #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     let sheet = Sheet::read(&arguments.sheet).map_err(|e| input(&arguments.sheet, e))?;
     let fit = identify(&sheet)
         .map_err(|error| Diagnostics::from(Diagnostic::new(&arguments.sheet, error.to_string())))?;
-    sheet
-        .warnings()
-        .iter()
-        .for_each(|warning| eprintln!("warning: {warning}"));
-    let path = arguments
-        .output
-        .clone()
-        .unwrap_or_else(|| beside(&arguments.sheet));
+    sheet.warnings().iter().for_each(|warning| eprintln!("warning: {warning}"));
+    let path = arguments.output.clone().unwrap_or_else(|| beside(&arguments.sheet));
     if path.exists() && arguments.output.is_none() && !arguments.force {
-        let message = format!(
-            "{} exists; give -o, or replace it with --force",
-            path.display()
-        );
+        let message = format!("{} exists; give -o, or replace it with --force", path.display());
         return Err(Failure::Usage(message));
     }
     write(&path, &fit.fabric.to_toml())?;
@@ -53,11 +41,7 @@ pub(crate) fn input(file: &Path, error: drape::kes::Error) -> Diagnostics {
 
 /// Where the fabric of a sheet goes when nothing is said: `fabric.toml` in the sheet's folder.
 fn beside(sheet: &Path) -> PathBuf {
-    let folder = if sheet.is_dir() {
-        sheet
-    } else {
-        sheet.parent().unwrap_or(Path::new(""))
-    };
+    let folder = if sheet.is_dir() { sheet } else { sheet.parent().unwrap_or(Path::new("")) };
     folder.join("fabric.toml")
 }
 
@@ -108,12 +92,7 @@ fn json(fit: &Fit) -> String {
         let parameters = curve
             .parameters
             .iter()
-            .map(|estimate| {
-                (
-                    estimate.name.to_owned(),
-                    serde_json::Value::from(estimate.value),
-                )
-            });
+            .map(|estimate| (estimate.name.to_owned(), serde_json::Value::from(estimate.value)));
         serde_json::json!({
             "name": curve.name,
             "test": curve.test.name(),

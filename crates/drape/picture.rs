@@ -24,25 +24,15 @@ pub(crate) fn draw(
         .filter(|body| !matches!(body.shape, drape::collide::Shape::Plane))
         .filter_map(|body| body.triangulate().ok())
         .collect();
-    let vertices: Vec<Vec<f64>> = outlines
-        .iter()
-        .map(|outline| outline.vertices.concat())
-        .collect();
+    let vertices: Vec<Vec<f64>> =
+        outlines.iter().map(|outline| outline.vertices.concat()).collect();
     let bodies = vertices.iter().zip(&outlines);
-    let lowest = frame
-        .positions
-        .chunks_exact(3)
-        .map(|p| p[1])
-        .fold(f64::INFINITY, f64::min);
-    let size = coordinates
-        .iter()
-        .fold(0.0, |size: f64, c| size.max(c.abs()));
+    let lowest = frame.positions.chunks_exact(3).map(|p| p[1]).fold(f64::INFINITY, f64::min);
+    let size = coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
     let cloth = Surface::cloth(&frame.positions, simulation.triangles());
     let scene = Scene {
         cloths: vec![cloth.with_lines(&coordinates, LINE_SPACING * size.max(0.1))],
-        bodies: bodies
-            .map(|(v, outline)| Surface::body(v, &outline.triangles))
-            .collect(),
+        bodies: bodies.map(|(v, outline)| Surface::body(v, &outline.triangles)).collect(),
         floor: Some(lowest - FLOOR),
     };
     let [azimuth, elevation] = view;

@@ -23,13 +23,7 @@ impl<'a> Screen<'a> {
         let style = "{elapsed_precise} {bar:32} {pos}/{len} steps, {per_sec}, {eta} left  {msg}";
         bar.set_style(ProgressStyle::with_template(style).expect("the template is right"));
         bar.enable_steady_tick(Duration::from_millis(250));
-        Self {
-            bar,
-            output,
-            coordinates,
-            triangles,
-            last: None,
-        }
+        Self { bar, output, coordinates, triangles, last: None }
     }
 
     pub(crate) fn finish(&self) {
@@ -49,8 +43,7 @@ impl Progress for Screen<'_> {
     }
 
     fn frame(&mut self, frame: &Frame) -> Result<(), SceneError> {
-        self.output
-            .frame(frame, &self.coordinates, &self.triangles)?;
+        self.output.frame(frame, &self.coordinates, &self.triangles)?;
         self.last = Some(frame.clone());
         Ok(())
     }

@@ -8,24 +8,17 @@ use crate::picture;
 use crate::progress::Screen;
 
 /// `drape run`.
-#[expect(
-    clippy::print_stdout,
-    reason = "the result of the command goes to stdout"
-)]
+#[expect(clippy::print_stdout, reason = "the result of the command goes to stdout")]
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     if let Some(threads) = arguments.threads {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
         pool.map_err(|error| Failure::Usage(format!("--threads {threads}: {error}")))?;
     }
     let mut scene = Scene::read(&arguments.scene)?;
     if let Some(end) = arguments.until {
         if !(end >= scene.clock.step) {
             let step = scene.clock.step;
-            return Err(Failure::Usage(format!(
-                "--until {end}: a step takes {step} s already"
-            )));
+            return Err(Failure::Usage(format!("--until {end}: a step takes {step} s already")));
         }
         scene.clock.end = end;
     }
@@ -37,10 +30,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let output = prepare_folder(&folder, arguments.force || arguments.output.is_none())?;
     let view = scene.view;
     let mut simulation = Simulation::new(scene)?;
-    let surface = (
-        simulation.coordinates().to_vec(),
-        simulation.triangles().to_vec(),
-    );
+    let surface = (simulation.coordinates().to_vec(), simulation.triangles().to_vec());
     let mut screen = Screen::new(simulation.ticks_to_do(), &output, surface);
     let summary = simulation.run(&mut screen);
     screen.finish();
@@ -72,19 +62,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 }
 
 fn describe(summary: &Summary) -> String {
-    let Summary {
-        energy,
-        strain,
-        contact,
-        ..
-    } = summary;
+    let Summary { energy, strain, contact, .. } = summary;
     let rest = if summary.settled { "at rest" } else { "moving" };
-    let cpu = summary
-        .cpu_seconds
-        .map_or(String::new(), |cpu| format!(", {cpu:.1} s of processor"));
-    let nearest = contact
-        .min_distance
-        .map_or("none near".into(), |d| format!("{:.3} mm", 1e3 * d));
+    let cpu = summary.cpu_seconds.map_or(String::new(), |cpu| format!(", {cpu:.1} s of processor"));
+    let nearest = contact.min_distance.map_or("none near".into(), |d| format!("{:.3} mm", 1e3 * d));
     format!(
         "{} particles, {} steps, {:.3} s simulated in {:.1} s{cpu}\n\
          {rest}, fastest particle {:.2} mm/s\n\

@@ -75,9 +75,7 @@ impl Cloth {
             strips: Vec::new(),
             pattern: Pattern::default(),
         };
-        panels
-            .iter()
-            .for_each(|(lattice, fabric)| cloth.add_panel(lattice, fabric));
+        panels.iter().for_each(|(lattice, fabric)| cloth.add_panel(lattice, fabric));
         let pairs = cloth.panels.iter().flat_map(Panel::pairs);
         cloth.pattern = Pattern::new(cloth.particles(), pairs);
         for (index, panel) in cloth.panels.iter_mut().enumerate() {
@@ -100,11 +98,9 @@ impl Cloth {
         let base = self.panels.iter().map(Panel::length).sum();
         let panel = Panel::new(lattice, fabric, (first, base), &areas);
         self.panels.push(panel);
-        self.masses
-            .extend(areas.iter().map(|area| area * fabric.density));
+        self.masses.extend(areas.iter().map(|area| area * fabric.density));
         self.coordinates.extend(&lattice.coordinates);
-        self.triangles
-            .extend(lattice.triangles().iter().map(|t| t.map(|p| first + p)));
+        self.triangles.extend(lattice.triangles().iter().map(|t| t.map(|p| first + p)));
         self.areas.extend(areas);
     }
 
@@ -166,10 +162,7 @@ impl Cloth {
     pub fn state(&self, positions: Vec<f64>) -> Result<State, ClothError> {
         let particles = self.particles();
         if positions.len() != 3 * particles {
-            return Err(ClothError::Positions {
-                found: positions.len(),
-                particles,
-            });
+            return Err(ClothError::Positions { found: positions.len(), particles });
         }
         let mut state = State {
             velocities: vec![0.0; positions.len()],
@@ -213,8 +206,7 @@ impl Cloth {
 
     /// Accepts a step: moves positions, velocities and all memories on. Nothing else writes memory.
     pub fn commit(&self, state: &mut State, positions: &[f64], velocities: &[f64]) -> Committed {
-        self.workspace()
-            .commit(self, state, (positions, velocities))
+        self.workspace().commit(self, state, (positions, velocities))
     }
 
     /// Energy that the connectors can give back, in J.
@@ -227,12 +219,7 @@ impl Cloth {
     #[must_use]
     pub fn strains(&self, state: &State) -> Strains {
         let (mut traction, mut shear, mut curvature) = (Vec::new(), Vec::new(), Vec::new());
-        let History {
-            traction: strains,
-            shear: sines,
-            bending: bends,
-            ..
-        } = &state.history;
+        let History { traction: strains, shear: sines, bending: bends, .. } = &state.history;
         for panel in &self.panels {
             let at = |memories: &Memories, places: &[usize], map: fn(f64) -> f64| -> Vec<f64> {
                 let positions = &memories.positions()[panel.base..];
@@ -265,17 +252,10 @@ impl Cloth {
         let normals = state.normals.chunks_exact_mut(3);
         for (normal, [warp, weft]) in normals.zip(&self.tangents) {
             let (u, v) = (weft.at(positions), warp.at(positions));
-            let across = [
-                u[1] * v[2] - u[2] * v[1],
-                u[2] * v[0] - u[0] * v[2],
-                u[0] * v[1] - u[1] * v[0],
-            ];
+            let across =
+                [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
             let length = dot(across, across).sqrt();
-            let unit = if length > 0.0 {
-                across.map(|c| c / length)
-            } else {
-                [0.0, 1.0, 0.0]
-            };
+            let unit = if length > 0.0 { across.map(|c| c / length) } else { [0.0, 1.0, 0.0] };
             normal.copy_from_slice(&unit);
         }
         for panel in &self.panels {

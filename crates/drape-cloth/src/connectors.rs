@@ -48,10 +48,7 @@ pub(crate) fn triples(
     // First the neighbour on the same yarn, which lies in the direction of the curvature.
     let mut along = vec![None; areas.len()];
     for yarn in yarns {
-        let ends = [
-            (yarn[0], yarn[1]),
-            (yarn[yarn.len() - 1], yarn[yarn.len() - 2]),
-        ];
+        let ends = [(yarn[0], yarn[1]), (yarn[yarn.len() - 1], yarn[yarn.len() - 2])];
         for (end, next) in ends {
             along[end as usize] = middle_of[next as usize];
         }

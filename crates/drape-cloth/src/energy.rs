@@ -1,7 +1,4 @@
-#![allow(
-    clippy::needless_range_loop,
-    reason = "a lane is a place in many arrays"
-)]
+#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
 use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes};
 
@@ -13,12 +10,7 @@ use crate::state::{History, Moving};
 /// Potential of a strip's connectors within a step, in J.
 #[inline(always)]
 pub(crate) fn potential(scratch: &mut Scratch, trial: &Trial<'_>) -> f64 {
-    let Trial {
-        panel,
-        history,
-        strip,
-        positions,
-    } = *trial;
+    let Trial { panel, history, strip, positions } = *trial;
     scratch.lay((panel, strip), positions);
     let mut sums = [0.0; LANES];
     for start in own(panel, strip) {
@@ -106,12 +98,7 @@ pub(crate) fn start(
 
 /// Energy that a strip's connectors can give back, in J.
 pub(crate) fn stored(scratch: &mut Scratch, trial: &Trial<'_>) -> f64 {
-    let Trial {
-        panel,
-        history,
-        strip,
-        positions,
-    } = *trial;
+    let Trial { panel, history, strip, positions } = *trial;
     scratch.lay((panel, strip), positions);
     let mut sums = [0.0; LANES];
     for start in own(panel, strip) {

@@ -1,7 +1,4 @@
-#![allow(
-    clippy::needless_range_loop,
-    reason = "a lane is a place in many arrays"
-)]
+#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
 use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes, Responses};
 
@@ -37,9 +34,7 @@ fn tensions(scratch: &mut Scratch, trial: &Trial<'_>, direction: usize) {
         let memory = trial.history.traction[direction].from(strip.offset + start);
         let strains = scratch.strains(yarns, direction, (start, strip));
         let mut responses = Responses::default();
-        yarns
-            .traction
-            .respond::<false>(&memory, &strains, &mut responses);
+        yarns.traction.respond::<false>(&memory, &strains, &mut responses);
         let areas = lanes(&yarns.segment_areas, strip.points.start + start);
         let inverse = 1.0 / yarns.length;
         let mut tensions = [0.0; LANES];
@@ -58,9 +53,7 @@ fn corners(scratch: &mut Scratch, trial: &Trial<'_>, corner: usize) {
         let memory = trial.history.shear[corner].from(strip.offset + start);
         let sines = scratch.sines(panel, corner, (start, strip));
         let mut responses = Responses::default();
-        panel
-            .shear
-            .respond::<false>(&memory, &sines, &mut responses);
+        panel.shear.respond::<false>(&memory, &sines, &mut responses);
         let areas = lanes(&panel.corners[corner], strip.points.start + start);
         let mut loads = [0.0; LANES];
         for lane in 0..LANES {
@@ -77,9 +70,7 @@ fn moments(scratch: &mut Scratch, trial: &Trial<'_>, direction: usize) {
             moments_of(scratch, trial, direction, |_| rigidity);
         }
         BendingBackbone::Piecewise(piecewise) => {
-            moments_of(scratch, trial, direction, |square| {
-                piecewise.secant(square.sqrt())
-            });
+            moments_of(scratch, trial, direction, |square| piecewise.secant(square.sqrt()));
         }
     }
 }
@@ -111,11 +102,7 @@ fn moments_of(
             let excess = subtract(curvatures.at(lane), scale(normal, rest));
             let elastic = scale(excess, secant(dot(excess, excess)));
             let moment = add(elastic, scale(normal, friction.load[lane]));
-            set(
-                &mut moments,
-                lane,
-                scale(moment, areas[lane] * inverse_square),
-            );
+            set(&mut moments, lane, scale(moment, areas[lane] * inverse_square));
         }
         scratch.moments[direction].put(start, &moments);
     }
@@ -126,11 +113,7 @@ fn moments_of(
 fn pulls(scratch: &mut Scratch, trial: &Trial<'_>, direction: usize) {
     let Trial { panel, strip, .. } = *trial;
     let [warp, weft] = &scratch.edges;
-    let (edges, other) = if direction == 0 {
-        (warp, weft)
-    } else {
-        (weft, warp)
-    };
+    let (edges, other) = if direction == 0 { (warp, weft) } else { (weft, warp) };
     let step = panel.yarns[direction].step;
     let places = panel.margin - step..panel.margin + strip.points.len();
     for start in places.step_by(LANES) {
@@ -177,11 +160,8 @@ fn gather(scratch: &mut Scratch, trial: &Trial<'_>, forces: &mut [f64]) {
             let (pulls, moments) = (&scratch.pulls[direction], &scratch.moments[direction]);
             let [before, here, after] = [start - step, start, start + step];
             let (from, to) = (pulls.from(before), pulls.from(here));
-            let (before, here, after) = (
-                moments.from(before),
-                moments.from(here),
-                moments.from(after),
-            );
+            let (before, here, after) =
+                (moments.from(before), moments.from(here), moments.from(after));
             for axis in 0..3 {
                 let (from, to) = (from.0[axis], to.0[axis]);
                 let (a, c, b) = (before.0[axis], here.0[axis], after.0[axis]);
@@ -191,10 +171,7 @@ fn gather(scratch: &mut Scratch, trial: &Trial<'_>, forces: &mut [f64]) {
                 }
             }
         }
-        let places = occupied
-            .iter()
-            .enumerate()
-            .filter(|(_, occupied)| **occupied);
+        let places = occupied.iter().enumerate().filter(|(_, occupied)| **occupied);
         for ((lane, _), force) in places.zip(&mut forces) {
             for axis in 0..3 {
                 force[axis] += sums[axis][lane];

@@ -52,10 +52,7 @@ impl Lattice {
         check("the spacing", spacing)?;
         let [across, along] = [width, height].map(|side| (side / spacing).round());
         if across < 2.0 || along < 2.0 {
-            return Err(ClothError::Spacing {
-                spacing,
-                size: width.min(height),
-            });
+            return Err(ClothError::Spacing { spacing, size: width.min(height) });
         }
         let spacing = [width / across, height / along];
         let quarter = 0.25 * spacing[0] * spacing[1];
@@ -73,10 +70,7 @@ impl Lattice {
         check("the radius", radius)?;
         check("the spacing", spacing)?;
         if radius < spacing {
-            return Err(ClothError::Spacing {
-                spacing,
-                size: 2.0 * radius,
-            });
+            return Err(ClothError::Spacing { spacing, size: 2.0 * radius });
         }
         let half = (radius / spacing).ceil();
         let start = -half * spacing;
@@ -88,12 +82,7 @@ impl Lattice {
             let at = |index: f64| start + index * spacing;
             let (u0, um, u1) = (at(column), at(column + 0.5), at(column + 1.0));
             let (v0, vm, v1) = (at(row), at(row + 0.5), at(row + 1.0));
-            [
-                area(u0, v0, um, vm),
-                area(um, v0, u1, vm),
-                area(um, vm, u1, v1),
-                area(u0, vm, um, v1),
-            ]
+            [area(u0, v0, um, vm), area(um, v0, u1, vm), area(um, vm, u1, v1), area(u0, vm, um, v1)]
         })
     }
 
@@ -108,11 +97,7 @@ impl Lattice {
         let particles = (cells[0] + 1.0) * (cells[1] + 1.0);
         if particles > PARTICLES_MAX {
             let spacing = spacing[0].min(spacing[1]);
-            return Err(ClothError::TooMany {
-                spacing,
-                particles,
-                limit: PARTICLES_MAX,
-            });
+            return Err(ClothError::TooMany { spacing, particles, limit: PARTICLES_MAX });
         }
         let [across, along] = cells.map(|n| n as usize);
         let columns = across + 1;
@@ -136,11 +121,7 @@ impl Lattice {
             };
             let nearest = (0..kept.len()).min_by_key(|&k| distance(&kept[k]));
             if let Some(nearest) = nearest {
-                kept[nearest]
-                    .2
-                    .iter_mut()
-                    .zip(areas)
-                    .for_each(|(a, sliver)| *a += sliver);
+                kept[nearest].2.iter_mut().zip(areas).for_each(|(a, sliver)| *a += sliver);
             }
         }
 
@@ -170,13 +151,7 @@ impl Lattice {
                 even: (column + row) % 2 == 0,
             })
             .collect();
-        Ok(Self {
-            spacing,
-            coordinates,
-            cells,
-            grid,
-            columns,
-        })
+        Ok(Self { spacing, coordinates, cells, grid, columns })
     }
 
     /// Area of the panel, in m².
@@ -191,11 +166,7 @@ impl Lattice {
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         let halves = |cell: &Cell| {
             let [a, b, c, d] = cell.corners;
-            if cell.even {
-                [[a, b, c], [a, c, d]]
-            } else {
-                [[a, b, d], [b, c, d]]
-            }
+            if cell.even { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
         };
         self.cells.iter().flat_map(halves).collect()
     }
@@ -212,22 +183,14 @@ impl Lattice {
                     .map(|run| run.iter().flatten().copied().collect())
                     .collect()
             };
-            lines
-                .into_iter()
-                .flat_map(runs)
-                .filter(|run: &Vec<u32>| run.len() > 1)
-                .collect()
+            lines.into_iter().flat_map(runs).filter(|run: &Vec<u32>| run.len() > 1).collect()
         };
         [split(warp.collect()), split(weft.collect())]
     }
 }
 
 fn check(what: &'static str, value: f64) -> Result<(), ClothError> {
-    if value > 0.0 && value.is_finite() {
-        Ok(())
-    } else {
-        Err(ClothError::Length { what, value })
-    }
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(ClothError::Length { what, value }) }
 }
 
 /// Signed area of the disc about the origin in the rectangle with the corners (0, 0) and (u, v).
@@ -238,11 +201,7 @@ fn disc_corner_area(radius: f64, u: f64, v: f64) -> f64 {
             + radius * radius * (x / radius).asin())
     };
     let meets = (radius * radius - b * b).max(0.0).sqrt();
-    let area = if a <= meets {
-        a * b
-    } else {
-        b * meets + segment(a) - segment(meets)
-    };
+    let area = if a <= meets { a * b } else { b * meets + segment(a) - segment(meets) };
     area * u.signum() * v.signum()
 }
 
@@ -265,10 +224,7 @@ mod tests {
             let lattice = Lattice::disc(0.15, spacing).expect("a disc");
             let exact = std::f64::consts::PI * 0.15 * 0.15;
             let area = lattice.area();
-            assert!(
-                (area / exact - 1.0).abs() < 1e-12,
-                "{spacing}: {area} against {exact}"
-            );
+            assert!((area / exact - 1.0).abs() < 1e-12, "{spacing}: {area} against {exact}");
             let quadrants = lattice.cells.iter().flat_map(|c| c.quadrants);
             assert!(quadrants.into_iter().all(|q| q >= -1e-15));
         }
@@ -276,25 +232,10 @@ mod tests {
 
     #[test]
     fn sizes_that_make_no_panel_are_refused() {
-        assert!(matches!(
-            Lattice::rectangle(-1.0, 1.0, 0.1),
-            Err(ClothError::Length { .. })
-        ));
-        assert!(matches!(
-            Lattice::rectangle(1.0, 1.0, f64::NAN),
-            Err(ClothError::Length { .. })
-        ));
-        assert!(matches!(
-            Lattice::rectangle(1.0, 1.0, 3.0),
-            Err(ClothError::Spacing { .. })
-        ));
-        assert!(matches!(
-            Lattice::rectangle(1.0, 1.0, 1e-5),
-            Err(ClothError::TooMany { .. })
-        ));
-        assert!(matches!(
-            Lattice::disc(0.1, 0.2),
-            Err(ClothError::Spacing { .. })
-        ));
+        assert!(matches!(Lattice::rectangle(-1.0, 1.0, 0.1), Err(ClothError::Length { .. })));
+        assert!(matches!(Lattice::rectangle(1.0, 1.0, f64::NAN), Err(ClothError::Length { .. })));
+        assert!(matches!(Lattice::rectangle(1.0, 1.0, 3.0), Err(ClothError::Spacing { .. })));
+        assert!(matches!(Lattice::rectangle(1.0, 1.0, 1e-5), Err(ClothError::TooMany { .. })));
+        assert!(matches!(Lattice::disc(0.1, 0.2), Err(ClothError::Spacing { .. })));
     }
 }

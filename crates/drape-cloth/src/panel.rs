@@ -168,9 +168,7 @@ impl Panel {
             let block = there.then(|| pattern.block(row, column)).flatten();
             block.map_or(NO_BLOCK, |block| block as u32)
         };
-        self.slots = (0..self.points)
-            .map(|point| steps.map(|step| slot(point, step)))
-            .collect();
+        self.slots = (0..self.points).map(|point| steps.map(|step| slot(point, step))).collect();
     }
 
     /// Steps from a point to those that it has a block with, itself first.
@@ -205,12 +203,7 @@ impl Panel {
             ]
         } else {
             let below = place - stride;
-            [
-                (0, place, place),
-                (1, place, place + 1),
-                (3, below, below),
-                (2, below, below + 1),
-            ]
+            [(0, place, place), (1, place, place + 1), (3, below, below), (2, below, below + 1)]
         }
     }
 

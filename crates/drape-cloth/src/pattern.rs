@@ -17,10 +17,7 @@ impl Pattern {
         for (first, second) in pairs {
             rows[first as usize].push(second as usize);
         }
-        let mut pattern = Self {
-            offsets: vec![0],
-            columns: Vec::new(),
-        };
+        let mut pattern = Self { offsets: vec![0], columns: Vec::new() };
         for mut row in rows {
             row.sort_unstable();
             row.dedup();

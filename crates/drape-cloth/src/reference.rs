@@ -100,21 +100,14 @@ impl Connector<ShearLaw, 3> {
             sine: self.measure * cosine,
             units: [warp, weft],
             lengths: [warp_length, weft_length],
-            gradients: [
-                gradient(warp, weft, warp_length),
-                gradient(weft, warp, weft_length),
-            ],
+            gradients: [gradient(warp, weft, warp_length), gradient(weft, warp, weft_length)],
         }
     }
 
     /// Blocks of the pairs warp–warp, weft–weft and warp–weft.
     fn blocks(&self, positions: &[f64], definite: bool) -> [Block; 3] {
-        let Corner {
-            sine,
-            units: [p, q],
-            lengths: [lp, lq],
-            gradients: [gp, gq],
-        } = self.corner(positions);
+        let Corner { sine, units: [p, q], lengths: [lp, lq], gradients: [gp, gq] } =
+            self.corner(positions);
         let response = self.law.respond(&self.memory, sine);
         let tangent = self.area * response.tangent;
         if definite {
@@ -250,12 +243,7 @@ impl Reference {
         for cell in &lattice.cells {
             let [a, b, c, d] = cell.corners;
             // Corner, neighbour along the warp (v), neighbour along the weft (u), sign.
-            let around = [
-                (a, d, b, 1.0),
-                (b, c, a, -1.0),
-                (c, b, d, 1.0),
-                (d, a, c, -1.0),
-            ];
+            let around = [(a, d, b, 1.0), (b, c, a, -1.0), (c, b, d, 1.0), (d, a, c, -1.0)];
             for ((corner, warp, weft, sign), area) in around.into_iter().zip(cell.quadrants) {
                 areas[corner as usize] += area;
                 let particles = [corner, warp, weft].map(|p| first + p);
@@ -269,13 +257,11 @@ impl Reference {
             let (laws, measure) = sides[direction];
             for (ends, area) in segments(lattice, yarns, direction) {
                 let (ends, size) = (ends.map(|p| first + p), (measure, area));
-                self.segments
-                    .push(Connector::new(laws.traction, ends, size, pattern));
+                self.segments.push(Connector::new(laws.traction, ends, size, pattern));
             }
             for (triple, area) in triples(lattice, yarns, &areas) {
                 let (triple, size) = (triple.map(|p| first + p), (measure, area));
-                self.triples
-                    .push(Connector::new(laws.bending, triple, size, pattern));
+                self.triples.push(Connector::new(laws.bending, triple, size, pattern));
             }
         }
     }
@@ -293,11 +279,7 @@ impl Reference {
         }
         for corner in &self.corners {
             let [c, p, f] = corner.particles;
-            let Corner {
-                sine,
-                gradients: [warp, weft],
-                ..
-            } = corner.corner(trial);
+            let Corner { sine, gradients: [warp, weft], .. } = corner.corner(trial);
             let load = corner.area * corner.law.respond(&corner.memory, sine).load;
             push(forces, p, scale(warp, -load));
             push(forces, f, scale(weft, -load));

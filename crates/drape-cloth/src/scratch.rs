@@ -62,22 +62,13 @@ impl<'a> Trial<'a> {
         state: &'a State,
         (strip, positions): (&'a Strip, &'a [f64]),
     ) -> Self {
-        Self {
-            panel: &cloth.panels[strip.panel],
-            history: &state.history,
-            strip,
-            positions,
-        }
+        Self { panel: &cloth.panels[strip.panel], history: &state.history, strip, positions }
     }
 }
 
 impl Edges {
     fn new(length: usize) -> Self {
-        Self {
-            length: vec![0.0; length],
-            inverse: vec![0.0; length],
-            unit: Field::new(length),
-        }
+        Self { length: vec![0.0; length], inverse: vec![0.0; length], unit: Field::new(length) }
     }
 
     #[inline(always)]
@@ -129,10 +120,7 @@ impl Scratch {
         let reach = count + 2 * panel.margin + LANES;
         let particles = &panel.particles[strip.points.start..][..reach];
         let [x, y, z] = &mut self.positions.0;
-        let places = x[..reach]
-            .iter_mut()
-            .zip(&mut y[..reach])
-            .zip(&mut z[..reach]);
+        let places = x[..reach].iter_mut().zip(&mut y[..reach]).zip(&mut z[..reach]);
         for (((x, y), z), &particle) in places.zip(particles) {
             let position = &positions[3 * particle as usize..][..3];
             (*x, *y, *z) = (position[0], position[1], position[2]);
@@ -156,11 +144,7 @@ impl Scratch {
         let inverse = 1.0 / yarns.length;
         let mut strains = [0.0; LANES];
         for lane in 0..LANES {
-            strains[lane] = if areas[lane] == 0.0 {
-                0.0
-            } else {
-                length[lane] * inverse - 1.0
-            };
+            strains[lane] = if areas[lane] == 0.0 { 0.0 } else { length[lane] * inverse - 1.0 };
         }
         strains
     }

@@ -78,16 +78,8 @@ impl Moving<'_> {
     pub(crate) fn split(self, count: usize) -> (Self, Self) {
         let ([a, b], [c, d, e, f], [g, h]) = (self.traction, self.shear, self.bending);
         let [a, b, c, d, e, f, g, h] = [a, b, c, d, e, f, g, h].map(|m| m.split(count));
-        let head = Self {
-            traction: [a.0, b.0],
-            shear: [c.0, d.0, e.0, f.0],
-            bending: [g.0, h.0],
-        };
-        let tail = Self {
-            traction: [a.1, b.1],
-            shear: [c.1, d.1, e.1, f.1],
-            bending: [g.1, h.1],
-        };
+        let head = Self { traction: [a.0, b.0], shear: [c.0, d.0, e.0, f.0], bending: [g.0, h.0] };
+        let tail = Self { traction: [a.1, b.1], shear: [c.1, d.1, e.1, f.1], bending: [g.1, h.1] };
         (head, tail)
     }
 }
@@ -102,12 +94,7 @@ impl State {
     /// All memories, for hashing and comparing, in a fixed order. Where there is no connector, as at
     /// the end of a row, the memory is that of a virgin one.
     pub fn memories(&self) -> impl Iterator<Item = Memory> {
-        let History {
-            traction,
-            shear,
-            bending,
-            ..
-        } = &self.history;
+        let History { traction, shear, bending, .. } = &self.history;
         let sets = traction.iter().chain(shear).chain(bending);
         sets.flat_map(Memories::iter)
     }

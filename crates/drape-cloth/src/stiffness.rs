@@ -1,7 +1,4 @@
-#![allow(
-    clippy::needless_range_loop,
-    reason = "a lane is a place in many arrays"
-)]
+#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
 use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes, Responses};
 
@@ -66,23 +63,12 @@ fn turns(scratch: &mut Scratch, trial: &Trial<'_>, (corner, definite): (usize, b
         let mut slopes = [0.0; LANES];
         for lane in 0..LANES {
             let tangent = responses.tangent[lane];
-            let least = if definite && tangent < 0.0 {
-                0.0
-            } else {
-                tangent
-            };
-            loads[lane] = if definite {
-                0.0
-            } else {
-                responses.load[lane] * areas[lane]
-            };
+            let least = if definite && tangent < 0.0 { 0.0 } else { tangent };
+            loads[lane] = if definite { 0.0 } else { responses.load[lane] * areas[lane] };
             slopes[lane] = least * areas[lane];
         }
         let [warp, weft] = &scratch.edges;
-        let (p, q) = (
-            warp.unit.from(start + to_warp),
-            weft.unit.from(start + to_weft),
-        );
+        let (p, q) = (warp.unit.from(start + to_warp), weft.unit.from(start + to_weft));
         let warp_inverse = lanes(&warp.inverse, start + to_warp);
         let weft_inverse = lanes(&weft.inverse, start + to_weft);
         let mut blocks = [[0.0; LANES]; 9];
@@ -154,11 +140,7 @@ fn bows_of(
             let excess = subtract(curvatures.at(lane), scale(normal, rest));
             let (secant, more) = stiffness(dot(excess, excess));
             let tangent = friction.tangent[lane];
-            let slope = if definite && tangent < 0.0 {
-                0.0
-            } else {
-                tangent
-            };
+            let slope = if definite && tangent < 0.0 { 0.0 } else { tangent };
             let size = areas[lane] * inverse_square * inverse_square;
             let (secant, more, slope) = (secant * size, more * size, slope * size);
             for (block, (row, column)) in blocks.iter_mut().zip(HALF) {
@@ -191,9 +173,7 @@ fn edge_blocks(
     let memory = trial.history.traction[direction].from(strip.offset + start);
     let strains = scratch.strains(yarns, direction, (start, strip));
     let mut responses = Responses::default();
-    yarns
-        .traction
-        .respond::<true>(&memory, &strains, &mut responses);
+    yarns.traction.respond::<true>(&memory, &strains, &mut responses);
     let areas = lanes(&yarns.segment_areas, strip.points.start + start);
     let (units, inverse) = (edges.unit.from(start), lanes(&edges.inverse, start));
     let rest = 1.0 / yarns.length;
@@ -262,20 +242,10 @@ fn along_yarns(scratch: &mut Scratch, trial: &Trial<'_>, (direction, definite): 
         let turns = |corner: usize, cell: usize| scratch.turns[corner].from(cell);
         let [less, less_turned, more, more_turned] = if direction == 0 {
             let left = start - 1;
-            [
-                turns(2, left),
-                turns(0, start),
-                turns(3, start),
-                turns(1, left),
-            ]
+            [turns(2, left), turns(0, start), turns(3, start), turns(1, left)]
         } else {
             let below = start - panel.stride;
-            [
-                turns(0, start),
-                turns(2, below),
-                turns(3, below),
-                turns(1, start),
-            ]
+            [turns(0, start), turns(2, below), turns(3, below), turns(1, start)]
         };
         for (k, block) in blocks.iter_mut().enumerate() {
             let turned = TRANSPOSED[k];
@@ -319,12 +289,7 @@ fn gather(scratch: &Scratch, trial: &Trial<'_>, values: &mut [f64]) {
     let [warp_bows, weft_bows] = &scratch.bows;
     for (batch, slots) in panel.slots[strip.points.clone()].chunks(LANES).enumerate() {
         let start = panel.margin + batch * LANES;
-        let next = [
-            weft.from(start),
-            second.from(start - 1),
-            warp.from(start),
-            third.from(start),
-        ];
+        let next = [weft.from(start), second.from(start - 1), warp.from(start), third.from(start)];
         let before = [
             weft.from(start - 1),
             second.from(start - stride),
@@ -348,15 +313,8 @@ fn gather(scratch: &Scratch, trial: &Trial<'_>, values: &mut [f64]) {
             }
         }
         let [near, slant, up, over] = next.map(|batch| batch.0);
-        let rows: [[&Lanes; 9]; BLOCKS] = [
-            whole(own.each_ref()),
-            near,
-            whole(far[0].0),
-            slant,
-            up,
-            over,
-            whole(far[1].0),
-        ];
+        let rows: [[&Lanes; 9]; BLOCKS] =
+            [whole(own.each_ref()), near, whole(far[0].0), slant, up, over, whole(far[1].0)];
         for (lane, slots) in slots.iter().enumerate() {
             for (slot, block) in slots.iter().zip(&rows) {
                 if *slot != NO_BLOCK {

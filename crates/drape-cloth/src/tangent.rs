@@ -24,10 +24,7 @@ pub(crate) fn tangents(
     first: u32,
     particles: usize,
 ) -> Vec<[Tangent; 2]> {
-    let none = Tangent {
-        particles: [0; 3],
-        weights: [0.0; 3],
-    };
+    let none = Tangent { particles: [0; 3], weights: [0.0; 3] };
     let mut tangents = vec![[none; 2]; particles];
     for (direction, yarns) in yarns.iter().enumerate() {
         for yarn in yarns {

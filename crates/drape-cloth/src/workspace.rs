@@ -114,9 +114,7 @@ impl Workspace {
                 sums[0] = arch.dispatch(Commit(scratch, (panel, strip), moving, shape));
             },
         );
-        Committed {
-            dissipated: self.sums.iter().sum(),
-        }
+        Committed { dissipated: self.sums.iter().sum() }
     }
 
     /// See [`Cloth::stored`].
@@ -125,9 +123,7 @@ impl Workspace {
         let trial = |strip| Trial::new(cloth, state, (strip, &state.positions));
         let scratch = &mut self.scratches[0];
         let strips = cloth.strips.iter();
-        strips
-            .map(|strip| energy::stored(scratch, &trial(strip)))
-            .sum()
+        strips.map(|strip| energy::stored(scratch, &trial(strip))).sum()
     }
 
     /// Memories of a cloth that starts in the shape of the state without friction.
@@ -175,12 +171,7 @@ impl WithSimd for AddStiffness<'_> {
     }
 }
 
-struct Commit<'a>(
-    &'a mut Scratch,
-    (&'a Panel, &'a Strip),
-    Moving<'a>,
-    (&'a [f64], &'a Field),
-);
+struct Commit<'a>(&'a mut Scratch, (&'a Panel, &'a Strip), Moving<'a>, (&'a [f64], &'a Field));
 
 impl WithSimd for Commit<'_> {
     type Output = f64;
@@ -229,10 +220,7 @@ mod tests {
             cloth.coordinates().iter().flat_map(wave).collect()
         };
         let run = |arch: Arch| {
-            let mut workspace = Workspace {
-                arch,
-                ..cloth.workspace()
-            };
+            let mut workspace = Workspace { arch, ..cloth.workspace() };
             let mut state = cloth.state(place(0.0)).expect("it fits");
             let zeros = vec![0.0; 3 * cloth.particles()];
             let lost = workspace.commit(&cloth, &mut state, (&place(0.5), &zeros));

@@ -35,10 +35,7 @@ struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     }
 }
@@ -49,19 +46,10 @@ fn bent(lattice: &Lattice, radius: f64, shake: f64, random: &mut Random) -> Vec<
     let place = |[u, v]: [f64; 2]| {
         let (along, across) = (cos * u + sin * v, cos * v - sin * u);
         let angle = across / radius;
-        [
-            1.02 * along,
-            1.01 * radius * (1.0 - angle.cos()),
-            1.01 * radius * angle.sin(),
-        ]
+        [1.02 * along, 1.01 * radius * (1.0 - angle.cos()), 1.01 * radius * angle.sin()]
     };
     let shaken = |x: f64| x + shake * random.next();
-    lattice
-        .coordinates
-        .iter()
-        .flat_map(|&c| place(c))
-        .map(shaken)
-        .collect()
+    lattice.coordinates.iter().flat_map(|&c| place(c)).map(shaken).collect()
 }
 
 /// A cloth with history: committed twice on the way to a shaken shape, and a trial at the radius.
@@ -72,9 +60,7 @@ fn tried(
 ) -> (Cloth, State, Vec<f64>) {
     let mut random = Random(7);
     let cloth = Cloth::new(&[(lattice, fabric)]);
-    let mut state = cloth
-        .state(bent(lattice, 0.4, 0.0, &mut random))
-        .expect("fits");
+    let mut state = cloth.state(bent(lattice, 0.4, 0.0, &mut random)).expect("fits");
     let rest = vec![0.0; 3 * cloth.particles()];
     for way in [0.1, 0.06] {
         let positions = bent(lattice, way, shake, &mut random);
@@ -90,10 +76,7 @@ fn worn(lattice: &Lattice, fabric: &Fabric, shake: f64) -> (Cloth, State, Vec<f6
 
 fn panels() -> Vec<(&'static str, Lattice)> {
     vec![
-        (
-            "rectangle",
-            Lattice::rectangle(0.10, 0.08, 0.012).expect("a rectangle"),
-        ),
+        ("rectangle", Lattice::rectangle(0.10, 0.08, 0.012).expect("a rectangle")),
         ("disc", Lattice::disc(0.05, 0.011).expect("a disc")),
     ]
 }
@@ -105,11 +88,7 @@ fn connector_areas_add_up_to_the_area_of_the_panel() {
         let all = [areas.traction, areas.bending, [areas.shear; 2]].concat();
         for area in all {
             let error = area / lattice.area() - 1.0;
-            assert!(
-                error.abs() < 1e-12,
-                "{name}: {areas:?}, panel {}",
-                lattice.area()
-            );
+            assert!(error.abs() < 1e-12, "{name}: {areas:?}, panel {}", lattice.area());
         }
     }
 }
@@ -172,11 +151,8 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
             // Of the size at which truncation and rounding balance, away from the laws' corners.
             let d = 2e-8;
             let at = |k: f64| {
-                let moved: Vec<f64> = trial
-                    .iter()
-                    .zip(&direction)
-                    .map(|(x, v)| x + k * d * v)
-                    .collect();
+                let moved: Vec<f64> =
+                    trial.iter().zip(&direction).map(|(x, v)| x + k * d * v).collect();
                 let mut forces = vec![0.0; trial.len()];
                 cloth.add_forces(&state, &moved, &mut forces);
                 forces
@@ -215,11 +191,8 @@ fn balance(cloth: &Cloth, state: &State, trial: &[f64]) -> (f64, f64) {
     cloth.add_forces(state, trial, &mut forces);
     let (mut force, mut torque, mut size, mut lever) = ([0.0; 3], [0.0; 3], 0.0, 0.0);
     for (x, f) in trial.chunks(3).zip(forces.chunks(3)) {
-        let cross = [
-            x[1] * f[2] - x[2] * f[1],
-            x[2] * f[0] - x[0] * f[2],
-            x[0] * f[1] - x[1] * f[0],
-        ];
+        let cross =
+            [x[1] * f[2] - x[2] * f[1], x[2] * f[0] - x[0] * f[2], x[0] * f[1] - x[1] * f[0]];
         for axis in 0..3 {
             force[axis] += f[axis];
             torque[axis] += cross[axis];
@@ -234,27 +207,20 @@ fn balance(cloth: &Cloth, state: &State, trial: &[f64]) -> (f64, f64) {
 
 #[test]
 fn internal_forces_and_torques_cancel() {
-    let elastic: String = LINEN
-        .lines()
-        .filter(|l| !l.starts_with("friction"))
-        .collect::<Vec<_>>()
-        .join("\n");
+    let elastic: String =
+        LINEN.lines().filter(|l| !l.starts_with("friction")).collect::<Vec<_>>().join("\n");
     let elastic = elastic.replace("rest_curvature = 3.0", "");
     for (name, lattice) in panels() {
         // Without friction and rest curvature nothing depends on the frozen normal.
         let (cloth, state, trial) = worn(&lattice, &fabric(&elastic), 1e-3);
         let (force, torque) = balance(&cloth, &state, &trial);
         println!("{name}: elastic, net force {force:.1e}, net torque {torque:.1e}");
-        assert!(
-            force < 1e-12 && torque < 1e-12,
-            "{name}: {force:e} {torque:e}"
-        );
+        assert!(force < 1e-12 && torque < 1e-12, "{name}: {force:e} {torque:e}");
         // The frozen normal's share: the friction moment times the part of the curvature across
         // the normal. Noise of the positions and turning within the step both raise it.
-        for (step, shake, radius, limit) in [
-            ("one of a simulation", 1e-5, 0.0602, 1e-7),
-            ("a violent one", 1e-3, 0.07, 1e-5),
-        ] {
+        for (step, shake, radius, limit) in
+            [("one of a simulation", 1e-5, 0.0602, 1e-7), ("a violent one", 1e-3, 0.07, 1e-5)]
+        {
             let (cloth, state, trial) = tried(&lattice, &fabric(LINEN), (shake, radius));
             let (force, torque) = balance(&cloth, &state, &trial);
             println!("{name}: with friction, step {step}: force {force:.1e}, torque {torque:.1e}");
@@ -274,11 +240,8 @@ fn forces_turn_with_the_cloth() {
     let mut turned_state = cloth.state(turn(&state.positions)).expect("fits");
     // The same history, turned.
     let mut random = Random(7);
-    turned_state.clone_from(
-        &cloth
-            .state(turn(&bent(&lattice, 0.4, 0.0, &mut random)))
-            .expect("fits"),
-    );
+    turned_state
+        .clone_from(&cloth.state(turn(&bent(&lattice, 0.4, 0.0, &mut random))).expect("fits"));
     for radius in [0.1, 0.06] {
         let positions = turn(&bent(&lattice, radius, 1e-3, &mut random));
         cloth.commit(&mut turned_state, &positions, &vec![0.0; trial.len()]);
@@ -299,11 +262,7 @@ fn a_cylinder_has_the_energy_of_the_fabric_bent_to_its_curvature() {
     for spacing in [0.02, 0.01, 0.005] {
         let lattice = Lattice::rectangle(0.2, 0.2, spacing).expect("a rectangle");
         let cloth = Cloth::new(&[(&lattice, &fabric)]);
-        let flat: Vec<f64> = lattice
-            .coordinates
-            .iter()
-            .flat_map(|&[u, v]| [u, 0.0, v])
-            .collect();
+        let flat: Vec<f64> = lattice.coordinates.iter().flat_map(|&[u, v]| [u, 0.0, v]).collect();
         let mut state = cloth.state(flat.clone()).expect("fits");
         // Chords are kept at their rest length, so that bending alone stores energy.
         let turn = 2.0 * (0.5 * lattice.spacing[1] / radius).asin();
@@ -332,11 +291,7 @@ fn a_stretched_and_sheared_sheet_pulls_as_its_laws_say() {
     let fabric = fabric(&LINEN.replace("rest_curvature = 3.0", ""));
     let lattice = Lattice::rectangle(0.1, 0.1, 0.01).expect("a rectangle");
     let cloth = Cloth::new(&[(&lattice, &fabric)]);
-    let flat: Vec<f64> = lattice
-        .coordinates
-        .iter()
-        .flat_map(|&[u, v]| [u, 0.0, v])
-        .collect();
+    let flat: Vec<f64> = lattice.coordinates.iter().flat_map(|&[u, v]| [u, 0.0, v]).collect();
     let state = cloth.state(flat).expect("fits");
     // Warp stretched by 4 %, then leaned over: the sine of the shear angle is exactly 0.1.
     let (sin, cos) = (0.1, (1.0_f64 - 0.01).sqrt());
@@ -347,35 +302,18 @@ fn a_stretched_and_sheared_sheet_pulls_as_its_laws_say() {
     // The top edge is the last row; the force on it per width, along and across the warp.
     let columns = 11;
     let top = &forces[forces.len() - 3 * columns..];
-    let pull: f64 = top
-        .chunks(3)
-        .map(|f| -(f[0] * sin + f[2] * cos))
-        .sum::<f64>()
-        / 0.1;
-    let push: f64 = top
-        .chunks(3)
-        .map(|f| -(f[0] * cos - f[2] * sin))
-        .sum::<f64>()
-        / 0.1;
+    let pull: f64 = top.chunks(3).map(|f| -(f[0] * sin + f[2] * cos)).sum::<f64>() / 0.1;
+    let push: f64 = top.chunks(3).map(|f| -(f[0] * cos - f[2] * sin)).sum::<f64>() / 0.1;
     let law = fabric.warp.traction;
     let tension = law.respond(&law.virgin(), 0.04).load;
     let shear = fabric.shear.respond(&fabric.shear.virgin(), 0.1).load;
-    assert!(
-        (pull / tension - 1.0).abs() < 1e-9,
-        "tension {pull}, law {tension}"
-    );
+    assert!((pull / tension - 1.0).abs() < 1e-9, "tension {pull}, law {tension}");
     // Per length of the deformed edge's partner: the couple's arm is the stretched warp edge.
     let expected = shear * cos / 1.04;
-    assert!(
-        (push / expected - 1.0).abs() < 1e-9,
-        "shear {push}, law {expected}"
-    );
+    assert!((push / expected - 1.0).abs() < 1e-9, "shear {push}, law {expected}");
     let interior: f64 = forces[3 * columns..forces.len() - 3 * columns]
         .chunks(3 * columns)
         .flat_map(|row| row[3..row.len() - 3].to_vec())
         .fold(0.0, |m, f| m.max(f.abs()));
-    assert!(
-        interior < 1e-11 * tension,
-        "inside, all forces cancel: {interior}"
-    );
+    assert!(interior < 1e-11 * tension, "inside, all forces cancel: {interior}");
 }

@@ -53,10 +53,7 @@ struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     }
 }
@@ -120,10 +117,7 @@ fn the_grid_gives_the_numbers_of_the_connectors_one_by_one() {
             cloth.add_forces(&state, &trial, &mut found);
             reference.add_forces(&trial, &mut exact);
             let error = distance(&found, &exact);
-            assert!(
-                error < TOLERANCE,
-                "cloth {which}, step {step}: forces {error:e}"
-            );
+            assert!(error < TOLERANCE, "cloth {which}, step {step}: forces {error:e}");
             for definite in [false, true] {
                 let (mut found, mut exact) = (
                     vec![0.0; 9 * cloth.pattern().blocks()],

@@ -35,11 +35,7 @@ fn cloth() -> Cloth {
 fn ripple(cloth: &Cloth, time: f64) -> Vec<f64> {
     let wave = |&[u, v]: &[f64; 2]| {
         let height = 0.01 * (40.0 * u + 23.0 * v + 3.0 * time).sin();
-        [
-            u * (1.0 + 0.02 * time.sin()),
-            v + 0.05 * time * u * u,
-            height,
-        ]
+        [u * (1.0 + 0.02 * time.sin()), v + 0.05 * time * u * u, height]
     };
     cloth.coordinates().iter().flat_map(wave).collect()
 }

@@ -84,10 +84,7 @@ mod tests {
             let energy = barrier.energy(below) - barrier.energy(above);
             let slope = barrier.slope(below) - barrier.slope(above);
             // The functions move by their derivative times 2e-15 m; 25 is the largest curvature.
-            assert!(
-                energy.abs() < 1e-17,
-                "energy jumps by {energy:e} at {joint}"
-            );
+            assert!(energy.abs() < 1e-17, "energy jumps by {energy:e} at {joint}");
             assert!(slope.abs() < 1e-13, "slope jumps by {slope:e} at {joint}");
             if joint < RANGE {
                 let curvature = barrier.curvature(below) - barrier.curvature(above);
@@ -118,10 +115,7 @@ mod tests {
         let mut last = (0.0, 0.0);
         for gap in gaps.skip(1) {
             let now = (barrier.energy(gap), -barrier.slope(gap));
-            assert!(
-                now.0 > last.0 && now.1 > last.1,
-                "at {gap}: {now:?} {last:?}"
-            );
+            assert!(now.0 > last.0 && now.1 > last.1, "at {gap}: {now:?} {last:?}");
             last = now;
         }
     }

@@ -52,12 +52,7 @@ pub struct Body {
 impl Body {
     /// A body at a pose, without friction.
     pub fn new(name: impl Into<String>, shape: Shape, pose: Pose) -> Body {
-        Body {
-            name: name.into(),
-            shape,
-            pose,
-            friction: 0.0,
-        }
+        Body { name: name.into(), shape, pose, friction: 0.0 }
     }
 
     /// The same body with a coefficient of friction.
@@ -78,12 +73,7 @@ impl Body {
     pub(crate) fn check(&self) -> Result<Frame, CollideError> {
         let name = &self.name;
         let length = |what: &str, value: f64| {
-            check(
-                format!("{what} of the body `{name}`"),
-                value,
-                "a length above 0 m",
-                value > 0.0,
-            )
+            check(format!("{what} of the body `{name}`"), value, "a length above 0 m", value > 0.0)
         };
         let rounding = |value: f64, smallest: f64| {
             check(
@@ -95,20 +85,13 @@ impl Body {
         };
         match &self.shape {
             Shape::Sphere { radius } => length("the radius", *radius)?,
-            Shape::Box {
-                half_extents: [x, y, z],
-                edge_radius,
-            } => {
+            Shape::Box { half_extents: [x, y, z], edge_radius } => {
                 length("the half extent along x", *x)?;
                 length("the half extent along y", *y)?;
                 length("the half extent along z", *z)?;
                 rounding(*edge_radius, x.min(*y).min(*z))?;
             }
-            Shape::Cylinder {
-                radius,
-                half_height,
-                edge_radius,
-            } => {
+            Shape::Cylinder { radius, half_height, edge_radius } => {
                 length("the radius", *radius)?;
                 length("the half height", *half_height)?;
                 rounding(*edge_radius, radius.min(*half_height))?;
@@ -142,11 +125,7 @@ pub(crate) enum Reach {
 
 impl Solid {
     pub(crate) fn new(body: &Body) -> Result<Solid, CollideError> {
-        Ok(Solid {
-            frame: body.check()?,
-            shape: body.shape.clone(),
-            friction: body.friction,
-        })
+        Ok(Solid { frame: body.check()?, shape: body.shape.clone(), friction: body.friction })
     }
 
     pub(crate) fn is_mesh(&self) -> bool {
@@ -161,18 +140,11 @@ impl Solid {
         let local = self.frame.to_local(point);
         let proximity = match &self.shape {
             Shape::Sphere { radius } => primitive::sphere(local, *radius),
-            Shape::Box {
-                half_extents,
-                edge_radius,
-            } => {
+            Shape::Box { half_extents, edge_radius } => {
                 let core = half_extents.map(|extent| extent - edge_radius);
                 primitive::cuboid(local, core, *edge_radius)
             }
-            Shape::Cylinder {
-                radius,
-                half_height,
-                edge_radius,
-            } => {
+            Shape::Cylinder { radius, half_height, edge_radius } => {
                 let core = [radius - edge_radius, half_height - edge_radius];
                 primitive::cylinder(local, core, *edge_radius)
             }

@@ -32,11 +32,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings {
-            offset: 1e-3,
-            stiffness: 2e6,
-            slip_speed: 1e-3,
-        }
+        Settings { offset: 1e-3, stiffness: 2e6, slip_speed: 1e-3 }
     }
 }
 
@@ -93,10 +89,7 @@ impl Contact {
         if let Some((particle, &area)) = areas.iter().enumerate().find(bad) {
             return Err(CollideError::BadArea { particle, area });
         }
-        let solids = bodies
-            .iter()
-            .map(Solid::new)
-            .collect::<Result<Vec<_>, _>>()?;
+        let solids = bodies.iter().map(Solid::new).collect::<Result<Vec<_>, _>>()?;
         Ok(Contact {
             has_mesh: solids.iter().any(Solid::is_mesh),
             chunks: Chunk::cover(areas.len(), bodies.len()),
@@ -131,11 +124,7 @@ impl Contact {
     /// Like all methods that take positions, if there are not three coordinates per particle.
     pub fn begin(&mut self, start: &[f64], dt: f64) {
         self.detect(start);
-        self.stick = if dt > 0.0 {
-            self.settings.slip_speed * dt
-        } else {
-            f64::NAN
-        };
+        self.stick = if dt > 0.0 { self.settings.slip_speed * dt } else { f64::NAN };
         let mut frictions = std::mem::take(&mut self.frictions);
         frictions.clear();
         for touch in self.touches() {
@@ -172,11 +161,8 @@ impl Contact {
             .touches()
             .map(|touch| self.areas[touch.particle] * barrier.energy(touch.proximity.distance))
             .sum();
-        let friction: f64 = self
-            .frictions
-            .iter()
-            .map(|f| f.energy(at(positions, f.particle), self.stick))
-            .sum();
+        let friction: f64 =
+            self.frictions.iter().map(|f| f.energy(at(positions, f.particle), self.stick)).sum();
         self.settings.stiffness * contact + friction
     }
 
@@ -194,17 +180,9 @@ impl Contact {
         self.detect(positions);
         let barrier = Barrier::new(self.settings.offset);
         for touch in self.touches() {
-            let Proximity {
-                distance,
-                normal,
-                curvature,
-            } = &touch.proximity;
+            let Proximity { distance, normal, curvature } = &touch.proximity;
             let scale = self.settings.stiffness * self.areas[touch.particle];
-            let bend = if definite {
-                0.0
-            } else {
-                barrier.slope(*distance)
-            };
+            let bend = if definite { 0.0 } else { barrier.slope(*distance) };
             let push = barrier.curvature(*distance);
             let block = combine(&outer(*normal), scale * push, curvature, scale * bend);
             add(touch.particle, block);
@@ -266,8 +244,6 @@ impl Contact {
     /// The smallest distance of all, its particle and its body.
     pub(crate) fn nearest(&self, positions: &[f64]) -> Option<(f64, usize, usize)> {
         let chunks = self.chunks.iter();
-        chunks.fold(None, |best, chunk| {
-            chunk.nearest(&self.solids, positions, best)
-        })
+        chunks.fold(None, |best, chunk| chunk.nearest(&self.solids, positions, best))
     }
 }

@@ -30,10 +30,7 @@ struct Known {
 }
 
 impl Known {
-    const NOTHING: Known = Known {
-        place: [0.0; 3],
-        distance: f64::NEG_INFINITY,
-    };
+    const NOTHING: Known = Known { place: [0.0; 3], distance: f64::NEG_INFINITY };
 
     /// Lower bound of the distance at a point, in m.
     fn bound(&self, point: Vector) -> f64 {
@@ -77,16 +74,11 @@ impl Chunk {
                 }
                 match solid.reach(point, reach) {
                     Reach::Clear(distance) => {
-                        *known = Known {
-                            place: point,
-                            distance,
-                        };
+                        *known = Known { place: point, distance };
                     }
-                    Reach::Near(proximity) => self.touches.push(Touch {
-                        particle,
-                        body,
-                        proximity,
-                    }),
+                    Reach::Near(proximity) => {
+                        self.touches.push(Touch { particle, body, proximity })
+                    }
                 }
             }
         }

@@ -147,11 +147,7 @@ pub(crate) fn check(
     if value.is_finite() && holds {
         return Ok(());
     }
-    Err(CollideError::OutOfRange {
-        what: what.into(),
-        value,
-        range,
-    })
+    Err(CollideError::OutOfRange { what: what.into(), value, range })
 }
 
 /// Largest coordinate that a body may have, in m.
@@ -169,9 +165,5 @@ pub(crate) fn check_place(
     if place.iter().all(|value| value.abs() <= MAX_COORDINATE) {
         return Ok(());
     }
-    Err(CollideError::BadPlace {
-        what: what(),
-        place,
-        limit: MAX_COORDINATE,
-    })
+    Err(CollideError::BadPlace { what: what(), place, limit: MAX_COORDINATE })
 }

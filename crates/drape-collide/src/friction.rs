@@ -55,26 +55,13 @@ impl Friction {
         if length == 0.0 {
             return plane.map(|entry| entry * self.limit * secant);
         }
-        let tangent = if length >= stick {
-            0.0
-        } else {
-            2.0 * (1.0 - length / stick) / stick
-        };
+        let tangent = if length >= stick { 0.0 } else { 2.0 * (1.0 - length / stick) / stick };
         let along = outer(scale(slip, 1.0 / length));
-        combine(
-            &plane,
-            self.limit * secant,
-            &along,
-            self.limit * (tangent - secant),
-        )
+        combine(&plane, self.limit * secant, &along, self.limit * (tangent - secant))
     }
 }
 
 /// `$f_1(y) / y$`, in 1/m.
 fn secant(slip: f64, stick: f64) -> f64 {
-    if slip >= stick {
-        1.0 / slip
-    } else {
-        (2.0 - slip / stick) / stick
-    }
+    if slip >= stick { 1.0 / slip } else { (2.0 - slip / stick) / stick }
 }

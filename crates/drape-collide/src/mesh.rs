@@ -69,17 +69,11 @@ impl Mesh {
             }
         }
         let count = vertices.len();
-        let points = vertices
-            .iter()
-            .map(|v| ParryVector::new(v[0], v[1], v[2]))
-            .collect();
+        let points = vertices.iter().map(|v| ParryVector::new(v[0], v[1], v[2])).collect();
         // Without the flag every point would silently count as outside.
         let surface = TriMesh::with_flags(points, triangles, TriMeshFlags::ORIENTED)
             .map_err(|_| CollideError::EmptyMesh { vertices: count })?;
-        Ok(Mesh {
-            surface: Arc::new(surface),
-            was_inside_out: volume < 0.0,
-        })
+        Ok(Mesh { surface: Arc::new(surface), was_inside_out: volume < 0.0 })
     }
 
     /// Whether the triangles as given had their outside inside.
@@ -114,14 +108,10 @@ impl Mesh {
     pub(crate) fn proximity(&self, point: Vector) -> Proximity {
         let query = ParryVector::new(point[0], point[1], point[2]);
         // `solid` would move interior points onto themselves.
-        let (projection, (triangle, location)) = self
-            .surface
-            .project_local_point_and_get_location(query, false);
+        let (projection, (triangle, location)) =
+            self.surface.project_local_point_and_get_location(query, false);
         let corners = self.corners(triangle as usize);
-        let face = cross(
-            subtract(corners[1], corners[0]),
-            subtract(corners[2], corners[0]),
-        );
+        let face = cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0]));
         let face = scale(face, 1.0 / norm(face));
         let foot = [projection.point.x, projection.point.y, projection.point.z];
         let gap = subtract(point, foot);
@@ -134,9 +124,7 @@ impl Mesh {
             TrianglePointLocation::OnVertex(_) => None,
         };
         if length < TOUCHING {
-            let normal = self
-                .mean_normal(triangle as usize, location)
-                .unwrap_or(face);
+            let normal = self.mean_normal(triangle as usize, location).unwrap_or(face);
             return Proximity::flat(side * length, normal);
         }
         let normal = scale(gap, side / length);
@@ -153,11 +141,7 @@ impl Mesh {
             None => across(normal),
         };
         let distance = side * length;
-        Proximity {
-            distance,
-            normal,
-            curvature: round.map(|c| c / distance),
-        }
+        Proximity { distance, normal, curvature: round.map(|c| c / distance) }
     }
 
     fn corners(&self, triangle: usize) -> [Vector; 3] {
@@ -222,18 +206,12 @@ pub(crate) fn weld(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<Surfac
         let longest = sides.iter().map(|s| dot(*s, *s)).fold(0.0, f64::max);
         let proper = area > FLAT * longest;
         if !proper {
-            return Err(CollideError::FlatTriangle {
-                triangle: t,
-                place: a,
-                area,
-            });
+            return Err(CollideError::FlatTriangle { triangle: t, place: a, area });
         }
         faces.push(face);
     }
     if faces.is_empty() {
-        return Err(CollideError::EmptyMesh {
-            vertices: vertices.len(),
-        });
+        return Err(CollideError::EmptyMesh { vertices: vertices.len() });
     }
     Ok((kept, faces))
 }
@@ -260,16 +238,10 @@ fn check_closed(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<(), Colli
         }
     }
     if let Some(&first) = bad.first() {
-        return Err(CollideError::Inconsistent {
-            edges: bad.len(),
-            place: middle(first),
-        });
+        return Err(CollideError::Inconsistent { edges: bad.len(), place: middle(first) });
     }
     if let Some(&first) = open.first() {
-        return Err(CollideError::OpenMesh {
-            edges: open.len(),
-            place: middle(first),
-        });
+        return Err(CollideError::OpenMesh { edges: open.len(), place: middle(first) });
     }
     Ok(())
 }

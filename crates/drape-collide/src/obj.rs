@@ -15,10 +15,8 @@ impl Mesh {
             path: path.to_path_buf(),
             reason: error.to_string(),
         })?;
-        let malformed = |reason: String| CollideError::Malformed {
-            path: path.to_path_buf(),
-            reason,
-        };
+        let malformed =
+            |reason: String| CollideError::Malformed { path: path.to_path_buf(), reason };
         let text = surface_lines(&String::from_utf8_lossy(&bytes));
         let options = tobj::LoadOptions {
             triangulate: true,
@@ -56,12 +54,7 @@ fn surface_lines(text: &str) -> String {
         let mut words = line.split_whitespace();
         match words.next() {
             // A colour may follow the coordinates.
-            Some("v") => kept.extend(
-                ["v"]
-                    .into_iter()
-                    .chain(words.take(3))
-                    .flat_map(|w| [w, " "]),
-            ),
+            Some("v") => kept.extend(["v"].into_iter().chain(words.take(3)).flat_map(|w| [w, " "])),
             Some("f") => {
                 let corners = words.map(|word| word.split('/').next().unwrap_or(""));
                 kept.extend(["f"].into_iter().chain(corners).flat_map(|w| [w, " "]));

@@ -27,10 +27,7 @@ impl Default for Pose {
 impl Pose {
     /// At a position in m, not turned.
     pub fn new(position: [f64; 3]) -> Pose {
-        Pose {
-            position,
-            rotation: [0.0, 0.0, 0.0, 1.0],
-        }
+        Pose { position, rotation: [0.0, 0.0, 0.0, 1.0] }
     }
 
     /// The same position, turned further about a world axis by an angle in rad.
@@ -85,10 +82,7 @@ impl Frame {
             2.0 * (y * z + x * w),
             1.0 - 2.0 * (x * x + y * y),
         ];
-        Ok(Frame {
-            origin: pose.position,
-            rotation,
-        })
+        Ok(Frame { origin: pose.position, rotation })
     }
 
     pub(crate) fn to_local(&self, point: Vector) -> Vector {
@@ -123,9 +117,8 @@ mod tests {
 
     #[test]
     fn turns_follow_each_other_in_world_axes() {
-        let pose = Pose::default()
-            .turned([0.0, 0.0, 1.0], FRAC_PI_2)
-            .turned([1.0, 0.0, 0.0], FRAC_PI_2);
+        let pose =
+            Pose::default().turned([0.0, 0.0, 1.0], FRAC_PI_2).turned([1.0, 0.0, 0.0], FRAC_PI_2);
         let frame = Frame::new(&pose, "test").unwrap();
         // x goes to y by the first turn, and y to z by the second.
         let point = frame.turn([1.0, 0.0, 0.0]);
@@ -135,21 +128,12 @@ mod tests {
     #[test]
     fn rotations_that_are_none_are_refused() {
         let axisless = Pose::default().turned([0.0; 3], 1.0);
-        let long = Pose {
-            rotation: [0.0, 0.0, 1.0, 1.0],
-            ..Pose::default()
-        };
+        let long = Pose { rotation: [0.0, 0.0, 1.0, 1.0], ..Pose::default() };
         for pose in [axisless, long] {
             let answer = Frame::new(&pose, "cube");
-            assert!(
-                matches!(answer, Err(CollideError::BadRotation { .. })),
-                "{answer:?}"
-            );
+            assert!(matches!(answer, Err(CollideError::BadRotation { .. })), "{answer:?}");
         }
         let lost = Frame::new(&Pose::new([0.0, f64::NAN, 0.0]), "cube");
-        assert!(
-            matches!(lost, Err(CollideError::BadPlace { .. })),
-            "{lost:?}"
-        );
+        assert!(matches!(lost, Err(CollideError::BadPlace { .. })), "{lost:?}");
     }
 }

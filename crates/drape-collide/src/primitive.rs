@@ -14,11 +14,7 @@ pub(crate) fn sphere(point: Vector, radius: f64) -> Proximity {
         return Proximity::flat(-radius, [0.0, 1.0, 0.0]);
     }
     let normal = scale(point, 1.0 / length);
-    Proximity {
-        distance: length - radius,
-        normal,
-        curvature: across(normal).map(|c| c / length),
-    }
+    Proximity { distance: length - radius, normal, curvature: across(normal).map(|c| c / length) }
 }
 
 pub(crate) fn cuboid(point: Vector, core: Vector, edge_radius: f64) -> Proximity {
@@ -40,22 +36,14 @@ pub(crate) fn cuboid(point: Vector, core: Vector, edge_radius: f64) -> Proximity
             curvature[4 * k] += 1.0 / length;
         }
     }
-    Proximity {
-        distance: length - edge_radius,
-        normal,
-        curvature,
-    }
+    Proximity { distance: length - edge_radius, normal, curvature }
 }
 
 /// `core` holds the radius and the half height of the core; the axis is y.
 pub(crate) fn cylinder(point: Vector, core: [f64; 2], edge_radius: f64) -> Proximity {
     let [x, y, z] = point;
     let radius = x.hypot(z);
-    let radial = if radius > 0.0 {
-        [x / radius, 0.0, z / radius]
-    } else {
-        [1.0, 0.0, 0.0]
-    };
+    let radial = if radius > 0.0 { [x / radius, 0.0, z / radius] } else { [1.0, 0.0, 0.0] };
     let along = [-radial[2], 0.0, radial[0]];
     let axial = [0.0, if y < 0.0 { -1.0 } else { 1.0 }, 0.0];
     let [side, cap] = [radius - core[0], y.abs() - core[1]];
@@ -69,31 +57,15 @@ pub(crate) fn cylinder(point: Vector, core: [f64; 2], edge_radius: f64) -> Proxi
     };
     // The nearest point lies on the wall (out only), the cap (up only) or the rim (both).
     let length = out.hypot(up);
-    let normal = [
-        radial[0] * out / length,
-        axial[1] * up / length,
-        radial[2] * out / length,
-    ];
+    let normal = [radial[0] * out / length, axial[1] * up / length, radial[2] * out / length];
     let mut curvature = [0.0; 9];
     if out > 0.0 && radius > 0.0 {
         curvature = outer(along).map(|c| c * out / (length * radius));
     }
     if out > 0.0 && up > 0.0 {
-        let over = [
-            -radial[0] * up / length,
-            axial[1] * out / length,
-            -radial[2] * up / length,
-        ];
+        let over = [-radial[0] * up / length, axial[1] * out / length, -radial[2] * up / length];
         curvature = combine(&curvature, 1.0, &outer(over), 1.0 / length);
     }
-    let distance = if side <= 0.0 && cap <= 0.0 {
-        side
-    } else {
-        length
-    };
-    Proximity {
-        distance: distance - edge_radius,
-        normal,
-        curvature,
-    }
+    let distance = if side <= 0.0 && cap <= 0.0 { side } else { length };
+    Proximity { distance: distance - edge_radius, normal, curvature }
 }

@@ -17,19 +17,12 @@ pub struct Proximity {
 
 impl Proximity {
     pub(crate) fn flat(distance: f64, normal: Vector) -> Proximity {
-        Proximity {
-            distance,
-            normal,
-            curvature: [0.0; 9],
-        }
+        Proximity { distance, normal, curvature: [0.0; 9] }
     }
 
     /// The answer to a question about a point that is no point.
-    pub(crate) const UNKNOWN: Proximity = Proximity {
-        distance: f64::NAN,
-        normal: [f64::NAN; 3],
-        curvature: [f64::NAN; 9],
-    };
+    pub(crate) const UNKNOWN: Proximity =
+        Proximity { distance: f64::NAN, normal: [f64::NAN; 3], curvature: [f64::NAN; 9] };
 
     pub(crate) fn to_world(self, frame: &Frame) -> Proximity {
         Proximity {

@@ -28,18 +28,12 @@ impl Body {
         let frame = self.check()?;
         let (vertices, triangles) = match &self.shape {
             Shape::Sphere { radius } => cuboid([0.0; 3], *radius)?,
-            Shape::Box {
-                half_extents,
-                edge_radius,
-            } => cuboid(half_extents.map(|h| h - edge_radius), *edge_radius)?,
-            Shape::Cylinder {
-                radius,
-                half_height,
-                edge_radius,
-            } => cylinder(
-                [radius - edge_radius, half_height - edge_radius],
-                *edge_radius,
-            )?,
+            Shape::Box { half_extents, edge_radius } => {
+                cuboid(half_extents.map(|h| h - edge_radius), *edge_radius)?
+            }
+            Shape::Cylinder { radius, half_height, edge_radius } => {
+                cylinder([radius - edge_radius, half_height - edge_radius], *edge_radius)?
+            }
             Shape::Plane => {
                 let h = PLANE_HALF;
                 let corners = [[-h, 0.0, -h], [-h, 0.0, h], [h, 0.0, h], [h, 0.0, -h]];
@@ -48,10 +42,7 @@ impl Body {
             Shape::Mesh(mesh) => (mesh.vertices(), mesh.triangles().to_vec()),
         };
         let placed = vertices.into_iter().map(|v| frame.to_world(v)).collect();
-        Ok(Outline {
-            vertices: placed,
-            triangles,
-        })
+        Ok(Outline { vertices: placed, triangles })
     }
 }
 
@@ -91,9 +82,8 @@ fn cuboid(core: Vector, edge_radius: f64) -> Result<Surface, CollideError> {
                     [center[axis], center[u], center[v]] = [sign * core[axis], at_u, at_v];
                     [lean[axis], lean[u], lean[v]] = [sign, lean_u, lean_v];
                     let length = crate::vector::norm(lean);
-                    vertices.push(std::array::from_fn(|k| {
-                        center[k] + edge_radius * lean[k] / length
-                    }));
+                    vertices
+                        .push(std::array::from_fn(|k| center[k] + edge_radius * lean[k] / length));
                 }
             }
             triangles.extend(grid(first, across.len(), along.len(), sign > 0.0));

@@ -26,11 +26,7 @@ pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
 }
 
 pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 pub(crate) fn norm(a: Vector) -> f64 {
@@ -72,17 +68,15 @@ pub(crate) fn turned(rotation: &Block, block: &Block) -> Block {
     let mut half = [0.0; 9];
     for row in 0..3 {
         for column in 0..3 {
-            half[3 * row + column] = (0..3)
-                .map(|k| rotation[3 * row + k] * block[3 * k + column])
-                .sum();
+            half[3 * row + column] =
+                (0..3).map(|k| rotation[3 * row + k] * block[3 * k + column]).sum();
         }
     }
     let mut result = [0.0; 9];
     for row in 0..3 {
         for column in 0..3 {
-            result[3 * row + column] = (0..3)
-                .map(|k| half[3 * row + k] * rotation[3 * column + k])
-                .sum();
+            result[3 * row + column] =
+                (0..3).map(|k| half[3 * row + k] * rotation[3 * column + k]).sum();
         }
     }
     result

@@ -10,11 +10,7 @@ use support::{Dice, derivative, meshed, norm, primitives};
 const AREA: f64 = 4e-4;
 
 /// Slip of 1 mm at a step of 10 ms, so that one difference step suits barrier and friction.
-const SLIPPERY: Settings = Settings {
-    offset: 1e-3,
-    stiffness: 2e6,
-    slip_speed: 0.1,
-};
+const SLIPPERY: Settings = Settings { offset: 1e-3, stiffness: 2e6, slip_speed: 0.1 };
 
 /// A particle at each of several distances over a random place of the surface.
 fn near(body: &Body, seed: u64) -> Vec<f64> {
@@ -66,9 +62,7 @@ fn the_force_is_the_negative_gradient_of_the_potential() {
         let touched = exact.chunks(3).filter(|f| f.iter().any(|v| *v != 0.0));
         assert!(touched.count() >= 5, "{}: too little contact", body.name);
         for particle in 0..positions.len() / 3 {
-            let size = exact[3 * particle..][..3]
-                .iter()
-                .fold(0.0, |s: f64, f| s.max(f.abs()));
+            let size = exact[3 * particle..][..3].iter().fold(0.0, |s: f64, f| s.max(f.abs()));
             for axis in 0..3 {
                 let k = 3 * particle + axis;
                 let [slope] = derivative(&positions, k, 1e-6, &mut |x| [contact.potential(x)]);
@@ -99,11 +93,7 @@ fn the_stiffness_is_the_negative_derivative_of_the_force() {
             for axis in 0..3 {
                 let column = derivative(&positions, 3 * particle + axis, 1e-6, &mut |x| {
                     let all = forces(&mut contact, x);
-                    [
-                        all[3 * particle],
-                        all[3 * particle + 1],
-                        all[3 * particle + 2],
-                    ]
+                    [all[3 * particle], all[3 * particle + 1], all[3 * particle + 2]]
                 });
                 for row in 0..3 {
                     let miss = (column[row] + block[3 * row + axis]).abs() / size.max(1.0);
@@ -157,19 +147,11 @@ fn energy_and_force_do_not_jump_across_features() {
                 let jump = (energy - old_energy).abs();
                 // The pressure at half the offset is 1 kPa.
                 let steepest = 2.0 * 1000.0 * AREA;
-                assert!(
-                    jump <= steepest * moved + 1e-15,
-                    "{}: energy {jump:e}",
-                    body.name
-                );
+                assert!(jump <= steepest * moved + 1e-15, "{}: energy {jump:e}", body.name);
                 let jump = norm([0, 1, 2].map(|k| force[k] - old_force[k]));
                 // The normal turns by at most the way gone over the gap of 0.5 mm.
                 let steepest = 2.0 * 1000.0 * AREA / 5e-4;
-                assert!(
-                    jump <= steepest * moved + 1e-9,
-                    "{}: force {jump:e}",
-                    body.name
-                );
+                assert!(jump <= steepest * moved + 1e-9, "{}: force {jump:e}", body.name);
             }
             last = Some((point, energy, force));
         }
@@ -181,10 +163,7 @@ fn a_resting_load_of_five_kilopascal_stays_outside() {
     let settings = Settings::default();
     let depth = 0.1 * settings.offset;
     let pressure = settings.pressure(depth);
-    assert!(
-        (pressure - 5000.0).abs() < 1e-6,
-        "{pressure} Pa at a tenth of the gap"
-    );
+    assert!((pressure - 5000.0).abs() < 1e-6, "{pressure} Pa at a tenth of the gap");
     let last = settings.pressure(0.0);
     assert!((last - 10_000.0).abs() < 1e-6, "{last} Pa at the surface");
     assert_eq!(settings.pressure(settings.offset), 0.0);
@@ -207,17 +186,11 @@ fn nothing_acts_out_of_reach() {
 fn what_the_cloth_gets_the_bodies_give() {
     let bodies = vec![
         Body::new("floor", Shape::Plane, Pose::default()).with_friction(0.5),
-        Body::new(
-            "ball",
-            Shape::Sphere { radius: 0.1 },
-            Pose::new([0.0, 0.1, 0.0]),
-        ),
+        Body::new("ball", Shape::Sphere { radius: 0.1 }, Pose::new([0.0, 0.1, 0.0])),
     ];
     let mut contact = Contact::new(bodies, SLIPPERY, vec![AREA; 4]).unwrap();
     // On the floor, on the ball, below the floor, far off.
-    let mut positions = vec![
-        0.5, 5e-4, 0.0, 0.0, 0.2005, 0.0, 0.3, -1e-3, 0.2, 0.0, 3.0, 0.0,
-    ];
+    let mut positions = vec![0.5, 5e-4, 0.0, 0.0, 0.2005, 0.0, 0.3, -1e-3, 0.2, 0.0, 3.0, 0.0];
     contact.begin(&positions, 0.01);
     positions[0] += 3e-4;
     positions[6] -= 2e-3;
@@ -225,11 +198,7 @@ fn what_the_cloth_gets_the_bodies_give() {
     let survey = contact.survey(&positions);
     assert_eq!((survey.touching, survey.inside, survey.invalid), (3, 1, 0));
     assert_eq!(survey.nearest, Some((2, 0)));
-    assert!(
-        (survey.min_distance + 1e-3).abs() < 1e-15,
-        "{}",
-        survey.min_distance
-    );
+    assert!((survey.min_distance + 1e-3).abs() < 1e-15, "{}", survey.min_distance);
     for axis in 0..3 {
         let given: f64 = survey.loads.iter().map(|load| load[axis]).sum();
         let taken: f64 = all.iter().skip(axis).step_by(3).sum();
@@ -237,10 +206,7 @@ fn what_the_cloth_gets_the_bodies_give() {
         let miss = (given + taken).abs() / size;
         assert!(miss < 1e-15, "axis {axis}: {given} given, {taken} taken");
     }
-    assert!(
-        survey.loads[0][0].abs() > 0.0,
-        "friction must load the floor"
-    );
+    assert!(survey.loads[0][0].abs() > 0.0, "friction must load the floor");
 }
 
 #[test]
@@ -248,15 +214,11 @@ fn a_survey_without_touch_finds_the_nearest() {
     let bodies = all_bodies();
     let contact = Contact::new(bodies.clone(), SLIPPERY, vec![AREA; 50]).unwrap();
     let mut dice = Dice::new(9);
-    let positions: Vec<f64> = (0..50)
-        .flat_map(|_| dice.point(1.0).map(|x| x + 3.0))
-        .collect();
+    let positions: Vec<f64> = (0..50).flat_map(|_| dice.point(1.0).map(|x| x + 3.0)).collect();
     let survey = contact.survey(&positions);
     let all = positions.chunks(3).flat_map(|p| {
         let point = [p[0], p[1], p[2]];
-        bodies
-            .iter()
-            .map(move |body| body.proximity(point).unwrap().distance)
+        bodies.iter().map(move |body| body.proximity(point).unwrap().distance)
     });
     let least = all.fold(f64::INFINITY, f64::min);
     assert_eq!(survey.min_distance, least);
@@ -299,16 +261,10 @@ fn the_way_to_a_place_and_the_threads_do_not_change_a_bit() {
     let directions: Vec<[f64; 3]> = (0..n).map(|_| dice.direction()).collect();
     let swarm = |k: i32| -> Vec<f64> {
         let radius = 0.2995 + 0.3 * 0.5f64.powi(k);
-        directions
-            .iter()
-            .flat_map(|d| d.map(|x| x * radius))
-            .collect()
+        directions.iter().flat_map(|d| d.map(|x| x * radius)).collect()
     };
     let run = |threads: usize, moves: std::ops::Range<i32>| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut contact = Contact::new(bodies.clone(), SLIPPERY, vec![AREA; n]).unwrap();
             for k in moves {
@@ -335,57 +291,15 @@ fn bad_bodies_and_settings_are_named() {
             .map_err(|error| error.to_string())
     };
     assert_eq!(build(ball(1.0), good, AREA), Ok(()));
-    let thick = Shape::Box {
-        half_extents: [0.1, 0.2, 0.3],
-        edge_radius: 0.15,
-    };
+    let thick = Shape::Box { half_extents: [0.1, 0.2, 0.3], edge_radius: 0.15 };
     let cases = [
-        (
-            build(ball(-1.0), good, AREA),
-            "radius of the body `ball` is -1",
-        ),
+        (build(ball(-1.0), good, AREA), "radius of the body `ball` is -1"),
         (build(ball(f64::NAN), good, AREA), "NaN"),
-        (
-            build(ball(1.0).with_friction(-0.1), good, AREA),
-            "friction coefficient",
-        ),
-        (
-            build(Body::new("box", thick, Pose::default()), good, AREA),
-            "edge radius",
-        ),
-        (
-            build(
-                ball(1.0),
-                Settings {
-                    offset: 0.0,
-                    ..good
-                },
-                AREA,
-            ),
-            "contact offset",
-        ),
-        (
-            build(
-                ball(1.0),
-                Settings {
-                    stiffness: f64::INFINITY,
-                    ..good
-                },
-                AREA,
-            ),
-            "stiffness",
-        ),
-        (
-            build(
-                ball(1.0),
-                Settings {
-                    slip_speed: -1.0,
-                    ..good
-                },
-                AREA,
-            ),
-            "slip speed",
-        ),
+        (build(ball(1.0).with_friction(-0.1), good, AREA), "friction coefficient"),
+        (build(Body::new("box", thick, Pose::default()), good, AREA), "edge radius"),
+        (build(ball(1.0), Settings { offset: 0.0, ..good }, AREA), "contact offset"),
+        (build(ball(1.0), Settings { stiffness: f64::INFINITY, ..good }, AREA), "stiffness"),
+        (build(ball(1.0), Settings { slip_speed: -1.0, ..good }, AREA), "slip speed"),
         (build(ball(1.0), good, f64::NAN), "particle 1"),
     ];
     for (answer, words) in cases {

@@ -56,23 +56,13 @@ fn no_sample_of_the_surface_is_nearer_than_the_distance() {
 fn known_points_have_known_distances() {
     let at =
         |shape: Shape, point: [f64; 3]| distance(&Body::new("b", shape, Pose::default()), point);
-    let cube = Shape::Box {
-        half_extents: [0.25; 3],
-        edge_radius: 0.0,
-    };
-    let tin = Shape::Cylinder {
-        radius: 0.1,
-        half_height: 0.2,
-        edge_radius: 0.0,
-    };
+    let cube = Shape::Box { half_extents: [0.25; 3], edge_radius: 0.0 };
+    let tin = Shape::Cylinder { radius: 0.1, half_height: 0.2, edge_radius: 0.0 };
     let cases = [
         (at(cube.clone(), [0.0, 0.35, 0.0]), 0.1),
         (at(cube.clone(), [0.0, 0.24, 0.0]), -0.01),
         (at(cube.clone(), [0.0, 0.28, 0.29]), 0.05),
-        (
-            at(cube, [0.27, 0.28, 0.31]),
-            (4e-4f64 + 9e-4 + 36e-4).sqrt(),
-        ),
+        (at(cube, [0.27, 0.28, 0.31]), (4e-4f64 + 9e-4 + 36e-4).sqrt()),
         (at(tin.clone(), [0.3, 0.0, 0.4]), 0.4),
         (at(tin.clone(), [0.05, 0.25, 0.0]), 0.05),
         (at(tin.clone(), [0.0, 0.24, 0.13]), 0.05),
@@ -108,16 +98,11 @@ fn normal_and_curvature_are_the_derivatives_of_the_distance() {
             let here = body.proximity(point).unwrap();
             assert!((norm(here.normal) - 1.0).abs() < 1e-14);
             for axis in 0..3 {
-                let [slope] = derivative(&point, axis, 1e-4, &mut |x| {
-                    [distance(&body, [x[0], x[1], x[2]])]
-                });
+                let [slope] =
+                    derivative(&point, axis, 1e-4, &mut |x| [distance(&body, [x[0], x[1], x[2]])]);
                 let miss = (slope - here.normal[axis]).abs();
                 // Fourth order: (1e-4)^4 over the cube of the smallest radius, 1e-2 m.
-                assert!(
-                    miss < 1e-9,
-                    "{} at {place:?}: normal off by {miss:e}",
-                    body.name
-                );
+                assert!(miss < 1e-9, "{} at {place:?}: normal off by {miss:e}", body.name);
                 let column = derivative(&point, axis, 1e-4, &mut |x| {
                     body.proximity([x[0], x[1], x[2]]).unwrap().normal
                 });
@@ -139,11 +124,7 @@ fn turned_by(pose: Pose, place: [f64; 3]) -> [f64; 3] {
     let [x, y, z, w] = pose.rotation;
     let axis = [x, y, z];
     let cross = |a: [f64; 3], b: [f64; 3]| {
-        [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ]
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     };
     let once = cross(axis, place);
     let twice = cross(axis, once);
@@ -152,10 +133,7 @@ fn turned_by(pose: Pose, place: [f64; 3]) -> [f64; 3] {
 
 #[test]
 fn a_box_of_triangles_is_the_box() {
-    let shape = Shape::Box {
-        half_extents: [0.2, 0.3, 0.25],
-        edge_radius: 0.0,
-    };
+    let shape = Shape::Box { half_extents: [0.2, 0.3, 0.25], edge_radius: 0.0 };
     let pose = Pose::new([0.1, -0.2, 0.3]).turned([1.0, 2.0, -0.5], 0.7);
     let exact = Body::new("box", shape.clone(), pose);
     let meshed = Body::new("mesh", Shape::Mesh(meshed(shape)), pose);
@@ -163,19 +141,13 @@ fn a_box_of_triangles_is_the_box() {
     let mut inside = 0;
     for _ in 0..5000 {
         let point = dice.point(0.6);
-        let (a, b) = (
-            exact.proximity(point).unwrap(),
-            meshed.proximity(point).unwrap(),
-        );
+        let (a, b) = (exact.proximity(point).unwrap(), meshed.proximity(point).unwrap());
         inside += usize::from(a.distance < 0.0);
         let miss = (a.distance - b.distance).abs();
         assert!(miss < 1e-14, "{point:?}: distance off by {miss:e}");
         let miss = norm(sub(a.normal, b.normal));
         assert!(miss < 1e-12, "{point:?}: normal off by {miss:e}");
-        let size = a
-            .curvature
-            .iter()
-            .fold(1.0, |most: f64, c| most.max(c.abs()));
+        let size = a.curvature.iter().fold(1.0, |most: f64, c| most.max(c.abs()));
         for (a, b) in a.curvature.iter().zip(b.curvature) {
             assert!((a - b).abs() < 1e-10 * size, "{point:?}: {a} or {b}");
         }
@@ -186,14 +158,7 @@ fn a_box_of_triangles_is_the_box() {
 #[test]
 fn a_hollow_corner_is_inside_on_both_sides_of_it() {
     // An L of two unit squares and a corner cut out, one unit deep: the reflex edge is at (1, 1).
-    let profile = [
-        [0.0, 0.0],
-        [2.0, 0.0],
-        [2.0, 1.0],
-        [1.0, 1.0],
-        [1.0, 2.0],
-        [0.0, 2.0],
-    ];
+    let profile = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
     let mut vertices = Vec::new();
     for z in [0.0, 1.0] {
         vertices.extend(profile.map(|[x, y]| [x, y, z]));
@@ -221,15 +186,8 @@ fn a_hollow_corner_is_inside_on_both_sides_of_it() {
 #[test]
 fn a_point_that_is_no_point_gets_no_distance() {
     let mut bodies = primitives();
-    let cube = Shape::Box {
-        half_extents: [0.25; 3],
-        edge_radius: 0.0,
-    };
-    bodies.push(Body::new(
-        "mesh",
-        Shape::Mesh(meshed(cube)),
-        Pose::default(),
-    ));
+    let cube = Shape::Box { half_extents: [0.25; 3], edge_radius: 0.0 };
+    bodies.push(Body::new("mesh", Shape::Mesh(meshed(cube)), Pose::default()));
     for body in bodies {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for axis in 0..3 {

@@ -11,13 +11,8 @@ use support::meshed;
 type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
 fn cube() -> Triangles {
-    let shape = Shape::Box {
-        half_extents: [0.5; 3],
-        edge_radius: 0.0,
-    };
-    let outline = Body::new("cube", shape, Pose::default())
-        .triangulate()
-        .unwrap();
+    let shape = Shape::Box { half_extents: [0.5; 3], edge_radius: 0.0 };
+    let outline = Body::new("cube", shape, Pose::default()).triangulate().unwrap();
     (outline.vertices, outline.triangles)
 }
 
@@ -33,21 +28,14 @@ fn refusal(change: impl FnOnce(&mut Triangles)) -> CollideError {
 fn a_surface_that_is_none_is_refused_with_its_place() {
     use CollideError as E;
     let error = refusal(|(_, triangles)| triangles[3][1] = 99);
-    let expected = E::NoSuchVertex {
-        triangle: 3,
-        index: 99,
-        vertices: 8,
-    };
+    let expected = E::NoSuchVertex { triangle: 3, index: 99, vertices: 8 };
     assert_eq!(error, expected);
 
     let error = refusal(|(_, triangles)| triangles.truncate(11));
     assert!(matches!(error, E::OpenMesh { edges: 3, .. }), "{error:?}");
 
     let error = refusal(|(_, triangles)| triangles[0].swap(0, 1));
-    assert!(
-        matches!(error, E::Inconsistent { edges: 3, .. }),
-        "{error:?}"
-    );
+    assert!(matches!(error, E::Inconsistent { edges: 3, .. }), "{error:?}");
 
     for bad in [f64::NAN, f64::INFINITY, 1e300] {
         let error = refusal(|(vertices, _)| vertices[2][1] = bad);
@@ -64,10 +52,7 @@ fn a_surface_that_is_none_is_refused_with_its_place() {
         vertices.push(middle);
         triangles.push([a, b, 8]);
     });
-    assert!(
-        matches!(error, E::FlatTriangle { triangle: 12, .. }),
-        "{error:?}"
-    );
+    assert!(matches!(error, E::FlatTriangle { triangle: 12, .. }), "{error:?}");
 
     // Two sheets back to back are closed and hold nothing.
     let sheet = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -92,11 +77,7 @@ fn an_inverted_surface_is_turned_and_says_so() {
 #[test]
 fn separate_corners_of_neighbours_become_one() {
     let (vertices, triangles) = cube();
-    let loose: Vec<[f64; 3]> = triangles
-        .iter()
-        .flatten()
-        .map(|&i| vertices[i as usize])
-        .collect();
+    let loose: Vec<[f64; 3]> = triangles.iter().flatten().map(|&i| vertices[i as usize]).collect();
     let numbers: Vec<[u32; 3]> = (0..12).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     let mesh = Mesh::new(&loose, &numbers).unwrap();
     assert_eq!(mesh.vertices().len(), 8);
@@ -159,15 +140,9 @@ fn a_file_with_groups_is_one_body() {
 #[test]
 fn bad_files_are_refused_without_a_panic() {
     let missing = Mesh::load("no/such/file.obj", 1.0).expect_err("missing");
-    assert!(
-        missing.to_string().contains("no/such/file.obj"),
-        "{missing}"
-    );
+    assert!(missing.to_string().contains("no/such/file.obj"), "{missing}");
     let scale = Mesh::load("no/such/file.obj", 0.0).expect_err("scale");
-    assert!(
-        matches!(scale, CollideError::OutOfRange { .. }),
-        "{scale:?}"
-    );
+    assert!(matches!(scale, CollideError::OutOfRange { .. }), "{scale:?}");
     let texts: [&[u8]; 9] = [
         b"",
         b"v 0 0 0\nv 1 0 0\n",
@@ -201,10 +176,7 @@ fn a_ball_of_triangles_is_near_the_ball() {
     let mut dice = support::Dice::new(4);
     for _ in 0..1000 {
         let point = dice.point(0.5);
-        let (a, b) = (
-            exact.proximity(point).unwrap(),
-            mesh.proximity(point).unwrap(),
-        );
+        let (a, b) = (exact.proximity(point).unwrap(), mesh.proximity(point).unwrap());
         // Facets of at most 6° lie up to 0.3 m (1 - cos 4.3°) = 0.84 mm under the ball.
         let miss = b.distance - a.distance;
         assert!((-1e-12..8.4e-4).contains(&miss), "{point:?}: {miss:e}");

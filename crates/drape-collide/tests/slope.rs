@@ -133,10 +133,7 @@ fn above_the_friction_angle_a_block_slides_as_coulomb_says() {
         let measured = (gained[0] * angle.cos() - gained[1] * angle.sin()) / (steps as f64 * DT);
         let miss = (measured / expected - 1.0).abs();
         // At this speed the friction is Coulomb's to the last bit; the normal force has settled.
-        assert!(
-            miss < 1e-6,
-            "mu {friction}: {measured} m/s², not {expected}"
-        );
+        assert!(miss < 1e-6, "mu {friction}: {measured} m/s², not {expected}");
     }
 }
 

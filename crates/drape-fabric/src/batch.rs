@@ -1,8 +1,5 @@
 //! Many connectors of one law side by side, in arithmetic that compilers turn into vector instructions.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "a lane is a place in many arrays"
-)]
+#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
 use drape_hysteresis::{Bend, BlimanSorine, Slider, Stroke};
 
@@ -282,10 +279,7 @@ pub struct Responses {
 
 impl Default for Responses {
     fn default() -> Self {
-        Self {
-            load: [0.0; LANES],
-            tangent: [0.0; LANES],
-        }
+        Self { load: [0.0; LANES], tangent: [0.0; LANES] }
     }
 }
 

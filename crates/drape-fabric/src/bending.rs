@@ -38,14 +38,12 @@ impl BendingBackbone {
     #[must_use]
     pub fn respond(&self, curvature: f64) -> Response {
         match self {
-            Self::Linear { rigidity } => Response {
-                load: rigidity * curvature,
-                tangent: *rigidity,
-            },
-            Self::Piecewise(piecewise) => Response {
-                load: piecewise.load(curvature),
-                tangent: piecewise.tangent(curvature),
-            },
+            Self::Linear { rigidity } => {
+                Response { load: rigidity * curvature, tangent: *rigidity }
+            }
+            Self::Piecewise(piecewise) => {
+                Response { load: piecewise.load(curvature), tangent: piecewise.tangent(curvature) }
+            }
         }
     }
 
@@ -68,29 +66,20 @@ impl BendingLaw {
 impl Law for BendingLaw {
     fn respond(&self, memory: &Memory, curvature: f64) -> Response {
         let elastic = self.backbone.respond(curvature - self.rest_curvature);
-        let (load, tangent) = self
-            .friction
-            .respond(memory.friction, self.slip(memory, curvature));
-        Response {
-            load: elastic.load + load,
-            tangent: elastic.tangent + tangent,
-        }
+        let (load, tangent) = self.friction.respond(memory.friction, self.slip(memory, curvature));
+        Response { load: elastic.load + load, tangent: elastic.tangent + tangent }
     }
 
     fn work(&self, memory: &Memory, curvature: f64) -> f64 {
         self.backbone.energy(curvature - self.rest_curvature)
             - self.backbone.energy(memory.position - self.rest_curvature)
-            + self
-                .friction
-                .work(memory.friction, self.slip(memory, curvature))
+            + self.friction.work(memory.friction, self.slip(memory, curvature))
     }
 
     fn commit(&self, memory: &Memory, curvature: f64) -> Memory {
         Memory {
             position: curvature,
-            friction: self
-                .friction
-                .advance(memory.friction, self.slip(memory, curvature)),
+            friction: self.friction.advance(memory.friction, self.slip(memory, curvature)),
             peak: memory.peak.max(curvature.abs()),
         }
     }

@@ -1,7 +1,4 @@
-#![allow(
-    clippy::needless_range_loop,
-    reason = "a lane is a place in many arrays"
-)]
+#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
 use crate::BendingLaw;
 use crate::batch::{BatchLaw, LANES, Lanes, Responses, Sliders};
@@ -71,10 +68,7 @@ impl BatchLaw for BendingBatch {
         responses: &mut Responses,
     ) {
         for lane in 0..LANES {
-            let response = self
-                .law
-                .backbone
-                .respond(trial[lane] - self.law.rest_curvature);
+            let response = self.law.backbone.respond(trial[lane] - self.law.rest_curvature);
             responses.load[lane] += response.load;
             if TANGENT {
                 responses.tangent[lane] += response.tangent;

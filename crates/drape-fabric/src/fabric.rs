@@ -76,18 +76,8 @@ impl Fabric {
             (0.005, 5.0),
             "mass per area in kg/m²; a fabric of 120 g/m² has 0.12",
         );
-        check.within(
-            "thickness",
-            self.thickness,
-            (1e-6, 0.02),
-            "in m; 0.3 mm is 0.0003",
-        );
-        check.within(
-            "surface_friction",
-            self.surface_friction,
-            (0.0, 5.0),
-            "a ratio such as 0.2",
-        );
+        check.within("thickness", self.thickness, (1e-6, 0.02), "in m; 0.3 mm is 0.0003");
+        check.within("surface_friction", self.surface_friction, (0.0, 5.0), "a ratio such as 0.2");
         for (name, direction) in [("warp", &self.warp), ("weft", &self.weft)] {
             check.traction(&format!("{name}.traction"), &direction.traction);
             check.bending(&format!("{name}.bending"), &direction.bending);
@@ -101,21 +91,13 @@ struct Check(Vec<Problem>);
 
 impl Check {
     fn fail(&mut self, key: &str, message: String, help: &str) {
-        self.0.push(Problem {
-            key: key.into(),
-            message,
-            help: help.into(),
-        });
+        self.0.push(Problem { key: key.into(), message, help: help.into() });
     }
 
     /// Bounds are inclusive, so that 0 is allowed where it stands as the lower one.
     fn within(&mut self, key: &str, value: f64, (low, high): (f64, f64), help: &str) {
         if !(value >= low && value <= high) {
-            self.fail(
-                key,
-                format!("{value} is not between {low} and {high}"),
-                help,
-            );
+            self.fail(key, format!("{value} is not between {low} and {high}"), help);
         }
     }
 
@@ -157,34 +139,14 @@ impl Check {
             TractionBackbone::Polynomial(polynomial) => {
                 let key = format!("{key}.polynomial");
                 let help = "in N/m, not negative, so that the curve rises";
-                self.within(
-                    &format!("{key}.quadratic"),
-                    polynomial.quadratic,
-                    (0.0, 1e12),
-                    help,
-                );
-                self.within(
-                    &format!("{key}.quartic"),
-                    polynomial.quartic,
-                    (0.0, 1e15),
-                    help,
-                );
+                self.within(&format!("{key}.quadratic"), polynomial.quadratic, (0.0, 1e12), help);
+                self.within(&format!("{key}.quartic"), polynomial.quartic, (0.0, 1e15), help);
             }
         }
         let buckling = &law.buckling;
-        self.within(
-            &format!("{key}.buckling.strain"),
-            buckling.strain,
-            (1e-5, 0.1),
-            "a ratio",
-        );
+        self.within(&format!("{key}.buckling.strain"), buckling.strain, (1e-5, 0.1), "a ratio");
         let help = "in N/m, not negative";
-        self.within(
-            &format!("{key}.buckling.stiffness"),
-            buckling.stiffness,
-            (0.0, 1e6),
-            help,
-        );
+        self.within(&format!("{key}.buckling.stiffness"), buckling.stiffness, (0.0, 1e6), help);
         self.friction(&format!("{key}.friction"), &law.friction);
     }
 
@@ -207,12 +169,7 @@ impl Check {
             }
         }
         let help = "a curvature in 1/m";
-        self.within(
-            &format!("{key}.rest_curvature"),
-            law.rest_curvature,
-            (-1e4, 1e4),
-            help,
-        );
+        self.within(&format!("{key}.rest_curvature"), law.rest_curvature, (-1e4, 1e4), help);
         self.friction(&format!("{key}.friction"), &law.friction);
     }
 
@@ -226,19 +183,9 @@ impl Check {
                 self.piecewise("shear.piecewise", piecewise);
             }
         }
-        self.within(
-            "shear.growth",
-            law.growth,
-            (0.0, 1e3),
-            "per unit of the sine, not negative",
-        );
+        self.within("shear.growth", law.growth, (0.0, 1e3), "per unit of the sine, not negative");
         if let Some(Locking { onset, limit }) = law.locking {
-            self.within(
-                "shear.locking.onset",
-                onset,
-                (0.01, 0.99),
-                "a sine; 8° is 0.139",
-            );
+            self.within("shear.locking.onset", onset, (0.01, 0.99), "a sine; 8° is 0.139");
             let help = "a sine larger than the onset; 60° is 0.866";
             self.within("shear.locking.limit", limit, (onset + 1e-3, 1.0), help);
         }
@@ -246,24 +193,11 @@ impl Check {
     }
 
     fn piecewise(&mut self, key: &str, piecewise: &Piecewise) {
-        self.positive(
-            &format!("{key}.slope"),
-            piecewise.slope,
-            "the curve must rise",
-        );
-        self.positive(
-            &format!("{key}.knot"),
-            piecewise.knot,
-            "in the unit of the deformation",
-        );
+        self.positive(&format!("{key}.slope"), piecewise.slope, "the curve must rise");
+        self.positive(&format!("{key}.knot"), piecewise.knot, "in the unit of the deformation");
         let rising = -0.5 * piecewise.slope * piecewise.knot;
         let help = "at least −slope·knot/2, so that the curve rises from the origin";
-        self.within(
-            &format!("{key}.intercept"),
-            piecewise.intercept,
-            (rising, 1e9),
-            help,
-        );
+        self.within(&format!("{key}.intercept"), piecewise.intercept, (rising, 1e9), help);
     }
 
     fn friction(&mut self, key: &str, friction: &BlimanSorine) {
@@ -275,12 +209,7 @@ impl Check {
             }
         }
         let help = "not negative; the first element is the fast one of a second-order model";
-        self.within(
-            &format!("{key}[0].plateau"),
-            first.plateau,
-            (0.0, 1e9),
-            help,
-        );
+        self.within(&format!("{key}[0].plateau"), first.plateau, (0.0, 1e9), help);
         if !(second.plateau >= -first.plateau) {
             let message = format!("{} outweighs the first element", second.plateau);
             let help = "a negative second plateau must be smaller than the first one";

@@ -200,25 +200,15 @@ impl DirectionFile {
                     "the tensile curve must be given once",
                     "give one of the tables `primed` and `polynomial`",
                 );
-                TractionBackbone::Polynomial(Polynomial {
-                    quadratic: 1.0,
-                    quartic: 0.0,
-                })
+                TractionBackbone::Polynomial(Polynomial { quadratic: 1.0, quartic: 0.0 })
             }
         };
         let buckling = self
             .traction
             .buckling
-            .map_or(Buckling::default(), |b| Buckling {
-                strain: b.strain,
-                stiffness: b.stiffness,
-            });
+            .map_or(Buckling::default(), |b| Buckling { strain: b.strain, stiffness: b.stiffness });
         let friction = friction(&self.traction.friction, &traction_key, report);
-        let traction = TractionLaw {
-            backbone,
-            friction,
-            buckling,
-        };
+        let traction = TractionLaw { backbone, friction, buckling };
 
         let bending_key = format!("{key}.bending");
         let backbone = match (self.bending.rigidity, self.bending.piecewise) {
@@ -235,14 +225,7 @@ impl DirectionFile {
         };
         let rest_curvature = self.bending.rest_curvature;
         let friction = self::friction(&self.bending.friction, &bending_key, report);
-        Direction {
-            traction,
-            bending: BendingLaw {
-                backbone,
-                rest_curvature,
-                friction,
-            },
-        }
+        Direction { traction, bending: BendingLaw { backbone, rest_curvature, friction } }
     }
 }
 
@@ -264,10 +247,7 @@ impl ShearFile {
             backbone,
             friction: friction(&self.friction, "shear", report),
             growth: self.growth,
-            locking: self.locking.map(|l| Locking {
-                onset: l.onset,
-                limit: l.limit,
-            }),
+            locking: self.locking.map(|l| Locking { onset: l.onset, limit: l.limit }),
         }
     }
 }
@@ -280,31 +260,20 @@ fn friction(elements: &[ElementFile], key: &str, report: &mut Report<'_>) -> Bli
             "the model has one (first order) or two (second order, or nested loops)",
         );
     }
-    let element = |index: usize| {
-        elements
-            .get(index)
-            .map_or(Dahl::NONE, |e| Dahl::new(e.plateau, e.length))
-    };
+    let element =
+        |index: usize| elements.get(index).map_or(Dahl::NONE, |e| Dahl::new(e.plateau, e.length));
     BlimanSorine::parallel(element(0), element(1))
 }
 
 impl From<PiecewiseFile> for Piecewise {
     fn from(file: PiecewiseFile) -> Self {
-        Self {
-            slope: file.slope,
-            intercept: file.intercept,
-            knot: file.knot,
-        }
+        Self { slope: file.slope, intercept: file.intercept, knot: file.knot }
     }
 }
 
 impl From<&Piecewise> for PiecewiseFile {
     fn from(law: &Piecewise) -> Self {
-        Self {
-            slope: law.slope,
-            intercept: law.intercept,
-            knot: law.knot,
-        }
+        Self { slope: law.slope, intercept: law.intercept, knot: law.knot }
     }
 }
 
@@ -313,10 +282,7 @@ fn elements(friction: &BlimanSorine) -> Vec<ElementFile> {
         .elements
         .iter()
         .filter(|e| e.plateau != 0.0)
-        .map(|e| ElementFile {
-            plateau: e.plateau,
-            length: e.length,
-        })
+        .map(|e| ElementFile { plateau: e.plateau, length: e.length })
         .collect()
 }
 
@@ -350,10 +316,7 @@ impl From<&Direction> for DirectionFile {
                 });
             }
             TractionBackbone::Polynomial(p) => {
-                polynomial = Some(PolynomialFile {
-                    quadratic: p.quadratic,
-                    quartic: p.quartic,
-                });
+                polynomial = Some(PolynomialFile { quadratic: p.quadratic, quartic: p.quartic });
             }
         }
         let Buckling { strain, stiffness } = traction.buckling;
@@ -391,10 +354,7 @@ impl From<&ShearLaw> for ShearFile {
             growth: law.growth,
             friction: elements(&law.friction),
             piecewise,
-            locking: law.locking.map(|l| LockingFile {
-                onset: l.onset,
-                limit: l.limit,
-            }),
+            locking: law.locking.map(|l| LockingFile { onset: l.onset, limit: l.limit }),
         }
     }
 }

@@ -108,10 +108,7 @@ impl Moving<'_> {
     #[must_use]
     pub fn split(self, count: usize) -> (Self, Self) {
         let [a, b, c, d, e, f] = self.0.map(|column| column.split_at_mut(count));
-        (
-            Self([a.0, b.0, c.0, d.0, e.0, f.0]),
-            Self([a.1, b.1, c.1, d.1, e.1, f.1]),
-        )
+        (Self([a.0, b.0, c.0, d.0, e.0, f.0]), Self([a.1, b.1, c.1, d.1, e.1, f.1]))
     }
 
     #[inline(always)]

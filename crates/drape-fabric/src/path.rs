@@ -11,10 +11,7 @@ impl Path {
     /// `weight` is linear.
     pub(crate) fn new(from: f64, to: f64, knots: &[f64], weight: impl Fn(f64) -> f64) -> Self {
         debug_assert!(knots.len() <= 3);
-        let mut path = Self {
-            slips: [Slip::from(0.0); 4],
-            count: 0,
-        };
+        let mut path = Self { slips: [Slip::from(0.0); 4], count: 0 };
         let mut at = from;
         let mut push = |at: &mut f64, end: f64| {
             path.slips[path.count] = Slip::weighted(end - *at, weight(*at), weight(end));
@@ -36,17 +33,13 @@ impl Path {
 
     /// Friction loads at the end of the path.
     pub(crate) fn advance(&self, friction: &BlimanSorine, loads: Loads) -> Loads {
-        self.slips[..self.count]
-            .iter()
-            .fold(loads, |loads, slip| friction.advance(loads, *slip))
+        self.slips[..self.count].iter().fold(loads, |loads, slip| friction.advance(loads, *slip))
     }
 
     /// Friction load at the end and its derivative with respect to the end.
     pub(crate) fn respond(&self, friction: &BlimanSorine, loads: Loads) -> (f64, f64) {
         let (last, before) = (self.slips[self.count - 1], &self.slips[..self.count - 1]);
-        let loads = before
-            .iter()
-            .fold(loads, |loads, slip| friction.advance(loads, *slip));
+        let loads = before.iter().fold(loads, |loads, slip| friction.advance(loads, *slip));
         friction.respond(loads, last)
     }
 

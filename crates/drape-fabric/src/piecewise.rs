@@ -39,11 +39,7 @@ impl Piecewise {
         let t = deformation / self.knot;
         let within = self.slope + self.intercept / self.knot * (2.0 - t);
         let beyond = self.slope + self.intercept / deformation;
-        if deformation <= self.knot {
-            within
-        } else {
-            beyond
-        }
+        if deformation <= self.knot { within } else { beyond }
     }
 
     /// Slope of the load, in load per deformation.

@@ -59,24 +59,15 @@ pub struct Locking {
 impl Default for Locking {
     /// From 8°, where the KES test ends, towards 1.05 rad.
     fn default() -> Self {
-        Self {
-            onset: 8_f64.to_radians().sin(),
-            limit: 1.05_f64.sin(),
-        }
+        Self { onset: 8_f64.to_radians().sin(), limit: 1.05_f64.sin() }
     }
 }
 
 impl ShearBackbone {
     pub(crate) fn respond(&self, shear: f64) -> Response {
         match self {
-            Self::Linear { stiffness } => Response {
-                load: stiffness * shear,
-                tangent: *stiffness,
-            },
-            Self::Piecewise(p) => Response {
-                load: p.load(shear),
-                tangent: p.tangent(shear),
-            },
+            Self::Linear { stiffness } => Response { load: stiffness * shear, tangent: *stiffness },
+            Self::Piecewise(p) => Response { load: p.load(shear), tangent: p.tangent(shear) },
         }
     }
 
@@ -101,14 +92,8 @@ impl Locking {
         let way = on_curve - self.onset;
         let energy = at_onset.load * way + pole * ((reach / left).ln() - way / reach);
         let straight = shear - on_curve;
-        let response = Response {
-            load: load + tangent * straight,
-            tangent,
-        };
-        (
-            response,
-            energy + straight * (load + 0.5 * tangent * straight),
-        )
+        let response = Response { load: load + tangent * straight, tangent };
+        (response, energy + straight * (load + 0.5 * tangent * straight))
     }
 }
 
@@ -128,37 +113,26 @@ impl ShearLaw {
     }
 
     fn path(&self, memory: &Memory, shear: f64) -> Path {
-        Path::new(memory.position, shear, &[0.0], |s: f64| {
-            1.0 + self.growth * s.abs()
-        })
+        Path::new(memory.position, shear, &[0.0], |s: f64| 1.0 + self.growth * s.abs())
     }
 }
 
 impl Law for ShearLaw {
     fn respond(&self, memory: &Memory, shear: f64) -> Response {
         let (elastic, _) = self.elastic(shear);
-        let (load, tangent) = self
-            .path(memory, shear)
-            .respond(&self.friction, memory.friction);
-        Response {
-            load: elastic.load + load,
-            tangent: elastic.tangent + tangent,
-        }
+        let (load, tangent) = self.path(memory, shear).respond(&self.friction, memory.friction);
+        Response { load: elastic.load + load, tangent: elastic.tangent + tangent }
     }
 
     fn work(&self, memory: &Memory, shear: f64) -> f64 {
         self.elastic(shear).1 - self.elastic(memory.position).1
-            + self
-                .path(memory, shear)
-                .work(&self.friction, memory.friction)
+            + self.path(memory, shear).work(&self.friction, memory.friction)
     }
 
     fn commit(&self, memory: &Memory, shear: f64) -> Memory {
         Memory {
             position: shear,
-            friction: self
-                .path(memory, shear)
-                .advance(&self.friction, memory.friction),
+            friction: self.path(memory, shear).advance(&self.friction, memory.friction),
             peak: memory.peak.max(shear.abs()),
         }
     }

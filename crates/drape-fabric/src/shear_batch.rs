@@ -1,7 +1,4 @@
-#![allow(
-    clippy::needless_range_loop,
-    reason = "a lane is a place in many arrays"
-)]
+#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
 use crate::batch::{BatchLaw, LANES, Lanes, Responses, Sliders, any};
 use crate::memories::{Lane, Remembered};
@@ -25,9 +22,7 @@ impl ShearBatch {
     /// The jamming of the yarns, if some lane has got there.
     #[inline(always)]
     fn jammed(&self, trial: &Lanes) -> Option<Locking> {
-        self.law
-            .locking
-            .filter(|locking| any(|lane| trial[lane].abs() > locking.onset))
+        self.law.locking.filter(|locking| any(|lane| trial[lane].abs() > locking.onset))
     }
 }
 
@@ -58,11 +53,7 @@ impl BatchLaw for ShearBatch {
     #[inline(always)]
     fn slope(&self, lane: Lane, rising: bool) -> f64 {
         let falls = (lane.position < 0.0) | (!rising & (lane.position == 0.0));
-        if falls {
-            -self.law.growth
-        } else {
-            self.law.growth
-        }
+        if falls { -self.law.growth } else { self.law.growth }
     }
 
     #[inline(always)]

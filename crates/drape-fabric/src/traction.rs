@@ -102,10 +102,7 @@ pub struct Buckling {
 
 impl Default for Buckling {
     fn default() -> Self {
-        Self {
-            strain: BUCKLING_STRAIN,
-            stiffness: POST_BUCKLING_STIFFNESS,
-        }
+        Self { strain: BUCKLING_STRAIN, stiffness: POST_BUCKLING_STIFFNESS }
     }
 }
 
@@ -125,11 +122,7 @@ impl Primed {
 
     /// Load and slope at a strain of at least 0 with a toe of fixed length.
     fn fixed(&self, toe: f64, strain: f64) -> Response {
-        let Self {
-            stiffness,
-            toe_ratio,
-            ..
-        } = *self;
+        let Self { stiffness, toe_ratio, .. } = *self;
         if strain <= toe {
             let bend = (1.0 - toe_ratio) * strain / toe;
             Response {
@@ -138,10 +131,7 @@ impl Primed {
             }
         } else {
             let load = stiffness * (strain - (1.0 - toe_ratio) * toe);
-            Response {
-                load,
-                tangent: stiffness,
-            }
+            Response { load, tangent: stiffness }
         }
     }
 
@@ -165,11 +155,7 @@ impl Primed {
 
     /// Integral of the load from 0 to a strain of at least 0 with a toe of fixed length, in J/m².
     pub(crate) fn fixed_energy(&self, toe: f64, strain: f64) -> f64 {
-        let Self {
-            stiffness,
-            toe_ratio,
-            ..
-        } = *self;
+        let Self { stiffness, toe_ratio, .. } = *self;
         let within = strain.min(toe);
         let square = within * within;
         let toe_part = (1.0 - toe_ratio) * square * within / (3.0 * toe)
@@ -235,10 +221,7 @@ impl TractionLaw {
             return self.backbone.respond(peak, strain);
         }
         let rest = self.backbone.rest_stiffness();
-        let Buckling {
-            strain: scale,
-            stiffness,
-        } = self.buckling;
+        let Buckling { strain: scale, stiffness } = self.buckling;
         let lost = (strain / scale).exp_m1();
         Response {
             load: rest * scale * lost - 0.5 * stiffness * strain * strain,
@@ -251,10 +234,7 @@ impl TractionLaw {
             return self.backbone.energy(peak, strain);
         }
         let rest = self.backbone.rest_stiffness();
-        let Buckling {
-            strain: scale,
-            stiffness,
-        } = self.buckling;
+        let Buckling { strain: scale, stiffness } = self.buckling;
         rest * scale * (scale * (strain / scale).exp_m1() - strain)
             - stiffness * strain * strain * strain / 6.0
     }
@@ -286,28 +266,19 @@ impl TractionLaw {
 impl Law for TractionLaw {
     fn respond(&self, memory: &Memory, strain: f64) -> Response {
         let elastic = self.elastic(memory.peak, strain);
-        let (load, tangent) = self
-            .path(memory, strain)
-            .respond(&self.friction, memory.friction);
-        Response {
-            load: elastic.load + load,
-            tangent: elastic.tangent + tangent,
-        }
+        let (load, tangent) = self.path(memory, strain).respond(&self.friction, memory.friction);
+        Response { load: elastic.load + load, tangent: elastic.tangent + tangent }
     }
 
     fn work(&self, memory: &Memory, strain: f64) -> f64 {
         self.elastic_energy(memory.peak, strain) - self.elastic_energy(memory.peak, memory.position)
-            + self
-                .path(memory, strain)
-                .work(&self.friction, memory.friction)
+            + self.path(memory, strain).work(&self.friction, memory.friction)
     }
 
     fn commit(&self, memory: &Memory, strain: f64) -> Memory {
         Memory {
             position: strain,
-            friction: self
-                .path(memory, strain)
-                .advance(&self.friction, memory.friction),
+            friction: self.path(memory, strain).advance(&self.friction, memory.friction),
             peak: memory.peak.max(strain),
         }
     }

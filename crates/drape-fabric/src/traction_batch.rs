@@ -1,7 +1,4 @@
-#![allow(
-    clippy::needless_range_loop,
-    reason = "a lane is a place in many arrays"
-)]
+#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
 use drape_hysteresis::exp_m1;
 
@@ -47,12 +44,7 @@ impl TractionBatch {
         responses: &mut Responses,
     ) {
         let Responses { load, tangent } = responses;
-        let Primed {
-            stiffness,
-            toe_ratio,
-            toe_strain,
-            toe_strain_after,
-        } = *primed;
+        let Primed { stiffness, toe_ratio, toe_strain, toe_strain_after } = *primed;
         let bow = 1.0 - toe_ratio;
         for lane in 0..LANES {
             let (strain, [toe, priming]) = (positive(trial[lane]), memory.lane(lane).toe);
@@ -155,16 +147,8 @@ impl BatchLaw for TractionBatch {
         let below = |knot: f64| (at < knot) | (!rising & (at == knot));
         let [toe, priming] = lane.toe;
         let mut slope = if below(toe) { priming } else { 0.0 };
-        slope = if below(0.0) {
-            self.straightening
-        } else {
-            slope
-        };
-        if below(-self.law.buckling.strain) {
-            0.0
-        } else {
-            slope
-        }
+        slope = if below(0.0) { self.straightening } else { slope };
+        if below(-self.law.buckling.strain) { 0.0 } else { slope }
     }
 
     #[inline(always)]
@@ -214,12 +198,7 @@ impl BatchLaw for TractionBatch {
                     energies[lane] += primed.fixed_energy(memory.lane(lane).toe[0], strain);
                 }
                 if self.lengthens(primed, memory, trial) {
-                    let Primed {
-                        stiffness,
-                        toe_ratio,
-                        toe_strain,
-                        toe_strain_after,
-                    } = *primed;
+                    let Primed { stiffness, toe_ratio, toe_strain, toe_strain_after } = *primed;
                     for lane in 0..LANES {
                         let (strain, toe) = (trial[lane], memory.lane(lane).toe[0]);
                         let seen = memory.lane(lane).peak.max(toe_strain);

@@ -10,9 +10,7 @@ use drape_fabric::{
 const TOLERANCE: f64 = 1e-13;
 
 fn random(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963);
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
     (*state >> 11) as f64 / (1_u64 << 53) as f64
 }
 
@@ -72,12 +70,7 @@ fn compare<L: Law, B: BatchLaw>(law: &L, batch: &B, range: (f64, f64), places: &
             assert_eq!(found.position, after.position);
             assert_eq!(found.peak, after.peak);
             for element in 0..2 {
-                note(
-                    0,
-                    found.friction[element],
-                    after.friction[element],
-                    &context,
-                );
+                note(0, found.friction[element], after.friction[element], &context);
             }
             apart[lane] = after;
             apart[lane].friction = found.friction;
@@ -112,42 +105,22 @@ fn traction_side_by_side_is_traction_one_by_one() {
             compare(&law, &TractionBatch::new(law), (-0.02, 0.06), &places);
         }
         let law = TractionLaw {
-            backbone: TractionBackbone::Polynomial(Polynomial {
-                quadratic: 8.4e4,
-                quartic: 1.2e7,
-            }),
+            backbone: TractionBackbone::Polynomial(Polynomial { quadratic: 8.4e4, quartic: 1.2e7 }),
             friction,
             buckling: Buckling::default(),
         };
-        compare(
-            &law,
-            &TractionBatch::new(law),
-            (-0.02, 0.06),
-            &[-0.002, 0.0],
-        );
+        compare(&law, &TractionBatch::new(law), (-0.02, 0.06), &[-0.002, 0.0]);
     }
 }
 
 #[test]
 fn shear_side_by_side_is_shear_one_by_one() {
-    let breen = Piecewise {
-        slope: 30.0,
-        intercept: 0.6,
-        knot: 0.02,
-    };
-    let backbones = [
-        ShearBackbone::Linear { stiffness: 35.0 },
-        ShearBackbone::Piecewise(breen),
-    ];
+    let breen = Piecewise { slope: 30.0, intercept: 0.6, knot: 0.02 };
+    let backbones = [ShearBackbone::Linear { stiffness: 35.0 }, ShearBackbone::Piecewise(breen)];
     for backbone in backbones {
         for (growth, locking) in [(0.0, None), (11.0, Some(Locking::default()))] {
             let friction = BlimanSorine::parallel(Dahl::new(0.5, 0.004), Dahl::new(0.3, 0.05));
-            let law = ShearLaw {
-                backbone,
-                friction,
-                growth,
-                locking,
-            };
+            let law = ShearLaw { backbone, friction, growth, locking };
             let places = [-0.14, -0.02, 0.0, 0.02, 0.139];
             compare(&law, &ShearBatch::new(law), (-0.2, 0.2), &places);
             compare(&law, &ShearBatch::new(law), (-1.0, 1.0), &places);
@@ -157,25 +130,12 @@ fn shear_side_by_side_is_shear_one_by_one() {
 
 #[test]
 fn bending_side_by_side_is_bending_one_by_one() {
-    let breen = Piecewise {
-        slope: 1.2e-5,
-        intercept: 4e-4,
-        knot: 40.0,
-    };
-    let backbones = [
-        BendingBackbone::Linear { rigidity: 1.2e-5 },
-        BendingBackbone::Piecewise(breen),
-    ];
+    let breen = Piecewise { slope: 1.2e-5, intercept: 4e-4, knot: 40.0 };
+    let backbones =
+        [BendingBackbone::Linear { rigidity: 1.2e-5 }, BendingBackbone::Piecewise(breen)];
     for backbone in backbones {
-        for friction in [
-            BlimanSorine::none(),
-            BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0),
-        ] {
-            let law = BendingLaw {
-                backbone,
-                rest_curvature: 12.0,
-                friction,
-            };
+        for friction in [BlimanSorine::none(), BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0)] {
+            let law = BendingLaw { backbone, rest_curvature: 12.0, friction };
             let places = [0.0, 12.0, 52.0];
             compare(&law, &BendingBatch::new(law), (-250.0, 250.0), &places);
         }

@@ -41,11 +41,7 @@ fn wrong_values_are_all_reported_with_line_and_remedy() {
         .replace("plateau = -2e-4", "plateau = -2e-3");
     let mistakes = read(&text).expect_err("four values are wrong").0;
     let lines: Vec<_> = mistakes.iter().map(|m| m.line).collect();
-    assert_eq!(
-        lines,
-        [Some(2), Some(8), Some(10), Some(11)],
-        "{mistakes:#?}"
-    );
+    assert_eq!(lines, [Some(2), Some(8), Some(10), Some(11)], "{mistakes:#?}");
     assert!(mistakes.iter().all(|m| m.help.is_some()));
     assert!(mistakes[0].message.contains("180"), "{}", mistakes[0]);
 }
@@ -58,26 +54,15 @@ fn nan_and_negative_numbers_are_refused() {
         ("0.0004", "inf"),
         ("stiffness = 40.0", "stiffness = nan"),
     ] {
-        let mistakes = read(&LINEN.replacen(good, bad, 1))
-            .expect_err("the value is wrong")
-            .0;
+        let mistakes = read(&LINEN.replacen(good, bad, 1)).expect_err("the value is wrong").0;
         assert_eq!(mistakes.len(), 1, "{bad}: {mistakes:?}");
     }
 }
 
 #[test]
 fn a_curve_must_be_given_once() {
-    let none = read(&LINEN.replace("rigidity = 2.5e-5", ""))
-        .expect_err("no bending")
-        .0;
-    assert!(
-        none[0]
-            .help
-            .as_deref()
-            .is_some_and(|h| h.contains("rigidity")),
-        "{}",
-        none[0]
-    );
+    let none = read(&LINEN.replace("rigidity = 2.5e-5", "")).expect_err("no bending").0;
+    assert!(none[0].help.as_deref().is_some_and(|h| h.contains("rigidity")), "{}", none[0]);
     let twice = LINEN.replace(
         "rigidity = 2.5e-5",
         "rigidity = 2.5e-5\npiecewise = { slope = 2e-5, intercept = 0, knot = 9 }",

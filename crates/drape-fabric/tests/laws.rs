@@ -20,40 +20,26 @@ fn primed(toe_ratio: f64, after: f64) -> TractionLaw {
 
 fn polynomial() -> TractionLaw {
     TractionLaw {
-        backbone: TractionBackbone::Polynomial(Polynomial {
-            quadratic: 8.4e4,
-            quartic: 1.2e7,
-        }),
+        backbone: TractionBackbone::Polynomial(Polynomial { quadratic: 8.4e4, quartic: 1.2e7 }),
         friction: BlimanSorine::none(),
         buckling: Buckling::default(),
     }
 }
 
 fn bending(backbone: BendingBackbone, friction: BlimanSorine) -> BendingLaw {
-    BendingLaw {
-        backbone,
-        rest_curvature: 12.0,
-        friction,
-    }
+    BendingLaw { backbone, rest_curvature: 12.0, friction }
 }
 
 fn shear(backbone: ShearBackbone, growth: f64) -> ShearLaw {
     let friction = BlimanSorine::parallel(Dahl::new(0.5, 0.004), Dahl::new(0.3, 0.05));
-    ShearLaw {
-        backbone,
-        friction,
-        growth,
-        locking: Some(Locking::default()),
-    }
+    ShearLaw { backbone, friction, growth, locking: Some(Locking::default()) }
 }
 
 /// Memories that a random walk over the given range leaves, with trials from each of them.
 fn walk(law: &impl Law, low: f64, high: f64) -> Vec<(Memory, f64)> {
     let mut state = 99_u64;
     let mut random = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963);
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
         low + (high - low) * ((state >> 11) as f64 / (1_u64 << 53) as f64)
     };
     let mut memory = law.virgin();
@@ -77,14 +63,8 @@ fn check_derivatives(law: &impl Law, range: (f64, f64), kinks: &[f64]) {
     let width = range.1 - range.0;
     let d = 1e-5 * width;
     let trials = walk(law, range.0, range.1);
-    let scale = trials
-        .iter()
-        .map(|(m, s)| law.respond(m, *s).load.abs())
-        .fold(0.0, f64::max);
-    let stiff = trials
-        .iter()
-        .map(|(m, s)| law.respond(m, *s).tangent.abs())
-        .fold(0.0, f64::max);
+    let scale = trials.iter().map(|(m, s)| law.respond(m, *s).load.abs()).fold(0.0, f64::max);
+    let stiff = trials.iter().map(|(m, s)| law.respond(m, *s).tangent.abs()).fold(0.0, f64::max);
     let mut checked = 0;
     for (memory, trial) in &trials {
         let near = |k: f64| (trial - k).abs() < 3.0 * d;
@@ -107,10 +87,7 @@ fn check_derivatives(law: &impl Law, range: (f64, f64), kinks: &[f64]) {
         assert!(law.work(memory, memory.position).abs() < 1e-12 * scale * width);
         checked += 1;
     }
-    assert!(
-        checked > 250,
-        "only {checked} trials were away from the kinks"
-    );
+    assert!(checked > 250, "only {checked} trials were away from the kinks");
 }
 
 #[test]
@@ -121,16 +98,9 @@ fn traction_load_and_tangent_are_derivatives_of_the_work() {
             continue;
         };
         // The toe's end moves with the memory: leave out trials near any of its places.
-        let places: Vec<f64> = walk(&law, -0.01, 0.06)
-            .iter()
-            .map(|(m, _)| backbone.toe(m.peak))
-            .collect();
-        let kinks = [
-            &places[..1],
-            &places[places.len() - 1..],
-            &[0.0, -0.002, 0.015],
-        ]
-        .concat();
+        let places: Vec<f64> =
+            walk(&law, -0.01, 0.06).iter().map(|(m, _)| backbone.toe(m.peak)).collect();
+        let kinks = [&places[..1], &places[places.len() - 1..], &[0.0, -0.002, 0.015]].concat();
         check_derivatives(&law, (-0.01, 0.06), &kinks);
     }
     check_derivatives(&polynomial(), (-0.01, 0.06), &[0.0]);
@@ -139,11 +109,7 @@ fn traction_load_and_tangent_are_derivatives_of_the_work() {
 #[test]
 fn bending_load_and_tangent_are_derivatives_of_the_work() {
     let linear = BendingBackbone::Linear { rigidity: 1.2e-5 };
-    let breen = Piecewise {
-        slope: 1.2e-5,
-        intercept: 4e-4,
-        knot: 40.0,
-    };
+    let breen = Piecewise { slope: 1.2e-5, intercept: 4e-4, knot: 40.0 };
     for law in [
         bending(linear, BlimanSorine::first_order(6e-4, 4.0)),
         bending(linear, BlimanSorine::second_order(9e-4, 3e-4, 0.2, 20.0)),
@@ -157,25 +123,10 @@ fn bending_load_and_tangent_are_derivatives_of_the_work() {
 fn shear_load_and_tangent_are_derivatives_of_the_work() {
     let locking = Locking::default();
     let straight = locking.onset + 0.95 * (locking.limit - locking.onset);
-    let breen = Piecewise {
-        slope: 30.0,
-        intercept: 0.6,
-        knot: 0.02,
-    };
-    for backbone in [
-        ShearBackbone::Linear { stiffness: 35.0 },
-        ShearBackbone::Piecewise(breen),
-    ] {
+    let breen = Piecewise { slope: 30.0, intercept: 0.6, knot: 0.02 };
+    for backbone in [ShearBackbone::Linear { stiffness: 35.0 }, ShearBackbone::Piecewise(breen)] {
         for (growth, range) in [(0.0, 0.14), (11.0, 0.14), (11.0, 0.95)] {
-            let kinks = [
-                0.0,
-                0.02,
-                -0.02,
-                locking.onset,
-                -locking.onset,
-                straight,
-                -straight,
-            ];
+            let kinks = [0.0, 0.02, -0.02, locking.onset, -locking.onset, straight, -straight];
             check_derivatives(&shear(backbone, growth), (-range, range), &kinks);
         }
     }
@@ -190,24 +141,12 @@ fn the_priming_zone_meets_the_line_with_value_and_slope() {
     let paper = |e: f64| ((1.0 - f1 / (k * e1)) * e + 2.0 * f1 / k - e1) * k * e / e1;
     for e in [0.002, 0.007, 0.0149] {
         let load = law.elastic(0.0, e).load;
-        assert!(
-            (load - paper(e)).abs() < 1e-12 * f1,
-            "at {e}: {load} against {}",
-            paper(e)
-        );
+        assert!((load - paper(e)).abs() < 1e-12 * f1, "at {e}: {load} against {}", paper(e));
     }
     for (e, side) in [(e1 * (1.0 - 1e-12), "below"), (e1 * (1.0 + 1e-12), "above")] {
         let response = law.elastic(0.0, e);
-        assert!(
-            (response.load - f1).abs() < 1e-9,
-            "{side}: {}",
-            response.load
-        );
-        assert!(
-            (response.tangent - k).abs() < 1e-6,
-            "{side}: {}",
-            response.tangent
-        );
+        assert!((response.load - f1).abs() < 1e-9, "{side}: {}", response.load);
+        assert!((response.tangent - k).abs() < 1e-6, "{side}: {}", response.tangent);
     }
     assert!((law.respond(&memory, 0.0).load).abs() < 1e-15);
 }
@@ -218,20 +157,12 @@ fn a_stretched_fabric_has_a_longer_toe_and_no_jump_at_the_reversal() {
     let stretched = law.commit(&law.virgin(), 0.05);
     let virgin_load = law.respond(&law.virgin(), 0.05).load;
     let again = law.respond(&stretched, 0.05).load;
-    assert!(
-        (virgin_load - again).abs() < 1e-12 * virgin_load,
-        "{virgin_load} {again}"
-    );
+    assert!((virgin_load - again).abs() < 1e-12 * virgin_load, "{virgin_load} {again}");
     let mut released = law.commit(&stretched, 0.0);
     released.friction = [0.0; 2];
-    let (second, first) = (
-        law.respond(&released, 0.03).load,
-        law.respond(&law.virgin(), 0.03).load,
-    );
-    assert!(
-        second < 0.95 * first,
-        "the second stretch is softer: {second} after {first}"
-    );
+    let (second, first) =
+        (law.respond(&released, 0.03).load, law.respond(&law.virgin(), 0.03).load);
+    assert!(second < 0.95 * first, "the second stretch is softer: {second} after {first}");
 }
 
 #[test]
@@ -246,10 +177,7 @@ fn closed_loops_of_every_law_dissipate() {
                 memory = law.commit(&memory, end);
             }
             let lost = work - (law.stored(&memory) - before);
-            assert!(
-                lost > 0.0,
-                "cycle {turn} between {low} and {high} gained {lost}"
-            );
+            assert!(lost > 0.0, "cycle {turn} between {low} and {high} gained {lost}");
         }
     }
     for after in [0.015, 0.025] {
@@ -263,11 +191,7 @@ fn closed_loops_of_every_law_dissipate() {
         cycle(&law, low, high);
     }
     for (low, high) in [(-0.139, 0.139), (0.02, 0.03), (-0.3, 0.5)] {
-        cycle(
-            &shear(ShearBackbone::Linear { stiffness: 35.0 }, 11.0),
-            low,
-            high,
-        );
+        cycle(&shear(ShearBackbone::Linear { stiffness: 35.0 }, 11.0), low, high);
     }
 }
 
@@ -286,10 +210,7 @@ fn a_finely_cut_history_gives_the_loads_of_a_coarse_one() {
     for (index, load) in coarse_loads.iter().enumerate() {
         let other = fine_loads[64 * index + 63];
         // Friction in the toe depends on the toe's length when the piece began.
-        assert!(
-            (load - other).abs() < 1e-9 * 160.0,
-            "point {index}: {load} against {other}"
-        );
+        assert!((load - other).abs() < 1e-9 * 160.0, "point {index}: {load} against {other}");
     }
 }
 
@@ -307,16 +228,10 @@ fn a_steady_bending_loop_has_the_closed_form() {
     let last = &loads[loads.len() - 3..];
     let (rising, top, falling) = (last[0], last[1], last[2]);
     let exact_top = b * tip + fc * (tip / length).tanh();
-    assert!(
-        (top - exact_top).abs() < 1e-9 * exact_top,
-        "tip {top}, exact {exact_top}"
-    );
+    assert!((top - exact_top).abs() < 1e-9 * exact_top, "tip {top}, exact {exact_top}");
     let exact = 2.0 * fc * (1.0 - (50.0 / length).cosh() / (tip / length).cosh());
     let width = rising - falling;
-    assert!(
-        (width - exact).abs() < 1e-9 * exact,
-        "width {width}, exact {exact}"
-    );
+    assert!((width - exact).abs() < 1e-9 * exact, "width {width}, exact {exact}");
 }
 
 #[test]
@@ -324,11 +239,7 @@ fn locking_keeps_the_shear_below_its_limit() {
     let law = shear(ShearBackbone::Linear { stiffness: 35.0 }, 0.0);
     let limit = Locking::default().limit;
     let load = |s: f64| law.respond(&law.virgin(), s).load;
-    assert!(
-        load(0.99 * limit) > 20.0 * 35.0 * limit,
-        "{}",
-        load(0.99 * limit)
-    );
+    assert!(load(0.99 * limit) > 20.0 * 35.0 * limit, "{}", load(0.99 * limit));
     assert!(load(2.0).is_finite() && load(2.0) > load(0.9 * limit));
     assert!((load(0.3) + load(-0.3)).abs() < 1e-12, "odd");
 }

@@ -36,16 +36,11 @@ pub fn identify_bending(
             breen(curve, (curvature, settings), |p, path, out| {
                 along(&law(p), path.iter().copied(), out);
             })
-            .map(|fit| Identified {
-                law: law(&fit.values()),
-                fit,
-            })
+            .map(|fit| Identified { law: law(&fit.values()), fit })
         }
         model => {
             let law = |line: &Line| BendingLaw {
-                backbone: BendingBackbone::Linear {
-                    rigidity: line.stiffness,
-                },
+                backbone: BendingBackbone::Linear { rigidity: line.stiffness },
                 rest_curvature: 0.0,
                 friction: line.friction,
             };
@@ -54,19 +49,13 @@ pub fn identify_bending(
                 along(&law(line), curvature.iter().copied(), out);
             };
             let search = Loop::new(curve, ("rigidity", curvature), &drive)?;
-            let forms = orders(model).map(|order| Form {
-                order,
-                plateau: Plateau::Constant,
-            });
+            let forms = orders(model).map(|order| Form { order, plateau: Plateau::Constant });
             let forms: Vec<Form> = forms.collect();
             let model = |form: &Form| search.model(*form, form.order.name().into());
             let models: Vec<Model<'_>> = forms.iter().map(model).collect();
             let fit = curve_fit::fit(curve, &models, (weights, settings.intervals));
             let (line, _) = forms[fit.chosen].law(&fit.values());
-            Ok(Identified {
-                law: law(&line),
-                fit,
-            })
+            Ok(Identified { law: law(&line), fit })
         }
     }
 }
@@ -105,28 +94,15 @@ pub(crate) fn breen(
 /// Parameters of a quadratic and a line: the line through the outer part, and a few knots.
 pub(crate) fn piecewise_starts(first: &Curve) -> Result<Vec<Vec<Named>>, Error> {
     let top = reach(first.deformation());
-    let points = first
-        .deformation()
-        .iter()
-        .copied()
-        .zip(first.load().iter().copied());
+    let points = first.deformation().iter().copied().zip(first.load().iter().copied());
     let outer = line(points.filter(|(q, _)| *q > 0.6 * top));
-    let (slope, intercept) = outer
-        .filter(|(slope, _)| *slope > 0.0)
-        .ok_or_else(|| falling(first))?;
+    let (slope, intercept) =
+        outer.filter(|(slope, _)| *slope > 0.0).ok_or_else(|| falling(first))?;
     let load = span(first);
     let start = |knot: f64| {
         vec![
-            (
-                "slope",
-                Parameter::new(slope).between(1e-3 * slope, 1e3 * slope),
-            ),
-            (
-                "intercept",
-                Parameter::new(intercept)
-                    .with_scale(load)
-                    .between(-load, load),
-            ),
+            ("slope", Parameter::new(slope).between(1e-3 * slope, 1e3 * slope)),
+            ("intercept", Parameter::new(intercept).with_scale(load).between(-load, load)),
             ("knot", Parameter::new(knot * top).between(1e-3 * top, top)),
         ]
     };
@@ -134,11 +110,7 @@ pub(crate) fn piecewise_starts(first: &Curve) -> Result<Vec<Vec<Named>>, Error> 
 }
 
 pub(crate) fn piecewise(p: &[f64]) -> Piecewise {
-    Piecewise {
-        slope: p[0],
-        intercept: p[1],
-        knot: p[2],
-    }
+    Piecewise { slope: p[0], intercept: p[1], knot: p[2] }
 }
 
 /// The first branch of a curve, which must rise from near zero.
@@ -154,16 +126,12 @@ pub(crate) fn first_branch(curve: &Curve) -> Result<Curve, Error> {
 }
 
 pub(crate) fn falling(curve: &Curve) -> Error {
-    Error::Falling {
-        name: curve.name.clone(),
-    }
+    Error::Falling { name: curve.name.clone() }
 }
 
 /// Largest distance from zero of a history.
 pub(crate) fn reach(deformation: &[f64]) -> f64 {
-    deformation
-        .iter()
-        .fold(0.0, |reach: f64, q| reach.max(q.abs()))
+    deformation.iter().fold(0.0, |reach: f64, q| reach.max(q.abs()))
 }
 
 /// Range of the measured loads.
@@ -175,21 +143,13 @@ pub(crate) fn span(curve: &Curve) -> f64 {
 /// Slope of the line through all points: the main rigidity, which the friction hardly tilts because it has
 /// both signs.
 pub(crate) fn mean_slope(curve: &Curve) -> Result<f64, Error> {
-    let points = curve
-        .deformation()
-        .iter()
-        .copied()
-        .zip(curve.load().iter().copied());
+    let points = curve.deformation().iter().copied().zip(curve.load().iter().copied());
     let slope = line(points).map(|(slope, _)| slope);
-    slope
-        .filter(|slope| *slope > 0.0)
-        .ok_or_else(|| falling(curve))
+    slope.filter(|slope| *slope > 0.0).ok_or_else(|| falling(curve))
 }
 
 /// The unknown zero of the load, at most half of its range away.
 pub(crate) fn zero(curve: &Curve) -> Parameter {
     let load = span(curve);
-    Parameter::new(0.0)
-        .with_scale(load)
-        .between(-0.5 * load, 0.5 * load)
+    Parameter::new(0.0).with_scale(load).between(-0.5 * load, 0.5 * load)
 }

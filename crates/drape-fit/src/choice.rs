@@ -62,19 +62,13 @@ pub(crate) fn choose(curve: &Curve, models: &[Model<'_>]) -> Choice {
         .par_iter()
         .map(|model| search(&Residuals::new(curve, &model.predict), &model.starts))
         .collect();
-    let independent = if models.len() > 1 {
-        independent(curve, models, &found)
-    } else {
-        points as f64
-    };
+    let independent =
+        if models.len() > 1 { independent(curve, models, &found) } else { points as f64 };
     let candidate = |(model, found): (&Model<'_>, &Found)| {
         let count = found.named.len();
         let square = found.report.rms.max(RESOLUTION).powi(2);
         // The criterion of residuals of size one is its price of the parameters.
-        let report = Report {
-            sum: points as f64,
-            ..found.report.clone()
-        };
+        let report = Report { sum: points as f64, ..found.report.clone() };
         let price = lm::akaike(&report, points, count);
         Candidate {
             law: model.name.clone(),
@@ -84,23 +78,14 @@ pub(crate) fn choose(curve: &Curve, models: &[Model<'_>]) -> Choice {
         }
     };
     let candidates: Vec<Candidate> = models.iter().zip(&found).map(candidate).collect();
-    let criteria = || {
-        candidates
-            .iter()
-            .filter_map(|candidate| candidate.criterion)
-    };
+    let criteria = || candidates.iter().filter_map(|candidate| candidate.criterion);
     let least = criteria().fold(f64::INFINITY, f64::min);
     let near = |candidate: &Candidate| candidate.criterion.is_some_and(|c| c <= least + LEAD);
     // Too few points for any criterion: the law most preferred.
     let chosen = candidates.iter().position(near).unwrap_or(0);
     let all: usize = found.iter().map(|found| found.evaluations).sum();
     let found = found.swap_remove(chosen);
-    Choice {
-        candidates,
-        chosen,
-        evaluations: all - found.evaluations,
-        found,
-    }
+    Choice { candidates, chosen, evaluations: all - found.evaluations, found }
 }
 
 /// Number of independent residuals of the law that leaves the least.

@@ -78,11 +78,7 @@ pub(crate) fn fit(
     let mut load = vec![0.0; curve.load().len()];
     (model.predict)(&found.report.parameters, &mut load);
     let weighted = !problem.weights().is_empty();
-    let compared = if weighted {
-        &unweighted
-    } else {
-        &found.report.parameters
-    };
+    let compared = if weighted { &unweighted } else { &found.report.parameters };
     let statistics = statistics(&problem, &found.named, &found.report, (compared, intervals));
     let mut fit = CurveFit::new(curve, found, statistics, load);
     fit.evaluations += choice.evaluations;
@@ -126,10 +122,7 @@ impl CurveFit {
 
     /// The values of the parameters.
     pub(crate) fn values(&self) -> Vec<f64> {
-        self.parameters
-            .iter()
-            .map(|estimate| estimate.value)
-            .collect()
+        self.parameters.iter().map(|estimate| estimate.value).collect()
     }
 
     /// Akaike's criterion of the law taken, [`lm::akaike`](crate::lm::akaike), from the independent residuals;
@@ -155,11 +148,7 @@ pub(crate) fn branches(curve: &Curve) -> Vec<usize> {
 pub(crate) fn expect(curve: &Curve, wanted: Test) -> Result<(), Error> {
     let name = curve.name.clone();
     if curve.test != wanted {
-        return Err(Error::WrongTest {
-            name,
-            found: curve.test,
-            wanted,
-        });
+        return Err(Error::WrongTest { name, found: curve.test, wanted });
     }
     let (low, high) = curve.load_range();
     if low == high {
@@ -171,13 +160,10 @@ pub(crate) fn expect(curve: &Curve, wanted: Test) -> Result<(), Error> {
 /// Slope and intercept of the straight line through points, by least squares.
 pub(crate) fn line(points: impl Iterator<Item = (f64, f64)> + Clone) -> Option<(f64, f64)> {
     let count = points.clone().count() as f64;
-    let (sx, sy) = points
-        .clone()
-        .fold((0.0, 0.0), |(sx, sy), (x, y)| (sx + x, sy + y));
+    let (sx, sy) = points.clone().fold((0.0, 0.0), |(sx, sy), (x, y)| (sx + x, sy + y));
     let (mx, my) = (sx / count, sy / count);
-    let (xx, xy) = points.fold((0.0, 0.0), |(xx, xy), (x, y)| {
-        (xx + (x - mx).powi(2), xy + (x - mx) * (y - my))
-    });
+    let (xx, xy) = points
+        .fold((0.0, 0.0), |(xx, xy), (x, y)| (xx + (x - mx).powi(2), xy + (x - mx) * (y - my)));
     let slope = xy / xx;
     slope.is_finite().then_some((slope, my - slope * mx))
 }

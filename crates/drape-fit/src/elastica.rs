@@ -73,10 +73,7 @@ mod tests {
         let euler = (2.0 * PI / LENGTH).powi(2);
         // The load grows by m/2 beyond Euler's, and m is the shortening to first order.
         let force = Arch::new(LENGTH, 1e-6).force;
-        assert!(
-            (force / euler - 1.0).abs() < 1e-6,
-            "{force} against {euler}"
-        );
+        assert!((force / euler - 1.0).abs() < 1e-6, "{force} against {euler}");
     }
 
     #[test]
@@ -93,10 +90,7 @@ mod tests {
                 (energy(shortening + step) - energy(shortening - step)) / (2.0 * step * LENGTH);
             let force = Arch::new(LENGTH, shortening).force;
             // The central difference is good to step² times a third derivative of order ten.
-            assert!(
-                (slope / force - 1.0).abs() < 1e-7,
-                "at {shortening}: {slope} against {force}"
-            );
+            assert!((slope / force - 1.0).abs() < 1e-7, "at {shortening}: {slope} against {force}");
         }
     }
 
@@ -107,10 +101,7 @@ mod tests {
             let at = |shortening: f64| Arch::new(LENGTH, shortening).curvature;
             let slope = (at(shortening + step) - at(shortening - step)) / (2.0 * step);
             let turning = Arch::new(LENGTH, shortening).turning;
-            assert!(
-                (slope / turning - 1.0).abs() < 1e-6,
-                "at {shortening}: {slope}, {turning}"
-            );
+            assert!((slope / turning - 1.0).abs() < 1e-6, "at {shortening}: {slope}, {turning}");
         }
     }
 }

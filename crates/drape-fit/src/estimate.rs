@@ -26,9 +26,7 @@ impl Estimate {
     /// Whether the interval has both signs, or is missing: the data do not bear the parameter out.
     #[must_use]
     pub fn is_doubtful(&self) -> bool {
-        self.interval
-            .as_ref()
-            .map_or(true, |[lower, upper]| lower * upper <= 0.0)
+        self.interval.as_ref().map_or(true, |[lower, upper]| lower * upper <= 0.0)
     }
 }
 

@@ -68,11 +68,8 @@ pub fn shear_from_values(
     // Half widths are Fc + Fc·γ·weight: a line in the weight.
     let rise = 0.5 * (wide - narrow) / (second - first);
     let plateau = 0.5 * narrow - rise * first;
-    let (plateau, rise) = if rise > 0.0 && plateau > 0.0 {
-        (plateau, rise)
-    } else {
-        (0.25 * (narrow + wide), 0.0)
-    };
+    let (plateau, rise) =
+        if rise > 0.0 && plateau > 0.0 { (plateau, rise) } else { (0.25 * (narrow + wide), 0.0) };
     let [from, to] = points.slope;
     let tilt = rise * (lag(to.sin()) - lag(from.sin()));
     let linear = (stiffness * (to - from) - tilt) / (to.sin() - from.sin());
@@ -104,23 +101,12 @@ pub fn tensile_from_values(target: &TensileTarget) -> Result<(TractionLaw, f64),
     };
     let (primed, polynomial) = (nearest(Shape::Primed), nearest(Shape::Polynomial));
     // The priming zone is the model; the polynomial is for curves that it cannot follow.
-    let best = if primed.1 <= polynomial.1.max(VALUE_TOLERANCE) {
-        primed
-    } else {
-        polynomial
-    };
+    let best = if primed.1 <= polynomial.1.max(VALUE_TOLERANCE) { primed } else { polynomial };
     if best.1 < NEAREST {
         return Ok(best);
     }
-    let TensileTarget {
-        linearity,
-        resilience,
-        ..
-    } = *target;
-    Err(Error::Unreachable {
-        linearity,
-        resilience,
-    })
+    let TensileTarget { linearity, resilience, .. } = *target;
+    Err(Error::Unreachable { linearity, resilience })
 }
 
 /// EM's load, WT and RT·WT of a law: one pull to EM and back to zero load, exactly.
@@ -175,11 +161,7 @@ impl Values<'_> {
     }
 
     fn law(&self, p: &[f64]) -> TractionLaw {
-        let TensileTarget {
-            maximum_tension,
-            extension,
-            ..
-        } = *self.target;
+        let TensileTarget { maximum_tension, extension, .. } = *self.target;
         let elastic = p[0] * maximum_tension;
         let backbone = match self.shape {
             Shape::Primed => {
@@ -197,11 +179,7 @@ impl Values<'_> {
             }),
         };
         let friction = BlimanSorine::first_order(p[1] * maximum_tension, TENSILE_SLIP * extension);
-        TractionLaw {
-            backbone,
-            friction,
-            buckling: Buckling::default(),
-        }
+        TractionLaw { backbone, friction, buckling: Buckling::default() }
     }
 }
 
@@ -264,9 +242,7 @@ mod tests {
         for widths in [[0.5, 1.4], [0.98, 1.0], [0.5, 2.5]] {
             let law = shear_from_values(33.7, widths, &points);
             let turns = [0.0, 8.0, -8.0, 8.0].map(f64::to_radians);
-            let values = cycle(Test::Shear, &law, &turns)
-                .shear_values(&points)
-                .unwrap();
+            let values = cycle(Test::Shear, &law, &turns).shear_values(&points).unwrap();
             // Interpolation on 0.004° of a bend with radius x_f: (h/x_f)²/8 = 5e-5 of its share.
             same(values.stiffness, 33.7, 1e-5);
             same(values.loop_width, widths[0], 1e-5);
@@ -279,11 +255,7 @@ mod tests {
         let points = ShearPoints::default();
         let law = shear_from_values(33.7, [1.0, 0.8], &points);
         assert_eq!(law.growth, 0.0);
-        assert!(
-            (law.friction.plateau() - 0.45).abs() < 1e-15,
-            "{}",
-            law.friction.plateau()
-        );
+        assert!((law.friction.plateau() - 0.45).abs() < 1e-15, "{}", law.friction.plateau());
     }
 
     #[test]
@@ -316,17 +288,10 @@ mod tests {
     #[test]
     fn values_that_no_curve_has_are_refused() {
         for (linearity, resilience) in [(0.2, 0.5), (1.6, 0.5)] {
-            let target = TensileTarget {
-                maximum_tension: 490.3325,
-                extension: 0.05,
-                linearity,
-                resilience,
-            };
+            let target =
+                TensileTarget { maximum_tension: 490.3325, extension: 0.05, linearity, resilience };
             let result = tensile_from_values(&target);
-            assert!(
-                matches!(result, Err(Error::Unreachable { .. })),
-                "{target:?}: {result:?}"
-            );
+            assert!(matches!(result, Err(Error::Unreachable { .. })), "{target:?}: {result:?}");
         }
     }
 }

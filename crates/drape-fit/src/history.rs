@@ -17,10 +17,7 @@ pub(crate) trait Driven: Law {
     fn step(&self, memory: &Memory, deformation: f64) -> (f64, Memory) {
         let next = self.commit(memory, deformation);
         let [first, second] = next.friction;
-        (
-            self.elastic_load(memory, deformation) + first + second,
-            next,
-        )
+        (self.elastic_load(memory, deformation) + first + second, next)
     }
 }
 
@@ -135,10 +132,7 @@ mod tests {
         assert_eq!(little[1], 0.0);
         for (a, b) in little.iter().zip(&much) {
             // The strain at which it went slack is found to the last bits.
-            assert!(
-                (a - b).abs() < 1e-9 * little[0],
-                "{little:?} against {much:?}"
-            );
+            assert!((a - b).abs() < 1e-9 * little[0], "{little:?} against {much:?}");
         }
     }
 }

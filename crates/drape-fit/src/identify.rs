@@ -75,22 +75,14 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
     let mut notes = Vec::new();
 
     let density = sheet.density().unwrap_or_else(|| {
-        notes.push(format!(
-            "density: not measured, {} kg/m² taken",
-            assumed::DENSITY
-        ));
+        notes.push(format!("density: not measured, {} kg/m² taken", assumed::DENSITY));
         assumed::DENSITY
     });
     let thickness = sheet.thickness().unwrap_or_else(|| {
-        notes.push(format!(
-            "thickness: not measured, {} m taken",
-            assumed::THICKNESS
-        ));
+        notes.push(format!("thickness: not measured, {} m taken", assumed::THICKNESS));
         assumed::THICKNESS
     });
-    notes.push(format!(
-        "surface_friction: not measured, {SURFACE_FRICTION} taken"
-    ));
+    notes.push(format!("surface_friction: not measured, {SURFACE_FRICTION} taken"));
     let [warp, weft] = both(
         "traction",
         [Direction::Warp, Direction::Weft].map(|direction| measured.traction(direction)),
@@ -113,9 +105,7 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
     notes.push("traction in compression: not measured, buckling at 0.2 % taken".into());
     if let Some(locking) = shear.locking {
         let degrees = locking.onset.asin().to_degrees();
-        notes.push(format!(
-            "shear beyond {degrees:.1}°: not measured, jamming before 60° taken"
-        ));
+        notes.push(format!("shear beyond {degrees:.1}°: not measured, jamming before 60° taken"));
     }
     let fabric = Fabric {
         name: sheet.name.clone(),
@@ -123,14 +113,8 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         density,
         thickness,
         surface_friction: SURFACE_FRICTION,
-        warp: fabric::Direction {
-            traction: warp,
-            bending: warp_bending,
-        },
-        weft: fabric::Direction {
-            traction: weft,
-            bending: weft_bending,
-        },
+        warp: fabric::Direction { traction: warp, bending: warp_bending },
+        weft: fabric::Direction { traction: weft, bending: weft_bending },
         shear,
         provenance: Some(Provenance {
             sheet: sheet.name.clone(),
@@ -142,11 +126,7 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         let fabric::Problem { key, message, help } = problem;
         return Err(Error::Impossible { key, message, help });
     }
-    Ok(Fit {
-        fabric,
-        curves: measured.into_fits(),
-        assumed: notes,
-    })
+    Ok(Fit { fabric, curves: measured.into_fits(), assumed: notes })
 }
 
 /// The laws of both directions; where one is missing the other stands for it.

@@ -57,11 +57,7 @@ impl Form {
             true => (p[2], &p[3..]),
             false => (0.0, &p[2..]),
         };
-        let line = Line {
-            stiffness: p[0],
-            growth,
-            friction: friction(rest),
-        };
+        let line = Line { stiffness: p[0], growth, friction: friction(rest) };
         (line, p[1])
     }
 }
@@ -117,11 +113,7 @@ impl<'a, D: Fn(&Line, &mut [f64]) + Sync + Send> Loop<'a, D> {
             let column = |growth: f64| {
                 let mut out = vec![0.0; path.len()];
                 let friction = BlimanSorine::first_order(1.0, length);
-                let line = Line {
-                    stiffness: 0.0,
-                    growth,
-                    friction,
-                };
+                let line = Line { stiffness: 0.0, growth, friction };
                 drive(&line, &mut out);
                 out
             };
@@ -160,11 +152,7 @@ impl<'a, D: Fn(&Line, &mut [f64]) + Sync + Send> Loop<'a, D> {
             let singles = std::mem::take(&mut starts);
             starts = self.pairs(form);
             if starts.is_empty() {
-                let sign = if form.order == FrictionOrder::Second {
-                    -1.0
-                } else {
-                    1.0
-                };
+                let sign = if form.order == FrictionOrder::Second { -1.0 } else { 1.0 };
                 starts = singles;
                 for start in &mut starts {
                     start.friction.extend([sign * SLOW_START, RATIO_START]);
@@ -203,8 +191,7 @@ impl<'a, D: Fn(&Line, &mut [f64]) + Sync + Send> Loop<'a, D> {
             })
             .collect();
         let kept = all.into_iter().zip(valley);
-        kept.filter_map(|(start, valley)| start.filter(|_| valley))
-            .collect()
+        kept.filter_map(|(start, valley)| start.filter(|_| valley)).collect()
     }
 
     /// Two friction elements, of each pair of lengths.
@@ -252,29 +239,14 @@ impl<'a, D: Fn(&Line, &mut [f64]) + Sync + Send> Loop<'a, D> {
             FrictionOrder::Parallel => friction.extend([SLOW_START, RATIO_START]),
             FrictionOrder::Second => friction.extend([-SLOW_START, RATIO_START]),
         }
-        Start {
-            left: 0.0,
-            stiffness: self.slope,
-            zero: 0.0,
-            growth: 0.0,
-            friction,
-        }
+        Start { left: 0.0, stiffness: self.slope, zero: 0.0, growth: 0.0, friction }
     }
 
     fn named(&self, form: Form, start: &Start) -> Vec<Named> {
         let (slope, load, reach) = (self.slope, span(self.curve), self.reach);
         let mut named = vec![
-            (
-                self.name,
-                Parameter::new(start.stiffness).between(1e-3 * slope, 10.0 * slope),
-            ),
-            (
-                "zero",
-                Parameter {
-                    start: start.zero,
-                    ..zero(self.curve)
-                },
-            ),
+            (self.name, Parameter::new(start.stiffness).between(1e-3 * slope, 10.0 * slope)),
+            ("zero", Parameter { start: start.zero, ..zero(self.curve) }),
         ];
         if form.grows() {
             let growth = Parameter::new(start.growth.max(0.0))
@@ -282,9 +254,8 @@ impl<'a, D: Fn(&Line, &mut [f64]) + Sync + Send> Loop<'a, D> {
                 .between(0.0, LARGEST_GROWTH);
             named.push(("growth", growth));
         }
-        let plateau = Parameter::new(start.friction[0])
-            .with_scale(0.01 * load)
-            .between(0.0, 2.0 * load);
+        let plateau =
+            Parameter::new(start.friction[0]).with_scale(0.01 * load).between(0.0, 2.0 * load);
         let length = Parameter::new(start.friction[1]).between(LEAST_LENGTH * reach, 5.0 * reach);
         named.extend([("plateau", plateau), ("length", length)]);
         if let [_, _, slow, ratio] = *start.friction {

@@ -54,12 +54,7 @@ pub fn identify_loop_bending(
     }
     let found = refine(&problem, search(&problem, &problem.starts()));
     let p = &found.report.parameters;
-    let statistics = statistics(
-        &problem,
-        &found.named,
-        &found.report,
-        (p, settings.intervals),
-    );
+    let statistics = statistics(&problem, &found.named, &found.report, (p, settings.intervals));
     let law = BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: p[0] },
         rest_curvature: 0.0,
@@ -102,23 +97,11 @@ impl<'a> Strip<'a> {
         let bent = |&i: &usize| -strain[i] >= LEAST_SHORTENING;
         let used: Vec<usize> = (0..strain.len()).filter(bent).collect();
         if used.len() <= SHARED + OWN {
-            return Err(Error::HardlyBent {
-                name: name(),
-                needed: 100.0 * LEAST_SHORTENING,
-            });
+            return Err(Error::HardlyBent { name: name(), needed: 100.0 * LEAST_SHORTENING });
         }
-        let arches = used
-            .iter()
-            .map(|&i| Arch::new(length, -strain[i]))
-            .collect();
+        let arches = used.iter().map(|&i| Arch::new(length, -strain[i])).collect();
         let load = used.iter().map(|&i| curve.load()[i]).collect();
-        Ok(Self {
-            curve,
-            used,
-            arches,
-            load,
-            scale: 1.0 / span(curve),
-        })
+        Ok(Self { curve, used, arches, load, scale: 1.0 / span(curve) })
     }
 
     /// Loads of the law less those measured, over their range.
@@ -181,16 +164,13 @@ impl Strips<'_> {
             self.0.iter().map(value).sum::<f64>() / self.0.len() as f64
         };
         let rigidity = mean(&|strip| strip.rigidity());
-        let shared = (
-            "rigidity",
-            Parameter::new(rigidity).between(1e-3 * rigidity, 1e2 * rigidity),
-        );
+        let shared =
+            ("rigidity", Parameter::new(rigidity).between(1e-3 * rigidity, 1e2 * rigidity));
         let moment = mean(&|strip| 1.0 / (strip.scale * strip.range(|arch| arch.turning).0));
         let reach = mean(&|strip| strip.range(|arch| arch.curvature).1);
         let own: Vec<Named> = self.0.iter().flat_map(Strip::own).collect();
-        let plateau = Parameter::new(0.1 * moment)
-            .with_scale(0.01 * moment)
-            .between(0.0, 2.0 * moment);
+        let plateau =
+            Parameter::new(0.1 * moment).with_scale(0.01 * moment).between(0.0, 2.0 * moment);
         let start = |part: f64| {
             let length = Parameter::new(part * reach).between(LEAST_LENGTH * reach, 5.0 * reach);
             let shared = [shared, ("plateau", plateau), ("length", length)];

@@ -51,10 +51,9 @@ impl Laws {
             Test::Tensile => vec![Self::Traction(identify_tensile(curve, settings)?)],
             Test::Bending => vec![Self::Bending(identify_bending(curve, settings)?)],
             Test::Shear => vec![Self::Shear(identify_shear(curve, settings)?)],
-            Test::LoopBending => identify_loop_bending(group, settings)?
-                .into_iter()
-                .map(Self::LoopBending)
-                .collect(),
+            Test::LoopBending => {
+                identify_loop_bending(group, settings)?.into_iter().map(Self::LoopBending).collect()
+            }
         })
     }
 
@@ -93,11 +92,7 @@ impl<'a> Measured<'a> {
         let mut laws: Vec<(usize, Laws)> = places.zip(identified?.into_iter().flatten()).collect();
         laws.sort_by_key(|(index, _)| *index);
         let laws = laws.into_iter().map(|(_, laws)| laws).collect();
-        Ok(Self {
-            sheet,
-            settings,
-            laws,
-        })
+        Ok(Self { sheet, settings, laws })
     }
 
     /// How well each curve is followed, in the order of the sheet.
@@ -114,17 +109,11 @@ impl<'a> Measured<'a> {
             let mut notes = Vec::new();
             if law.friction.plateau() == 0.0 {
                 let name = direction.name();
-                notes.push(format!(
-                    "{name} traction friction: no recovery measured, none taken"
-                ));
+                notes.push(format!("{name} traction friction: no recovery measured, none taken"));
             }
             return Ok(Some((law, notes)));
         }
-        tensile_values(
-            direction.name(),
-            self.sheet.values(direction),
-            self.sheet.maximum_tension(),
-        )
+        tensile_values(direction.name(), self.sheet.values(direction), self.sheet.maximum_tension())
     }
 
     pub(crate) fn assumed_traction(&self, notes: &mut Vec<String>) -> Result<TractionLaw, Error> {
@@ -163,22 +152,16 @@ impl<'a> Measured<'a> {
         let name = direction.name();
         let mut notes = Vec::new();
         let rigidity = rigidity.unwrap_or_else(|| {
-            notes.push(format!(
-                "{name} B: not measured, a bending length of 20 mm taken"
-            ));
+            notes.push(format!("{name} B: not measured, a bending length of 20 mm taken"));
             assumed::bending_rigidity(density)
         });
         let width = width.unwrap_or_else(|| {
-            notes.push(format!(
-                "{name} 2HB: not measured, no bending friction taken"
-            ));
+            notes.push(format!("{name} 2HB: not measured, no bending friction taken"));
             0.0
         });
         if width > 0.0 {
             let slip = assumed::BENDING_SLIP;
-            notes.push(format!(
-                "{name} bending friction length: not in 2HB, {slip} 1/m taken"
-            ));
+            notes.push(format!("{name} bending friction length: not in 2HB, {slip} 1/m taken"));
         }
         Ok(Some((bending_from_values(rigidity, width), notes)))
     }
@@ -199,9 +182,7 @@ impl<'a> Measured<'a> {
         };
         let stiffness = mean(Values::shear_stiffness).unwrap_or_else(|| {
             let taken = assumed::SHEAR_STIFFNESS;
-            notes.push(format!(
-                "shear stiffness: not measured, {taken} N/(m·rad) taken"
-            ));
+            notes.push(format!("shear stiffness: not measured, {taken} N/(m·rad) taken"));
             taken
         });
         let narrow = mean(Values::shear_loop_width);
@@ -214,16 +195,12 @@ impl<'a> Measured<'a> {
             }
             (None, None) => {
                 let taken = assumed::SHEAR_LOOP_WIDTH;
-                notes.push(format!(
-                    "shear loop: not measured, a width of {taken} N/m taken"
-                ));
+                notes.push(format!("shear loop: not measured, a width of {taken} N/m taken"));
                 [taken, taken]
             }
         };
         let slip = assumed::SHEAR_SLIP;
-        notes.push(format!(
-            "shear friction length: not in the values, a sine of {slip} taken"
-        ));
+        notes.push(format!("shear friction length: not in the values, a sine of {slip} taken"));
         shear_from_values(stiffness, widths, &self.settings.shear_points)
     }
 }
@@ -261,21 +238,11 @@ fn tensile_values(name: &str, values: &Values, maximum_tension: f64) -> Found<Tr
             ));
         }
     }
-    let target = TensileTarget {
-        maximum_tension,
-        extension,
-        linearity,
-        resilience,
-    };
+    let target = TensileTarget { maximum_tension, extension, linearity, resilience };
     let (law, misfit) = tensile_from_values(&target)?;
     if misfit > UNMET {
-        notes.push(format!(
-            "{name} EM, LT and RT: met to {:.1} % only",
-            100.0 * misfit
-        ));
+        notes.push(format!("{name} EM, LT and RT: met to {:.1} % only", 100.0 * misfit));
     }
-    notes.push(format!(
-        "{name} traction after stretching: not in the values, as before taken"
-    ));
+    notes.push(format!("{name} traction after stretching: not in the values, as before taken"));
     Ok(Some((law, notes)))
 }

@@ -37,12 +37,7 @@ pub(crate) struct Residuals<'a, F> {
 impl<'a, F: Fn(&[f64], &mut [f64])> Residuals<'a, F> {
     pub fn new(curve: &'a Curve, predict: F) -> Self {
         let (low, high) = curve.load_range();
-        Self {
-            load: curve.load(),
-            scale: 1.0 / (high - low),
-            predict,
-            weights: Vec::new(),
-        }
+        Self { load: curve.load(), scale: 1.0 / (high - low), predict, weights: Vec::new() }
     }
 
     pub fn weighted(self, weights: Vec<f64>) -> Self {
@@ -97,11 +92,7 @@ pub(crate) fn search(problem: &(impl lm::Problem + Sync), starts: &[Vec<Named>])
         .par_iter()
         .map(|start| {
             let report = minimise(problem, start, &rough(SCOUT_ITERATIONS));
-            Found {
-                named: restarted(start, &report),
-                evaluations: report.evaluations,
-                report,
-            }
+            Found { named: restarted(start, &report), evaluations: report.evaluations, report }
         })
         .collect();
     let evaluations = scouts.iter().map(|scout| scout.evaluations).sum();
@@ -109,10 +100,7 @@ pub(crate) fn search(problem: &(impl lm::Problem + Sync), starts: &[Vec<Named>])
         .into_iter()
         .min_by(|a, b| a.report.sum.total_cmp(&b.report.sum))
         .expect("every law gives at least one start");
-    let best = Found {
-        evaluations,
-        ..best
-    };
+    let best = Found { evaluations, ..best };
     if best.report.stop.converged() {
         return best;
     }

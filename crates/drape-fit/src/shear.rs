@@ -34,30 +34,19 @@ pub fn identify_shear(curve: &Curve, settings: &Settings) -> Result<Identified<S
             let fit = breen(curve, (&sines, settings), |p, path, out| {
                 along(&law(p), path.iter().copied(), out);
             })?;
-            Identified {
-                law: law(&fit.values()),
-                fit,
-            }
+            Identified { law: law(&fit.values()), fit }
         }
         _ => line(curve, &sines, settings)?,
     };
     let default = Locking::default();
     let onset = default.onset.max(reach(&sines));
     let locking = (onset < default.limit).then_some(Locking { onset, ..default });
-    Ok(Identified {
-        law: ShearLaw {
-            locking,
-            ..found.law
-        },
-        ..found
-    })
+    Ok(Identified { law: ShearLaw { locking, ..found.law }, ..found })
 }
 
 fn line(curve: &Curve, sines: &[f64], settings: &Settings) -> Result<Identified<ShearLaw>, Error> {
     let law = |line: &Line| ShearLaw {
-        backbone: ShearBackbone::Linear {
-            stiffness: line.stiffness,
-        },
+        backbone: ShearBackbone::Linear { stiffness: line.stiffness },
         friction: line.friction,
         growth: line.growth,
         locking: None,
@@ -84,8 +73,5 @@ fn line(curve: &Curve, sines: &[f64], settings: &Settings) -> Result<Identified<
     let weights = settings.weighting.weights(curve, 0.0);
     let fit = curve_fit::fit(curve, &models, (weights, settings.intervals));
     let (line, _) = forms[fit.chosen].law(&fit.values());
-    Ok(Identified {
-        law: law(&line),
-        fit,
-    })
+    Ok(Identified { law: law(&line), fit })
 }

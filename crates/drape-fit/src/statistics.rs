@@ -40,11 +40,7 @@ impl Independence {
             true => n * (1.0 - kept) / (1.0 + kept),
             false => n,
         };
-        Self {
-            correlation,
-            count: part(correlation),
-            squares: part(correlation * correlation),
-        }
+        Self { correlation, count: part(correlation), squares: part(correlation * correlation) }
     }
 }
 
@@ -126,17 +122,11 @@ pub(crate) fn statistics(
     let correlation = |i: usize, j: usize| {
         let naive = covariance.correlation(i, j)?;
         let sizes = (sandwich[(i, i)] * sandwich[(j, j)]).sqrt();
-        Some(if sizes > 0.0 {
-            (sandwich[(i, j)] / sizes).clamp(-1.0, 1.0)
-        } else {
-            naive
-        })
+        Some(if sizes > 0.0 { (sandwich[(i, j)] / sizes).clamp(-1.0, 1.0) } else { naive })
     };
     Statistics {
         estimates: (0..count).map(estimate).collect(),
-        correlations: (0..count)
-            .map(|i| (0..count).map(|j| correlation(i, j)).collect())
-            .collect(),
+        correlations: (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect(),
     }
 }
 
@@ -163,9 +153,8 @@ fn sandwich(
 ) -> DMatrix<f64> {
     let count = parameters.len();
     let variance = covariance.deviation.powi(2);
-    let mut inverse = DMatrix::from_fn(count, count, |i, j| {
-        covariance.covariance(i, j).unwrap_or(0.0)
-    });
+    let mut inverse =
+        DMatrix::from_fn(count, count, |i, j| covariance.covariance(i, j).unwrap_or(0.0));
     if problem.weights().is_empty() || !(variance > 0.0 && variance.is_finite()) {
         return inverse;
     }
@@ -213,14 +202,11 @@ mod tests {
 
     #[test]
     fn neighbours_that_are_alike_count_less() {
-        let alternating: Vec<f64> = (0..100)
-            .map(|i| if i % 2 == 0 { 1.0 } else { -1.0 })
-            .collect();
+        let alternating: Vec<f64> = (0..100).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
         assert_eq!(Independence::of(&alternating).count, 100.0);
         // Each value ten times: nine of ten neighbours are equal.
-        let blocks: Vec<f64> = (0..100)
-            .map(|i| if (i / 10) % 2 == 0 { 1.0 } else { -1.0 })
-            .collect();
+        let blocks: Vec<f64> =
+            (0..100).map(|i| if (i / 10) % 2 == 0 { 1.0 } else { -1.0 }).collect();
         let blocks = Independence::of(&blocks);
         // 90 pairs of one sign less 9 of the other, of 100.
         assert!((blocks.correlation - 0.81).abs() < 1e-12, "{blocks:?}");

@@ -48,10 +48,7 @@ pub fn identify_tensile(
     let models: Vec<Model<'_>> = forms.iter().map(model).collect();
     let weights = settings.weighting.weights(curve, guess.zero.0);
     let fit = curve_fit::fit(curve, &models, (weights, settings.intervals));
-    Ok(Identified {
-        law: forms[fit.chosen].law(&fit.values()).1,
-        fit,
-    })
+    Ok(Identified { law: forms[fit.chosen].law(&fit.values()).1, fit })
 }
 
 /// The forms that the settings leave to choose from, in the order in which they are preferred.
@@ -64,12 +61,7 @@ fn forms(slack: bool, recovers: bool, settings: &Settings) -> Vec<Form> {
         settings.traction.is_none_or(|wanted| wanted == *model)
             && (*model == Polynomial || toe.is_none_or(|wanted| wanted == *form_toe))
     });
-    let form = |(model, toe)| Form {
-        model,
-        toe,
-        slack,
-        recovers,
-    };
+    let form = |(model, toe)| Form { model, toe, slack, recovers };
     wanted.map(form).collect()
 }
 
@@ -128,23 +120,15 @@ impl Form {
                     toe_strain_after,
                 })
             }
-            TractionModel::Polynomial => TractionBackbone::Polynomial(Polynomial {
-                quadratic: next(),
-                quartic: next(),
-            }),
+            TractionModel::Polynomial => {
+                TractionBackbone::Polynomial(Polynomial { quadratic: next(), quartic: next() })
+            }
         };
         let friction = match self.recovers {
             true => BlimanSorine::first_order(next(), next()),
             false => BlimanSorine::none(),
         };
-        (
-            zeros,
-            TractionLaw {
-                backbone,
-                friction,
-                buckling: Buckling::default(),
-            },
-        )
+        (zeros, TractionLaw { backbone, friction, buckling: Buckling::default() })
     }
 }
 
@@ -154,10 +138,7 @@ mod tests {
     use drape_kes::Direction;
 
     fn primed() -> Settings {
-        Settings {
-            traction: Some(TractionModel::Primed),
-            ..Settings::default()
-        }
+        Settings { traction: Some(TractionModel::Primed), ..Settings::default() }
     }
 
     /// Three growing cycles of a strip that hangs slack by 2 % between them.
@@ -197,11 +178,7 @@ mod tests {
             for (estimate, exact) in found.fit.parameters.iter().zip(truth) {
                 let (name, value) = (estimate.name, estimate.value);
                 let error = (value / exact - 1.0).abs();
-                assert!(
-                    error < 1e-6,
-                    "{name} is {value:e}, exactly {exact:e}; {:?}",
-                    found.fit
-                );
+                assert!(error < 1e-6, "{name} is {value:e}, exactly {exact:e}; {:?}", found.fit);
             }
         }
     }
@@ -222,9 +199,7 @@ mod tests {
         let curve = Curve::new(Test::Tensile, Direction::Weft, strain, load).unwrap();
         let law = identify_tensile(&curve, &primed()).unwrap().law;
         assert_eq!(law.friction, BlimanSorine::none());
-        let TractionBackbone::Primed(primed) = law.backbone else {
-            panic!("primed was asked for")
-        };
+        let TractionBackbone::Primed(primed) = law.backbone else { panic!("primed was asked for") };
         assert_eq!(primed.toe_strain, primed.toe_strain_after);
     }
 }

@@ -70,13 +70,9 @@ impl Guess {
             return Err(falling(curve));
         }
         let upper = zero.0 + 0.6 * (strain[pull.end - 1] - zero.0);
-        let points = pull
-            .filter(|&i| strain[i] >= upper)
-            .map(|i| (strain[i], load[i]));
+        let points = pull.filter(|&i| strain[i] >= upper).map(|i| (strain[i], load[i]));
         let stiffness = line(points).map(|(slope, _)| slope);
-        let stiffness = stiffness
-            .filter(|k| *k > 0.0)
-            .ok_or_else(|| falling(curve))?;
+        let stiffness = stiffness.filter(|k| *k > 0.0).ok_or_else(|| falling(curve))?;
         let from_zero = |strain: &f64| {
             let strain = strain - zero.0;
             if curve.slack { strain.max(0.0) } else { strain }
@@ -126,20 +122,12 @@ impl Guess {
                 column(law(1.0, DEEP, BlimanSorine::none())),
             ];
             let frictions = self.frictions(form);
-            columns.extend(
-                frictions
-                    .iter()
-                    .map(|friction| column(law(0.0, DEEP, *friction))),
-            );
+            columns.extend(frictions.iter().map(|friction| column(law(0.0, DEEP, *friction))));
             let (left, c, length) = self.best(&columns, 2, form)?;
             // The load is linear in the toe ratio: 1 − r is that of the second toe times its part.
             let stiffness = c[0] + c[1];
             let ratio = 1.0 - (1.0 - DEEP) * c[1] / stiffness;
-            let mut backbone = vec![
-                stiffness,
-                ratio.clamp(1.05 * TOE_RATIO_MIN, 0.98),
-                toe * top,
-            ];
+            let mut backbone = vec![stiffness, ratio.clamp(1.05 * TOE_RATIO_MIN, 0.98), toe * top];
             if form.toe == Toe::Moving {
                 backbone.push(growth);
             }
@@ -149,12 +137,8 @@ impl Guess {
                 friction: [c.get(2).copied().unwrap_or(0.0), length],
             })
         };
-        let pairs = TOES
-            .iter()
-            .flat_map(|&toe| growths.iter().map(move |&growth| (toe, growth)));
-        pairs
-            .filter_map(|(toe, growth)| start(toe, growth))
-            .collect()
+        let pairs = TOES.iter().flat_map(|&toe| growths.iter().map(move |&growth| (toe, growth)));
+        pairs.filter_map(|(toe, growth)| start(toe, growth)).collect()
     }
 
     /// For each friction length, the best polynomial.
@@ -169,11 +153,7 @@ impl Guess {
             self.column(&law(0.0, 1.0, BlimanSorine::none())),
         ];
         let frictions = self.frictions(form);
-        columns.extend(
-            frictions
-                .iter()
-                .map(|friction| self.column(&law(0.0, 0.0, *friction))),
-        );
+        columns.extend(frictions.iter().map(|friction| self.column(&law(0.0, 0.0, *friction))));
         let best = self.best(&columns, 2, form);
         let start = best.map(|(left, c, length)| Start {
             left,
@@ -225,11 +205,7 @@ impl Guess {
                 vec![0.5 * load / strain.powi(2), 0.5 * load / strain.powi(4)]
             }
         };
-        Start {
-            left: 0.0,
-            backbone,
-            friction: [0.02 * load, 0.05 * strain],
-        }
+        Start { left: 0.0, backbone, friction: [0.02 * load, 0.05 * strain] }
     }
 
     fn named(&self, form: &Form, start: &Start) -> Vec<Named> {
@@ -240,14 +216,8 @@ impl Guess {
             TractionModel::Primed => {
                 let k = self.stiffness;
                 named.extend([
-                    (
-                        "stiffness",
-                        Parameter::new(backbone[0]).between(1e-2 * k, 1e2 * k),
-                    ),
-                    (
-                        "toe_ratio",
-                        Parameter::new(backbone[1]).between(TOE_RATIO_MIN, 1.0),
-                    ),
+                    ("stiffness", Parameter::new(backbone[0]).between(1e-2 * k, 1e2 * k)),
+                    ("toe_ratio", Parameter::new(backbone[1]).between(TOE_RATIO_MIN, 1.0)),
                     (
                         "toe_strain",
                         Parameter::new(backbone[2]).between(1e-3 * strain, 2.0 * strain),
@@ -260,9 +230,7 @@ impl Guess {
             TractionModel::Polynomial => {
                 let term = |value: f64, power: i32| {
                     let size = load / strain.powi(power);
-                    Parameter::new(value)
-                        .with_scale(0.01 * size)
-                        .between(0.0, 10.0 * size)
+                    Parameter::new(value).with_scale(0.01 * size).between(0.0, 10.0 * size)
                 };
                 named.push(("quadratic", term(backbone[0], 2)));
                 named.push(("quartic", term(backbone[1], 4)));
@@ -270,9 +238,7 @@ impl Guess {
         }
         if form.recovers {
             let [plateau, length] = start.friction;
-            let plateau = Parameter::new(plateau)
-                .with_scale(0.01 * load)
-                .between(0.0, load);
+            let plateau = Parameter::new(plateau).with_scale(0.01 * load).between(0.0, load);
             let length = Parameter::new(length).between(LEAST_LENGTH * strain, 5.0 * strain);
             named.extend([("plateau", plateau), ("length", length)]);
         }
@@ -282,9 +248,7 @@ impl Guess {
     fn zeros(&self) -> Vec<Named> {
         let ((strain, load), (top_strain, top_load)) = (self.zero, self.top);
         let around = |value: f64, half: f64| {
-            Parameter::new(value)
-                .with_scale(half)
-                .between(value - half, value + half)
+            Parameter::new(value).with_scale(half).between(value - half, value + half)
         };
         vec![
             ("free strain", around(strain, 0.3 * top_strain)),
@@ -300,8 +264,5 @@ fn taut(curve: &Curve, pull: &Range<usize>) -> (f64, f64) {
     let first = pull.clone().find(risen).unwrap_or(pull.start);
     let taut = first.saturating_sub(1);
     let before = &load[pull.start..=taut];
-    (
-        strain[taut],
-        before.iter().sum::<f64>() / before.len() as f64,
-    )
+    (strain[taut], before.iter().sum::<f64>() / before.len() as f64)
 }

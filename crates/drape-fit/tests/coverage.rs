@@ -92,12 +92,7 @@ fn cases() -> [Case; 3] {
         },
         Case {
             name: "bending loop",
-            truth: vec![
-                ("rigidity", 6e-6),
-                ("zero", 4e-5),
-                ("plateau", 3e-4),
-                ("length", 15.0),
-            ],
+            truth: vec![("rigidity", 6e-6), ("zero", 4e-5), ("plateau", 3e-4), ("length", 15.0)],
             predict: Box::new(move |p| {
                 let law = BendingLaw {
                     backbone: BendingBackbone::Linear { rigidity: p[0] },
@@ -111,12 +106,7 @@ fn cases() -> [Case; 3] {
         },
         Case {
             name: "shear loop with a growing plateau",
-            truth: vec![
-                ("stiffness", 30.0),
-                ("plateau", 0.9),
-                ("growth", 8.0),
-                ("length", 0.008),
-            ],
+            truth: vec![("stiffness", 30.0), ("plateau", 0.9), ("growth", 8.0), ("length", 0.008)],
             predict: Box::new(move |p| {
                 let law = ShearLaw {
                     backbone: ShearBackbone::Linear { stiffness: p[0] },

@@ -29,9 +29,7 @@ fn values_of(fabric: &Fabric, direction: Direction, extension: f64) -> Values {
     let pull = cycle(Test::Tensile, &laws.traction, &[0.0, extension, 0.0]);
     let tensile = pull.tensile_values().expect("a pull");
     let loop_ = cycle(Test::Bending, &laws.bending, &[0.0, 250.0, -250.0, 250.0]);
-    let bending = loop_
-        .bending_values(&BendingPoints::default())
-        .expect("a loop");
+    let bending = loop_.bending_values(&BendingPoints::default()).expect("a loop");
     let turns = [0.0, 8.0, -8.0, 8.0].map(f64::to_radians);
     let loop_ = cycle(Test::Shear, &fabric.shear, &turns);
     let shear = loop_.shear_values(&ShearPoints::default()).expect("a loop");
@@ -72,20 +70,12 @@ const WARP: Values = Values {
 
 #[test]
 fn a_fabric_from_values_has_these_values() {
-    let weft = Values {
-        b: Some(0.05),
-        em: Some(7.0),
-        lt: Some(0.62),
-        ..WARP
-    };
+    let weft = Values { b: Some(0.05), em: Some(7.0), lt: Some(0.62), ..WARP };
     let fit = identify(&sheet(WARP, weft)).expect("identified");
     for (direction, exact) in [(Direction::Warp, WARP), (Direction::Weft, weft)] {
         let extension = exact.em.expect("given") / 100.0;
         let found = values_of(&fit.fabric, direction, extension);
-        let work = exact
-            .lt
-            .zip(exact.em)
-            .map(|(lt, em)| 0.5 * lt * 500.0 * em / 100.0);
+        let work = exact.lt.zip(exact.em).map(|(lt, em)| 0.5 * lt * 500.0 * em / 100.0);
         let pairs = [
             (found.b, exact.b),
             (found.two_hb, exact.two_hb),
@@ -100,10 +90,7 @@ fn a_fabric_from_values_has_these_values() {
             let (found, exact) = (found.expect("measured"), exact.expect("given"));
             // The curve is drawn with 4000 points a branch and read by lines between them; that the law has
             // the values is exact.
-            assert!(
-                (found / exact - 1.0).abs() < 1e-4,
-                "{direction:?}: {found} against {exact}"
-            );
+            assert!((found / exact - 1.0).abs() < 1e-4, "{direction:?}: {found} against {exact}");
         }
     }
 }
@@ -112,16 +99,8 @@ fn a_fabric_from_values_has_these_values() {
 fn work_stands_in_for_linearity_or_extension() {
     // WT = ½·LT·FM·EM in gf·cm/cm², EM in percent.
     let work = 0.5 * 0.72 * 500.0 * 0.045;
-    let without_linearity = Values {
-        lt: None,
-        wt: Some(work),
-        ..WARP
-    };
-    let without_extension = Values {
-        em: None,
-        wt: Some(work),
-        ..WARP
-    };
+    let without_linearity = Values { lt: None, wt: Some(work), ..WARP };
+    let without_extension = Values { em: None, wt: Some(work), ..WARP };
     let whole = identify(&sheet(WARP, WARP)).expect("identified").fabric;
     for values in [without_linearity, without_extension] {
         let fabric = identify(&sheet(values, values)).expect("identified").fabric;
@@ -148,29 +127,16 @@ fn everything_that_is_missing_is_named_and_a_whole_sheet_leaves_little() {
         "shear stiffness",
         "shear loop",
     ] {
-        let named = fit
-            .assumed
-            .iter()
-            .any(|note| note.starts_with(&format!("{what}: not measured")));
+        let named =
+            fit.assumed.iter().any(|note| note.starts_with(&format!("{what}: not measured")));
         assert!(named, "{what} is not in {:#?}", fit.assumed);
     }
     assert_eq!(fit.fabric.problems(), []);
-    let provenance = fit
-        .fabric
-        .provenance
-        .as_ref()
-        .expect("a fitted fabric says so");
+    let provenance = fit.fabric.provenance.as_ref().expect("a fitted fabric says so");
     assert_eq!(provenance.assumed, fit.assumed);
 
     let whole = identify(&sheet(WARP, WARP)).expect("identified");
-    for what in [
-        "density",
-        "thickness",
-        "traction:",
-        "bending:",
-        "shear stiffness",
-        "shear loop",
-    ] {
+    for what in ["density", "thickness", "traction:", "bending:", "shear stiffness", "shear loop"] {
         let named = whole.assumed.iter().any(|note| note.starts_with(what));
         assert!(!named, "{what} was given: {:#?}", whole.assumed);
     }
@@ -181,20 +147,13 @@ fn a_missing_direction_is_taken_from_the_other() {
     let fit = identify(&sheet(WARP, Values::default())).expect("identified");
     assert_eq!(fit.fabric.weft.bending, fit.fabric.warp.bending);
     assert_eq!(fit.fabric.weft.traction, fit.fabric.warp.traction);
-    assert!(
-        fit.assumed
-            .contains(&"weft bending: not measured, the warp's taken".to_owned())
-    );
+    assert!(fit.assumed.contains(&"weft bending: not measured, the warp's taken".to_owned()));
 }
 
 #[test]
 fn values_that_contradict_each_other_are_refused() {
     // Ten times the work that a straight line could do.
-    let values = Values {
-        lt: None,
-        wt: Some(100.0),
-        ..WARP
-    };
+    let values = Values { lt: None, wt: Some(100.0), ..WARP };
     let error = identify(&sheet(values, values)).expect_err("no such fabric");
     assert!(matches!(error, Error::Unreachable { .. }), "{error}");
 }
@@ -203,42 +162,25 @@ fn values_that_contradict_each_other_are_refused() {
 fn a_curve_comes_before_the_values() {
     let law = drape_fit::bending_from_values(2e-5, 1e-3);
     let mut sheet = sheet(WARP, WARP);
-    sheet
-        .curves
-        .push(cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]));
+    sheet.curves.push(cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]));
     let fit = identify(&sheet).expect("identified");
     let rigidity = |law: &drape_fabric::BendingLaw| law.backbone.respond(0.0).tangent;
     let warp = rigidity(&fit.fabric.warp.bending);
     assert!((warp / 2e-5 - 1.0).abs() < 1e-6, "{warp:e}");
     let weft = rigidity(&fit.fabric.weft.bending);
-    assert!(
-        (weft / (0.09 * 9.806_65e-5) - 1.0).abs() < 1e-12,
-        "{weft:e}"
-    );
+    assert!((weft / (0.09 * 9.806_65e-5) - 1.0).abs() < 1e-12, "{weft:e}");
     assert_eq!(fit.curves.len(), 1);
 }
 
 #[test]
 fn a_value_is_used_even_where_its_companion_is_missing() {
-    let friction_only = Values {
-        two_hb: Some(0.06),
-        ..Values::default()
-    };
-    let resilience_only = Values {
-        rt: Some(80.0),
-        ..Values::default()
-    };
+    let friction_only = Values { two_hb: Some(0.06), ..Values::default() };
+    let resilience_only = Values { rt: Some(80.0), ..Values::default() };
     let fit = identify(&sheet(friction_only, resilience_only)).expect("identified");
     let plateau = fit.fabric.warp.bending.friction.plateau();
-    assert!(
-        (plateau / (0.03 * 9.806_65e-3) - 1.0).abs() < 1e-12,
-        "{plateau:e}"
-    );
+    assert!((plateau / (0.03 * 9.806_65e-3) - 1.0).abs() < 1e-12, "{plateau:e}");
     let found = values_of(&fit.fabric, Direction::Weft, 0.05);
-    assert!(
-        (found.rt.expect("measured") - 80.0).abs() < 0.01,
-        "{found:?}"
-    );
+    assert!((found.rt.expect("measured") - 80.0).abs() < 0.01, "{found:?}");
     for what in ["warp B:", "weft EM:", "weft LT:"] {
         let named = fit.assumed.iter().any(|note| note.starts_with(what));
         assert!(named, "{what} is not in {:#?}", fit.assumed);
@@ -247,16 +189,10 @@ fn a_value_is_used_even_where_its_companion_is_missing() {
 
 #[test]
 fn a_work_that_linearity_and_extension_contradict_is_named() {
-    let values = Values {
-        wt: Some(16.2),
-        ..WARP
-    };
+    let values = Values { wt: Some(16.2), ..WARP };
     let fit = identify(&sheet(values, WARP)).expect("identified");
     // ½·0.72·500·0.045 = 8.1 gf·cm/cm².
-    let named = fit
-        .assumed
-        .iter()
-        .any(|note| note.starts_with("warp WT: 15.887 J/m² not used"));
+    let named = fit.assumed.iter().any(|note| note.starts_with("warp WT: 15.887 J/m² not used"));
     assert!(named, "{:#?}", fit.assumed);
 }
 
@@ -266,24 +202,13 @@ fn the_number_of_threads_does_not_matter() {
     let mut sheet = sheet(WARP, WARP);
     let mut loop_ = cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]);
     // Noise, so that the search does not end where every path ends.
-    let noisy = loop_
-        .load()
-        .iter()
-        .enumerate()
-        .map(|(i, m)| m + 1e-5 * ((i * i) as f64).sin());
-    loop_ = Curve::new(
-        Test::Bending,
-        Direction::Warp,
-        loop_.deformation().to_vec(),
-        noisy.collect(),
-    )
-    .expect("a curve");
+    let noisy = loop_.load().iter().enumerate().map(|(i, m)| m + 1e-5 * ((i * i) as f64).sin());
+    loop_ =
+        Curve::new(Test::Bending, Direction::Warp, loop_.deformation().to_vec(), noisy.collect())
+            .expect("a curve");
     sheet.curves.push(loop_);
     let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("a pool");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| identify(&sheet).expect("identified"))
     };
     assert_eq!(with(1), with(4));

@@ -23,11 +23,7 @@ impl<F: Fn(&[f64], &mut [f64])> Problem for Model<F> {
 }
 
 fn model<F: Fn(&[f64], &mut [f64])>(count: usize, residuals: F) -> Model<F> {
-    Model {
-        count,
-        weights: Vec::new(),
-        residuals,
-    }
+    Model { count, weights: Vec::new(), residuals }
 }
 
 fn starts(values: &[f64]) -> Vec<Parameter> {
@@ -56,26 +52,16 @@ fn powells_singular_problem_is_solved_as_far_as_its_singularity_allows() {
         r[2] = (p[1] - 2.0 * p[2]).powi(2);
         r[3] = 10f64.sqrt() * (p[0] - p[3]).powi(2);
     });
-    let report = minimise(
-        &singular,
-        &starts(&[3.0, -1.0, 0.0, 1.0]),
-        &Settings::default(),
-    );
+    let report = minimise(&singular, &starts(&[3.0, -1.0, 0.0, 1.0]), &Settings::default());
     assert!(report.rms < 1e-12, "{report:?}");
-    assert!(
-        report.parameters.iter().all(|value| value.abs() < 1e-5),
-        "{report:?}"
-    );
+    assert!(report.parameters.iter().all(|value| value.abs() < 1e-5), "{report:?}");
 }
 
 #[test]
 fn a_linear_fit_with_weights_solves_the_normal_equations() {
     let x: Vec<f64> = (0..20).map(|i| f64::from(i) / 10.0).collect();
-    let y: Vec<f64> = x
-        .iter()
-        .enumerate()
-        .map(|(i, x)| 3.0 - 2.0 * x + ((i * 7) % 5) as f64)
-        .collect();
+    let y: Vec<f64> =
+        x.iter().enumerate().map(|(i, x)| 3.0 - 2.0 * x + ((i * 7) % 5) as f64).collect();
     let weights: Vec<f64> = (0..20).map(|i| 1.0 + f64::from(i % 3)).collect();
     let line = Model {
         count: 20,
@@ -93,10 +79,7 @@ fn a_linear_fit_with_weights_solves_the_normal_equations() {
     let right = a.transpose() * &w * DVector::from_vec(y.clone());
     let exact = normal.lu().solve(&right).expect("two distinct abscissae");
     for (found, exact) in report.parameters.iter().zip(exact.iter()) {
-        assert!(
-            (found - exact).abs() < 1e-9,
-            "{found} against {exact}: {report:?}"
-        );
+        assert!((found - exact).abs() < 1e-9, "{found} against {exact}: {report:?}");
     }
 }
 
@@ -125,19 +108,10 @@ fn a_start_at_a_bound_leaves_it_when_the_minimum_is_inside() {
             *r = p[0] * (-t / p[1]).exp() - 2.0 * (-t / 0.7).exp();
         }
     });
-    let start = [
-        Parameter::new(0.0).between(0.0, 10.0),
-        Parameter::new(5.0).between(0.1, 5.0),
-    ];
+    let start = [Parameter::new(0.0).between(0.0, 10.0), Parameter::new(5.0).between(0.1, 5.0)];
     let report = minimise(&decay, &start, &Settings::default());
-    assert!(
-        (report.parameters[0] / 2.0 - 1.0).abs() < 1e-8,
-        "{report:?}"
-    );
-    assert!(
-        (report.parameters[1] / 0.7 - 1.0).abs() < 1e-8,
-        "{report:?}"
-    );
+    assert!((report.parameters[0] / 2.0 - 1.0).abs() < 1e-8, "{report:?}");
+    assert!((report.parameters[1] / 0.7 - 1.0).abs() < 1e-8, "{report:?}");
 }
 
 #[test]
@@ -150,19 +124,12 @@ fn units_of_the_parameters_do_not_matter() {
             }
         });
         let report = minimise(&power, &starts(&[1.0, 1.0 / unit]), &Settings::default());
-        (
-            report.parameters[0],
-            report.parameters[1] * unit,
-            report.iterations,
-        )
+        (report.parameters[0], report.parameters[1] * unit, report.iterations)
     };
     let (a, b, steps) = solve(1.0);
     let (c, d, other) = solve(1e9);
     assert!((a - 3.0).abs() < 1e-9 && (b - 0.6).abs() < 1e-9, "{a} {b}");
-    assert!(
-        (a - c).abs() < 1e-9 && (b - d).abs() < 1e-9,
-        "{a} {b} against {c} {d}"
-    );
+    assert!((a - c).abs() < 1e-9 && (b - d).abs() < 1e-9, "{a} {b} against {c} {d}");
     assert_eq!(steps, other);
 }
 
@@ -216,17 +183,8 @@ fn an_analytic_jacobian_and_differences_end_at_the_same_place() {
     }
     let report = minimise(&Analytic, &starts(&[-1.2, 1.0]), &Settings::default());
     assert!(report.stop.converged(), "{report:?}");
-    assert!(
-        report
-            .parameters
-            .iter()
-            .all(|value| (value - 1.0).abs() < 1e-12),
-        "{report:?}"
-    );
+    assert!(report.parameters.iter().all(|value| (value - 1.0).abs() < 1e-12), "{report:?}");
     // Without differences each iteration costs one evaluation, or two where its step is bent; the start and
     // the last steps cost one each.
-    assert!(
-        report.evaluations <= 2 * report.iterations + 3,
-        "{report:?}"
-    );
+    assert!(report.evaluations <= 2 * report.iterations + 3, "{report:?}");
 }

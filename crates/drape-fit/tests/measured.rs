@@ -9,9 +9,7 @@ use drape_fit::{Candidate, CurveFit, Fit, identify};
 use drape_kes::Sheet;
 
 fn fabric(name: &str) -> Fit {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../../fabrics")
-        .join(name);
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fabrics").join(name);
     let sheet = Sheet::read(folder).expect("a shipped sheet is good");
     let fit = identify(&sheet).expect("a shipped fabric is identified");
     fit.curves.iter().for_each(print);
@@ -33,12 +31,7 @@ fn print(fit: &CurveFit) {
     );
     for (i, candidate) in fit.candidates.iter().enumerate() {
         let mark = if i == fit.chosen { "*" } else { " " };
-        let Candidate {
-            law,
-            parameters,
-            misfit,
-            criterion,
-        } = candidate;
+        let Candidate { law, parameters, misfit, criterion } = candidate;
         println!(
             "  {mark} {law}: {parameters} parameters, {:.3} %, {criterion:.1?}",
             100.0 * misfit
@@ -71,10 +64,7 @@ fn three_growing_cycles_of_the_cupro_strips_are_followed_within_two_percent() {
 fn the_cupro_arches_give_rigidities_within_the_scatter_of_the_instrument() {
     let fit = fabric("cupro-weave");
     // Fits of the elastica alone to the single files scatter over these ranges.
-    let ranges = [
-        (fit.fabric.warp, 4e-6..1.7e-5),
-        (fit.fabric.weft, 4e-6..2.3e-5),
-    ];
+    let ranges = [(fit.fabric.warp, 4e-6..1.7e-5), (fit.fabric.weft, 4e-6..2.3e-5)];
     for (direction, range) in ranges {
         let rigidity = direction.bending.backbone.respond(0.0).tangent;
         assert!(range.contains(&rigidity), "{rigidity:e} outside {range:?}");
@@ -97,10 +87,7 @@ fn tagawas_law_is_found_again_in_the_loops_generated_from_it() {
     ];
     for (found, exact) in exact {
         // The file gives five decimals of gf·cm/cm, 1e-5 of its range: rounding is all that is left.
-        assert!(
-            (found / exact - 1.0).abs() < 2e-4,
-            "{found:e} against {exact:e}"
-        );
+        assert!((found / exact - 1.0).abs() < 2e-4, "{found:e} against {exact:e}");
     }
     assert!(misfit(&fit, "bending loops, warp") < 1e-5);
 }
@@ -113,40 +100,21 @@ fn tagawas_tensile_polynomial_is_found_again() {
     };
     // gf/cm to N/m, and percent to ratio to the power of each term.
     let unit = 0.980_665;
-    for (found, exact) in [
-        (found.quadratic, 8.5748e4 * unit),
-        (found.quartic, 0.1191e8 * unit),
-    ] {
-        assert!(
-            (found / exact - 1.0).abs() < 1e-5,
-            "{found:e} against {exact:e}"
-        );
+    for (found, exact) in [(found.quadratic, 8.5748e4 * unit), (found.quartic, 0.1191e8 * unit)] {
+        assert!((found / exact - 1.0).abs() < 1e-5, "{found:e} against {exact:e}");
     }
     assert!(misfit(&fit, "tensile, warp") < 1e-6);
 }
 
 #[test]
 fn matsudairas_values_become_fabrics_that_have_them() {
-    for (name, b, two_hb) in [
-        ("matsudaira-a", 0.118, 0.124),
-        ("matsudaira-b", 0.067, 0.033),
-    ] {
+    for (name, b, two_hb) in [("matsudaira-a", 0.118, 0.124), ("matsudaira-b", 0.067, 0.033)] {
         let fit = fabric(name);
         let bending = fit.fabric.weft.bending;
         let rigidity = bending.backbone.respond(0.0).tangent / 9.806_65e-5;
         let width = 2.0 * bending.friction.plateau() / 9.806_65e-3;
-        assert!(
-            (rigidity / b - 1.0).abs() < 1e-12,
-            "{name}: B is {rigidity}"
-        );
-        assert!(
-            (width / two_hb - 1.0).abs() < 1e-12,
-            "{name}: 2HB is {width}"
-        );
-        assert!(
-            fit.assumed
-                .iter()
-                .any(|note| note.starts_with("traction: not measured"))
-        );
+        assert!((rigidity / b - 1.0).abs() < 1e-12, "{name}: B is {rigidity}");
+        assert!((width / two_hb - 1.0).abs() < 1e-12, "{name}: 2HB is {width}");
+        assert!(fit.assumed.iter().any(|note| note.starts_with("traction: not measured")));
     }
 }

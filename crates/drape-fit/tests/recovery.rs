@@ -78,18 +78,12 @@ fn curve(test: Test, law: &impl Law, deformation: Vec<f64>, zero: f64) -> Curve 
         Test::Shear => deformation.iter().map(|angle: &f64| angle.sin()).collect(),
         _ => deformation.clone(),
     };
-    let load = drive(law, law.virgin(), &driven)
-        .iter()
-        .map(|load| load + zero)
-        .collect();
+    let load = drive(law, law.virgin(), &driven).iter().map(|load| load + zero).collect();
     Curve::new(test, Direction::Warp, deformation, load).expect("a curve of a law")
 }
 
 fn values(fit: &CurveFit) -> Vec<f64> {
-    fit.parameters
-        .iter()
-        .map(|estimate| estimate.value)
-        .collect()
+    fit.parameters.iter().map(|estimate| estimate.value).collect()
 }
 
 /// The largest relative error over many fabrics, with the fabric and the parameter it belongs to.
@@ -109,11 +103,7 @@ fn worst<L>(
         for (exact, estimate) in truth.iter().zip(&found.fit.parameters) {
             let (parameter, value) = (estimate.name, estimate.value);
             // A parameter whose true value is zero is judged by the misfit alone.
-            let error = if *exact == 0.0 {
-                0.0
-            } else {
-                (value / exact - 1.0).abs()
-            };
+            let error = if *exact == 0.0 { 0.0 } else { (value / exact - 1.0).abs() };
             bad |= !(error <= TOLERANCE);
             if !(error <= worst.0) {
                 let text = format!(
@@ -163,27 +153,15 @@ fn primed(random: &mut Random) -> (Vec<f64>, TractionLaw, f64) {
         primed.stiffness = stiffness;
     }
     law.friction = BlimanSorine::first_order(plateau, length);
-    (
-        vec![stiffness, toe_ratio, toe_strain, growth, plateau, length],
-        law,
-        top,
-    )
+    (vec![stiffness, toe_ratio, toe_strain, growth, plateau, length], law, top)
 }
 
 #[test]
 fn a_primed_traction_law_is_recovered_from_one_kes_cycle() {
     worst("primed traction, one cycle", FABRICS, |random| {
         let (truth, law, top) = primed(random);
-        let curve = curve(
-            Test::Tensile,
-            &law,
-            history(&[0.0, top, 0.0], top / 120.0),
-            0.0,
-        );
-        (
-            truth,
-            identify_tensile(&curve, &primed_settings()).expect("identified"),
-        )
+        let curve = curve(Test::Tensile, &law, history(&[0.0, top, 0.0], top / 120.0), 0.0);
+        (truth, identify_tensile(&curve, &primed_settings()).expect("identified"))
     });
 }
 
@@ -193,10 +171,7 @@ fn a_primed_traction_law_is_recovered_from_three_growing_cycles() {
         let (truth, law, top) = primed(random);
         let turns = [0.0, 0.7 * top, 0.0, 0.85 * top, 0.0, top, 0.0];
         let curve = curve(Test::Tensile, &law, history(&turns, top / 60.0), 0.0);
-        (
-            truth,
-            identify_tensile(&curve, &primed_settings()).expect("identified"),
-        )
+        (truth, identify_tensile(&curve, &primed_settings()).expect("identified"))
     });
 }
 
@@ -205,34 +180,21 @@ fn a_polynomial_traction_law_is_recovered() {
     worst("polynomial traction", FABRICS, |random| {
         let top = random.logarithmic(0.02, 0.1);
         let share = random.between(0.05, 0.95);
-        let (quadratic, quartic) = (
-            490.0 * share / top.powi(2),
-            490.0 * (1.0 - share) / top.powi(4),
-        );
-        let (plateau, length) = (
-            random.between(2.0, 40.0),
-            top * random.logarithmic(0.01, 0.2),
-        );
+        let (quadratic, quartic) =
+            (490.0 * share / top.powi(2), 490.0 * (1.0 - share) / top.powi(4));
+        let (plateau, length) = (random.between(2.0, 40.0), top * random.logarithmic(0.01, 0.2));
         let law = TractionLaw {
             backbone: TractionBackbone::Polynomial(Polynomial { quadratic, quartic }),
             friction: BlimanSorine::first_order(plateau, length),
             buckling: Buckling::default(),
         };
-        let curve = curve(
-            Test::Tensile,
-            &law,
-            history(&[0.0, top, 0.0], top / 120.0),
-            0.0,
-        );
+        let curve = curve(Test::Tensile, &law, history(&[0.0, top, 0.0], top / 120.0), 0.0);
         let truth = vec![quadratic, quartic, plateau, length];
         (
             truth,
             identify_tensile(
                 &curve,
-                &Settings {
-                    traction: Some(TractionModel::Polynomial),
-                    ..Settings::default()
-                },
+                &Settings { traction: Some(TractionModel::Polynomial), ..Settings::default() },
             )
             .expect("identified"),
         )
@@ -291,10 +253,7 @@ fn a_bending_law_with_second_order_friction_is_recovered() {
         };
         let curve = curve(Test::Bending, &law, bending_history(), zero);
         let truth = vec![rigidity, zero, plateau, length, slow, ratio];
-        (
-            truth,
-            identify_bending(&curve, &loops(LoopModel::Linear(order))).expect("identified"),
-        )
+        (truth, identify_bending(&curve, &loops(LoopModel::Linear(order))).expect("identified"))
     });
 }
 
@@ -304,11 +263,7 @@ fn breens_quadratic_and_line_are_recovered_from_the_first_branch() {
         let (slope, plateau, _) = bending(random);
         let knot = random.between(20.0, 150.0);
         let law = BendingLaw {
-            backbone: BendingBackbone::Piecewise(Piecewise {
-                slope,
-                intercept: plateau,
-                knot,
-            }),
+            backbone: BendingBackbone::Piecewise(Piecewise { slope, intercept: plateau, knot }),
             rest_curvature: 0.0,
             friction: BlimanSorine::none(),
         };
@@ -325,11 +280,7 @@ fn shear(random: &mut Random, grows: bool) -> (Vec<f64>, Curve) {
     let stiffness = random.logarithmic(11.0, 112.0);
     let plateau = stiffness * random.logarithmic(0.004, 0.03);
     let length = random.logarithmic(0.1, 1.0).to_radians();
-    let growth = if grows {
-        random.between(1.0, 12.0)
-    } else {
-        0.0
-    };
+    let growth = if grows { random.between(1.0, 12.0) } else { 0.0 };
     let zero = stiffness * random.between(-0.01, 0.01);
     let law = ShearLaw {
         backbone: ShearBackbone::Linear { stiffness },
@@ -338,12 +289,7 @@ fn shear(random: &mut Random, grows: bool) -> (Vec<f64>, Curve) {
         locking: None,
     };
     let turns = [0.0, 8.0, -8.0, 0.0].map(f64::to_radians);
-    let curve = curve(
-        Test::Shear,
-        &law,
-        history(&turns, 0.05_f64.to_radians()),
-        zero,
-    );
+    let curve = curve(Test::Shear, &law, history(&turns, 0.05_f64.to_radians()), zero);
     (vec![stiffness, zero, growth, plateau, length], curve)
 }
 
@@ -377,14 +323,8 @@ fn difference(history: &[f64], first: &BendingLaw, second: &BendingLaw) -> f64 {
     let (first, second) = (drive(first), drive(second));
     let (low, high) = first
         .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &m| {
-            (low.min(m), high.max(m))
-        });
-    let apart = first
-        .iter()
-        .zip(&second)
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, f64::max);
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &m| (low.min(m), high.max(m)));
+    let apart = first.iter().zip(&second).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     apart / (high - low)
 }
 
@@ -403,10 +343,7 @@ fn a_friction_length_far_below_the_sampling_leaves_no_trace() {
     let shorter = bending_with(BlimanSorine::first_order(6e-4, 0.02));
     let apart = difference(&bending_history(), &short, &shorter);
     // e^{-2/0.04} of the plateau.
-    assert!(
-        apart < 1e-15,
-        "the curves differ by {apart:e} of their range"
-    );
+    assert!(apart < 1e-15, "the curves differ by {apart:e} of their range");
 }
 
 #[test]
@@ -417,8 +354,5 @@ fn the_plateaus_of_two_elements_of_like_length_are_told_apart_by_their_sum_only(
     let apart = difference(&bending_history(), &one, &other);
     // 2e-4·(1 − ratio)·e^{-1} at most, doubled after a reversal, of a range of 7e-3: below what any
     // instrument resolves.
-    assert!(
-        apart < 3e-4,
-        "the curves differ by {apart:e} of their range"
-    );
+    assert!(apart < 3e-4, "the curves differ by {apart:e} of their range");
 }

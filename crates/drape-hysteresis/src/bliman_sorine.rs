@@ -41,18 +41,13 @@ impl BlimanSorine {
     /// load), lengths `ratio × length` and `length` (unit of the deformation), 0 < `ratio` < 1.
     #[must_use]
     pub fn second_order(fast_plateau: f64, slow_plateau: f64, ratio: f64, length: f64) -> Self {
-        Self::parallel(
-            Dahl::new(fast_plateau, ratio * length),
-            Dahl::new(-slow_plateau, length),
-        )
+        Self::parallel(Dahl::new(fast_plateau, ratio * length), Dahl::new(-slow_plateau, length))
     }
 
     /// Two elements side by side.
     #[must_use]
     pub fn parallel(first: Dahl, second: Dahl) -> Self {
-        Self {
-            elements: [first, second],
-        }
+        Self { elements: [first, second] }
     }
 
     /// Plateau that a long slip reaches, in the unit of the load.
@@ -66,10 +61,7 @@ impl BlimanSorine {
     pub fn advance(&self, loads: Loads, slip: impl Into<Slip>) -> Loads {
         let slip = slip.into();
         let [first, second] = self.elements;
-        [
-            first.advance(loads[0], slip),
-            second.advance(loads[1], slip),
-        ]
+        [first.advance(loads[0], slip), second.advance(loads[1], slip)]
     }
 
     /// Total load at the end of a piece and its derivative with respect to the amount of the piece,
@@ -78,10 +70,7 @@ impl BlimanSorine {
     pub fn respond(&self, loads: Loads, slip: impl Into<Slip>) -> (f64, f64) {
         let slip = slip.into();
         let [first, second] = self.elements;
-        let (first, second) = (
-            first.respond(loads[0], slip),
-            second.respond(loads[1], slip),
-        );
+        let (first, second) = (first.respond(loads[0], slip), second.respond(loads[1], slip));
         (first.0 + second.0, first.1 + second.1)
     }
 
@@ -126,16 +115,9 @@ mod tests {
         let peak_at = (f1 / (ratio * f2)).ln() / rate;
         let peak = load(peak_at);
         for u in [0.9 * peak_at, 0.99 * peak_at, 1.01 * peak_at, 1.1 * peak_at] {
-            assert!(
-                load(u) < peak,
-                "peak {peak} at {peak_at}, {} at {u}",
-                load(u)
-            );
+            assert!(load(u) < peak, "peak {peak} at {peak_at}, {} at {u}", load(u));
         }
-        assert!(
-            peak > f1 - f2 + 0.05,
-            "peak {peak} stands above the kinetic level"
-        );
+        assert!(peak > f1 - f2 + 0.05, "peak {peak} stands above the kinetic level");
         let settled = load(40.0 * length);
         assert!((settled - (f1 - f2)).abs() < 1e-9, "settled at {settled}");
         assert!((friction.plateau() - (f1 - f2)).abs() < 1e-15);
@@ -154,20 +136,12 @@ mod tests {
         }
         let upper = friction.advance(lower, 2.0 * amplitude);
         let tip = plateau * (amplitude / length).tanh();
-        assert!(
-            (sum(upper) - tip).abs() < 1e-9,
-            "tip {} exact {tip}",
-            sum(upper)
-        );
+        assert!((sum(upper) - tip).abs() < 1e-9, "tip {} exact {tip}", sum(upper));
         for p in [-0.2, -0.1, 0.0, 0.07, 0.2, 0.24] {
             let rising = sum(friction.advance(lower, p + amplitude));
             let falling = sum(friction.advance(upper, p - amplitude));
             let exact = 2.0 * plateau * (1.0 - (p / length).cosh() / (amplitude / length).cosh());
-            assert!(
-                (rising - falling - exact).abs() < 1e-9,
-                "at {p}: {}",
-                rising - falling
-            );
+            assert!((rising - falling - exact).abs() < 1e-9, "at {p}: {}", rising - falling);
         }
         let area = friction.work(lower, 2.0 * amplitude) + friction.work(upper, -2.0 * amplitude);
         let exact = 4.0 * plateau * (amplitude - length * (amplitude / length).tanh());
@@ -188,10 +162,7 @@ mod tests {
         };
         let widths = [0.02, 0.1, 0.4, 1.6].map(width);
         assert!(widths.windows(2).all(|w| w[1] > 1.1 * w[0]), "{widths:?}");
-        assert!(
-            (widths[3] - 1.4).abs() < 0.02,
-            "wide loops reach twice the plateaus: {widths:?}"
-        );
+        assert!((widths[3] - 1.4).abs() < 0.02, "wide loops reach twice the plateaus: {widths:?}");
     }
 
     #[test]

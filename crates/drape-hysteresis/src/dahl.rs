@@ -33,10 +33,7 @@ struct Decay {
 
 impl Dahl {
     /// No friction.
-    pub const NONE: Self = Self {
-        plateau: 0.0,
-        length: 1.0,
-    };
+    pub const NONE: Self = Self { plateau: 0.0, length: 1.0 };
 
     /// An element with the given plateau (unit of the load) and pre-sliding length (unit of the
     /// deformation).
@@ -53,10 +50,7 @@ impl Dahl {
 
     fn decay(&self, amount: f64) -> Decay {
         let lost = -(-amount.abs() / self.length).exp_m1();
-        Decay {
-            kept: 1.0 - lost,
-            lost,
-        }
+        Decay { kept: 1.0 - lost, lost }
     }
 
     /// Load at the end of a piece that began with `load`, in the unit of the load.
@@ -85,10 +79,7 @@ impl Dahl {
             return (load, 0.0);
         }
         let end = self.advance(load, slip);
-        (
-            end,
-            (self.plateau * slip.weight_to - slip.amount.signum() * end) / self.length,
-        )
+        (end, (self.plateau * slip.weight_to - slip.amount.signum() * end) / self.length)
     }
 
     /// Work of the load over a piece, `$\int F\,\mathrm{d}q$`, in load times deformation.
@@ -115,11 +106,7 @@ impl Dahl {
     /// deformation.
     #[must_use]
     pub fn stored(&self, load: f64) -> f64 {
-        if self.plateau == 0.0 {
-            0.0
-        } else {
-            0.5 * load * load * self.length / self.plateau
-        }
+        if self.plateau == 0.0 { 0.0 } else { 0.5 * load * load * self.length / self.plateau }
     }
 
     /// Work lost over a piece: [`Dahl::work`] less the change of [`Dahl::stored`].
@@ -138,10 +125,7 @@ impl Dahl {
 mod tests {
     use super::*;
 
-    const ELEMENT: Dahl = Dahl {
-        plateau: 0.7,
-        length: 0.03,
-    };
+    const ELEMENT: Dahl = Dahl { plateau: 0.7, length: 0.03 };
 
     fn pieces() -> Vec<(f64, Slip)> {
         let mut pieces = Vec::new();
@@ -164,26 +148,17 @@ mod tests {
             let second = Slip::weighted(half, middle_weight, slip.weight_to);
             let middle = ELEMENT.advance(load, first);
             let (two, one) = (ELEMENT.advance(middle, second), ELEMENT.advance(load, slip));
-            assert!(
-                (two - one).abs() < 1e-14,
-                "{load} {slip:?}: {two} against {one}"
-            );
+            assert!((two - one).abs() < 1e-14, "{load} {slip:?}: {two} against {one}");
             let two = ELEMENT.work(load, first) + ELEMENT.work(middle, second);
             let one = ELEMENT.work(load, slip);
-            assert!(
-                (two - one).abs() < 1e-14,
-                "{load} {slip:?}: work {two} against {one}"
-            );
+            assert!((two - one).abs() < 1e-14, "{load} {slip:?}: work {two} against {one}");
         }
     }
 
     #[test]
     fn the_load_solves_the_differential_equation() {
         // Fourth-order Runge–Kutta with 4000 stages is good to about 1e-11 here.
-        for (load, slip) in pieces()
-            .into_iter()
-            .filter(|(_, slip)| slip.amount.abs() < 0.4)
-        {
+        for (load, slip) in pieces().into_iter().filter(|(_, slip)| slip.amount.abs() < 0.4) {
             let steps = 4000;
             let du = slip.amount.abs() / f64::from(steps);
             let rate = |u: f64, f: f64| {
@@ -201,10 +176,7 @@ mod tests {
                 f += du / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
             }
             let exact = ELEMENT.advance(load, slip);
-            assert!(
-                (f - exact).abs() < 1e-10,
-                "{load} {slip:?}: {exact}, integrated {f}"
-            );
+            assert!((f - exact).abs() < 1e-10, "{load} {slip:?}: {exact}, integrated {f}");
         }
     }
 
@@ -222,16 +194,10 @@ mod tests {
                 around(f, -2.0) - 8.0 * around(f, -1.0) + 8.0 * around(f, 1.0) - around(f, 2.0)
             };
             let force = slope(&|s| ELEMENT.work(load, s));
-            assert!(
-                (force - ELEMENT.advance(load, slip)).abs() < 1e-9,
-                "{load} {slip:?}: {force}"
-            );
+            assert!((force - ELEMENT.advance(load, slip)).abs() < 1e-9, "{load} {slip:?}: {force}");
             let tangent = slope(&|s| ELEMENT.advance(load, s));
             let exact = ELEMENT.respond(load, slip).1;
-            assert!(
-                (tangent - exact).abs() < 1e-7,
-                "{load} {slip:?}: {tangent} against {exact}"
-            );
+            assert!((tangent - exact).abs() < 1e-7, "{load} {slip:?}: {tangent} against {exact}");
         }
     }
 
@@ -244,10 +210,7 @@ mod tests {
             }
             let stiffness = ELEMENT.presliding_stiffness();
             let (up, down) = (ELEMENT.respond(load, 0.0).1, ELEMENT.respond(load, -0.0).1);
-            assert!(
-                (up + down - 2.0 * stiffness).abs() < 1e-12,
-                "{load}: {up} {down}"
-            );
+            assert!((up + down - 2.0 * stiffness).abs() < 1e-12, "{load}: {up} {down}");
         }
     }
 
@@ -264,15 +227,10 @@ mod tests {
             }
         }
         let exact = 4.0 * plateau * (amplitude - length * (amplitude / length).tanh());
-        assert!(
-            (lost - exact).abs() < 1e-9 * exact,
-            "area {lost}, exact {exact}"
-        );
+        assert!((lost - exact).abs() < 1e-9 * exact, "area {lost}, exact {exact}");
         let mut state = 12_345_u64;
         let mut random = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
         };
         let mut load = 0.0;

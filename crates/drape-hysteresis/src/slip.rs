@@ -18,11 +18,7 @@ impl Slip {
     /// A piece along which the plateau is weighted from `weight_from` to `weight_to`.
     #[must_use]
     pub fn weighted(amount: f64, weight_from: f64, weight_to: f64) -> Self {
-        Self {
-            amount,
-            weight_from,
-            weight_to,
-        }
+        Self { amount, weight_from, weight_to }
     }
 }
 

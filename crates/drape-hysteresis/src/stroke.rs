@@ -46,20 +46,13 @@ impl Slider {
     /// Prepares an element.
     #[must_use]
     pub fn new(element: Dahl) -> Self {
-        Self {
-            plateau: element.plateau,
-            length: element.length,
-            inverse: 1.0 / element.length,
-        }
+        Self { plateau: element.plateau, length: element.length, inverse: 1.0 / element.length }
     }
 
     #[inline(always)]
     fn decay(&self, way: f64) -> Decay {
         let lost = -exp_m1(-way * self.inverse);
-        Decay {
-            lost,
-            lag: way - self.length * lost,
-        }
+        Decay { lost, lag: way - self.length * lost }
     }
 
     /// Load at the end of a stroke that began with `load`, in the unit of the load.
@@ -118,10 +111,7 @@ mod tests {
     use super::*;
     use crate::Slip;
 
-    const ELEMENT: Dahl = Dahl {
-        plateau: 0.7,
-        length: 0.03,
-    };
+    const ELEMENT: Dahl = Dahl { plateau: 0.7, length: 0.03 };
 
     /// Weight with a knot at 0.01, like that of a yarn whose toe ends there.
     fn weight(at: f64) -> f64 {
@@ -132,24 +122,12 @@ mod tests {
     fn a_bent_stroke_is_its_pieces_one_after_the_other() {
         let slider = Slider::new(ELEMENT);
         for load in [-0.7, 0.0, 0.3] {
-            for (from, to) in [
-                (0.002_f64, 0.03),
-                (0.03, 0.002),
-                (0.0, 0.011),
-                (0.2, -0.002),
-            ] {
+            for (from, to) in [(0.002_f64, 0.03), (0.03, 0.002), (0.0, 0.011), (0.2, -0.002)] {
                 let sign = (to - from).signum();
                 let start = if from < 0.01 { 60.0 * sign } else { 0.0 };
-                let stroke = Stroke {
-                    sign,
-                    way: (to - from).abs(),
-                    weight: weight(from),
-                    ramp: start,
-                };
-                let bend = Bend {
-                    ramp: -60.0,
-                    way: (to - 0.01_f64).abs(),
-                };
+                let stroke =
+                    Stroke { sign, way: (to - from).abs(), weight: weight(from), ramp: start };
+                let bend = Bend { ramp: -60.0, way: (to - 0.01_f64).abs() };
                 let slips = [
                     Slip::weighted(0.01 - from, weight(from), 1.0),
                     Slip::weighted(to - 0.01, 1.0, weight(to)),

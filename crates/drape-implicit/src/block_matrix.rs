@@ -16,11 +16,7 @@ impl BlockMatrix {
     /// The matrix of zeros on a pattern.
     pub fn zeros(pattern: Pattern) -> Self {
         let blocks = vec![block::ZERO; pattern.blocks()];
-        Self {
-            pattern,
-            blocks,
-            stray: None,
-        }
+        Self { pattern, blocks, stray: None }
     }
 
     /// Its sparsity.
@@ -193,15 +189,8 @@ mod tests {
         let mut matrix = sample();
         let free = matrix.blocks()[0];
         matrix.complete(&[2.0, 3.0, 5.0], &[false, true, false]);
-        assert_eq!(
-            matrix.blocks()[1],
-            block::ZERO,
-            "coupling to the held particle"
-        );
-        assert_eq!(
-            matrix.blocks()[3],
-            [3.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 3.0]
-        );
+        assert_eq!(matrix.blocks()[1], block::ZERO, "coupling to the held particle");
+        assert_eq!(matrix.blocks()[3], [3.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 3.0]);
         assert_eq!(matrix.blocks()[0][0], free[0] + 2.0);
         assert_eq!(matrix.blocks()[0][1], free[1]);
     }

@@ -18,11 +18,7 @@ impl Updates {
     /// Room for so many updates; more are made room for when they come.
     pub(crate) fn with_room(updates: usize, length: usize) -> Self {
         let room = vec![vec![0.0; length]; updates];
-        Self {
-            steps: room.clone(),
-            gains: room,
-            count: 0,
-        }
+        Self { steps: room.clone(), gains: room, count: 0 }
     }
 
     pub(crate) fn forget(&mut self) {
@@ -104,9 +100,6 @@ mod tests {
             direction = z.iter().map(|z| -z).collect();
         }
         let left = dot(&phi, &phi).sqrt();
-        assert!(
-            steps <= 6 && left <= 1e-12,
-            "residual {left:e} after {steps} steps"
-        );
+        assert!(steps <= 6 && left <= 1e-12, "residual {left:e} after {steps} steps");
     }
 }

@@ -43,11 +43,7 @@ pub fn check_system(
     let length = 3 * system.particles();
     for (what, found) in [("start", start.len()), ("trial", trial.len())] {
         if found != length {
-            return Err(Error::Dimension {
-                what,
-                expected: length,
-                found,
-            });
+            return Err(Error::Dimension { what, expected: length, found });
         }
     }
     let mut target = start.to_vec();
@@ -57,29 +53,16 @@ pub fn check_system(
     system.forces(trial, &mut forces);
     let extent = extent(trial);
 
-    let mut check = Check {
-        force_error: 0.0,
-        stiffness_error: 0.0,
-        definite_shift: 0.0,
-    };
+    let mut check = Check { force_error: 0.0, stiffness_error: 0.0, definite_shift: 0.0 };
     let mut product = vec![0.0; length];
     for seed in 0..DIRECTIONS as u64 {
         let direction = direction(length, seed);
         exact.multiply(&direction, &mut product);
         let power = dot(&forces, &direction);
-        let magnitude: f64 = forces
-            .iter()
-            .zip(&direction)
-            .map(|(f, d)| (f * d).abs())
-            .sum();
+        let magnitude: f64 = forces.iter().zip(&direction).map(|(f, d)| (f * d).abs()).sum();
         let (mut force_error, mut stiffness_error) = (f64::INFINITY, f64::INFINITY);
         for increment in INCREMENTS.map(|fraction| fraction * extent) {
-            let mut line = Line {
-                system: &mut *system,
-                trial,
-                direction: &direction,
-                increment,
-            };
+            let mut line = Line { system: &mut *system, trial, direction: &direction, increment };
             force_error = force_error.min(relative((power - line.power()).abs(), magnitude));
             let change = line.resistance();
             let scale = norm(&change);
@@ -103,20 +86,12 @@ struct Line<'a> {
 
 impl Line<'_> {
     /// Weights of the fourth-order central difference, for offsets in increments.
-    const WEIGHTS: [(f64, f64); 4] = [
-        (-2.0, 1.0 / 12.0),
-        (-1.0, -2.0 / 3.0),
-        (1.0, 2.0 / 3.0),
-        (2.0, -1.0 / 12.0),
-    ];
+    const WEIGHTS: [(f64, f64); 4] =
+        [(-2.0, 1.0 / 12.0), (-1.0, -2.0 / 3.0), (1.0, 2.0 / 3.0), (2.0, -1.0 / 12.0)];
 
     fn at(&self, offset: f64) -> Vec<f64> {
         let step = offset * self.increment;
-        self.trial
-            .iter()
-            .zip(self.direction)
-            .map(|(x, d)| x + step * d)
-            .collect()
+        self.trial.iter().zip(self.direction).map(|(x, d)| x + step * d).collect()
     }
 
     /// Fall of the potential per unit length.
@@ -152,11 +127,7 @@ fn assemble(
     let mut matrix = BlockMatrix::zeros(system.pattern());
     let (expected, found) = (system.particles(), matrix.pattern().particles());
     if expected != found {
-        return Err(Error::Dimension {
-            what: "pattern",
-            expected,
-            found,
-        });
+        return Err(Error::Dimension { what: "pattern", expected, found });
     }
     system.stiffness(positions, kind, &mut matrix);
     match matrix.stray() {
@@ -206,11 +177,7 @@ fn extent(positions: &[f64]) -> f64 {
 }
 
 fn relative(difference: f64, scale: f64) -> f64 {
-    if difference == 0.0 {
-        0.0
-    } else {
-        difference / scale
-    }
+    if difference == 0.0 { 0.0 } else { difference / scale }
 }
 
 /// Entries between −1 and 1, the same on every machine (Weyl sequence and the mixing function of SplitMix64).

@@ -29,9 +29,7 @@ pub(crate) struct Cholesky {
 
 impl core::fmt::Debug for Cholesky {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Cholesky")
-            .field("factor", &self.factor.len())
-            .finish_non_exhaustive()
+        f.debug_struct("Cholesky").field("factor", &self.factor.len()).finish_non_exhaustive()
     }
 }
 
@@ -96,11 +94,7 @@ impl Cholesky {
 /// the time.
 fn order(pattern: &Pattern) -> Result<(Vec<usize>, Vec<usize>), faer::sparse::FaerError> {
     let particles = pattern.particles();
-    let columns: Vec<usize> = pattern
-        .columns()
-        .iter()
-        .map(|&column| column as usize)
-        .collect();
+    let columns: Vec<usize> = pattern.columns().iter().map(|&column| column as usize).collect();
     let graph = SymbolicSparseColMatRef::new_checked(
         particles,
         particles,
@@ -115,12 +109,8 @@ fn order(pattern: &Pattern) -> Result<(Vec<usize>, Vec<usize>), faer::sparse::Fa
         MemBuffer::try_new(request).map_err(|_| faer::sparse::FaerError::OutOfMemory)?;
     let stack = MemStack::new(&mut memory);
     amd::order_maybe_unsorted(&mut forward, &mut inverse, graph, Default::default(), stack)?;
-    let expand = |order: &[usize]| {
-        order
-            .iter()
-            .flat_map(|&p| [3 * p, 3 * p + 1, 3 * p + 2])
-            .collect()
-    };
+    let expand =
+        |order: &[usize]| order.iter().flat_map(|&p| [3 * p, 3 * p + 1, 3 * p + 2]).collect();
     Ok((expand(&forward), expand(&inverse)))
 }
 
@@ -164,9 +154,7 @@ mod tests {
 
     /// A band matrix with unsymmetric blocks off the diagonal, dominated by its diagonal or not.
     fn band(own: f64) -> BlockMatrix {
-        let pairs = (1..12)
-            .map(|i| (i - 1, i))
-            .chain((4..12).map(|i| (i - 4, i)));
+        let pairs = (1..12).map(|i| (i - 1, i)).chain((4..12).map(|i| (i - 4, i)));
         let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(12, pairs.clone()).unwrap());
         for i in 0..12 {
             matrix.add(i, i, &[own, 0.2, 0.1, 0.2, own, -0.3, 0.1, -0.3, own]);

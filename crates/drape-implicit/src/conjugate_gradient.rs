@@ -27,12 +27,7 @@ pub(crate) struct ConjugateGradient {
 impl ConjugateGradient {
     pub(crate) fn new(length: usize) -> Self {
         let zeros = || vec![0.0; length];
-        Self {
-            residual: zeros(),
-            preconditioned: zeros(),
-            direction: zeros(),
-            product: zeros(),
-        }
+        Self { residual: zeros(), preconditioned: zeros(), direction: zeros(), product: zeros() }
     }
 
     /// Solves `A x = b` from `x = 0` until `‖b − A x‖₂ ≤ target`, in at least one iteration. `x` holds `b ≠ 0` on
@@ -44,12 +39,7 @@ impl ConjugateGradient {
         target: f64,
         limit: usize,
     ) -> (usize, Ending) {
-        let Self {
-            residual,
-            preconditioned,
-            direction,
-            product,
-        } = self;
+        let Self { residual, preconditioned, direction, product } = self;
         residual.copy_from_slice(x);
         x.fill(0.0);
         preconditioner.solve(residual, preconditioned, norm(residual));
@@ -117,10 +107,7 @@ mod tests {
         let (iterations, ending) = gradient.solve((matrix, &mut incomplete), &mut x, target, limit);
         matrix.multiply(&x, &mut back);
         add_scaled(&mut back, -1.0, &b);
-        assert!(
-            ending == Ending::Indefinite || dot(&x, &b) > 0.0,
-            "not a descent direction"
-        );
+        assert!(ending == Ending::Indefinite || dot(&x, &b) > 0.0, "not a descent direction");
         (norm(&back) / norm(&b), iterations, ending)
     }
 

@@ -65,11 +65,7 @@ impl Elimination {
                         None => NOWHERE,
                     };
                     let [left, right] = [left, right].map(|place| start + place as u32);
-                    updates.push(Update {
-                        left,
-                        right,
-                        target,
-                    });
+                    updates.push(Update { left, right, target });
                 }
             }
             update_offsets.push(updates.len() as u32);
@@ -116,10 +112,7 @@ fn rows(pattern: &Pattern, order: &[u32]) -> Vec<Vec<(usize, Source)>> {
     for particle in 0..order.len() {
         for slot in pattern.row(particle).skip(1) {
             let (own, other) = (rank[particle], rank[pattern.columns()[slot] as usize]);
-            let source = Source {
-                slot: slot as u32,
-                transposed: other < own,
-            };
+            let source = Source { slot: slot as u32, transposed: other < own };
             rows[own.min(other)].push((own.max(other), source));
         }
     }

@@ -29,11 +29,7 @@ impl Formula {
                     reach: (1.0 + ratio) / whole * dt,
                 }
             }
-            _ => Self {
-                current: 1.0,
-                previous: 0.0,
-                reach: dt,
-            },
+            _ => Self { current: 1.0, previous: 0.0, reach: dt },
         }
     }
 }

@@ -87,11 +87,7 @@ impl Incomplete {
             if self.try_factorise(matrix, shift, 0.0) {
                 return Ok(tried);
             }
-            shift = if tried == 0 {
-                FIRST_SHIFT
-            } else {
-                shift * SHIFT_GROWTH
-            };
+            shift = if tried == 0 { FIRST_SHIFT } else { shift * SHIFT_GROWTH };
         }
         self.diagonal_only = true;
         for (row, pivot) in self.pivots.iter_mut().enumerate() {
@@ -104,14 +100,7 @@ impl Incomplete {
     /// Factorises with the diagonal larger by the factor `1 + shift`. False if a pivot collapses.
     fn try_factorise(&mut self, matrix: &BlockMatrix, shift: f64, compensation: f64) -> bool {
         self.load(matrix, 1.0 + shift);
-        let Self {
-            elimination,
-            work,
-            upper,
-            pivots,
-            row: scaled,
-            ..
-        } = self;
+        let Self { elimination, work, upper, pivots, row: scaled, .. } = self;
         let pattern = matrix.pattern();
         let above = elimination.columns.len();
         let collapse = PIVOT_COLLAPSE * (1.0 + shift).powi(3);
@@ -126,10 +115,8 @@ impl Incomplete {
             };
             let inverse = block::symmetric_inverse(&pivot, det);
             pivots[particle] = inverse;
-            for ((scaled, upper), work) in scaled
-                .iter_mut()
-                .zip(&mut upper[slots.clone()])
-                .zip(&work[slots.clone()])
+            for ((scaled, upper), work) in
+                scaled.iter_mut().zip(&mut upper[slots.clone()]).zip(&work[slots.clone()])
             {
                 // A symmetric block is its own transpose.
                 *scaled = block::transposed_product(&inverse, work);
@@ -161,11 +148,8 @@ impl Incomplete {
         let (above, diagonal) = self.work.split_at_mut(sources.len());
         for (work, source) in above.iter_mut().zip(sources) {
             let block = &matrix.blocks()[source.slot as usize];
-            *work = block::by_rows(&if source.transposed {
-                block::transposed(block)
-            } else {
-                *block
-            });
+            *work =
+                block::by_rows(&if source.transposed { block::transposed(block) } else { *block });
         }
         for (row, work) in diagonal.iter_mut().enumerate() {
             let own = &matrix.blocks()[matrix.pattern().row(row).start];
@@ -281,15 +265,9 @@ mod tests {
     fn an_indefinite_diagonal_block_is_reported() {
         let mut matrix = chain(3, 3.0, -1.0);
         matrix.add(1, 1, &[-9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(
-            Incomplete::new(matrix.pattern()).factorise(&matrix),
-            Err(NotDefinite)
-        );
+        assert_eq!(Incomplete::new(matrix.pattern()).factorise(&matrix), Err(NotDefinite));
         matrix.blocks_mut()[0][0] = f64::NAN;
-        assert_eq!(
-            Incomplete::new(matrix.pattern()).factorise(&matrix),
-            Err(NotDefinite)
-        );
+        assert_eq!(Incomplete::new(matrix.pattern()).factorise(&matrix), Err(NotDefinite));
     }
 
     #[test]

@@ -35,12 +35,7 @@ pub(crate) struct Point {
 impl Point {
     pub(crate) fn new(length: usize) -> Self {
         let zeros = || vec![0.0; length];
-        Self {
-            deviation: zeros(),
-            positions: zeros(),
-            residual: zeros(),
-            norm: f64::NAN,
-        }
+        Self { deviation: zeros(), positions: zeros(), residual: zeros(), norm: f64::NAN }
     }
 
     /// Whether the residual is within the limit: never if it is NaN, and with all particles held always.
@@ -65,20 +60,13 @@ pub(crate) struct Incremental<'a> {
 impl Incremental<'_> {
     /// Fills in what follows from the deviations.
     pub(crate) fn evaluate(&mut self, point: &mut Point) {
-        let Point {
-            deviation,
-            positions,
-            residual,
-            norm,
-        } = point;
+        let Point { deviation, positions, residual, norm } = point;
         for ((x, base), d) in positions.iter_mut().zip(self.base).zip(deviation.iter()) {
             *x = base + d;
         }
         self.system.forces(positions, residual);
         self.report.force_evaluations += 1;
-        let triples = block::triples_mut(residual)
-            .iter_mut()
-            .zip(block::triples(deviation));
+        let triples = block::triples_mut(residual).iter_mut().zip(block::triples(deviation));
         for (((phi, d), inertia), &held) in triples.zip(self.inertia).zip(self.held) {
             for (phi, d) in phi.iter_mut().zip(d) {
                 *phi = if held { 0.0 } else { inertia * d - *phi };

@@ -31,12 +31,7 @@ pub struct Previous {
 impl Motion {
     /// A motion that starts at time 0 with given positions (m) and velocities (m/s).
     pub fn new(positions: Vec<f64>, velocities: Vec<f64>) -> Self {
-        Self {
-            time: 0.0,
-            positions,
-            velocities,
-            previous: None,
-        }
+        Self { time: 0.0, positions, velocities, previous: None }
     }
 
     /// A motion that starts at time 0 from rest at given positions (m).

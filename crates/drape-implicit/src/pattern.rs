@@ -22,20 +22,14 @@ impl Pattern {
             return fault(0, "the first row offset must be 0");
         }
         if offsets.last() != Some(&columns.len()) {
-            return fault(
-                rows,
-                "the last row offset must be the number of columns listed",
-            );
+            return fault(rows, "the last row offset must be the number of columns listed");
         }
         if u32::try_from(columns.len()).is_err() {
             return fault(rows, "more than 2³² blocks");
         }
         for row in 0..rows {
             if offsets[row + 1] <= offsets[row] || offsets[row + 1] > columns.len() {
-                return fault(
-                    row,
-                    "row offsets must grow: each row has at least its diagonal",
-                );
+                return fault(row, "row offsets must grow: each row has at least its diagonal");
             }
             let list = &columns[offsets[row]..offsets[row + 1]];
             if list[0] as usize != row {
@@ -117,9 +111,7 @@ impl Pattern {
             return None;
         }
         let row = self.row(low);
-        let found = self.columns[row.clone()]
-            .binary_search(&(high as u32))
-            .ok()?;
+        let found = self.columns[row.clone()].binary_search(&(high as u32)).ok()?;
         Some(row.start + found)
     }
 }

@@ -123,30 +123,15 @@ impl Settings {
         let fraction = |value: f64| value > 0.0 && value < 1.0;
         let count = |value: usize| value > 0;
         let rules = [
-            (
-                "tolerance",
-                self.tolerance,
-                positive(self.tolerance),
-                "positive",
-            ),
-            (
-                "acceleration",
-                self.acceleration,
-                positive(self.acceleration),
-                "positive",
-            ),
+            ("tolerance", self.tolerance, positive(self.tolerance), "positive"),
+            ("acceleration", self.acceleration, positive(self.acceleration), "positive"),
             (
                 "max_iterations",
                 self.max_iterations as f64,
                 count(self.max_iterations),
                 "at least 1",
             ),
-            (
-                "max_halvings",
-                self.max_halvings.into(),
-                self.max_halvings <= 40,
-                "at most 40",
-            ),
+            ("max_halvings", self.max_halvings.into(), self.max_halvings <= 40, "at most 40"),
             (
                 "tangent_iterations",
                 self.tangent_iterations as f64,

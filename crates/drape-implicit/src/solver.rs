@@ -65,11 +65,8 @@ pub(crate) struct Solver {
 impl Solver {
     pub(crate) fn new(tangent: Tangent, settings: &Settings) -> Self {
         let length = 3 * tangent.matrix.pattern().particles();
-        let updates = if settings.method == Method::Broyden {
-            settings.tangent_iterations - 1
-        } else {
-            0
-        };
+        let updates =
+            if settings.method == Method::Broyden { settings.tangent_iterations - 1 } else { 0 };
         Self {
             current: Point::new(length),
             trial: Point::new(length),
@@ -162,12 +159,8 @@ impl Solver {
         for &kind in kinds {
             problem.assemble(&self.current, kind, &mut self.tangent)?;
             let Some(slope) = self.newton_direction(problem, forcing) else {
-                if let Some(entry) = self
-                    .tangent
-                    .matrix
-                    .values()
-                    .iter()
-                    .position(|x| !x.is_finite())
+                if let Some(entry) =
+                    self.tangent.matrix.values().iter().position(|x| !x.is_finite())
                 {
                     return Err(Halt::NotFinite(Quantity::Stiffness, self.row_of(entry / 9)));
                 }
@@ -189,15 +182,8 @@ impl Solver {
     fn newton_direction(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> Option<f64> {
         self.tangent.prepare(problem.report).ok()?;
         let target = linear_target(&self.current, forcing, problem.limit);
-        let Self {
-            current,
-            direction,
-            tangent,
-            ..
-        } = self;
-        tangent
-            .solve(&current.residual, direction, target, problem.report)
-            .ok()?;
+        let Self { current, direction, tangent, .. } = self;
+        tangent.solve(&current.residual, direction, target, problem.report).ok()?;
         for p in direction.iter_mut() {
             *p = -*p;
         }
@@ -238,16 +224,8 @@ impl Solver {
     /// the tangent is worth keeping.
     fn broyden_step(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> bool {
         let target = linear_target(&self.current, forcing, problem.limit);
-        let Self {
-            current,
-            image,
-            tangent,
-            ..
-        } = self;
-        if tangent
-            .solve(&current.residual, image, target, problem.report)
-            .is_err()
-        {
+        let Self { current, image, tangent, .. } = self;
+        if tangent.solve(&current.residual, image, target, problem.report).is_err() {
             return false;
         }
         if !self.turn(1.0, TANGENT_FLOOR) {
@@ -265,10 +243,7 @@ impl Solver {
     /// `direction` to the next one.
     pub(crate) fn turn(&mut self, length: f64, floor: f64) -> bool {
         self.updates.apply(&mut self.image);
-        if !self
-            .updates
-            .learn(&self.direction, length, &self.image, floor)
-        {
+        if !self.updates.learn(&self.direction, length, &self.image, floor) {
             return false;
         }
         self.updates.apply_last(&mut self.image);
@@ -280,9 +255,7 @@ impl Solver {
 
     /// Evaluates the point at some length along the direction.
     pub(crate) fn try_step(&mut self, problem: &mut Incremental<'_>, length: f64) {
-        self.trial
-            .deviation
-            .copy_from_slice(&self.current.deviation);
+        self.trial.deviation.copy_from_slice(&self.current.deviation);
         add_scaled(&mut self.trial.deviation, length, &self.direction);
         problem.evaluate(&mut self.trial);
     }

@@ -84,11 +84,7 @@ impl Stepper {
             } else {
                 origin + dt * (next as f64 / whole as f64)
             };
-            let span = Span {
-                start: motion.time,
-                end,
-                dt: dt / (1_u64 << halvings) as f64,
-            };
+            let span = Span { start: motion.time, end, dt: dt / (1_u64 << halvings) as f64 };
             match self.attempt(system, motion, span, &mut report) {
                 Ok(()) => {
                     report.sub_steps += 1;
@@ -116,15 +112,7 @@ impl Stepper {
         }
         let particles = self.masses.len();
         let agree = |what, expected, found| {
-            if expected == found {
-                Ok(())
-            } else {
-                Err(Error::Dimension {
-                    what,
-                    expected,
-                    found,
-                })
-            }
+            if expected == found { Ok(()) } else { Err(Error::Dimension { what, expected, found }) }
         };
         agree("particles", particles, system.particles())?;
         agree("masses", particles, system.masses().len())?;
@@ -135,51 +123,23 @@ impl Stepper {
             if !(previous.dt > 0.0 && previous.dt.is_finite()) {
                 return Err(Error::StepLength { dt: previous.dt });
             }
-            agree(
-                "previous positions",
-                3 * particles,
-                previous.positions.len(),
-            )?;
-            agree(
-                "previous velocities",
-                3 * particles,
-                previous.velocities.len(),
-            )?;
+            agree("previous positions", 3 * particles, previous.positions.len())?;
+            agree("previous velocities", 3 * particles, previous.velocities.len())?;
         }
         self.masses.copy_from_slice(system.masses());
-        let bad = self
-            .masses
-            .iter()
-            .position(|&mass| !(mass > 0.0 && mass.is_finite()));
+        let bad = self.masses.iter().position(|&mass| !(mass > 0.0 && mass.is_finite()));
         if let Some(particle) = bad {
-            return Err(Error::Mass {
-                particle,
-                mass: self.masses[particle],
-            });
+            return Err(Error::Mass { particle, mass: self.masses[particle] });
         }
         let start = [
             (Quantity::Position, Some(&motion.positions)),
             (Quantity::Velocity, Some(&motion.velocities)),
-            (
-                Quantity::Position,
-                motion.previous.as_ref().map(|previous| &previous.positions),
-            ),
-            (
-                Quantity::Velocity,
-                motion
-                    .previous
-                    .as_ref()
-                    .map(|previous| &previous.velocities),
-            ),
+            (Quantity::Position, motion.previous.as_ref().map(|previous| &previous.positions)),
+            (Quantity::Velocity, motion.previous.as_ref().map(|previous| &previous.velocities)),
         ];
         for (quantity, values) in start {
             if let Some(particle) = values.and_then(|values| first_not_finite(values)) {
-                return Err(Error::NotFinite {
-                    quantity,
-                    particle,
-                    time: motion.time,
-                    dt,
-                });
+                return Err(Error::NotFinite { quantity, particle, time: motion.time, dt });
             }
         }
         if system.pattern_version() != self.version {
@@ -204,18 +164,11 @@ impl Stepper {
         let (time, dt) = (span.start, span.dt);
         match halt {
             Halt::Fatal(error) => error,
-            Halt::NotFinite(quantity, particle) => Error::NotFinite {
-                quantity,
-                particle,
-                time,
-                dt,
-            },
+            Halt::NotFinite(quantity, particle) => {
+                Error::NotFinite { quantity, particle, time, dt }
+            }
             Halt::Stop(stop) => {
-                let free = self
-                    .masses
-                    .iter()
-                    .zip(&self.held)
-                    .filter(|(_, held)| !**held);
+                let free = self.masses.iter().zip(&self.held).filter(|(_, held)| !**held);
                 let squares: f64 = free.map(|(mass, _)| mass * mass).sum();
                 let unit = self.settings.acceleration * squares.sqrt();
                 Error::NotConverged {
@@ -235,11 +188,7 @@ fn solver_for(system: &dyn System, settings: &Settings) -> Result<Solver, Error>
     let pattern = system.pattern();
     let (expected, found) = (system.particles(), pattern.particles());
     if expected != found {
-        return Err(Error::Dimension {
-            what: "pattern",
-            expected,
-            found,
-        });
+        return Err(Error::Dimension { what: "pattern", expected, found });
     }
     Ok(Solver::new(Tangent::new(pattern, settings)?, settings))
 }

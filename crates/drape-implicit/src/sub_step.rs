@@ -39,10 +39,7 @@ impl Stepper {
         let limit = self.place(motion, formula, span.dt)?;
         let start = self.settings.energy_balance.then(|| {
             report.potential_evaluations += 1;
-            (
-                self.kinetic(&motion.velocities),
-                system.potential(&motion.positions),
-            )
+            (self.kinetic(&motion.velocities), system.potential(&motion.positions))
         });
 
         let mut problem = Incremental {
@@ -80,31 +77,14 @@ impl Stepper {
             }
         };
         let previous = motion.previous.as_ref();
-        combine(
-            &mut self.drift,
-            &motion.positions,
-            previous.map(|p| &p.positions[..]),
-        );
-        combine(
-            &mut self.momentum,
-            &motion.velocities,
-            previous.map(|p| &p.velocities[..]),
-        );
+        combine(&mut self.drift, &motion.positions, previous.map(|p| &p.positions[..]));
+        combine(&mut self.momentum, &motion.velocities, previous.map(|p| &p.velocities[..]));
     }
 
     /// Turns targets into the base of deviations, and sets the first guess and the one to fall back on. Returns the
     /// norm that residuals are relative to, N.
     fn place(&mut self, motion: &Motion, formula: Formula, dt: f64) -> Result<f64, Halt> {
-        let Self {
-            solver,
-            base,
-            drift,
-            momentum,
-            held,
-            inertia,
-            masses,
-            ..
-        } = self;
+        let Self { solver, base, drift, momentum, held, inertia, masses, .. } = self;
         let mut squares = 0.0;
         for (particle, &held) in held.iter().enumerate() {
             let mass = masses[particle];
@@ -171,12 +151,7 @@ impl Stepper {
         }
         let kinetic = self.kinetic(&self.velocities) - kinetic;
         let potential = system.potential(&end.positions) - potential;
-        Energy {
-            kinetic,
-            potential,
-            work,
-            numerical_dissipation: work - kinetic - potential,
-        }
+        Energy { kinetic, potential, work, numerical_dissipation: work - kinetic - potential }
     }
 }
 

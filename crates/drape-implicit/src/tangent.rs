@@ -27,11 +27,7 @@ impl Tangent {
         let length = 3 * pattern.particles();
         let direct = settings.linear_solver == LinearSolver::Cholesky && length > 0;
         Ok(Self {
-            cholesky: if direct {
-                Some(Cholesky::new(&pattern)?)
-            } else {
-                None
-            },
+            cholesky: if direct { Some(Cholesky::new(&pattern)?) } else { None },
             incomplete: None,
             gradient: ConjugateGradient::new(length),
             direct,
@@ -52,9 +48,7 @@ impl Tangent {
 
     fn precondition(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
         let matrix = &self.matrix;
-        let incomplete = self
-            .incomplete
-            .get_or_insert_with(|| Incomplete::new(matrix.pattern()));
+        let incomplete = self.incomplete.get_or_insert_with(|| Incomplete::new(matrix.pattern()));
         report.pivot_shifts += incomplete.factorise(matrix)?;
         Ok(())
     }
@@ -79,8 +73,7 @@ impl Tangent {
         }
         let incomplete = self.incomplete.as_mut().ok_or(NotDefinite)?;
         let (iterations, ending) =
-            self.gradient
-                .solve((&self.matrix, incomplete), x, target, self.limit);
+            self.gradient.solve((&self.matrix, incomplete), x, target, self.limit);
         report.linear_iterations += iterations;
         match ending {
             Ending::Converged => Ok(()),

@@ -17,8 +17,7 @@ impl Solver {
         initial: Initial,
     ) -> Result<(), Halt> {
         self.diagonal.clear();
-        self.diagonal
-            .extend(problem.inertia.iter().flat_map(|&inertia| [inertia; 3]));
+        self.diagonal.extend(problem.inertia.iter().flat_map(|&inertia| [inertia; 3]));
         if initial == Initial::Diagonal {
             problem.assemble(&self.current, Stiffness::Exact, &mut self.tangent)?;
             let matrix = &self.tangent.matrix;
@@ -53,11 +52,7 @@ impl Solver {
     }
 
     fn image_from_diagonal(&mut self) {
-        for ((z, phi), own) in self
-            .image
-            .iter_mut()
-            .zip(&self.current.residual)
-            .zip(&self.diagonal)
+        for ((z, phi), own) in self.image.iter_mut().zip(&self.current.residual).zip(&self.diagonal)
         {
             *z = phi / own;
         }

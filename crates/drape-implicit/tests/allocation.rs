@@ -21,12 +21,8 @@ fn after_the_first_step_none_allocates() {
         let mut system = Springs::sheet(n, 5000.0);
         // The system's own record must not grow either.
         system.accepted.reserve(100);
-        let settings = Settings {
-            method,
-            linear_solver,
-            energy_balance: true,
-            ..Settings::default()
-        };
+        let settings =
+            Settings { method, linear_solver, energy_balance: true, ..Settings::default() };
         let mut stepper = Stepper::new(&system, settings).unwrap();
         let mut motion = Motion::at_rest(Springs::flat(n));
         stepper.advance(&mut system, &mut motion, 5e-3).unwrap();

@@ -22,14 +22,8 @@ impl Document {
     /// A document from text that is already in memory; `path` is used in messages only.
     pub fn new(path: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         let text: String = text.into();
-        let text = text
-            .strip_prefix('\u{feff}')
-            .map(str::to_owned)
-            .unwrap_or(text);
-        Self {
-            path: path.into(),
-            text,
-        }
+        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+        Self { path: path.into(), text }
     }
 
     /// Reads a file.
@@ -42,9 +36,7 @@ impl Document {
         let metadata = std::fs::metadata(path)
             .map_err(|e| fail(format!("cannot open the file: {e}")).help(nearby(path)))?;
         if !metadata.is_file() {
-            return Err(fail("this is not a file".into())
-                .help("name a TOML file")
-                .into());
+            return Err(fail("this is not a file".into()).help("name a TOML file").into());
         }
         if metadata.len() > LARGEST {
             return Err(fail(format!(
@@ -139,11 +131,7 @@ impl Document {
             };
             value = Some(found);
             // A table header spans only its name; a value is better shown by itself.
-            place = Some(if found.get_ref().is_table() {
-                found_key.span()
-            } else {
-                found.span()
-            });
+            place = Some(if found.get_ref().is_table() { found_key.span() } else { found.span() });
             if let Some(index) = index {
                 let Some(element) = found.get_ref().as_array().and_then(|a| a.get(index)) else {
                     return place;
@@ -158,22 +146,14 @@ impl Document {
 
 /// What stands in the folder where a file was not found.
 fn nearby(path: &Path) -> String {
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = std::fs::read_dir(folder) else {
         return format!("there is no folder {}", folder.display());
     };
-    let mut names: Vec<String> = entries
-        .flatten()
-        .map(|e| e.file_name().to_string_lossy().into_owned())
-        .collect();
+    let mut names: Vec<String> =
+        entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
     names.sort();
-    let wanted = path
-        .file_name()
-        .map(|n| n.to_string_lossy().into_owned())
-        .unwrap_or_default();
+    let wanted = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     match closest(&wanted, names.iter().map(String::as_str)) {
         Some(name) => format!("did you mean {}?", folder.join(name).display()),
         None => format!("looked in {}", folder.display()),
@@ -201,31 +181,20 @@ mod tests {
     }
 
     fn mistake(text: &str) -> Diagnostic {
-        Document::new("a.toml", text)
-            .decode::<Outer>()
-            .expect_err("the text is wrong")
-            .0
-            .remove(0)
+        Document::new("a.toml", text).decode::<Outer>().expect_err("the text is wrong").0.remove(0)
     }
 
     #[test]
     fn grammar_spelling_and_type_are_located() {
         let wrong_type = mistake("# a comment\ndt = \"fast\"");
-        assert_eq!(
-            (wrong_type.line, wrong_type.column),
-            (Some(2), Some(6)),
-            "{wrong_type}"
-        );
+        assert_eq!((wrong_type.line, wrong_type.column), (Some(2), Some(6)), "{wrong_type}");
         let unknown = mistake("dt = 1\n[[curve]]\nfile = \"x\"\nfil = 2");
         assert_eq!(unknown.line, Some(4), "{unknown}");
         assert_eq!(unknown.help.as_deref(), Some("did you mean `file`?"));
         let grammar = mistake("dt = 1\nx = = 2");
         assert_eq!(grammar.line, Some(2), "{grammar}");
         let missing = mistake("dt = 1\n[[curve]]\n");
-        assert!(
-            missing.message.contains("missing field `file`"),
-            "{missing}"
-        );
+        assert!(missing.message.contains("missing field `file`"), "{missing}");
         assert_eq!(missing.line, Some(2), "{missing}");
     }
 

@@ -7,12 +7,7 @@ pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     let allowed = (word.chars().count() / 3).max(1);
     known
         .into_iter()
-        .map(|candidate| {
-            (
-                distance(&word.to_lowercase(), &candidate.to_lowercase()),
-                candidate,
-            )
-        })
+        .map(|candidate| (distance(&word.to_lowercase(), &candidate.to_lowercase()), candidate))
         .filter(|(distance, _)| *distance <= allowed)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
@@ -46,11 +41,7 @@ mod tests {
         let known = ["density", "thickness", "warp", "weft"];
         assert_eq!(closest("densty", known), Some("density"));
         assert_eq!(closest("Weft", known), Some("weft"));
-        assert_eq!(
-            closest("wrap", ["warp", "weft"]),
-            Some("warp"),
-            "neighbours swapped"
-        );
+        assert_eq!(closest("wrap", ["warp", "weft"]), Some("warp"), "neighbours swapped");
         assert_eq!(closest("gravity", known), None);
     }
 }

@@ -28,9 +28,8 @@ pub fn reversals(deformation: &[f64]) -> Vec<usize> {
     let Some(&first) = deformation.first() else {
         return Vec::new();
     };
-    let (low, high) = deformation
-        .iter()
-        .fold((first, first), |(low, high), &q| (low.min(q), high.max(q)));
+    let (low, high) =
+        deformation.iter().fold((first, first), |(low, high), &q| (low.min(q), high.max(q)));
     let threshold = REVERSAL_THRESHOLD * (high - low);
     let moved = |from: usize, to: usize| deformation[to] - deformation[from];
     let Some(start) = (0..deformation.len()).find(|&i| moved(0, i).abs() > threshold) else {
@@ -61,10 +60,7 @@ impl Curve {
         let q = self.deformation();
         reversals(q)
             .windows(2)
-            .map(|ends| Branch {
-                points: ends[0]..ends[1] + 1,
-                rising: q[ends[1]] > q[ends[0]],
-            })
+            .map(|ends| Branch { points: ends[0]..ends[1] + 1, rising: q[ends[1]] > q[ends[0]] })
             .collect()
     }
 

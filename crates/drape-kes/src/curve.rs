@@ -88,40 +88,21 @@ impl Curve {
     ) -> Result<Self, Error> {
         if deformation.len() != load.len() {
             let (deformations, loads) = (deformation.len(), load.len());
-            return Err(Error::Unpaired {
-                deformations,
-                loads,
-            });
+            return Err(Error::Unpaired { deformations, loads });
         }
         if deformation.len() < 2 {
-            return Err(Error::TooShort {
-                points: deformation.len(),
-            });
+            return Err(Error::TooShort { points: deformation.len() });
         }
         for (index, (&q, &f)) in deformation.iter().zip(&load).enumerate() {
             if !(q.is_finite() && f.is_finite()) {
-                return Err(Error::NotFinite {
-                    index,
-                    deformation: q,
-                    load: f,
-                });
+                return Err(Error::NotFinite { index, deformation: q, load: f });
             }
         }
         if deformation.iter().all(|&q| q == deformation[0]) {
-            return Err(Error::NoMotion {
-                deformation: deformation[0],
-            });
+            return Err(Error::NoMotion { deformation: deformation[0] });
         }
         let name = format!("{} {}", test.name(), direction.name());
-        Ok(Self {
-            name,
-            test,
-            direction,
-            gauge: None,
-            slack: false,
-            deformation,
-            load,
-        })
+        Ok(Self { name, test, direction, gauge: None, slack: false, deformation, load })
     }
 
     /// The same curve through other points, in SI.
@@ -154,9 +135,7 @@ impl Curve {
 fn range(values: &[f64]) -> (f64, f64) {
     values
         .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| {
-            (low.min(v), high.max(v))
-        })
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
 }
 
 #[cfg(test)]
@@ -164,30 +143,16 @@ mod tests {
     use super::*;
 
     fn curve(deformation: &[f64], load: &[f64]) -> Result<Curve, Error> {
-        Curve::new(
-            Test::Bending,
-            Direction::Warp,
-            deformation.to_vec(),
-            load.to_vec(),
-        )
+        Curve::new(Test::Bending, Direction::Warp, deformation.to_vec(), load.to_vec())
     }
 
     #[test]
     fn a_curve_needs_two_paired_finite_points_that_move() {
         assert!(curve(&[0.0, 1.0], &[0.0, 2.0]).is_ok());
-        assert!(matches!(
-            curve(&[0.0, 1.0], &[0.0]),
-            Err(Error::Unpaired { .. })
-        ));
-        assert!(matches!(
-            curve(&[0.0], &[0.0]),
-            Err(Error::TooShort { points: 1 })
-        ));
+        assert!(matches!(curve(&[0.0, 1.0], &[0.0]), Err(Error::Unpaired { .. })));
+        assert!(matches!(curve(&[0.0], &[0.0]), Err(Error::TooShort { points: 1 })));
         let nan = curve(&[0.0, 1.0], &[0.0, f64::NAN]);
         assert!(matches!(nan, Err(Error::NotFinite { index: 1, .. })));
-        assert!(matches!(
-            curve(&[1.0, 1.0], &[0.0, 2.0]),
-            Err(Error::NoMotion { .. })
-        ));
+        assert!(matches!(curve(&[1.0, 1.0], &[0.0, 2.0]), Err(Error::NoMotion { .. })));
     }
 }

@@ -10,15 +10,7 @@ use crate::table::{Column, Table};
 use crate::unit::{self, Quantity, Unit};
 use crate::{Curve, Direction, Error, Test};
 
-const CURVE_KEYS: [&str; 7] = [
-    "name",
-    "test",
-    "direction",
-    "file",
-    "deformation",
-    "load",
-    "slack",
-];
+const CURVE_KEYS: [&str; 7] = ["name", "test", "direction", "file", "deformation", "load", "slack"];
 const DEFORMATION_KEYS: [&str; 3] = ["column", "unit", "gauge"];
 const LOAD_KEYS: [&str; 3] = ["column", "unit", "width"];
 
@@ -77,9 +69,7 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Option
                 Error::TooShort { .. } => "write one point per line",
                 _ => "check that the right column is named",
             };
-            findings
-                .errors
-                .push(table.finding(error.to_string()).help(help));
+            findings.errors.push(table.finding(error.to_string()).help(help));
             None
         }
     }
@@ -87,9 +77,7 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Option
 
 /// What the largest number of a column was multiplied by on its way to SI.
 fn factor(axis: &Axis, table: &Table, si: &[f64]) -> f64 {
-    let written = table
-        .find(&axis.column)
-        .and_then(|place| table.numbers(place));
+    let written = table.find(&axis.column).and_then(|place| table.numbers(place));
     let pairs = written.iter().flatten().zip(si);
     let largest = pairs.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
     largest.map_or(1.0, |(written, si)| si / written)
@@ -113,11 +101,7 @@ fn choice<T: Copy>(
         Some(close) => format!("did you mean \"{close}\"?"),
         None => format!("it is one of {}", names.join(", ")),
     };
-    findings.error(
-        &section.key(key),
-        format!("\"{written}\" is not known"),
-        help,
-    );
+    findings.error(&section.key(key), format!("\"{written}\" is not known"), help);
     None
 }
 
@@ -134,21 +118,13 @@ fn axis(
     let unit = axis.text("unit", findings);
     let size = axis.column_or_length(keys[2], findings);
     let column = axis.column("column", findings)?;
-    Some(Axis {
-        column,
-        unit,
-        size,
-        unit_key: axis.key("unit"),
-        size_key: axis.key(keys[2]),
-    })
+    Some(Axis { column, unit, size, unit_key: axis.key("unit"), size_key: axis.key(keys[2]) })
 }
 
 /// The table file, which stands beside the sheet.
 fn open(file: &str, key: &str, findings: &mut Findings<'_>) -> Option<Table> {
     let sheet = findings.document.path();
-    let path = sheet
-        .parent()
-        .map_or_else(|| PathBuf::from(file), |folder| folder.join(file));
+    let path = sheet.parent().map_or_else(|| PathBuf::from(file), |folder| folder.join(file));
     if path.is_file() {
         return found(Table::read(&path), findings);
     }
@@ -192,24 +168,14 @@ fn deformations(
     let gauge = sizes(axis, numbers.len(), table, findings)?;
     if unit.quantity != Quantity::Length {
         let length = gauge.map(|gauge| gauge[0]);
-        return Some((
-            numbers.iter().map(|&number| number * unit.factor).collect(),
-            length,
-        ));
+        return Some((numbers.iter().map(|&number| number * unit.factor).collect(), length));
     }
     let Some(gauge) = gauge else {
         let help = "add gauge = \"5 cm\", or the name of the column that holds it in metres";
-        findings.error(
-            &axis.size_key,
-            "is missing: a clamp distance needs it",
-            help,
-        );
+        findings.error(&axis.size_key, "is missing: a clamp distance needs it", help);
         return None;
     };
-    let strain = numbers
-        .iter()
-        .zip(&gauge)
-        .map(|(&d, &length)| d * unit.factor / length - 1.0);
+    let strain = numbers.iter().zip(&gauge).map(|(&d, &length)| d * unit.factor / length - 1.0);
     Some((strain.collect(), Some(gauge[0])))
 }
 
@@ -224,13 +190,9 @@ fn loads(test: Test, axis: &Axis, table: &Table, findings: &mut Findings<'_>) ->
     let per_width = unit.quantity == accepted[0];
     match (per_width, width) {
         (true, None) => Some(numbers.iter().map(|&load| load * unit.factor).collect()),
-        (false, Some(width)) => Some(
-            numbers
-                .iter()
-                .zip(&width)
-                .map(|(&load, &w)| load * unit.factor / w)
-                .collect(),
-        ),
+        (false, Some(width)) => {
+            Some(numbers.iter().zip(&width).map(|(&load, &w)| load * unit.factor / w).collect())
+        }
         (true, Some(_)) => {
             let message = format!("given, but {} is per width already", unit.spelling);
             findings.error(
@@ -260,11 +222,7 @@ fn numbers(
     let Some(text) = axis.unit.as_deref().or(table.unit(place)) else {
         let unit = accepted[0].laboratory().spelling;
         let help = format!("add unit = \"{unit}\", or the unit that was used");
-        findings.error(
-            &axis.unit_key,
-            "is missing, and the column's header names none",
-            help,
-        );
+        findings.error(&axis.unit_key, "is missing, and the column's header names none", help);
         return None;
     };
     let unit = match unit::parse_unit(text, accepted) {
@@ -292,9 +250,7 @@ fn sizes(
             let sizes = found(table.numbers(place), findings)?;
             if let Some(size) = sizes.iter().find(|&&size| size <= 0.0) {
                 let message = format!("{}: the file has a length of {size} m", axis.size_key);
-                findings
-                    .errors
-                    .push(table.finding(message).help("a length is positive"));
+                findings.errors.push(table.finding(message).help("a length is positive"));
                 return None;
             }
             Some(Some(sizes))
@@ -303,7 +259,5 @@ fn sizes(
 }
 
 fn found<T>(result: Result<T, Diagnostics>, findings: &mut Findings<'_>) -> Option<T> {
-    result
-        .map_err(|Diagnostics(mistakes)| findings.errors.extend(mistakes))
-        .ok()
+    result.map_err(|Diagnostics(mistakes)| findings.errors.extend(mistakes)).ok()
 }

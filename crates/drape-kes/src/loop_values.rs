@@ -13,10 +13,7 @@ pub struct BendingPoints {
 
 impl Default for BendingPoints {
     fn default() -> Self {
-        Self {
-            slope: [50.0, 150.0],
-            width: 100.0,
-        }
+        Self { slope: [50.0, 150.0], width: 100.0 }
     }
 }
 
@@ -34,11 +31,7 @@ pub struct ShearPoints {
 impl Default for ShearPoints {
     fn default() -> Self {
         let degrees = f64::to_radians;
-        Self {
-            slope: [degrees(0.5), degrees(2.5)],
-            width: degrees(0.5),
-            wide: degrees(5.0),
-        }
+        Self { slope: [degrees(0.5), degrees(2.5)], width: degrees(0.5), wide: degrees(5.0) }
     }
 }
 
@@ -74,10 +67,7 @@ impl Curve {
         self.expect_test(Test::Bending)?;
         let rigidity = self.loop_slope(points.slope)?;
         let loop_width = self.loop_width(points.width)?;
-        Ok(BendingValues {
-            rigidity,
-            loop_width,
-        })
+        Ok(BendingValues { rigidity, loop_width })
     }
 
     /// G, 2HG and 2HG5 of a shear loop.
@@ -91,11 +81,7 @@ impl Curve {
         let stiffness = self.loop_slope(points.slope)?;
         let loop_width = self.loop_width(points.width)?;
         let wide_loop_width = self.loop_width(points.wide)?;
-        Ok(ShearValues {
-            stiffness,
-            loop_width,
-            wide_loop_width,
-        })
+        Ok(ShearValues { stiffness, loop_width, wide_loop_width })
     }
 
     /// Width of the loop at ±deformation, averaged over the sides that it has; a load per width.
@@ -122,10 +108,7 @@ impl Curve {
         if self.test == wanted {
             return Ok(());
         }
-        Err(Error::WrongTest {
-            found: self.test.name(),
-            wanted: wanted.name(),
-        })
+        Err(Error::WrongTest { found: self.test.name(), wanted: wanted.name() })
     }
 
     fn mean_of_sides(
@@ -136,11 +119,7 @@ impl Curve {
         let sides: Vec<f64> = [1.0, -1.0].into_iter().filter_map(value).collect();
         if sides.is_empty() {
             let (low, high) = self.deformation_range();
-            return Err(Error::OutOfRange {
-                deformation,
-                low,
-                high,
-            });
+            return Err(Error::OutOfRange { deformation, low, high });
         }
         Ok(sides.iter().sum::<f64>() / sides.len() as f64)
     }
@@ -194,10 +173,7 @@ mod tests {
             let n = STEPS as f64;
             let up = (0..=STEPS).map(|i| (self.top * (2.0 * i as f64 / n - 1.0), true));
             let down = (1..=STEPS).map(|i| (self.top * (1.0 - 2.0 * i as f64 / n), false));
-            let (q, load) = up
-                .chain(down)
-                .map(|(q, rising)| (q, self.load(q, rising)))
-                .unzip();
+            let (q, load) = up.chain(down).map(|(q, rising)| (q, self.load(q, rising))).unzip();
             Curve::new(test, Direction::Warp, q, load).unwrap()
         }
 
@@ -221,12 +197,7 @@ mod tests {
 
     fn bending(friction_length: f64) -> Loop {
         let plateau = 6e-4;
-        Loop {
-            stiffness: 1.2e-5,
-            plateau,
-            slope: plateau / friction_length,
-            top: 250.0,
-        }
+        Loop { stiffness: 1.2e-5, plateau, slope: plateau / friction_length, top: 250.0 }
     }
 
     #[test]
@@ -237,26 +208,17 @@ mod tests {
             let points = BendingPoints::default();
             let values = exact.curve(Test::Bending).bending_values(&points).unwrap();
             let width = (values.loop_width - exact.width(100.0)).abs() / exact.plateau;
-            assert!(
-                width < INTERPOLATION,
-                "length {friction_length}: width off by {width}"
-            );
+            assert!(width < INTERPOLATION, "length {friction_length}: width off by {width}");
             let slope = (exact.middle(150.0) - exact.middle(50.0)) / 100.0;
             let error = (values.rigidity / slope - 1.0).abs();
-            assert!(
-                error < INTERPOLATION,
-                "length {friction_length}: slope off by {error}"
-            );
+            assert!(error < INTERPOLATION, "length {friction_length}: slope off by {error}");
         }
     }
 
     #[test]
     fn the_evaluation_points_are_settings() {
         let exact = bending(60.0);
-        let points = BendingPoints {
-            slope: [0.0, 100.0],
-            width: 50.0,
-        };
+        let points = BendingPoints { slope: [0.0, 100.0], width: 50.0 };
         let values = exact.curve(Test::Bending).bending_values(&points).unwrap();
         let width = (values.loop_width - exact.width(50.0)).abs() / exact.plateau;
         assert!(width < INTERPOLATION, "width off by {width}");
@@ -268,16 +230,8 @@ mod tests {
     fn shear_values_obey_the_loop_identities() {
         let top = 8.0_f64.to_radians();
         let plateau = 0.8;
-        let exact = Loop {
-            stiffness: 40.0,
-            plateau,
-            slope: plateau / (top / 10.0),
-            top,
-        };
-        let values = exact
-            .curve(Test::Shear)
-            .shear_values(&ShearPoints::default())
-            .unwrap();
+        let exact = Loop { stiffness: 40.0, plateau, slope: plateau / (top / 10.0), top };
+        let values = exact.curve(Test::Shear).shear_values(&ShearPoints::default()).unwrap();
         let degrees = f64::to_radians;
         for (found, at) in [(values.loop_width, 0.5), (values.wide_loop_width, 5.0)] {
             let error = (found - exact.width(degrees(at))).abs() / plateau;
@@ -300,12 +254,8 @@ mod tests {
             let friction = exact.plateau * (1.0 - (-q / 5.0).exp());
             (q, exact.stiffness * q + friction)
         });
-        let down = (1..=2 * n)
-            .map(|i| exact.top - at(i))
-            .map(|q| (q, exact.load(q, false)));
-        let up = (1..=n)
-            .map(|i| at(i) - exact.top)
-            .map(|q| (q, exact.load(q, true)));
+        let down = (1..=2 * n).map(|i| exact.top - at(i)).map(|q| (q, exact.load(q, false)));
+        let up = (1..=n).map(|i| at(i) - exact.top).map(|q| (q, exact.load(q, true)));
         let (q, load) = first.chain(down).chain(up).unzip();
         let curve = Curve::new(Test::Bending, Direction::Warp, q, load).unwrap();
         let values = curve.bending_values(&BendingPoints::default()).unwrap();
@@ -316,13 +266,8 @@ mod tests {
 
     #[test]
     fn a_loop_that_ends_short_of_the_point_is_refused() {
-        let exact = Loop {
-            top: 120.0,
-            ..bending(5.0)
-        };
-        let result = exact
-            .curve(Test::Bending)
-            .bending_values(&BendingPoints::default());
+        let exact = Loop { top: 120.0, ..bending(5.0) };
+        let result = exact.curve(Test::Bending).bending_values(&BendingPoints::default());
         assert!(
             matches!(result, Err(Error::OutOfRange { deformation, .. }) if deformation == 150.0)
         );

@@ -49,35 +49,16 @@ fn meant(b: &Measured) -> String {
         (b.number, format!("\"{} N.m\"", b.number)),
         (b.number * 1e-3, format!("\"{} mN.m\"", b.number)),
         (b.number * 1e-6, format!("\"{} uN.m\"", b.number)),
-        (
-            b.number * unit.factor,
-            format!("{} in {}", b.number, unit.spelling),
-        ),
-        (
-            b.si / 10.0,
-            format!("a tenth of it, \"{:.4e} N.m\"", b.si / 10.0),
-        ),
-        (
-            b.si * 10.0,
-            format!("ten times it, \"{:.4e} N.m\"", b.si * 10.0),
-        ),
+        (b.number * unit.factor, format!("{} in {}", b.number, unit.spelling)),
+        (b.si / 10.0, format!("a tenth of it, \"{:.4e} N.m\"", b.si / 10.0)),
+        (b.si * 10.0, format!("ten times it, \"{:.4e} N.m\"", b.si * 10.0)),
     ];
-    let likely: Vec<String> = readings
-        .into_iter()
-        .filter(|(si, _)| usual.contains(&si))
-        .map(|(_, text)| text)
-        .collect();
+    let likely: Vec<String> =
+        readings.into_iter().filter(|(si, _)| usual.contains(&si)).map(|(_, text)| text).collect();
     if likely.is_empty() {
-        return format!(
-            "a bare number is in {}: check value and unit",
-            unit.spelling
-        );
+        return format!("a bare number is in {}: check value and unit", unit.spelling);
     }
-    format!(
-        "did you mean {}? a bare number is in {}",
-        likely.join(", or "),
-        unit.spelling
-    )
+    format!("did you mean {}? a bare number is in {}", likely.join(", or "), unit.spelling)
 }
 
 /// Masses per area that a fabric can have, in kg/m²: from a veil to a carpet.
@@ -88,12 +69,7 @@ const DENSITY: RangeInclusive<f64> = 5e-3..=5.0;
 pub(crate) fn density(w: &Measured, findings: &mut Findings<'_>) {
     if !DENSITY.contains(&w.si) {
         let message = format!("{} is {:.3e} kg/m2; no fabric has that", w.written, w.si);
-        let readings = [
-            ("mg/cm2", 0.01),
-            ("g/m2", 1e-3),
-            ("kg/m2", 1.0),
-            ("g/cm2", 10.0),
-        ];
+        let readings = [("mg/cm2", 0.01), ("g/m2", 1e-3), ("kg/m2", 1.0), ("g/cm2", 10.0)];
         let likely: Vec<String> = readings
             .into_iter()
             .filter(|(_, factor)| USUAL_DENSITY.contains(&(w.number * factor)))
@@ -101,22 +77,14 @@ pub(crate) fn density(w: &Measured, findings: &mut Findings<'_>) {
             .collect();
         let help = match likely.as_slice() {
             [] => "a bare number is in mg/cm2: check value and unit".to_owned(),
-            readings => format!(
-                "did you mean {}? a bare number is in mg/cm2",
-                readings.join(" or ")
-            ),
+            readings => {
+                format!("did you mean {}? a bare number is in mg/cm2", readings.join(" or "))
+            }
         };
         findings.error(&w.key, message, help);
         return;
     }
-    unusual(
-        "mass per area",
-        "kg/m2",
-        w.si,
-        &USUAL_DENSITY,
-        &w.key,
-        findings,
-    );
+    unusual("mass per area", "kg/m2", w.si, &USUAL_DENSITY, &w.key, findings);
 }
 
 /// Warns about a bending rigidity or a bending length that few fabrics have.
@@ -133,14 +101,7 @@ pub(crate) fn bending(
     unusual("bending rigidity", "N.m", b.si, &usual, &b.key, findings);
     if let Some(w) = w {
         let length = (b.si / (w.si * GRAVITY)).cbrt();
-        unusual(
-            "bending length",
-            "m",
-            length,
-            &USUAL_BENDING_LENGTH,
-            &b.key,
-            findings,
-        );
+        unusual("bending length", "m", length, &USUAL_BENDING_LENGTH, &b.key, findings);
     }
 }
 

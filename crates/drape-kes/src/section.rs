@@ -24,8 +24,7 @@ impl Findings<'_> {
 
     /// Something odd about the value at a key path.
     pub(crate) fn warn(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
-        self.warnings
-            .push(self.document.at(key, message).help(help));
+        self.warnings.push(self.document.at(key, message).help(help));
     }
 }
 
@@ -62,19 +61,12 @@ pub(crate) enum ColumnOrLength {
 impl<'t> Section<'t> {
     /// The whole file.
     pub(crate) fn root(table: &'t DeTable<'t>) -> Self {
-        Self {
-            path: String::new(),
-            table,
-        }
+        Self { path: String::new(), table }
     }
 
     /// The key path of a key of this table.
     pub(crate) fn key(&self, key: &str) -> String {
-        if self.path.is_empty() {
-            key.to_owned()
-        } else {
-            format!("{}.{key}", self.path)
-        }
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 
     /// Reports every key that is not in the list.
@@ -138,9 +130,7 @@ impl<'t> Section<'t> {
         example: &str,
         findings: &mut Findings<'_>,
     ) -> Option<String> {
-        self.has(key, example, findings)
-            .then(|| self.text(key, findings))
-            .flatten()
+        self.has(key, example, findings).then(|| self.text(key, findings)).flatten()
     }
 
     pub(crate) fn flag(&self, key: &str, findings: &mut Findings<'_>) -> bool {
@@ -172,11 +162,7 @@ impl<'t> Section<'t> {
             },
             value => {
                 let Some(number) = bare_number(value) else {
-                    self.wrong_kind(
-                        key,
-                        "a number, or text with a number and its unit",
-                        findings,
-                    );
+                    self.wrong_kind(key, "a number, or text with a number and its unit", findings);
                     return None;
                 };
                 (number, own, number.to_string())
@@ -184,31 +170,18 @@ impl<'t> Section<'t> {
         };
         if !number.is_finite() {
             let help = "write the measured value, or remove the line if it was not measured";
-            findings.error(
-                &self.key(key),
-                format!("{written} is not a finite number"),
-                help,
-            );
+            findings.error(&self.key(key), format!("{written} is not a finite number"), help);
             return None;
         }
         let si = number * unit.factor;
         let laboratory = if unit == own { number } else { si / own.factor };
-        Some(Measured {
-            si,
-            laboratory,
-            number,
-            written,
-            key: self.key(key),
-        })
+        Some(Measured { si, laboratory, number, written, key: self.key(key) })
     }
 
     /// A table inside this one.
     pub(crate) fn section(&self, key: &str, findings: &mut Findings<'_>) -> Option<Section<'t>> {
         match self.get(key)? {
-            DeValue::Table(table) => Some(Section {
-                path: self.key(key),
-                table,
-            }),
+            DeValue::Table(table) => Some(Section { path: self.key(key), table }),
             _ => {
                 self.wrong_kind(key, "a table", findings);
                 None
@@ -222,9 +195,7 @@ impl<'t> Section<'t> {
         example: &str,
         findings: &mut Findings<'_>,
     ) -> Option<Section<'t>> {
-        self.has(key, example, findings)
-            .then(|| self.section(key, findings))
-            .flatten()
+        self.has(key, example, findings).then(|| self.section(key, findings)).flatten()
     }
 
     /// The tables of an array of tables.
@@ -292,18 +263,13 @@ impl<'t> Section<'t> {
             return Some(ColumnOrLength::Length(length));
         }
         let help = "write the length with its unit, such as \"5 cm\"";
-        findings.error(
-            &self.key(key),
-            format!("{length} m is not a positive length"),
-            help,
-        );
+        findings.error(&self.key(key), format!("{length} m is not a positive length"), help);
         None
     }
 }
 
 fn starts_with_number(text: &str) -> bool {
-    text.trim_start()
-        .starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
+    text.trim_start().starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
 }
 
 fn bare_number(value: &DeValue<'_>) -> Option<f64> {

@@ -60,17 +60,11 @@ impl Sheet {
         // Decoding into a plain table reports mistakes of grammar as every other file does.
         document.decode::<toml::Table>()?;
         let table = DeTable::parse(document.text()).expect("the text has just been decoded");
-        let mut findings = Findings {
-            document: &document,
-            errors: Vec::new(),
-            warnings: Vec::new(),
-        };
+        let mut findings =
+            Findings { document: &document, errors: Vec::new(), warnings: Vec::new() };
         let sheet = Self::check(&Section::root(table.get_ref()), &mut findings);
         Diagnostics::check(findings.errors)?;
-        Ok(Self {
-            warnings: findings.warnings,
-            ..sheet
-        })
+        Ok(Self { warnings: findings.warnings, ..sheet })
     }
 
     fn check(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
@@ -106,8 +100,7 @@ impl Sheet {
 
     /// W: mass per area, in kg/m².
     pub fn density(&self) -> Option<f64> {
-        self.w
-            .map(|w| w * Quantity::MassPerArea.laboratory().factor)
+        self.w.map(|w| w * Quantity::MassPerArea.laboratory().factor)
     }
 
     /// T: thickness, in metres.
@@ -130,9 +123,7 @@ impl Sheet {
 
     /// The curves of one test and direction, in the order of the sheet.
     pub fn curves_of(&self, test: Test, direction: Direction) -> impl Iterator<Item = &Curve> {
-        self.curves
-            .iter()
-            .filter(move |curve| curve.test == test && curve.direction == direction)
+        self.curves.iter().filter(move |curve| curve.test == test && curve.direction == direction)
     }
 
     /// Values that are allowed and that few real fabrics have, found when the sheet was read.
@@ -169,28 +160,14 @@ fn values(
     let em = above_zero("EM", Quantity::Ratio);
     let lt = linearity(&section, findings);
     let rt = resilience(&section, findings);
-    Values {
-        b: laboratory(b),
-        two_hb,
-        g,
-        two_hg,
-        two_hg5,
-        lt,
-        wt,
-        rt,
-        em,
-    }
+    Values { b: laboratory(b), two_hb, g, two_hg, two_hg5, lt, wt, rt, em }
 }
 
 /// LT is a pure number, not a percentage: its bare unit is one.
 fn linearity(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
     let lt = positive(section, "LT", Quantity::Ratio, findings)?;
     // A bare LT was read as a percentage, the laboratory's unit of every other ratio.
-    let ratio = if lt.written.parse::<f64>().is_ok() {
-        lt.number
-    } else {
-        lt.si
-    };
+    let ratio = if lt.written.parse::<f64>().is_ok() { lt.number } else { lt.si };
     // The work under a curve of constant sign cannot exceed the box around it, twice the triangle.
     if ratio < 2.0 {
         return Some(ratio);
@@ -210,10 +187,7 @@ fn resilience(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64>
     }
     findings.error(
         &rt.key,
-        format!(
-            "{} is more than 100 %, which no fabric gives back",
-            rt.written
-        ),
+        format!("{} is more than 100 %, which no fabric gives back", rt.written),
         "RT is recovered work over work spent, in percent",
     );
     None

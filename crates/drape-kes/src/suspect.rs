@@ -93,11 +93,7 @@ struct Meant {
 
 impl Meant {
     fn key(&self, keys: &Keys) -> String {
-        if self.of_load {
-            keys.load.clone()
-        } else {
-            keys.deformation.clone()
-        }
+        if self.of_load { keys.load.clone() } else { keys.deformation.clone() }
     }
 }
 
@@ -105,10 +101,8 @@ fn wrong_size(curve: &Curve, factors: &Factors) -> Option<Meant> {
     let (usual_deformation, usual_load) = usual(curve.test)?;
     let size = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let (deformation, load) = (size(curve.deformation()), size(curve.load()));
-    let (good_deformation, good_load) = (
-        usual_deformation.contains(&deformation),
-        usual_load.contains(&load),
-    );
+    let (good_deformation, good_load) =
+        (usual_deformation.contains(&deformation), usual_load.contains(&load));
     if good_deformation && good_load {
         return None;
     }
@@ -143,11 +137,7 @@ fn wrong_size(curve: &Curve, factors: &Factors) -> Option<Meant> {
         [] => "check the column and its unit".to_owned(),
         readings => format!("did you mean to {}?", readings.join(", or to ")),
     };
-    Some(Meant {
-        of_load,
-        message,
-        help,
-    })
+    Some(Meant { of_load, message, help })
 }
 
 /// Units that are mistaken for each other, with their factors to SI.
@@ -165,11 +155,7 @@ fn upright(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Option<Cur
     let (q, f) = (curve.deformation(), curve.load());
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (middle, level) = (mean(q), mean(f));
-    let together: f64 = q
-        .iter()
-        .zip(f)
-        .map(|(q, f)| (q - middle) * (f - level))
-        .sum();
+    let together: f64 = q.iter().zip(f).map(|(q, f)| (q - middle) * (f - level)).sum();
     let falls = together < 0.0;
     // The zero of a slack strip lies anywhere.
     let backwards = curve.test == Test::Tensile && !curve.slack && {
@@ -187,10 +173,7 @@ fn upright(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Option<Cur
     };
     findings.warn(key, format!("{what} the opposite sign"), "it was turned");
     let sign = |turn: bool| if turn { -1.0 } else { 1.0 };
-    let points = q
-        .iter()
-        .zip(f)
-        .map(|(q, f)| (sign(turn_q) * q, sign(turn_f) * f));
+    let points = q.iter().zip(f).map(|(q, f)| (sign(turn_q) * q, sign(turn_f) * f));
     let points = points.collect();
     Some(curve.with_points(points))
 }
@@ -200,11 +183,8 @@ fn gain(curve: &Curve) -> Option<(f64, f64)> {
     let (low, high) = curve.load_range();
     let branches = curve.branches();
     let excess = |pair: &[Branch]| -> Option<(f64, f64)> {
-        let (rising, falling) = if pair[0].rising {
-            (&pair[0], &pair[1])
-        } else {
-            (&pair[1], &pair[0])
-        };
+        let (rising, falling) =
+            if pair[0].rising { (&pair[0], &pair[1]) } else { (&pair[1], &pair[0]) };
         let points = |branch: &Branch| -> Vec<(f64, f64)> {
             let q = &curve.deformation()[branch.points.clone()];
             let mut points: Vec<_> = q
@@ -221,10 +201,7 @@ fn gain(curve: &Curve) -> Option<(f64, f64)> {
         let steps = 32;
         let above = |step: usize| {
             let at = from + (to - from) * (step as f64 + 0.5) / f64::from(steps);
-            (
-                at,
-                (between(&falling, at) - between(&rising, at)) / (high - low),
-            )
+            (at, (between(&falling, at) - between(&rising, at)) / (high - low))
         };
         let all: Vec<(f64, f64)> = (0..steps as usize).map(above).collect();
         let mean = all.iter().map(|(_, excess)| excess).sum::<f64>() / all.len() as f64;
@@ -236,15 +213,9 @@ fn gain(curve: &Curve) -> Option<(f64, f64)> {
 
 /// The load at a deformation between sorted points.
 fn between(points: &[(f64, f64)], at: f64) -> f64 {
-    let after = points
-        .partition_point(|(q, _)| *q < at)
-        .clamp(1, points.len() - 1);
+    let after = points.partition_point(|(q, _)| *q < at).clamp(1, points.len() - 1);
     let ((q0, f0), (q1, f1)) = (points[after - 1], points[after]);
-    if q1 > q0 {
-        f0 + (f1 - f0) * (at - q0) / (q1 - q0)
-    } else {
-        0.5 * (f0 + f1)
-    }
+    if q1 > q0 { f0 + (f1 - f0) * (at - q0) / (q1 - q0) } else { 0.5 * (f0 + f1) }
 }
 
 /// A tensile test begins at no strain; a small offset without load is taken out.
@@ -265,11 +236,7 @@ fn from_zero(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Option<C
     }
     let message = format!("starts at a strain of {start:.4e} without load");
     findings.warn(&keys.deformation, message, "the start was taken as zero");
-    let points = curve
-        .deformation()
-        .iter()
-        .zip(curve.load())
-        .map(|(q, f)| (q - start, *f));
+    let points = curve.deformation().iter().zip(curve.load()).map(|(q, f)| (q - start, *f));
     let points = points.collect();
     Some(curve.with_points(points))
 }

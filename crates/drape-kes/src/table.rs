@@ -65,14 +65,10 @@ impl Table {
         let mut rows = Vec::new();
         for record in reader.records() {
             let record = record.map_err(|error| {
-                let line = error
-                    .position()
-                    .map_or(1, |position| position.line() as usize);
+                let line = error.position().map_or(1, |position| position.line() as usize);
                 Diagnostic::new(path, format!("not a table: {error}")).on_line(line)
             })?;
-            let start = record
-                .position()
-                .map_or(0, |position| position.byte() as usize);
+            let start = record.position().map_or(0, |position| position.byte() as usize);
             let line = line_of_row(text, start);
             if record.iter().any(|cell| !cell.is_empty()) {
                 rows.push((line, record.iter().map(str::to_owned).collect::<Vec<_>>()));
@@ -98,10 +94,7 @@ impl Table {
         }
         if table.rows.is_empty() {
             let help = "a curve needs at least two points, one per line";
-            return Err(table
-                .finding("the file has no rows of numbers")
-                .help(help)
-                .into());
+            return Err(table.finding("the file has no rows of numbers").help(help).into());
         }
         Ok(table)
     }
@@ -132,20 +125,12 @@ impl Table {
     pub(crate) fn find(&self, column: &Column) -> Result<usize, Diagnostics> {
         match (column, &self.header) {
             (Column::Place(place), _) => {
-                let width = self
-                    .rows
-                    .iter()
-                    .map(|(_, cells)| cells.len())
-                    .max()
-                    .unwrap_or(0);
+                let width = self.rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
                 if (1..=width).contains(place) {
                     return Ok(place - 1);
                 }
                 let help = format!("columns are counted from 1; this file has {width}");
-                Err(self
-                    .finding(format!("there is no column {place}"))
-                    .help(help)
-                    .into())
+                Err(self.finding(format!("there is no column {place}")).help(help).into())
             }
             (Column::Name(name), None) => {
                 let message = format!("column \"{name}\" is named, but the file has no header");
@@ -193,19 +178,14 @@ impl Table {
             None => (place + 1).to_string(),
         };
         let (message, help) = if cell.is_empty() {
-            (
-                format!("column {name} is empty"),
-                "fill the value in or remove the line",
-            )
+            (format!("column {name} is empty"), "fill the value in or remove the line")
         } else {
             (
                 format!("column {name} holds \"{cell}\", which is not a finite number"),
                 "correct the value or remove the line; start comments with #",
             )
         };
-        Diagnostic::new(&self.path, message)
-            .on_line(line)
-            .help(help)
+        Diagnostic::new(&self.path, message).on_line(line).help(help)
     }
 
     /// A finding about this file.
@@ -226,9 +206,7 @@ impl Table {
 ///
 /// Semicolon and tab come before the comma, which may be the decimal sign beside them.
 fn separator(text: &str) -> u8 {
-    let first = text
-        .lines()
-        .find(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
     match first {
         Some(line) if line.contains(';') => b';',
         Some(line) if line.contains('\t') => b'\t',
@@ -252,17 +230,11 @@ fn heading(cell: &str) -> Heading {
     let bracketed = |open: char, close: char| {
         let inside = cell.strip_suffix(close)?;
         let (name, unit) = inside.split_once(open)?;
-        Some(Heading {
-            name: name.trim().to_owned(),
-            unit: Some(unit.trim().to_owned()),
-        })
+        Some(Heading { name: name.trim().to_owned(), unit: Some(unit.trim().to_owned()) })
     };
     bracketed('[', ']')
         .or_else(|| bracketed('(', ')'))
-        .unwrap_or_else(|| Heading {
-            name: cell.to_owned(),
-            unit: None,
-        })
+        .unwrap_or_else(|| Heading { name: cell.to_owned(), unit: None })
 }
 
 #[cfg(test)]
@@ -288,10 +260,7 @@ mod tests {
             let force = column(text, &Column::Name("force".to_owned())).unwrap();
             assert_eq!(force, [1.25, 2.0], "{text}");
         }
-        assert_eq!(
-            column("0.5,1.25\n1,2\n", &Column::Place(2)).unwrap(),
-            [1.25, 2.0]
-        );
+        assert_eq!(column("0.5,1.25\n1,2\n", &Column::Place(2)).unwrap(), [1.25, 2.0]);
     }
 
     #[test]
@@ -317,10 +286,7 @@ mod tests {
     #[test]
     fn a_missing_column_is_answered_with_the_ones_there_are() {
         let error = column("k,m\n0,1\n", &Column::Name("moment".to_owned())).unwrap_err();
-        assert_eq!(
-            error.0[0].help.as_deref(),
-            Some("columns of the file: k, m")
-        );
+        assert_eq!(error.0[0].help.as_deref(), Some("columns of the file: k, m"));
         assert!(column("k,m\n0,1\n", &Column::Place(3)).is_err());
         assert!(column("0,1\n", &Column::Name("k".to_owned())).is_err());
         assert!(column("k,m\n", &Column::Name("k".to_owned())).is_err());

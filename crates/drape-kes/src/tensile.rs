@@ -40,11 +40,7 @@ impl Curve {
         let first = strain[0];
         let Some(out) = branches.first().filter(|branch| branch.rising) else {
             let (low, high) = self.deformation_range();
-            return Err(Error::OutOfRange {
-                deformation: first,
-                low,
-                high,
-            });
+            return Err(Error::OutOfRange { deformation: first, low, high });
         };
         let top = out.points.end - 1;
         let (maximum_tension, extension) = (load[top], strain[top] - first);
@@ -54,23 +50,13 @@ impl Curve {
             recovered(strain, load) / work
         });
         let linearity = work / (0.5 * maximum_tension * extension);
-        Ok(TensileValues {
-            maximum_tension,
-            extension,
-            work,
-            linearity,
-            resilience,
-        })
+        Ok(TensileValues { maximum_tension, extension, work, linearity, resilience })
     }
 }
 
 /// Work done on the fabric along a stretch of points, by trapezoids.
 fn work(strain: &[f64], load: &[f64]) -> f64 {
-    strain
-        .windows(2)
-        .zip(load.windows(2))
-        .map(|(q, f)| 0.5 * (f[0] + f[1]) * (q[1] - q[0]))
-        .sum()
+    strain.windows(2).zip(load.windows(2)).map(|(q, f)| 0.5 * (f[0] + f[1]) * (q[1] - q[0])).sum()
 }
 
 /// Work given back until the load first reaches zero.
@@ -103,9 +89,7 @@ mod tests {
     fn a_parabola_out_and_a_line_back_have_the_values_of_their_areas() {
         let (top, pull) = (0.05, 490.0);
         let n = STEPS as f64;
-        let out = (0..=STEPS)
-            .map(|i| i as f64 / n)
-            .map(|x| (top * x, pull * x * x));
+        let out = (0..=STEPS).map(|i| i as f64 / n).map(|x| (top * x, pull * x * x));
         // The way back is a straight line that reaches zero at 60 % of the extension.
         let back = (1..=STEPS)
             .map(|i| 1.0 - i as f64 / n)
@@ -118,21 +102,14 @@ mod tests {
         assert!(linearity < TRAPEZOID, "linearity off by {linearity}");
         // Recovered: a triangle of height `pull` over 0.4 of the extension.
         let resilience = values.resilience.unwrap();
-        assert!(
-            (resilience / 0.6 - 1.0).abs() < 2.0 * TRAPEZOID,
-            "resilience {resilience}"
-        );
+        assert!((resilience / 0.6 - 1.0).abs() < 2.0 * TRAPEZOID, "resilience {resilience}");
     }
 
     #[test]
     fn a_line_has_linearity_one_and_no_resilience_without_a_way_back() {
         let values = tensile((0..=10).map(|i| (0.001 * f64::from(i), f64::from(i))));
         let values = values.tensile_values().unwrap();
-        assert!(
-            (values.linearity - 1.0).abs() < 1e-12,
-            "{}",
-            values.linearity
-        );
+        assert!((values.linearity - 1.0).abs() < 1e-12, "{}", values.linearity);
         assert_eq!(values.resilience, None);
     }
 
@@ -140,9 +117,6 @@ mod tests {
     fn another_test_is_refused() {
         let curve =
             Curve::new(Test::Shear, Direction::Warp, vec![0.0, 0.1], vec![0.0, 1.0]).unwrap();
-        assert!(matches!(
-            curve.tensile_values(),
-            Err(Error::WrongTest { .. })
-        ));
+        assert!(matches!(curve.tensile_values(), Err(Error::WrongTest { .. })));
     }
 }

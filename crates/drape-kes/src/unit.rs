@@ -63,13 +63,7 @@ impl Quantity {
     /// Spellings are in the normal form of [`normal_form`]: `.` between factors, digits for powers.
     fn units(self) -> &'static [(&'static str, f64)] {
         match self {
-            Self::Ratio => &[
-                ("%", 0.01),
-                ("-", 1.0),
-                ("1", 1.0),
-                ("m/m", 1.0),
-                ("mm/mm", 1.0),
-            ],
+            Self::Ratio => &[("%", 0.01), ("-", 1.0), ("1", 1.0), ("m/m", 1.0), ("mm/mm", 1.0)],
             Self::Angle => &[("deg", DEGREE), ("rad", 1.0), ("mrad", 1e-3)],
             Self::Length => &[("mm", 1e-3), ("cm", 1e-2), ("m", 1.0), ("um", 1e-6)],
             Self::Curvature => &[
@@ -141,24 +135,16 @@ impl Quantity {
                 ("N/m", 1.0),
                 ("mJ/m2", 1e-3),
             ],
-            Self::MassPerArea => &[
-                ("mg/cm2", 1e-2),
-                ("kg/m2", 1.0),
-                ("g/m2", 1e-3),
-                ("g/cm2", 10.0),
-                ("gsm", 1e-3),
-            ],
+            Self::MassPerArea => {
+                &[("mg/cm2", 1e-2), ("kg/m2", 1.0), ("g/m2", 1e-3), ("g/cm2", 10.0), ("gsm", 1e-3)]
+            }
         }
     }
 
     /// The unit that a bare number of a sheet is in.
     pub(crate) fn laboratory(self) -> Unit {
         let (spelling, factor) = self.units()[0];
-        Unit {
-            quantity: self,
-            spelling,
-            factor,
-        }
+        Unit { quantity: self, spelling, factor }
     }
 
     fn list(self) -> String {
@@ -187,11 +173,7 @@ pub(crate) fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, Unit
     let wanted = normal_form(text);
     for &quantity in accepted {
         if let Some(&(spelling, factor)) = quantity.units().iter().find(|u| u.0 == wanted) {
-            return Ok(Unit {
-                quantity,
-                spelling,
-                factor,
-            });
+            return Ok(Unit { quantity, spelling, factor });
         }
     }
     let names: Vec<&str> = accepted.iter().map(|q| q.name()).collect();
@@ -213,13 +195,7 @@ pub(crate) fn parse_quantity(text: &str, quantity: Quantity) -> Result<(f64, Uni
     let split = (1..=text.len())
         .rev()
         .filter(|&end| text.is_char_boundary(end))
-        .find_map(|end| {
-            text[..end]
-                .trim_end()
-                .parse::<f64>()
-                .ok()
-                .map(|number| (number, end))
-        });
+        .find_map(|end| text[..end].trim_end().parse::<f64>().ok().map(|number| (number, end)));
     let Some((number, end)) = split else {
         let unit = quantity.laboratory().spelling;
         return Err(UnitError {
@@ -276,12 +252,7 @@ mod tests {
         for (quantity, factor) in cases {
             let unit = quantity.laboratory();
             let error = (unit.factor / factor - 1.0).abs();
-            assert!(
-                error < 1e-8,
-                "{}: {} against {factor}",
-                quantity.name(),
-                unit.factor
-            );
+            assert!(error < 1e-8, "{}: {} against {factor}", quantity.name(), unit.factor);
         }
     }
 
@@ -301,10 +272,7 @@ mod tests {
     #[test]
     fn a_unit_of_something_else_is_refused_with_the_list() {
         let error = parse_unit("N/m", &[Quantity::BendingRigidity]).unwrap_err();
-        assert_eq!(
-            error.message,
-            "\"N/m\" is not a unit of bending rigidity per width"
-        );
+        assert_eq!(error.message, "\"N/m\" is not a unit of bending rigidity per width");
         assert!(error.help.contains("did you mean `N.m`?"), "{}", error.help);
     }
 
@@ -319,12 +287,7 @@ mod tests {
         for (text, quantity, si) in cases {
             let (number, unit) = parse_quantity(text, quantity).unwrap();
             let error = (number * unit.factor / si - 1.0).abs();
-            assert!(
-                error < 1e-14,
-                "{text} reads as {} {}",
-                number,
-                unit.spelling
-            );
+            assert!(error < 1e-14, "{text} reads as {} {}", number, unit.spelling);
         }
         assert!(parse_quantity("thick", Quantity::Length).is_err());
     }

@@ -53,10 +53,7 @@ fn a_whole_sheet_is_read_into_laboratory_values_and_si_curves() {
          EM = 4\n[weft]\nB = \"1.2e-5 N.m\"\n{CURVE}"
     );
     let sheet = read(&text, GOOD_CURVE).unwrap();
-    assert_eq!(
-        (sheet.name.as_str(), sheet.w, sheet.warp.b),
-        ("poplin", Some(12.38), Some(0.118))
-    );
+    assert_eq!((sheet.name.as_str(), sheet.w, sheet.warp.b), ("poplin", Some(12.38), Some(0.118)));
     let close = |a: Option<f64>, b: f64| (a.unwrap() / b - 1.0).abs() < 1e-12;
     assert!(close(sheet.density(), 0.1238));
     assert!(close(sheet.thickness(), 0.497e-3));
@@ -67,10 +64,7 @@ fn a_whole_sheet_is_read_into_laboratory_values_and_si_curves() {
     assert_eq!(sheet.warp.tensile_linearity(), Some(0.7));
     assert!(close(sheet.weft.bending_rigidity(), 1.2e-5));
     assert!(close(sheet.weft.b, 1.2e-5 / 9.80665e-5));
-    let curve = sheet
-        .curves_of(Test::Tensile, Direction::Warp)
-        .next()
-        .unwrap();
+    let curve = sheet.curves_of(Test::Tensile, Direction::Warp).next().unwrap();
     assert_eq!(curve.deformation(), [0.0, 0.01, 0.02]);
     assert!((curve.load()[2] / (200.0 * 0.980665) - 1.0).abs() < 1e-12);
     assert_eq!(sheet.warnings(), []);
@@ -121,16 +115,8 @@ fn a_missing_file_is_named_with_the_one_that_is_there() {
     let text = format!("name = \"a\"\n{}", CURVE.replace("pull.csv", "pul.csv"));
     let found = finding(&text, GOOD_CURVE);
     assert_eq!(found.line, Some(6));
-    assert!(
-        found.message.starts_with("curve[0].file: there is no file"),
-        "{}",
-        found.message
-    );
-    assert!(
-        help(&found).contains("did you mean \"pull.csv\"?"),
-        "{}",
-        help(&found)
-    );
+    assert!(found.message.starts_with("curve[0].file: there is no file"), "{}", found.message);
+    assert!(help(&found).contains("did you mean \"pull.csv\"?"), "{}", help(&found));
 }
 
 #[test]
@@ -145,17 +131,8 @@ fn a_wrong_unit_is_refused_with_the_units_accepted() {
     let text = format!("name = \"a\"\n{}", CURVE.replace("gf/cm", "gf.cm"));
     let found = finding(&text, GOOD_CURVE);
     assert_eq!(found.line, Some(8));
-    assert!(
-        found
-            .message
-            .contains("\"gf.cm\" is not a unit of force per width"),
-        "{found}"
-    );
-    assert!(
-        help(&found).contains("did you mean `gf/cm`?"),
-        "{}",
-        help(&found)
-    );
+    assert!(found.message.contains("\"gf.cm\" is not a unit of force per width"), "{found}");
+    assert!(help(&found).contains("did you mean `gf/cm`?"), "{}", help(&found));
     let found = finding("name = \"a\"\nW = \"10 kg/m\"\n", GOOD_CURVE);
     assert_eq!((found.line, found.column), (Some(2), Some(5)));
 }
@@ -167,10 +144,7 @@ fn a_value_that_is_not_a_number_is_refused_in_sheet_and_file() {
     assert_eq!(found.message, "warp.B: NaN is not a finite number");
     let text = format!("name = \"a\"\n{CURVE}");
     let found = finding(&text, "strain,force\n0,0\n1,NaN\n");
-    assert_eq!(
-        (found.line, found.file.file_name().unwrap().to_str()),
-        (Some(3), Some("pull.csv"))
-    );
+    assert_eq!((found.line, found.file.file_name().unwrap().to_str()), (Some(3), Some("pull.csv")));
     assert!(found.message.contains("\"NaN\""), "{found}");
 }
 
@@ -179,16 +153,10 @@ fn an_empty_curve_and_a_one_point_curve_are_refused() {
     let text = format!("name = \"a\"\n{CURVE}");
     for empty in ["", "strain,force\n", "# nothing\n"] {
         let found = finding(&text, empty);
-        assert_eq!(
-            found.message, "the file has no rows of numbers",
-            "{empty:?}"
-        );
+        assert_eq!(found.message, "the file has no rows of numbers", "{empty:?}");
     }
     let found = finding(&text, "strain,force\n0,0\n");
-    assert_eq!(
-        found.message,
-        "a curve needs at least two points; this one has 1"
-    );
+    assert_eq!(found.message, "a curve needs at least two points; this one has 1");
     assert_eq!(found.file.file_name().unwrap().to_str(), Some("pull.csv"));
 }
 
@@ -204,18 +172,10 @@ fn a_rigidity_no_fabric_has_is_refused_with_what_was_probably_meant() {
     // The SI value where the laboratory's is expected.
     let found = finding("name = \"a\"\n[warp]\nB = 1.2e-5\n", GOOD_CURVE);
     assert_eq!(found.line, Some(3));
-    assert!(
-        help(&found).contains("did you mean \"0.000012 N.m\""),
-        "{}",
-        help(&found)
-    );
+    assert!(help(&found).contains("did you mean \"0.000012 N.m\""), "{}", help(&found));
     // The laboratory's value where it says SI.
     let found = finding("name = \"a\"\n[warp]\nB = \"0.118 N.m\"\n", GOOD_CURVE);
-    assert!(
-        help(&found).contains("0.118 in gf.cm2/cm"),
-        "{}",
-        help(&found)
-    );
+    assert!(help(&found).contains("0.118 in gf.cm2/cm"), "{}", help(&found));
     // Micronewton metres written bare.
     let found = finding("name = \"a\"\n[warp]\nB = 12\n", GOOD_CURVE);
     assert!(help(&found).contains("\"12 uN.m\""), "{}", help(&found));
@@ -229,10 +189,7 @@ fn every_error_of_a_sheet_is_reported_at_once_in_the_order_of_the_file() {
     // The curve is told of its wrong test and of each of its four missing keys.
     let expected = [2, 3, 5, 8, 9, 9, 9, 9, 10].map(Some);
     assert_eq!(lines, expected, "{found:#?}");
-    assert!(
-        found.iter().all(|finding| finding.help.is_some()),
-        "{found:#?}"
-    );
+    assert!(found.iter().all(|finding| finding.help.is_some()), "{found:#?}");
 }
 
 #[test]
@@ -249,9 +206,7 @@ fn an_unusual_value_is_a_warning_and_not_an_error() {
     assert_eq!(warnings.len(), 1, "{warnings:#?}");
     assert_eq!(warnings[0].line, Some(2));
     assert!(
-        warnings[0]
-            .message
-            .contains("a mass per area of 6.000e-1 kg/m2 is unusual"),
+        warnings[0].message.contains("a mass per area of 6.000e-1 kg/m2 is unusual"),
         "{}",
         warnings[0]
     );

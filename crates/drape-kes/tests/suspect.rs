@@ -51,13 +51,8 @@ fn says(finding: &Diagnostic, words: &[&str]) {
 
 /// Loading and recovery of a tensile test: strain in %, load in gf/cm.
 fn tensile() -> Vec<(f64, f64)> {
-    let up = (0..=20)
-        .map(|i| f64::from(i) * 0.2)
-        .map(|e| (e, 30.0 * e * e));
-    let down = (0..20)
-        .rev()
-        .map(|i| f64::from(i) * 0.2)
-        .map(|e| (e, 28.0 * e * e * (e / 4.0)));
+    let up = (0..=20).map(|i| f64::from(i) * 0.2).map(|e| (e, 30.0 * e * e));
+    let down = (0..20).rev().map(|i| f64::from(i) * 0.2).map(|e| (e, 28.0 * e * e * (e / 4.0)));
     up.chain(down).collect()
 }
 
@@ -83,18 +78,13 @@ fn right_curves_pass_without_a_word() {
 #[test]
 fn unloading_above_loading_is_refused_with_its_place() {
     let mut points = tensile();
-    points[21..]
-        .iter_mut()
-        .for_each(|(e, f)| *f = 40.0 * *e * *e);
+    points[21..].iter_mut().for_each(|(e, f)| *f = 40.0 * *e * *e);
     says(
         &refusal(read("tensile", ("%", GF), &points)),
         &["unloading lies above loading", "gives back"],
     );
     let reversed: Vec<_> = shear().into_iter().map(|(a, f)| (a, 0.8 * a - f)).collect();
-    says(
-        &refusal(read("shear", ("deg", GF), &reversed)),
-        &["unloading lies above loading"],
-    );
+    says(&refusal(read("shear", ("deg", GF), &reversed)), &["unloading lies above loading"]);
 }
 
 #[test]
@@ -110,23 +100,11 @@ fn swapped_columns_are_refused() {
 
 #[test]
 fn degrees_for_radians_are_refused_with_the_right_unit() {
-    says(
-        &refusal(read("shear", ("rad", GF), &shear())),
-        &["unit = \"deg\""],
-    );
-    let radians: Vec<_> = shear()
-        .into_iter()
-        .map(|(a, f)| (a.to_radians(), f))
-        .collect();
-    says(
-        &refusal(read("shear", ("deg", GF), &radians)),
-        &["unit = \"rad\""],
-    );
+    says(&refusal(read("shear", ("rad", GF), &shear())), &["unit = \"deg\""]);
+    let radians: Vec<_> = shear().into_iter().map(|(a, f)| (a.to_radians(), f)).collect();
+    says(&refusal(read("shear", ("deg", GF), &radians)), &["unit = \"rad\""]);
     let ratios: Vec<_> = tensile().into_iter().map(|(e, f)| (0.01 * e, f)).collect();
-    says(
-        &refusal(read("tensile", ("%", GF), &ratios)),
-        &["unit = \"1\""],
-    );
+    says(&refusal(read("tensile", ("%", GF), &ratios)), &["unit = \"1\""]);
 }
 
 #[test]
@@ -150,18 +128,12 @@ fn a_reversed_sign_is_turned_and_told() {
     let turned: Vec<_> = shear().into_iter().map(|(a, f)| (a, -f)).collect();
     // The loop of a load with the wrong sign is right once the sign is.
     let sheet = read("shear", ("deg", GF), &turned).expect("safe to repair");
-    says(
-        &sheet.warnings()[0],
-        &["the load has the opposite sign", "turned"],
-    );
+    says(&sheet.warnings()[0], &["the load has the opposite sign", "turned"]);
     let right = read("shear", ("deg", GF), &shear()).expect("right");
     assert_eq!(sheet.curves[0].load(), right.curves[0].load());
     let both: Vec<_> = tensile().into_iter().map(|(e, f)| (-e, -f)).collect();
     let sheet = read("tensile", ("%", GF), &both).expect("safe to repair");
-    says(
-        &sheet.warnings()[0],
-        &["deformation and load have the opposite sign"],
-    );
+    says(&sheet.warnings()[0], &["deformation and load have the opposite sign"]);
     assert!(
         sheet.curves[0].load_range().0 >= 0.0 && sheet.curves[0].deformation_range().0 >= -1e-15
     );
@@ -177,9 +149,8 @@ fn repeated_points_are_left_out_and_told() {
 
 #[test]
 fn a_last_line_that_breaks_off_is_left_out_and_told() {
-    let mut text: String = tensile()
-        .iter()
-        .fold("q,f\n".into(), |t, (q, f)| t + &format!("{q},{f}\n"));
+    let mut text: String =
+        tensile().iter().fold("q,f\n".into(), |t, (q, f)| t + &format!("{q},{f}\n"));
     text.push_str("0.1");
     let sheet = read_text("tensile", ("%", GF), &text).expect("safe to repair");
     says(&sheet.warnings()[0], &["line 43", "breaks off", "left out"]);
@@ -190,19 +161,10 @@ fn a_last_line_that_breaks_off_is_left_out_and_told() {
 fn a_strain_that_does_not_start_at_zero_is_shifted_or_refused() {
     let late: Vec<_> = tensile().into_iter().map(|(e, f)| (e + 0.5, f)).collect();
     let sheet = read("tensile", ("%", GF), &late).expect("safe to repair");
-    says(
-        &sheet.warnings()[0],
-        &[
-            "starts at a strain of 5.0000e-3 without load",
-            "taken as zero",
-        ],
-    );
+    says(&sheet.warnings()[0], &["starts at a strain of 5.0000e-3 without load", "taken as zero"]);
     assert_eq!(sheet.curves[0].deformation()[0], 0.0);
     let loaded: Vec<_> = tensile()[5..].to_vec();
-    says(
-        &refusal(read("tensile", ("%", GF), &loaded)),
-        &["with a load of", "slack = true"],
-    );
+    says(&refusal(read("tensile", ("%", GF), &loaded)), &["with a load of", "slack = true"]);
 }
 
 #[test]
@@ -211,8 +173,5 @@ fn loop_bending_and_slack_strips_keep_their_offsets() {
     let sheet = Sheet::read(root).expect("the shipped sheet is right");
     assert!(sheet.warnings().is_empty(), "{:?}", sheet.warnings());
     let strips: Vec<_> = sheet.curves_of(Test::Tensile, Direction::Warp).collect();
-    assert!(
-        !strips.is_empty() && strips[0].deformation()[0] < 0.0,
-        "the strip hangs slack"
-    );
+    assert!(!strips.is_empty() && strips[0].deformation()[0] < 0.0, "the strip hangs slack");
 }

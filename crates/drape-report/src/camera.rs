@@ -59,19 +59,9 @@ impl Camera {
         let (width, height) = (f64::from(view.width), f64::from(view.height));
         let middle = [0.5 * width, 0.5 * height];
         let focal = middle[1] / slope;
-        let eye = fit(
-            points(scene),
-            [right, up, forward],
-            [FILL * slope * width / height, FILL * slope],
-        );
-        Camera {
-            eye,
-            right,
-            up,
-            forward,
-            focal,
-            middle,
-        }
+        let eye =
+            fit(points(scene), [right, up, forward], [FILL * slope * width / height, FILL * slope]);
+        Camera { eye, right, up, forward, focal, middle }
     }
 }
 
@@ -94,9 +84,7 @@ fn points(scene: &Scene) -> Vec<Vector> {
 }
 
 fn extreme(points: &[Vector], start: f64, choose: fn(f64, f64) -> f64) -> Vector {
-    points.iter().fold([start; 3], |sum, p| {
-        std::array::from_fn(|k| choose(sum[k], p[k]))
-    })
+    points.iter().fold([start; 3], |sum, p| std::array::from_fn(|k| choose(sum[k], p[k])))
 }
 
 /// The eye from which all points are within the slopes to the sides and up and down.
@@ -109,9 +97,7 @@ fn fit(points: Vec<Vector>, [right, up, forward]: [Vector; 3], slopes: [f64; 2])
     let mut nearest = f64::MAX;
     for (axis, slope) in [right, up].into_iter().zip(slopes) {
         let reach = |sign: f64| {
-            let reaches = points
-                .iter()
-                .map(|p| sign * dot(*p, axis) - slope * dot(*p, forward));
+            let reaches = points.iter().map(|p| sign * dot(*p, axis) - slope * dot(*p, forward));
             reaches.fold(f64::MIN, f64::max)
         };
         let (plus, minus) = (reach(1.0), reach(-1.0));
@@ -119,9 +105,6 @@ fn fit(points: Vec<Vector>, [right, up, forward]: [Vector; 3], slopes: [f64; 2])
         nearest = nearest.min(-0.5 * (plus + minus) / slope);
     }
     // A single point would have the eye in it.
-    let front = points
-        .iter()
-        .map(|p| dot(*p, forward))
-        .fold(f64::MAX, f64::min);
+    let front = points.iter().map(|p| dot(*p, forward)).fold(f64::MAX, f64::min);
     add(eye, scale(forward, nearest.min(front - 1e-3)))
 }

@@ -12,10 +12,7 @@ pub(crate) fn number(what: impl Fn() -> String, value: f64) -> Result<(), Report
     if value.abs() <= LARGEST {
         Ok(())
     } else {
-        Err(ReportError::NotFinite {
-            what: what(),
-            value,
-        })
+        Err(ReportError::NotFinite { what: what(), value })
     }
 }
 
@@ -38,9 +35,6 @@ pub(crate) fn text(what: &str, text: &str) -> Result<(), ReportError> {
     let noncharacter = |c: char| matches!(c, '\u{fffe}' | '\u{ffff}');
     match text.chars().find(|&c| !shown(c) || noncharacter(c)) {
         None => Ok(()),
-        Some(character) => Err(ReportError::ControlCharacter {
-            what: what.to_owned(),
-            character,
-        }),
+        Some(character) => Err(ReportError::ControlCharacter { what: what.to_owned(), character }),
     }
 }

@@ -104,9 +104,7 @@ impl ComparePage {
     pub fn check(&self) -> Result<(), ReportError> {
         let [a, b] = &self.fabrics;
         if self.overlays.is_empty() && self.values.is_empty() {
-            return Err(ReportError::EmptyReport {
-                name: format!("{} and {}", a.name, b.name),
-            });
+            return Err(ReportError::EmptyReport { name: format!("{} and {}", a.name, b.name) });
         }
         check::number(|| "the limit of a comparison".to_owned(), self.limit)?;
         let texts = [&a.name, &a.source, &b.name, &b.source, &self.version];

@@ -78,12 +78,7 @@ impl Stage {
         if let Some(height) = scene.floor {
             add_floor(&mut facets, center, FLOOR_REACH * reach, height);
         }
-        Stage {
-            facets,
-            center,
-            reach,
-            setback,
-        }
+        Stage { facets, center, reach, setback }
     }
 
     /// How far a part steps back, in m.
@@ -129,30 +124,17 @@ fn add_surface(facets: &mut Vec<Facet>, surface: &Surface, (part, longest): (Par
                 .map(|&other| areas[other])
                 .filter(|other| is_cloth || dot(own, unit(*other)) > CREASE)
                 .fold([0.0; 3], add);
-            let coordinates = surface
-                .coordinates
-                .map_or([0.0; 2], |c| [c[2 * index], c[2 * index + 1]]);
+            let coordinates =
+                surface.coordinates.map_or([0.0; 2], |c| [c[2 * index], c[2 * index + 1]]);
             Corner {
                 position: at(surface.positions, index),
-                normal: if norm(smooth) > 0.0 {
-                    unit(smooth)
-                } else {
-                    own
-                },
+                normal: if norm(smooth) > 0.0 { unit(smooth) } else { own },
                 coordinates,
                 on_hem: on_hem[index],
             }
         });
         let hems = [0, 1, 2].map(|k| is_hem(&edge(triangle, k)));
-        split(
-            facets,
-            Facet {
-                part,
-                corners,
-                hems,
-            },
-            longest,
-        );
+        split(facets, Facet { part, corners, hems }, longest);
     }
 }
 
@@ -171,10 +153,7 @@ fn split(facets: &mut Vec<Facet>, facet: Facet, longest: f64) {
         norm(subtract(a.position, b.position))
     };
     let lengths = [length(0), length(1), length(2)];
-    let k = (1..3).fold(
-        0,
-        |best, k| if lengths[k] > lengths[best] { k } else { best },
-    );
+    let k = (1..3).fold(0, |best, k| if lengths[k] > lengths[best] { k } else { best });
     if lengths[k] <= longest {
         facets.push(facet);
         return;
@@ -208,18 +187,10 @@ fn add_floor(facets: &mut Vec<Facet>, center: Vector, reach: f64, height: f64) {
     };
     for i in 0..FLOOR_CELLS {
         for j in 0..FLOOR_CELLS {
-            let [a, b, c, d] = [
-                corner(i, j),
-                corner(i, j + 1),
-                corner(i + 1, j + 1),
-                corner(i + 1, j),
-            ];
+            let [a, b, c, d] =
+                [corner(i, j), corner(i, j + 1), corner(i + 1, j + 1), corner(i + 1, j)];
             for corners in [[a, b, c], [a, c, d]] {
-                facets.push(Facet {
-                    part: Part::Floor,
-                    corners,
-                    hems: [false; 3],
-                });
+                facets.push(Facet { part: Part::Floor, corners, hems: [false; 3] });
             }
         }
     }
@@ -237,10 +208,8 @@ mod tests {
             1.0,
         ];
         let triangles = [[0, 2, 1], [0, 3, 2], [1, 5, 4], [1, 2, 5]];
-        let scene = Scene {
-            cloths: vec![Surface::cloth(&positions, &triangles)],
-            ..Scene::default()
-        };
+        let scene =
+            Scene { cloths: vec![Surface::cloth(&positions, &triangles)], ..Scene::default() };
         let Stage { facets, reach, .. } = Stage::new(&scene, 0.0);
         let area: f64 = facets.iter().map(|f| 0.5 * norm(f.area())).sum();
         assert!((area - 4.0).abs() < 1e-12, "area {area}");
@@ -262,21 +231,10 @@ mod tests {
     /// Neighbours that cut a common edge differently would leave a corner without a partner.
     #[test]
     fn split_neighbours_share_all_corners() {
-        let positions = [
-            0.0, 0.0, 0.0, 1.0, 0.3, 0.0, 0.9, 0.0, 1.1, 0.0, 0.2, 0.8, 0.3, 1.5, 0.4,
-        ];
-        let triangles = [
-            [0, 1, 2],
-            [0, 2, 3],
-            [0, 4, 1],
-            [1, 4, 2],
-            [2, 4, 3],
-            [3, 4, 0],
-        ];
-        let scene = Scene {
-            bodies: vec![Surface::body(&positions, &triangles)],
-            ..Scene::default()
-        };
+        let positions = [0.0, 0.0, 0.0, 1.0, 0.3, 0.0, 0.9, 0.0, 1.1, 0.0, 0.2, 0.8, 0.3, 1.5, 0.4];
+        let triangles = [[0, 1, 2], [0, 2, 3], [0, 4, 1], [1, 4, 2], [2, 4, 3], [3, 4, 0]];
+        let scene =
+            Scene { bodies: vec![Surface::body(&positions, &triangles)], ..Scene::default() };
         let facets = Stage::new(&scene, 0.0).facets;
         let mut sides = BTreeMap::new();
         for facet in &facets {
@@ -287,12 +245,7 @@ mod tests {
             }
         }
         let lonely = sides.values().filter(|count| **count != 2).count();
-        assert_eq!(
-            lonely,
-            0,
-            "edges of {} facets without a partner",
-            facets.len()
-        );
+        assert_eq!(lonely, 0, "edges of {} facets without a partner", facets.len());
         assert!(facets.len() > 1000, "only {} facets", facets.len());
     }
 
@@ -301,22 +254,13 @@ mod tests {
         let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         let triangles = [[0, 1, 2], [0, 2, 3]];
         let normal_at_the_fold = |scene: Scene| {
-            let corners = Stage::new(&scene, 0.0)
-                .facets
-                .into_iter()
-                .flat_map(|f| f.corners);
+            let corners = Stage::new(&scene, 0.0).facets.into_iter().flat_map(|f| f.corners);
             let mut at_origin = corners.filter(|c| c.position == [0.0; 3]);
             at_origin.next().expect("the first vertex").normal
         };
         let surface = Surface::body(&positions, &triangles);
-        let body = normal_at_the_fold(Scene {
-            bodies: vec![surface],
-            ..Scene::default()
-        });
-        let cloth = normal_at_the_fold(Scene {
-            cloths: vec![surface],
-            ..Scene::default()
-        });
+        let body = normal_at_the_fold(Scene { bodies: vec![surface], ..Scene::default() });
+        let cloth = normal_at_the_fold(Scene { cloths: vec![surface], ..Scene::default() });
         assert_eq!(body, [0.0, 0.0, 1.0]);
         let middle = 0.5f64.sqrt();
         let miss = norm(subtract(cloth, [middle, 0.0, middle]));

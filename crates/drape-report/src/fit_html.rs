@@ -61,11 +61,7 @@ struct ValueRow<'a> {
 }
 
 pub(crate) fn render(page: &FitPage) -> String {
-    let laws: Vec<LawView<'_>> = page
-        .laws
-        .iter()
-        .map(|law| law_view(law, &page.limits))
-        .collect();
+    let laws: Vec<LawView<'_>> = page.laws.iter().map(|law| law_view(law, &page.limits)).collect();
     let quantities = page.quantities.iter().map(|quantity| {
         let (kes, si) = Shown::both(quantity.value, &quantity.units);
         (quantity, kes, si)
@@ -81,21 +77,9 @@ pub(crate) fn render(page: &FitPage) -> String {
         script: PAGE_SCRIPT,
         judgement: judgement(page, &laws),
         quantities: quantities.collect(),
-        values: page
-            .values
-            .iter()
-            .map(|value| value_row(value, &page.limits))
-            .collect(),
-        lists: lists
-            .into_iter()
-            .filter(|(_, _, texts)| !texts.is_empty())
-            .collect(),
-        limits: [
-            page.limits.misfit,
-            page.limits.error,
-            page.limits.difference,
-        ]
-        .map(percent),
+        values: page.values.iter().map(|value| value_row(value, &page.limits)).collect(),
+        lists: lists.into_iter().filter(|(_, _, texts)| !texts.is_empty()).collect(),
+        limits: [page.limits.misfit, page.limits.error, page.limits.difference].map(percent),
         laws,
     };
     view.render().expect("writing to a string does not fail")
@@ -107,36 +91,21 @@ fn judgement(page: &FitPage, laws: &[LawView<'_>]) -> String {
     let judged = laws.len() - count(Trust::Unjudged);
     let mut parts = Vec::new();
     if judged > 0 {
-        parts.push(format!(
-            "{} of {judged} fitted laws are good",
-            count(Trust::Good)
-        ));
+        parts.push(format!("{} of {judged} fitted laws are good", count(Trust::Good)));
     }
     for (trust, word) in [(Trust::Doubtful, "doubtful"), (Trust::Poor, "poor")] {
         if count(trust) > 0 {
             parts.push(format!("{} {word}", count(trust)));
         }
     }
-    let apart = page
-        .values
-        .iter()
-        .filter(|value| differs(value, &page.limits))
-        .count();
+    let apart = page.values.iter().filter(|value| differs(value, &page.limits)).count();
     if apart > 0 {
-        let noun = if apart == 1 {
-            "value differs"
-        } else {
-            "values differ"
-        };
+        let noun = if apart == 1 { "value differs" } else { "values differ" };
         parts.push(format!("{apart} KES {noun} from the curves"));
     }
     let assumed = page.assumed.len();
     if assumed > 0 {
-        let noun = if assumed == 1 {
-            "assumption"
-        } else {
-            "assumptions"
-        };
+        let noun = if assumed == 1 { "assumption" } else { "assumptions" };
         parts.push(format!("{assumed} {noun}"));
     }
     if parts.is_empty() {
@@ -148,10 +117,7 @@ fn judgement(page: &FitPage, laws: &[LawView<'_>]) -> String {
 
 fn differs(value: &KesValue, limits: &Limits) -> bool {
     let differences = value.differences();
-    differences
-        .iter()
-        .flatten()
-        .any(|d| d.abs() > limits.difference)
+    differences.iter().flatten().any(|d| d.abs() > limits.difference)
 }
 
 fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
@@ -169,10 +135,8 @@ fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
         facts.push(("evaluations", s.evaluations.to_string()));
     }
     let uncertain = law.parameters.iter().any(|parameter| {
-        let unknown = matches!(
-            parameter.interval,
-            Interval::Unknown { .. } | Interval::Fixed { .. }
-        );
+        let unknown =
+            matches!(parameter.interval, Interval::Unknown { .. } | Interval::Fixed { .. });
         parameter.standard_error.is_some() || !unknown
     });
     let models = law.models.iter().zip(law.evidence());
@@ -195,20 +159,11 @@ fn law_view<'a>(law: &'a LawReport, limits: &Limits) -> LawView<'a> {
         r_squared: statistics.map_or_else(String::new, |s| format!("{:.4}", s.r_squared)),
         bar: statistics.map_or_else(String::new, |s| {
             let part = 50.0 * s.misfit / limits.misfit;
-            format!(
-                "{:.1}",
-                if part.is_finite() {
-                    part.clamp(0.0, 100.0)
-                } else {
-                    100.0
-                }
-            )
+            format!("{:.1}", if part.is_finite() { part.clamp(0.0, 100.0) } else { 100.0 })
         }),
         parameters: law.parameters.iter().map(ShownParameter::new).collect(),
         uncertainty: uncertain.then(|| {
-            let plot = UncertaintyPlot {
-                parameters: &law.parameters,
-            };
+            let plot = UncertaintyPlot { parameters: &law.parameters };
             uncertainty_figure(&plot, Place::InPage)
         }),
         correlation: law.correlation.as_ref().map(|correlation| {

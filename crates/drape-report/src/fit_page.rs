@@ -77,10 +77,7 @@ impl KesValue {
             let reference = reference.filter(|reference| *reference != 0.0)?;
             Some((value? - reference) / reference.abs()).filter(|ratio| ratio.is_finite())
         };
-        [
-            from(self.sheet, self.curve),
-            from(self.sheet.or(self.curve), self.law),
-        ]
+        [from(self.sheet, self.curve), from(self.sheet.or(self.curve), self.law)]
     }
 }
 
@@ -90,9 +87,7 @@ impl FitPage {
     /// The page and the text check by themselves; call it before serialising.
     pub fn check(&self) -> Result<(), ReportError> {
         if self.laws.is_empty() && self.values.is_empty() && self.quantities.is_empty() {
-            return Err(ReportError::EmptyReport {
-                name: self.name.clone(),
-            });
+            return Err(ReportError::EmptyReport { name: self.name.clone() });
         }
         let head = [&self.name, &self.source, &self.provenance, &self.version];
         let lists = [&self.assumed, &self.warnings, &self.repairs];
@@ -159,17 +154,8 @@ mod tests {
             };
             assert!(same(a, expected[0]) && same(b, expected[1]), "{a:?} {b:?}");
         };
-        near(
-            value(Some(2.0), Some(2.2), Some(1.9)).differences(),
-            [Some(0.1), Some(-0.05)],
-        );
-        near(
-            value(None, Some(2.0), Some(1.9)).differences(),
-            [None, Some(-0.05)],
-        );
-        near(
-            value(Some(0.0), Some(2.0), None).differences(),
-            [None, None],
-        );
+        near(value(Some(2.0), Some(2.2), Some(1.9)).differences(), [Some(0.1), Some(-0.05)]);
+        near(value(None, Some(2.0), Some(1.9)).differences(), [None, Some(-0.05)]);
+        near(value(Some(0.0), Some(2.0), None).differences(), [None, None]);
     }
 }

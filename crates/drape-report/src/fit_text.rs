@@ -144,15 +144,7 @@ fn statistics_lines(lines: &mut Vec<String>, law: &LawReport, statistics: &Stati
 }
 
 fn models(law: &LawReport) -> Vec<String> {
-    let head = [
-        "model",
-        "parameters",
-        "misfit",
-        "AICc",
-        "above best",
-        "weight",
-        "",
-    ];
+    let head = ["model", "parameters", "misfit", "AICc", "above best", "weight", ""];
     let mut table = Table::new(&head, &[1, 2, 3, 4, 5]);
     for (model, (above, weight)) in law.models.iter().zip(law.evidence()) {
         table.row(vec![
@@ -169,16 +161,7 @@ fn models(law: &LawReport) -> Vec<String> {
 }
 
 fn parameters(law: &LawReport) -> Vec<String> {
-    let head = [
-        "parameter",
-        "",
-        "value",
-        "",
-        "error",
-        "95 % interval",
-        "SI value",
-        "",
-    ];
+    let head = ["parameter", "", "value", "", "error", "95 % interval", "SI value", ""];
     let mut table = Table::new(&head, &[2, 4, 5, 6]);
     let mut reasons = Vec::new();
     for parameter in &law.parameters {
@@ -205,9 +188,7 @@ fn parameters(law: &LawReport) -> Vec<String> {
 }
 
 fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
-    let head = [
-        "", "", "", "unit", "sheet", "curve", "", "law", "", "", "SI", "",
-    ];
+    let head = ["", "", "", "unit", "sheet", "curve", "", "law", "", "", "SI", ""];
     let mut table = Table::new(&head, &[4, 5, 6, 7, 8, 10]);
     for value in values {
         let shown = |number: Option<f64>| {
@@ -218,10 +199,7 @@ fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
         };
         let differences = value.differences();
         let difference = |ratio: Option<f64>| ratio.map_or_else(String::new, signed_percent);
-        let apart = differences
-            .iter()
-            .flatten()
-            .any(|d| d.abs() > limits.difference);
+        let apart = differences.iter().flatten().any(|d| d.abs() > limits.difference);
         let best = value.sheet.or(value.curve).or(value.law);
         let si = best.filter(|_| value.units.kes.is_some());
         let si = si.map(|number| Shown::bare(number, &value.units.si));
@@ -245,11 +223,7 @@ fn values(values: &[KesValue], limits: &Limits) -> Vec<String> {
 
 /// The laboratory's unit, or SI where there is none.
 fn unit(units: &Units) -> String {
-    units
-        .kes
-        .as_ref()
-        .map_or(&units.si, |unit| &unit.name)
-        .clone()
+    units.kes.as_ref().map_or(&units.si, |unit| &unit.name).clone()
 }
 
 /// A difference in per cent with its sign.

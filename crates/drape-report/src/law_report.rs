@@ -81,12 +81,7 @@ impl Default for Limits {
     /// scatter by some 5 %. An error of a quarter leaves one digit. A correlation below a half hardly widens
     /// an interval.
     fn default() -> Limits {
-        Limits {
-            misfit: 0.02,
-            error: 0.25,
-            difference: 0.05,
-            correlation: 0.5,
-        }
+        Limits { misfit: 0.02, error: 0.25, difference: 0.05, correlation: 0.5 }
     }
 }
 
@@ -142,18 +137,11 @@ impl LawReport {
             reasons.push(reason);
         };
         if !statistics.converged {
-            against(
-                Trust::Poor,
-                format!("the search did not end: {}", statistics.stop),
-            );
+            against(Trust::Poor, format!("the search did not end: {}", statistics.stop));
         }
         let misfit = statistics.misfit;
         if misfit > limits.misfit {
-            let level = if misfit > 2.0 * limits.misfit {
-                Trust::Poor
-            } else {
-                Trust::Doubtful
-            };
+            let level = if misfit > 2.0 * limits.misfit { Trust::Poor } else { Trust::Doubtful };
             let (misfit, limit) = (percent(misfit), percent(limits.misfit));
             against(level, format!("misfit {misfit}, more than {limit}"));
         }
@@ -171,10 +159,7 @@ impl LawReport {
         };
         if let Some(symbols) = symbols(&vague) {
             let limit = percent(limits.error);
-            against(
-                Trust::Doubtful,
-                format!("standard error above {limit} for {symbols}"),
-            );
+            against(Trust::Doubtful, format!("standard error above {limit} for {symbols}"));
         }
         Verdict { trust, reasons }
     }
@@ -201,10 +186,7 @@ impl LawReport {
             number("the misfit", statistics.misfit)?;
             number("the rms residual", statistics.rms)?;
             number("R²", statistics.r_squared)?;
-            check::text(
-                &format!("{title}: the reason for stopping"),
-                &statistics.stop,
-            )?;
+            check::text(&format!("{title}: the reason for stopping"), &statistics.stop)?;
         }
         for model in &self.models {
             check::text(&format!("{title}: the name of a model"), &model.name)?;
@@ -230,9 +212,7 @@ impl LawReport {
         let weight = |model: &ModelScore| (-0.5 * (model.aicc - best)).exp();
         let total: f64 = self.models.iter().map(weight).sum();
         let models = self.models.iter();
-        models
-            .map(|model| (model.aicc - best, weight(model) / total))
-            .collect()
+        models.map(|model| (model.aicc - best, weight(model) / total)).collect()
     }
 }
 
@@ -243,11 +223,7 @@ mod tests {
 
     fn law(misfit: f64, converged: bool, interval: Interval) -> LawReport {
         LawReport {
-            statistics: Some(Statistics {
-                misfit,
-                converged,
-                ..Statistics::default()
-            }),
+            statistics: Some(Statistics { misfit, converged, ..Statistics::default() }),
             parameters: vec![Parameter {
                 name: "bending rigidity".to_owned(),
                 symbol: "k_b".to_owned(),
@@ -262,13 +238,8 @@ mod tests {
 
     #[test]
     fn a_law_is_judged_by_its_misfit_its_search_and_its_intervals() {
-        let known = Interval::Between {
-            lower: 0.98e-5,
-            upper: 1.02e-5,
-        };
-        let unknown = Interval::Unknown {
-            reason: "flat".to_owned(),
-        };
+        let known = Interval::Between { lower: 0.98e-5, upper: 1.02e-5 };
+        let unknown = Interval::Unknown { reason: "flat".to_owned() };
         let trust = |law: LawReport| law.verdict(&Limits::default()).trust;
         assert_eq!(trust(law(0.01, true, known.clone())), Trust::Good);
         assert_eq!(trust(law(0.03, true, known.clone())), Trust::Doubtful);
@@ -280,10 +251,7 @@ mod tests {
 
     #[test]
     fn the_weights_of_evidence_follow_akaike() {
-        let model = |aicc: f64| ModelScore {
-            aicc,
-            ..ModelScore::default()
-        };
+        let model = |aicc: f64| ModelScore { aicc, ..ModelScore::default() };
         let law = LawReport {
             models: vec![model(-100.0), model(-104.0), model(-102.0)],
             ..LawReport::default()

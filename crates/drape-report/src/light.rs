@@ -105,11 +105,8 @@ impl LightMap {
         let mut light = [[0.0; 3]; 2];
         for (corner, place) in facet.corners.iter().enumerate() {
             let slant = dot(place.normal, self.direction);
-            let (side, normal) = if slant > 0.0 {
-                (0, place.normal)
-            } else {
-                (1, scale(place.normal, -1.0))
-            };
+            let (side, normal) =
+                if slant > 0.0 { (0, place.normal) } else { (1, scale(place.normal, -1.0)) };
             let part = self.reaches(place.position, normal, 0);
             light[side][corner] = 2.0 * slant.abs() * part / SKY_DIRECTIONS as f64;
         }
@@ -136,11 +133,7 @@ pub(crate) fn sky(stage: &Stage) -> Vec<[[f64; 3]; 2]> {
         .collect();
     let mut light = vec![[[0.0; 3]; 2]; stage.facets.len()];
     for share in &shares {
-        for (sum, part) in light
-            .as_flattened_mut()
-            .iter_mut()
-            .zip(share.as_flattened())
-        {
+        for (sum, part) in light.as_flattened_mut().iter_mut().zip(share.as_flattened()) {
             for (sum, part) in sum.iter_mut().zip(part) {
                 *sum += part;
             }
@@ -155,12 +148,7 @@ mod tests {
     use crate::facets::Corner;
 
     fn stage(facets: Vec<Facet>, center: Vector, reach: f64) -> Stage {
-        Stage {
-            facets,
-            center,
-            reach,
-            setback: 0.0,
-        }
+        Stage { facets, center, reach, setback: 0.0 }
     }
 
     /// A fan of triangles around the y axis, facing up, as a disc.

@@ -25,11 +25,7 @@ impl Notation {
     pub(crate) fn of(value: f64, uncertainty: Option<f64>) -> Notation {
         let error = uncertainty.filter(|error| *error > 0.0);
         let error_top = error.map(power_of_ten);
-        let value_top = if value == 0.0 {
-            error_top.unwrap_or(0)
-        } else {
-            power_of_ten(value)
-        };
+        let value_top = if value == 0.0 { error_top.unwrap_or(0) } else { power_of_ten(value) };
         let top = value_top.max(error_top.unwrap_or(value_top));
         let last = match error_top {
             // A value that drowns in its uncertainty still shows two digits where there is room.
@@ -41,20 +37,13 @@ impl Notation {
             None => value_top - (DIGITS - 1),
         };
         let exponent = if PLAIN.contains(&top) { 0 } else { top };
-        Notation {
-            exponent,
-            decimals: usize::try_from(exponent - last).unwrap_or(0),
-        }
+        Notation { exponent, decimals: usize::try_from(exponent - last).unwrap_or(0) }
     }
 
     /// A number in this notation, without the power of ten.
     pub(crate) fn mantissa(&self, number: f64) -> String {
         let text = format!("{:.*}", self.decimals, shift(number, -self.exponent));
-        if text
-            .trim_start_matches('-')
-            .chars()
-            .all(|c| "0.".contains(c))
-        {
+        if text.trim_start_matches('-').chars().all(|c| "0.".contains(c)) {
             text.trim_start_matches('-').to_owned()
         } else {
             text
@@ -63,11 +52,7 @@ impl Notation {
 
     /// The power of ten as text: "e-5", or nothing.
     pub(crate) fn power(&self) -> String {
-        if self.exponent == 0 {
-            String::new()
-        } else {
-            format!("e{}", self.exponent)
-        }
+        if self.exponent == 0 { String::new() } else { format!("e{}", self.exponent) }
     }
 }
 
@@ -84,9 +69,7 @@ fn power_of_ten(number: f64) -> i32 {
     }
     // The formatter rounds before it chooses the power, so 9.99996 becomes 1.000e1.
     let text = format!("{:.*e}", (DIGITS - 1) as usize, number);
-    text.rsplit_once('e')
-        .and_then(|(_, power)| power.parse().ok())
-        .unwrap_or(0)
+    text.rsplit_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or(0)
 }
 
 /// A number with some significant digits, in plain notation where that is short.
@@ -135,11 +118,7 @@ pub(crate) fn typeset(text: &str) -> String {
             printed.push(superscript(letter));
         } else {
             in_power = false;
-            printed.push(if letter == '-' && number_after {
-                '−'
-            } else {
-                letter
-            });
+            printed.push(if letter == '-' && number_after { '−' } else { letter });
         }
     }
     printed
@@ -148,9 +127,7 @@ pub(crate) fn typeset(text: &str) -> String {
 /// A minus sign or a digit as a superscript.
 fn superscript(letter: char) -> char {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    letter
-        .to_digit(10)
-        .map_or('⁻', |digit| DIGITS[digit as usize])
+    letter.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])
 }
 
 #[cfg(test)]

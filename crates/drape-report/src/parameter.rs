@@ -24,18 +24,12 @@ pub struct Units {
 impl Units {
     /// A quantity that has no unit of the laboratory.
     pub fn si(name: &str) -> Units {
-        Units {
-            si: name.to_owned(),
-            kes: None,
-        }
+        Units { si: name.to_owned(), kes: None }
     }
 
     /// The same quantity in the laboratory's unit, which is `in_si` SI units.
     pub fn with_kes(self, name: &str, in_si: f64) -> Units {
-        let kes = Some(Unit {
-            name: name.to_owned(),
-            in_si,
-        });
+        let kes = Some(Unit { name: name.to_owned(), in_si });
         Units { kes, ..self }
     }
 
@@ -119,9 +113,7 @@ impl Parameter {
     /// Standard error over the size of the value, a ratio; none where either is missing or zero.
     pub fn relative_error(&self) -> Option<f64> {
         let size = self.value.abs();
-        self.standard_error
-            .map(|error| error / size)
-            .filter(|ratio| ratio.is_finite())
+        self.standard_error.map(|error| error / size).filter(|ratio| ratio.is_finite())
     }
 
     /// Whether the data were asked for its interval and did not give all of it.

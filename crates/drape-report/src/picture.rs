@@ -12,11 +12,7 @@ pub struct Picture {
 
 impl Picture {
     pub(crate) fn new(width: u32, height: u32, pixels: Vec<u8>) -> Picture {
-        Picture {
-            width,
-            height,
-            pixels,
-        }
+        Picture { width, height, pixels }
     }
 
     /// Width, in pixels.
@@ -43,9 +39,8 @@ impl Picture {
 
     /// The picture as a PNG file.
     pub fn png(&self) -> Result<Vec<u8>, ReportError> {
-        let failed = |error: png::EncodingError| ReportError::Encoding {
-            reason: error.to_string(),
-        };
+        let failed =
+            |error: png::EncodingError| ReportError::Encoding { reason: error.to_string() };
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);

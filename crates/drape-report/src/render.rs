@@ -47,9 +47,8 @@ pub fn render(scene: &Scene, view: &View) -> Result<Picture, ReportError> {
     let stage = Stage::new(scene, view.body_setback);
     let shader = Shader::new(scene, &stage, &camera, view);
     let places = 0..stage.facets.len();
-    let projected: Vec<Projected> = places
-        .filter_map(|index| project(&stage, index, &camera))
-        .collect();
+    let projected: Vec<Projected> =
+        places.filter_map(|index| project(&stage, index, &camera)).collect();
 
     let height = view.height as usize;
     let tops: Vec<usize> = (0..height).step_by(BAND).collect();
@@ -167,10 +166,7 @@ impl Band {
         for j in 0..SAMPLES {
             for i in 0..SAMPLES {
                 let item = self.items[(row * SAMPLES + j) * self.width + column * SAMPLES + i];
-                let (x, y) = (
-                    (i as f64 + 0.5) / SAMPLES as f64,
-                    (j as f64 + 0.5) / SAMPLES as f64,
-                );
+                let (x, y) = ((i as f64 + 0.5) / SAMPLES as f64, (j as f64 + 0.5) / SAMPLES as f64);
                 match self.seen.iter_mut().find(|seen| seen.0 == item) {
                     Some((_, count, sum_x, sum_y)) => {
                         *count += 1;

@@ -50,20 +50,12 @@ impl<'a> Surface<'a> {
 
     /// A body in the default grey.
     pub fn body(positions: &'a [f64], triangles: &'a [[u32; 3]]) -> Surface<'a> {
-        Surface {
-            front: BODY,
-            back: BODY,
-            ..Surface::cloth(positions, triangles)
-        }
+        Surface { front: BODY, back: BODY, ..Surface::cloth(positions, triangles) }
     }
 
     /// The same surface with warp and weft lines a spacing in m apart.
     pub fn with_lines(self, coordinates: &'a [f64], line_spacing: f64) -> Surface<'a> {
-        Surface {
-            coordinates: Some(coordinates),
-            line_spacing,
-            ..self
-        }
+        Surface { coordinates: Some(coordinates), line_spacing, ..self }
     }
 
     pub(crate) fn points(&self) -> impl Iterator<Item = Vector> {

@@ -111,20 +111,12 @@ impl<'a> Shader<'a> {
             Part::Floor => (&self.sun_on_floor, FLOOR_BLUR),
             _ => (&self.sun, SUN_BLUR),
         };
-        let lit = if slant > 0.0 {
-            slant * map.reaches(position, normal, blur)
-        } else {
-            0.0
-        };
+        let lit = if slant > 0.0 { slant * map.reaches(position, normal, blur) } else { 0.0 };
 
         if facet.part == Part::Floor {
             let full = SKY + SUN * slant;
             let shade = 1.0 - (SKY * sky + SUN * lit) / full;
-            let away = norm([
-                position[0] - self.center[0],
-                0.0,
-                position[2] - self.center[2],
-            ]);
+            let away = norm([position[0] - self.center[0], 0.0, position[2] - self.center[2]]);
             let fade = (1.0 - away / (0.95 * FLOOR_REACH * self.reach)).clamp(0.0, 1.0);
             let fade = fade.min(0.4) / 0.4;
             return [1.0 - FLOOR_SHADE * shade * fade; 3];
@@ -135,10 +127,7 @@ impl<'a> Shader<'a> {
             + HEAD * dot(normal, to_eye).max(0.0);
         let (surface, tints) = match facet.part {
             Part::Cloth(k) => (&self.scene.cloths[k], self.tints[k]),
-            Part::Body(k) => (
-                &self.scene.bodies[k],
-                self.tints[self.scene.cloths.len() + k],
-            ),
+            Part::Body(k) => (&self.scene.bodies[k], self.tints[self.scene.cloths.len() + k]),
             Part::Floor => return [1.0; 3],
         };
         let base = tints[usize::from(!front)];
@@ -167,9 +156,7 @@ impl<'a> Shader<'a> {
         if surface.coordinates.is_some() {
             for (axis, ink) in ink.iter_mut().take(2).enumerate() {
                 let along = |shares: [f64; 3]| {
-                    (0..3)
-                        .map(|c| shares[c] * item.facet.corners[c].coordinates[axis])
-                        .sum::<f64>()
+                    (0..3).map(|c| shares[c] * item.facet.corners[c].coordinates[axis]).sum::<f64>()
                         / surface.line_spacing
                 };
                 let (place, slope) = steep(&along);
@@ -206,20 +193,13 @@ fn shares(item: &Projected, x: f64, y: f64) -> [f64; 3] {
 /// Linear light of an sRGB value (IEC 61966-2-1).
 fn decode(value: u8) -> f64 {
     let value = f64::from(value) / 255.0;
-    if value <= 0.04045 {
-        value / 12.92
-    } else {
-        ((value + 0.055) / 1.055).powf(2.4)
-    }
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
 /// The nearest sRGB value of linear light.
 pub(crate) fn encode(light: f64) -> u8 {
     let light = light.clamp(0.0, 1.0);
-    let value = if light <= 0.003_130_8 {
-        12.92 * light
-    } else {
-        1.055 * light.powf(1.0 / 2.4) - 0.055
-    };
+    let value =
+        if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
     (255.0 * value).round() as u8
 }

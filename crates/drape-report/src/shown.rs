@@ -27,10 +27,7 @@ impl Shown {
     /// A value in both of its units: the laboratory's, where there is one, and SI.
     pub(crate) fn both(value: f64, units: &Units) -> (Option<Shown>, Shown) {
         let kes = units.kes.as_ref();
-        (
-            kes.map(|unit| Shown::bare(value / unit.in_si, &unit.name)),
-            Shown::bare(value, &units.si),
-        )
+        (kes.map(|unit| Shown::bare(value / unit.in_si, &unit.name)), Shown::bare(value, &units.si))
     }
 
     /// The value with its power of ten, and its error where there is one.
@@ -131,10 +128,7 @@ mod tests {
             value: 0.118 * 9.80665e-5,
             units: Units::si("N·m").with_kes("gf·cm²/cm", 9.80665e-5),
             standard_error: Some(0.0023 * 9.80665e-5),
-            interval: Interval::Between {
-                lower: 0.1135 * 9.80665e-5,
-                upper: 0.1227 * 9.80665e-5,
-            },
+            interval: Interval::Between { lower: 0.1135 * 9.80665e-5, upper: 0.1227 * 9.80665e-5 },
         };
         let shown = ShownParameter::new(&parameter);
         assert_eq!(shown.first().number(), "0.1180 ± 0.0023");

@@ -27,12 +27,7 @@ impl Table {
         let cell = |row: &'_ [String], column: usize| -> String {
             row.get(column).cloned().unwrap_or_default()
         };
-        let used = |column: &usize| {
-            self.rows
-                .iter()
-                .skip(1)
-                .any(|r| !cell(r, *column).is_empty())
-        };
+        let used = |column: &usize| self.rows.iter().skip(1).any(|r| !cell(r, *column).is_empty());
         let columns: Vec<usize> = (0..columns).filter(used).collect();
         let length = |text: &str| text.chars().count();
         let width = |column: usize| {
@@ -45,11 +40,7 @@ impl Table {
             for (&column, &width) in columns.iter().zip(&widths) {
                 let text = cell(row, column);
                 let pad = " ".repeat(width - length(&text));
-                let parts = if self.right.contains(&column) {
-                    [pad, text]
-                } else {
-                    [text, pad]
-                };
+                let parts = if self.right.contains(&column) { [pad, text] } else { [text, pad] };
                 line.push_str(&parts.concat());
                 line.push_str("  ");
             }
@@ -68,9 +59,6 @@ mod tests {
         let mut table = Table::new(&["name", "µ", "none"], &[1]);
         table.row(vec!["a".into(), "1.0".into(), String::new()]);
         table.row(vec!["Größe".into(), "12.0".into(), String::new()]);
-        assert_eq!(
-            table.lines(2),
-            ["  name      µ", "  a       1.0", "  Größe  12.0"]
-        );
+        assert_eq!(table.lines(2), ["  name      µ", "  a       1.0", "  Größe  12.0"]);
     }
 }

@@ -23,11 +23,7 @@ pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
 }
 
 pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 pub(crate) fn norm(a: Vector) -> f64 {
@@ -37,11 +33,7 @@ pub(crate) fn norm(a: Vector) -> f64 {
 /// The unit vector; a vector of no length stays as it is.
 pub(crate) fn unit(a: Vector) -> Vector {
     let length = norm(a);
-    if length > 0.0 {
-        scale(a, 1.0 / length)
-    } else {
-        a
-    }
+    if length > 0.0 { scale(a, 1.0 / length) } else { a }
 }
 
 /// Two unit vectors across a direction and across each other, the first level.
@@ -58,10 +50,7 @@ pub(crate) fn frame(direction: Vector) -> [Vector; 2] {
 /// Centre and half diagonal of the box around points.
 pub(crate) fn surround(points: impl Iterator<Item = Vector>) -> (Vector, f64) {
     let (low, high) = points.fold(([f64::MAX; 3], [f64::MIN; 3]), |(low, high), p| {
-        (
-            std::array::from_fn(|k| low[k].min(p[k])),
-            std::array::from_fn(|k| high[k].max(p[k])),
-        )
+        (std::array::from_fn(|k| low[k].min(p[k])), std::array::from_fn(|k| high[k].max(p[k])))
     });
     let center = scale(add(low, high), 0.5);
     (center, norm(subtract(high, center)))

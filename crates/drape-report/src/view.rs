@@ -50,34 +50,10 @@ impl View {
         };
         let size = "from 16 to 16384";
         within("the azimuth (°)", self.azimuth_deg, "finite", -1e6, 1e6)?;
-        within(
-            "the elevation (°)",
-            self.elevation_deg,
-            "from -90 to 90",
-            -90.0,
-            90.0,
-        )?;
-        within(
-            "the field of view (°)",
-            self.field_deg,
-            "from 1 to 120",
-            1.0,
-            120.0,
-        )?;
+        within("the elevation (°)", self.elevation_deg, "from -90 to 90", -90.0, 90.0)?;
+        within("the field of view (°)", self.field_deg, "from 1 to 120", 1.0, 120.0)?;
         within("the width (pixels)", self.width.into(), size, 16.0, 16384.0)?;
-        within(
-            "the height (pixels)",
-            self.height.into(),
-            size,
-            16.0,
-            16384.0,
-        )?;
-        within(
-            "the setback of bodies (m)",
-            self.body_setback,
-            "from 0 to 1",
-            0.0,
-            1.0,
-        )
+        within("the height (pixels)", self.height.into(), size, 16.0, 16384.0)?;
+        within("the setback of bodies (m)", self.body_setback, "from 0 to 1", 0.0, 1.0)
     }
 }

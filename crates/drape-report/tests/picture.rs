@@ -68,16 +68,8 @@ fn count(picture: &Picture, which: impl Fn([u8; 3]) -> bool) -> usize {
 fn the_silhouette_of_a_sphere_is_its_projected_disc() {
     let (radius, center) = (0.3, [1.0, 2.0, -1.0]);
     let shape = sphere(radius, center);
-    let scene = Scene {
-        bodies: vec![Surface::body(&shape.0, &shape.1)],
-        ..Scene::default()
-    };
-    let view = View {
-        field_deg: 50.0,
-        width: 800,
-        height: 600,
-        ..SMALL
-    };
+    let scene = Scene { bodies: vec![Surface::body(&shape.0, &shape.1)], ..Scene::default() };
+    let view = View { field_deg: 50.0, width: 800, height: 600, ..SMALL };
     let camera = view.camera(&scene).unwrap();
     let eye = camera.eye();
     let away = [0, 1, 2].map(|k| eye[k] - center[k]);
@@ -104,23 +96,14 @@ fn the_frame_holds_the_whole_cloth_and_little_else() {
     let (shape, _) = square(0.5, 1.0, 4);
     for azimuth_deg in [0.0, 77.0, 200.0] {
         for elevation_deg in [-90.0, -20.0, 0.0, 45.0, 90.0] {
-            let view = View {
-                azimuth_deg,
-                elevation_deg,
-                ..SMALL
-            };
-            let scene = Scene {
-                cloths: vec![cloth(&shape)],
-                ..Scene::default()
-            };
+            let view = View { azimuth_deg, elevation_deg, ..SMALL };
+            let scene = Scene { cloths: vec![cloth(&shape)], ..Scene::default() };
             let camera = view.camera(&scene).unwrap();
             let mut fill: f64 = 0.0;
             for p in shape.0.chunks(3) {
                 let [x, y, depth] = camera.project([p[0], p[1], p[2]]);
                 assert!(depth > 0.0);
-                fill = fill
-                    .max((x / 200.0 - 1.0).abs())
-                    .max((y / 150.0 - 1.0).abs());
+                fill = fill.max((x / 200.0 - 1.0).abs()).max((y / 150.0 - 1.0).abs());
             }
             assert!((fill - 0.9).abs() < 1e-9, "{view:?} fills {fill}");
         }
@@ -135,14 +118,8 @@ fn the_nearer_surface_hides_the_farther() {
     (red.front, green.front) = ([200, 0, 0], [0, 200, 0]);
     (red.back, green.back) = (red.front, green.front);
     let middle = |elevation_deg: f64, cloths: Vec<Surface>| {
-        let scene = Scene {
-            cloths,
-            ..Scene::default()
-        };
-        let view = View {
-            elevation_deg,
-            ..SMALL
-        };
+        let scene = Scene { cloths, ..Scene::default() };
+        let view = View { elevation_deg, ..SMALL };
         let [r, g, _] = render(&scene, &view).unwrap().pixel(200, 150).unwrap();
         if r > g { "red" } else { "green" }
     };
@@ -159,15 +136,8 @@ fn front_and_back_differ_and_so_do_warp_and_weft() {
         cloths: vec![cloth(&shape).with_lines(&coordinates, spacing)],
         ..Scene::default()
     };
-    let above = View {
-        azimuth_deg: 0.0,
-        elevation_deg: 90.0,
-        ..SMALL
-    };
-    let below = View {
-        elevation_deg: -90.0,
-        ..above
-    };
+    let above = View { azimuth_deg: 0.0, elevation_deg: 90.0, ..SMALL };
+    let below = View { elevation_deg: -90.0, ..above };
     let front = render(&scene(0.25), &above).unwrap();
     let back = render(&scene(0.25), &below).unwrap();
     // Off the lines, a quarter of a cell from the middle.
@@ -181,11 +151,7 @@ fn front_and_back_differ_and_so_do_warp_and_weft() {
     let [r, _, b] = at(&back, 0.1, 0.1);
     assert!(r > b, "the back is sand");
     // A line where the weft coordinate is constant runs along the warp; x is along the weft.
-    let [plain, warp, weft] = [
-        at(&front, 0.1, 0.1),
-        at(&front, 0.0, 0.1),
-        at(&front, 0.1, 0.0),
-    ];
+    let [plain, warp, weft] = [at(&front, 0.1, 0.1), at(&front, 0.0, 0.1), at(&front, 0.1, 0.0)];
     let bright = |pixel: [u8; 3]| pixel.iter().map(|c| u32::from(*c)).sum::<u32>();
     assert!(bright(warp) < bright(plain) && bright(weft) < bright(plain));
     let blue = |pixel: [u8; 3]| f64::from(pixel[2]) / f64::from(pixel[0]);
@@ -204,19 +170,11 @@ fn front_and_back_differ_and_so_do_warp_and_weft() {
 #[test]
 fn lines_too_close_to_be_seen_leave_an_even_tone() {
     let (shape, coordinates) = square(0.5, 0.0, 20);
-    let scene = Scene {
-        cloths: vec![cloth(&shape).with_lines(&coordinates, 2e-3)],
-        ..Scene::default()
-    };
-    let view = View {
-        elevation_deg: 90.0,
-        azimuth_deg: 0.0,
-        ..SMALL
-    };
+    let scene =
+        Scene { cloths: vec![cloth(&shape).with_lines(&coordinates, 2e-3)], ..Scene::default() };
+    let view = View { elevation_deg: 90.0, azimuth_deg: 0.0, ..SMALL };
     let picture = render(&scene, &view).unwrap();
-    let greens: Vec<u8> = (150..250)
-        .map(|x| picture.pixel(x, 140).unwrap()[1])
-        .collect();
+    let greens: Vec<u8> = (150..250).map(|x| picture.pixel(x, 140).unwrap()[1]).collect();
     let (least, most) = (greens.iter().min().unwrap(), greens.iter().max().unwrap());
     assert!(most - least <= 2, "from {least} to {most}");
 }
@@ -226,15 +184,8 @@ fn a_setback_hides_the_edge_that_dips_through_the_cloth() {
     let (lid, _) = square(0.5, 0.0, 4);
     let (table, _) = square(0.4, 2e-3, 4);
     let grey_pixels = |body_setback: f64, bodies: Vec<Surface>| {
-        let scene = Scene {
-            cloths: vec![cloth(&lid)],
-            bodies,
-            ..Scene::default()
-        };
-        let view = View {
-            body_setback,
-            ..SMALL
-        };
+        let scene = Scene { cloths: vec![cloth(&lid)], bodies, ..Scene::default() };
+        let view = View { body_setback, ..SMALL };
         let grey = |p: [u8; 3]| p != [255; 3] && p[0].abs_diff(p[2]) < 6;
         count(&render(&scene, &view).unwrap(), grey)
     };
@@ -243,10 +194,7 @@ fn a_setback_hides_the_edge_that_dips_through_the_cloth() {
     assert!(through > 10_000, "{through}");
     // The hem is nearly grey too, more so in the shade.
     let hem = grey_pixels(0.0, Vec::new());
-    assert!(
-        hidden < 2 * hem,
-        "{hidden} grey pixels, {hem} of them the hem"
-    );
+    assert!(hidden < 2 * hem, "{hidden} grey pixels, {hem} of them the hem");
 }
 
 #[test]
@@ -262,10 +210,7 @@ fn the_floor_shows_shadow_and_nothing_else() {
     let mut darker = 0;
     for (a, b) in bare.pixels().chunks(3).zip(shaded.pixels().chunks(3)) {
         if a == [255; 3] {
-            assert!(
-                b[0] == b[1] && b[1] == b[2],
-                "the floor has a colour: {b:?}"
-            );
+            assert!(b[0] == b[1] && b[1] == b[2], "the floor has a colour: {b:?}");
             darker += usize::from(b[0] < 235);
         }
     }
@@ -283,10 +228,7 @@ fn the_same_scene_gives_the_same_bytes() {
         floor: Some(-0.25),
     };
     let with_threads = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| render(&scene, &SMALL).unwrap().png().unwrap())
     };
     let reference = with_threads(1);
@@ -297,10 +239,8 @@ fn the_same_scene_gives_the_same_bytes() {
 #[test]
 fn a_saved_picture_reads_back_pixel_by_pixel() {
     let (shape, coordinates) = square(0.5, 0.0, 6);
-    let scene = Scene {
-        cloths: vec![cloth(&shape).with_lines(&coordinates, 0.1)],
-        ..Scene::default()
-    };
+    let scene =
+        Scene { cloths: vec![cloth(&shape).with_lines(&coordinates, 0.1)], ..Scene::default() };
     let picture = render(&scene, &SMALL).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("square.png");

@@ -21,18 +21,9 @@ fn pixels(data: &str) -> Vec<[f64; 2]> {
 
 /// What the `nth` frame of a plot says about pixels: value at pixel zero and per pixel, for both axes.
 fn inverse(svg: &roxmltree::Document<'_>, nth: usize) -> Vec<f64> {
-    let frames = svg
-        .descendants()
-        .filter(|n| n.attribute("data-map").is_some());
-    let map = frames
-        .clone()
-        .nth(nth)
-        .unwrap()
-        .attribute("data-map")
-        .unwrap();
-    map.split(' ')
-        .map(|number| number.parse().unwrap())
-        .collect()
+    let frames = svg.descendants().filter(|n| n.attribute("data-map").is_some());
+    let map = frames.clone().nth(nth).unwrap().attribute("data-map").unwrap();
+    map.split(' ').map(|number| number.parse().unwrap()).collect()
 }
 
 #[test]
@@ -46,9 +37,7 @@ fn measured_points_and_residuals_are_drawn_where_they_were_measured() {
                 && classes(n).contains(&"points")
                 && classes(n).contains(&"small") == small
         });
-        found
-            .map(|n| pixels(n.attribute("d").unwrap()))
-            .collect::<Vec<_>>()
+        found.map(|n| pixels(n.attribute("d").unwrap())).collect::<Vec<_>>()
     };
     let loads: Vec<f64> = plot.points().map(|p| p.measured.unwrap()).collect();
     let highest = loads.iter().copied().fold(f64::MIN, f64::max);
@@ -62,23 +51,14 @@ fn measured_points_and_residuals_are_drawn_where_they_were_measured() {
             let x = map[0] + map[1] * measured[k][i][0];
             let y = map[2] + map[3] * measured[k][i][1];
             // Paths keep two decimals of a px, on a frame of some hundred px.
-            let (q, load) = (
-                point.deformation / 100.0,
-                point.measured.unwrap() / 9.80665e-3,
-            );
+            let (q, load) = (point.deformation / 100.0, point.measured.unwrap() / 9.80665e-3);
             assert!((x - q).abs() < 1e-4 * 5.0, "curvature {q} drawn at {x}");
             assert!((y - load).abs() < 1e-4 * 0.6, "moment {load} drawn at {y}");
             let map = inverse(&svg, 1);
             let drawn = map[2] + map[3] * residuals[k][i][1];
             let residual = 100.0 * (point.measured.unwrap() - point.fitted.unwrap()) / range;
-            assert!(
-                (drawn - residual).abs() < 1e-3,
-                "residual {residual} drawn at {drawn}"
-            );
-            assert_eq!(
-                measured[k][i][0], residuals[k][i][0],
-                "both frames share the axis"
-            );
+            assert!((drawn - residual).abs() < 1e-3, "residual {residual} drawn at {drawn}");
+            assert_eq!(measured[k][i][0], residuals[k][i][0], "both frames share the axis");
         }
     }
 }
@@ -87,9 +67,7 @@ fn measured_points_and_residuals_are_drawn_where_they_were_measured() {
 fn each_branch_has_its_colour_and_later_cycles_are_paler() {
     let svg = loop_svg(&a_loop()).unwrap();
     let svg = tree(&svg);
-    let labelled = svg
-        .descendants()
-        .filter(|n| n.attribute("data-label").is_some());
+    let labelled = svg.descendants().filter(|n| n.attribute("data-label").is_some());
     let found: Vec<_> = labelled
         .map(|n| {
             let opacity: f64 = n.attribute("opacity").unwrap().parse().unwrap();
@@ -99,28 +77,16 @@ fn each_branch_has_its_colour_and_later_cycles_are_paler() {
     assert_eq!(found[0], ("loading, cycle 1", "loading", 1.0));
     assert_eq!(found[1], ("unloading, cycle 1", "unloading", 1.0));
     assert_eq!((found[2].0, found[2].1), ("reversal, cycle 2", "reversal"));
-    assert!(
-        found[2].2 < 1.0,
-        "cycle 2 is drawn with opacity {}",
-        found[2].2
-    );
+    assert!(found[2].2 < 1.0, "cycle 2 is drawn with opacity {}", found[2].2);
 }
 
 #[test]
 fn one_direction_has_one_dash_on_both_fabrics() {
     let svg = overlay_svg(&an_overlay()).unwrap();
     let svg = tree(&svg);
-    let lines = svg
-        .descendants()
-        .filter(|n| n.attribute("data-label").is_some());
-    let found: Vec<_> = lines
-        .map(|n| {
-            (
-                n.attribute("data-label").unwrap(),
-                classes(&n)[1..].to_vec(),
-            )
-        })
-        .collect();
+    let lines = svg.descendants().filter(|n| n.attribute("data-label").is_some());
+    let found: Vec<_> =
+        lines.map(|n| (n.attribute("data-label").unwrap(), classes(&n)[1..].to_vec())).collect();
     assert_eq!(
         found,
         [
@@ -134,10 +100,7 @@ fn one_direction_has_one_dash_on_both_fabrics() {
 #[test]
 fn uncertainty_bars_reach_as_far_as_the_errors() {
     let parameters = a_page().laws[0].parameters.clone();
-    let svg = uncertainty_svg(&UncertaintyPlot {
-        parameters: &parameters,
-    })
-    .unwrap();
+    let svg = uncertainty_svg(&UncertaintyPlot { parameters: &parameters }).unwrap();
     let svg = tree(&svg);
     let bar = |class: &str| {
         let node = svg.descendants().find(|n| classes(n) == [class]).unwrap();
@@ -149,8 +112,5 @@ fn uncertainty_bars_reach_as_far_as_the_errors() {
     // The interval is 0.90 wide where two standard errors are 0.46.
     let (interval, error) = (bar("interval"), bar("error"));
     let ratio = interval / error;
-    assert!(
-        (ratio - 0.90 / 0.46).abs() < 1e-3,
-        "the bars are in the ratio {ratio}"
-    );
+    assert!((ratio - 0.90 / 0.46).abs() < 1e-3, "the bars are in the ratio {ratio}");
 }

@@ -33,10 +33,7 @@ fn scenes_that_are_none_are_refused() {
     let (shape, coordinates) = square();
     let refused = |scene: &Scene, view: &View| render(scene, view).expect_err("refused");
     let only = |surface: Surface<'_>| -> ReportError {
-        let scene = Scene {
-            cloths: vec![surface],
-            ..Scene::default()
-        };
+        let scene = Scene { cloths: vec![surface], ..Scene::default() };
         refused(&scene, &SMALL)
     };
     assert_eq!(refused(&Scene::default(), &SMALL), ReportError::EmptyScene);
@@ -54,58 +51,29 @@ fn scenes_that_are_none_are_refused() {
         assert!(named, "{error}");
     }
     let error = only(Surface::cloth(&shape.0, &[[0, 1, 9]]));
-    assert!(
-        matches!(error, ReportError::NoSuchVertex { index: 9, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, ReportError::NoSuchVertex { index: 9, .. }), "{error}");
     let error = only(Surface::cloth(&shape.0[1..], &shape.1));
-    assert!(
-        matches!(error, ReportError::BadLength { length: 26, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, ReportError::BadLength { length: 26, .. }), "{error}");
     let error = only(cloth(&shape).with_lines(&coordinates[2..], 0.1));
-    assert!(
-        matches!(error, ReportError::BadLength { length: 16, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, ReportError::BadLength { length: 16, .. }), "{error}");
     let error = only(cloth(&shape).with_lines(&coordinates, 0.0));
     assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
 
-    let scene = Scene {
-        cloths: vec![cloth(&shape)],
-        ..Scene::default()
-    };
+    let scene = Scene { cloths: vec![cloth(&shape)], ..Scene::default() };
     let views = [
         View { width: 0, ..SMALL },
-        View {
-            height: 1 << 20,
-            ..SMALL
-        },
-        View {
-            azimuth_deg: f64::NAN,
-            ..SMALL
-        },
-        View {
-            elevation_deg: 91.0,
-            ..SMALL
-        },
-        View {
-            field_deg: 0.0,
-            ..SMALL
-        },
-        View {
-            body_setback: -1.0,
-            ..SMALL
-        },
+        View { height: 1 << 20, ..SMALL },
+        View { azimuth_deg: f64::NAN, ..SMALL },
+        View { elevation_deg: 91.0, ..SMALL },
+        View { field_deg: 0.0, ..SMALL },
+        View { body_setback: -1.0, ..SMALL },
     ];
     for view in views {
         let error = refused(&scene, &view);
         assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
     }
     let picture = render(&scene, &SMALL).unwrap();
-    let error = picture
-        .save("no/such/folder/picture.png")
-        .expect_err("nowhere");
+    let error = picture.save("no/such/folder/picture.png").expect_err("nowhere");
     assert!(error.to_string().contains("no/such/folder"), "{error}");
 }
 

@@ -26,30 +26,19 @@ fn names_with_markup_stay_names() {
     let heading = tree.descendants().find(|n| n.has_tag_name("h1")).unwrap();
     assert_eq!(text_of(heading), name);
     assert!(!tree.descendants().any(|n| n.attribute("onclick").is_some()));
-    assert_eq!(
-        tree.descendants()
-            .filter(|n| n.has_tag_name("script"))
-            .count(),
-        1
-    );
+    assert_eq!(tree.descendants().filter(|n| n.has_tag_name("script")).count(), 1);
 }
 
 #[test]
 fn pages_and_plots_need_no_network() {
-    let compared = ComparePage {
-        overlays: vec![an_overlay()],
-        ..ComparePage::default()
-    };
+    let compared = ComparePage { overlays: vec![an_overlay()], ..ComparePage::default() };
     for page in [a_page().to_html().unwrap(), compared.to_html().unwrap()] {
         for reference in ["http", "//cdn", "@import", "url(", "src="] {
             assert!(!page.contains(reference), "the page holds {reference}");
         }
     }
     let correlation = a_page().laws[0].correlation.clone().unwrap();
-    for svg in [
-        loop_svg(&a_loop()).unwrap(),
-        correlation_svg(&correlation).unwrap(),
-    ] {
+    for svg in [loop_svg(&a_loop()).unwrap(), correlation_svg(&correlation).unwrap()] {
         let namespace = r#"xmlns="http://www.w3.org/2000/svg""#;
         assert!(!svg.replacen(namespace, "", 1).contains("http"), "{svg}");
         assert_eq!(tree(&svg).root_element().tag_name().name(), "svg");
@@ -80,48 +69,23 @@ fn what_cannot_be_drawn_is_refused_with_its_place() {
     let error = refused(&|p| p.laws[0].parameters[0].standard_error = Some(-1.0));
     assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
     let error = refused(&|p| {
-        p.laws[0].parameters[0].interval = Interval::Between {
-            lower: 2.0,
-            upper: 1.0,
-        };
+        p.laws[0].parameters[0].interval = Interval::Between { lower: 2.0, upper: 1.0 };
     });
-    assert!(
-        matches!(error, ReportError::OutOfRange { value: 1.0, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, ReportError::OutOfRange { value: 1.0, .. }), "{error}");
     let error = refused(&|p| p.laws[0].plots[0].branches.clear());
     assert!(matches!(error, ReportError::EmptyPlot { .. }), "{error}");
     let error = refused(&|p| p.laws[0].plots[0].branches[2].points.clear());
     assert!(error.to_string().contains("branch 2"), "{error}");
     let error = refused(&|p| p.laws[0].plots[0].load.in_si = 0.0);
-    assert!(
-        matches!(error, ReportError::OutOfRange { value: 0.0, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, ReportError::OutOfRange { value: 0.0, .. }), "{error}");
     let error = refused(&|p| p.laws[0].correlation.as_mut().unwrap().matrix[1].truncate(1));
-    assert!(
-        matches!(
-            error,
-            ReportError::BadMatrix {
-                row: 1,
-                length: 1,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, ReportError::BadMatrix { row: 1, length: 1, .. }), "{error}");
     let error = refused(&|p| p.laws[0].correlation.as_mut().unwrap().matrix[0][1] = f64::NAN);
     assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
     let error = refused(&|p| p.name.push('\u{1b}'));
-    assert!(
-        matches!(error, ReportError::ControlCharacter { .. }),
-        "{error}"
-    );
+    assert!(matches!(error, ReportError::ControlCharacter { .. }), "{error}");
     let error = refused(&|p| {
-        *p = FitPage {
-            name: "none".to_owned(),
-            ..FitPage::default()
-        };
+        *p = FitPage { name: "none".to_owned(), ..FitPage::default() };
     });
     assert!(matches!(error, ReportError::EmptyReport { .. }), "{error}");
     let error = ComparePage::default().to_html().unwrap_err();
@@ -143,10 +107,7 @@ fn the_text_reads_like_a_fitting_report() {
         "    k_b, x_f: -0.830",
         "  - thickness: 0.4 mm taken",
     ] {
-        assert!(
-            text.lines().any(|l| l == line),
-            "no line\n{line}\nin\n{text}"
-        );
+        assert!(text.lines().any(|l| l == line), "no line\n{line}\nin\n{text}");
     }
 }
 
@@ -154,25 +115,15 @@ fn the_text_reads_like_a_fitting_report() {
 fn only_values_beyond_the_limit_are_marked() {
     let html = a_page().to_html().unwrap();
     let tree = tree(&html);
-    let cells = tree
-        .descendants()
-        .filter(|n| classes(n).contains(&"difference"));
-    let found: Vec<_> = cells
-        .map(|n| (text_of(n), classes(&n).contains(&"apart")))
-        .collect();
-    assert_eq!(
-        found,
-        [("−9.68 %".to_owned(), true), ("+0.40 %".to_owned(), false)]
-    );
+    let cells = tree.descendants().filter(|n| classes(n).contains(&"difference"));
+    let found: Vec<_> = cells.map(|n| (text_of(n), classes(&n).contains(&"apart"))).collect();
+    assert_eq!(found, [("−9.68 %".to_owned(), true), ("+0.40 %".to_owned(), false)]);
 }
 
 #[test]
 fn two_fabrics_are_compared_by_the_ratio_of_their_values() {
     let page = ComparePage {
-        fabrics: ["A", "B"].map(|name| FabricName {
-            name: name.to_owned(),
-            source: String::new(),
-        }),
+        fabrics: ["A", "B"].map(|name| FabricName { name: name.to_owned(), source: String::new() }),
         values: vec![ComparedValue {
             symbol: "W".to_owned(),
             name: "mass per area".to_owned(),
@@ -183,15 +134,9 @@ fn two_fabrics_are_compared_by_the_ratio_of_their_values() {
         ..ComparePage::default()
     };
     let text = page.to_text().unwrap();
-    assert!(
-        text.contains("W  mass per area  mg/cm²  10.00  23.00   2.30  !"),
-        "{text}"
-    );
+    assert!(text.contains("W  mass per area  mg/cm²  10.00  23.00   2.30  !"), "{text}");
     let html = page.to_html().unwrap();
-    assert!(
-        html.contains(r#"<span class="apart">2.30</span>"#),
-        "{html}"
-    );
+    assert!(html.contains(r#"<span class="apart">2.30</span>"#), "{html}");
     tree(&html);
 }
 
@@ -202,27 +147,18 @@ fn the_machines_report_holds_the_numbers_in_si() {
     assert_eq!(parameter["value"], 1.157e-5);
     assert_eq!(parameter["units"]["si"], "N·m");
     assert_eq!(parameter["interval"]["between"]["lower"], 1.113e-5);
-    assert_eq!(
-        json["laws"][0]["plots"][0]["branches"][0]["kind"],
-        "loading"
-    );
+    assert_eq!(json["laws"][0]["plots"][0]["branches"][0]["kind"], "loading");
 }
 
 #[test]
 fn a_law_set_from_values_alone_is_drawn_without_residuals() {
     let mut page = a_page();
-    let points = page.laws[0].plots[0]
-        .branches
-        .iter_mut()
-        .flat_map(|b| &mut b.points);
+    let points = page.laws[0].plots[0].branches.iter_mut().flat_map(|b| &mut b.points);
     points.for_each(|point| (point.measured, point.band) = (None, None));
     page.laws[0].statistics = None;
     let html = page.to_html().unwrap();
     let tree = tree(&html);
-    let frames = tree
-        .descendants()
-        .filter(|n| n.attribute("data-map").is_some())
-        .count();
+    let frames = tree.descendants().filter(|n| n.attribute("data-map").is_some()).count();
     assert_eq!(frames, 1);
     assert!(html.contains("not judged"));
 }

@@ -20,11 +20,7 @@ pub struct Material {
 impl Material {
     /// Reads a `fabric.toml`, or a `sheet.toml` (or its folder), which is fitted on the way.
     pub(crate) fn read(name: &str, path: &Path) -> Result<Self, Diagnostics> {
-        let file = if path.is_dir() {
-            path.join("sheet.toml")
-        } else {
-            path.to_owned()
-        };
+        let file = if path.is_dir() { path.join("sheet.toml") } else { path.to_owned() };
         let document = Document::read(&file)?;
         let (fabric, fit) = if is_fabric(&document) {
             (Fabric::from_document(&document)?, None)
@@ -34,12 +30,7 @@ impl Material {
                 .map_err(|error| Diagnostics::from(Diagnostic::new(&file, error.to_string())))?;
             (fit.fabric.clone(), Some(fit))
         };
-        Ok(Self {
-            name: name.to_owned(),
-            file,
-            fabric,
-            fit,
-        })
+        Ok(Self { name: name.to_owned(), file, fabric, fit })
     }
 }
 

@@ -18,13 +18,8 @@ const SUMMARY: &str = "summary.json";
 /// # Errors
 /// When it holds results and `replace` is false, or cannot be made.
 pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, SceneError> {
-    let output = Output {
-        folder: folder.to_owned(),
-    };
-    let fail = |reason| SceneError::Write {
-        path: folder.to_owned(),
-        reason,
-    };
+    let output = Output { folder: folder.to_owned() };
+    let fail = |reason| SceneError::Write { path: folder.to_owned(), reason };
     if folder.exists() {
         let frames: Vec<PathBuf> = fs::read_dir(folder)
             .map_err(fail)?
@@ -33,9 +28,7 @@ pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, SceneError
             .filter(|path| is_result(path))
             .collect();
         if !frames.is_empty() && !replace {
-            return Err(SceneError::Occupied {
-                folder: folder.to_owned(),
-            });
+            return Err(SceneError::Occupied { folder: folder.to_owned() });
         }
         for path in frames {
             fs::remove_file(&path).map_err(|reason| SceneError::Write { path, reason })?;
@@ -46,10 +39,7 @@ pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, SceneError
 }
 
 fn is_result(path: &Path) -> bool {
-    let name = path
-        .file_name()
-        .map(|n| n.to_string_lossy().into_owned())
-        .unwrap_or_default();
+    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     name == SUMMARY || (name.starts_with("frame-") && name.ends_with(".obj"))
 }
 
@@ -99,9 +89,6 @@ impl Output {
             to.into_inner().map_err(|e| e.into_error())?.sync_all()?;
             fs::rename(&temporary, path)
         };
-        write().map_err(|reason| SceneError::Write {
-            path: path.to_owned(),
-            reason,
-        })
+        write().map_err(|reason| SceneError::Write { path: path.to_owned(), reason })
     }
 }

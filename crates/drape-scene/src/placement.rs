@@ -56,10 +56,7 @@ pub(crate) fn turned(point: [f64; 3], degrees: [f64; 3]) -> [f64; 3] {
     for (axis, angle) in degrees.into_iter().enumerate() {
         let (sin, cos) = angle.to_radians().sin_cos();
         let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-        (point[i], point[j]) = (
-            cos * point[i] - sin * point[j],
-            sin * point[i] + cos * point[j],
-        );
+        (point[i], point[j]) = (cos * point[i] - sin * point[j], sin * point[i] + cos * point[j]);
     }
     point
 }

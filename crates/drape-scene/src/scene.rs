@@ -92,11 +92,7 @@ impl Scene {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
         let document = Document::read(path)?;
         let file: SceneFile = document.decode()?;
-        Reader {
-            document: &document,
-            mistakes: Vec::new(),
-        }
-        .scene(file)
+        Reader { document: &document, mistakes: Vec::new() }.scene(file)
     }
 }
 
@@ -109,12 +105,7 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn scene(mut self, file: SceneFile) -> Result<Scene, Diagnostics> {
         let unit = self.unit(file.length.as_deref());
-        let folder = self
-            .document
-            .path()
-            .parent()
-            .unwrap_or(Path::new(""))
-            .to_owned();
+        let folder = self.document.path().parent().unwrap_or(Path::new("")).to_owned();
         let materials = self.materials(&file, &folder);
         let panels = self.panels(&file, &materials, unit);
         let clock = self.clock(&file);
@@ -122,11 +113,7 @@ impl Reader<'_> {
         let air = self.air(&file);
         let gravity = file.gravity.unwrap_or([0.0, -9.81, 0.0]);
         if gravity.iter().any(|g| !g.is_finite()) {
-            self.fail(
-                "gravity",
-                format!("{gravity:?} is not finite"),
-                "in m/s², [0, -9.81, 0]",
-            );
+            self.fail("gravity", format!("{gravity:?} is not finite"), "in m/s², [0, -9.81, 0]");
         }
         let bodies = self.bodies(&file, &folder, unit);
         let contact_settings = self.contact_settings(&file, unit);
@@ -137,27 +124,19 @@ impl Reader<'_> {
             .iter()
             .map(|(panel, _)| {
                 let material = materials[panel.material].as_ref();
-                (
-                    &panel.lattice,
-                    &material.expect("mistakes were reported").fabric,
-                )
+                (&panel.lattice, &material.expect("mistakes were reported").fabric)
             })
             .collect();
         let cloth = Cloth::new(&pairs);
         let materials: Vec<Material> = materials.into_iter().flatten().collect();
-        let positions: Vec<f64> = panels
-            .iter()
-            .flat_map(|(panel, place)| place.positions(&panel.lattice))
-            .collect();
+        let positions: Vec<f64> =
+            panels.iter().flat_map(|(panel, place)| place.positions(&panel.lattice)).collect();
         let panels: Vec<Panel> = panels.into_iter().map(|(panel, _)| panel).collect();
         let mut held = vec![false; cloth.particles()];
         for (index, pin) in file.pin.iter().enumerate() {
             self.pin(index, pin, (&panels, unit), &mut held);
         }
-        let fallback = materials
-            .iter()
-            .map(|m| m.fabric.surface_friction)
-            .fold(0.0, f64::max);
+        let fallback = materials.iter().map(|m| m.fabric.surface_friction).fold(0.0, f64::max);
         let bodies = bodies
             .into_iter()
             .map(|(body, friction)| body.with_friction(friction.unwrap_or(fallback)))
@@ -186,28 +165,21 @@ impl Reader<'_> {
     }
 
     fn fail(&mut self, key: &str, message: String, help: &str) {
-        self.mistakes
-            .push(self.document.at(key, message).help(help));
+        self.mistakes.push(self.document.at(key, message).help(help));
     }
 
     /// Whether a number is within its inclusive bounds; if not, that is reported.
     fn within(&mut self, key: &str, value: f64, (low, high): (f64, f64), help: &str) -> bool {
         let sound = value >= low && value <= high;
         if !sound {
-            self.fail(
-                key,
-                format!("{value} is not between {low} and {high}"),
-                help,
-            );
+            self.fail(key, format!("{value} is not between {low} and {high}"), help);
         }
         sound
     }
 
     /// One of several words, or the first of them when none is given.
     fn choice<T: Copy>(&mut self, key: &str, word: Option<&str>, choices: &[(&str, T)]) -> T {
-        let found = choices
-            .iter()
-            .find(|(name, _)| word.is_none_or(|word| word == *name));
+        let found = choices.iter().find(|(name, _)| word.is_none_or(|word| word == *name));
         if let (None, Some(word)) = (found, word) {
             let names: Vec<&str> = choices.iter().map(|c| c.0).collect();
             let help = format!("one of {}", names.join(", "));
@@ -234,9 +206,7 @@ impl Reader<'_> {
                 self.fail(&format!("fabric.{name}.file"), message, help);
                 return None;
             }
-            Material::read(name, &path)
-                .map_err(|e| self.mistakes.extend(e.0))
-                .ok()
+            Material::read(name, &path).map_err(|e| self.mistakes.extend(e.0)).ok()
         };
         file.fabric.iter().map(read).collect()
     }
@@ -272,17 +242,9 @@ impl Reader<'_> {
             }
             let lattice = self.lattice(&key, entry, file.spacing, unit);
             let placement = Placement::new(entry, unit);
-            let bad = entry
-                .center
-                .iter()
-                .chain(&entry.turn)
-                .any(|x| !x.is_finite());
+            let bad = entry.center.iter().chain(&entry.turn).any(|x| !x.is_finite());
             if bad {
-                self.fail(
-                    &format!("{key}.center"),
-                    "is not finite".into(),
-                    "in the file's unit",
-                );
+                self.fail(&format!("{key}.center"), "is not finite".into(), "in the file's unit");
             }
             if let (Some(material), Some(lattice)) = (material, lattice) {
                 if let Some(Some(material)) = materials.get(material) {
@@ -290,12 +252,7 @@ impl Reader<'_> {
                 }
                 let particles = lattice.coordinates.len();
                 panels.push((
-                    Panel {
-                        name: entry.name.clone(),
-                        material,
-                        lattice,
-                        first,
-                    },
+                    Panel { name: entry.name.clone(), material, lattice, first },
                     placement,
                 ));
                 first += particles;
@@ -320,11 +277,7 @@ impl Reader<'_> {
             (None, Some(diameter)) => Lattice::disc(0.5 * diameter * unit, spacing),
             _ => {
                 let help = "give one of rectangle = [weft, warp] and disc = diameter";
-                self.fail(
-                    key,
-                    format!("panel \"{}\" has no single shape", entry.name),
-                    help,
-                );
+                self.fail(key, format!("panel \"{}\" has no single shape", entry.name), help);
                 return None;
             }
         };
@@ -365,35 +318,15 @@ impl Reader<'_> {
         let sound = self.within("time.step", time.step, (1e-7, 0.1), "in s; 0.005 is usual");
         // A wrong step would make the other times wrong too.
         let shortest = if sound { time.step } else { 0.0 };
-        self.within(
-            "time.end",
-            time.end,
-            (shortest, 1e5),
-            "in s, at least one step",
-        );
+        self.within("time.end", time.end, (shortest, 1e5), "in s, at least one step");
         if let Some(speed) = time.rest_speed {
-            self.within(
-                "time.rest_speed",
-                speed,
-                (1e-6, 10.0),
-                "in m/s; 0.002 is usual",
-            );
+            self.within("time.rest_speed", speed, (1e-6, 10.0), "in m/s; 0.002 is usual");
         }
         if let Some(longest) = time.step_max {
-            self.within(
-                "time.step_max",
-                longest,
-                (shortest, 10.0),
-                "in s, at least one step",
-            );
+            self.within("time.step_max", longest, (shortest, 10.0), "in s, at least one step");
         }
         let interval = file.output.every.unwrap_or(FRAME_INTERVAL.max(shortest));
-        self.within(
-            "output.every",
-            interval,
-            (shortest, 1e5),
-            "in s, at least one step",
-        );
+        self.within("output.every", interval, (shortest, 1e5), "in s, at least one step");
         Clock {
             step: time.step,
             step_max: time.step_max.unwrap_or(time.step),
@@ -406,25 +339,13 @@ impl Reader<'_> {
     fn solver(&mut self, file: &SceneFile) -> Settings {
         let solver = &file.solver;
         let mut settings = Settings::default();
-        let integrators = [
-            ("bdf2", Integrator::Bdf2),
-            ("backward-euler", Integrator::BackwardEuler),
-        ];
+        let integrators =
+            [("bdf2", Integrator::Bdf2), ("backward-euler", Integrator::BackwardEuler)];
         let methods = [
             ("broyden", Method::Broyden),
             ("newton", Method::Newton),
-            (
-                "textbook-mass",
-                Method::Textbook {
-                    initial: Initial::Mass,
-                },
-            ),
-            (
-                "textbook-diagonal",
-                Method::Textbook {
-                    initial: Initial::Diagonal,
-                },
-            ),
+            ("textbook-mass", Method::Textbook { initial: Initial::Mass }),
+            ("textbook-diagonal", Method::Textbook { initial: Initial::Diagonal }),
         ];
         let linear = [
             ("conjugate-gradient", LinearSolver::ConjugateGradient),
@@ -446,12 +367,7 @@ impl Reader<'_> {
         let air = file.air.as_ref();
         let density = air.and_then(|a| a.density).unwrap_or(AIR_DENSITY);
         let drag = air.and_then(|a| a.drag).unwrap_or(AIR_DRAG);
-        self.within(
-            "air.density",
-            density,
-            (0.0, 100.0),
-            "in kg/m³; 1.2 is usual, 0 a vacuum",
-        );
+        self.within("air.density", density, (0.0, 100.0), "in kg/m³; 1.2 is usual, 0 a vacuum");
         self.within("air.drag", drag, (0.0, 10.0), "1.28 for a plate");
         0.5 * density * drag
     }
@@ -469,12 +385,7 @@ impl Reader<'_> {
         }
         if let Some(speed) = file.contact.slip_speed {
             settings.slip_speed = speed;
-            self.within(
-                "contact.slip_speed",
-                speed,
-                (1e-9, 1.0),
-                "in m/s; 0.001 is usual",
-            );
+            self.within("contact.slip_speed", speed, (1e-9, 1.0), "in m/s; 0.001 is usual");
         }
         settings
     }
@@ -483,48 +394,20 @@ impl Reader<'_> {
         let colliders = &file.collider;
         let mut bodies = Vec::new();
         let mut add = |kind: &str, index: usize, parts: Parts<'_>| {
-            let name = parts
-                .name
-                .cloned()
-                .unwrap_or_else(|| format!("{kind} {}", index + 1));
+            let name = parts.name.cloned().unwrap_or_else(|| format!("{kind} {}", index + 1));
             let pose = pose(parts.center.map(|x| x * unit), parts.turn);
             bodies.push((Body::new(name, parts.shape, pose), parts.friction));
         };
         for (index, s) in colliders.sphere.iter().enumerate() {
-            let shape = Shape::Sphere {
-                radius: s.radius * unit,
-            };
+            let shape = Shape::Sphere { radius: s.radius * unit };
             let (name, friction) = (s.name.as_ref(), s.friction);
-            add(
-                "sphere",
-                index,
-                Parts {
-                    name,
-                    shape,
-                    center: s.center,
-                    turn: [0.0; 3],
-                    friction,
-                },
-            );
+            add("sphere", index, Parts { name, shape, center: s.center, turn: [0.0; 3], friction });
         }
         for (index, b) in colliders.boxes.iter().enumerate() {
             let half_extents = b.size.map(|side| 0.5 * side * unit);
-            let shape = Shape::Box {
-                half_extents,
-                edge_radius: b.edge_radius * unit,
-            };
+            let shape = Shape::Box { half_extents, edge_radius: b.edge_radius * unit };
             let (name, friction) = (b.name.as_ref(), b.friction);
-            add(
-                "box",
-                index,
-                Parts {
-                    name,
-                    shape,
-                    center: b.center,
-                    turn: b.turn,
-                    friction,
-                },
-            );
+            add("box", index, Parts { name, shape, center: b.center, turn: b.turn, friction });
         }
         for (index, c) in colliders.cylinder.iter().enumerate() {
             let shape = Shape::Cylinder {
@@ -533,31 +416,11 @@ impl Reader<'_> {
                 edge_radius: c.edge_radius * unit,
             };
             let (name, friction) = (c.name.as_ref(), c.friction);
-            add(
-                "cylinder",
-                index,
-                Parts {
-                    name,
-                    shape,
-                    center: c.center,
-                    turn: c.turn,
-                    friction,
-                },
-            );
+            add("cylinder", index, Parts { name, shape, center: c.center, turn: c.turn, friction });
         }
         for (index, p) in colliders.plane.iter().enumerate() {
             let (name, shape, friction) = (p.name.as_ref(), Shape::Plane, p.friction);
-            add(
-                "plane",
-                index,
-                Parts {
-                    name,
-                    shape,
-                    center: p.center,
-                    turn: p.turn,
-                    friction,
-                },
-            );
+            add("plane", index, Parts { name, shape, center: p.center, turn: p.turn, friction });
         }
         for (index, m) in colliders.mesh.iter().enumerate() {
             match Mesh::load(folder.join(&m.file), m.scale.unwrap_or(unit)) {
@@ -567,19 +430,12 @@ impl Reader<'_> {
                     add(
                         "mesh",
                         index,
-                        Parts {
-                            name,
-                            shape,
-                            center: m.center,
-                            turn: m.turn,
-                            friction,
-                        },
+                        Parts { name, shape, center: m.center, turn: m.turn, friction },
                     );
                 }
                 Err(error) => {
                     let key = format!("collider.mesh[{index}].file");
-                    self.mistakes
-                        .push(self.document.at(&key, error.to_string()));
+                    self.mistakes.push(self.document.at(&key, error.to_string()));
                 }
             }
         }
@@ -633,10 +489,7 @@ impl Reader<'_> {
                 ("right", (0, 1.0)),
             ];
             let (axis, sign) = self.choice(&format!("{key}.edge"), Some(edge), &edges);
-            let extreme = coordinates
-                .iter()
-                .map(|c| sign * c[axis])
-                .fold(f64::MIN, f64::max);
+            let extreme = coordinates.iter().map(|c| sign * c[axis]).fold(f64::MIN, f64::max);
             for (particle, c) in coordinates.iter().enumerate() {
                 if sign * c[axis] > extreme - 0.5 * panel.lattice.spacing[axis] {
                     held[panel.first + particle] = true;
@@ -652,18 +505,12 @@ impl Reader<'_> {
     fn start_is_free(&mut self, contact: &Contact, positions: &[f64]) {
         let survey = contact.survey(positions);
         if survey.inside > 0 {
-            let body = survey
-                .nearest
-                .map_or("", |(_, body)| &contact.bodies()[body].name);
+            let body = survey.nearest.map_or("", |(_, body)| &contact.bodies()[body].name);
             let message = format!(
                 "{} particles start inside a body (deepest {:.4} m, in {body})",
                 survey.inside, -survey.min_distance
             );
-            self.fail(
-                "panel",
-                message,
-                "move or turn the panel so that it starts outside",
-            );
+            self.fail("panel", message, "move or turn the panel so that it starts outside");
         }
     }
 }
@@ -680,13 +527,9 @@ struct Parts<'a> {
 /// The pose that turns as a panel does.
 fn pose(center: [f64; 3], turn: [f64; 3]) -> Pose {
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let turns = axes
-        .into_iter()
-        .zip(turn)
-        .filter(|(_, angle)| *angle != 0.0);
-    let pose = turns.fold(Pose::new(center), |pose, (axis, angle)| {
-        pose.turned(axis, angle.to_radians())
-    });
+    let turns = axes.into_iter().zip(turn).filter(|(_, angle)| *angle != 0.0);
+    let pose =
+        turns.fold(Pose::new(center), |pose, (axis, angle)| pose.turned(axis, angle.to_radians()));
     debug_assert!(turned([0.0; 3], turn) == [0.0; 3]);
     pose
 }

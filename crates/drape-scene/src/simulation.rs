@@ -169,9 +169,7 @@ impl Simulation {
         self.motion.time = self.time();
         let ticks = self.next_ticks();
         let dt = ticks as f64 * self.clock.step;
-        let report = self
-            .stepper
-            .advance(&mut self.world, &mut self.motion, dt)?;
+        let report = self.stepper.advance(&mut self.world, &mut self.motion, dt)?;
         self.steps += 1;
         self.ticks += ticks;
         self.last_ticks = ticks;
@@ -188,10 +186,7 @@ impl Simulation {
         let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
         let squares = self.motion.velocities.chunks_exact(3).map(square);
         self.speed_max = squares.fold(0.0, f64::max).sqrt();
-        let quiet = self
-            .clock
-            .rest_speed
-            .is_some_and(|limit| self.speed_max <= limit);
+        let quiet = self.clock.rest_speed.is_some_and(|limit| self.speed_max <= limit);
         self.quiet_ticks = if quiet { self.quiet_ticks + ticks } else { 0 };
         Ok(Step {
             time: self.time(),
@@ -243,13 +238,7 @@ impl Simulation {
     /// How the run has gone so far.
     #[must_use]
     pub fn summary(&self) -> Summary {
-        let World {
-            cloth,
-            state,
-            contact,
-            losses,
-            ..
-        } = &self.world;
+        let World { cloth, state, contact, losses, .. } = &self.world;
         let strains = cloth.strains(state);
         let survey = contact.survey(&state.positions);
         let kinetic = self.world.kinetic();
@@ -264,9 +253,7 @@ impl Simulation {
             steps: self.steps,
             simulated_seconds: self.time(),
             wall_seconds: self.start.elapsed().as_secs_f64(),
-            cpu_seconds: cpu_seconds()
-                .zip(self.start_cpu)
-                .map(|(now, start)| now - start),
+            cpu_seconds: cpu_seconds().zip(self.start_cpu).map(|(now, start)| now - start),
             threads: rayon::current_num_threads(),
             solver: Solver {
                 iterations_mean: self.iterations as f64 / self.steps.max(1) as f64,

@@ -30,18 +30,8 @@ pub(crate) struct Losses {
 
 impl World {
     pub(crate) fn new(scene: Scene) -> Self {
-        let Scene {
-            cloth,
-            positions,
-            held,
-            contact,
-            gravity,
-            air,
-            ..
-        } = scene;
-        let state = cloth
-            .state(positions)
-            .expect("a scene places every particle");
+        let Scene { cloth, positions, held, contact, gravity, air, .. } = scene;
+        let state = cloth.state(positions).expect("a scene places every particle");
         let offsets = cloth.pattern().offsets.clone();
         let columns = cloth.pattern().columns.iter().map(|&c| c as u32).collect();
         let pattern = Pattern::new(offsets, columns).expect("a cloth's pattern is sorted");
@@ -64,15 +54,11 @@ impl World {
     /// particle that the air resists.
     fn each_drag(&self, positions: &[f64], mut visit: impl FnMut(usize, f64, [f64; 3])) {
         let normals = self.state.normals().chunks_exact(3);
-        let moved = positions
-            .chunks_exact(3)
-            .zip(self.state.positions.chunks_exact(3));
+        let moved = positions.chunks_exact(3).zip(self.state.positions.chunks_exact(3));
         for (particle, (normal, (now, start))) in normals.zip(moved).enumerate() {
             if self.drag[particle] > 0.0 {
                 let normal = [normal[0], normal[1], normal[2]];
-                let way = (0..3)
-                    .map(|axis| (now[axis] - start[axis]) * normal[axis])
-                    .sum();
+                let way = (0..3).map(|axis| (now[axis] - start[axis]) * normal[axis]).sum();
                 visit(particle, way, normal);
             }
         }
@@ -81,24 +67,14 @@ impl World {
     pub(crate) fn kinetic(&self) -> f64 {
         let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
         let speeds = self.state.velocities.chunks_exact(3).map(square);
-        self.cloth
-            .masses()
-            .iter()
-            .zip(speeds)
-            .map(|(mass, square)| 0.5 * mass * square)
-            .sum()
+        self.cloth.masses().iter().zip(speeds).map(|(mass, square)| 0.5 * mass * square).sum()
     }
 
     /// Potential energy in the field of gravity, 0 at the origin, in J.
     pub(crate) fn weight_energy(&self, positions: &[f64]) -> f64 {
         let height = |x: &[f64]| -> f64 { x.iter().zip(self.gravity).map(|(x, g)| -x * g).sum() };
         let heights = positions.chunks_exact(3).map(height);
-        self.cloth
-            .masses()
-            .iter()
-            .zip(heights)
-            .map(|(mass, height)| mass * height)
-            .sum()
+        self.cloth.masses().iter().zip(heights).map(|(mass, height)| mass * height).sum()
     }
 }
 
@@ -130,13 +106,9 @@ impl System for World {
 
     fn forces(&mut self, positions: &[f64], forces: &mut [f64]) {
         for (force, mass) in forces.chunks_exact_mut(3).zip(self.cloth.masses()) {
-            force
-                .iter_mut()
-                .zip(self.gravity)
-                .for_each(|(f, g)| *f = mass * g);
+            force.iter_mut().zip(self.gravity).for_each(|(f, g)| *f = mass * g);
         }
-        self.workspace
-            .add_forces(&self.cloth, &self.state, positions, forces);
+        self.workspace.add_forces(&self.cloth, &self.state, positions, forces);
         self.each_drag(positions, |particle, way, normal| {
             let pull = self.drag[particle] * way;
             for axis in 0..3 {
@@ -148,12 +120,8 @@ impl System for World {
 
     fn potential(&mut self, positions: &[f64]) -> f64 {
         let mut drag = 0.0;
-        self.each_drag(positions, |particle, way, _| {
-            drag += 0.5 * self.drag[particle] * way * way
-        });
-        let cloth = self
-            .workspace
-            .potential(&self.cloth, &self.state, positions);
+        self.each_drag(positions, |particle, way, _| drag += 0.5 * self.drag[particle] * way * way);
+        let cloth = self.workspace.potential(&self.cloth, &self.state, positions);
         cloth + self.weight_energy(positions) + drag + self.contact.potential(positions)
     }
 
@@ -171,10 +139,9 @@ impl System for World {
             let block: [f64; 9] = std::array::from_fn(|k| drag * normal[k / 3] * normal[k % 3]);
             matrix.add_block(offsets[particle], &block);
         });
-        self.contact
-            .add_stiffness(positions, definite, &mut |particle, block| {
-                matrix.add_block(offsets[particle], &block);
-            });
+        self.contact.add_stiffness(positions, definite, &mut |particle, block| {
+            matrix.add_block(offsets[particle], &block);
+        });
     }
 
     fn pattern(&self) -> Pattern {
@@ -183,13 +150,10 @@ impl System for World {
 
     fn accept(&mut self, positions: &[f64], velocities: &[f64], _dt: f64) {
         let mut air = 0.0;
-        self.each_drag(positions, |particle, way, _| {
-            air += self.drag[particle] * way * way
-        });
+        self.each_drag(positions, |particle, way, _| air += self.drag[particle] * way * way);
         self.losses.air += air;
         let committed =
-            self.workspace
-                .commit(&self.cloth, &mut self.state, (positions, velocities));
+            self.workspace.commit(&self.cloth, &mut self.state, (positions, velocities));
         self.losses.friction += committed.dissipated;
     }
 }

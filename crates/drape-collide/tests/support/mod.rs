@@ -14,10 +14,7 @@ impl Dice {
 
     /// Uniform between -1 and 1.
     pub fn roll(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
@@ -70,36 +67,10 @@ pub fn primitives() -> Vec<Body> {
     let half_extents = [0.2, 0.3, 0.25];
     let shapes = [
         ("ball", Shape::Sphere { radius: 0.3 }),
-        (
-            "box",
-            Shape::Box {
-                half_extents,
-                edge_radius: 0.0,
-            },
-        ),
-        (
-            "rounded box",
-            Shape::Box {
-                half_extents,
-                edge_radius: 0.05,
-            },
-        ),
-        (
-            "cylinder",
-            Shape::Cylinder {
-                radius: 0.2,
-                half_height: 0.3,
-                edge_radius: 0.0,
-            },
-        ),
-        (
-            "rounded cylinder",
-            Shape::Cylinder {
-                radius: 0.2,
-                half_height: 0.3,
-                edge_radius: 0.04,
-            },
-        ),
+        ("box", Shape::Box { half_extents, edge_radius: 0.0 }),
+        ("rounded box", Shape::Box { half_extents, edge_radius: 0.05 }),
+        ("cylinder", Shape::Cylinder { radius: 0.2, half_height: 0.3, edge_radius: 0.0 }),
+        ("rounded cylinder", Shape::Cylinder { radius: 0.2, half_height: 0.3, edge_radius: 0.04 }),
         ("floor", Shape::Plane),
     ];
     shapes
@@ -110,8 +81,6 @@ pub fn primitives() -> Vec<Body> {
 
 /// The mesh of a primitive, in its own frame.
 pub fn meshed(shape: Shape) -> Mesh {
-    let outline = Body::new("outline", shape, Pose::default())
-        .triangulate()
-        .unwrap();
+    let outline = Body::new("outline", shape, Pose::default()).triangulate().unwrap();
     Mesh::new(&outline.vertices, &outline.triangles).unwrap()
 }

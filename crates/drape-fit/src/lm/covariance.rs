@@ -124,11 +124,7 @@ impl Covariance {
         // Rows of zeros complete the singular vectors where there are fewer residuals than parameters.
         let rows = scaled.nrows().max(free.len());
         let scaled = scaled.resize_vertically(rows, 0.0);
-        let triangle = if free.is_empty() {
-            scaled
-        } else {
-            scaled.qr().r()
-        };
+        let triangle = if free.is_empty() { scaled } else { scaled.qr().r() };
         let (mut singular, mut v_t) = (DVector::zeros(0), DMatrix::zeros(0, 0));
         if !free.is_empty() {
             let Some(svd) = triangle.try_svd(false, true, f64::EPSILON, ROTATIONS) else {
@@ -160,9 +156,8 @@ impl Covariance {
         for (a, &i) in free.iter().enumerate() {
             for (b, &j) in free.iter().enumerate() {
                 let terms = (0..singular.len()).filter(|&k| effect[k]);
-                let inverse: f64 = terms
-                    .map(|k| v_t[(k, a)] * v_t[(k, b)] / singular[k].powi(2))
-                    .sum();
+                let inverse: f64 =
+                    terms.map(|k| v_t[(k, a)] * v_t[(k, b)] / singular[k].powi(2)).sum();
                 self.matrix[(i, j)] = inverse * self.deviation.powi(2) / (norms[a] * norms[b]);
             }
             let mut others = Vec::new();
@@ -208,11 +203,7 @@ impl Covariance {
     pub fn correlation(&self, i: usize, j: usize) -> Option<f64> {
         let covariance = self.covariance(i, j)?;
         let errors = (self.matrix[(i, i)] * self.matrix[(j, j)]).sqrt();
-        Some(if errors > 0.0 {
-            (covariance / errors).clamp(-1.0, 1.0)
-        } else {
-            f64::from(i == j)
-        })
+        Some(if errors > 0.0 { (covariance / errors).clamp(-1.0, 1.0) } else { f64::from(i == j) })
     }
 
     /// Standard error of a parameter if all others were known: never larger than its own, and there at a bound.
@@ -241,12 +232,7 @@ impl Covariance {
     /// to pass on.
     pub fn error_of(&self, gradient: &[f64]) -> Result<f64, Undetermined> {
         let mut variance = 0.0;
-        let slopes = || {
-            gradient
-                .iter()
-                .enumerate()
-                .filter(|(_, slope)| **slope != 0.0)
-        };
+        let slopes = || gradient.iter().enumerate().filter(|(_, slope)| **slope != 0.0);
         for (i, a) in slopes() {
             match self.standard_error(i) {
                 Ok(_) => {}

@@ -56,11 +56,7 @@ fn within(angle: f64, degrees: usize) -> f64 {
         let power = power as f64;
         term *= cosine * cosine * (power - 1.0) / power;
     }
-    if odd {
-        FRAC_2_PI * (angle + sine * sum)
-    } else {
-        sine * sum
-    }
+    if odd { FRAC_2_PI * (angle + sine * sum) } else { sine * sum }
 }
 
 #[cfg(test)]

@@ -42,10 +42,7 @@ pub struct Linked<'a, P> {
 impl<'a, P: Problem> Linked<'a, P> {
     /// The problem without links yet.
     pub fn new(problem: &'a P) -> Self {
-        Self {
-            problem,
-            links: Vec::new(),
-        }
+        Self { problem, links: Vec::new() }
     }
 
     /// Parameter `target` follows from all others by a smooth rule.
@@ -58,9 +55,7 @@ impl<'a, P: Problem> Linked<'a, P> {
     /// Parameter `target` is a multiple of parameter `source`.
     #[must_use]
     pub fn scaled(self, target: usize, source: usize, factor: f64) -> Self {
-        self.linked(target, move |p| {
-            p.get(source).map_or(f64::NAN, |value| factor * value)
-        })
+        self.linked(target, move |p| p.get(source).map_or(f64::NAN, |value| factor * value))
     }
 
     /// The parameters with the linked ones fixed where their rules put them.
@@ -125,19 +120,10 @@ impl<P: Problem> Problem for Linked<'_, P> {
         }
         // The chain rule, for the entries of the parameters that are not linked.
         let own = out.clone();
-        let targets = || {
-            self.links
-                .iter()
-                .map(|(target, _)| *target)
-                .filter(|j| *j < own.ncols())
-        };
+        let targets = || self.links.iter().map(|(target, _)| *target).filter(|j| *j < own.ncols());
         for target in targets() {
             let gradient = self.gradient(target, parameters);
-            for (j, slope) in gradient
-                .iter()
-                .enumerate()
-                .filter(|(_, slope)| **slope != 0.0)
-            {
+            for (j, slope) in gradient.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
                 let column = own.column(target) * *slope;
                 let mut into = out.column_mut(j);
                 into += column;

@@ -85,11 +85,8 @@ impl Loss {
 mod tests {
     use super::*;
 
-    const LOSSES: [Loss; 3] = [
-        Loss::Squares,
-        Loss::Huber { size: 0.7 },
-        Loss::Cauchy { size: 0.7 },
-    ];
+    const LOSSES: [Loss; 3] =
+        [Loss::Squares, Loss::Huber { size: 0.7 }, Loss::Cauchy { size: 0.7 }];
 
     #[test]
     fn the_influence_is_half_the_slope_of_the_loss_and_its_slope_is_its_own() {
@@ -112,9 +109,8 @@ mod tests {
     #[test]
     fn the_spread_of_normal_quantiles_is_their_deviation_with_one_tenth_of_them_spoilt() {
         // Quantiles of the unit normal distribution at 0.05, 0.15 … 0.95.
-        let mut sample = [
-            -1.6449, -1.0364, -0.6745, -0.3853, -0.1257, 0.1257, 0.3853, 0.6745, 1.0364, 1.6449,
-        ];
+        let mut sample =
+            [-1.6449, -1.0364, -0.6745, -0.3853, -0.1257, 0.1257, 0.3853, 0.6745, 1.0364, 1.6449];
         sample[0] = -1e6;
         let spread = Loss::spread(&sample);
         assert!((spread - 1.0).abs() < 1e-3, "{spread}");

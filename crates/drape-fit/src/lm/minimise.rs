@@ -98,10 +98,7 @@ pub enum Stop {
 impl Stop {
     /// Whether the parameters are a minimum as far as rounding can tell.
     pub fn converged(self) -> bool {
-        matches!(
-            self,
-            Self::Reduction | Self::Step | Self::Gradient | Self::Exact
-        )
+        matches!(self, Self::Reduction | Self::Step | Self::Gradient | Self::Exact)
     }
 }
 

@@ -42,22 +42,13 @@ impl Parameter {
     /// An unbounded parameter that starts here, and whose size is that of its start (one at zero).
     pub fn new(start: f64) -> Self {
         let scale = if start == 0.0 { 1.0 } else { start.abs() };
-        Self {
-            start,
-            lower: f64::NEG_INFINITY,
-            upper: f64::INFINITY,
-            scale,
-        }
+        Self { start, lower: f64::NEG_INFINITY, upper: f64::INFINITY, scale }
     }
 
     /// The same parameter kept between two values.
     #[must_use]
     pub fn between(self, lower: f64, upper: f64) -> Self {
-        Self {
-            lower,
-            upper,
-            ..self
-        }
+        Self { lower, upper, ..self }
     }
 
     /// The same parameter with another size.

@@ -95,19 +95,11 @@ pub fn profile(
         problem,
         parameters: &parameters[..count],
         report,
-        settings: Settings {
-            reduction: TOLERANCE,
-            step: TOLERANCE,
-            polish: false,
-            ..*settings
-        },
+        settings: Settings { reduction: TOLERANCE, step: TOLERANCE, polish: false, ..*settings },
         quantile: student_quantile(level, covariance.degrees),
         covariance: &covariance,
     };
-    (0..count)
-        .into_par_iter()
-        .map(|j| profile.interval(j))
-        .collect()
+    (0..count).into_par_iter().map(|j| profile.interval(j)).collect()
 }
 
 struct Profile<'a, P> {
@@ -137,19 +129,14 @@ impl<P: Problem> Profile<'_, P> {
             return Err(Undetermined::NoFreedom);
         }
         let step = self.first_step(j);
-        Ok(Interval {
-            lower: self.end(j, -step),
-            upper: self.end(j, step),
-        })
+        Ok(Interval { lower: self.end(j, -step), upper: self.end(j, step) })
     }
 
     /// Half the width of the interval of the linear model; from a bound, a guess to be corrected.
     fn first_step(&self, j: usize) -> f64 {
         let error = self.covariance.standard_error(j);
         let step = self.quantile * error.unwrap_or_else(|_| self.covariance.error_alone(j));
-        let size = self.report.parameters[j]
-            .abs()
-            .max(self.parameters[j].scale);
+        let size = self.report.parameters[j].abs().max(self.parameters[j].scale);
         // Shorter steps than this are rounding, and longer ones are of a parameter without effect.
         step.clamp(1e3 * f64::EPSILON * size, size / f64::EPSILON)
     }
@@ -183,11 +170,7 @@ impl<P: Problem> Profile<'_, P> {
             let gained = point.excess - inside.excess;
             let aim = 1.1 * (value - inside.value) * -point.excess / gained;
             let most = GROWTH * (value - inside.value);
-            step = if gained > 0.0 && aim.abs() < most.abs() {
-                aim
-            } else {
-                most
-            };
+            step = if gained > 0.0 && aim.abs() < most.abs() { aim } else { most };
             before = Some(std::mem::replace(&mut inside, point));
         }
         match outside {
@@ -221,11 +204,7 @@ impl<P: Problem> Profile<'_, P> {
                 outside = point;
             }
         }
-        let nearer = if inside.excess.abs() < outside.excess {
-            inside
-        } else {
-            outside
-        };
+        let nearer = if inside.excess.abs() < outside.excess { inside } else { outside };
         End::At(nearer.value)
     }
 
@@ -241,11 +220,7 @@ impl<P: Problem> Profile<'_, P> {
         };
         let moved = |k: usize| {
             let expected = from.parameters[k] + change * slope(k);
-            if expected.is_finite() {
-                expected
-            } else {
-                from.parameters[k]
-            }
+            if expected.is_finite() { expected } else { from.parameters[k] }
         };
         (0..self.parameters.len()).map(moved).collect()
     }
@@ -268,11 +243,7 @@ impl<P: Problem> Profile<'_, P> {
         if !report.stop.converged() && !(excess < 0.0) {
             return Err(End::NotConverged(value, report.stop));
         }
-        Ok(Point {
-            value,
-            parameters: report.parameters,
-            excess,
-        })
+        Ok(Point { value, parameters: report.parameters, excess })
     }
 
     /// Rise of the loss in standard deviations.

@@ -34,12 +34,7 @@ impl Region {
     pub fn new(matrix: DMatrix<f64>) -> Option<Self> {
         let qr = matrix.qr();
         let svd = qr.r().try_svd(true, true, f64::EPSILON, ROTATIONS)?;
-        Some(Self {
-            qr,
-            u: svd.u?,
-            singular: svd.singular_values,
-            v_t: svd.v_t?,
-        })
+        Some(Self { qr, u: svd.u?, singular: svd.singular_values, v_t: svd.v_t? })
     }
 
     /// The residuals in the basis of the singular vectors.
@@ -79,11 +74,7 @@ impl Region {
         let floor = self.floor();
         let mut turned = projected.clone();
         for (g, s) in turned.iter_mut().zip(self.singular.iter()) {
-            *g = if *s > floor {
-                -*g * s / (s * s + damping)
-            } else {
-                0.0
-            };
+            *g = if *s > floor { -*g * s / (s * s + damping) } else { 0.0 };
         }
         self.v_t.tr_mul(&turned)
     }

@@ -111,9 +111,7 @@ impl<'a, P: Problem> Search<'a, P> {
         for (j, scale) in self.scale.iter_mut().enumerate() {
             *scale = scale.max(self.jacobian.column(j).norm());
         }
-        self.free = (0..self.parameters.len())
-            .filter(|&j| self.can_move(j))
-            .collect();
+        self.free = (0..self.parameters.len()).filter(|&j| self.can_move(j)).collect();
         self.region = None;
         if self.free.is_empty() || !self.jacobian.iter().all(|slope| slope.is_finite()) {
             return;
@@ -223,15 +221,8 @@ impl<'a, P: Problem> Search<'a, P> {
     }
 
     pub fn shifted(&self, step: &[f64]) -> Vec<f64> {
-        let moved = self
-            .at
-            .iter()
-            .zip(step)
-            .map(|(value, change)| value + change);
-        moved
-            .zip(self.parameters)
-            .map(|(value, parameter)| parameter.clamp(value))
-            .collect()
+        let moved = self.at.iter().zip(step).map(|(value, change)| value + change);
+        moved.zip(self.parameters).map(|(value, parameter)| parameter.clamp(value)).collect()
     }
 
     /// Length of a step in the scaled norm.

@@ -29,21 +29,14 @@ fn the_covariance_of_a_linear_fit_is_that_of_the_normal_equations() {
     for (i, j) in [(0, 0), (0, 1), (1, 1)] {
         let value = found.covariance(i, j).expect("determined");
         // Central differences are good to ten digits.
-        assert!(
-            (value / exact[(i, j)] - 1.0).abs() < 1e-8,
-            "{value} against {}",
-            exact[(i, j)]
-        );
+        assert!((value / exact[(i, j)] - 1.0).abs() < 1e-8, "{value} against {}", exact[(i, j)]);
     }
     let correlation = exact[(0, 1)] / (exact[(0, 0)] * exact[(1, 1)]).sqrt();
     assert!((found.correlation(0, 1).expect("determined") - correlation).abs() < 1e-8);
     // The value of the line at 10 is a function of both.
     let error = found.error_of(&[1.0, 10.0]).expect("determined");
     let exact = (exact[(0, 0)] + 20.0 * exact[(0, 1)] + 100.0 * exact[(1, 1)]).sqrt();
-    assert!(
-        (error / exact - 1.0).abs() < 1e-8,
-        "{error} against {exact}"
-    );
+    assert!((error / exact - 1.0).abs() < 1e-8, "{error} against {exact}");
 }
 
 #[test]
@@ -64,10 +57,7 @@ fn a_product_of_two_parameters_determines_neither_and_says_with_which() {
     assert_eq!(covariance.standard_error(3), with(&[1]));
     assert_eq!(covariance.degrees, 18);
     let intervals = profile(&product, &parameters, &report, (0.95, &settings));
-    assert!(
-        intervals[0].is_ok() && intervals[1].is_err(),
-        "{intervals:?}"
-    );
+    assert!(intervals[0].is_ok() && intervals[1].is_err(), "{intervals:?}");
     // Fixing one of the two tells the other.
     parameters[3] = Parameter::new(2.0).fixed();
     let report = minimise(&product, &parameters, &settings);

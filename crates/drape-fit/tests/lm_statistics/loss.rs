@@ -14,10 +14,7 @@ fn robust_losses_hardly_see_outliers_that_spoil_least_squares() {
     });
     let parameters = starts(&[0.0, 0.0]);
     let fit = |loss: Loss| {
-        let settings = Settings {
-            loss,
-            ..Settings::default()
-        };
+        let settings = Settings { loss, ..Settings::default() };
         let report = minimise(&spoilt, &parameters, &settings);
         assert!(report.stop.converged(), "{loss:?}: {report:?}");
         let covariance = Covariance::of(&spoilt, &parameters, &report, loss);
@@ -38,20 +35,14 @@ fn without_outliers_a_robust_loss_gives_nearly_the_errors_of_least_squares() {
     let problem = line(&[]);
     let parameters = starts(&[0.0, 0.0]);
     let error = |loss: Loss| {
-        let settings = Settings {
-            loss,
-            ..Settings::default()
-        };
+        let settings = Settings { loss, ..Settings::default() };
         let report = minimise(&problem, &parameters, &settings);
         let covariance = Covariance::of(&problem, &parameters, &report, loss);
         let interval = profile(&problem, &parameters, &report, (0.95, &settings))[0]
             .clone()
             .expect("determined");
         let width = [&interval.lower, &interval.upper].map(|end| end.value().expect("closed"));
-        (
-            covariance.standard_error(0).expect("determined"),
-            width[1] - width[0],
-        )
+        (covariance.standard_error(0).expect("determined"), width[1] - width[0])
     };
     let (error_squares, width_squares) = error(Loss::Squares);
     // Twice the largest residual: nothing is an outlier, and the losses are nearly squares.

@@ -28,11 +28,7 @@ impl<F: Fn(&[f64], &mut [f64])> Problem for Model<F> {
 }
 
 fn model<F: Fn(&[f64], &mut [f64])>(count: usize, residuals: F) -> Model<F> {
-    Model {
-        count,
-        weights: Vec::new(),
-        residuals,
-    }
+    Model { count, weights: Vec::new(), residuals }
 }
 
 fn starts(values: &[f64]) -> Vec<Parameter> {

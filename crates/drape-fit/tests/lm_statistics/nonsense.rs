@@ -18,11 +18,7 @@ fn nonsense_ends_with_a_reason_and_never_in_a_panic() {
         }
         report.stop
     };
-    let make = |count, residuals| Plain {
-        count,
-        weights: Vec::new(),
-        residuals,
-    };
+    let make = |count, residuals| Plain { count, weights: Vec::new(), residuals };
     let ones = starts(&[1.0, 1.0]);
     let never = make(3, |_, r| r.fill(f64::NAN));
     assert_eq!(all(&never, &ones), Stop::NotFinite);
@@ -38,9 +34,6 @@ fn nonsense_ends_with_a_reason_and_never_in_a_panic() {
         r.copy_from_slice(&[p[0] - 1.0, p[0] + p[1], p[1]]);
     });
     assert_eq!(all(&line, &starts(&[f64::NAN, 1.0])), Stop::NotFinite);
-    let weighted = Model {
-        weights: vec![-1.0, f64::NAN, 1.0, 1.0, 1.0],
-        ..line
-    };
+    let weighted = Model { weights: vec![-1.0, f64::NAN, 1.0, 1.0, 1.0], ..line };
     assert_eq!(all(&weighted, &ones), Stop::NotFinite);
 }

@@ -14,9 +14,8 @@ fn the_profile_of_a_linear_fit_is_the_interval_of_its_standard_error() {
     let settings = Settings::default();
     let report = minimise(&problem, &parameters, &settings);
     let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
-    for (j, interval) in profile(&problem, &parameters, &report, (0.95, &settings))
-        .into_iter()
-        .enumerate()
+    for (j, interval) in
+        profile(&problem, &parameters, &report, (0.95, &settings)).into_iter().enumerate()
     {
         let interval = interval.expect("determined");
         let half = covariance.half_width(j, 0.95).expect("determined");
@@ -47,14 +46,11 @@ fn the_profile_of_a_curved_model_ends_where_the_conditional_sum_reaches_the_leve
     let parameters = [Parameter::new(1.0), Parameter::new(1.0).between(0.01, 1e3)];
     let settings = Settings::default();
     let report = minimise(&problem, &parameters, &settings);
-    let interval = profile(&problem, &parameters, &report, (0.95, &settings))[1]
-        .clone()
-        .expect("determined");
+    let interval =
+        profile(&problem, &parameters, &report, (0.95, &settings))[1].clone().expect("determined");
     // With the time constant given the amplitude is a linear fit: the conditional sum is known exactly.
     let sum = |tau: f64| {
-        let shape: Vec<f64> = (0..14)
-            .map(|i| (-(f64::from(i) / 10.0) / tau).exp())
-            .collect();
+        let shape: Vec<f64> = (0..14).map(|i| (-(f64::from(i) / 10.0) / tau).exp()).collect();
         let mut measured = vec![0.0; 14];
         problem.residuals(&[0.0, 1.0], &mut measured);
         let product: f64 = shape.iter().zip(&measured).map(|(a, b)| a * b).sum();
@@ -102,25 +98,15 @@ fn an_interval_without_an_end_says_so() {
             *r = p[0] * (1.0 - (-p[1] * t).exp()) - (5.0 * f64::from(i > 0) + 0.1 * scatter(i));
         }
     });
-    let parameters = [
-        Parameter::new(4.0),
-        Parameter::new(3.0).between(0.0, f64::INFINITY),
-    ];
+    let parameters = [Parameter::new(4.0), Parameter::new(3.0).between(0.0, f64::INFINITY)];
     let settings = Settings::default();
     let report = minimise(&rise, &parameters, &settings);
     let intervals = profile(&rise, &parameters, &report, (0.95, &settings));
     if let Ok(interval) = &intervals[1] {
-        assert!(
-            matches!(interval.upper, End::Unbounded(_)),
-            "{interval:?} around {report:?}"
-        );
+        assert!(matches!(interval.upper, End::Unbounded(_)), "{interval:?} around {report:?}");
         assert!(interval.lower.value().is_some_and(|lower| lower > 1.0));
     } else {
-        assert_eq!(
-            intervals[1],
-            Err(Undetermined::Unidentifiable(Vec::new())),
-            "{report:?}"
-        );
+        assert_eq!(intervals[1], Err(Undetermined::Unidentifiable(Vec::new())), "{report:?}");
     }
     assert!(intervals[0].is_ok(), "{intervals:?}");
 }
@@ -140,9 +126,8 @@ fn a_false_minimum_is_found_out_by_its_profile() {
     let parameters = starts(&[0.1]);
     let report = minimise(&valleys, &parameters, &settings);
     assert!(report.parameters[0].abs() < 0.1, "{report:?}");
-    let interval = profile(&valleys, &parameters, &report, (0.95, &settings))[0]
-        .clone()
-        .expect("determined");
+    let interval =
+        profile(&valleys, &parameters, &report, (0.95, &settings))[0].clone().expect("determined");
     let End::LowerMinimum(there) = &interval.lower else {
         panic!("{interval:?} around {report:?}");
     };

@@ -14,12 +14,8 @@ use problem::Nist;
 /// Digits that are asked of parameters, standard errors and the residual standard deviation.
 const WANTED: f64 = 6.0;
 /// Evaluations of MINPACK from both starts, without those for derivatives, where known.
-const MINPACK: [(&str, [usize; 2]); 4] = [
-    ("Bennett5", [765, 213]),
-    ("MGH09", [527, 44]),
-    ("MGH10", [287, 131]),
-    ("MGH17", [603, 31]),
-];
+const MINPACK: [(&str, [usize; 2]); 4] =
+    [("Bennett5", [765, 213]), ("MGH09", [527, 44]), ("MGH10", [287, 131]), ("MGH17", [603, 31])];
 
 /// Digits that two numbers share; the certified ones have eleven.
 fn digits(found: f64, certified: f64) -> f64 {
@@ -33,9 +29,7 @@ fn digits(found: f64, certified: f64) -> f64 {
 /// Digits of the worst of several numbers.
 fn worst(found: impl Iterator<Item = f64>, certified: &[f64]) -> f64 {
     let pairs = found.zip(certified);
-    pairs
-        .map(|(found, certified)| digits(found, *certified))
-        .fold(11.0, f64::min)
+    pairs.map(|(found, certified)| digits(found, *certified)).fold(11.0, f64::min)
 }
 
 struct Outcome {
@@ -53,12 +47,7 @@ fn solve(problem: &Nist, start: usize) -> Outcome {
     let report = minimise(problem, &parameters, &Settings::default());
     let covariance = Covariance::of(problem, &parameters, &report, Loss::Squares);
     let errors = (0..parameters.len()).map(|j| covariance.standard_error(j).unwrap_or(f64::NAN));
-    assert_eq!(
-        covariance.degrees,
-        problem.residual_count() - parameters.len(),
-        "{}",
-        problem.name
-    );
+    assert_eq!(covariance.degrees, problem.residual_count() - parameters.len(), "{}", problem.name);
     Outcome {
         name: problem.name,
         start,
@@ -86,9 +75,8 @@ fn print(outcomes: &[Outcome]) {
     );
     for outcome in outcomes {
         let minpack = MINPACK.iter().find(|(name, _)| *name == outcome.name);
-        let minpack = minpack.map_or(String::new(), |(_, counts)| {
-            counts[outcome.start].to_string()
-        });
+        let minpack =
+            minpack.map_or(String::new(), |(_, counts)| counts[outcome.start].to_string());
         println!(
             "{:10} {:>4} {:>19.1} {:>7.1} {:>9.1} {:>13.1e} {:>6} {:>12} {:>10}  {:?}",
             outcome.name,
@@ -155,8 +143,5 @@ fn every_start_of_every_problem_reaches_the_certified_values_with_exact_derivati
             theirs += counts[outcome.start];
         }
     }
-    assert!(
-        ours < theirs,
-        "{ours} evaluations against MINPACK's {theirs}"
-    );
+    assert!(ours < theirs, "{ours} evaluations against MINPACK's {theirs}");
 }

@@ -13,10 +13,7 @@ pub struct Model {
 
 macro_rules! both {
     ($model:ident) => {
-        Model {
-            plain: $model::<f64>,
-            dual: $model::<Dual>,
-        }
+        Model { plain: $model::<f64>, dual: $model::<Dual> }
     };
 }
 

@@ -66,10 +66,7 @@ impl Dual {
 
     /// A function of this number, with its value and its derivative there.
     fn map(self, value: f64, derivative: f64) -> Self {
-        Self {
-            value,
-            slope: self.slope.map(|slope| derivative * slope),
-        }
+        Self { value, slope: self.slope.map(|slope| derivative * slope) }
     }
 }
 

@@ -30,22 +30,15 @@ pub struct Nist {
 impl Nist {
     /// All problems, in the order of their names.
     pub fn all() -> Vec<Self> {
-        MODELS
-            .iter()
-            .map(|&(name, model)| Self::read(name, model))
-            .collect()
+        MODELS.iter().map(|&(name, model)| Self::read(name, model)).collect()
     }
 
     fn read(name: &'static str, model: Model) -> Self {
-        let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "tests/nist/data", name]
-            .iter()
-            .collect();
+        let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "tests/nist/data", name].iter().collect();
         let text = fs::read_to_string(path.with_extension("dat")).expect("the file is there");
         let lines: Vec<&str> = text.lines().collect();
         let numbers = |line: &str| -> Vec<f64> {
-            line.split_whitespace()
-                .filter_map(|word| word.parse().ok())
-                .collect()
+            line.split_whitespace().filter_map(|word| word.parse().ok()).collect()
         };
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for line in &lines[40..] {
@@ -80,10 +73,7 @@ impl Nist {
 
     /// The starting values as parameters without bounds.
     pub fn parameters(&self, start: usize) -> Vec<Parameter> {
-        self.starts[start]
-            .iter()
-            .map(|&value| Parameter::new(value))
-            .collect()
+        self.starts[start].iter().map(|&value| Parameter::new(value)).collect()
     }
 }
 

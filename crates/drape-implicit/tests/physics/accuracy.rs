@@ -9,21 +9,12 @@ use crate::well::Well;
 const OMEGA: f64 = 10.0;
 
 fn spring_law(x: f64) -> [f64; 3] {
-    [
-        0.5 * OMEGA * OMEGA * x * x,
-        OMEGA * OMEGA * x,
-        OMEGA * OMEGA,
-    ]
+    [0.5 * OMEGA * OMEGA * x * x, OMEGA * OMEGA * x, OMEGA * OMEGA]
 }
 
 /// Solves each step to rounding, so that what is left is the formula's error.
 fn exact(integrator: Integrator) -> Settings {
-    Settings {
-        integrator,
-        tolerance: 1e-12,
-        energy_balance: true,
-        ..Settings::default()
-    }
+    Settings { integrator, tolerance: 1e-12, energy_balance: true, ..Settings::default() }
 }
 
 fn oscillate(integrator: Integrator, dt: impl Fn(usize) -> f64, steps: usize) -> Motion {
@@ -38,10 +29,7 @@ fn oscillate(integrator: Integrator, dt: impl Fn(usize) -> f64, steps: usize) ->
 
 fn error(motion: &Motion) -> f64 {
     let phase = OMEGA * motion.time;
-    let (x, v) = (
-        motion.positions[0] - phase.cos(),
-        motion.velocities[0] / OMEGA + phase.sin(),
-    );
+    let (x, v) = (motion.positions[0] - phase.cos(), motion.velocities[0] / OMEGA + phase.sin());
     x.hypot(v)
 }
 
@@ -65,10 +53,7 @@ fn free_fall_is_exact_for_the_backward_euler_formula() {
         (motion.positions[4], -fall),
         (motion.velocities[1], 2.0 - system.gravity * time),
     ] {
-        assert!(
-            (found - expected).abs() < 1e-12,
-            "{found} against {expected}"
-        );
+        assert!((found - expected).abs() < 1e-12, "{found} against {expected}");
     }
 }
 
@@ -80,10 +65,7 @@ fn backward_euler_is_of_first_order_and_bdf2_of_second() {
         for pair in errors.windows(2) {
             let observed = (pair[0] / pair[1]).log2();
             // Errors of the next order are a few per cent at these steps.
-            assert!(
-                (observed - order).abs() < 0.06,
-                "{integrator:?}: {observed} from {errors:?}"
-            );
+            assert!((observed - order).abs() < 0.06, "{integrator:?}: {observed} from {errors:?}");
         }
     }
 }
@@ -92,11 +74,7 @@ fn backward_euler_is_of_first_order_and_bdf2_of_second() {
 fn bdf2_keeps_its_order_when_the_step_varies() {
     let uneven = |base: f64| {
         move |step: usize| {
-            if step.is_multiple_of(3) {
-                base
-            } else {
-                0.5 * base
-            }
+            if step.is_multiple_of(3) { base } else { 0.5 * base }
         }
     };
     let errors = [150, 300, 600].map(|rounds| {
@@ -117,10 +95,7 @@ fn backward_euler_damps_by_its_amplification_factor() {
         let amplitude = motion.positions[0].hypot(motion.velocities[0] / OMEGA);
         let expected = (1.0 + (OMEGA * dt).powi(2)).powf(-0.5 * f64::from(steps));
         let relative = amplitude / expected - 1.0;
-        assert!(
-            relative.abs() < 1e-9,
-            "dt = {dt}: {amplitude} against {expected}"
-        );
+        assert!(relative.abs() < 1e-9, "dt = {dt}: {amplitude} against {expected}");
     }
 }
 
@@ -136,10 +111,7 @@ fn bdf2_damps_a_slow_oscillation_by_the_fourth_power_of_the_step() {
     let period = (core::f64::consts::TAU / theta).round() as usize;
     let loss = -(amplitude(20 * period) / amplitude(10 * period)).ln() / (10 * period) as f64;
     let expected = theta.powi(4) / 4.0;
-    assert!(
-        (loss / expected - 1.0).abs() < 0.05,
-        "{loss:e} against {expected:e}"
-    );
+    assert!((loss / expected - 1.0).abs() < 0.05, "{loss:e} against {expected:e}");
 }
 
 #[test]
@@ -157,10 +129,7 @@ fn the_energy_balance_accounts_for_what_the_oscillator_loses() {
             lost += report.energy.unwrap().numerical_dissipation;
         }
         let expected = before - energy(&motion);
-        assert!(
-            (lost - expected).abs() < 1e-12 * before,
-            "{lost} against {expected}"
-        );
+        assert!((lost - expected).abs() < 1e-12 * before, "{lost} against {expected}");
         assert!(lost > 0.0);
     }
 }

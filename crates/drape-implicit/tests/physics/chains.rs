@@ -11,11 +11,7 @@ fn runge_kutta(system: &mut Springs, motion: &mut Motion, dt: f64, steps: usize)
         let mut a = vec![0.0; n];
         system.forces(x, &mut a);
         for (k, a) in a.iter_mut().enumerate() {
-            *a = if system.held[k / 3] {
-                0.0
-            } else {
-                *a / system.masses[k / 3]
-            };
+            *a = if system.held[k / 3] { 0.0 } else { *a / system.masses[k / 3] };
         }
         (v.to_vec(), a)
     };
@@ -40,9 +36,8 @@ fn a_stiff_chain_swings_like_the_fine_reference() {
     // Ten links of 1e5 N/m and 10 g: the fastest oscillation has 6300 rad/s, a period of 1 ms.
     let mut system = Springs::chain(10, 1.0, 0.01, 1e5);
     system.held[0] = true;
-    let start: Vec<f64> = (0..=10)
-        .flat_map(|i| [0.06 * f64::from(i), -0.08 * f64::from(i), 0.0])
-        .collect();
+    let start: Vec<f64> =
+        (0..=10).flat_map(|i| [0.06 * f64::from(i), -0.08 * f64::from(i), 0.0]).collect();
     let mut reference = Motion::at_rest(start.clone());
     runge_kutta(&mut system, &mut reference, 5e-5, 12_000);
 
@@ -53,12 +48,8 @@ fn a_stiff_chain_swings_like_the_fine_reference() {
         for _ in 0..steps {
             stepper.advance(&mut system, &mut motion, dt).unwrap();
         }
-        let squares: f64 = motion
-            .positions
-            .iter()
-            .zip(&reference.positions)
-            .map(|(a, b)| (a - b).powi(2))
-            .sum();
+        let squares: f64 =
+            motion.positions.iter().zip(&reference.positions).map(|(a, b)| (a - b).powi(2)).sum();
         (squares / 11.0).sqrt()
     };
     let (coarse, fine) = (error(4e-3, 150), error(1e-3, 600));
@@ -92,10 +83,7 @@ fn a_heavy_chain_comes_to_rest_on_the_catenary() {
     for _ in 0..400 {
         stepper.advance(&mut system, &mut motion, 0.05).unwrap();
     }
-    let speed = motion
-        .velocities
-        .iter()
-        .fold(0.0, |a: f64, v| a.max(v.abs()));
+    let speed = motion.velocities.iter().fold(0.0, |a: f64, v| a.max(v.abs()));
     assert!(speed < 1e-6, "still moving at {speed} m/s");
 
     let found = -motion.positions[3 * (links / 2) + 1];
@@ -104,26 +92,16 @@ fn a_heavy_chain_comes_to_rest_on_the_catenary() {
     // ±half of one at the middle; that amount follows from the span.
     let link = length / links as f64;
     let slope = |k: usize, growth: f64| (growth * (k as f64 + 0.5)).atan();
-    let half_span = |growth| {
-        (0..links / 2)
-            .map(|k| link * slope(k, growth).cos())
-            .sum::<f64>()
-    };
+    let half_span = |growth| (0..links / 2).map(|k| link * slope(k, growth).cos()).sum::<f64>();
     let growth = bisect(|growth| half_span(growth) - 0.5 * span);
     let polygon: f64 = (0..links / 2).map(|k| link * slope(k, growth).sin()).sum();
     // Springs of 1e8 N/m under 3 N, 17 mm long, stretch by 2e-6 at most.
-    assert!(
-        (found / polygon - 1.0).abs() < 2e-6,
-        "{found} m against {polygon} m"
-    );
+    assert!((found / polygon - 1.0).abs() < 2e-6, "{found} m against {polygon} m");
 
     // The smooth catenary y = a cosh(x/a), of length 2a sinh(span/2a): 60 links are within 1/60² or so.
     let a = bisect(|a| 2.0 * a * (0.5 * span / a).sinh() - length);
     let sag = a * ((0.5 * span / a).cosh() - 1.0);
-    assert!(
-        (found / sag - 1.0).abs() < 1e-3,
-        "{found} m against {sag} m"
-    );
+    assert!((found / sag - 1.0).abs() < 1e-3, "{found} m against {sag} m");
 }
 
 /// The root of a falling function between 1/100 and 10.
@@ -131,11 +109,7 @@ fn bisect(f: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.01, 10.0);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if f(middle) > 0.0 {
-            low = middle
-        } else {
-            high = middle
-        }
+        if f(middle) > 0.0 { low = middle } else { high = middle }
     }
     low
 }
@@ -155,22 +129,13 @@ fn a_free_net_keeps_its_momentum() {
         let momentum = |motion: &Motion| {
             [0, 1, 2].map(|axis| {
                 let along = motion.velocities.iter().skip(axis).step_by(3);
-                system
-                    .masses
-                    .iter()
-                    .zip(along)
-                    .map(|(m, v)| m * v)
-                    .sum::<f64>()
+                system.masses.iter().zip(along).map(|(m, v)| m * v).sum::<f64>()
             })
         };
         let before = momentum(&motion);
         let magnitude: f64 = system.masses.iter().sum();
         let tolerance = 1e-10;
-        let settings = Settings {
-            integrator,
-            tolerance,
-            ..Settings::default()
-        };
+        let settings = Settings { integrator, tolerance, ..Settings::default() };
         let mut other = system.clone();
         let mut stepper = Stepper::new(&other, settings).unwrap();
         for _ in 0..100 {
@@ -179,10 +144,7 @@ fn a_free_net_keeps_its_momentum() {
         for (before, after) in before.iter().zip(momentum(&motion)) {
             // Each step may leave the residual it is allowed, and no more: internal forces cancel exactly.
             let allowed = 100.0 * 2e-3 * tolerance * 9.81 * magnitude;
-            assert!(
-                (before - after).abs() < allowed,
-                "{integrator:?}: {before} became {after}"
-            );
+            assert!((before - after).abs() < allowed, "{integrator:?}: {before} became {after}");
         }
     }
 }
@@ -192,12 +154,8 @@ fn a_swinging_sheet_loses_the_energy_that_is_reported_and_bdf2_a_fifth_of_it() {
     let n = 12;
     let loss = |integrator| {
         let mut system = Springs::sheet(n, 2000.0);
-        let settings = Settings {
-            integrator,
-            tolerance: 1e-8,
-            energy_balance: true,
-            ..Settings::default()
-        };
+        let settings =
+            Settings { integrator, tolerance: 1e-8, energy_balance: true, ..Settings::default() };
         let mut stepper = Stepper::new(&system, settings).unwrap();
         let mut motion = Motion::at_rest(Springs::flat(n));
         let mut total = Report::default();
@@ -220,8 +178,5 @@ fn a_swinging_sheet_loses_the_energy_that_is_reported_and_bdf2_a_fifth_of_it() {
     let (first, second) = (loss(Integrator::BackwardEuler), loss(Integrator::Bdf2));
     // Of the 1 J that the fall releases. What is left of the second order's loss is in waves of a few steps' length.
     assert!(first > 0.1, "{first} J");
-    assert!(
-        second > 0.0 && second < 0.2 * first,
-        "{second} J against {first} J"
-    );
+    assert!(second > 0.0 && second < 0.2 * first, "{second} J against {first} J");
 }

@@ -12,10 +12,8 @@ struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 * 2.0_f64.powi(-53)
     }
 
@@ -54,14 +52,10 @@ impl Linear {
             }
         }
         Self {
-            masses: (0..particles)
-                .map(|_| random.scale(-spread, spread))
-                .collect(),
+            masses: (0..particles).map(|_| random.scale(-spread, spread)).collect(),
             held: (0..particles).map(|_| random.next() < 0.1).collect(),
             blocks,
-            load: (0..3 * particles)
-                .map(|_| random.scale(-spread, spread))
-                .collect(),
+            load: (0..3 * particles).map(|_| random.scale(-spread, spread)).collect(),
             spoil: |force, _| force,
             shown: Stiffness::Exact,
             accepted: 0,
@@ -103,12 +97,7 @@ impl System for Linear {
     }
     fn potential(&mut self, positions: &[f64]) -> f64 {
         let resistance = self.resist(positions);
-        positions
-            .iter()
-            .zip(&resistance)
-            .zip(&self.load)
-            .map(|((x, r), l)| x * (0.5 * r - l))
-            .sum()
+        positions.iter().zip(&resistance).zip(&self.load).map(|((x, r), l)| x * (0.5 * r - l)).sum()
     }
     fn stiffness(&mut self, _: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
         // The definite approximation: nothing, or, for a liar, what is not definite.
@@ -134,13 +123,7 @@ fn survive(system: &mut Linear, settings: &Settings, dt: f64) -> bool {
     let mut motion = start.clone();
     let mut stepper = Stepper::new(system, settings.clone()).unwrap();
     let outcome = stepper.advance(system, &mut motion, dt);
-    assert!(
-        motion
-            .positions
-            .iter()
-            .chain(&motion.velocities)
-            .all(|x| x.is_finite())
-    );
+    assert!(motion.positions.iter().chain(&motion.velocities).all(|x| x.is_finite()));
     match outcome {
         Ok(report) => {
             assert!(report.residual <= settings.tolerance, "{report:?}");
@@ -171,11 +154,7 @@ fn random_indefinite_and_badly_scaled_systems_are_solved_or_refused() {
         let method = [Method::Broyden, Method::Newton][trial / 2 % 2];
         let linear_solver =
             [LinearSolver::ConjugateGradient, LinearSolver::Cholesky][trial / 4 % 2];
-        let settings = Settings {
-            method,
-            linear_solver,
-            ..Settings::default()
-        };
+        let settings = Settings { method, linear_solver, ..Settings::default() };
         let dt = random.scale(-4.0, 0.0);
         match survive(&mut system, &settings, dt) {
             true => solved += 1,
@@ -183,10 +162,7 @@ fn random_indefinite_and_badly_scaled_systems_are_solved_or_refused() {
         }
     }
     // Both ways must have been taken for the test to mean anything.
-    assert!(
-        solved > 50 && refused > 20,
-        "{solved} solved, {refused} refused"
-    );
+    assert!(solved > 50 && refused > 20, "{solved} solved, {refused} refused");
 }
 
 #[test]
@@ -195,30 +171,19 @@ fn systems_that_produce_nan_are_refused_with_the_particle_named() {
     let always: fn(f64, f64) -> f64 = |_, _| f64::NAN;
     let away: fn(f64, f64) -> f64 = |force, x| if x.abs() > 1.5 { f64::INFINITY } else { force };
     for (case, spoil) in [always, away].into_iter().cycle().take(40).enumerate() {
-        let mut system = Linear {
-            spoil,
-            ..Linear::random(&mut random, 0.0)
-        };
+        let mut system = Linear { spoil, ..Linear::random(&mut random, 0.0) };
         system.held.fill(false);
         let survived = survive(&mut system, &Settings::default(), 0.1);
         assert!(!survived || case % 2 == 1, "NaN was accepted");
     }
-    let mut system = Linear {
-        spoil: always,
-        ..Linear::random(&mut random, 0.0)
-    };
+    let mut system = Linear { spoil: always, ..Linear::random(&mut random, 0.0) };
     system.held.fill(false);
     system.held[0] = true;
     let mut motion = Motion::at_rest(vec![0.0; 3 * system.particles()]);
     let mut stepper = Stepper::new(&system, Settings::default()).unwrap();
     let error = stepper.advance(&mut system, &mut motion, 0.1).unwrap_err();
     match error {
-        Error::NotFinite {
-            quantity: Quantity::Force,
-            particle: 1,
-            dt,
-            ..
-        } => {
+        Error::NotFinite { quantity: Quantity::Force, particle: 1, dt, .. } => {
             assert_eq!(dt, 0.1 / 1024.0);
         }
         other => panic!("{other}"),
@@ -228,9 +193,7 @@ fn systems_that_produce_nan_are_refused_with_the_particle_named() {
 #[test]
 fn impossible_input_is_refused_and_named() {
     let system = Springs::chain(2, 1.0, 0.1, 10.0);
-    let positions: Vec<f64> = (0..3)
-        .flat_map(|i| [f64::from(i) * 0.5, 0.0, 0.0])
-        .collect();
+    let positions: Vec<f64> = (0..3).flat_map(|i| [f64::from(i) * 0.5, 0.0, 0.0]).collect();
     let good = Motion::at_rest(positions);
     let advance = |system: &mut Springs, motion: &mut Motion, dt| {
         Stepper::new(system, Settings::default())?.advance(system, motion, dt)
@@ -248,67 +211,24 @@ fn impossible_input_is_refused_and_named() {
     let mut short = good.clone();
     short.velocities.pop();
     let error = advance(&mut system.clone(), &mut short, 0.1).unwrap_err();
-    assert_eq!(
-        error,
-        Error::Dimension {
-            what: "velocities",
-            expected: 9,
-            found: 8
-        }
-    );
+    assert_eq!(error, Error::Dimension { what: "velocities", expected: 9, found: 8 });
 
     let mut odd = system.clone();
     odd.held.pop();
     let error = advance(&mut odd, &mut good.clone(), 0.1).unwrap_err();
-    assert_eq!(
-        error,
-        Error::Dimension {
-            what: "held",
-            expected: 3,
-            found: 2
-        }
-    );
+    assert_eq!(error, Error::Dimension { what: "held", expected: 3, found: 2 });
 
     let mut broken = good.clone();
     broken.velocities[4] = f64::NAN;
     let error = advance(&mut system.clone(), &mut broken, 0.1).unwrap_err();
-    let named = Error::NotFinite {
-        quantity: Quantity::Velocity,
-        particle: 1,
-        time: 0.0,
-        dt: 0.1,
-    };
+    let named = Error::NotFinite { quantity: Quantity::Velocity, particle: 1, time: 0.0, dt: 0.1 };
     assert_eq!(error, named);
 
     for (settings, expected) in [
-        (
-            Settings {
-                tolerance: 0.0,
-                ..Settings::default()
-            },
-            "tolerance",
-        ),
-        (
-            Settings {
-                acceleration: f64::NAN,
-                ..Settings::default()
-            },
-            "acceleration",
-        ),
-        (
-            Settings {
-                newton_forcing: 1.0,
-                ..Settings::default()
-            },
-            "newton_forcing",
-        ),
-        (
-            Settings {
-                max_iterations: 0,
-                ..Settings::default()
-            },
-            "max_iterations",
-        ),
+        (Settings { tolerance: 0.0, ..Settings::default() }, "tolerance"),
+        (Settings { acceleration: f64::NAN, ..Settings::default() }, "acceleration"),
+        (Settings { newton_forcing: 1.0, ..Settings::default() }, "newton_forcing"),
+        (Settings { max_iterations: 0, ..Settings::default() }, "max_iterations"),
     ] {
         match Stepper::new(&system, settings) {
             Err(Error::Setting { name, .. }) => assert_eq!(name, expected),

@@ -29,35 +29,17 @@ fn distance(a: &Motion, b: &Motion) -> f64 {
 
 #[test]
 fn every_method_and_linear_solver_finds_the_same_motion() {
-    let tight = Settings {
-        tolerance: 1e-9,
-        ..Settings::default()
-    };
-    let (reference, _) = swing(
-        8,
-        500.0,
-        &Settings {
-            method: Method::Newton,
-            ..tight.clone()
-        },
-        2e-3,
-        30,
-    );
+    let tight = Settings { tolerance: 1e-9, ..Settings::default() };
+    let (reference, _) =
+        swing(8, 500.0, &Settings { method: Method::Newton, ..tight.clone() }, 2e-3, 30);
     for method in [Method::Broyden, Method::Newton] {
         for linear_solver in [LinearSolver::ConjugateGradient, LinearSolver::Cholesky] {
-            let settings = Settings {
-                method,
-                linear_solver,
-                ..tight.clone()
-            };
+            let settings = Settings { method, linear_solver, ..tight.clone() };
             let (motion, reports) = swing(8, 500.0, &settings, 2e-3, 30);
             let apart = distance(&motion, &reference);
             // 30 steps with an acceleration error of 1e-8 m/s² each move particles by 1e-11 m, times a
             // growth of errors that a stiff net is far from.
-            assert!(
-                apart < 1e-9,
-                "{method:?}, {linear_solver:?}: {apart:e} m apart"
-            );
+            assert!(apart < 1e-9, "{method:?}, {linear_solver:?}: {apart:e} m apart");
             let inner: usize = reports.iter().map(|report| report.linear_iterations).sum();
             assert_eq!(inner == 0, linear_solver == LinearSolver::Cholesky);
         }
@@ -66,21 +48,11 @@ fn every_method_and_linear_solver_finds_the_same_motion() {
 
 #[test]
 fn textbook_broyden_solves_a_mild_system_like_newton() {
-    let tight = Settings {
-        tolerance: 1e-8,
-        max_halvings: 0,
-        ..Settings::default()
-    };
-    let newton = Settings {
-        method: Method::Newton,
-        ..tight.clone()
-    };
+    let tight = Settings { tolerance: 1e-8, max_halvings: 0, ..Settings::default() };
+    let newton = Settings { method: Method::Newton, ..tight.clone() };
     let (reference, _) = swing(6, 1.0, &newton, 2e-3, 20);
     for initial in [Initial::Mass, Initial::Diagonal] {
-        let settings = Settings {
-            method: Method::Textbook { initial },
-            ..tight.clone()
-        };
+        let settings = Settings { method: Method::Textbook { initial }, ..tight.clone() };
         let (motion, reports) = swing(6, 1.0, &settings, 2e-3, 20);
         let apart = distance(&motion, &reference);
         assert!(apart < 1e-8, "{initial:?}: {apart:e} m apart");
@@ -109,18 +81,11 @@ fn textbook_broyden_does_not_converge_on_a_stiff_system_that_the_default_solves(
             }
         }
         match outcome {
-            Err(Error::NotConverged {
-                residual,
-                tolerance,
-                ..
-            }) => assert!(residual > tolerance),
+            Err(Error::NotConverged { residual, tolerance, .. }) => assert!(residual > tolerance),
             other => panic!("{initial:?}: {other:?}"),
         }
     }
-    let settings = Settings {
-        max_halvings: 0,
-        ..Settings::default()
-    };
+    let settings = Settings { max_halvings: 0, ..Settings::default() };
     swing(n, 1e5, &settings, 5e-3, 20);
 }
 
@@ -130,11 +95,7 @@ fn broyden_needs_fewer_tangents_than_newton() {
         let (_, reports) = swing(
             12,
             2000.0,
-            &Settings {
-                method,
-                tolerance: 1e-8,
-                ..Settings::default()
-            },
+            &Settings { method, tolerance: 1e-8, ..Settings::default() },
             2e-3,
             40,
         );
@@ -148,11 +109,7 @@ fn broyden_needs_fewer_tangents_than_newton() {
 fn saturating(x: f64) -> [f64; 3] {
     let (force, width) = (100.0, 1e-3);
     let t = (x / width).tanh();
-    [
-        force * width * (x / width).cosh().ln(),
-        force * t,
-        force / width * (1.0 - t * t),
-    ]
+    [force * width * (x / width).cosh().ln(), force * t, force / width * (1.0 - t * t)]
 }
 
 #[test]
@@ -166,11 +123,7 @@ fn the_line_search_converges_where_undamped_newton_runs_away() {
     assert!(residual(x).abs() > 1.0, "undamped Newton converged to {x}");
 
     for method in [Method::Newton, Method::Broyden] {
-        let settings = Settings {
-            method,
-            max_halvings: 0,
-            ..Settings::default()
-        };
+        let settings = Settings { method, max_halvings: 0, ..Settings::default() };
         let mut system = Well::new(saturating);
         let mut stepper = Stepper::new(&system, settings).unwrap();
         let mut motion = Motion::at_rest(vec![start, 0.0, 0.0]);
@@ -184,20 +137,13 @@ fn the_line_search_converges_where_undamped_newton_runs_away() {
 /// A wall at x = 0: −κ ln x, undefined behind it.
 fn wall(x: f64) -> [f64; 3] {
     let k = 1e-3;
-    if x > 0.0 {
-        [-k * x.ln(), -k / x, k / (x * x)]
-    } else {
-        [f64::INFINITY, f64::NAN, f64::NAN]
-    }
+    if x > 0.0 { [-k * x.ln(), -k / x, k / (x * x)] } else { [f64::INFINITY, f64::NAN, f64::NAN] }
 }
 
 #[test]
 fn a_particle_thrown_at_a_wall_stops_in_front_of_it() {
-    let settings = Settings {
-        max_halvings: 0,
-        integrator: Integrator::BackwardEuler,
-        ..Settings::default()
-    };
+    let settings =
+        Settings { max_halvings: 0, integrator: Integrator::BackwardEuler, ..Settings::default() };
     let mut system = Well::new(wall);
     let mut stepper = Stepper::new(&system, settings).unwrap();
     // Free flight would carry it 9 m behind the wall within the step.
@@ -205,31 +151,20 @@ fn a_particle_thrown_at_a_wall_stops_in_front_of_it() {
     let report = stepper.advance(&mut system, &mut motion, 0.1).unwrap();
     let x = motion.positions[0];
     let residual = (x + 9.0) / 0.01 + wall(x)[1];
-    assert!(
-        x > 0.0 && residual.abs() < 1e-3,
-        "x = {x}, residual {residual}, {report:?}"
-    );
+    assert!(x > 0.0 && residual.abs() < 1e-3, "x = {x}, residual {residual}, {report:?}");
     assert!(report.cuts > 0);
 }
 
 /// Two wells with a hill between them: the exact stiffness is negative on the hill.
 fn double_well(x: f64) -> [f64; 3] {
     let k = 1e4;
-    [
-        k * (x * x - 1.0).powi(2),
-        4.0 * k * x * (x * x - 1.0),
-        4.0 * k * (3.0 * x * x - 1.0),
-    ]
+    [k * (x * x - 1.0).powi(2), 4.0 * k * x * (x * x - 1.0), 4.0 * k * (3.0 * x * x - 1.0)]
 }
 
 #[test]
 fn on_a_hill_the_definite_stiffness_takes_over() {
     for linear_solver in [LinearSolver::ConjugateGradient, LinearSolver::Cholesky] {
-        let settings = Settings {
-            linear_solver,
-            max_halvings: 0,
-            ..Settings::default()
-        };
+        let settings = Settings { linear_solver, max_halvings: 0, ..Settings::default() };
         let mut system = Well::new(double_well);
         let mut stepper = Stepper::new(&system, settings).unwrap();
         let mut motion = Motion::at_rest(vec![0.1, 0.0, 0.0]);
@@ -271,8 +206,7 @@ fn a_stiffness_that_claims_to_be_definite_and_is_not_stops_the_step() {
             _: drape_implicit::Stiffness,
             matrix: &mut drape_implicit::BlockMatrix,
         ) {
-            self.0
-                .stiffness(positions, drape_implicit::Stiffness::Exact, matrix);
+            self.0.stiffness(positions, drape_implicit::Stiffness::Exact, matrix);
         }
         fn pattern(&self) -> drape_implicit::Pattern {
             self.0.pattern()
@@ -280,17 +214,11 @@ fn a_stiffness_that_claims_to_be_definite_and_is_not_stops_the_step() {
         fn accept(&mut self, _: &[f64], _: &[f64], _: f64) {}
     }
     let mut system = Liar(Well::new(hilltop));
-    let settings = Settings {
-        max_halvings: 0,
-        ..Settings::default()
-    };
+    let settings = Settings { max_halvings: 0, ..Settings::default() };
     let mut stepper = Stepper::new(&system, settings).unwrap();
     let mut motion = Motion::at_rest(vec![0.1, 0.0, 0.0]);
     match stepper.advance(&mut system, &mut motion, 1.0) {
-        Err(Error::NotConverged {
-            stop: Stop::Indefinite,
-            ..
-        }) => {}
+        Err(Error::NotConverged { stop: Stop::Indefinite, .. }) => {}
         other => panic!("{other:?}"),
     }
     // At a hundredth of the step inertia outweighs the hill.

@@ -28,11 +28,7 @@ impl Springs {
     /// A chain along the given points with equal masses.
     pub fn chain(links: usize, length: f64, mass: f64, stiffness: f64) -> Self {
         let link = length / links as f64;
-        let springs = (0..links).map(|i| Spring {
-            ends: [i, i + 1],
-            stiffness,
-            length: link,
-        });
+        let springs = (0..links).map(|i| Spring { ends: [i, i + 1], stiffness, length: link });
         Self {
             masses: vec![mass; links + 1],
             held: vec![false; links + 1],
@@ -48,11 +44,7 @@ impl Springs {
         let at = |i: usize, j: usize| i * n + j;
         let mut springs = Vec::new();
         let mut add = |a, b, factor: f64, length| {
-            springs.push(Spring {
-                ends: [a, b],
-                stiffness: factor * stiffness,
-                length,
-            });
+            springs.push(Spring { ends: [a, b], stiffness: factor * stiffness, length });
         };
         for i in 0..n {
             for j in 0..n {
@@ -85,8 +77,7 @@ impl Springs {
     pub fn flat(n: usize) -> Vec<f64> {
         let spacing = 1.0 / (n - 1) as f64;
         let grid = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-        grid.flat_map(|(i, j)| [j as f64 * spacing, 0.0, i as f64 * spacing])
-            .collect()
+        grid.flat_map(|(i, j)| [j as f64 * spacing, 0.0, i as f64 * spacing]).collect()
     }
 
     pub fn energy(&mut self, positions: &[f64], velocities: &[f64]) -> f64 {
@@ -127,11 +118,7 @@ impl System for Springs {
         for spring in &self.springs {
             let (d, length) = arrow(positions, spring.ends);
             // Written for a natural length of zero too, where the force is linear.
-            let pull = if spring.length == 0.0 {
-                1.0
-            } else {
-                1.0 - spring.length / length
-            };
+            let pull = if spring.length == 0.0 { 1.0 } else { 1.0 - spring.length / length };
             for k in 0..3 {
                 let force = spring.stiffness * pull * d[k];
                 forces[3 * spring.ends[0] + k] += force;
@@ -141,12 +128,8 @@ impl System for Springs {
     }
 
     fn potential(&mut self, positions: &[f64]) -> f64 {
-        let weight: f64 = self
-            .masses
-            .iter()
-            .zip(positions.chunks(3))
-            .map(|(m, x)| m * self.gravity * x[1])
-            .sum();
+        let weight: f64 =
+            self.masses.iter().zip(positions.chunks(3)).map(|(m, x)| m * self.gravity * x[1]).sum();
         let elastic = self.springs.iter().map(|spring| {
             let (_, length) = arrow(positions, spring.ends);
             0.5 * spring.stiffness * (length - spring.length).powi(2)
@@ -157,22 +140,14 @@ impl System for Springs {
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
         for spring in &self.springs {
             let (d, length) = arrow(positions, spring.ends);
-            let mut across = if spring.length == 0.0 {
-                1.0
-            } else {
-                1.0 - spring.length / length
-            };
+            let mut across = if spring.length == 0.0 { 1.0 } else { 1.0 - spring.length / length };
             if kind == Stiffness::Definite {
                 across = across.max(0.0);
             }
             let mut block = [0.0; 9];
             for r in 0..3 {
                 for c in 0..3 {
-                    let along = if length > 0.0 {
-                        d[r] * d[c] / (length * length)
-                    } else {
-                        0.0
-                    };
+                    let along = if length > 0.0 { d[r] * d[c] / (length * length) } else { 0.0 };
                     let unit = if r == c { 1.0 } else { 0.0 };
                     block[3 * r + c] = spring.stiffness * (along + across * (unit - along));
                 }
@@ -185,10 +160,7 @@ impl System for Springs {
     }
 
     fn pattern(&self) -> Pattern {
-        let pairs = self
-            .springs
-            .iter()
-            .map(|spring| (spring.ends[0], spring.ends[1]));
+        let pairs = self.springs.iter().map(|spring| (spring.ends[0], spring.ends[1]));
         Pattern::from_pairs(self.masses.len(), pairs).unwrap()
     }
 

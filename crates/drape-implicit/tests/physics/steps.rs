@@ -15,14 +15,8 @@ fn spring_law(x: f64) -> [f64; 3] {
 #[test]
 fn a_step_that_fails_is_made_in_halves_and_ends_on_time() {
     for integrator in [Integrator::BackwardEuler, Integrator::Bdf2] {
-        let settings = Settings {
-            integrator,
-            ..Settings::default()
-        };
-        let mut system = Well {
-            longest_step: 0.003,
-            ..Well::new(spring_law)
-        };
+        let settings = Settings { integrator, ..Settings::default() };
+        let mut system = Well { longest_step: 0.003, ..Well::new(spring_law) };
         let mut stepper = Stepper::new(&system, settings.clone()).unwrap();
         let mut halved = Motion::at_rest(vec![1.0, 0.0, 0.0]);
         let report = stepper.advance(&mut system, &mut halved, 0.01).unwrap();
@@ -71,12 +65,7 @@ fn repeated_runs_and_fresh_steppers_give_the_same_bits() {
         motion
     };
     let bits = |motion: &Motion| -> Vec<u64> {
-        motion
-            .positions
-            .iter()
-            .chain(&motion.velocities)
-            .map(|x| x.to_bits())
-            .collect()
+        motion.positions.iter().chain(&motion.velocities).map(|x| x.to_bits()).collect()
     };
     let first = bits(&run(false));
     assert!(first == bits(&run(false)), "two runs differ");
@@ -127,11 +116,7 @@ fn work_on_a_held_particle_lifts_the_weight_and_nothing_is_unaccounted() {
     let mut springs = Springs::chain(1, 1.0, mass, 200.0);
     springs.held[0] = true;
     let mut system = Lift { springs, speed };
-    let settings = Settings {
-        tolerance: 1e-10,
-        energy_balance: true,
-        ..Settings::default()
-    };
+    let settings = Settings { tolerance: 1e-10, energy_balance: true, ..Settings::default() };
     let mut stepper = Stepper::new(&system, settings).unwrap();
     let hanging = -1.0 - mass * 9.81 / 200.0;
     let moving = vec![0.0, speed, 0.0, 0.0, speed, 0.0];
@@ -139,26 +124,15 @@ fn work_on_a_held_particle_lifts_the_weight_and_nothing_is_unaccounted() {
     let (mut work, mut lost) = (0.0, 0.0);
     for step in 0..100 {
         motion.time = f64::from(step) * 0.01;
-        let energy = stepper
-            .advance(&mut system, &mut motion, 0.01)
-            .unwrap()
-            .energy
-            .unwrap();
+        let energy = stepper.advance(&mut system, &mut motion, 0.01).unwrap().energy.unwrap();
         work += energy.work;
         lost += energy.numerical_dissipation;
     }
     // Both weights rise by 0.2 m at constant speed.
     let expected = 2.0 * mass * 9.81 * 0.2;
     assert!((motion.positions[1] - 0.2).abs() < 1e-15);
-    assert!(
-        (motion.positions[4] - hanging - 0.2).abs() < 1e-9,
-        "{}",
-        motion.positions[4]
-    );
-    assert!(
-        (work - expected).abs() < 1e-8,
-        "{work} J against {expected} J"
-    );
+    assert!((motion.positions[4] - hanging - 0.2).abs() < 1e-9, "{}", motion.positions[4]);
+    assert!((work - expected).abs() < 1e-8, "{work} J against {expected} J");
     assert!(lost.abs() < 1e-8, "{lost} J lost");
 }
 
@@ -168,14 +142,10 @@ fn systems_of_no_free_particles_are_advanced_without_complaint() {
     empty.masses.clear();
     empty.held.clear();
     empty.springs.clear();
-    for linear_solver in [
-        drape_implicit::LinearSolver::ConjugateGradient,
-        drape_implicit::LinearSolver::Cholesky,
-    ] {
-        let settings = Settings {
-            linear_solver,
-            ..Settings::default()
-        };
+    for linear_solver in
+        [drape_implicit::LinearSolver::ConjugateGradient, drape_implicit::LinearSolver::Cholesky]
+    {
+        let settings = Settings { linear_solver, ..Settings::default() };
         let mut motion = Motion::at_rest(vec![]);
         let mut stepper = Stepper::new(&empty, settings.clone()).unwrap();
         stepper.advance(&mut empty, &mut motion, 0.1).unwrap();
@@ -224,26 +194,14 @@ fn a_new_pattern_is_taken_up_when_its_version_changes() {
         fn accept(&mut self, _: &[f64], _: &[f64], _: f64) {}
     }
     let mut system = Growing(Springs::chain(3, 1.0, 0.1, 100.0), 0);
-    let settings = Settings {
-        method: Method::Newton,
-        ..Settings::default()
-    };
+    let settings = Settings { method: Method::Newton, ..Settings::default() };
     let mut stepper = Stepper::new(&system, settings).unwrap();
-    let start: Vec<f64> = (0..4)
-        .flat_map(|i| [f64::from(i) / 2.0, 0.0, 0.0])
-        .collect();
+    let start: Vec<f64> = (0..4).flat_map(|i| [f64::from(i) / 2.0, 0.0, 0.0]).collect();
     let mut motion = Motion::at_rest(start);
-    let new = crate::springs::Spring {
-        ends: [0, 3],
-        stiffness: 50.0,
-        length: 0.5,
-    };
+    let new = crate::springs::Spring { ends: [0, 3], stiffness: 50.0, length: 0.5 };
     system.0.springs.push(new);
     let error = stepper.advance(&mut system, &mut motion, 0.01).unwrap_err();
-    assert_eq!(
-        error,
-        drape_implicit::Error::OutsidePattern { row: 0, column: 3 }
-    );
+    assert_eq!(error, drape_implicit::Error::OutsidePattern { row: 0, column: 3 });
     assert_eq!(motion.time, 0.0);
     system.1 = 1;
     stepper.advance(&mut system, &mut motion, 0.01).unwrap();
@@ -254,11 +212,8 @@ fn the_checker_passes_springs_and_finds_a_wrong_factor() {
     let n = 5;
     let mut system = Springs::sheet(n, 700.0);
     let start = Springs::flat(n);
-    let trial: Vec<f64> = start
-        .iter()
-        .enumerate()
-        .map(|(k, x)| x + 0.05 * (k as f64 * 2.3).sin())
-        .collect();
+    let trial: Vec<f64> =
+        start.iter().enumerate().map(|(k, x)| x + 0.05 * (k as f64 * 2.3).sin()).collect();
     let check = check_system(&mut system, &start, &trial, 1e-3).unwrap();
     assert!(check.force_error < 1e-9, "{check:?}");
     assert!(check.stiffness_error < 1e-8, "{check:?}");
@@ -296,10 +251,7 @@ fn the_checker_passes_springs_and_finds_a_wrong_factor() {
         let mut wrong = Wrong(Well::new(spring_law), force, stiffness);
         let check = check_system(&mut wrong, &at, &at, 1e-3).unwrap();
         if force == 1.0 {
-            assert!(
-                check.force_error < 1e-9 && check.stiffness_error > 1.0,
-                "{check:?}"
-            );
+            assert!(check.force_error < 1e-9 && check.stiffness_error > 1.0, "{check:?}");
             assert!(check.definite_shift.is_infinite(), "{check:?}");
         } else {
             assert!((check.force_error - 0.01 / 1.01).abs() < 1e-6, "{check:?}");

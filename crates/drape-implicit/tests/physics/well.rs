@@ -46,11 +46,8 @@ impl System for Well {
 
     fn forces(&mut self, positions: &[f64], forces: &mut [f64]) {
         self.evaluations += 1;
-        let force = if self.step > self.longest_step {
-            f64::NAN
-        } else {
-            -(self.law)(positions[0])[1]
-        };
+        let force =
+            if self.step > self.longest_step { f64::NAN } else { -(self.law)(positions[0])[1] };
         forces.copy_from_slice(&[force, 0.0, 0.0]);
     }
 
@@ -60,11 +57,7 @@ impl System for Well {
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
         let curvature = (self.law)(positions[0])[2];
-        let curvature = if kind == Stiffness::Definite {
-            curvature.max(0.0)
-        } else {
-            curvature
-        };
+        let curvature = if kind == Stiffness::Definite { curvature.max(0.0) } else { curvature };
         matrix.values_mut()[0] = curvature;
     }
 

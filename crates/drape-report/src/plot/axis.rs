@@ -17,11 +17,7 @@ pub struct Axis {
 impl Axis {
     /// An axis with a label and a unit that is `in_si` SI units.
     pub fn new(label: &str, unit: &str, in_si: f64) -> Axis {
-        Axis {
-            label: label.to_owned(),
-            unit: unit.to_owned(),
-            in_si,
-        }
+        Axis { label: label.to_owned(), unit: unit.to_owned(), in_si }
     }
 
     /// The label with its unit.
@@ -72,27 +68,14 @@ pub(crate) struct Map {
 impl Map {
     /// Lays the range of some values, with a margin, on the pixels between two bounds.
     pub(crate) fn around(values: impl Iterator<Item = f64>, [from, to]: [f64; 2]) -> Map {
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-            (low.min(v), high.max(v))
-        });
+        let (low, high) = values
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         let (low, high) = if low > high { (0.0, 1.0) } else { (low, high) };
         let size = low.abs().max(high.abs());
-        let least = if size == 0.0 {
-            1.0
-        } else {
-            (LEAST_WIDTH * size).max(LEAST)
-        };
-        let margin = if high - low > least {
-            MARGIN * (high - low)
-        } else {
-            (0.1 * size).max(least)
-        };
-        Map {
-            low: low - margin,
-            high: high + margin,
-            from,
-            to,
-        }
+        let least = if size == 0.0 { 1.0 } else { (LEAST_WIDTH * size).max(LEAST) };
+        let margin =
+            if high - low > least { MARGIN * (high - low) } else { (0.1 * size).max(least) };
+        Map { low: low - margin, high: high + margin, from, to }
     }
 
     /// The pixel of a value.
@@ -126,9 +109,7 @@ impl Map {
         let last = (self.high / step).floor() as i64;
         let largest = step * first.abs().max(last.abs()) as f64;
         let values = (first..=last).map(|k| k as f64 * step);
-        values
-            .map(|value| (self.pixel(value), label(value, step, largest)))
-            .collect()
+        values.map(|value| (self.pixel(value), label(value, step, largest))).collect()
     }
 }
 
@@ -138,11 +119,7 @@ const PLAIN: std::ops::Range<f64> = 1e-3..1e5;
 /// The label of a mark, with as many digits as the step between marks needs.
 fn label(value: f64, step: f64, largest: f64) -> String {
     let power = |number: f64| number.log10().floor() as i32;
-    let exponent = if PLAIN.contains(&largest) {
-        0
-    } else {
-        power(largest)
-    };
+    let exponent = if PLAIN.contains(&largest) { 0 } else { power(largest) };
     let decimals = usize::try_from(exponent - power(step)).unwrap_or(0);
     if value == 0.0 {
         return "0".to_owned();
@@ -160,22 +137,14 @@ mod tests {
     use super::*;
 
     fn labels(low: f64, high: f64) -> Vec<String> {
-        let map = Map {
-            low,
-            high,
-            from: 0.0,
-            to: 340.0,
-        };
+        let map = Map { low, high, from: 0.0, to: 340.0 };
         map.ticks().into_iter().map(|(_, label)| label).collect()
     }
 
     #[test]
     fn ticks_are_round_and_cover_the_axis() {
         assert_eq!(labels(0.0, 4.1), ["0", "1", "2", "3", "4"]);
-        assert_eq!(
-            labels(-0.23, 0.31),
-            ["−0.2", "−0.1", "0", "0.1", "0.2", "0.3"]
-        );
+        assert_eq!(labels(-0.23, 0.31), ["−0.2", "−0.1", "0", "0.1", "0.2", "0.3"]);
         assert_eq!(labels(98.0, 508.0), ["100", "200", "300", "400", "500"]);
         assert_eq!(labels(0.0, 8.5e-6)[1], "2×10⁻⁶");
         assert_eq!(labels(0.0, 1.3e6)[1..3], ["0.2×10⁶", "0.4×10⁶"]);

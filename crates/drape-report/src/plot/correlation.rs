@@ -128,11 +128,7 @@ pub(crate) fn correlation_figure(correlation: &Correlation, place: Place) -> Str
                 },
                 opacity: px(r.abs().min(1.0)),
                 symbol: Symbol::new(if diagonal { &symbols[i] } else { "" }),
-                text: if diagonal {
-                    String::new()
-                } else {
-                    text.clone()
-                },
+                text: if diagonal { String::new() } else { text.clone() },
                 dark: r.abs() > DARK,
                 tip: format!("{} and {}: {text}", symbols[j], symbols[i]),
             });
@@ -155,11 +151,7 @@ mod tests {
     fn the_strongest_correlations_come_first_and_each_pair_once() {
         let correlation = Correlation {
             symbols: ["a", "b", "c"].map(str::to_owned).to_vec(),
-            matrix: vec![
-                vec![1.0, 0.6, -0.9],
-                vec![0.6, 1.0, 0.2],
-                vec![-0.9, 0.2, 1.0],
-            ],
+            matrix: vec![vec![1.0, 0.6, -0.9], vec![0.6, 1.0, 0.2], vec![-0.9, 0.2, 1.0]],
         };
         assert_eq!(correlation.above(0.5), [("a", "c", -0.9), ("a", "b", 0.6)]);
     }

@@ -50,9 +50,7 @@ impl Frame {
         let right = WIDTH - RIGHT;
         let ticks = |map: &Map| {
             let ticks = map.ticks().into_iter();
-            ticks
-                .map(|(at, label)| Tick { at: px(at), label })
-                .collect()
+            ticks.map(|(at, label)| Tick { at: px(at), label }).collect()
         };
         let zero = |map: &Map| map.holds(0.0).then(|| px(map.pixel(0.0)));
         let inverse: Vec<String> = [x.inverse(), y.inverse()]
@@ -147,9 +145,7 @@ pub(crate) fn line(pixels: impl Iterator<Item = [f64; 2]>) -> String {
 
 /// Dots at pixels, as the data of a path: lines without length, which a round end makes visible.
 pub(crate) fn dots(pixels: impl Iterator<Item = [f64; 2]>) -> String {
-    pixels
-        .map(|[x, y]| format!("M{} {}h0", px(x), px(y)))
-        .collect()
+    pixels.map(|[x, y]| format!("M{} {}h0", px(x), px(y))).collect()
 }
 
 #[cfg(test)]
@@ -158,21 +154,12 @@ mod tests {
 
     #[test]
     fn lengths_are_short_and_never_minus_zero() {
-        assert_eq!(
-            [px(12.0), px(-0.001), px(3.456), px(0.1)],
-            ["12", "0", "3.46", "0.1"]
-        );
+        assert_eq!([px(12.0), px(-0.001), px(3.456), px(0.1)], ["12", "0", "3.46", "0.1"]);
     }
 
     #[test]
     fn a_long_key_goes_on_in_the_next_row() {
-        let entry = || {
-            (
-                Sign::Line,
-                "fit".to_owned(),
-                "a long name of thirty letters".to_owned(),
-            )
-        };
+        let entry = || (Sign::Line, "fit".to_owned(), "a long name of thirty letters".to_owned());
         let (entries, height) = key(vec![entry(), entry(), entry(), entry()]);
         assert_eq!(height, 2.0 * KEY);
         assert_eq!(entries[0].x, entries[2].x);

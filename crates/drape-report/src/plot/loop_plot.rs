@@ -75,10 +75,7 @@ impl LoopPlot {
         check::text("the title of a plot", &self.title)?;
         self.deformation.check(&self.title)?;
         self.load.check(&self.title)?;
-        let empty = |what: String| ReportError::EmptyPlot {
-            plot: self.title.clone(),
-            what,
-        };
+        let empty = |what: String| ReportError::EmptyPlot { plot: self.title.clone(), what };
         if self.branches.is_empty() {
             return Err(empty("the plot".to_owned()));
         }
@@ -115,9 +112,7 @@ impl LoopPlot {
         let [low, high] = loads.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], load| {
             [low.min(load), high.max(load)]
         });
-        let sizes = self
-            .points()
-            .flat_map(|point| point.measured.into_iter().chain(point.fitted));
+        let sizes = self.points().flat_map(|point| point.measured.into_iter().chain(point.fitted));
         let size = sizes.map(f64::abs).fold(0.0, f64::max);
         Some(high - low).filter(|range| *range > LEAST_RANGE * size)
     }
@@ -206,9 +201,7 @@ pub(crate) fn loop_figure(plot: &LoopPlot, place: Place) -> String {
     });
     let residual_frame =
         residual_map.map(|map| Frame::new(&x, &map, residual_bounds, "residual, %".to_owned()));
-    let end = residual_frame
-        .as_ref()
-        .map_or(bottom, |_| residual_bounds[1]);
+    let end = residual_frame.as_ref().map_or(bottom, |_| residual_bounds[1]);
 
     let series = |data: &dyn Fn(&Branch) -> String| -> Vec<Series> {
         let drawn = plot.branches.iter().map(|branch| Series {
@@ -241,12 +234,8 @@ pub(crate) fn loop_figure(plot: &LoopPlot, place: Place) -> String {
         x_middle: px(0.5 * (Frame::across()[0] + Frame::across()[1])),
         x_title_y: px(end + 38.0),
         axes: [&plot.deformation, &plot.load],
-        bands: bands(plot, |point, load| {
-            [x.pixel(x_of(point)), y.pixel(y_of(load))]
-        }),
-        fits: fits(plot, |point, load| {
-            [x.pixel(x_of(point)), y.pixel(y_of(load))]
-        }),
+        bands: bands(plot, |point, load| [x.pixel(x_of(point)), y.pixel(y_of(load))]),
+        fits: fits(plot, |point, load| [x.pixel(x_of(point)), y.pixel(y_of(load))]),
         points,
         residuals,
     };
@@ -265,10 +254,7 @@ fn key_entries(plot: &LoopPlot) -> Vec<(Sign, String, String)> {
     let measured = |branch: &&Branch| branch.points.iter().any(|p| p.measured.is_some());
     for kind in BranchKind::ALL {
         let branches = plot.branches.iter().filter(|branch| branch.kind == kind);
-        let cycles: Vec<usize> = branches
-            .filter(measured)
-            .map(|branch| branch.cycle)
-            .collect();
+        let cycles: Vec<usize> = branches.filter(measured).map(|branch| branch.cycle).collect();
         let (Some(first), Some(last)) = (cycles.iter().min(), cycles.iter().max()) else {
             continue;
         };
@@ -306,16 +292,10 @@ fn fits(plot: &LoopPlot, pixel: impl Fn(&Point, f64) -> [f64; 2]) -> Vec<String>
 /// The bands as areas, one per branch.
 fn bands(plot: &LoopPlot, pixel: impl Fn(&Point, f64) -> [f64; 2]) -> Vec<String> {
     let areas = plot.branches.iter().map(|branch| {
-        let bounded: Vec<(&Point, [f64; 2])> = branch
-            .points
-            .iter()
-            .filter_map(|point| Some((point, point.band?)))
-            .collect();
+        let bounded: Vec<(&Point, [f64; 2])> =
+            branch.points.iter().filter_map(|point| Some((point, point.band?))).collect();
         let lower = bounded.iter().map(|(point, band)| pixel(point, band[0]));
-        let upper = bounded
-            .iter()
-            .rev()
-            .map(|(point, band)| pixel(point, band[1]));
+        let upper = bounded.iter().rev().map(|(point, band)| pixel(point, band[1]));
         line(lower.chain(upper))
     });
     let areas = areas.filter(|data| !data.is_empty());

@@ -40,10 +40,7 @@ impl OverlayPlot {
         for name in &self.fabrics {
             check::text("the name of a fabric", name)?;
         }
-        let empty = |what: String| ReportError::EmptyPlot {
-            plot: self.title.clone(),
-            what,
-        };
+        let empty = |what: String| ReportError::EmptyPlot { plot: self.title.clone(), what };
         if self.traces.iter().all(Vec::is_empty) {
             return Err(empty("the plot".to_owned()));
         }
@@ -124,12 +121,7 @@ pub(crate) fn overlay_figure(plot: &OverlayPlot, place: Place) -> String {
     let y = Map::around(points().map(y_of), [bottom, top]);
     let lines = all().map(|(side, trace)| Series {
         class: class(side, trace),
-        data: line(
-            trace
-                .points
-                .iter()
-                .map(|p| [x.pixel(x_of(p)), y.pixel(y_of(p))]),
-        ),
+        data: line(trace.points.iter().map(|p| [x.pixel(x_of(p)), y.pixel(y_of(p))])),
         fabric: &plot.fabrics[side],
         label: &trace.label,
     });

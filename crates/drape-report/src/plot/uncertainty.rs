@@ -85,12 +85,8 @@ pub fn uncertainty_svg(plot: &UncertaintyPlot<'_>) -> Result<String, ReportError
 pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, place: Place) -> String {
     let spans = plot.parameters.iter().map(deviations);
     let spans: Vec<([f64; 2], Option<f64>)> = spans.collect();
-    let sizes = spans
-        .iter()
-        .flat_map(|(bounds, error)| bounds.iter().chain(error));
-    let finite = sizes
-        .map(|d| d.abs())
-        .filter(|d| d.is_finite() && *d <= LARGEST);
+    let sizes = spans.iter().flat_map(|(bounds, error)| bounds.iter().chain(error));
+    let finite = sizes.map(|d| d.abs()).filter(|d| d.is_finite() && *d <= LARGEST);
     let reach = finite.fold(SMALLEST, f64::max);
     let across = [LEFT, WIDTH - RIGHT];
     let map = Map::around([-100.0 * reach, 100.0 * reach].into_iter(), across);
@@ -128,11 +124,7 @@ pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, place: Place) -> St
         zero: pixel(0.0),
         title_x: px(0.5 * (across[0] + across[1])),
         title_y: px(bottom + 36.0),
-        ticks: map
-            .ticks()
-            .into_iter()
-            .map(|(at, label)| Tick { at: px(at), label })
-            .collect(),
+        ticks: map.ticks().into_iter().map(|(at, label)| Tick { at: px(at), label }).collect(),
         rows,
     };
     figure.render().expect("writing to a string does not fail")
@@ -159,13 +151,5 @@ fn deviations(parameter: &Parameter) -> ([f64; 2], Option<f64>) {
 /// An arrow head at an end of the axis, pointing outwards.
 fn arrow(x: f64, y: f64, end: usize) -> String {
     let out = if end == 0 { -7.0 } else { 7.0 };
-    format!(
-        "M{} {}L{} {}L{} {}Z",
-        px(x),
-        px(y - 4.5),
-        px(x + out),
-        px(y),
-        px(x),
-        px(y + 4.5)
-    )
+    format!("M{} {}L{} {}L{} {}Z", px(x), px(y - 4.5), px(x + out), px(y), px(x), px(y + 4.5))
 }

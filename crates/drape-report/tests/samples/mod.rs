@@ -75,19 +75,8 @@ pub fn a_page() -> FitPage {
             chosen: true,
         }],
         parameters: vec![
-            parameter(
-                "k_b",
-                Interval::Between {
-                    lower: 1.113e-5,
-                    upper: 1.203e-5,
-                },
-            ),
-            parameter(
-                "x_f",
-                Interval::Unknown {
-                    reason: "at its lower bound".to_owned(),
-                },
-            ),
+            parameter("k_b", Interval::Between { lower: 1.113e-5, upper: 1.203e-5 }),
+            parameter("x_f", Interval::Unknown { reason: "at its lower bound".to_owned() }),
         ],
         correlation: Some(Correlation {
             symbols: vec!["k_b".to_owned(), "x_f".to_owned()],
@@ -124,40 +113,28 @@ pub fn a_page() -> FitPage {
 pub fn an_overlay() -> OverlayPlot {
     let trace = |label: &str, slope: f64| Trace {
         label: label.to_owned(),
-        points: (0..10)
-            .map(|k| [f64::from(k) * 0.01, f64::from(k) * slope])
-            .collect(),
+        points: (0..10).map(|k| [f64::from(k) * 0.01, f64::from(k) * slope]).collect(),
     };
     OverlayPlot {
         title: "tensile".to_owned(),
         deformation: Axis::new("strain", "%", 0.01),
         load: Axis::new("tension", "gf/cm", GRAM_FORCE_PER_CM),
         fabrics: ["A".to_owned(), "B".to_owned()],
-        traces: [
-            vec![trace("warp", 2.0), trace("weft", 3.0)],
-            vec![trace("weft", 4.0)],
-        ],
+        traces: [vec![trace("warp", 2.0), trace("weft", 3.0)], vec![trace("weft", 4.0)]],
     }
 }
 
 /// The page as a tree; an error in the markup is a failure here.
 pub fn tree(page: &str) -> roxmltree::Document<'_> {
-    let options = roxmltree::ParsingOptions {
-        allow_dtd: true,
-        ..roxmltree::ParsingOptions::default()
-    };
+    let options =
+        roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
     roxmltree::Document::parse_with_options(page, options).unwrap_or_else(|e| panic!("{e}"))
 }
 
 pub fn text_of(node: roxmltree::Node<'_, '_>) -> String {
-    node.descendants()
-        .filter_map(|n| n.text().filter(|_| n.is_text()))
-        .collect()
+    node.descendants().filter_map(|n| n.text().filter(|_| n.is_text())).collect()
 }
 
 pub fn classes<'a>(node: &roxmltree::Node<'a, '_>) -> Vec<&'a str> {
-    node.attribute("class")
-        .unwrap_or_default()
-        .split(' ')
-        .collect()
+    node.attribute("class").unwrap_or_default().split(' ').collect()
 }
