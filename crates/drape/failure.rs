@@ -1,7 +1,9 @@
+use std::fmt;
 use std::process::ExitCode;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
+use drape::report::ReportError;
 use drape::scene::SceneError;
 
 /// Why a command ends early, with its exit code.
@@ -10,6 +12,8 @@ pub(crate) enum Failure {
     Usage(String),
     /// Exit code 3: the input has mistakes.
     Input(Diagnostics),
+    /// Exit code 3: some sheets of a batch failed, and said why.
+    Batch,
     /// Exit code 5: the solver failed, or the cloth did not settle.
     Solver(String),
     /// Exit code 6: a file could not be written.
@@ -18,19 +22,43 @@ pub(crate) enum Failure {
 
 impl Failure {
     /// Prints the failure and gives its exit code.
-    #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
     pub(crate) fn report(&self) -> ExitCode {
-        match self {
-            Self::Usage(message) => eprintln!("error: {message}"),
-            Self::Input(mistakes) => mistakes.0.iter().for_each(|m| eprintln!("{}", render(m))),
-            Self::Solver(message) | Self::Output(message) => eprintln!("error: {message}"),
-        }
+        self.print();
         ExitCode::from(match self {
             Self::Usage(_) => 2,
-            Self::Input(_) => 3,
+            Self::Input(_) | Self::Batch => 3,
             Self::Solver(_) => 5,
             Self::Output(_) => 6,
         })
+    }
+
+    /// Prints the failure, with the lines of the files that are to blame.
+    #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
+    pub(crate) fn print(&self) {
+        match self {
+            Self::Input(mistakes) => mistakes.0.iter().for_each(|m| eprintln!("{}", render(m))),
+            Self::Batch => {}
+            other => eprintln!("error: {other}"),
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Usage(message) | Self::Solver(message) | Self::Output(message) => {
+                f.write_str(message)
+            }
+            Self::Input(mistakes) => mistakes.fmt(f),
+            Self::Batch => f.write_str("not all sheets could be fitted"),
+        }
+    }
+}
+
+impl From<ReportError> for Failure {
+    /// A name or a number of the input that cannot be shown.
+    fn from(error: ReportError) -> Self {
+        Self::Input(Diagnostic::new("report", error.to_string()).into())
     }
 }
 

@@ -146,7 +146,8 @@ impl LawReport {
             against(level, format!("misfit {misfit}, more than {limit}"));
         }
         let symbols = |unknown: &dyn Fn(&&Parameter) -> bool| -> Option<String> {
-            let found = self.parameters.iter().filter(unknown);
+            let of_the_fabric = self.parameters.iter().filter(|parameter| !parameter.incidental);
+            let found = of_the_fabric.filter(unknown);
             let found: Vec<&str> = found.map(|parameter| parameter.symbol.as_str()).collect();
             (!found.is_empty()).then(|| found.join(", "))
         };
@@ -231,6 +232,7 @@ mod tests {
                 units: Units::si("N·m"),
                 standard_error: Some(1e-7),
                 interval,
+                incidental: false,
             }],
             ..LawReport::default()
         }
@@ -245,7 +247,10 @@ mod tests {
         assert_eq!(trust(law(0.03, true, known.clone())), Trust::Doubtful);
         assert_eq!(trust(law(0.05, true, known.clone())), Trust::Poor);
         assert_eq!(trust(law(0.01, false, known)), Trust::Poor);
-        assert_eq!(trust(law(0.01, true, unknown)), Trust::Doubtful);
+        assert_eq!(trust(law(0.01, true, unknown.clone())), Trust::Doubtful);
+        let mut zero = law(0.01, true, unknown);
+        zero.parameters[0].incidental = true;
+        assert_eq!(trust(zero), Trust::Good);
         assert_eq!(trust(LawReport::default()), Trust::Unjudged);
     }
 

@@ -107,6 +107,9 @@ pub struct Parameter {
     pub standard_error: Option<f64>,
     /// Its 95 % interval.
     pub interval: Interval,
+    /// Whether it belongs to the test and not to the fabric, as a zero or a drift does: then nobody minds that it
+    /// is small beside its error.
+    pub incidental: bool,
 }
 
 impl Parameter {

@@ -129,6 +129,7 @@ mod tests {
             units: Units::si("N·m").with_kes("gf·cm²/cm", 9.80665e-5),
             standard_error: Some(0.0023 * 9.80665e-5),
             interval: Interval::Between { lower: 0.1135 * 9.80665e-5, upper: 0.1227 * 9.80665e-5 },
+            incidental: false,
         };
         let shown = ShownParameter::new(&parameter);
         assert_eq!(shown.first().number(), "0.1180 ± 0.0023");
@@ -149,6 +150,7 @@ mod tests {
                 upper: 9.25,
                 reason: "the fit is as good without".to_owned(),
             },
+            incidental: false,
         };
         let shown = ShownParameter::new(&parameter);
         assert_eq!(shown.interval, "< 9.250");

@@ -49,6 +49,7 @@ pub fn parameter(symbol: &str, interval: Interval) -> Parameter {
         units: Units::si("N·m").with_kes("gf·cm²/cm", 9.80665e-5),
         standard_error: Some(2.3e-7),
         interval,
+        incidental: false,
     }
 }
 

@@ -1,0 +1,80 @@
+//! `drape fit` as a laboratory uses it: one sheet with its report, many sheets at once.
+
+use std::path::Path;
+
+use assert_cmd::Command;
+
+fn drape() -> Command {
+    Command::cargo_bin("drape").expect("it is built")
+}
+
+fn fabrics() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/fabrics"))
+}
+
+#[test]
+fn a_fit_leaves_a_fabric_and_a_page_that_needs_nothing_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (fabric, report) = (folder.path().join("cupro.toml"), folder.path().join("report"));
+    let mut command = drape();
+    command.arg("fit").arg(fabrics().join("cupro-weave"));
+    command.arg("-o").arg(&fabric).arg("--report").arg(&report).arg("--json");
+    let output = command.assert().success().get_output().stdout.clone();
+    let page: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
+    let laws = page["laws"].as_array().expect("laws");
+    assert_eq!(laws.len(), 6, "one for each curve");
+    for law in &laws[..2] {
+        let misfit = law["statistics"]["misfit"].as_f64().expect("a misfit");
+        assert!(misfit < 0.011, "{}: {misfit}", law["title"]);
+        let branches = law["plots"][0]["branches"].as_array().expect("branches");
+        assert_eq!(branches.len(), 6, "three cycles out and back");
+    }
+    drape().arg("check").arg(&fabric).assert().success();
+    let html = std::fs::read_to_string(report.join("cupro-weave.html")).expect("a page");
+    for outside in ["http://", "https://", "src=", "@import"] {
+        let there = html.replace("http://www.w3.org/2000/svg", "").contains(outside);
+        assert!(!there, "the page holds {outside}");
+    }
+    assert_eq!(html.matches("<section class=\"law\"").count(), 6);
+}
+
+#[test]
+fn the_law_can_be_chosen_by_hand() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let fabric = folder.path().join("tagawa.toml");
+    let mut command = drape();
+    command.arg("fit").arg(fabrics().join("tagawa-2003")).arg("-o").arg(&fabric);
+    command.args(["--bending", "breen-1994"]).assert().success();
+    let text = std::fs::read_to_string(&fabric).expect("a fabric");
+    let fabric: toml::Table = text.parse().expect("TOML");
+    let bending = fabric["warp"]["bending"].as_table().expect("a law");
+    assert!(bending.contains_key("piecewise"), "{bending:?}");
+    assert!(!bending.contains_key("friction"), "his law has none: {bending:?}");
+}
+
+#[test]
+fn one_bad_sheet_does_not_stop_the_others() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let sheets = folder.path().join("sheets");
+    let sheet = |name: &str, text: &str| {
+        std::fs::create_dir_all(sheets.join(name)).expect("a folder");
+        std::fs::write(sheets.join(name).join("sheet.toml"), text).expect("writes");
+    };
+    sheet("linen", "name = \"linen\"\nW = 18.0\nT = 0.4\nwarp = { B = 0.1, 2HB = 0.05 }\n");
+    sheet("wrong", "name = \"wrong\"\nW = -1.0\n");
+    sheet("deep/silk", "name = \"silk\"\nW = 6.0\nT = 0.2\nwarp = { B = 0.01 }\n");
+    let (fabrics, report) = (folder.path().join("fabrics"), folder.path().join("report"));
+    let mut command = drape();
+    command.arg("fit").arg(&sheets).arg("-o").arg(&fabrics).arg("--report").arg(&report);
+    let assert = command.assert().code(3);
+    let output = assert.get_output();
+    let (out, err) =
+        (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(err.contains("2 of 3 sheets fitted") && err.contains("wrong"), "{err}");
+    assert_eq!(out.lines().count(), 4, "a head and a line for each sheet:\n{out}");
+    for name in ["linen", "silk"] {
+        assert!(fabrics.join(format!("{name}.toml")).exists(), "no fabric of {name}");
+        assert!(report.join(format!("{name}.html")).exists(), "no report on {name}");
+    }
+    assert!(!fabrics.join("wrong.toml").exists());
+}
