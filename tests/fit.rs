@@ -78,3 +78,32 @@ fn one_bad_sheet_does_not_stop_the_others() {
     }
     assert!(!fabrics.join("wrong.toml").exists());
 }
+
+#[test]
+fn a_fabric_from_values_shows_them_again() {
+    let mut command = drape();
+    command.args(["fabric", "show"]).arg(fabrics().join("matsudaira-a"));
+    let output = command.assert().success().get_output().stdout.clone();
+    let text = String::from_utf8(output).expect("text");
+    for (symbol, value) in [("B ", "0.1180"), ("2HB ", "0.1240")] {
+        let row = text.lines().find(|line| line.trim_start().starts_with(symbol));
+        let row = row.unwrap_or_else(|| panic!("no {symbol} in\n{text}"));
+        assert!(row.contains(value), "{row}");
+    }
+}
+
+#[test]
+fn the_shipped_fabrics_are_listed_and_compared() {
+    let mut command = drape();
+    let output = command.args(["fabric", "list"]).arg(fabrics()).assert().success();
+    let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+    assert_eq!(text.lines().count(), 5, "a head and four fabrics:\n{text}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = drape();
+    command.args(["fabric", "compare"]).arg(fabrics().join("matsudaira-a"));
+    command.arg(fabrics().join("matsudaira-b")).arg("--report").arg(folder.path());
+    command.assert().success();
+    let page = folder.path().join("matsudaira-a-and-matsudaira-b.html");
+    let html = std::fs::read_to_string(page).expect("a page");
+    assert_eq!(html.matches("class=\"plot").count(), 3, "tensile, bending, shear");
+}

@@ -11,6 +11,7 @@ use crate::command::FitArguments;
 use crate::failure::Failure;
 use crate::file;
 use crate::fit::{beside, identified, store};
+use crate::say::say;
 
 const SHEET_FILE: &str = "sheet.toml";
 /// Folders deeper than this below one that was named are not searched: a link back up would never end.
@@ -71,6 +72,9 @@ pub(crate) fn stem(sheet: &Path) -> String {
     name.map_or("fabric".into(), |name| name.to_string_lossy().into_owned())
 }
 
+/// Head of the table of a batch.
+const HEAD: [&str; 5] = ["fabric", "fit", "misfit", "warnings", "assumed"];
+
 /// What is kept of a fitted sheet: little, because there may be thousands.
 struct Row {
     name: String,
@@ -81,7 +85,6 @@ struct Row {
 }
 
 /// Fits every sheet, on all threads; a bad one does not stop the others.
-#[expect(clippy::print_stdout, reason = "the result of the command goes to stdout")]
 #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
 pub(crate) fn fit(sheets: &[PathBuf], arguments: &FitArguments) -> Result<(), Failure> {
     let bar = ProgressBar::new(sheets.len() as u64);
@@ -101,14 +104,13 @@ pub(crate) fn fit(sheets: &[PathBuf], arguments: &FitArguments) -> Result<(), Fa
     if arguments.json {
         let rows: Vec<_> = sheets.iter().zip(&rows).map(json).collect();
         let json = serde_json::to_string_pretty(&rows);
-        println!("{}", json.expect("numbers and strings have a JSON form"));
+        say(json.expect("numbers and strings have a JSON form"))?;
     } else {
-        let head = ["fabric", "fit", "misfit", "warnings", "assumed"];
-        println!(
-            "{:<36} {:<10} {:>8} {:>8} {:>8}  sheet",
-            head[0], head[1], head[2], head[3], head[4]
-        );
-        sheets.iter().zip(&rows).for_each(|(sheet, row)| println!("{}", line(sheet, row)));
+        let [name, fit, misfit, warnings, assumed] = HEAD;
+        say(format_args!("{name:<36} {fit:<10} {misfit:>8} {warnings:>8} {assumed:>8}  sheet"))?;
+        for (sheet, row) in sheets.iter().zip(&rows) {
+            say(line(sheet, row))?;
+        }
     }
     rows.iter().filter_map(|row| row.as_ref().err()).for_each(Failure::print);
     eprintln!("{} of {} sheets fitted", sheets.len() - failed, sheets.len());

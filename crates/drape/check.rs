@@ -8,14 +8,14 @@ use drape::scene::Scene;
 
 use crate::command::CheckArguments;
 use crate::failure::Failure;
+use crate::say::say;
 
 /// `drape check`: all files are read, all mistakes reported together.
-#[expect(clippy::print_stdout, reason = "the result of the command goes to stdout")]
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let mut mistakes = Vec::new();
     for file in &arguments.files {
         match describe(file) {
-            Ok(description) => print!("{}: {description}", file.display()),
+            Ok(description) => say(format_args!("{}: {}", file.display(), description.trim_end()))?,
             Err(found) => mistakes.extend(found.0),
         }
     }

@@ -1,10 +1,10 @@
 use std::path::PathBuf;
 
-use clap::{Args, Parser, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use drape::fit::{FrictionOrder, Intervals, LoopModel, Settings, TractionModel};
 
 use crate::failure::Failure;
-use crate::{check, fit, run};
+use crate::{check, fabric, fit, run};
 
 /// From measured fabric to moving cloth.
 #[derive(Parser)]
@@ -12,6 +12,9 @@ use crate::{check, fit, run};
 pub(crate) enum Command {
     /// Identifies a fabric from KES curves or values and writes fabric.toml.
     Fit(FitArguments),
+    /// Lists fabrics, shows one, compares two.
+    #[command(subcommand)]
+    Fabric(FabricCommand),
     /// Simulates a scene: frames, a picture and summary.json.
     Run(RunArguments),
     /// Validates scenes, fabrics and sheets without simulating.
@@ -37,6 +40,33 @@ pub(crate) struct FitArguments {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) laws: LawArguments,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum FabricCommand {
+    /// Lists the sheets in folders: mass, thickness, what was measured.
+    List {
+        /// Folders to search.
+        #[arg(default_value = "fabrics", value_name = "FOLDER")]
+        folders: Vec<PathBuf>,
+    },
+    /// Shows a fabric: its parameters, the loops an instrument would draw, its KES values.
+    Show {
+        /// A fabric, or a sheet, which is fitted on the way.
+        fabric: PathBuf,
+        /// Folder for a page with plots.
+        #[arg(long, value_name = "FOLDER")]
+        report: Option<PathBuf>,
+    },
+    /// Compares two fabrics: their loops overlaid, a table of their values.
+    Compare {
+        /// Fabrics, or sheets, which are fitted on the way.
+        #[arg(required = true, num_args = 2, value_names = ["FIRST", "SECOND"])]
+        fabrics: Vec<PathBuf>,
+        /// Folder for a page with plots.
+        #[arg(long, value_name = "FOLDER")]
+        report: Option<PathBuf>,
+    },
 }
 
 /// Laws to take instead of those that the curves bear out.
@@ -135,6 +165,7 @@ impl Command {
     pub(crate) fn execute(&self) -> Result<(), Failure> {
         match self {
             Self::Fit(arguments) => fit::fit(arguments),
+            Self::Fabric(command) => fabric::fabric(command),
             Self::Run(arguments) => run::run(arguments),
             Self::Check(arguments) => check::check(arguments),
         }

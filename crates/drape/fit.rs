@@ -8,6 +8,7 @@ use drape::report::FitPage;
 use crate::command::FitArguments;
 use crate::failure::Failure;
 use crate::fit_page::fit_page;
+use crate::say::say;
 use crate::{batch, file};
 
 /// `drape fit`.
@@ -20,7 +21,6 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
 }
 
 /// Fits one sheet and prints its report.
-#[expect(clippy::print_stdout, reason = "the result of the command goes to stdout")]
 fn one(sheet: &Path, arguments: &FitArguments) -> Result<(), Failure> {
     let path = arguments.output.clone().unwrap_or_else(|| beside(sheet));
     if path.exists() && arguments.output.is_none() && !arguments.force {
@@ -32,12 +32,12 @@ fn one(sheet: &Path, arguments: &FitArguments) -> Result<(), Failure> {
     let report = store(&page, &batch::stem(sheet), arguments.report.as_deref())?;
     if arguments.json {
         let json = serde_json::to_string_pretty(&page);
-        println!("{}", json.expect("numbers and strings have a JSON form"));
+        say(json.expect("numbers and strings have a JSON form"))?;
     } else {
-        print!("{}", page.to_text()?);
-        println!("fabric written to {}", path.display());
+        say(page.to_text()?.trim_end())?;
+        say(format_args!("fabric written to {}", path.display()))?;
         if let Some(report) = report {
-            println!("report written to {}", report.display());
+            say(format_args!("report written to {}", report.display()))?;
         }
     }
     Ok(())

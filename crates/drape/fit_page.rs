@@ -2,13 +2,13 @@
 
 use drape::fit::lm::Stop;
 use drape::fit::{CurveFit, Estimate, Fit, Unknown};
-use drape::kes::{Curve, Direction, Sheet, Test, Values};
+use drape::kes::{Curve, Direction, Sheet, Test};
 use drape::report::plot::{Branch, BranchKind, Correlation, LoopPlot, Point};
 use drape::report::{
-    FitPage, Interval, KesValue, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,
+    FitPage, Interval, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,
 };
 
-use crate::quantity;
+use crate::{kes_value, quantity};
 
 /// Everything that tells whether to believe a fit.
 pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit) -> FitPage {
@@ -30,7 +30,7 @@ pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit) -> FitPage {
         laws: sheet.curves.iter().zip(&fit.curves).map(|(c, f)| law(c, f)).collect(),
         values: [Direction::Warp, Direction::Weft]
             .into_iter()
-            .flat_map(|direction| values(sheet, direction))
+            .flat_map(|direction| kes_value::of_sheet(sheet, fabric, direction))
             .collect(),
         assumed: fit.assumed.clone(),
         warnings: sheet.warnings().iter().map(ToString::to_string).collect(),
@@ -128,18 +128,19 @@ fn notes(fit: &CurveFit) -> Vec<String> {
     notes
 }
 
-/// The measured and the fitted loop, branch by branch.
-fn plot(curve: &Curve, fit: &CurveFit) -> LoopPlot {
+/// A history, branch by branch, with its measured and its fitted load at each point.
+pub(crate) fn loop_plot(
+    title: String,
+    curve: &Curve,
+    loads: impl Fn(usize) -> (Option<f64>, Option<f64>),
+) -> LoopPlot {
     let [deformation, load] = quantity::axes(curve.test);
     let branches = curve.branches();
     let both_sides = matches!(curve.test, Test::Bending | Test::Shear);
     let first = branches.first().is_some_and(|branch| branch.rising);
-    // A load equal to the measured one to the last bit marks a point that the fit left out.
-    let point = |i: usize| Point {
-        deformation: curve.deformation()[i],
-        measured: Some(curve.load()[i]),
-        fitted: Some(fit.load[i]).filter(|fitted| *fitted != curve.load()[i]),
-        band: None,
+    let point = |i: usize| {
+        let (measured, fitted) = loads(i);
+        Point { deformation: curve.deformation()[i], measured, fitted, band: None }
     };
     let branch = |(index, branch): (usize, &drape::kes::Branch)| Branch {
         kind: match (branch.rising == first, both_sides && index > 0) {
@@ -150,47 +151,17 @@ fn plot(curve: &Curve, fit: &CurveFit) -> LoopPlot {
         cycle: index / 2 + 1,
         points: branch.points.clone().map(point).collect(),
     };
-    LoopPlot {
-        title: title(fit),
-        deformation,
-        load,
-        branches: branches.iter().enumerate().map(branch).collect(),
-    }
+    let branches = branches.iter().enumerate().map(branch).collect();
+    LoopPlot { title, deformation, load, branches }
 }
 
-/// A KES value: symbol, words, units, and where it stands, in SI.
-type Row = (&'static str, &'static str, Units, fn(&Values) -> Option<f64>);
-
-/// The KES values of a direction, as the sheet and as the curves give them.
-fn values(sheet: &Sheet, direction: Direction) -> Vec<KesValue> {
-    let rows: [Row; 9] = [
-        ("B", "bending rigidity", quantity::rigidity(), Values::bending_rigidity),
-        ("2HB", "bending loop width", quantity::moment(), Values::bending_loop_width),
-        ("G", "shear stiffness", quantity::shear_stiffness(), Values::shear_stiffness),
-        ("2HG", "shear loop width at 0.5°", quantity::tension(), Values::shear_loop_width),
-        (
-            "2HG5",
-            "shear loop width at 5°",
-            quantity::tension(),
-            Values::shear_loop_width_at_five_degrees,
-        ),
-        ("EM", "extension at the largest load", quantity::percent(), Values::tensile_extension),
-        ("WT", "tensile work", quantity::work(), Values::tensile_work),
-        ("LT", "tensile linearity", quantity::ratio(), Values::tensile_linearity),
-        ("RT", "tensile resilience", quantity::percent(), Values::tensile_resilience),
-    ];
-    let given = sheet.values(direction);
-    let row = |(symbol, name, units, value): Row| KesValue {
-        symbol: symbol.into(),
-        name: name.into(),
-        direction: direction.name().into(),
-        units,
-        sheet: value(given),
-        curve: None,
-        law: None,
-    };
-    let known = |v: &KesValue| v.sheet.is_some() || v.curve.is_some();
-    rows.into_iter().map(row).filter(known).collect()
+/// The measured and the fitted loop.
+fn plot(curve: &Curve, fit: &CurveFit) -> LoopPlot {
+    // A load equal to the measured one to the last bit marks a point that the fit left out.
+    loop_plot(title(fit), curve, |i| {
+        let measured = curve.load()[i];
+        (Some(measured), Some(fit.load[i]).filter(|fitted| *fitted != measured))
+    })
 }
 
 /// Why a search ended, in words.

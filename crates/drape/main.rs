@@ -7,14 +7,19 @@ use clap::Parser;
 mod batch;
 mod check;
 mod command;
+mod fabric;
+mod fabric_page;
 mod failure;
 mod file;
 mod fit;
 mod fit_page;
+mod kes_test;
+mod kes_value;
 mod picture;
 mod progress;
 mod quantity;
 mod run;
+mod say;
 
 fn main() -> ExitCode {
     let command = command::Command::parse();

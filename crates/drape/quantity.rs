@@ -97,6 +97,8 @@ pub(crate) fn parameter(test: Test, name: &'static str) -> Quantity {
         "quartic" => of("a_4", "coefficient of ε⁴", tension()),
         "plateau" => of("F_c", "friction plateau", friction),
         "length" => of("x_f", "friction length", length),
+        "second plateau" => of("F_2", "plateau of the second element", friction),
+        "second length" => of("x_2", "length of the second element", length),
         "slow" => of("F_2", "plateau of the second element, over the first", ratio()),
         "ratio" => of("η", "friction length of the fast element over the slow", ratio()),
         "growth" => of("g", "growth of the plateau with the sine of the angle", ratio()),

@@ -6,9 +6,9 @@ use crate::command::RunArguments;
 use crate::failure::Failure;
 use crate::picture;
 use crate::progress::Screen;
+use crate::say::say;
 
 /// `drape run`.
-#[expect(clippy::print_stdout, reason = "the result of the command goes to stdout")]
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     if let Some(threads) = arguments.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
@@ -41,10 +41,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     }
     if arguments.json {
         let json = serde_json::to_string_pretty(&summary);
-        println!("{}", json.expect("a summary always has a JSON form"));
+        say(json.expect("a summary always has a JSON form"))?;
     } else {
-        println!("{}", describe(&summary));
-        println!("results in {}", folder.display());
+        say(describe(&summary))?;
+        say(format_args!("results in {}", folder.display()))?;
     }
     match summary.status {
         Status::Ok => Ok(()),

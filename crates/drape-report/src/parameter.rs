@@ -74,7 +74,7 @@ pub enum Interval {
     },
     /// Not asked: the parameter was not fitted.
     Fixed {
-        /// Why: set by hand, tied to another one.
+        /// Why: set by hand, tied to another one; may be empty.
         reason: String,
     },
 }
@@ -87,7 +87,7 @@ impl Interval {
             Self::Above { reason, .. }
             | Self::Below { reason, .. }
             | Self::Unknown { reason }
-            | Self::Fixed { reason } => Some(reason),
+            | Self::Fixed { reason } => Some(reason.as_str()).filter(|reason| !reason.is_empty()),
         }
     }
 }

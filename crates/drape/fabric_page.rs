@@ -1,0 +1,191 @@
+//! Pages on fabrics as the simulator has them.
+
+use drape::fabric::{
+    BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
+};
+use drape::kes::{Direction, Test};
+use drape::report::plot::{OverlayPlot, Trace};
+use drape::report::{
+    ComparePage, ComparedValue, FabricName, FitPage, Interval, LawReport, Parameter, Quantity,
+};
+
+use crate::fit_page::loop_plot;
+use crate::{kes_test, kes_value, quantity};
+
+const VERSION: &str = concat!("drape ", env!("CARGO_PKG_VERSION"));
+const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
+/// The tests, each with the directions in which it differs; there is one shear law.
+const TESTS: [(Test, &[Direction]); 3] =
+    [(Test::Tensile, &DIRECTIONS), (Test::Bending, &DIRECTIONS), (Test::Shear, &[Direction::Warp])];
+
+/// A fabric with the loops that an instrument would draw of it.
+pub(crate) fn show_page(fabric: &Fabric) -> FitPage {
+    let given = |name: &str, value: f64, units| Quantity {
+        name: name.into(),
+        value,
+        units,
+        origin: String::new(),
+    };
+    let laws = TESTS.into_iter().flat_map(|(test, directions)| {
+        directions.iter().map(move |&direction| law(fabric, test, direction))
+    });
+    FitPage {
+        name: fabric.name.clone(),
+        source: fabric.source.clone(),
+        provenance: fabric.provenance.as_ref().map_or(String::new(), |p| {
+            format!("from the sheet \"{}\" by {}", p.sheet, p.fitted_by)
+        }),
+        version: VERSION.into(),
+        quantities: vec![
+            given("mass per area", fabric.density, quantity::mass()),
+            given("thickness", fabric.thickness, quantity::thickness()),
+            given("surface friction", fabric.surface_friction, quantity::ratio()),
+        ],
+        laws: laws.collect(),
+        values: DIRECTIONS
+            .iter()
+            .flat_map(|&direction| kes_value::of_fabric(fabric, direction))
+            .collect(),
+        assumed: fabric.provenance.as_ref().map_or(Vec::new(), |p| p.assumed.clone()),
+        ..FitPage::default()
+    }
+}
+
+fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
+    let curve = kes_test::curve(fabric, test, direction);
+    let title = match test {
+        Test::Shear => test.name().to_owned(),
+        _ => format!("{}, {}", test.name(), direction.name()),
+    };
+    let parameter = |(name, value): (&'static str, f64)| {
+        let named = quantity::parameter(test, name);
+        Parameter {
+            name: named.words.into(),
+            symbol: named.symbol.into(),
+            value,
+            units: named.units,
+            standard_error: None,
+            interval: Interval::Fixed { reason: String::new() },
+            incidental: named.incidental,
+        }
+    };
+    LawReport {
+        plots: vec![loop_plot(title.clone(), &curve, |i| (None, Some(curve.load()[i])))],
+        parameters: parameters(fabric, test, direction).into_iter().map(parameter).collect(),
+        title,
+        ..LawReport::default()
+    }
+}
+
+/// The numbers of a law under the names that a fit gives them.
+fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<(&'static str, f64)> {
+    let laws = match direction {
+        Direction::Warp => &fabric.warp,
+        Direction::Weft => &fabric.weft,
+    };
+    let (mut all, friction) = match test {
+        Test::Tensile => {
+            let backbone = match laws.traction.backbone {
+                TractionBackbone::Primed(primed) => vec![
+                    ("stiffness", primed.stiffness),
+                    ("toe_ratio", primed.toe_ratio),
+                    ("toe_strain", primed.toe_strain),
+                    ("toe_growth", primed.toe_strain_after / primed.toe_strain),
+                ],
+                TractionBackbone::Polynomial(p) => {
+                    vec![("quadratic", p.quadratic), ("quartic", p.quartic)]
+                }
+            };
+            (backbone, &laws.traction.friction)
+        }
+        Test::Bending | Test::LoopBending => {
+            let backbone = match laws.bending.backbone {
+                BendingBackbone::Linear { rigidity } => vec![("rigidity", rigidity)],
+                BendingBackbone::Piecewise(p) => piecewise(&p),
+            };
+            (backbone, &laws.bending.friction)
+        }
+        Test::Shear => {
+            let mut backbone = match fabric.shear.backbone {
+                ShearBackbone::Linear { stiffness } => vec![("stiffness", stiffness)],
+                ShearBackbone::Piecewise(p) => piecewise(&p),
+            };
+            backbone.push(("growth", fabric.shear.growth));
+            (backbone, &fabric.shear.friction)
+        }
+    };
+    all.extend(elements(friction));
+    all
+}
+
+fn piecewise(law: &Piecewise) -> Vec<(&'static str, f64)> {
+    vec![("slope", law.slope), ("intercept", law.intercept), ("knot", law.knot)]
+}
+
+/// The elements of a friction; the second one's names differ.
+fn elements(friction: &BlimanSorine) -> Vec<(&'static str, f64)> {
+    let names = [["plateau", "length"], ["second plateau", "second length"]];
+    let pairs = friction.elements.iter().zip(names).filter(|(element, _)| element.plateau != 0.0);
+    pairs
+        .flat_map(|(element, [plateau, length])| {
+            [(plateau, element.plateau), (length, element.length)]
+        })
+        .collect()
+}
+
+/// The loops of two fabrics overlaid, and their values beside each other.
+pub(crate) fn compare_page(fabrics: [&Fabric; 2]) -> ComparePage {
+    let names = fabrics.map(|fabric| fabric.name.clone());
+    let overlay = |(test, directions): (Test, &[Direction])| {
+        let [deformation, load] = quantity::axes(test);
+        let trace = |fabric: &Fabric, direction: Direction| {
+            let curve = kes_test::curve(fabric, test, direction);
+            let points = curve.deformation().iter().zip(curve.load());
+            Trace {
+                label: if test == Test::Shear { "shear" } else { direction.name() }.into(),
+                points: points.map(|(&q, &f)| [q, f]).collect(),
+            }
+        };
+        OverlayPlot {
+            title: test.name().into(),
+            deformation,
+            load,
+            fabrics: names.clone(),
+            traces: fabrics.map(|fabric| directions.iter().map(|&d| trace(fabric, d)).collect()),
+        }
+    };
+    let given = |symbol: &str, name: &str, units, value: fn(&Fabric) -> f64| ComparedValue {
+        symbol: symbol.into(),
+        name: name.into(),
+        direction: String::new(),
+        units,
+        values: fabrics.map(|fabric| Some(value(fabric))),
+    };
+    let mut values = vec![
+        given("W", "mass per area", quantity::mass(), |fabric| fabric.density),
+        given("T", "thickness", quantity::thickness(), |fabric| fabric.thickness),
+        given("µ", "surface friction", quantity::ratio(), |fabric| fabric.surface_friction),
+    ];
+    for direction in DIRECTIONS {
+        let [first, second] = fabrics.map(|fabric| kes_value::of_fabric(fabric, direction));
+        values.extend(first.into_iter().zip(second).map(|(a, b)| ComparedValue {
+            symbol: a.symbol,
+            name: a.name,
+            direction: a.direction,
+            units: a.units,
+            values: [a.law, b.law],
+        }));
+    }
+    let note = |fabric: &Fabric| {
+        let assumed = fabric.provenance.as_ref().map_or(&[][..], |p| &p.assumed);
+        assumed.iter().map(|text| format!("{}: {text}", fabric.name)).collect::<Vec<_>>()
+    };
+    ComparePage {
+        fabrics: fabrics.map(|f| FabricName { name: f.name.clone(), source: f.source.clone() }),
+        version: VERSION.into(),
+        overlays: TESTS.into_iter().map(overlay).collect(),
+        values,
+        notes: fabrics.into_iter().flat_map(note).collect(),
+        ..ComparePage::default()
+    }
+}

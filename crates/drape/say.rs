@@ -1,0 +1,16 @@
+//! What a command says on stdout.
+
+use std::fmt::Display;
+use std::io::{ErrorKind, Write};
+
+use crate::failure::Failure;
+
+/// Writes a line of the command's result to stdout; a reader that has seen enough ends nothing.
+pub(crate) fn say(text: impl Display) -> Result<(), Failure> {
+    match writeln!(std::io::stdout().lock(), "{text}") {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::Output(format!("cannot write to stdout: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
