@@ -10,3 +10,4 @@ pub use drape_input as input;
 pub use drape_kes as kes;
 pub use drape_report as report;
 pub use drape_scene as scene;
+pub use drape_validate as validate;

@@ -1,0 +1,14 @@
+//! Exact solutions that simulations are held against; each is computed or cited, none comes from a simulation.
+
+mod bias;
+mod catenary;
+mod column;
+mod heavy_elastica;
+mod integrate;
+mod vibration;
+
+pub use bias::bias_stiffness;
+pub use catenary::catenary_sag;
+pub use column::{END_LOAD_BUCKLING, SELF_WEIGHT_BUCKLING};
+pub use heavy_elastica::{Tip, cantilever};
+pub use vibration::{CHAIN_MODES, pendulum_period, strip_modes};
