@@ -20,6 +20,7 @@ mod measured;
 mod search;
 mod shear;
 mod statistics;
+mod strokes;
 mod tensile;
 mod tensile_start;
 mod weighting;
