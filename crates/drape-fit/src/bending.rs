@@ -45,10 +45,7 @@ pub fn identify_bending(
                 friction: line.friction,
             };
             let curvature = curve.deformation();
-            let drive = |line: &Line, out: &mut [f64]| {
-                along(&law(line), curvature.iter().copied(), out);
-            };
-            let search = Loop::new(curve, ("rigidity", curvature), &drive)?;
+            let search = Loop::new(curve, ("rigidity", curvature))?;
             let forms = orders(model).map(|order| Form { order, plateau: Plateau::Constant });
             let forms: Vec<Form> = forms.collect();
             let model = |form: &Form| search.model(*form, form.order.name().into());
@@ -80,7 +77,7 @@ pub(crate) fn breen(
     let model = Model {
         name: "a quadratic and a line on the first branch".into(),
         starts: piecewise_starts(&first)?,
-        predict: Box::new(|p, out| drive(p, branch, out)),
+        predict: Box::new(|p: &[f64], out: &mut [f64]| drive(p, branch, out)),
     };
     let weights = settings.weighting.weights(&first, 0.0);
     let mut fit = curve_fit::fit(&first, &[model], (weights, settings.intervals));

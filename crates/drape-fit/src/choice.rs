@@ -1,6 +1,7 @@
 //! Which of several laws a curve bears out.
 
 use drape_kes::Curve;
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::lm::{self, Report};
@@ -39,11 +40,25 @@ pub struct Candidate {
 pub(crate) struct Model<'a> {
     pub name: String,
     pub starts: Vec<Vec<Named>>,
-    pub predict: Predict<'a>,
+    pub predict: Box<dyn Predict + 'a>,
 }
 
-/// Writes the loads of a law with some parameters along a curve.
-pub(crate) type Predict<'a> = Box<dyn Fn(&[f64], &mut [f64]) + Sync + Send + 'a>;
+/// What a law predicts along a curve.
+pub(crate) trait Predict: Sync + Send {
+    /// Writes the loads with some parameters.
+    fn loads(&self, p: &[f64], out: &mut [f64]);
+
+    /// Writes the derivatives of the loads by the parameters, if the law knows them.
+    fn slopes(&self, _p: &[f64], _out: &mut DMatrix<f64>) -> bool {
+        false
+    }
+}
+
+impl<F: Fn(&[f64], &mut [f64]) + Sync + Send> Predict for F {
+    fn loads(&self, p: &[f64], out: &mut [f64]) {
+        self(p, out);
+    }
+}
 
 /// The law chosen, and what it was compared with.
 pub(crate) struct Choice {
@@ -60,7 +75,7 @@ pub(crate) fn choose(curve: &Curve, models: &[Model<'_>]) -> Choice {
     let points = curve.load().len();
     let mut found: Vec<Found> = models
         .par_iter()
-        .map(|model| search(&Residuals::new(curve, &model.predict), &model.starts))
+        .map(|model| search(&Residuals::new(curve, &*model.predict), &model.starts))
         .collect();
     let independent =
         if models.len() > 1 { independent(curve, models, &found) } else { points as f64 };
@@ -97,7 +112,7 @@ fn independent(curve: &Curve, models: &[Model<'_>], found: &[Found]) -> f64 {
     if found.report.rms < RESOLUTION {
         return residuals.len() as f64;
     }
-    (model.predict)(&found.report.parameters, &mut residuals);
+    model.predict.loads(&found.report.parameters, &mut residuals);
     for (residual, load) in residuals.iter_mut().zip(curve.load()) {
         *residual -= load;
     }

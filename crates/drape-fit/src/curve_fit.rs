@@ -72,11 +72,11 @@ pub(crate) fn fit(
 ) -> CurveFit {
     let choice = choose(curve, models);
     let model = &models[choice.chosen];
-    let problem = Residuals::new(curve, &model.predict).weighted(weights);
+    let problem = Residuals::new(curve, &*model.predict).weighted(weights);
     let unweighted = choice.found.report.parameters.clone();
     let found = refine(&problem, choice.found);
     let mut load = vec![0.0; curve.load().len()];
-    (model.predict)(&found.report.parameters, &mut load);
+    model.predict.loads(&found.report.parameters, &mut load);
     let weighted = !problem.weights().is_empty();
     let compared = if weighted { &unweighted } else { &found.report.parameters };
     let statistics = statistics(&problem, &found.named, &found.report, (compared, intervals));

@@ -1,13 +1,12 @@
-//! Laws from KES values alone, such that the laws have those values.
+//! Bending and traction laws from KES values alone, such that the laws have those values.
 
 use drape_fabric::{
-    BendingBackbone, BendingLaw, BlimanSorine, Buckling, Law, Locking, Polynomial, Primed,
-    ShearBackbone, ShearLaw, TOE_RATIO_MIN, TractionBackbone, TractionLaw,
+    BendingBackbone, BendingLaw, BlimanSorine, Buckling, Law, Polynomial, Primed, TOE_RATIO_MIN,
+    TractionBackbone, TractionLaw,
 };
-use drape_kes::ShearPoints;
 
 use crate::Error;
-use crate::assumed::{BENDING_SLIP, SHEAR_SLIP, TENSILE_SLIP};
+use crate::assumed::{BENDING_SLIP, TENSILE_SLIP};
 use crate::lm::{self, Parameter, Problem, Settings};
 
 /// How near the values of a law are to those asked for, relative, when it has them.
@@ -42,42 +41,6 @@ pub fn bending_from_values(rigidity: f64, loop_width: f64) -> BendingLaw {
         backbone: BendingBackbone::Linear { rigidity },
         rest_curvature: 0.0,
         friction: BlimanSorine::first_order(0.5 * loop_width, BENDING_SLIP),
-    }
-}
-
-/// The shear law that has the values G (in N/(m·rad)), 2HG and 2HG5 (in N/m).
-///
-/// With `$s=\sin\varphi$`, pre-sliding `$x_f$` and plateau `$F_c(1+\gamma s)$` the steady loop has the width
-///
-/// ```math
-/// 2F_c\left[1+\gamma\left(s + x_f e^{-s/x_f}\right)\right]
-/// ```
-///
-/// and its middle line `$k_s s - \gamma F_c x_f(1-e^{-s/x_f})$`, up to terms that have died out since the
-/// reversal at 8°; two widths give `$F_c$` and `$\gamma$`, and the slope then gives `$k_s$`. A loop that does
-/// not widen, or that widens from nothing, gets no growth and the mean of both widths.
-pub fn shear_from_values(
-    stiffness: f64,
-    [narrow, wide]: [f64; 2],
-    points: &ShearPoints,
-) -> ShearLaw {
-    let slip = SHEAR_SLIP;
-    let lag = |s: f64| slip * (-s / slip).exp();
-    let weight = |angle: f64| angle.sin() + lag(angle.sin());
-    let (first, second) = (weight(points.width), weight(points.wide));
-    // Half widths are Fc + Fc·γ·weight: a line in the weight.
-    let rise = 0.5 * (wide - narrow) / (second - first);
-    let plateau = 0.5 * narrow - rise * first;
-    let (plateau, rise) =
-        if rise > 0.0 && plateau > 0.0 { (plateau, rise) } else { (0.25 * (narrow + wide), 0.0) };
-    let [from, to] = points.slope;
-    let tilt = rise * (lag(to.sin()) - lag(from.sin()));
-    let linear = (stiffness * (to - from) - tilt) / (to.sin() - from.sin());
-    ShearLaw {
-        backbone: ShearBackbone::Linear { stiffness: linear },
-        friction: BlimanSorine::first_order(plateau, slip),
-        growth: if plateau > 0.0 { rise / plateau } else { 0.0 },
-        locking: Some(Locking::default()),
     }
 }
 
@@ -214,11 +177,7 @@ mod tests {
             let at = |i: usize| ends[0] + (ends[1] - ends[0]) * i as f64 / STEPS as f64;
             q.extend((1..=STEPS).map(at));
         }
-        let driven: Vec<f64> = match test {
-            Test::Shear => q.iter().map(|angle| angle.sin()).collect(),
-            _ => q.clone(),
-        };
-        let load = drive(law, law.virgin(), &driven);
+        let load = drive(law, law.virgin(), &q);
         Curve::new(test, Direction::Warp, q, load).unwrap()
     }
 
@@ -234,28 +193,6 @@ mod tests {
         let values = curve.bending_values(&BendingPoints::default()).unwrap();
         same(values.rigidity, 1.157e-5, 1e-9);
         same(values.loop_width, 1.216e-3, 1e-9);
-    }
-
-    #[test]
-    fn the_shear_law_gives_its_values_back() {
-        let points = ShearPoints::default();
-        for widths in [[0.5, 1.4], [0.98, 1.0], [0.5, 2.5]] {
-            let law = shear_from_values(33.7, widths, &points);
-            let turns = [0.0, 8.0, -8.0, 8.0].map(f64::to_radians);
-            let values = cycle(Test::Shear, &law, &turns).shear_values(&points).unwrap();
-            // Interpolation on 0.004° of a bend with radius x_f: (h/x_f)²/8 = 5e-5 of its share.
-            same(values.stiffness, 33.7, 1e-5);
-            same(values.loop_width, widths[0], 1e-5);
-            same(values.wide_loop_width, widths[1], 1e-5);
-        }
-    }
-
-    #[test]
-    fn a_loop_that_narrows_gets_the_mean_width() {
-        let points = ShearPoints::default();
-        let law = shear_from_values(33.7, [1.0, 0.8], &points);
-        assert_eq!(law.growth, 0.0);
-        assert!((law.friction.plateau() - 0.45).abs() < 1e-15, "{}", law.friction.plateau());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A whole fabric from a sheet.
 
 use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
-use drape_kes::{BendingPoints, Direction, ShearPoints, Sheet};
+use drape_kes::{BendingPoints, Direction, Reading, ShearPoints, Sheet};
 
 use crate::from_values::bending_from_values;
 use crate::measured::{Found, Measured};
@@ -30,6 +30,18 @@ pub struct Settings {
     pub bending_points: BendingPoints,
     /// Where the sheet's G, 2HG and 2HG5 were read.
     pub shear_points: ShearPoints,
+}
+
+impl Settings {
+    /// Where the values of a sheet are read.
+    #[must_use]
+    pub fn reading(&self, sheet: &Sheet) -> Reading {
+        Reading {
+            maximum_tension: sheet.maximum_tension(),
+            bending: self.bending_points,
+            shear: self.shear_points,
+        }
+    }
 }
 
 /// How the intervals of the parameters are found.

@@ -1,13 +1,15 @@
 //! A line with friction along a loop, which bending and shear share.
 
-use drape_fabric::BlimanSorine;
+use drape_fabric::{BlimanSorine, Dahl};
 use drape_kes::Curve;
+use nalgebra::DMatrix;
 
 use crate::basis::{Basis, ratios};
 use crate::bending::{mean_slope, reach, span, zero};
-use crate::choice::Model;
+use crate::choice::{Model, Predict};
 use crate::lm::Parameter;
 use crate::search::Named;
+use crate::strokes::{Element, Strokes};
 use crate::{Error, FrictionOrder, Plateau};
 
 /// Shortest friction length over the largest deformation: below it a friction is a step at any sampling.
@@ -75,15 +77,85 @@ pub(crate) fn friction(p: &[f64]) -> BlimanSorine {
 }
 
 /// A measured loop that is to be followed by a line with friction.
-pub(crate) struct Loop<'a, D> {
+pub(crate) struct Loop<'a> {
     curve: &'a Curve,
+    path: &'a [f64],
+    strokes: Strokes,
     /// What the stiffness is called.
     name: &'static str,
     slope: f64,
     reach: f64,
     lengths: [f64; LENGTHS],
     basis: Basis,
-    drive: &'a D,
+}
+
+/// A line with friction that follows a path.
+struct Follow<'a> {
+    path: &'a [f64],
+    strokes: &'a Strokes,
+    form: Form,
+}
+
+impl Follow<'_> {
+    /// The line, and the loads of its elements along the path.
+    fn elements(&self, p: &[f64]) -> (Line, f64, Vec<(Dahl, Element)>) {
+        let (line, zero) = self.form.law(p);
+        let present = line.friction.elements.into_iter();
+        // An absent second element is that of the first order; it has no parameters either.
+        let count = if self.form.order == FrictionOrder::First { 1 } else { 2 };
+        let with = |dahl: Dahl| (dahl, self.strokes.element(dahl.length));
+        (line, zero, present.take(count).map(with).collect())
+    }
+}
+
+impl Predict for Follow<'_> {
+    fn loads(&self, p: &[f64], out: &mut [f64]) {
+        let (line, zero, elements) = self.elements(p);
+        for (load, q) in out.iter_mut().zip(self.path) {
+            *load = zero + line.stiffness * q;
+        }
+        for (Dahl { plateau, .. }, element) in &elements {
+            let columns = element.constant.iter().zip(&element.grown);
+            for (load, (constant, grown)) in out.iter_mut().zip(columns) {
+                *load += plateau * (constant + line.growth * grown);
+            }
+        }
+    }
+
+    /// With the fast plateau `$P$`, the slow one `$wP$`, the lengths `$\eta x$` and `$x$`, and unit loads
+    /// `$u = c + \gamma g$` the friction is `$P[u(\eta x) + w\,u(x)]$`.
+    fn slopes(&self, p: &[f64], out: &mut DMatrix<f64>) -> bool {
+        let (line, _, elements) = self.elements(p);
+        let first = if self.form.grows() { 3 } else { 2 };
+        let (plateau, length) = (p[first], p[first + 1]);
+        let (slow, ratio) = match elements.len() {
+            2 => (p[first + 2], p[first + 3]),
+            _ => (0.0, 1.0),
+        };
+        for (i, q) in self.path.iter().enumerate() {
+            let unit = |e: usize| {
+                let element = &elements[e].1;
+                let load = element.constant[i] + line.growth * element.grown[i];
+                let slope = element.constant_slope[i] + line.growth * element.grown_slope[i];
+                [load, slope, element.grown[i]]
+            };
+            let fast = unit(0);
+            let [slow_load, slow_slope, slow_grown] =
+                if elements.len() == 2 { unit(1) } else { [0.0; 3] };
+            out[(i, 0)] = *q;
+            out[(i, 1)] = 1.0;
+            if self.form.grows() {
+                out[(i, 2)] = plateau * (fast[2] + slow * slow_grown);
+            }
+            out[(i, first)] = fast[0] + slow * slow_load;
+            out[(i, first + 1)] = plateau * (ratio * fast[1] + slow * slow_slope);
+            if elements.len() == 2 {
+                out[(i, first + 2)] = plateau * slow_load;
+                out[(i, first + 3)] = plateau * length * fast[1];
+            }
+        }
+        true
+    }
 }
 
 /// What the linear search found for given lengths.
@@ -95,55 +167,30 @@ struct Start {
     friction: Vec<f64>,
 }
 
-impl<'a, D: Fn(&Line, &mut [f64]) + Sync + Send> Loop<'a, D> {
-    /// A loop along a path, whose loads the driver writes for a line.
-    pub fn new(
-        curve: &'a Curve,
-        (name, path): (&'static str, &[f64]),
-        drive: &'a D,
-    ) -> Result<Self, Error> {
+impl<'a> Loop<'a> {
+    /// A loop along a path.
+    pub fn new(curve: &'a Curve, (name, path): (&'static str, &'a [f64])) -> Result<Self, Error> {
         let slope = mean_slope(curve)?;
         let reach = reach(path);
+        let strokes = Strokes::new(path);
         let [from, to] = LENGTH_RANGE;
         let lengths = ratios(from * reach, to * reach);
         // Columns: the path, one, then for each length the friction with a constant plateau of one and what a
         // growth of one per reach adds to it.
         let mut columns = vec![path.to_vec(), vec![1.0; path.len()]];
         for length in lengths {
-            let column = |growth: f64| {
-                let mut out = vec![0.0; path.len()];
-                let friction = BlimanSorine::first_order(1.0, length);
-                let line = Line { stiffness: 0.0, growth, friction };
-                drive(&line, &mut out);
-                out
-            };
-            let constant = column(0.0);
-            let grown = column(1.0 / reach);
-            let added = grown.iter().zip(&constant).map(|(g, c)| g - c).collect();
-            columns.extend([constant, added]);
+            let Element { constant, mut grown, .. } = strokes.element(length);
+            grown.iter_mut().for_each(|load| *load /= reach);
+            columns.extend([constant, grown]);
         }
-        Ok(Self {
-            curve,
-            name,
-            slope,
-            reach,
-            lengths,
-            basis: Basis::new(&columns, curve.load()),
-            drive,
-        })
+        let basis = Basis::new(&columns, curve.load());
+        Ok(Self { curve, path, strokes, name, slope, reach, lengths, basis })
     }
 
     /// The model of one form.
     pub fn model(&self, form: Form, words: String) -> Model<'_> {
-        Model {
-            name: words,
-            starts: self.starts(form),
-            predict: Box::new(move |p, out| {
-                let (line, zero) = form.law(p);
-                (self.drive)(&line, out);
-                out.iter_mut().for_each(|load| *load += zero);
-            }),
-        }
+        let follow = Follow { path: self.path, strokes: &self.strokes, form };
+        Model { name: words, starts: self.starts(form), predict: Box::new(follow) }
     }
 
     fn starts(&self, form: Form) -> Vec<Vec<Named>> {

@@ -4,12 +4,10 @@ use drape_fabric::{BendingLaw, ShearLaw, TractionLaw};
 use drape_kes::{Curve, Direction, Sheet, Test, Values};
 use rayon::prelude::*;
 
-use crate::from_values::{
-    TensileTarget, bending_from_values, shear_from_values, tensile_from_values,
-};
+use crate::from_values::{TensileTarget, bending_from_values, tensile_from_values};
 use crate::{
     CurveFit, Error, Identified, Settings, assumed, identify_bending, identify_loop_bending,
-    identify_shear, identify_tensile,
+    identify_shear, identify_tensile, shear_from_values,
 };
 
 /// Difference between WT and ½·LT·FM·EM, relative, that rounding of printed values does not explain.
@@ -175,18 +173,26 @@ impl<'a> Measured<'a> {
         if let Some(law) = curve {
             return law;
         }
-        let mean = |value: fn(&Values) -> Option<f64>| {
+        let mut mean = |name: &str, value: fn(&Values) -> Option<f64>| {
             let values = [value(&self.sheet.warp), value(&self.sheet.weft)];
+            if let [Some(warp), Some(weft)] = values
+                && (warp - weft).abs() > UNMET * warp.abs()
+            {
+                let (warp, weft) = (format!("{warp:.4}"), format!("{weft:.4}"));
+                notes
+                    .push(format!("{name}: the mean of warp {warp} and weft {weft} (in SI) taken"));
+            }
             let known: Vec<f64> = values.into_iter().flatten().collect();
             (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
         };
-        let stiffness = mean(Values::shear_stiffness).unwrap_or_else(|| {
+        let stiffness = mean("G", Values::shear_stiffness);
+        let narrow = mean("2HG", Values::shear_loop_width);
+        let wide = mean("2HG5", Values::shear_loop_width_at_five_degrees);
+        let stiffness = stiffness.unwrap_or_else(|| {
             let taken = assumed::SHEAR_STIFFNESS;
             notes.push(format!("shear stiffness: not measured, {taken} N/(m·rad) taken"));
             taken
         });
-        let narrow = mean(Values::shear_loop_width);
-        let wide = mean(Values::shear_loop_width_at_five_degrees);
         let widths = match (narrow, wide) {
             (Some(narrow), Some(wide)) => [narrow, wide],
             (Some(width), None) | (None, Some(width)) => {
@@ -199,9 +205,20 @@ impl<'a> Measured<'a> {
                 [taken, taken]
             }
         };
-        let slip = assumed::SHEAR_SLIP;
-        notes.push(format!("shear friction length: not in the values, a sine of {slip} taken"));
-        shear_from_values(stiffness, widths, &self.settings.shear_points)
+        let (law, off) = shear_from_values(stiffness, widths, &self.settings.shear_points);
+        let slip = law.friction.elements[0].length;
+        if widths[1] < widths[0] && slip > assumed::SHEAR_SLIP {
+            notes.push(format!("shear friction length: a sine of {slip:.4}, since 2HG5 < 2HG"));
+        } else {
+            notes.push(format!("shear friction length: not in the values, a sine of {slip} taken"));
+        }
+        if off > UNMET {
+            let percent = 100.0 * off;
+            notes.push(format!(
+                "G, 2HG and 2HG5: met to {percent:.1} % only, no friction widens so"
+            ));
+        }
+        law
     }
 }
 

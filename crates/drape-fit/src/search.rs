@@ -1,8 +1,10 @@
 //! The search that every test shares: several starts, one history, one best set of parameters.
 
 use drape_kes::Curve;
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use crate::choice::Predict;
 use crate::lm::{self, Parameter, Report, Settings};
 
 /// Steps that every start is given before the best is chosen.
@@ -27,15 +29,15 @@ pub(crate) struct Found {
 }
 
 /// Residuals of a law along a curve, over the range of the load.
-pub(crate) struct Residuals<'a, F> {
+pub(crate) struct Residuals<'a> {
     load: &'a [f64],
     scale: f64,
-    predict: F,
+    predict: &'a dyn Predict,
     weights: Vec<f64>,
 }
 
-impl<'a, F: Fn(&[f64], &mut [f64])> Residuals<'a, F> {
-    pub fn new(curve: &'a Curve, predict: F) -> Self {
+impl<'a> Residuals<'a> {
+    pub fn new(curve: &'a Curve, predict: &'a dyn Predict) -> Self {
         let (low, high) = curve.load_range();
         Self { load: curve.load(), scale: 1.0 / (high - low), predict, weights: Vec::new() }
     }
@@ -45,16 +47,24 @@ impl<'a, F: Fn(&[f64], &mut [f64])> Residuals<'a, F> {
     }
 }
 
-impl<F: Fn(&[f64], &mut [f64])> lm::Problem for Residuals<'_, F> {
+impl lm::Problem for Residuals<'_> {
     fn residual_count(&self) -> usize {
         self.load.len()
     }
 
     fn residuals(&self, parameters: &[f64], out: &mut [f64]) {
-        (self.predict)(parameters, out);
+        self.predict.loads(parameters, out);
         for (residual, load) in out.iter_mut().zip(self.load) {
             *residual = (*residual - load) * self.scale;
         }
+    }
+
+    fn jacobian(&self, parameters: &[f64], out: &mut DMatrix<f64>) -> bool {
+        let known = self.predict.slopes(parameters, out);
+        if known {
+            *out *= self.scale;
+        }
+        known
     }
 
     fn weights(&self) -> &[f64] {

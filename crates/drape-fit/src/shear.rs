@@ -51,10 +51,7 @@ fn line(curve: &Curve, sines: &[f64], settings: &Settings) -> Result<Identified<
         growth: line.growth,
         locking: None,
     };
-    let drive = |line: &Line, out: &mut [f64]| {
-        along(&law(line), sines.iter().copied(), out);
-    };
-    let search = Loop::new(curve, ("stiffness", sines), &drive)?;
+    let search = Loop::new(curve, ("stiffness", sines))?;
     let plateaus: Vec<Plateau> = match settings.plateau {
         Some(plateau) => vec![plateau],
         None => vec![Plateau::Constant, Plateau::Growing],

@@ -179,6 +179,12 @@ fn weighted_derivatives(
     let rows = problem.residual_count();
     let weights = DVector::from_column_slice(problem.weights());
     let mut jacobian = DMatrix::zeros(rows, parameters.len());
+    if problem.jacobian(at, &mut jacobian) {
+        for (j, mut column) in jacobian.column_iter_mut().enumerate() {
+            if wanted(j) { column.component_mul_assign(&weights) } else { column.fill(0.0) }
+        }
+        return jacobian;
+    }
     let (mut high, mut low) = (DVector::zeros(rows), DVector::zeros(rows));
     let mut trial = at.to_vec();
     for (j, parameter) in parameters.iter().enumerate().filter(|(j, _)| wanted(*j)) {

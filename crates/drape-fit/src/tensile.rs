@@ -89,7 +89,7 @@ impl Form {
         Model {
             name: self.words().into(),
             starts: guess.starts(&self),
-            predict: Box::new(move |p, out| {
+            predict: Box::new(move |p: &[f64], out: &mut [f64]| {
                 let (zeros, law) = self.law(p);
                 let strains = curve.deformation().iter();
                 match zeros {

@@ -58,4 +58,18 @@ pub enum Error {
         /// The highest deformation measured, in SI.
         high: f64,
     },
+    /// A tensile value needs a strip that was straight at zero strain: measure one under pretension.
+    #[error("the strip hung slack, so that its strain has no zero of its own")]
+    Slack,
+    /// A tensile value is that of another load than the curve's largest: say what the test's was (FM).
+    #[error("the curve ends at {reached:.1} N/m, and the value is that of {wanted:.1} N/m")]
+    OtherLoad {
+        /// The largest load of the first pull, in N/m.
+        reached: f64,
+        /// FM, in N/m.
+        wanted: f64,
+    },
+    /// A tensile curve ends at its largest load: measure the way back too.
+    #[error("the curve has no way back")]
+    NoRecovery,
 }

@@ -96,7 +96,7 @@ impl Curve {
     }
 
     /// Slope of the loop's middle line between two deformations, averaged over both sides.
-    fn loop_slope(&self, between: [f64; 2]) -> Result<f64, Error> {
+    pub(crate) fn loop_slope(&self, between: [f64; 2]) -> Result<f64, Error> {
         let [from, to] = between;
         let middle = |q: f64| self.passages(q).map(|(up, down)| 0.5 * (up + down));
         self.mean_of_sides(to, |side| {
