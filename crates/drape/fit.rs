@@ -48,7 +48,7 @@ pub(crate) fn identified(path: &Path, settings: &Settings) -> Result<(Fit, FitPa
     let sheet = Sheet::read(path).map_err(|error| input(path, error))?;
     let fit = identify_with(&sheet, settings)
         .map_err(|error| Diagnostics::from(Diagnostic::new(path, error.to_string())))?;
-    let page = fit_page(&sheet, &fit);
+    let page = fit_page(&sheet, &fit, settings);
     page.check()?;
     Ok((fit, page))
 }

@@ -1,8 +1,8 @@
 //! The report of a fit.
 
 use drape::fit::lm::Stop;
-use drape::fit::{CurveFit, Estimate, Fit, Unknown};
-use drape::kes::{Curve, Direction, Sheet, Test};
+use drape::fit::{CurveFit, Estimate, Fit, Settings, Unknown};
+use drape::kes::{Curve, Sheet, Test};
 use drape::report::plot::{Branch, BranchKind, Correlation, LoopPlot, Point};
 use drape::report::{
     FitPage, Interval, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,
@@ -11,7 +11,7 @@ use drape::report::{
 use crate::{kes_value, quantity};
 
 /// Everything that tells whether to believe a fit.
-pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit) -> FitPage {
+pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> FitPage {
     let given = |name: &str, value: Option<f64>, taken: f64, units: Units| Quantity {
         name: name.into(),
         value: value.unwrap_or(taken),
@@ -19,6 +19,7 @@ pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit) -> FitPage {
         origin: if value.is_some() { "sheet" } else { "assumed" }.into(),
     };
     let fabric = &fit.fabric;
+    let (values, odd) = kes_value::of_sheet(sheet, fabric, settings);
     FitPage {
         name: sheet.name.clone(),
         source: sheet.source.clone(),
@@ -28,12 +29,9 @@ pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit) -> FitPage {
             given("thickness", sheet.thickness(), fabric.thickness, quantity::thickness()),
         ],
         laws: sheet.curves.iter().zip(&fit.curves).map(|(c, f)| law(c, f)).collect(),
-        values: [Direction::Warp, Direction::Weft]
-            .into_iter()
-            .flat_map(|direction| kes_value::of_sheet(sheet, fabric, direction))
-            .collect(),
+        values,
         assumed: fit.assumed.clone(),
-        warnings: sheet.warnings().iter().map(ToString::to_string).collect(),
+        warnings: sheet.warnings().iter().map(ToString::to_string).chain(odd).collect(),
         ..FitPage::default()
     }
 }
