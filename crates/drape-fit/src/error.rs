@@ -48,13 +48,38 @@ pub enum Error {
     },
     /// No law has these tensile values: check LT, RT, WT and EM.
     #[error(
-        "no fabric has a linearity LT of {linearity:.3} with a resilience RT of {resilience:.3}; check LT, RT, WT and EM"
+        "{name}: no law here has a linearity LT of {linearity:.3} with a resilience RT of {:.1} %; check LT, RT, WT and EM",
+        100.0 * resilience
     )]
     Unreachable {
+        /// The direction.
+        name: String,
         /// LT asked for, a ratio.
         linearity: f64,
         /// RT asked for, a ratio.
         resilience: f64,
+    },
+    /// The resilience is none: it is a part of the work spent.
+    #[error(
+        "{name}: RT is {percent:.1} %; a fabric gives back more than nothing and less than was spent"
+    )]
+    Resilience {
+        /// The direction.
+        name: String,
+        /// RT, in percent.
+        percent: f64,
+    },
+    /// The linearity is none: the work under a rising curve is less than twice that of a straight line.
+    #[error(
+        "{name}: LT is {linearity:.3}, {origin}; a rising curve has more than 0 and less than 2; check LT, WT and EM"
+    )]
+    Linearity {
+        /// The direction.
+        name: String,
+        /// LT, a ratio.
+        linearity: f64,
+        /// Where it comes from, in words.
+        origin: &'static str,
     },
     /// The numbers found are not those of a fabric: check the sheet's units.
     #[error("the fabric identified has {key} that {message}; check the sheet ({help})")]

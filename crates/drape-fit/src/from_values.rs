@@ -10,7 +10,7 @@ use crate::assumed::{BENDING_SLIP, TENSILE_SLIP};
 use crate::lm::{self, Parameter, Problem, Settings};
 
 /// How near the values of a law are to those asked for, relative, when it has them.
-const VALUE_TOLERANCE: f64 = 1e-6;
+pub(crate) const VALUE_TOLERANCE: f64 = 1e-6;
 /// How far the nearest law may be, relative, before the values are taken for mistaken.
 ///
 /// The roundest curves with the widest loops (LT 0.5 with RT 40 %) are met to a few percent only.
@@ -69,7 +69,7 @@ pub fn tensile_from_values(target: &TensileTarget) -> Result<(TractionLaw, f64),
         return Ok(best);
     }
     let TensileTarget { linearity, resilience, .. } = *target;
-    Err(Error::Unreachable { linearity, resilience })
+    Err(Error::Unreachable { name: "tension".into(), linearity, resilience })
 }
 
 /// EM's load, WT and RT·WT of a law: one pull to EM and back to zero load, exactly.

@@ -25,6 +25,7 @@ mod statistics;
 mod strokes;
 mod tensile;
 mod tensile_start;
+mod tensile_values;
 mod weighting;
 
 pub use bending::identify_bending;

@@ -5,15 +5,14 @@ use drape_kes::{Curve, Direction, Sheet, Test, Values};
 use rayon::prelude::*;
 
 use crate::from_values::{TensileTarget, bending_from_values, tensile_from_values};
+use crate::tensile_values::tensile_law;
 use crate::{
     CurveFit, Error, Identified, Settings, assumed, identify_bending, identify_loop_bending,
     identify_shear, identify_tensile, shear_from_values,
 };
 
-/// Difference between WT and ½·LT·FM·EM, relative, that rounding of printed values does not explain.
-const CONTRADICTION: f64 = 0.05;
 /// Deviation of a law's values from the sheet's, relative, that is worth a word: a tenth of their scatter.
-const UNMET: f64 = 1e-3;
+pub(crate) const UNMET: f64 = 1e-3;
 
 /// What one curve gave.
 enum Laws {
@@ -111,7 +110,7 @@ impl<'a> Measured<'a> {
             }
             return Ok(Some((law, notes)));
         }
-        tensile_values(direction.name(), self.sheet.values(direction), self.sheet.maximum_tension())
+        tensile_law(direction.name(), self.sheet.values(direction), self.sheet.maximum_tension())
     }
 
     pub(crate) fn assumed_traction(&self, notes: &mut Vec<String>) -> Result<TractionLaw, Error> {
@@ -220,46 +219,4 @@ impl<'a> Measured<'a> {
         }
         law
     }
-}
-
-/// The traction law of the tensile values, if any is there.
-fn tensile_values(name: &str, values: &Values, maximum_tension: f64) -> Found<TractionLaw> {
-    let (em, lt) = (values.tensile_extension(), values.tensile_linearity());
-    let (wt, rt) = (values.tensile_work(), values.tensile_resilience());
-    if [em, lt, wt, rt].iter().all(Option::is_none) {
-        return Ok(None);
-    }
-    let mut notes = Vec::new();
-    let mut assume = |what: &str, value: f64| {
-        notes.push(format!("{name} {what}: not measured, {value} taken"));
-        value
-    };
-    // LT, WT and EM are tied by WT = ½·LT·FM·EM: two of them tell the third.
-    let half = 0.5 * maximum_tension;
-    let linearity = match (em, lt, wt) {
-        (_, Some(lt), _) => lt,
-        (Some(em), None, Some(wt)) => wt / (half * em),
-        _ => assume("LT", assumed::LINEARITY),
-    };
-    let extension = match (em, wt) {
-        (Some(em), _) => em,
-        (None, Some(wt)) => wt / (half * linearity),
-        (None, None) => assume("EM", assumed::EXTENSION),
-    };
-    let resilience = rt.unwrap_or_else(|| assume("RT", assumed::RESILIENCE));
-    if let Some(wt) = wt {
-        let tied = half * linearity * extension;
-        if (wt / tied - 1.0).abs() > CONTRADICTION {
-            notes.push(format!(
-                "{name} WT: {wt:.3} J/m² not used, because LT and EM make it {tied:.3} J/m²"
-            ));
-        }
-    }
-    let target = TensileTarget { maximum_tension, extension, linearity, resilience };
-    let (law, misfit) = tensile_from_values(&target)?;
-    if misfit > UNMET {
-        notes.push(format!("{name} EM, LT and RT: met to {:.1} % only", 100.0 * misfit));
-    }
-    notes.push(format!("{name} traction after stretching: not in the values, as before taken"));
-    Ok(Some((law, notes)))
 }

@@ -1,0 +1,195 @@
+//! Values → fabric → values: whatever subset a sheet has, the fabric has it too.
+//!
+//! The recomputed values come from simulated tests that are read as measured curves are.
+
+#![allow(clippy::print_stdout)]
+
+use drape_fit::{Error, Settings, compare_values, fabric_values, identify};
+use drape_kes::{Curve, Direction, Sheet, Symbol, Test, Values};
+
+/// What a value may be off by, relative.
+const TOLERANCE: f64 = 1e-3;
+
+/// A small generator of its own, so that the trials are the same on every machine (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    fn logarithmic(&mut self, low: f64, high: f64) -> f64 {
+        self.between(low.ln(), high.ln()).exp()
+    }
+
+    fn coin(&mut self) -> bool {
+        self.unit() < 0.5
+    }
+}
+
+/// Values within the ranges of apparel fabrics: B of the 5th to 95th percentile of 251 fabrics, the others
+/// between the extremes of published KES tables for shirtings, suitings and dress fabrics.
+fn values(random: &mut Random) -> Values {
+    // B of 1e-6 to 1.1e-4 N·m, in gf·cm²/cm.
+    let b = random.logarithmic(0.01, 1.1);
+    let narrow = random.logarithmic(0.1, 5.0);
+    let rt = random.between(35.0, 85.0);
+    // Below this no law here is so round and loses so much at once; the README has the table.
+    let least = 0.45 + 0.4 * (0.85 - rt / 100.0);
+    let (lt, em) = (random.between(least, 1.0), random.logarithmic(1.0, 15.0));
+    Values {
+        b: Some(b),
+        two_hb: Some(b * random.logarithmic(0.2, 2.0)),
+        g: Some(random.logarithmic(0.2, 3.0)),
+        two_hg: Some(narrow),
+        two_hg5: Some(narrow * random.logarithmic(0.8, 4.0)),
+        lt: Some(lt),
+        // gf·cm/cm² from a ratio, 500 gf/cm, and percent.
+        wt: Some(0.5 * lt * 500.0 * em / 100.0),
+        rt: Some(rt),
+        em: Some(em),
+    }
+}
+
+fn subset(random: &mut Random, whole: &Values) -> Values {
+    let mut values = *whole;
+    for symbol in Symbol::ALL {
+        if random.coin() {
+            *values.get_mut(symbol) = None;
+        }
+    }
+    values
+}
+
+fn sheet(warp: Values, weft: Values) -> Sheet {
+    let mut sheet = Sheet::default();
+    sheet.name = "by values".into();
+    (sheet.warp, sheet.weft) = (warp, weft);
+    sheet
+}
+
+/// The worst deviation over trials with random subsets of random values.
+fn round_trips(trials: u64) {
+    let mut worst = (0.0, String::new());
+    for trial in 0..trials {
+        let mut random = Random(trial << 32);
+        let warp = values(&mut random);
+        // One specimen is sheared: its values are those of both directions, or of one.
+        let mut weft =
+            Values { g: warp.g, two_hg: warp.two_hg, two_hg5: warp.two_hg5, ..values(&mut random) };
+        let mut sheet = sheet(subset(&mut random, &warp), subset(&mut random, &weft));
+        sheet.w = random.coin().then(|| random.logarithmic(4.1, 48.7));
+        sheet.t = random.coin().then(|| random.logarithmic(0.1, 1.5));
+        let fit =
+            identify(&sheet).unwrap_or_else(|error| panic!("trial {trial}: {error}; {sheet:?}"));
+        let reading = Settings::default().reading(&sheet);
+        for direction in [Direction::Warp, Direction::Weft] {
+            let found = fabric_values(&fit.fabric, direction, &reading);
+            for symbol in Symbol::ALL {
+                let Some(given) = sheet.values(direction).get(symbol) else { continue };
+                let found = found.get(symbol).expect("a fabric has all values");
+                let error = (found / given - 1.0).abs();
+                if !(error <= worst.0) {
+                    let text = format!(
+                        "trial {trial}, {} {}: {found} not {given}; {:?} {:#?}",
+                        direction.name(),
+                        symbol.name(),
+                        sheet.values(direction),
+                        fit.assumed
+                    );
+                    worst = (error, text);
+                }
+            }
+        }
+        for (given, found) in
+            [(sheet.density(), fit.fabric.density), (sheet.thickness(), fit.fabric.thickness)]
+        {
+            assert!(given.is_none_or(|given| given == found), "trial {trial}: {found}");
+        }
+        // What is missing of both directions is named.
+        for symbol in [Symbol::B, Symbol::Rt] {
+            let one = |direction: Direction| sheet.values(direction).get(symbol).is_some();
+            let given = one(Direction::Warp) && one(Direction::Weft);
+            let test = if symbol == Symbol::B { "bending" } else { "traction" };
+            let named = |note: &String| note.contains(symbol.name()) || note.contains(test);
+            assert!(given || fit.assumed.iter().any(named), "trial {trial}: {:#?}", fit.assumed);
+        }
+    }
+    println!("{trials} trials, worst deviation {:.1e}: {}", worst.0, worst.1);
+    assert!(worst.0 <= TOLERANCE, "off by {:e}: {}", worst.0, worst.1);
+}
+
+#[test]
+fn any_subset_of_values_gives_a_fabric_that_has_them() {
+    round_trips(300);
+}
+
+#[test]
+#[ignore = "five thousand trials take a minute"]
+fn any_subset_of_values_gives_a_fabric_that_has_them_in_five_thousand_trials() {
+    round_trips(5000);
+}
+
+#[test]
+fn sets_that_contradict_themselves_are_refused_with_the_reason() {
+    let refused = |values: Values| {
+        let error = identify(&sheet(Values::default(), values)).expect_err("no such fabric");
+        (error.to_string(), error)
+    };
+    let (text, error) = refused(Values { rt: Some(120.0), ..Values::default() });
+    assert!(
+        matches!(error, Error::Resilience { .. }) && text.contains("weft: RT is 120.0 %"),
+        "{text}"
+    );
+    // Three times the work of a straight line.
+    let (text, error) = refused(Values { wt: Some(37.5), em: Some(5.0), ..Values::default() });
+    assert!(matches!(error, Error::Linearity { .. }), "{text}");
+    assert!(text.contains("weft: LT is 3.000, made by WT and EM"), "{text}");
+    let (text, error) =
+        refused(Values { lt: Some(0.3), rt: Some(40.0), em: Some(5.0), ..Values::default() });
+    assert!(matches!(error, Error::Unreachable { .. }), "{text}");
+    assert!(text.contains("weft: no law here has a linearity LT of 0.300"), "{text}");
+}
+
+#[test]
+fn a_sheet_that_disagrees_with_its_curve_is_named() {
+    let law = drape_fit::bending_from_values(1e-5, 6e-4);
+    let turns = [0.0, 250.0, -250.0, 250.0];
+    let mut path = vec![0.0];
+    for ends in turns.windows(2) {
+        path.extend((1..=100).map(|i| ends[0] + (ends[1] - ends[0]) * f64::from(i) / 100.0));
+    }
+    let load = drape_fabric::drive(&law, drape_fabric::Law::virgin(&law), &path);
+    let curve = Curve::new(Test::Bending, Direction::Warp, path, load).expect("a curve");
+    // 1e-5 N·m is 0.102 gf·cm²/cm, and 6e-4 N is 0.0612 gf·cm/cm.
+    let mut sheet = sheet(
+        Values { b: Some(0.103), two_hb: Some(0.08), ..Values::default() },
+        Values::default(),
+    );
+    sheet.curves.push(curve);
+    let fit = identify(&sheet).expect("identified");
+    let rows = compare_values(&sheet, &fit.fabric, &Settings::default());
+    let warnings: Vec<String> = rows.iter().filter_map(|row| row.warning()).collect();
+    assert!(
+        matches!(&*warnings, [one] if one.starts_with("warp 2HB: the sheet says 0.0800")),
+        "{warnings:#?}"
+    );
+    let row = |direction: Direction, symbol: Symbol| {
+        let found = rows.iter().find(|row| row.direction == direction && row.symbol == symbol);
+        found.expect("every value has a row")
+    };
+    let b = row(Direction::Warp, Symbol::B);
+    let (curve, law) = (b.curve.clone().expect("measured"), b.law.expect("a law has it"));
+    assert!((curve / law - 1.0).abs() < 1e-6, "{b:?}");
+    let missing = row(Direction::Weft, Symbol::Em);
+    assert_eq!(missing.curve, Err("no tensile curve was measured".to_owned()));
+    assert!(missing.law.is_some());
+}
