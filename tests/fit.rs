@@ -107,3 +107,25 @@ fn the_shipped_fabrics_are_listed_and_compared() {
     let html = std::fs::read_to_string(page).expect("a page");
     assert_eq!(html.matches("class=\"plot").count(), 3, "tensile, bending, shear");
 }
+
+#[test]
+fn standard_errors_stand_under_the_keys_of_their_numbers() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, least) in [("cupro-weave", 8), ("tagawa-2003", 5)] {
+        let path = folder.path().join(name);
+        drape().arg("fit").arg(fabrics().join(name)).arg("-o").arg(&path).assert().success();
+        let text = std::fs::read_to_string(&path).expect("a fabric");
+        let file: toml::Value = toml::from_str(&text).expect("TOML");
+        let errors = file["provenance"]["standard_errors"].as_table().expect("errors");
+        assert!(errors.len() >= least, "{name}: {errors:?}");
+        for (path, error) in errors {
+            let steps = path.replace("[0]", ".0").replace("[1]", ".1");
+            let number = steps.split('.').fold(&file, |value, step| match step.parse::<usize>() {
+                Ok(index) => &value[index],
+                Err(_) => &value[step],
+            });
+            let (number, error) = (number.as_float(), error.as_float());
+            assert!(number.is_some() && error > Some(0.0), "{name} {path}: {number:?} ± {error:?}");
+        }
+    }
+}

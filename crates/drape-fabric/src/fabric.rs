@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use drape_hysteresis::BlimanSorine;
 
 use crate::{
@@ -42,16 +44,22 @@ pub struct Direction {
 }
 
 /// Where fitted numbers come from.
-#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// Sheet that was fitted.
     pub sheet: String,
+    /// Digest of the sheet's numbers, to know them again.
+    #[serde(default)]
+    pub digest: String,
     /// Program and version that fitted it.
     pub fitted_by: String,
     /// What was assumed because the sheet does not have it.
     #[serde(default)]
     pub assumed: Vec<String>,
+    /// Standard errors of the fitted numbers, in their units, by key path as in `warp.bending.rigidity`.
+    #[serde(default)]
+    pub standard_errors: BTreeMap<String, f64>,
 }
 
 /// A value that no fabric has.

@@ -3,6 +3,7 @@
 use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
 use drape_kes::{BendingPoints, Direction, Reading, ShearPoints, Sheet};
 
+use crate::fabric_keys::standard_errors;
 use crate::from_values::bending_from_values;
 use crate::measured::{Found, Measured};
 use crate::{CurveFit, Error, LoopModel, Plateau, Toe, TractionModel, Weighting, assumed};
@@ -119,6 +120,7 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         let degrees = locking.onset.asin().to_degrees();
         notes.push(format!("shear beyond {degrees:.1}°: not measured, jamming before 60° taken"));
     }
+    let fits = measured.into_fits();
     let fabric = Fabric {
         name: sheet.name.clone(),
         source: sheet.source.trim().to_owned(),
@@ -130,15 +132,17 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         shear,
         provenance: Some(Provenance {
             sheet: sheet.name.clone(),
+            digest: sheet.digest(),
             fitted_by: concat!("drape-fit ", env!("CARGO_PKG_VERSION")).to_owned(),
             assumed: notes.clone(),
+            standard_errors: standard_errors(&fits),
         }),
     };
     if let Some(problem) = fabric.problems().into_iter().next() {
         let fabric::Problem { key, message, help } = problem;
         return Err(Error::Impossible { key, message, help });
     }
-    Ok(Fit { fabric, curves: measured.into_fits(), assumed: notes })
+    Ok(Fit { fabric, curves: fits, assumed: notes })
 }
 
 /// The laws of both directions; where one is missing the other stands for it.

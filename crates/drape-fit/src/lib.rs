@@ -9,6 +9,7 @@ mod elastica;
 mod elliptic;
 mod error;
 mod estimate;
+mod fabric_keys;
 mod fabric_values;
 mod from_values;
 mod history;

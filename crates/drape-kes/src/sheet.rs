@@ -9,7 +9,7 @@ use crate::curve_file;
 use crate::plausible;
 use crate::section::{Findings, Measured, Section};
 use crate::unit::Quantity;
-use crate::{Curve, Direction, Error, Test, Values};
+use crate::{Curve, Direction, Error, Symbol, Test, Values};
 
 /// Name of the file looked for when a folder is given.
 const SHEET_FILE: &str = "sheet.toml";
@@ -124,6 +124,30 @@ impl Sheet {
     /// The curves of one test and direction, in the order of the sheet.
     pub fn curves_of(&self, test: Test, direction: Direction) -> impl Iterator<Item = &Curve> {
         self.curves.iter().filter(move |curve| curve.test == test && curve.direction == direction)
+    }
+
+    /// Digest of what was measured: the same numbers give the same text, however the files are laid out.
+    ///
+    /// It is the BLAKE3 hash, in hexadecimal, of all values and of all points of all curves, in SI to the last
+    /// bit. Names and remarks do not count.
+    pub fn digest(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        let mut number = |value: f64| {
+            hasher.update(&value.to_le_bytes());
+        };
+        // What is missing counts as well: no value is a NaN.
+        let given = [self.density(), self.thickness(), self.fm];
+        let values = [&self.warp, &self.weft];
+        let values = values.into_iter().flat_map(|v| Symbol::ALL.map(|symbol| v.get(symbol)));
+        given.into_iter().chain(values).for_each(|value| number(value.unwrap_or(f64::NAN)));
+        for curve in &self.curves {
+            let kind = [curve.test as u8, curve.direction as u8, u8::from(curve.slack)];
+            kind.into_iter().for_each(|kind| number(f64::from(kind)));
+            number(curve.gauge.unwrap_or(f64::NAN));
+            number(curve.load().len() as f64);
+            curve.deformation().iter().chain(curve.load()).for_each(|&value| number(value));
+        }
+        hasher.finalize().to_hex().to_string()
     }
 
     /// Values that are allowed and that few real fabrics have, found when the sheet was read.
