@@ -77,6 +77,7 @@ pub(crate) fn breen(
     let model = Model {
         name: "a quadratic and a line on the first branch".into(),
         starts: piecewise_starts(&first)?,
+        prediction: None,
         predict: Box::new(|p: &[f64], out: &mut [f64]| drive(p, branch, out)),
     };
     let weights = settings.weighting.weights(&first, 0.0);

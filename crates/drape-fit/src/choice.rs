@@ -34,12 +34,18 @@ pub struct Candidate {
     /// Anderson 2002, §2.5]. Residuals of a law that misses the curve systematically are alike, and each would
     /// vote for any law with more parameters. For independent noise both are the same.
     pub criterion: Option<f64>,
+    /// Root mean square error over the range of the load with which the law, fitted to all cycles but the last,
+    /// predicts that one; where there are several. A law is taken only if it predicts better than all that are
+    /// preferred to it.
+    pub prediction: Option<f64>,
 }
 
 /// A law that a curve may be fitted with.
 pub(crate) struct Model<'a> {
     pub name: String,
     pub starts: Vec<Vec<Named>>,
+    /// Error with which the law predicts what it was not fitted to, if that was tried.
+    pub prediction: Option<f64>,
     pub predict: Box<dyn Predict + 'a>,
 }
 
@@ -70,7 +76,8 @@ pub(crate) struct Choice {
     pub evaluations: usize,
 }
 
-/// Fits every law and takes the first whose criterion is within [`LEAD`] of the least.
+/// Fits every law and takes the first whose criterion is within [`LEAD`] of the least, of those that predict
+/// better than all before them.
 pub(crate) fn choose(curve: &Curve, models: &[Model<'_>]) -> Choice {
     let points = curve.load().len();
     let mut found: Vec<Found> = models
@@ -90,14 +97,20 @@ pub(crate) fn choose(curve: &Curve, models: &[Model<'_>]) -> Choice {
             parameters: count,
             misfit: found.report.rms,
             criterion: price.map(|price| independent * square.ln() + price),
+            prediction: model.prediction,
         }
     };
     let candidates: Vec<Candidate> = models.iter().zip(&found).map(candidate).collect();
-    let criteria = || candidates.iter().filter_map(|candidate| candidate.criterion);
-    let least = criteria().fold(f64::INFINITY, f64::min);
-    let near = |candidate: &Candidate| candidate.criterion.is_some_and(|c| c <= least + LEAD);
+    // A law less preferred must predict better as well.
+    let stands = |i: usize| {
+        let better = |other: &Candidate| other.prediction <= candidates[i].prediction;
+        candidates[i].prediction.is_none() || !candidates[..i].iter().any(better)
+    };
+    let criterion = |i: usize| candidates[i].criterion.filter(|_| stands(i));
+    let least = (0..candidates.len()).filter_map(criterion).fold(f64::INFINITY, f64::min);
+    let near = |i: &usize| criterion(*i).is_some_and(|criterion| criterion <= least + LEAD);
     // Too few points for any criterion: the law most preferred.
-    let chosen = candidates.iter().position(near).unwrap_or(0);
+    let chosen = (0..candidates.len()).find(near).unwrap_or(0);
     let all: usize = found.iter().map(|found| found.evaluations).sum();
     let found = found.swap_remove(chosen);
     Choice { candidates, chosen, evaluations: all - found.evaluations, found }

@@ -32,6 +32,14 @@ pub enum Error {
         /// The curve's name.
         name: String,
     },
+    /// A curve has no last cycle that goes further than those before: pull again, further.
+    #[error(
+        "{name}: the last cycle is not a second one that goes further; there is nothing to predict"
+    )]
+    OneCycle {
+        /// The curve's name.
+        name: String,
+    },
     /// A loop-bending curve does not say how long its strip is: give the gauge.
     #[error("{name}: the length of the strip is not known; give the gauge of the deformation")]
     NoGauge {

@@ -190,7 +190,12 @@ impl<'a> Loop<'a> {
     /// The model of one form.
     pub fn model(&self, form: Form, words: String) -> Model<'_> {
         let follow = Follow { path: self.path, strokes: &self.strokes, form };
-        Model { name: words, starts: self.starts(form), predict: Box::new(follow) }
+        Model {
+            name: words,
+            starts: self.starts(form),
+            prediction: None,
+            predict: Box::new(follow),
+        }
     }
 
     fn starts(&self, form: Form) -> Vec<Vec<Named>> {

@@ -83,7 +83,7 @@ fn round_trips(trials: u64) {
         let mut random = Random(trial << 32);
         let warp = values(&mut random);
         // One specimen is sheared: its values are those of both directions, or of one.
-        let mut weft =
+        let weft =
             Values { g: warp.g, two_hg: warp.two_hg, two_hg5: warp.two_hg5, ..values(&mut random) };
         let mut sheet = sheet(subset(&mut random, &warp), subset(&mut random, &weft));
         sheet.w = random.coin().then(|| random.logarithmic(4.1, 48.7));
