@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use drape::scene::{Scene, Simulation, Status, Summary, prepare_folder};
+use drape::scene::{Energy, Scene, Simulation, Status, Summary, prepare_folder};
 
 use crate::command::RunArguments;
 use crate::failure::Failure;
@@ -49,10 +49,12 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     match summary.status {
         Status::Ok => Ok(()),
         Status::DidNotSettle => Err(Failure::Solver(format!(
-            "the cloth did not come to rest in {} s: its fastest particle moves at {:.1} mm/s; \
-             give it more time, or allow a higher rest_speed",
+            "the cloth did not come to rest in {} s: its fastest particle moves at {:.1} mm/s, and its \
+             forces lack {:.1e} g for balance; give it more time (time.end), or ask for less \
+             (settle.speed, settle.residual)",
             summary.simulated_seconds,
-            1e3 * summary.speed_max
+            1e3 * summary.speed_max,
+            summary.imbalance
         ))),
         Status::SolverFailed => Err(Failure::Solver(format!(
             "the step after {} s could not be solved; the last good state was written",
@@ -70,9 +72,7 @@ fn describe(summary: &Summary) -> String {
         "{} particles, {} steps, {:.3} s simulated in {:.1} s{cpu}\n\
          {rest}, fastest particle {:.2} mm/s\n\
          strain: largest {:.2} %, 99 of 100 below {:.2} %; shear up to {:.1}°; 99 of 100 curvatures below {:.0} 1/m\n\
-         bodies: nearest particle {nearest}, {} inside\n\
-         energy: elastic {:.4} J, kinetic {:.1e} J, lost in the fabric {:.4} J, to the air {:.4} J, \
-         in the integration and on bodies {:.4} J",
+         bodies: nearest particle {nearest}, {} inside{}",
         summary.particles,
         summary.steps,
         summary.simulated_seconds,
@@ -83,10 +83,21 @@ fn describe(summary: &Summary) -> String {
         strain.shear_max.to_degrees(),
         strain.curvature_p99,
         contact.intersections,
-        energy.elastic,
+        energy.as_ref().map_or(String::new(), balance),
+    )
+}
+
+fn balance(energy: &Energy) -> String {
+    format!(
+        "\nenergy: the fall gave {:.4} J; elastic {:.4} J, kinetic {:.1e} J; lost in the fabric {:.4} J, \
+         on bodies {:.4} J, to the air {:.4} J, in the integration {:.4} J; unaccounted {:.0e} J",
+        -energy.gravity,
+        energy.elastic + energy.contact,
         energy.kinetic,
         energy.friction_dissipated,
+        energy.body_dissipated,
         energy.air_dissipated,
         energy.numerical_dissipated,
+        energy.remainder,
     )
 }

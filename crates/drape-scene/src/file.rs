@@ -26,6 +26,7 @@ pub(crate) struct SceneFile {
     #[serde(default)]
     pub(crate) contact: ContactFile,
     pub(crate) time: TimeFile,
+    pub(crate) settle: Option<SettleFile>,
     #[serde(default)]
     pub(crate) solver: SolverFile,
     #[serde(default)]
@@ -186,20 +187,33 @@ pub(crate) struct ContactFile {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TimeFile {
-    /// In s.
+    /// In s, like all times.
     pub(crate) step: f64,
-    /// In s.
+    pub(crate) step_min: Option<f64>,
     pub(crate) step_max: Option<f64>,
-    /// In s.
+    /// Error of the positions that a step may make.
+    pub(crate) error: Option<f64>,
     pub(crate) end: f64,
+    /// How long gravity takes to grow to its value.
+    pub(crate) ramp: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SettleFile {
     /// In m/s.
-    pub(crate) rest_speed: Option<f64>,
+    pub(crate) speed: Option<f64>,
+    /// Acceleration that is left, over g.
+    pub(crate) residual: Option<f64>,
+    /// How far a particle may move in one step.
+    pub(crate) stride: Option<f64>,
+    pub(crate) inertia: Option<bool>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SolverFile {
-    /// `bdf2` or `backward-euler`.
+    /// `bdf2`, `backward-euler` or `explicit`.
     pub(crate) integrator: Option<String>,
     /// `broyden`, `newton`, `textbook-mass` or `textbook-diagonal`.
     pub(crate) method: Option<String>,
@@ -214,6 +228,8 @@ pub(crate) struct OutputFile {
     pub(crate) folder: Option<String>,
     /// Seconds between frames.
     pub(crate) every: Option<f64>,
+    /// Whether the energies are accounted for.
+    pub(crate) energy: Option<bool>,
     /// From where the picture is taken, in degrees.
     pub(crate) azimuth: Option<f64>,
     pub(crate) elevation: Option<f64>,

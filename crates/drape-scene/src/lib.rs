@@ -1,20 +1,34 @@
 #![doc = include_str!("../README.md")]
 
+mod clock;
+mod collider;
 mod error;
 mod file;
 mod frame;
+mod ledger;
 mod material;
 mod output;
+mod pace;
+mod panel;
+mod pin;
 mod placement;
+mod reader;
 mod scene;
+mod scheme;
+mod settle;
 mod simulation;
+mod stopwatch;
 mod summary;
 mod world;
 
+pub use clock::Clock;
 pub use error::SceneError;
 pub use frame::Frame;
 pub use material::Material;
 pub use output::{Output, prepare_folder};
-pub use scene::{Clock, Panel, Scene};
+pub use panel::Panel;
+pub use scene::Scene;
+pub use scheme::Scheme;
+pub use settle::Settle;
 pub use simulation::{Progress, Simulation, Step};
 pub use summary::{Contacts, Energy, Solver, Status, Strain, Summary};

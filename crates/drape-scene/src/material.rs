@@ -18,6 +18,12 @@ pub struct Material {
 }
 
 impl Material {
+    /// A fabric that is in memory.
+    pub(crate) fn from_document(name: &str, document: &Document) -> Result<Self, Diagnostics> {
+        let fabric = Fabric::from_document(document)?;
+        Ok(Self { name: name.to_owned(), file: document.path().to_owned(), fabric, fit: None })
+    }
+
     /// Reads a `fabric.toml`, or a `sheet.toml` (or its folder), which is fitted on the way.
     pub(crate) fn read(name: &str, path: &Path) -> Result<Self, Diagnostics> {
         let file = if path.is_dir() { path.join("sheet.toml") } else { path.to_owned() };

@@ -1,10 +1,13 @@
-use std::time::Instant;
-
-use drape_implicit::{Motion, Report, Stepper};
+use drape_implicit::{ErrorEstimate, Integrator, Motion, Report, Settings};
 
 use crate::SceneError;
+use crate::clock::Clock;
 use crate::frame::Frame;
-use crate::scene::{Clock, Scene};
+use crate::pace::Pace;
+use crate::scene::Scene;
+use crate::scheme::{Integration, Scheme};
+use crate::settle::Settle;
+use crate::stopwatch::Stopwatch;
 use crate::summary::{Contacts, Energy, Solver, Status, Strain, Summary};
 use crate::world::World;
 
@@ -14,36 +17,42 @@ use crate::world::World;
 /// everything but a cloth of many metres, and short against the seconds a drape takes.
 const REST_TIME: f64 = 0.1;
 
-/// Part of the spacing that the fastest particle may move in one lengthened step.
-///
-/// Where the scene allows longer steps ([`Clock::step_max`]), they are taken while the cloth is slow
-/// by this measure. A larger part reaches rest in fewer steps but lets the path, which a fabric with
-/// friction remembers, depend on the steps.
-const MOTION_PER_STEP: f64 = 0.25;
+/// Acceleration that residuals are relative to, in m/s².
+const GRAVITY: f64 = 9.81;
+
+/// Part of the imbalance of a creeping cloth to which its next step is solved: the forces that drive
+/// the cloth are then known to some per cent. Steps solved better cost more and lead to the same rest.
+const CREEP_TOLERANCE: f64 = 0.1;
+
+/// The loosest tolerance of a creeping step. Looser ones saved no time on a cloth on a cube.
+const CREEP_TOLERANCE_MAX: f64 = 1e-2;
 
 /// A scene in motion.
 #[derive(Debug)]
 pub struct Simulation {
     world: World,
     motion: Motion,
-    stepper: Stepper,
+    scheme: Scheme,
+    integration: Integration,
+    /// Tolerance of the steps now.
+    tolerance: f64,
+    estimate: ErrorEstimate,
     clock: Clock,
+    pace: Pace,
+    settle: Option<Settle>,
     scene_hash: String,
     steps: usize,
-    /// Time in units of the clock's step.
     ticks: usize,
-    last_ticks: usize,
     quiet_ticks: usize,
     speed_max: f64,
+    imbalance: f64,
     spacing: f64,
+    frames: usize,
     status: Status,
     solver: Solver,
     iterations: usize,
     pairs_max: usize,
-    initial_energy: f64,
-    initial_weight: f64,
-    start: Instant,
-    start_cpu: Option<f64>,
+    stopwatch: Stopwatch,
 }
 
 /// What one step did.
@@ -51,8 +60,12 @@ pub struct Simulation {
 pub struct Step {
     /// Time reached, in s.
     pub time: f64,
+    /// Length of the step, in s.
+    pub dt: f64,
     /// Largest speed of a particle, in m/s.
     pub speed_max: f64,
+    /// Root-mean-square acceleration of the free particles, over g.
+    pub imbalance: f64,
     /// The solver's report.
     pub report: Report,
     /// Whether the simulation is over.
@@ -77,63 +90,64 @@ impl Simulation {
     /// # Errors
     /// When the solver cannot be set up.
     pub fn new(scene: Scene) -> Result<Self, SceneError> {
-        let (settings, clock, scene_hash) = (scene.solver.clone(), scene.clock, scene.hash.clone());
+        let (clock, settle, scene_hash) = (scene.clock, scene.settle, scene.hash.clone());
+        let scheme = scene.scheme.clone();
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
         let world = World::new(scene);
-        let stepper = Stepper::new(&world, settings)?;
-        let motion = Motion::at_rest(world.state.positions.clone());
-        let initial_weight = world.weight_energy(&motion.positions);
-        let initial_energy = initial_weight + world.cloth.stored(&world.state);
+        let (integration, tolerance) = match &scheme {
+            Scheme::Implicit(settings) if world.creeps => {
+                let tolerance = settings.tolerance.max(CREEP_TOLERANCE_MAX);
+                let settings = Settings { tolerance, ..settings.clone() };
+                (Scheme::Implicit(settings).start(&world)?, tolerance)
+            }
+            Scheme::Implicit(settings) => (scheme.start(&world)?, settings.tolerance),
+            Scheme::Explicit => (scheme.start(&world)?, 0.0),
+        };
+        let order = if integrator(&scheme) == Integrator::Bdf2 { 2.0 } else { 1.0 };
         Ok(Self {
+            motion: Motion::at_rest(world.state.positions.clone()),
+            estimate: ErrorEstimate::new(world.cloth.particles()),
             world,
-            motion,
-            stepper,
+            scheme,
+            integration,
+            tolerance,
+            pace: Pace::new(clock, settle, order),
             clock,
+            settle,
             scene_hash,
             steps: 0,
             ticks: 0,
-            last_ticks: 1,
             quiet_ticks: 0,
             speed_max: 0.0,
+            imbalance: f64::NAN,
             spacing,
+            frames: 0,
             status: Status::Ok,
             solver: Solver::default(),
             iterations: 0,
             pairs_max: 0,
-            initial_energy,
-            initial_weight,
-            start: Instant::now(),
-            start_cpu: cpu_seconds(),
+            stopwatch: Stopwatch::start(),
         })
     }
 
-    /// Time of the end at the latest, in units of the clock's step.
+    /// Time of the end at the latest, in ticks of the clock.
     #[must_use]
     pub fn ticks_to_do(&self) -> usize {
-        (self.clock.end / self.clock.step).round() as usize
-    }
-
-    /// Time so far, in units of the clock's step.
-    #[must_use]
-    pub fn ticks(&self) -> usize {
-        self.ticks
+        self.clock.ticks_to_do()
     }
 
     /// Time so far, in s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.ticks as f64 * self.clock.step
+        self.ticks as f64 * self.clock.tick()
     }
 
     /// The cloth now.
     #[must_use]
     pub fn frame(&self) -> Frame {
-        Frame {
-            number: self.ticks.div_ceil(self.clock.ticks_per_frame),
-            time: self.time(),
-            positions: self.motion.positions.clone(),
-        }
+        let positions = self.motion.positions.clone();
+        Frame { number: self.frames, time: self.time(), positions }
     }
 
     /// Smallest distance of particles before deformation, in m.
@@ -160,6 +174,13 @@ impl Simulation {
         &self.world.contact
     }
 
+    /// The balance of the energy since the start, unless the scene does without.
+    #[must_use]
+    pub fn energy(&self) -> Option<Energy> {
+        let ledger = self.world.ledger.as_ref()?;
+        Some(ledger.balance(self.world.kinetic()))
+    }
+
     /// Advances by one step.
     ///
     /// # Errors
@@ -167,43 +188,114 @@ impl Simulation {
     pub fn step(&mut self) -> Result<Step, drape_implicit::Error> {
         // The clock counts ticks; a sum of lengths would drift.
         self.motion.time = self.time();
-        let ticks = self.next_ticks();
-        let dt = ticks as f64 * self.clock.step;
-        let report = self.stepper.advance(&mut self.world, &mut self.motion, dt)?;
+        let (ticks, report) = self.advance()?;
+        let dt = ticks as f64 * self.clock.tick();
         self.steps += 1;
         self.ticks += ticks;
-        self.last_ticks = ticks;
-        self.solver.iterations_max = self.solver.iterations_max.max(report.iterations);
-        self.solver.rejected_steps += report.rejected;
-        self.solver.residual_max = self.solver.residual_max.max(report.residual);
-        self.solver.force_evaluations += report.force_evaluations;
-        self.solver.linear_iterations += report.linear_iterations;
-        self.solver.tangents += report.tangents;
-        self.solver.potential_evaluations += report.potential_evaluations;
-        self.iterations += report.iterations;
-        let survey = self.world.contact.survey(&self.motion.positions);
-        self.pairs_max = self.pairs_max.max(survey.touching);
+        self.count(&report);
         let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
         let squares = self.motion.velocities.chunks_exact(3).map(square);
         self.speed_max = squares.fold(0.0, f64::max).sqrt();
-        let quiet = self.clock.rest_speed.is_some_and(|limit| self.speed_max <= limit);
-        self.quiet_ticks = if quiet { self.quiet_ticks + ticks } else { 0 };
+        self.imbalance = self.acceleration(dt) / GRAVITY;
+        self.pace.follow(ticks, self.speed_max * dt);
+        self.judge_rest(ticks)?;
         Ok(Step {
             time: self.time(),
+            dt,
             speed_max: self.speed_max,
+            imbalance: self.imbalance,
             report,
             finished: self.settled() || self.ticks >= self.ticks_to_do(),
         })
     }
 
-    /// Length of the next step in ticks: one, or twice the last while the cloth is slow, but never
-    /// past a frame or the end.
-    fn next_ticks(&self) -> usize {
-        let frame = self.clock.ticks_per_frame - self.ticks % self.clock.ticks_per_frame;
-        let limit = frame.min(self.ticks_to_do() - self.ticks);
-        let slow = MOTION_PER_STEP * self.spacing / self.speed_max;
-        let longest = (slow.min(self.clock.step_max) / self.clock.step) as usize;
-        (2 * self.last_ticks).min(longest).min(limit).max(1)
+    /// Makes one step as long as it may be; its ticks and what the solver says.
+    fn advance(&mut self) -> Result<(usize, Report), drape_implicit::Error> {
+        let mut given_up = 0.0;
+        if self.world.creeps {
+            given_up = self.world.kinetic();
+            self.motion.velocities.fill(0.0);
+            self.world.state.velocities.fill(0.0);
+            self.motion.restart();
+        }
+        loop {
+            let ticks = self.pace.next(self.ticks);
+            let dt = ticks as f64 * self.clock.tick();
+            if self.clock.error.is_none() {
+                let report = self.integration.advance(&mut self.world, &mut self.motion, dt)?;
+                self.enter(&report, given_up);
+                return Ok((ticks, report));
+            }
+            let start = (self.motion.clone(), self.world.state.clone(), self.world.ledger.clone());
+            self.estimate.predict(&self.motion, integrator(&self.scheme), dt);
+            let report = self.integration.advance(&mut self.world, &mut self.motion, dt)?;
+            let error = self.estimate.estimate(&self.motion);
+            if self.pace.judge((self.ticks, ticks), error) {
+                self.solver.error_max = Some(self.solver.error_max.unwrap_or(0.0).max(error));
+                self.enter(&report, given_up);
+                return Ok((ticks, report));
+            }
+            (self.motion, self.world.state, self.world.ledger) = start;
+            self.solver.inexact_steps += 1;
+            self.count(&report);
+        }
+    }
+
+    fn enter(&mut self, report: &Report, given_up: f64) {
+        if let Some(ledger) = &mut self.world.ledger {
+            ledger.report(report, given_up);
+        }
+        let survey = self.world.contact.survey(&self.motion.positions);
+        self.pairs_max = self.pairs_max.max(survey.touching);
+    }
+
+    fn count(&mut self, report: &Report) {
+        let solver = &mut self.solver;
+        solver.iterations_max = solver.iterations_max.max(report.iterations);
+        solver.rejected_steps += report.rejected;
+        solver.sub_steps += report.sub_steps;
+        solver.residual_max = solver.residual_max.max(report.residual);
+        solver.force_evaluations += report.force_evaluations;
+        solver.linear_iterations += report.linear_iterations;
+        solver.tangents += report.tangents;
+        solver.potential_evaluations += report.potential_evaluations;
+        self.iterations += report.iterations;
+    }
+
+    /// Root-mean-square acceleration of the free particles in the last step, in m/s².
+    fn acceleration(&self, dt: f64) -> f64 {
+        let Motion { velocities, previous, .. } = &self.motion;
+        let Some(previous) = previous else { return 0.0 };
+        // The step may have been made in parts; the last one is as long as it says.
+        let dt = if previous.dt < dt { previous.dt } else { dt };
+        let changes = velocities.chunks_exact(3).zip(previous.velocities.chunks_exact(3));
+        let (mut squares, mut free) = (0.0, 0_usize);
+        for ((now, before), _) in changes.zip(&self.world.held).filter(|(_, held)| !**held) {
+            squares += now.iter().zip(before).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+            free += 1;
+        }
+        (squares / free.max(1) as f64).sqrt() / dt
+    }
+
+    /// Whether the cloth is at rest after a step of so many ticks. A creeping cloth is solved the
+    /// better the nearer it is.
+    fn judge_rest(&mut self, ticks: usize) -> Result<(), drape_implicit::Error> {
+        let Some(settle) = self.settle else { return Ok(()) };
+        let mut exact = true;
+        if let (true, Scheme::Implicit(settings)) = (self.world.creeps, &self.scheme) {
+            let wanted = 10.0_f64.powf((CREEP_TOLERANCE * self.imbalance).log10().floor());
+            let wanted = wanted.max(settings.tolerance);
+            exact = self.tolerance <= settings.tolerance.max(CREEP_TOLERANCE * settle.residual);
+            if wanted < 0.5 * self.tolerance {
+                self.tolerance = wanted;
+                let settings = Settings { tolerance: wanted, ..settings.clone() };
+                self.integration = Scheme::Implicit(settings).start(&self.world)?;
+            }
+        }
+        let slow = self.speed_max <= settle.speed && self.imbalance <= settle.residual;
+        let quiet = slow && exact && self.time() >= self.clock.ramp;
+        self.quiet_ticks = if quiet { self.quiet_ticks + ticks } else { 0 };
+        Ok(())
     }
 
     /// Runs to the end, to rest, or to a step that cannot be solved; how it ended is in the summary.
@@ -213,16 +305,18 @@ impl Simulation {
     pub fn run(&mut self, progress: &mut dyn Progress) -> Result<Summary, SceneError> {
         progress.frame(&self.frame())?;
         loop {
+            let before = self.ticks / self.clock.ticks_per_frame;
             let Ok(step) = self.step() else {
                 self.status = Status::SolverFailed;
                 break;
             };
             progress.step(&step, self.ticks);
-            if step.finished || self.ticks.is_multiple_of(self.clock.ticks_per_frame) {
+            if step.finished || self.ticks / self.clock.ticks_per_frame > before {
+                self.frames += 1;
                 progress.frame(&self.frame())?;
             }
             if step.finished {
-                if self.clock.rest_speed.is_some() && !self.settled() {
+                if self.settle.is_some() && !self.settled() {
                     self.status = Status::DidNotSettle;
                 }
                 break;
@@ -232,19 +326,15 @@ impl Simulation {
     }
 
     fn settled(&self) -> bool {
-        self.quiet_ticks as f64 * self.clock.step >= REST_TIME
+        self.settle.is_some() && self.quiet_ticks as f64 * self.clock.tick() >= REST_TIME
     }
 
     /// How the run has gone so far.
     #[must_use]
     pub fn summary(&self) -> Summary {
-        let World { cloth, state, contact, losses, .. } = &self.world;
+        let World { cloth, state, contact, .. } = &self.world;
         let strains = cloth.strains(state);
         let survey = contact.survey(&state.positions);
-        let kinetic = self.world.kinetic();
-        let elastic = cloth.stored(state);
-        let weight = self.world.weight_energy(&state.positions);
-        let spent = kinetic + elastic + weight + losses.friction + losses.air;
         Summary {
             status: self.status.clone(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -252,22 +342,14 @@ impl Simulation {
             particles: cloth.particles(),
             steps: self.steps,
             simulated_seconds: self.time(),
-            wall_seconds: self.start.elapsed().as_secs_f64(),
-            cpu_seconds: cpu_seconds().zip(self.start_cpu).map(|(now, start)| now - start),
+            wall_seconds: self.stopwatch.wall_seconds(),
+            cpu_seconds: self.stopwatch.cpu_seconds(),
             threads: rayon::current_num_threads(),
             solver: Solver {
                 iterations_mean: self.iterations as f64 / self.steps.max(1) as f64,
                 ..self.solver
             },
-            energy: Energy {
-                kinetic,
-                elastic,
-                gravity: weight - self.initial_weight,
-                friction_dissipated: losses.friction,
-                air_dissipated: losses.air,
-                numerical_dissipated: self.initial_energy - spent,
-                work_in: 0.0,
-            },
+            energy: self.energy(),
             strain: Strain {
                 traction_max: strains.traction_max,
                 traction_p99: strains.traction_p99,
@@ -281,6 +363,7 @@ impl Simulation {
             },
             settled: self.settled(),
             speed_max: self.speed_max,
+            imbalance: self.imbalance,
             state_hash: self.state_hash(),
             measures: serde_json::Map::new(),
         }
@@ -304,14 +387,9 @@ impl Simulation {
     }
 }
 
-/// Processor time of the process so far, in s, where the system tells.
-#[cfg(unix)]
-fn cpu_seconds() -> Option<f64> {
-    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
-    Some(time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9)
-}
-
-#[cfg(not(unix))]
-fn cpu_seconds() -> Option<f64> {
-    None
+fn integrator(scheme: &Scheme) -> Integrator {
+    match scheme {
+        Scheme::Implicit(settings) => settings.integrator,
+        Scheme::Explicit => Integrator::BackwardEuler,
+    }
 }

@@ -23,8 +23,8 @@ pub struct Summary {
     pub threads: usize,
     /// What the solver did.
     pub solver: Solver,
-    /// Where the energy is and went.
-    pub energy: Energy,
+    /// Where the energy is and went, unless the scene does without.
+    pub energy: Option<Energy>,
     /// How far the cloth is deformed at the end.
     pub strain: Strain,
     /// How it touches the bodies at the end.
@@ -33,6 +33,8 @@ pub struct Summary {
     pub settled: bool,
     /// Largest speed of a particle at the end, in m/s.
     pub speed_max: f64,
+    /// Root-mean-square acceleration at the end over g: what the forces lack for balance.
+    pub imbalance: f64,
     /// Hash of the final positions, velocities and memories.
     pub state_hash: String,
     /// What the scene asks to be measured.
@@ -62,8 +64,15 @@ pub struct Solver {
     pub iterations_max: usize,
     /// Attempts that were given up for a shorter step.
     pub rejected_steps: usize,
+    /// Attempts that were given up because their error was too large.
+    pub inexact_steps: usize,
+    /// Accepted parts of steps.
+    pub sub_steps: usize,
     /// Largest residual of an accepted step: rms acceleration error relative to g.
     pub residual_max: f64,
+    /// Largest error of the positions that an accepted step was estimated to make, in m, where the
+    /// scene limits it.
+    pub error_max: Option<f64>,
     /// Evaluations of all forces.
     pub force_evaluations: usize,
     /// Assemblies of the stiffness.
@@ -74,23 +83,31 @@ pub struct Solver {
     pub linear_iterations: usize,
 }
 
-/// Energies, in J.
+/// Balance of the energy since the start, in J: what was put in is stored, lost in one of four ways, or
+/// the remainder.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Energy {
     /// Of motion.
     pub kinetic: f64,
-    /// Stored in the fabric.
+    /// Stored in the fabric since the start.
     pub elastic: f64,
-    /// Of weight, 0 at the start.
+    /// Work done against the weight; the fall makes it negative.
     pub gravity: f64,
+    /// Stored in the contact with bodies since the start.
+    pub contact: f64,
     /// Lost in the fabric's friction.
     pub friction_dissipated: f64,
+    /// Lost in the friction with bodies.
+    pub body_dissipated: f64,
     /// Lost to the air.
     pub air_dissipated: f64,
-    /// What is left of the balance: lost by the integrator and in the friction with bodies.
+    /// Lost by the formula of the integrator, and what the solver leaves of its equations.
     pub numerical_dissipated: f64,
     /// Work done by whatever moves held particles.
     pub work_in: f64,
+    /// What the other entries leave of the balance: rounding, and the turning of the normals that
+    /// curvatures are measured along, which are those of the start within a step.
+    pub remainder: f64,
 }
 
 /// Deformation at the end.

@@ -2,7 +2,14 @@ use drape_cloth::{Cloth, State, Workspace};
 use drape_collide::Contact;
 use drape_implicit::{BlockMatrix, Pattern, Stiffness, System};
 
+use crate::ledger::{Entry, Ledger};
 use crate::scene::Scene;
+
+/// Longest time over which contact with a body counts slip in one step of a creeping cloth, in s.
+///
+/// Below its slip speed a contact that sticks creeps. The length of a creeping step is not a duration,
+/// and without this limit cloth would slide off a body during long ones.
+const CREEP_TIME: f64 = 0.01;
 
 /// Cloth, bodies, gravity and air as the system that the integrator moves.
 #[derive(Debug)]
@@ -11,42 +18,48 @@ pub(crate) struct World {
     workspace: Workspace,
     pub(crate) state: State,
     pub(crate) contact: Contact,
-    pub(crate) gravity: [f64; 3],
+    /// Acceleration of gravity when it has grown to its value, in m/s².
+    full_gravity: [f64; 3],
+    /// The one at the end of the step.
+    gravity: [f64; 3],
+    /// How long it takes to grow, in s.
+    ramp: f64,
+    /// Whether the cloth goes to rest without inertia.
+    pub(crate) creeps: bool,
     pub(crate) held: Vec<bool>,
     /// Half the air's density times the drag coefficient, in kg/m³.
     air: f64,
     pattern: Pattern,
     /// Drag of each particle over the length of the step, in N/m along its normal.
     drag: Vec<f64>,
-    pub(crate) losses: Losses,
-}
-
-/// Energy that has left the cloth for good, in J.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Losses {
-    pub(crate) friction: f64,
-    pub(crate) air: f64,
+    /// Where the energy goes, if that is asked for.
+    pub(crate) ledger: Option<Ledger>,
 }
 
 impl World {
     pub(crate) fn new(scene: Scene) -> Self {
         let Scene { cloth, positions, held, contact, gravity, air, .. } = scene;
+        let creeps = scene.settle.is_some_and(|settle| !settle.inertia);
         let state = cloth.state(positions).expect("a scene places every particle");
         let offsets = cloth.pattern().offsets.clone();
         let columns = cloth.pattern().columns.iter().map(|&c| c as u32).collect();
         let pattern = Pattern::new(offsets, columns).expect("a cloth's pattern is sorted");
         let drag = vec![0.0; cloth.particles()];
+        let ledger = scene.energy.then(|| Ledger::new(cloth.stored(&state), cloth.particles()));
         Self {
             workspace: cloth.workspace(),
             cloth,
             state,
             contact,
+            full_gravity: gravity,
             gravity,
+            ramp: scene.clock.ramp,
+            creeps,
             held,
             air,
             pattern,
             drag,
-            losses: Losses::default(),
+            ledger,
         }
     }
 
@@ -62,6 +75,32 @@ impl World {
                 visit(particle, way, normal);
             }
         }
+    }
+
+    /// What a step to given positions does with the energy outside the connectors. The next step is
+    /// opened for the contact.
+    fn entry(&mut self, positions: &[f64], dt: f64) -> Entry {
+        let mut air = 0.0;
+        self.each_drag(positions, |particle, way, _| air += self.drag[particle] * way * way);
+        let gravity = self.weight_energy(positions) - self.weight_energy(&self.state.positions);
+        let Self { contact, ledger, state, .. } = self;
+        let ledger = ledger.as_mut().expect("entries are made for a ledger");
+        let [with, without] = &mut ledger.forces;
+        let push = |contact: &mut Contact, forces: &mut [f64]| {
+            forces.fill(0.0);
+            contact.add_forces(positions, forces);
+            contact.potential(positions)
+        };
+        // A step just opened has no slip and so no friction.
+        let potential = push(contact, with);
+        contact.begin(positions, dt);
+        let barrier = push(contact, without);
+        let moved = positions.iter().zip(&state.positions).map(|(end, start)| end - start);
+        let frictions = without.iter().zip(&*with).map(|(without, with)| without - with);
+        let slip = moved.zip(frictions).map(|(moved, friction)| moved * friction).sum();
+        let contact = barrier - ledger.barrier;
+        let slip_potential = potential - barrier;
+        Entry { gravity, contact, slip, slip_potential, air, friction: 0.0, stored: 0.0 }
     }
 
     pub(crate) fn kinetic(&self) -> f64 {
@@ -91,8 +130,13 @@ impl System for World {
         &self.held
     }
 
-    fn begin(&mut self, _end_time: f64, dt: f64, start: &[f64], _target: &mut [f64]) {
-        self.contact.begin(start, dt);
+    fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], _target: &mut [f64]) {
+        let grown = if end_time < self.ramp { end_time / self.ramp } else { 1.0 };
+        self.gravity = self.full_gravity.map(|g| grown * g);
+        self.contact.begin(start, if self.creeps { dt.min(CREEP_TIME) } else { dt });
+        if let Some(ledger) = &mut self.ledger {
+            ledger.barrier = self.contact.potential(start);
+        }
         let normals = self.state.normals().chunks_exact(3);
         let velocities = self.state.velocities.chunks_exact(3);
         let areas = self.cloth.areas();
@@ -148,12 +192,13 @@ impl System for World {
         self.pattern.clone()
     }
 
-    fn accept(&mut self, positions: &[f64], velocities: &[f64], _dt: f64) {
-        let mut air = 0.0;
-        self.each_drag(positions, |particle, way, _| air += self.drag[particle] * way * way);
-        self.losses.air += air;
+    fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {
+        let entry = self.ledger.is_some().then(|| self.entry(positions, dt));
         let committed =
             self.workspace.commit(&self.cloth, &mut self.state, (positions, velocities));
-        self.losses.friction += committed.dissipated;
+        if let (Some(ledger), Some(entry)) = (&mut self.ledger, entry) {
+            let stored = self.workspace.stored(&self.cloth, &self.state);
+            ledger.enter(&Entry { friction: committed.dissipated, stored, ..entry });
+        }
     }
 }

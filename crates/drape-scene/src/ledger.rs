@@ -1,0 +1,77 @@
+use drape_implicit::Report;
+
+use crate::summary::Energy;
+
+/// Where the energy of a cloth went, summed up over the steps, in J.
+///
+/// Each entry is found by itself: what the connectors store and lose from their memories, contact and
+/// friction with bodies and air from their forces, and the loss of the integrator from its formula. So
+/// what is left of the balance, [`Energy::remainder`], tells whether they agree.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Ledger {
+    /// Stored in the connectors now.
+    pub(crate) stored: f64,
+    /// In the contact with bodies at the start of the step.
+    pub(crate) barrier: f64,
+    /// Room for forces, one of them with and one without the friction of the step.
+    pub(crate) forces: [Vec<f64>; 2],
+    sums: Energy,
+}
+
+/// Work done on the way of one step, in J.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Entry {
+    /// Against the weight.
+    pub(crate) gravity: f64,
+    /// Growth of the energy of contact.
+    pub(crate) contact: f64,
+    /// Against the friction with bodies, with its force at the end of the step.
+    pub(crate) slip: f64,
+    /// The same friction's potential, which is what the step's solution is the minimum of.
+    pub(crate) slip_potential: f64,
+    /// Against the air, with its force at the end of the step; its potential is half of that.
+    pub(crate) air: f64,
+    /// Lost in the friction of the connectors.
+    pub(crate) friction: f64,
+    /// Stored in the connectors at the end.
+    pub(crate) stored: f64,
+}
+
+impl Ledger {
+    pub(crate) fn new(stored: f64, particles: usize) -> Self {
+        let forces = [vec![0.0; 3 * particles], vec![0.0; 3 * particles]];
+        Self { stored, forces, ..Self::default() }
+    }
+
+    pub(crate) fn enter(&mut self, entry: &Entry) {
+        let sums = &mut self.sums;
+        sums.gravity += entry.gravity;
+        sums.contact += entry.contact;
+        sums.elastic += entry.stored - self.stored;
+        sums.friction_dissipated += entry.friction;
+        sums.body_dissipated += entry.slip;
+        sums.air_dissipated += entry.air;
+        // The integrator takes potentials for the work of all forces. For forces that grow along the
+        // step, as friction and drag with the speed, that falls short of the work at its end.
+        sums.numerical_dissipated += entry.slip_potential - entry.slip - 0.5 * entry.air;
+        self.stored = entry.stored;
+    }
+
+    /// Adds what the integrator reports, and the kinetic energy that a creeping cloth gave up.
+    pub(crate) fn report(&mut self, report: &Report, given_up: f64) {
+        if let Some(energy) = &report.energy {
+            self.sums.numerical_dissipated += energy.numerical_dissipation + given_up;
+            self.sums.work_in += energy.work;
+        }
+    }
+
+    /// The balance so far, for a cloth that began at rest.
+    pub(crate) fn balance(&self, kinetic: f64) -> Energy {
+        let Energy { elastic, gravity, contact, .. } = self.sums;
+        let Energy { friction_dissipated, body_dissipated, air_dissipated, .. } = self.sums;
+        let held = kinetic + elastic + gravity + contact;
+        let lost = friction_dissipated + body_dissipated + air_dissipated;
+        let remainder = self.sums.work_in - held - lost - self.sums.numerical_dissipated;
+        Energy { kinetic, remainder, ..self.sums }
+    }
+}

@@ -1,0 +1,127 @@
+use drape_cloth::{ClothError, Lattice};
+use drape_input::{Diagnostic, closest};
+
+use crate::file::{PanelFile, SceneFile};
+use crate::material::Material;
+use crate::placement::Placement;
+use crate::reader::Reader;
+
+/// Distance between particles when the scene gives none, in m.
+const SPACING: f64 = 0.01;
+
+/// A panel of a scene.
+#[derive(Debug, Clone)]
+pub struct Panel {
+    /// Name in the scene.
+    pub name: String,
+    /// Index of its fabric.
+    pub material: usize,
+    /// Its particles before deformation.
+    pub lattice: Lattice,
+    /// Number of its first particle.
+    pub first: usize,
+}
+
+impl Reader<'_> {
+    pub(crate) fn panels(
+        &mut self,
+        file: &SceneFile,
+        materials: &[Option<Material>],
+        unit: f64,
+    ) -> Vec<(Panel, Placement)> {
+        if file.panel.is_empty() {
+            let help = "add [[panel]] with name, fabric and rectangle or disc";
+            self.mistakes
+                .push(Diagnostic::new(self.document.path(), "the scene has no panel").help(help));
+        }
+        let mut panels: Vec<(Panel, Placement)> = Vec::new();
+        let mut first = 0;
+        for (index, entry) in file.panel.iter().enumerate() {
+            let key = format!("panel[{index}]");
+            if file.panel[..index].iter().any(|p| p.name == entry.name) {
+                let message = format!("there are two panels \"{}\"", entry.name);
+                self.fail(&format!("{key}.name"), message, "give each its own name");
+            }
+            let names: Vec<&str> = file.fabric.keys().map(String::as_str).collect();
+            let material = names.iter().position(|name| *name == entry.fabric);
+            if material.is_none() {
+                let message = format!("there is no fabric \"{}\"", entry.fabric);
+                let help = match closest(&entry.fabric, names.iter().copied()) {
+                    Some(name) => format!("did you mean \"{name}\"?"),
+                    None => format!("the fabrics of this scene are: {}", names.join(", ")),
+                };
+                self.fail(&format!("{key}.fabric"), message, &help);
+            }
+            let lattice = self.lattice(&key, entry, file.spacing, unit);
+            let placement = Placement::new(entry, unit);
+            let bad = entry.center.iter().chain(&entry.turn).any(|x| !x.is_finite());
+            if bad {
+                self.fail(&format!("{key}.center"), "is not finite".into(), "in the file's unit");
+            }
+            if let (Some(material), Some(lattice)) = (material, lattice) {
+                if let Some(Some(material)) = materials.get(material) {
+                    self.thick_enough(&key, &lattice, material);
+                }
+                let particles = lattice.coordinates.len();
+                panels.push((
+                    Panel { name: entry.name.clone(), material, lattice, first },
+                    placement,
+                ));
+                first += particles;
+            }
+        }
+        panels
+    }
+
+    fn lattice(
+        &mut self,
+        key: &str,
+        entry: &PanelFile,
+        spacing: Option<f64>,
+        unit: f64,
+    ) -> Option<Lattice> {
+        let own = entry.spacing.is_some();
+        let spacing = entry.spacing.or(spacing).map_or(SPACING, |s| s * unit);
+        let lattice = match (entry.rectangle, entry.disc) {
+            (Some([width, height]), None) => {
+                Lattice::rectangle(width * unit, height * unit, spacing)
+            }
+            (None, Some(diameter)) => Lattice::disc(0.5 * diameter * unit, spacing),
+            _ => {
+                let help = "give one of rectangle = [weft, warp] and disc = diameter";
+                self.fail(key, format!("panel \"{}\" has no single shape", entry.name), help);
+                return None;
+            }
+        };
+        let place = match &lattice {
+            Err(
+                ClothError::Spacing { .. } | ClothError::TooMany { .. },
+            ) if own => {
+                format!("{key}.spacing")
+            }
+            Err(
+                ClothError::Spacing { .. } | ClothError::TooMany { .. },
+            ) => "spacing".into(),
+            _ if entry.disc.is_some() => format!("{key}.disc"),
+            _ => format!("{key}.rectangle"),
+        };
+        let report = |error: ClothError| {
+            let help = "lengths are in the file's unit, set by length = \"m\", \"cm\" or \"mm\"";
+            self.fail(&place, format!("panel \"{}\": {error}", entry.name), help);
+        };
+        lattice.map_err(report).ok()
+    }
+
+    /// The particles must be farther apart than the cloth is thick.
+    fn thick_enough(&mut self, key: &str, lattice: &Lattice, material: &Material) {
+        let spacing = lattice.spacing[0].min(lattice.spacing[1]);
+        let thickness = material.fabric.thickness;
+        if spacing < thickness {
+            let message = format!(
+                "the spacing of {spacing} m is less than the thickness {thickness} m of fabric \"{}\"",
+                material.name
+            );
+            self.fail(&format!("{key}.spacing"), message, "use a larger spacing");
+        }
+    }
+}

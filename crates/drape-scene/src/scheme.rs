@@ -1,0 +1,93 @@
+use drape_implicit::{
+    Error, Explicit, Initial, Integrator, LinearSolver, Method, Motion, Report, Settings, Stepper,
+    System,
+};
+
+use crate::file::SceneFile;
+use crate::reader::Reader;
+
+/// How a scene is carried through time.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Scheme {
+    /// Implicit steps, with the settings of their solver.
+    Implicit(Settings),
+    /// Many small explicit steps in each: a cross-check, not a way to get results.
+    Explicit,
+}
+
+/// A scheme at work on one system.
+#[derive(Debug)]
+pub(crate) enum Integration {
+    Implicit(Box<Stepper>),
+    Explicit(Box<Explicit>),
+}
+
+impl Scheme {
+    pub(crate) fn start(&self, system: &dyn System) -> Result<Integration, Error> {
+        Ok(match self {
+            Self::Implicit(settings) => {
+                Integration::Implicit(Box::new(Stepper::new(system, settings.clone())?))
+            }
+            Self::Explicit => Integration::Explicit(Box::new(Explicit::new(system))),
+        })
+    }
+}
+
+impl Integration {
+    pub(crate) fn advance(
+        &mut self,
+        system: &mut dyn System,
+        motion: &mut Motion,
+        dt: f64,
+    ) -> Result<Report, Error> {
+        match self {
+            Self::Implicit(stepper) => stepper.advance(system, motion, dt),
+            Self::Explicit(explicit) => explicit.advance(system, motion, dt),
+        }
+    }
+}
+
+impl Reader<'_> {
+    pub(crate) fn scheme(&mut self, file: &SceneFile) -> Scheme {
+        let solver = &file.solver;
+        let mut settings = Settings::default();
+        let integrators = [
+            ("bdf2", Some(Integrator::Bdf2)),
+            ("backward-euler", Some(Integrator::BackwardEuler)),
+            ("explicit", None),
+        ];
+        let methods = [
+            ("broyden", Method::Broyden),
+            ("newton", Method::Newton),
+            ("textbook-mass", Method::Textbook { initial: Initial::Mass }),
+            ("textbook-diagonal", Method::Textbook { initial: Initial::Diagonal }),
+        ];
+        let linear = [
+            ("conjugate-gradient", LinearSolver::ConjugateGradient),
+            ("cholesky", LinearSolver::Cholesky),
+        ];
+        let word = solver.integrator.as_deref();
+        let integrator = self.choice("solver.integrator", word, &integrators);
+        settings.method = self.choice("solver.method", solver.method.as_deref(), &methods);
+        settings.linear_solver = self.choice("solver.linear", solver.linear.as_deref(), &linear);
+        if let Some(tolerance) = solver.tolerance {
+            let help = "rms acceleration error over g; 1e-4 is usual";
+            self.within("solver.tolerance", tolerance, (1e-10, 0.1), help);
+            settings.tolerance = tolerance;
+        }
+        settings.energy_balance = file.output.energy.unwrap_or(true);
+        let Some(integrator) = integrator else {
+            if file.settle.is_some() || file.time.error.is_some() {
+                let help = "leave out [settle] and time.error, or take \"bdf2\"";
+                self.fail("solver.integrator", "explicit steps are of one length".into(), help);
+            }
+            return Scheme::Explicit;
+        };
+        settings.integrator = integrator;
+        // Creeping needs the formula without a past.
+        if file.settle.as_ref().is_some_and(|settle| !settle.inertia.unwrap_or(false)) {
+            settings.integrator = Integrator::BackwardEuler;
+        }
+        Scheme::Implicit(settings)
+    }
+}
