@@ -91,6 +91,24 @@ pub(crate) struct PinFile {
     pub(crate) points: Vec<[f64; 2]>,
     /// `top`, `bottom`, `left` or `right`.
     pub(crate) edge: Option<String>,
+    /// Rows that an edge holds.
+    pub(crate) rows: Option<usize>,
+    /// How what it holds moves; it stays where it is if missing.
+    pub(crate) motion: Option<MotionFile>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MotionFile {
+    /// In s, rising.
+    pub(crate) times: Vec<f64>,
+    #[serde(default)]
+    pub(crate) shift: Vec<[f64; 3]>,
+    /// Degrees about x, then y, then z.
+    #[serde(default)]
+    pub(crate) turn: Vec<[f64; 3]>,
+    /// What it turns about; the middle of what is held if missing.
+    pub(crate) center: Option<[f64; 3]>,
 }
 
 #[derive(Debug, Default, Deserialize)]

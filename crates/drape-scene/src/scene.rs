@@ -8,6 +8,7 @@ use crate::clock::Clock;
 use crate::file::SceneFile;
 use crate::material::Material;
 use crate::panel::Panel;
+use crate::pin::Pin;
 use crate::reader::Reader;
 use crate::scheme::Scheme;
 use crate::settle::Settle;
@@ -33,8 +34,10 @@ pub struct Scene {
     pub cloth: Cloth,
     /// Positions of the particles at the start, three numbers each, in m.
     pub positions: Vec<f64>,
-    /// Particles that are held where they start.
+    /// Particles that are held.
     pub held: Vec<bool>,
+    /// What each pin holds, and how that moves, in the order of the file.
+    pub pins: Vec<Pin>,
     /// Contact of the cloth with the bodies.
     pub contact: Contact,
     /// Acceleration of gravity, in m/s².
@@ -110,10 +113,12 @@ impl Reader<'_> {
         let positions: Vec<f64> =
             panels.iter().flat_map(|(panel, place)| place.positions(&panel.lattice)).collect();
         let panels: Vec<Panel> = panels.into_iter().map(|(panel, _)| panel).collect();
+        let pins = file.pin.iter().enumerate();
+        let pins: Vec<Pin> = pins
+            .filter_map(|(index, pin)| self.pin(index, pin, (&panels, unit), &positions))
+            .collect();
         let mut held = vec![false; cloth.particles()];
-        for (index, pin) in file.pin.iter().enumerate() {
-            self.pin(index, pin, (&panels, unit), &mut held);
-        }
+        pins.iter().flat_map(|pin| &pin.particles).for_each(|&particle| held[particle] = true);
         let fallback = materials.iter().map(|m| m.fabric.surface_friction).fold(0.0, f64::max);
         let bodies = bodies
             .into_iter()
@@ -132,6 +137,7 @@ impl Reader<'_> {
             cloth,
             positions,
             held,
+            pins,
             contact,
             gravity,
             air,

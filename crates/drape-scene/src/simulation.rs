@@ -4,6 +4,7 @@ use crate::SceneError;
 use crate::clock::Clock;
 use crate::frame::Frame;
 use crate::pace::Pace;
+use crate::pin::PinLoad;
 use crate::scene::Scene;
 use crate::scheme::{Integration, Scheme};
 use crate::settle::Settle;
@@ -172,6 +173,11 @@ impl Simulation {
     #[must_use]
     pub fn contact(&self) -> &drape_collide::Contact {
         &self.world.contact
+    }
+
+    /// What each pin bears, in the order of the scene, without the inertia of what it holds.
+    pub fn pin_loads(&mut self) -> Vec<PinLoad> {
+        self.world.pin_loads()
     }
 
     /// The balance of the energy since the start, unless the scene does without.

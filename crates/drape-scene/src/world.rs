@@ -3,6 +3,7 @@ use drape_collide::Contact;
 use drape_implicit::{BlockMatrix, Pattern, Stiffness, System};
 
 use crate::ledger::{Entry, Ledger};
+use crate::pin::{Pin, PinLoad};
 use crate::scene::Scene;
 
 /// Longest time over which contact with a body counts slip in one step of a creeping cloth, in s.
@@ -27,6 +28,7 @@ pub(crate) struct World {
     /// Whether the cloth goes to rest without inertia.
     pub(crate) creeps: bool,
     pub(crate) held: Vec<bool>,
+    pub(crate) pins: Vec<Pin>,
     /// Half the air's density times the drag coefficient, in kg/m³.
     air: f64,
     pattern: Pattern,
@@ -38,7 +40,7 @@ pub(crate) struct World {
 
 impl World {
     pub(crate) fn new(scene: Scene) -> Self {
-        let Scene { cloth, positions, held, contact, gravity, air, .. } = scene;
+        let Scene { cloth, positions, held, pins, contact, gravity, air, .. } = scene;
         let creeps = scene.settle.is_some_and(|settle| !settle.inertia);
         let state = cloth.state(positions).expect("a scene places every particle");
         let offsets = cloth.pattern().offsets.clone();
@@ -56,6 +58,7 @@ impl World {
             ramp: scene.clock.ramp,
             creeps,
             held,
+            pins,
             air,
             pattern,
             drag,
@@ -103,6 +106,14 @@ impl World {
         Entry { gravity, contact, slip, slip_potential, air, friction: 0.0, stored: 0.0 }
     }
 
+    /// What each pin bears, without the inertia of the particles it holds.
+    pub(crate) fn pin_loads(&mut self) -> Vec<PinLoad> {
+        let positions = self.state.positions.clone();
+        let mut forces = vec![0.0; positions.len()];
+        self.forces(&positions, &mut forces);
+        self.pins.iter().map(|pin| pin.load(&positions, &forces)).collect()
+    }
+
     pub(crate) fn kinetic(&self) -> f64 {
         let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
         let speeds = self.state.velocities.chunks_exact(3).map(square);
@@ -130,7 +141,8 @@ impl System for World {
         &self.held
     }
 
-    fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], _target: &mut [f64]) {
+    fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]) {
+        self.pins.iter().for_each(|pin| pin.place(end_time, target));
         let grown = if end_time < self.ramp { end_time / self.ramp } else { 1.0 };
         self.gravity = self.full_gravity.map(|g| grown * g);
         self.contact.begin(start, if self.creeps { dt.min(CREEP_TIME) } else { dt });
