@@ -1,0 +1,131 @@
+//! The order of the friction that is chosen is that of the data: 200 noisy loops of each kind.
+
+#![allow(clippy::print_stdout)]
+
+use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
+use drape_fit::{FrictionOrder, LoopModel, Settings, identify_bending};
+use drape_kes::{Curve, Direction, Test};
+use rayon::prelude::*;
+
+const TRIALS: u64 = 200;
+/// Standard deviation of the noise over the range of the moments.
+const NOISE: f64 = 0.01;
+/// Least part of the trials in which the law of the data is taken.
+const LEAST: f64 = 0.95;
+/// The KES cycle, and loops that grow from curvatures of drape to those of the test, in 1/m.
+const CYCLE: [f64; 4] = [0.0, 250.0, -250.0, 250.0];
+const NESTED: [f64; 9] = [0.0, 25.0, -25.0, 75.0, -75.0, 150.0, -150.0, 250.0, -250.0];
+
+/// A small generator of its own, so that the trials are the same on every machine (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// A normal deviate, by Box and Muller's method.
+    fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
+        radius * (std::f64::consts::TAU * self.unit()).cos()
+    }
+}
+
+/// A noisy loop with steps of 2 1/m.
+fn measure(friction: BlimanSorine, turns: &[f64], random: &mut Random) -> Curve {
+    let mut q = vec![turns[0]];
+    for ends in turns.windows(2) {
+        let steps = ((ends[1] - ends[0]).abs() / 2.0).round();
+        q.extend((1..=steps as usize).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / steps));
+    }
+    let law = BendingLaw {
+        backbone: BendingBackbone::Linear { rigidity: 1e-5 },
+        rest_curvature: 0.0,
+        friction,
+    };
+    let mut load = drive(&law, law.virgin(), &q);
+    let range = |(low, high): (f64, f64), m: &f64| (low.min(*m), high.max(*m));
+    let (low, high) = load.iter().fold((f64::INFINITY, f64::NEG_INFINITY), range);
+    load.iter_mut().for_each(|m| *m += NOISE * (high - low) * random.normal());
+    Curve::new(Test::Bending, Direction::Warp, q, load).expect("a curve of a law")
+}
+
+/// Part of the trials in which each order is chosen.
+fn chosen(turns: &[f64], friction: impl Fn(&mut Random) -> BlimanSorine + Sync) -> [f64; 3] {
+    let orders: Vec<usize> = (0..TRIALS)
+        .into_par_iter()
+        .map(|trial| {
+            let mut random = Random(trial << 32);
+            let friction = friction(&mut random);
+            let curve = measure(friction, turns, &mut random);
+            let fit = identify_bending(&curve, &Settings::default()).expect("identified").fit;
+            fit.chosen
+        })
+        .collect();
+    [0, 1, 2].map(|order| {
+        orders.iter().filter(|chosen| **chosen == order).count() as f64 / TRIALS as f64
+    })
+}
+
+/// 2HB of 0.6 cm⁻¹ times B, slipping over 8 to 30 1/m.
+fn first(random: &mut Random) -> BlimanSorine {
+    BlimanSorine::first_order(3e-4, random.between(8.0, 30.0))
+}
+
+/// Stiction: the load overshoots by some 4 % of the range and settles within the test.
+fn second(random: &mut Random) -> BlimanSorine {
+    let slow = random.between(4e-4, 7e-4);
+    BlimanSorine::second_order(
+        3e-4 + slow,
+        slow,
+        random.between(0.1, 0.25),
+        random.between(30.0, 80.0),
+    )
+}
+
+/// Loops that widen with their amplitude.
+fn parallel(random: &mut Random) -> BlimanSorine {
+    let slow = random.between(4e-4, 7e-4);
+    BlimanSorine::second_order(4e-4, -slow, random.between(0.05, 0.15), random.between(60.0, 120.0))
+}
+
+#[test]
+fn the_order_of_the_friction_is_that_of_the_data() {
+    for (turns, name) in [(&CYCLE[..], "one cycle"), (&NESTED[..], "growing loops")] {
+        let of_first = chosen(turns, first);
+        let of_second = chosen(turns, second);
+        println!(
+            "{name}: made with one element, chosen {of_first:?}; with the second order {of_second:?}"
+        );
+        assert!(of_first[0] >= LEAST, "{name}: {of_first:?}");
+        assert!(of_second[2] >= LEAST, "{name}: {of_second:?}");
+    }
+}
+
+#[test]
+fn growing_loops_that_widen_are_given_two_elements() {
+    let of_parallel = chosen(&NESTED, parallel);
+    println!("growing loops made with two positive elements: {of_parallel:?}");
+    assert!(of_parallel[1] >= LEAST, "{of_parallel:?}");
+}
+
+#[test]
+fn the_order_can_be_overridden() {
+    let mut random = Random(1);
+    let friction = second(&mut random);
+    let curve = measure(friction, &CYCLE, &mut random);
+    for order in FrictionOrder::ALL {
+        let settings = Settings { bending: Some(LoopModel::Linear(order)), ..Settings::default() };
+        let fit = identify_bending(&curve, &settings).expect("identified").fit;
+        assert_eq!(fit.candidates.len(), 1);
+        assert_eq!(fit.candidates[0].law, order.name());
+    }
+}

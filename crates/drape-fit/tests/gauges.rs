@@ -1,0 +1,121 @@
+//! One fabric measured on strips of different lengths.
+
+#![allow(clippy::print_stdout)]
+
+use std::path::{Path, PathBuf};
+
+use drape_fabric::{Law, TractionLaw};
+use drape_fit::{CurveFit, Settings, Toe, TractionModel, identify_loop_bending, identify_tensile};
+use drape_kes::{Curve, Sheet, Test};
+
+/// The curves of files of the cupro weave, some of which its sheet does not use.
+fn curves(test: &str, slack: bool, files: &[(&str, &str)]) -> Vec<Curve> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fabrics/cupro-weave");
+    let mut text = String::from("name = \"cupro\"\n");
+    for (file, direction) in files {
+        let path = folder.join(file);
+        text.push_str(&format!(
+            "[[curve]]\nname = \"{file}\"\ntest = \"{test}\"\ndirection = \"{direction}\"\nfile = \"{}\"\n\
+             deformation = {{ column = \"clamp_distance_m\", unit = \"m\", gauge = \"specimen_length_m\" }}\n\
+             load = {{ column = \"force_N\", unit = \"N\", width = \"clamp_width_m\" }}\n",
+            path.display()
+        ));
+        if slack {
+            text.push_str("slack = true\n");
+        }
+    }
+    let name = format!("gauges-{test}-{}", std::process::id());
+    let sheet = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name).with_extension("toml");
+    std::fs::write(&sheet, text).expect("a file");
+    let read = Sheet::read(&sheet).expect("a good sheet");
+    std::fs::remove_file(&sheet).expect("it was just written");
+    read.curves
+}
+
+fn print(fit: &CurveFit) {
+    println!(
+        "{}: residual {:.2} %, {:.0} independent points",
+        fit.name,
+        100.0 * fit.misfit,
+        fit.independent
+    );
+    for estimate in &fit.parameters {
+        match &estimate.error {
+            Ok(error) => {
+                println!("    {:12} {:11.4e} ± {error:.1e}", estimate.name, estimate.value)
+            }
+            Err(reason) => println!("    {:12} {:11.4e}, {reason}", estimate.name, estimate.value),
+        }
+    }
+}
+
+fn value(fit: &CurveFit, name: &str) -> f64 {
+    fit.parameters.iter().find(|estimate| estimate.name == name).expect("a parameter").value
+}
+
+/// Strain at a tension of a fabric that was never stretched.
+fn strain_at(law: &TractionLaw, tension: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 0.2);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if law.respond(&law.virgin(), middle).load < tension { low = middle } else { high = middle }
+    }
+    high
+}
+
+#[test]
+fn strips_of_two_lengths_agree_to_the_scatter_of_specimens() {
+    let settings = Settings {
+        traction: Some(TractionModel::Primed),
+        toe: Some(Toe::Still),
+        ..Settings::default()
+    };
+    for direction in ["warp", "weft"] {
+        let files = ["2cm", "8cm"].map(|gauge| format!("stretch-{gauge}-{direction}.csv"));
+        let files: Vec<(&str, &str)> = files.iter().map(|file| (&**file, direction)).collect();
+        let laws: Vec<TractionLaw> = curves("tensile", true, &files)
+            .iter()
+            .map(|curve| {
+                let found = identify_tensile(curve, &settings).expect("identified");
+                println!("load to {:.1} N/m", curve.load_range().1);
+                print(&found.fit);
+                found.law
+            })
+            .collect();
+        for tension in [10.0, 20.0, 40.0, 70.0] {
+            let [short, long] = [0, 1].map(|i| strain_at(&laws[i], tension));
+            let ratio = short / long;
+            println!(
+                "  {direction}, {tension} N/m: strain {:.2} % of 2 cm, {:.2} % of 8 cm, ratio {ratio:.2}",
+                100.0 * short,
+                100.0 * long
+            );
+            assert!(ratio > 0.5 && ratio < 2.0, "{direction}: {ratio}");
+        }
+    }
+}
+
+#[test]
+fn arches_of_one_fabric_scatter_by_more_than_their_errors() {
+    for direction in ["warp", "weft"] {
+        let files =
+            ["up", "down-1", "down-2"].map(|kind| format!("loop-bend-{kind}-{direction}.csv"));
+        let files: Vec<(&str, &str)> = files.iter().map(|file| (&**file, direction)).collect();
+        let curves = curves("loop-bending", false, &files);
+        let alone: Vec<f64> = curves
+            .iter()
+            .map(|curve| {
+                assert_eq!(curve.test, Test::LoopBending);
+                let fit = identify_loop_bending(&[curve], &Settings::default());
+                let fit = fit.expect("identified").swap_remove(0).fit;
+                println!("gauge {:.3} m", curve.gauge.expect("a gauge"));
+                print(&fit);
+                value(&fit, "rigidity")
+            })
+            .collect();
+        let up_down = alone[0] / alone[1];
+        println!("  {direction}: rigidities {alone:?}, up over down {up_down:.2}");
+        // Weight lifts one and presses the other, and the zero drifts: a factor of a few between them.
+        assert!(up_down > 0.1 && up_down < 10.0, "{direction}: {up_down}");
+    }
+}
