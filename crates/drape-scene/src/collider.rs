@@ -33,7 +33,12 @@ impl Reader<'_> {
         settings
     }
 
-    pub(crate) fn bodies(&mut self, file: &SceneFile, folder: &Path, unit: f64) -> Vec<(Body, Option<f64>)> {
+    pub(crate) fn bodies(
+        &mut self,
+        file: &SceneFile,
+        folder: &Path,
+        unit: f64,
+    ) -> Vec<(Body, Option<f64>)> {
         let colliders = &file.collider;
         let mut bodies = Vec::new();
         let mut add = |kind: &str, index: usize, parts: Parts<'_>| {

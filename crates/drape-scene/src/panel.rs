@@ -94,14 +94,10 @@ impl Reader<'_> {
             }
         };
         let place = match &lattice {
-            Err(
-                ClothError::Spacing { .. } | ClothError::TooMany { .. },
-            ) if own => {
+            Err(ClothError::Spacing { .. } | ClothError::TooMany { .. }) if own => {
                 format!("{key}.spacing")
             }
-            Err(
-                ClothError::Spacing { .. } | ClothError::TooMany { .. },
-            ) => "spacing".into(),
+            Err(ClothError::Spacing { .. } | ClothError::TooMany { .. }) => "spacing".into(),
             _ if entry.disc.is_some() => format!("{key}.disc"),
             _ => format!("{key}.rectangle"),
         };

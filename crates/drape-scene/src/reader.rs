@@ -19,7 +19,13 @@ impl<'a> Reader<'a> {
     }
 
     /// Whether a number is within its inclusive bounds; if not, that is reported.
-    pub(crate) fn within(&mut self, key: &str, value: f64, (low, high): (f64, f64), help: &str) -> bool {
+    pub(crate) fn within(
+        &mut self,
+        key: &str,
+        value: f64,
+        (low, high): (f64, f64),
+        help: &str,
+    ) -> bool {
         let sound = value >= low && value <= high;
         if !sound {
             self.fail(key, format!("{value} is not between {low} and {high}"), help);
@@ -28,7 +34,12 @@ impl<'a> Reader<'a> {
     }
 
     /// One of several words, or the first of them when none is given.
-    pub(crate) fn choice<T: Copy>(&mut self, key: &str, word: Option<&str>, choices: &[(&str, T)]) -> T {
+    pub(crate) fn choice<T: Copy>(
+        &mut self,
+        key: &str,
+        word: Option<&str>,
+        choices: &[(&str, T)],
+    ) -> T {
         let found = choices.iter().find(|(name, _)| word.is_none_or(|word| word == *name));
         if let (None, Some(word)) = (found, word) {
             let names: Vec<&str> = choices.iter().map(|c| c.0).collect();
