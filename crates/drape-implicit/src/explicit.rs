@@ -2,9 +2,7 @@
 
 use crate::error::Quantity;
 use crate::incremental::first_not_finite;
-use crate::{
-    BlockMatrix, Energy, Error, Motion, Previous, Report, Stiffness, System,
-};
+use crate::{BlockMatrix, Energy, Error, Motion, Previous, Report, Stiffness, System};
 
 /// Part of the largest stable step that is taken: the bound holds for the stiffness where a call starts, and a
 /// system may stiffen within it. Smaller costs in proportion.

@@ -19,7 +19,7 @@ pub(crate) struct Ledger {
 }
 
 /// Work done on the way of one step, in J.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Entry {
     /// Against the weight.
     pub(crate) gravity: f64,
@@ -31,6 +31,8 @@ pub(crate) struct Entry {
     pub(crate) slip_potential: f64,
     /// Against the air, with its force at the end of the step; its potential is half of that.
     pub(crate) air: f64,
+    /// Against what takes a creeping cloth's momentum.
+    pub(crate) brake: f64,
     /// Lost in the friction of the connectors.
     pub(crate) friction: f64,
     /// Stored in the connectors at the end.
@@ -54,13 +56,14 @@ impl Ledger {
         // The integrator takes potentials for the work of all forces. For forces that grow along the
         // step, as friction and drag with the speed, that falls short of the work at its end.
         sums.numerical_dissipated += entry.slip_potential - entry.slip - 0.5 * entry.air;
+        sums.numerical_dissipated += entry.brake;
         self.stored = entry.stored;
     }
 
-    /// Adds what the integrator reports, and the kinetic energy that a creeping cloth gave up.
-    pub(crate) fn report(&mut self, report: &Report, given_up: f64) {
+    /// Adds what the integrator reports.
+    pub(crate) fn report(&mut self, report: &Report) {
         if let Some(energy) = &report.energy {
-            self.sums.numerical_dissipated += energy.numerical_dissipation + given_up;
+            self.sums.numerical_dissipated += energy.numerical_dissipation;
             self.sums.work_in += energy.work;
         }
     }

@@ -1,4 +1,4 @@
-use drape_implicit::{ErrorEstimate, Integrator, Motion, Report, Settings};
+use drape_implicit::{ErrorEstimate, Integrator, Method, Motion, Report, Settings};
 
 use crate::SceneError;
 use crate::clock::Clock;
@@ -27,6 +27,10 @@ const CREEP_TOLERANCE: f64 = 0.1;
 
 /// The loosest tolerance of a creeping step. Looser ones saved no time on a cloth on a cube.
 const CREEP_TOLERANCE_MAX: f64 = 1e-2;
+
+/// Linear residual relative to the nonlinear one at which the linear solver of a creeping step stops:
+/// with so loose a tolerance a better direction is wasted. From 0.003 to 0.03 the time fell by a third.
+const CREEP_FORCING: f64 = 0.03;
 
 /// A scene in motion.
 #[derive(Debug)]
@@ -99,8 +103,7 @@ impl Simulation {
         let (integration, tolerance) = match &scheme {
             Scheme::Implicit(settings) if world.creeps => {
                 let tolerance = settings.tolerance.max(CREEP_TOLERANCE_MAX);
-                let settings = Settings { tolerance, ..settings.clone() };
-                (Scheme::Implicit(settings).start(&world)?, tolerance)
+                (creeping(settings, tolerance).start(&world)?, tolerance)
             }
             Scheme::Implicit(settings) => (scheme.start(&world)?, settings.tolerance),
             Scheme::Explicit => (scheme.start(&world)?, 0.0),
@@ -217,11 +220,7 @@ impl Simulation {
 
     /// Makes one step as long as it may be; its ticks and what the solver says.
     fn advance(&mut self) -> Result<(usize, Report), drape_implicit::Error> {
-        let mut given_up = 0.0;
         if self.world.creeps {
-            given_up = self.world.kinetic();
-            self.motion.velocities.fill(0.0);
-            self.world.state.velocities.fill(0.0);
             self.motion.restart();
         }
         loop {
@@ -229,7 +228,7 @@ impl Simulation {
             let dt = ticks as f64 * self.clock.tick();
             if self.clock.error.is_none() {
                 let report = self.integration.advance(&mut self.world, &mut self.motion, dt)?;
-                self.enter(&report, given_up);
+                self.enter(&report);
                 return Ok((ticks, report));
             }
             let start = (self.motion.clone(), self.world.state.clone(), self.world.ledger.clone());
@@ -238,7 +237,7 @@ impl Simulation {
             let error = self.estimate.estimate(&self.motion);
             if self.pace.judge((self.ticks, ticks), error) {
                 self.solver.error_max = Some(self.solver.error_max.unwrap_or(0.0).max(error));
-                self.enter(&report, given_up);
+                self.enter(&report);
                 return Ok((ticks, report));
             }
             (self.motion, self.world.state, self.world.ledger) = start;
@@ -247,9 +246,9 @@ impl Simulation {
         }
     }
 
-    fn enter(&mut self, report: &Report, given_up: f64) {
+    fn enter(&mut self, report: &Report) {
         if let Some(ledger) = &mut self.world.ledger {
-            ledger.report(report, given_up);
+            ledger.report(report);
         }
         let survey = self.world.contact.survey(&self.motion.positions);
         self.pairs_max = self.pairs_max.max(survey.touching);
@@ -268,16 +267,19 @@ impl Simulation {
         self.iterations += report.iterations;
     }
 
-    /// Root-mean-square acceleration of the free particles in the last step, in m/s².
+    /// Root-mean-square acceleration of the free particles in the last step, in m/s². A creeping cloth
+    /// began it at rest.
     fn acceleration(&self, dt: f64) -> f64 {
         let Motion { velocities, previous, .. } = &self.motion;
         let Some(previous) = previous else { return 0.0 };
         // The step may have been made in parts; the last one is as long as it says.
         let dt = if previous.dt < dt { previous.dt } else { dt };
+        let kept = if self.world.creeps { 0.0 } else { 1.0 };
         let changes = velocities.chunks_exact(3).zip(previous.velocities.chunks_exact(3));
         let (mut squares, mut free) = (0.0, 0_usize);
         for ((now, before), _) in changes.zip(&self.world.held).filter(|(_, held)| !**held) {
-            squares += now.iter().zip(before).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+            let change = now.iter().zip(before).map(|(now, before)| now - kept * before);
+            squares += change.map(|change| change * change).sum::<f64>();
             free += 1;
         }
         (squares / free.max(1) as f64).sqrt() / dt
@@ -294,8 +296,7 @@ impl Simulation {
             exact = self.tolerance <= settings.tolerance.max(CREEP_TOLERANCE * settle.residual);
             if wanted < 0.5 * self.tolerance {
                 self.tolerance = wanted;
-                let settings = Settings { tolerance: wanted, ..settings.clone() };
-                self.integration = Scheme::Implicit(settings).start(&self.world)?;
+                self.integration = creeping(settings, wanted).start(&self.world)?;
             }
         }
         let slow = self.speed_max <= settle.speed && self.imbalance <= settle.residual;
@@ -391,6 +392,16 @@ impl Simulation {
         }
         hasher.finalize().to_hex().to_string()
     }
+}
+
+/// Settings of creeping steps. A tangent kept for a second iteration is worth nothing in long ones.
+fn creeping(settings: &Settings, tolerance: f64) -> Scheme {
+    let method = match settings.method {
+        Method::Broyden => Method::Newton,
+        chosen => chosen,
+    };
+    let newton_forcing = CREEP_FORCING;
+    Scheme::Implicit(Settings { method, tolerance, newton_forcing, ..settings.clone() })
 }
 
 fn integrator(scheme: &Scheme) -> Integrator {

@@ -27,6 +27,10 @@ pub(crate) struct World {
     ramp: f64,
     /// Whether the cloth goes to rest without inertia.
     pub(crate) creeps: bool,
+    /// What takes a creeping cloth's momentum from it in the course of a step, in N.
+    ///
+    /// Its steps are to start from rest, but the velocity that it came with makes a good first guess.
+    brake: Vec<f64>,
     pub(crate) held: Vec<bool>,
     pub(crate) pins: Vec<Pin>,
     /// Half the air's density times the drag coefficient, in kg/m³.
@@ -56,10 +60,11 @@ impl World {
             full_gravity: gravity,
             gravity,
             ramp: scene.clock.ramp,
+            brake: vec![0.0; if creeps { 3 * drag.len() } else { 0 }],
             creeps,
             held,
             pins,
-            air,
+            air: if creeps { 0.0 } else { air },
             pattern,
             drag,
             ledger,
@@ -101,9 +106,17 @@ impl World {
         let moved = positions.iter().zip(&state.positions).map(|(end, start)| end - start);
         let frictions = without.iter().zip(&*with).map(|(without, with)| without - with);
         let slip = moved.zip(frictions).map(|(moved, friction)| moved * friction).sum();
-        let contact = barrier - ledger.barrier;
-        let slip_potential = potential - barrier;
-        Entry { gravity, contact, slip, slip_potential, air, friction: 0.0, stored: 0.0 }
+        let moved = positions.iter().zip(&state.positions).map(|(end, start)| end - start);
+        let brake = moved.zip(&self.brake).map(|(moved, brake)| -moved * brake).sum();
+        Entry {
+            gravity,
+            contact: barrier - ledger.barrier,
+            slip,
+            slip_potential: potential - barrier,
+            air,
+            brake,
+            ..Entry::default()
+        }
     }
 
     /// What each pin bears, without the inertia of the particles it holds.
@@ -149,6 +162,12 @@ impl System for World {
         if let Some(ledger) = &mut self.ledger {
             ledger.barrier = self.contact.potential(start);
         }
+        let momenta = self.brake.chunks_exact_mut(3).zip(self.state.velocities.chunks_exact(3));
+        for ((brake, velocity), mass) in momenta.zip(self.cloth.masses()) {
+            for (brake, v) in brake.iter_mut().zip(velocity) {
+                *brake = -mass * v / dt;
+            }
+        }
         let normals = self.state.normals().chunks_exact(3);
         let velocities = self.state.velocities.chunks_exact(3);
         let areas = self.cloth.areas();
@@ -164,6 +183,7 @@ impl System for World {
         for (force, mass) in forces.chunks_exact_mut(3).zip(self.cloth.masses()) {
             force.iter_mut().zip(self.gravity).for_each(|(f, g)| *f = mass * g);
         }
+        forces.iter_mut().zip(&self.brake).for_each(|(force, brake)| *force += brake);
         self.workspace.add_forces(&self.cloth, &self.state, positions, forces);
         self.each_drag(positions, |particle, way, normal| {
             let pull = self.drag[particle] * way;
@@ -178,7 +198,8 @@ impl System for World {
         let mut drag = 0.0;
         self.each_drag(positions, |particle, way, _| drag += 0.5 * self.drag[particle] * way * way);
         let cloth = self.workspace.potential(&self.cloth, &self.state, positions);
-        cloth + self.weight_energy(positions) + drag + self.contact.potential(positions)
+        let brake: f64 = self.brake.iter().zip(positions).map(|(brake, x)| -brake * x).sum();
+        cloth + self.weight_energy(positions) + brake + drag + self.contact.potential(positions)
     }
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
