@@ -1,0 +1,17 @@
+use drape_input::Diagnostics;
+use drape_scene::SceneError;
+
+/// Why a case could not be run.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ValidationError {
+    /// A scene of the suite, or a fabric that it was given, is wrong.
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    /// A step could not be solved.
+    #[error("{0}")]
+    Step(#[from] drape_implicit::Error),
+    /// The text of a scene is wrong.
+    #[error("{0}")]
+    Input(#[from] Diagnostics),
+}
