@@ -178,6 +178,12 @@ impl Simulation {
         &self.world.contact
     }
 
+    /// Whether the scene asks for rest.
+    #[must_use]
+    pub fn settles(&self) -> bool {
+        self.settle.is_some()
+    }
+
     /// What each pin bears, in the order of the scene, without the inertia of what it holds.
     pub fn pin_loads(&mut self) -> Vec<PinLoad> {
         self.world.pin_loads()

@@ -1,12 +1,39 @@
+//! Prints the checks of some cases.
+use drape_validate::{Check, ValidationError, dynamics, statics};
 fn main() {
-    for cells in [10, 20, 40] {
-        for weight in [1.0, 10.0, 100.0] {
-            let exact = drape_validate::reference::cantilever(weight, 0.0);
-            let start = std::time::Instant::now();
-            match drape_validate::statics::cantilever(weight, cells) {
-                Ok([drop, reach]) => println!("{cells} {weight}: {:.5} vs {:.5}, error {:.3} %  drop {drop:.5} {:.5} {:.2} s", drop / reach, exact.drop / exact.reach, 100.0 * (drop / reach / (exact.drop / exact.reach) - 1.0), exact.drop, start.elapsed().as_secs_f64()),
-                Err(e) => println!("{cells} {weight}: {e}"),
-            }
+    let only = std::env::args().nth(1);
+    let cases: [(&str, fn() -> Result<Vec<Check>, ValidationError>); 9] = [
+        ("heavy", statics::heavy_cantilever),
+        ("end", statics::end_loaded_cantilever),
+        ("catenary", statics::catenary),
+        ("stretch", statics::self_stretch),
+        ("column", statics::column),
+        ("chain", dynamics::hanging_chain),
+        ("strip", dynamics::hanging_strip),
+        ("pendulum", dynamics::pendulum),
+        ("fall", dynamics::free_fall),
+    ];
+    for (name, case) in cases {
+        if only.as_ref().is_some_and(|only| only != name) {
+            continue;
         }
+        let start = std::time::Instant::now();
+        match case() {
+            Ok(checks) => {
+                for c in checks {
+                    println!(
+                        "{name}: {} {:.6} ref {:.6} error {:.3e} limit {} {}",
+                        c.what,
+                        c.measured,
+                        c.reference,
+                        c.error(),
+                        c.limit,
+                        c.passes()
+                    );
+                }
+            }
+            Err(e) => println!("{name}: {e}"),
+        }
+        println!("   {:.2} s", start.elapsed().as_secs_f64());
     }
 }

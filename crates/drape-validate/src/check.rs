@@ -9,31 +9,51 @@ pub struct Check {
     pub measured: f64,
     /// What it should be.
     pub reference: f64,
-    /// How far it may be off, in the unit of [`error`](Self::error).
+    /// How far it may be off, a part of the reference.
     pub limit: f64,
-    /// Whether the limit is a part of the reference, or in the unit of the figure.
-    pub relative: bool,
+    /// How it is held against the reference.
+    pub kind: Kind,
+}
+
+/// How a figure is held against its reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// It may differ by a part of the reference either way.
+    Equal,
+    /// It must be at least as large.
+    AtLeast,
+    /// It must be at most as large.
+    AtMost,
 }
 
 impl Check {
     /// A figure that may differ from its reference by a part of it.
     pub fn within(what: impl Into<String>, measured: f64, reference: f64, limit: f64) -> Self {
-        Self { what: what.into(), measured, reference, limit, relative: true }
+        Self { what: what.into(), measured, reference, limit, kind: Kind::Equal }
     }
 
-    /// A figure that should be nought, or at least no larger than a limit.
-    pub fn at_most(what: impl Into<String>, measured: f64, limit: f64) -> Self {
-        Self { what: what.into(), measured, reference: 0.0, limit, relative: false }
+    /// A figure that must be at most as large as its reference.
+    pub fn at_most(what: impl Into<String>, measured: f64, reference: f64) -> Self {
+        Self { what: what.into(), measured, reference, limit: 0.0, kind: Kind::AtMost }
     }
 
-    /// How far the figure is off, with its sign.
+    /// A figure that must be at least as large as its reference.
+    pub fn at_least(what: impl Into<String>, measured: f64, reference: f64) -> Self {
+        Self { what: what.into(), measured, reference, limit: 0.0, kind: Kind::AtLeast }
+    }
+
+    /// How far the figure is off, as a part of the reference.
     pub fn error(&self) -> f64 {
-        let error = self.measured - self.reference;
-        if self.relative { error / self.reference } else { error }
+        (self.measured - self.reference) / self.reference.abs()
     }
 
     /// Whether the figure is within its limit; one that is no number is not.
     pub fn passes(&self) -> bool {
-        self.error().abs() <= self.limit
+        match self.kind {
+            Kind::Equal => self.error().abs() <= self.limit,
+            Kind::AtLeast => self.measured >= self.reference,
+            Kind::AtMost => self.measured <= self.reference,
+        }
     }
 }

@@ -11,6 +11,12 @@ pub enum ValidationError {
     /// A step could not be solved.
     #[error("{0}")]
     Step(#[from] drape_implicit::Error),
+    /// A strip that should rest still moves.
+    #[error("the strip did not come to rest in {seconds} s")]
+    NotSettled {
+        /// Simulated time, in s.
+        seconds: f64,
+    },
     /// The text of a scene is wrong.
     #[error("{0}")]
     Input(#[from] Diagnostics),

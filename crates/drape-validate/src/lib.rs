@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod check;
+pub mod dynamics;
 mod error;
 pub mod reference;
 pub mod statics;
@@ -8,4 +9,4 @@ mod strip;
 
 pub use check::Check;
 pub use error::ValidationError;
-pub use strip::{GRAVITY, Strip, clamp, finish};
+pub use strip::{GRAVITY, Hold, Strip, finish};

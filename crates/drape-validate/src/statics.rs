@@ -1,35 +1,132 @@
 //! Strips at rest.
 
 use crate::reference;
-use crate::strip::{GRAVITY, Strip, finish};
+use crate::strip::{GRAVITY, Hold, Strip, finish};
 use crate::{Check, ValidationError};
 
-/// How a strip goes to rest: creeping, to a thousandth of what the usual scene asks for.
-const REST: &str = "[time]\nstep = 0.002\nend = 1000.0\n[air]\ndensity = 0\n\
-                    [settle]\nresidual = 1e-5\nspeed = 1e-5\n[solver]\ntolerance = 1e-6\n";
+type Checks = Result<Vec<Check>, ValidationError>;
 
-/// Weights over rigidity, wL³/B, from stiff to limp.
-const WEIGHTS: [f64; 7] = [0.1, 1.0, 3.0, 10.0, 30.0, 60.0, 100.0];
+/// How a strip goes to rest: without inertia, to a hundredth of what a scene usually asks for.
+const REST: &str = "[time]\nstep = 0.002\nend = 10000\n[settle]\nresidual = 1e-5\nspeed = 1e-5\n\
+                    [solver]\ntolerance = 1e-7\n[output]\nenergy = false\n";
 
-/// Drop over reach of the tip of a strip of given cells that bends under its own weight.
-pub fn cantilever(weight: f64, cells: usize) -> Result<[f64; 2], ValidationError> {
-    let strip = Strip { cells, ..Strip::default() };
-    let load = strip.density * GRAVITY * strip.length.powi(3);
-    let strip = Strip { rigidity: load / weight, ..strip };
-    let mut simulation = strip.simulation([-90.0, 0.0, 0.0], REST)?;
+/// Drop over reach of the tip of a strip that bends under its own weight.
+fn cantilever(weight: f64, cells: usize) -> Result<f64, ValidationError> {
+    let strip = Strip { cells, ..Strip::default() }.of_weight(weight);
+    let mut simulation = strip.simulation(0.0, REST)?;
     finish(&mut simulation)?;
     let tip = strip.tip(&simulation);
-    Ok([-tip[1], tip[0]].map(|way| way / strip.length))
+    Ok(-tip[1] / tip[0])
 }
 
-/// The heavy elastica: drop over reach within 1 % from stiff to limp, and the order of convergence.
-pub fn cantilevers() -> Result<Vec<Check>, ValidationError> {
+/// The heavy elastica from stiff to limp, and how fast its error falls with the spacing.
+pub fn heavy_cantilever() -> Checks {
+    let exact = |weight: f64| {
+        let tip = reference::cantilever(weight, 0.0);
+        tip.drop / tip.reach
+    };
     let mut checks = Vec::new();
-    for weight in WEIGHTS {
-        let exact = reference::cantilever(weight, 0.0);
-        let [drop, reach] = cantilever(weight, 40)?;
-        let what = format!("drop over reach, wL³/B = {weight}, 40 cells");
-        checks.push(Check::within(what, drop / reach, exact.drop / exact.reach, 0.01));
+    for weight in [0.1, 1.0, 3.0, 10.0, 30.0, 60.0, 100.0] {
+        let what = format!("drop over reach for wL³/B = {weight}, 40 cells");
+        checks.push(Check::within(what, cantilever(weight, 40)?, exact(weight), 0.01));
+    }
+    let errors = [20, 40].map(|cells| cantilever(60.0, cells).map(|found| found - exact(60.0)));
+    let [coarse, fine] = errors;
+    let order = (coarse? / fine?).abs().log2();
+    checks.push(Check::at_least("order of convergence, wL³/B = 60, 20 to 40 cells", order, 1.8));
+    Ok(checks)
+}
+
+/// A strip without weight whose tip a pin holds at a drop, and at the reach where it pulls straight down.
+///
+/// The pin's horizontal force is found to be nought by two trials: it is linear in the reach, and steep, because
+/// a strip hardly stretches.
+pub fn end_loaded_cantilever() -> Checks {
+    let strip = Strip::default();
+    let hold = |drop: f64, reach: f64| -> Result<[f64; 2], ValidationError> {
+        let shift = [(reach - 1.0) * strip.length, -drop * strip.length, 0.0];
+        let rest = format!(
+            "gravity = [0, 0, 0]\n[[pin]]\npanel = \"strip\"\nedge = \"right\"\n[pin.motion]\n\
+             times = [0, 1]\nshift = [[0, 0, 0], {shift:?}]\n{REST}"
+        );
+        // Rest is only looked for when the pin has arrived.
+        let rest = rest.replace("step = 0.002", "step = 0.002\nramp = 1.0");
+        let mut simulation = strip.simulation(0.0, &rest)?;
+        finish(&mut simulation)?;
+        let [x, y, _] = simulation.pin_loads()[1].force;
+        Ok([x, y].map(|force| force / strip.width * strip.length.powi(2) / strip.rigidity))
+    };
+    let mut checks = Vec::new();
+    for ratio in [1.0, 4.0] {
+        let exact = reference::cantilever(0.0, ratio);
+        let trials = [exact.reach, exact.reach - 1e-4];
+        let [first, second] = trials.map(|reach| hold(exact.drop, reach));
+        let (first, second) = (first?, second?);
+        let part = first[0] / (first[0] - second[0]);
+        let load = first[1] + part * (second[1] - first[1]);
+        let reach = trials[0] + part * (trials[1] - trials[0]);
+        let what = format!("end load PL²/B for the drop of {ratio}");
+        checks.push(Check::within(what, load, ratio, 0.01));
+        let what = format!("reach over length for the drop of {ratio}");
+        checks.push(Check::within(what, reach, exact.reach, 0.01));
     }
     Ok(checks)
+}
+
+/// A long limp strip between two hinges at the same height.
+pub fn catenary() -> Checks {
+    let strip = Strip {
+        length: 0.5,
+        width: 0.05,
+        cells: 100,
+        hold: Hold::Hinge,
+        rigidity: 1e-7,
+        ..Strip::default()
+    };
+    let mut checks = Vec::new();
+    for slack in [1.1, 1.5] {
+        let span = strip.length / slack;
+        let rest = format!(
+            "[[pin]]\npanel = \"strip\"\nedge = \"right\"\n[pin.motion]\ntimes = [0, 1]\n\
+             shift = [[0, 0, 0], [{:e}, 0, 0]]\n{REST}",
+            span - strip.length
+        );
+        let mut simulation = strip.simulation(0.0, &rest)?;
+        finish(&mut simulation)?;
+        let lowest = strip.line(&simulation).iter().map(|(_, x)| -x[1]).fold(0.0, f64::max);
+        let what = format!("sag over span for a length of {slack} spans");
+        checks.push(Check::within(what, lowest / span, reference::catenary_sag(slack), 0.01));
+    }
+    Ok(checks)
+}
+
+/// A strip that hangs straight down stretches by `$wL^2/2k$`.
+pub fn self_stretch() -> Checks {
+    let hold = Hold::Hinge;
+    let strip = Strip { length: 1.0, width: 0.1, stiffness: 500.0, hold, ..Strip::default() };
+    let mut simulation = strip.simulation(-90.0, REST)?;
+    finish(&mut simulation)?;
+    let found = -strip.tip(&simulation)[1] - strip.length;
+    let exact = 0.5 * strip.density * GRAVITY * strip.length.powi(2) / strip.stiffness;
+    Ok(vec![Check::within("stretch of a metre under its own weight, m", found, exact, 0.01)])
+}
+
+/// An upright strip leans the more the nearer its weight is to the critical one [Southwell 1932].
+pub fn column() -> Checks {
+    let lean = |weight: f64| -> Result<f64, ValidationError> {
+        let strip = Strip::default().of_weight(weight);
+        // A slant of gravity by a part in a thousand pushes sideways in proportion to the weight.
+        let rest = format!("gravity = [{:e}, -{GRAVITY}, 0]\n{REST}", 1e-3 * GRAVITY);
+        let rest = rest.replace("residual = 1e-5\nspeed = 1e-5", "residual = 1e-6\nspeed = 1e-6");
+        let rest = rest.replace("tolerance = 1e-7", "tolerance = 1e-6");
+        let mut simulation = strip.simulation(90.0, &rest)?;
+        finish(&mut simulation)?;
+        Ok(strip.tip(&simulation)[0].abs() / strip.length)
+    };
+    // δ (λc − λ)/λ is the same for both weights.
+    let [low, high] = [6.0, 7.0];
+    let (first, second) = (lean(low)? / low, lean(high)? / high);
+    let critical = (second * high - first * low) / (second - first);
+    let what = "weight wL³/B at which an upright strip bends over";
+    Ok(vec![Check::within(what, critical, reference::SELF_WEIGHT_BUCKLING, 0.02)])
 }

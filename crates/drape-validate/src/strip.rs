@@ -1,32 +1,45 @@
 use drape_input::Document;
-use drape_scene::{PinLoad, Scene, Simulation};
+use drape_scene::{Scene, Simulation};
 
 use crate::ValidationError;
 
-/// A rectangular strip of an elastic fabric along its weft, clamped at its left end.
-///
-/// The clamp holds three rows of particles, and its line lies midway between the second and the third: there the
-/// slope is held, and the third row bends as the first free cell of a beam does. (The second row of a panel
-/// bends for the half cell at its edge as well, so a line next to the first row would be a third of a cell off.)
-/// The free length begins at that line.
+/// Acceleration of gravity in all scenes here, in m/s².
+pub const GRAVITY: f64 = 9.81;
+
+/// How the left end of a strip is held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Hold {
+    /// In a clamp: place and slope.
+    ///
+    /// It holds three rows of particles, and its line lies midway between the second and the third: there the
+    /// slope is held, and the third row bends as the first free cell of a beam does. (The second row of a panel
+    /// bends for the half cell at its edge as well, so a line next to the first row would be a third of a cell
+    /// off.)
+    #[default]
+    Clamp,
+    /// By a hinge: the first row stays in its place and turns.
+    Hinge,
+    /// Not at all.
+    Free,
+}
+
+/// A rectangular strip of an elastic fabric along its weft, held at its left end, where its free length begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strip {
     /// Free length, in m.
     pub length: f64,
     /// Width, in m.
     pub width: f64,
-    /// Cells along the free length, the half one at the clamp not counted.
+    /// Whole cells along the free length.
     pub cells: usize,
+    /// How it is held.
+    pub hold: Hold,
     /// Mass per area, in kg/m².
     pub density: f64,
     /// Bending rigidity of both yarn systems, in N·m.
     pub rigidity: f64,
     /// Tensile stiffness of both yarn systems, in N/m.
     pub stiffness: f64,
-    /// Shear stiffness, in N/m.
-    pub shear: f64,
-    /// Plateau and length of the bending friction, in N and 1/m.
-    pub friction: Option<[f64; 2]>,
 }
 
 impl Default for Strip {
@@ -35,92 +48,110 @@ impl Default for Strip {
         Self {
             length: 0.1,
             width: 0.02,
-            cells: 20,
+            cells: 40,
+            hold: Hold::Clamp,
             density: 0.2,
             rigidity: 1.6e-5,
-            stiffness: 5000.0,
-            shear: 50.0,
-            friction: None,
+            stiffness: 1e4,
         }
     }
 }
 
-/// Acceleration of gravity in all scenes here, in m/s².
-pub const GRAVITY: f64 = 9.81;
-
 impl Strip {
-    /// Spacing of the particles along the strip, in m.
-    pub fn spacing(&self) -> f64 {
-        self.length / (self.cells as f64 + 0.5)
+    /// The length at which a strip's weight over its rigidity, wL³/B, is a given ratio; the same cells.
+    pub fn of_weight(self, ratio: f64) -> Self {
+        let length = (ratio * self.rigidity / (self.density * GRAVITY)).cbrt();
+        Self { length, width: 0.2 * length, ..self }
     }
 
-    /// Length of the panel, with what the clamp holds, in m.
-    fn panel(&self) -> f64 {
-        (self.cells + 2) as f64 * self.spacing()
+    /// Spacing of the particles along the strip, in m.
+    pub fn spacing(&self) -> f64 {
+        let held = if self.hold == Hold::Clamp { 0.5 } else { 0.0 };
+        self.length / (self.cells as f64 + held)
+    }
+
+    /// What the strip holds beyond its free length at the left, in m.
+    fn beyond(&self) -> f64 {
+        if self.hold == Hold::Clamp { 1.5 * self.spacing() } else { 0.0 }
     }
 
     fn fabric(&self) -> Document {
-        let Self { density, rigidity, stiffness, shear, .. } = self;
-        let friction = self.friction.map_or(String::new(), |[plateau, length]| {
-            format!(", friction = [{{ plateau = {plateau:e}, length = {length:e} }}]")
-        });
+        let Self { density, rigidity, stiffness, .. } = self;
         let direction = format!(
             "traction = {{ primed = {{ stiffness = {stiffness:e}, toe_ratio = 1.0, toe_strain = 0.01, \
-             toe_strain_after = 0.01 }} }}\nbending = {{ rigidity = {rigidity:e}{friction} }}\n"
+             toe_strain_after = 0.01 }} }}\nbending = {{ rigidity = {rigidity:e} }}\n"
         );
         let text = format!(
-            "name = \"strip\"\ndensity = {density:e}\nthickness = 0.0001\n\
-             shear = {{ stiffness = {shear:e} }}\n[warp]\n{direction}[weft]\n{direction}"
+            "name = \"strip\"\ndensity = {density:e}\nthickness = 0.0001\nshear = {{ stiffness = 50 }}\n\
+             [warp]\n{direction}[weft]\n{direction}"
         );
         Document::new("strip-fabric.toml", text)
     }
 
-    /// A simulation of the strip, lying level along x with the clamp's line at the origin.
+    /// A simulation of the strip without air, level along x and held at the origin, then turned about z by an
+    /// angle in degrees.
     ///
-    /// The text holds further tables of the scene: time, what turns or moves, how it is solved.
+    /// The text is the rest of the scene: time, further pins, how it is solved.
     ///
     /// # Errors
     /// A scene that cannot be read or prepared.
-    pub fn simulation(&self, turn: [f64; 3], rest: &str) -> Result<Simulation, ValidationError> {
-        let (panel, width, spacing) = (self.panel(), self.width, self.spacing());
-        // The clamp's line is one and a half cells from the panel's left edge; the panel turns about its middle.
-        let middle = 0.5 * panel - 1.5 * spacing;
-        let (sin, cos) = turn[2].to_radians().sin_cos();
-        let center = [middle * cos, middle * sin, 0.0];
+    pub fn simulation(&self, angle: f64, rest: &str) -> Result<Simulation, ValidationError> {
+        let (beyond, width, spacing) = (self.beyond(), self.width, self.spacing());
+        let panel = self.length + beyond;
+        let pin =
+            |rows: usize| format!("[[pin]]\npanel = \"strip\"\nedge = \"left\"\nrows = {rows}\n");
+        let pin = match self.hold {
+            Hold::Clamp => pin(3),
+            Hold::Hinge => pin(1),
+            Hold::Free => String::new(),
+        };
+        // A panel turns about its middle.
+        let middle = 0.5 * panel - beyond;
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let (x, y) = (middle * cos, middle * sin);
         let text = format!(
-            "name = \"strip\"\nspacing = {spacing:e}\n[fabric.strip]\nfile = \"strip-fabric.toml\"\n\
-             [[panel]]\nname = \"strip\"\nfabric = \"strip\"\nrectangle = [{panel:e}, {width:e}]\n\
-             center = {center:?}\nturn = {turn:?}\n[[pin]]\npanel = \"strip\"\nedge = \"left\"\nrows = 3\n{rest}"
+            "name = \"strip\"\nspacing = {spacing:e}\nair = {{ density = 0 }}\n\
+             fabric.strip.file = \"strip-fabric.toml\"\n{}[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
+             rectangle = [{panel:e}, {width:e}]\ncenter = [{x:e}, {y:e}, 0]\nturn = [-90, 0, {angle:e}]\n\
+             {pin}{}",
+            rest.lines().filter(|line| line.starts_with("gravity")).collect::<String>() + "\n",
+            rest.lines().filter(|line| !line.starts_with("gravity")).collect::<Vec<_>>().join("\n")
         );
         let scene = Scene::from_documents(&Document::new("strip.toml", text), &[self.fabric()])?;
         Ok(Simulation::new(scene)?)
     }
 
-    /// The middle of the free end, in m.
-    pub fn tip(&self, simulation: &Simulation) -> [f64; 3] {
+    /// Places along the middle of the strip with their distance from its held end, both in m; from there.
+    pub fn line(&self, simulation: &Simulation) -> Vec<(f64, [f64; 3])> {
         let coordinates = simulation.coordinates();
         let positions = simulation.frame().positions;
-        let end = coordinates.iter().map(|c| c[0]).fold(f64::MIN, f64::max) - 0.5 * self.spacing();
-        let last = coordinates.iter().zip(positions.chunks_exact(3)).filter(|(c, _)| c[0] > end);
-        let (mut sum, mut count) = ([0.0; 3], 0.0);
-        for (_, place) in last {
-            (0..3).for_each(|axis| sum[axis] += place[axis]);
-            count += 1.0;
-        }
-        sum.map(|sum| sum / count)
+        let across = coordinates.iter().map(|c| c[1]).fold(f64::MIN, f64::max);
+        let off = |c: &[f64; 2]| (c[1] - 0.5 * across).abs();
+        let nearest = coordinates.iter().map(off).fold(f64::INFINITY, f64::min);
+        let middle =
+            |c: &[f64; 2]| off(c) <= nearest * (1.0 + 1e-9) + 1e-12 && c[1] <= 0.5 * across + 1e-12;
+        let places = coordinates.iter().zip(positions.chunks_exact(3)).filter(|(c, _)| middle(c));
+        let mut line: Vec<(f64, [f64; 3])> =
+            places.map(|(c, x)| (c[0] - self.beyond(), [x[0], x[1], x[2]])).collect();
+        line.sort_by(|a, b| a.0.total_cmp(&b.0));
+        line
+    }
+
+    /// The middle of the free end, in m.
+    pub fn tip(&self, simulation: &Simulation) -> [f64; 3] {
+        self.line(simulation).last().map_or([f64::NAN; 3], |(_, place)| *place)
     }
 }
 
 /// Runs a simulation to its end.
 ///
 /// # Errors
-/// A step that cannot be solved, or a cloth that does not come to rest where the scene asks for it.
+/// A step that cannot be solved, or a strip that does not come to rest where the scene asks for it.
 pub fn finish(simulation: &mut Simulation) -> Result<(), ValidationError> {
     while !simulation.step()?.finished {}
+    let summary = simulation.summary();
+    if summary.imbalance.is_nan() || (simulation.settles() && !summary.settled) {
+        return Err(ValidationError::NotSettled { seconds: summary.simulated_seconds });
+    }
     Ok(())
-}
-
-/// What the clamp bears.
-pub fn clamp(simulation: &mut Simulation) -> PinLoad {
-    simulation.pin_loads().first().copied().unwrap_or_default()
 }

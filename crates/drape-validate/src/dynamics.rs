@@ -1,0 +1,151 @@
+//! Strips in motion.
+
+use std::f64::consts::TAU;
+
+use crate::reference;
+use crate::strip::{GRAVITY, Hold, Strip};
+use crate::{Check, ValidationError};
+
+type Checks = Result<Vec<Check>, ValidationError>;
+
+/// Moves a simulation to its end, and gives a figure of it after every step with the time.
+fn record(
+    strip: &Strip,
+    (angle, rest): (f64, &str),
+    figure: impl Fn(&[(f64, [f64; 3])]) -> f64,
+) -> Result<Vec<[f64; 2]>, ValidationError> {
+    let mut simulation = strip.simulation(angle, rest)?;
+    let mut history = Vec::new();
+    loop {
+        let step = simulation.step()?;
+        history.push([step.time, figure(&strip.line(&simulation))]);
+        if step.finished {
+            return Ok(history);
+        }
+    }
+}
+
+/// Mean period of an oscillation about nought, from the first to the last crossing.
+fn period(history: &[[f64; 2]]) -> f64 {
+    let crossing = |pair: &[[f64; 2]]| {
+        let ([t0, x0], [t1, x1]) = (pair[0], pair[1]);
+        (x0 * x1 < 0.0).then(|| t0 + (t1 - t0) * x0 / (x0 - x1))
+    };
+    let crossings: Vec<f64> = history.windows(2).filter_map(crossing).collect();
+    match crossings.as_slice() {
+        [first, .., last] => 2.0 * (last - first) / (crossings.len() - 1) as f64,
+        _ => f64::NAN,
+    }
+}
+
+fn motion(step: f64, end: f64) -> String {
+    format!(
+        "[time]\nstep = {step}\nend = {end}\n[solver]\ntolerance = 1e-6\n[output]\nenergy = false\n"
+    )
+}
+
+/// The Bessel function `$J_0$`, by its series.
+fn bessel(x: f64) -> f64 {
+    let (mut sum, mut term) = (0.0, 1.0);
+    for k in 1..40 {
+        sum += term;
+        term *= -0.25 * x * x / f64::from(k * k);
+    }
+    sum
+}
+
+/// Small swings of a limp strip that hangs from a hinge, mode by mode.
+///
+/// A straight strip a little off the vertical holds all modes at once. They are orthogonal in the mass, so the
+/// deflection weighed with the shape of one swings with its frequency alone.
+pub fn hanging_chain() -> Checks {
+    let strip = Strip {
+        length: 0.5,
+        width: 0.025,
+        cells: 100,
+        hold: Hold::Hinge,
+        rigidity: 1e-7,
+        ..Strip::default()
+    };
+    let unit = (GRAVITY / strip.length).sqrt();
+    let mut checks = Vec::new();
+    for (number, exact) in reference::CHAIN_MODES.iter().enumerate() {
+        let shape = |s: f64| bessel(2.0 * exact * (1.0 - s / strip.length).max(0.0).sqrt());
+        let weighed = |line: &[(f64, [f64; 3])]| {
+            line.windows(2)
+                .map(|pair| {
+                    let at = |(s, x): &(f64, [f64; 3])| x[0] * shape(*s);
+                    0.5 * (at(&pair[0]) + at(&pair[1])) * (pair[1].0 - pair[0].0)
+                })
+                .sum()
+        };
+        let rest = motion(0.002, 4.0 * TAU / (exact * unit));
+        let history = record(&strip, (-89.5, &rest), weighed)?;
+        let found = TAU / period(&history) / unit;
+        let what = format!("mode {} of a hanging chain, ω over √(g/L)", number + 1);
+        checks.push(Check::within(what, found, *exact, 0.01));
+    }
+    Ok(checks)
+}
+
+/// The first mode of a strip that hangs from a clamp and resists bending.
+pub fn hanging_strip() -> Checks {
+    let mut checks = Vec::new();
+    for ratio in [1.0, 10.0, 100.0] {
+        let strip = Strip { cells: 20, ..Strip::default() }.of_weight(ratio);
+        let unit = (GRAVITY / strip.length).sqrt();
+        let exact = reference::strip_modes(1.0 / ratio, 1)[0];
+        let period_exact = TAU / (exact * unit);
+        // The strip starts straight down and gravity is a little slanted: it swings about its slanted rest.
+        let slant: f64 = 0.005;
+        let rest = format!("gravity = [{:e}, -{GRAVITY}, 0]\n", slant * GRAVITY)
+            + &motion(period_exact / 400.0, 4.0 * period_exact);
+        let history = record(&strip, (-90.0, &rest), |line| line[line.len() - 1].1[0])?;
+        let middle = history.iter().map(|[_, x]| x).sum::<f64>() / history.len() as f64;
+        let about: Vec<[f64; 2]> = history.iter().map(|[t, x]| [*t, x - middle]).collect();
+        let found = TAU / period(&about) / unit;
+        let what = format!("first mode of a hanging strip with wL³/B = {ratio}, ω over √(g/L)");
+        checks.push(Check::within(what, found, exact, 0.02));
+    }
+    Ok(checks)
+}
+
+/// A short stiff strip swings from a hinge as a rod does.
+pub fn pendulum() -> Checks {
+    let strip = Strip {
+        length: 0.05,
+        width: 0.01,
+        cells: 10,
+        hold: Hold::Hinge,
+        rigidity: 9e-4,
+        ..Strip::default()
+    };
+    let small = TAU * (2.0 * strip.length / (3.0 * GRAVITY)).sqrt();
+    let mut checks = Vec::new();
+    for amplitude in [30.0, 60.0, 90.0_f64] {
+        let exact = small * reference::pendulum_period(amplitude.to_radians());
+        let rest = motion(exact / 400.0, 4.0 * exact);
+        let history = record(&strip, (amplitude - 90.0, &rest), |line| line[line.len() - 1].1[0])?;
+        let what = format!("period of a pendulum of {amplitude}°, s");
+        checks.push(Check::within(what, period(&history), exact, 0.01));
+    }
+    Ok(checks)
+}
+
+/// What nothing holds falls, and keeps its shape.
+pub fn free_fall() -> Checks {
+    let strip = Strip { hold: Hold::Free, cells: 20, ..Strip::default() };
+    let end = 0.5;
+    let rest = motion(0.001, end);
+    let fallen = record(&strip, (0.0, &rest), |line| -line[0].1[1])?;
+    let bent = record(&strip, (0.0, &rest), |line| {
+        let heights = line.iter().map(|(_, x)| x[1]);
+        heights.clone().fold(f64::MIN, f64::max) - heights.fold(f64::MAX, f64::min)
+    })?;
+    let [_, way] = fallen[fallen.len() - 1];
+    let bent = bent.iter().map(|[_, bent]| *bent).fold(0.0, f64::max);
+    Ok(vec![
+        Check::within("way of half a second's fall, m", way, 0.5 * GRAVITY * end * end, 0.005),
+        Check::at_most("bend of a falling strip, m", bent, 1e-9),
+    ])
+}
