@@ -2,6 +2,7 @@
 
 mod assumed;
 mod basis;
+mod batch;
 mod bending;
 mod choice;
 mod curve_fit;
@@ -30,6 +31,7 @@ mod tensile_start;
 mod tensile_values;
 mod weighting;
 
+pub use batch::identify_all;
 pub use bending::identify_bending;
 pub use choice::Candidate;
 pub use curve_fit::{CurveFit, Identified};

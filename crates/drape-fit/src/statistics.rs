@@ -16,6 +16,9 @@ const LEAST_SIZE: f64 = 0.01;
 /// curves of independent noise: below it the points are taken for independent.
 const CHANCE: f64 = 2.0;
 
+/// Ratio of bounds from which on a parameter is one of a scale: two decades, in which all that are have more.
+const DECADES: f64 = 100.0;
+
 /// What the residuals say about their own independence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Independence {
@@ -100,7 +103,7 @@ pub(crate) fn statistics(
         let value = report.parameters[j];
         let half = error(j).map(|error| error * quantile);
         let Some(profiles) = &profiles else {
-            return half.map(|half| [value - half, value + half]);
+            return half.map(|half| around(value, half, &parameters[j]));
         };
         let naive = covariance.half_width(j, LEVEL);
         let stretch = match (&half, &naive) {
@@ -128,6 +131,18 @@ pub(crate) fn statistics(
         estimates: (0..count).map(estimate).collect(),
         correlations: (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect(),
     }
+}
+
+/// Half a width on either side of a value; in its logarithm where the bounds say that this is the scale.
+///
+/// With a length known to a half the search finds twice the length as easily as half of it, and the interval
+/// on the logarithm contains the truth where the other one is short above and reaches below zero.
+fn around(value: f64, half: f64, parameter: &Parameter) -> [f64; 2] {
+    if parameter.lower > 0.0 && parameter.upper >= DECADES * parameter.lower {
+        let factor = (half / value).exp();
+        return [value / factor, value * factor];
+    }
+    [value - half, value + half]
 }
 
 /// A profile whose distances from the value are stretched to the noise there is.
