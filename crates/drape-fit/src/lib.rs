@@ -4,6 +4,7 @@ mod assumed;
 mod basis;
 mod batch;
 mod bending;
+mod breen;
 mod choice;
 mod curve_fit;
 mod elastica;
@@ -33,6 +34,7 @@ mod weighting;
 
 pub use batch::identify_all;
 pub use bending::identify_bending;
+pub use breen::{BreenWork, breen_curvature};
 pub use choice::Candidate;
 pub use curve_fit::{CurveFit, Identified};
 pub use error::Error;
