@@ -85,6 +85,8 @@ pub(crate) fn breen(
     let points = curve.load().len();
     fit.load.resize(points, 0.0);
     drive(&fit.values(), path, &mut fit.load);
+    fit.band.resize(points, 0.0);
+    (fit.deformation, fit.measured) = (curve.deformation().to_vec(), curve.load().to_vec());
     fit.branches = curve_fit::branches(curve);
     Ok(fit)
 }

@@ -46,8 +46,15 @@ pub struct CurveFit {
     pub candidates: Vec<Candidate>,
     /// Which of them was taken.
     pub chosen: usize,
-    /// The law's load at each point of the curve, in the curve's unit.
+    /// The deformation at each point of the curve, in its unit.
+    pub deformation: Vec<f64>,
+    /// The load measured there, in its unit.
+    pub measured: Vec<f64>,
+    /// The law's load there, in the same unit.
     pub load: Vec<f64>,
+    /// Half width of the band around the law's load that contains the true law's with 95 %, in the same unit:
+    /// what the errors of the parameters that the curve determines leave open. Zero at points that were not used.
+    pub band: Vec<f64>,
     /// The branch that each point belongs to, counted from zero; a turn belongs to the branch it ends.
     pub branches: Vec<usize>,
 }
@@ -115,9 +122,17 @@ impl CurveFit {
             correlations: statistics.correlations,
             candidates: Vec::new(),
             chosen: 0,
+            deformation: curve.deformation().to_vec(),
+            measured: curve.load().to_vec(),
+            band: statistics.band.iter().map(|width| width * (high - low)).collect(),
             load,
             branches: branches(curve),
         }
+    }
+
+    /// The law's load less the measured one at each point, in the unit of the load.
+    pub fn residuals(&self) -> impl Iterator<Item = f64> {
+        self.load.iter().zip(&self.measured).map(|(law, measured)| law - measured)
     }
 
     /// The values of the parameters.

@@ -1,16 +1,19 @@
 //! A whole fabric from a sheet.
 
 use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
-use drape_kes::{BendingPoints, Direction, Reading, ShearPoints, Sheet};
+use drape_kes::{BendingPoints, Direction, Model, Reading, ShearPoints, Sheet};
 
 use crate::fabric_keys::standard_errors;
 use crate::from_values::bending_from_values;
 use crate::measured::{Found, Measured};
-use crate::{CurveFit, Error, LoopModel, Plateau, Toe, TractionModel, Weighting, assumed};
+use crate::{
+    CurveFit, Error, FrictionOrder, LoopModel, Plateau, Toe, TractionModel, Weighting, assumed,
+};
 
 /// Which laws to identify, how, and where KES values are read.
 ///
-/// Every law that is not set is chosen by Akaike's criterion, and [`CurveFit::candidates`] says among which.
+/// Every law that is not set is the one that the sheet asks for, or is chosen by Akaike's criterion, and
+/// [`CurveFit::candidates`] says among which.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Settings {
     /// Elastic load of the traction laws.
@@ -34,6 +37,17 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// The same settings with the bending and shear laws that a sheet asks for, where they leave them open.
+    fn or_of(self, model: Option<Model>) -> Self {
+        let model = model.map(|model| match model {
+            Model::FirstOrder => LoopModel::Linear(FrictionOrder::First),
+            Model::TwoElements => LoopModel::Linear(FrictionOrder::Parallel),
+            Model::SecondOrder => LoopModel::Linear(FrictionOrder::Second),
+            Model::Breen1994 => LoopModel::Piecewise,
+        });
+        Self { bending: self.bending.or(model), shear: self.shear.or(model), ..self }
+    }
+
     /// Where the values of a sheet are read.
     #[must_use]
     pub fn reading(&self, sheet: &Sheet) -> Reading {
@@ -84,6 +98,7 @@ pub fn identify(sheet: &Sheet) -> Result<Fit, Error> {
 /// # Errors
 /// A curve or a set of values that gives no law, or a fabric that no fabric is.
 pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
+    let settings = &settings.or_of(sheet.model);
     let measured = Measured::new(sheet, settings)?;
     let mut notes = Vec::new();
 

@@ -2,7 +2,9 @@
 
 mod assumed;
 mod basis;
+mod batch;
 mod bending;
+mod breen;
 mod choice;
 mod curve_fit;
 mod elastica;
@@ -30,7 +32,9 @@ mod tensile_start;
 mod tensile_values;
 mod weighting;
 
+pub use batch::identify_all;
 pub use bending::identify_bending;
+pub use breen::{BreenWork, breen_curvature};
 pub use choice::Candidate;
 pub use curve_fit::{CurveFit, Identified};
 pub use error::Error;

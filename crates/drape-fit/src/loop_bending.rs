@@ -60,16 +60,24 @@ pub fn identify_loop_bending(
         rest_curvature: 0.0,
         friction: friction(&p[1..SHARED]),
     };
+    let mut first = 0;
     let identified = problem.0.iter().enumerate().map(|(index, strip)| {
         let own = SHARED + OWN * index;
         let mut out = vec![0.0; strip.load.len()];
         strip.residuals(p, &p[own..own + OWN], &mut out);
         let squares: f64 = out.iter().map(|residual| residual * residual).sum();
-        let share = statistics.of((0..SHARED).chain(own..own + OWN));
+        let residuals = first..first + out.len();
+        first = residuals.end;
+        let share = statistics.of((0..SHARED).chain(own..own + OWN), residuals);
+        let mut band = vec![0.0; strip.curve.load().len()];
+        for (&index, width) in strip.used.iter().zip(&share.band) {
+            band[index] = width / strip.scale;
+        }
         let mut fit = CurveFit::new(strip.curve, found.clone(), share, strip.whole(&out));
         // Points that are too flat are not used, and do not count.
         fit.misfit = (squares / out.len() as f64).sqrt();
         fit.rms = fit.misfit / strip.scale;
+        fit.band = band;
         Identified { law, fit }
     });
     Ok(identified.collect())

@@ -1,5 +1,7 @@
 //! How well a curve tells the parameters of a law.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::estimate::{Estimate, Unknown};
@@ -15,6 +17,9 @@ const LEAST_SIZE: f64 = 0.01;
 /// Correlation of neighbours, times the root of the number of points, that chance exceeds in one of forty
 /// curves of independent noise: below it the points are taken for independent.
 const CHANCE: f64 = 2.0;
+
+/// Ratio of bounds from which on a parameter is one of a scale: two decades, in which all that are have more.
+const DECADES: f64 = 100.0;
 
 /// What the residuals say about their own independence.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,16 +53,19 @@ impl Independence {
 pub(crate) struct Statistics {
     pub estimates: Vec<Estimate>,
     pub correlations: Vec<Vec<Option<f64>>>,
+    /// Half width of the 95 % band of the model at each residual, in the unit of the residuals.
+    pub band: Vec<f64>,
 }
 
 impl Statistics {
-    /// Those of some of the parameters.
-    pub fn of(&self, parameters: impl Iterator<Item = usize>) -> Self {
+    /// Those of some of the parameters, and of some of the residuals.
+    pub fn of(&self, parameters: impl Iterator<Item = usize>, residuals: Range<usize>) -> Self {
         let chosen: Vec<usize> = parameters.collect();
         let row = |&i: &usize| chosen.iter().map(|&j| self.correlations[i][j]).collect();
         Self {
             estimates: chosen.iter().map(|&i| self.estimates[i].clone()).collect(),
             correlations: chosen.iter().map(row).collect(),
+            band: self.band[residuals].to_vec(),
         }
     }
 }
@@ -84,7 +92,10 @@ pub(crate) fn statistics(
     problem.residuals(&report.parameters, &mut residuals);
     let independence = Independence::of(&residuals);
     let covariance = Covariance::of(problem, &parameters, report, Loss::Squares);
-    let sandwich = sandwich(problem, &parameters, report, (&covariance, &residuals));
+    // Left out, a parameter that is not determined is taken as known.
+    let known = |j: usize| covariance.reason(j).is_none();
+    let jacobian = derivatives(problem, &parameters, &report.parameters, known);
+    let sandwich = sandwich(problem.weights(), (&covariance, &residuals), &jacobian);
     let widening = residuals.len() as f64 / independence.count;
     let degrees = (independence.squares - count as f64).max(1.0) as usize;
     let quantile = student_quantile(LEVEL, degrees);
@@ -100,7 +111,7 @@ pub(crate) fn statistics(
         let value = report.parameters[j];
         let half = error(j).map(|error| error * quantile);
         let Some(profiles) = &profiles else {
-            return half.map(|half| [value - half, value + half]);
+            return half.map(|half| around(value, half, &parameters[j]));
         };
         let naive = covariance.half_width(j, LEVEL);
         let stretch = match (&half, &naive) {
@@ -127,7 +138,27 @@ pub(crate) fn statistics(
     Statistics {
         estimates: (0..count).map(estimate).collect(),
         correlations: (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect(),
+        band: band(&jacobian, &(&sandwich * widening)).map(|error| quantile * error).collect(),
     }
+}
+
+/// Standard errors of the model at each residual, from the derivatives and the covariance of the parameters.
+fn band(jacobian: &DMatrix<f64>, covariance: &DMatrix<f64>) -> impl Iterator<Item = f64> {
+    let spread = jacobian * covariance;
+    let variances = (0..jacobian.nrows()).map(|i| spread.row(i).dot(&jacobian.row(i)));
+    variances.map(|variance| variance.max(0.0).sqrt()).collect::<Vec<_>>().into_iter()
+}
+
+/// Half a width on either side of a value; in its logarithm where the bounds say that this is the scale.
+///
+/// With a length known to a half the search finds twice the length as easily as half of it, and the interval
+/// on the logarithm contains the truth where the other one is short above and reaches below zero.
+fn around(value: f64, half: f64, parameter: &Parameter) -> [f64; 2] {
+    if parameter.lower > 0.0 && parameter.upper >= DECADES * parameter.lower {
+        let factor = (half / value).exp();
+        return [value / factor, value * factor];
+    }
+    [value - half, value + half]
 }
 
 /// A profile whose distances from the value are stretched to the noise there is.
@@ -146,42 +177,40 @@ fn stretched(
 
 /// Covariance of the parameters for noise of one size; zero for those that are not determined.
 fn sandwich(
-    problem: &impl Problem,
-    parameters: &[Parameter],
-    report: &Report,
+    weights: &[f64],
     (covariance, residuals): (&Covariance, &[f64]),
+    jacobian: &DMatrix<f64>,
 ) -> DMatrix<f64> {
-    let count = parameters.len();
+    let count = jacobian.ncols();
     let variance = covariance.deviation.powi(2);
     let mut inverse =
         DMatrix::from_fn(count, count, |i, j| covariance.covariance(i, j).unwrap_or(0.0));
-    if problem.weights().is_empty() || !(variance > 0.0 && variance.is_finite()) {
+    if weights.is_empty() || !(variance > 0.0 && variance.is_finite()) {
         return inverse;
     }
     inverse /= variance;
-    // Left out of the middle, a parameter that is not determined is taken as known.
-    let known = |j: usize| covariance.reason(j).is_none();
-    let weights = problem.weights();
-    let jacobian = weighted_derivatives(problem, parameters, &report.parameters, known);
-    let middle = jacobian.transpose() * &jacobian;
+    let mut weighted = jacobian.clone();
+    for (i, weight) in weights.iter().enumerate() {
+        weighted.row_mut(i).scale_mut(*weight);
+    }
+    let middle = weighted.tr_mul(&weighted);
     let square: f64 = residuals.iter().map(|r| r * r).sum();
     let spare = weights.len().saturating_sub(count).max(1) as f64;
     &inverse * middle * &inverse * (square / spare)
 }
 
-/// Derivatives of the residuals times their weights.
-fn weighted_derivatives(
+/// Derivatives of the residuals by the parameters that are wanted; zero by the others.
+fn derivatives(
     problem: &impl Problem,
     parameters: &[Parameter],
     at: &[f64],
     wanted: impl Fn(usize) -> bool,
 ) -> DMatrix<f64> {
     let rows = problem.residual_count();
-    let weights = DVector::from_column_slice(problem.weights());
     let mut jacobian = DMatrix::zeros(rows, parameters.len());
     if problem.jacobian(at, &mut jacobian) {
-        for (j, mut column) in jacobian.column_iter_mut().enumerate() {
-            if wanted(j) { column.component_mul_assign(&weights) } else { column.fill(0.0) }
+        for (_, mut column) in jacobian.column_iter_mut().enumerate().filter(|(j, _)| !wanted(*j)) {
+            column.fill(0.0);
         }
         return jacobian;
     }
@@ -196,8 +225,7 @@ fn weighted_derivatives(
             problem.residuals(&trial, out.as_mut_slice());
         }
         trial[j] = at[j];
-        let slope = (&high - &low) / (ends[0] - ends[1]);
-        jacobian.set_column(j, &slope.component_mul(&weights));
+        jacobian.set_column(j, &((&high - &low) / (ends[0] - ends[1])));
     }
     jacobian
 }

@@ -1,8 +1,8 @@
 //! A fabric from values alone, and what is said about everything that a sheet does not have.
 
-use drape_fabric::{Fabric, Law, drive};
-use drape_fit::identify;
-use drape_kes::{BendingPoints, Curve, Direction, ShearPoints, Sheet, Test, Values};
+use drape_fabric::{BendingBackbone, Fabric, Law, drive};
+use drape_fit::{FrictionOrder, LoopModel, Settings, identify, identify_with};
+use drape_kes::{BendingPoints, Curve, Direction, Model, ShearPoints, Sheet, Test, Values};
 
 const STEPS: usize = 4000;
 
@@ -204,4 +204,20 @@ fn the_number_of_threads_does_not_matter() {
         pool.install(|| identify(&sheet).expect("identified"))
     };
     assert_eq!(with(1), with(4));
+}
+
+#[test]
+fn a_sheet_asks_for_a_law_and_the_settings_overrule_it() {
+    let law = drape_fit::bending_from_values(2e-5, 1e-3);
+    let mut sheet = sheet(WARP, WARP);
+    sheet.curves.push(cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]));
+    sheet.model = Some(Model::Breen1994);
+    let fit = identify(&sheet).expect("identified");
+    let bending = fit.fabric.warp.bending;
+    assert!(matches!(bending.backbone, BendingBackbone::Piecewise(_)), "{bending:?}");
+    assert_eq!(bending.friction.plateau(), 0.0);
+    let model = Some(LoopModel::Linear(FrictionOrder::First));
+    let fit = identify_with(&sheet, &Settings { bending: model, ..Settings::default() });
+    let bending = fit.expect("identified").fabric.warp.bending;
+    assert!(matches!(bending.backbone, BendingBackbone::Linear { .. }), "{bending:?}");
 }

@@ -30,8 +30,8 @@ struct Axis {
 /// The curve that a section describes, or nothing after reporting why not.
 pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Curve> {
     section.allow(&CURVE_KEYS, findings);
-    let test = choice(section, "test", &TESTS, Test::name, findings);
-    let direction = choice(section, "direction", &DIRECTIONS, Direction::name, findings);
+    let test = section.required_choice(("test", &TESTS), Test::name, findings);
+    let direction = section.required_choice(("direction", &DIRECTIONS), Direction::name, findings);
     let name = section.text("name", findings);
     let slack = section.flag("slack", findings);
     let file = section.required_text("file", "\"tensile-warp.csv\"", findings);
@@ -81,28 +81,6 @@ fn factor(axis: &Axis, table: &Table, si: &[f64]) -> f64 {
     let pairs = written.iter().flatten().zip(si);
     let largest = pairs.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
     largest.map_or(1.0, |(written, si)| si / written)
-}
-
-/// One of a few words, with a suggestion when it is none of them.
-fn choice<T: Copy>(
-    section: &Section<'_>,
-    key: &str,
-    choices: &[T],
-    name: fn(T) -> &'static str,
-    findings: &mut Findings<'_>,
-) -> Option<T> {
-    let names: Vec<&str> = choices.iter().map(|&choice| name(choice)).collect();
-    let example = format!("\"{}\"", names[0]);
-    let written = section.required_text(key, &example, findings)?;
-    if let Some(place) = names.iter().position(|name| *name == written) {
-        return Some(choices[place]);
-    }
-    let help = match closest(&written, names.iter().copied()) {
-        Some(close) => format!("did you mean \"{close}\"?"),
-        None => format!("it is one of {}", names.join(", ")),
-    };
-    findings.error(&section.key(key), format!("\"{written}\" is not known"), help);
-    None
 }
 
 /// An axis; the last of its keys is that of its gauge or width.

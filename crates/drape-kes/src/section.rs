@@ -124,6 +124,47 @@ impl<'t> Section<'t> {
         }
     }
 
+    /// One of several words, which must be there.
+    pub(crate) fn required_choice<T: Copy>(
+        &self,
+        (key, choices): (&str, &[T]),
+        name: fn(T) -> &'static str,
+        findings: &mut Findings<'_>,
+    ) -> Option<T> {
+        let example = format!("\"{}\"", name(choices[0]));
+        let written = self.required_text(key, &example, findings)?;
+        self.chosen((key, choices), name, (&written, findings))
+    }
+
+    /// One of several words, if the key is there.
+    pub(crate) fn choice<T: Copy>(
+        &self,
+        (key, choices): (&str, &[T]),
+        name: fn(T) -> &'static str,
+        findings: &mut Findings<'_>,
+    ) -> Option<T> {
+        let written = self.text(key, findings)?;
+        self.chosen((key, choices), name, (&written, findings))
+    }
+
+    fn chosen<T: Copy>(
+        &self,
+        (key, choices): (&str, &[T]),
+        name: fn(T) -> &'static str,
+        (written, findings): (&str, &mut Findings<'_>),
+    ) -> Option<T> {
+        let names: Vec<&str> = choices.iter().map(|&choice| name(choice)).collect();
+        if let Some(place) = names.iter().position(|name| *name == written) {
+            return Some(choices[place]);
+        }
+        let help = match closest(written, names.iter().copied()) {
+            Some(close) => format!("did you mean \"{close}\"?"),
+            None => format!("it is one of {}", names.join(", ")),
+        };
+        findings.error(&self.key(key), format!("\"{written}\" is not known"), help);
+        None
+    }
+
     pub(crate) fn required_text(
         &self,
         key: &str,

@@ -9,12 +9,12 @@ use crate::curve_file;
 use crate::plausible;
 use crate::section::{Findings, Measured, Section};
 use crate::unit::Quantity;
-use crate::{Curve, Direction, Error, Symbol, Test, Values};
+use crate::{Curve, Direction, Error, Model, Symbol, Test, Values};
 
 /// Name of the file looked for when a folder is given.
 const SHEET_FILE: &str = "sheet.toml";
 
-const SHEET_KEYS: [&str; 8] = ["name", "source", "W", "T", "FM", "warp", "weft", "curve"];
+const SHEET_KEYS: [&str; 9] = ["name", "source", "model", "W", "T", "FM", "warp", "weft", "curve"];
 const VALUE_KEYS: [&str; 9] = ["B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM"];
 
 /// FM of the standard tensile test, in gf/cm; the "high sensitivity" test stops at 50.
@@ -29,6 +29,8 @@ pub struct Sheet {
     pub name: String,
     /// Who measured it, when, and under which licence.
     pub source: String,
+    /// The law that bending and shear are to be fitted with; the one that the curves bear out unless set.
+    pub model: Option<Model>,
     /// W, mass per area, in mg/cm².
     pub w: Option<f64>,
     /// T, thickness, in mm.
@@ -71,6 +73,7 @@ impl Sheet {
         root.allow(&SHEET_KEYS, findings);
         let name = root.required_text("name", "\"cotton poplin\"", findings);
         let source = root.text("source", findings);
+        let model = root.choice(("model", &Model::ALL), Model::name, findings);
         let w = positive(root, "W", Quantity::MassPerArea, findings);
         let t = positive(root, "T", Quantity::Length, findings);
         let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
@@ -88,6 +91,7 @@ impl Sheet {
         Self {
             name: name.unwrap_or_default(),
             source: source.unwrap_or_default(),
+            model,
             w: laboratory(w),
             t: laboratory(t),
             fm: laboratory(fm),

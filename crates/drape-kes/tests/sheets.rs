@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use drape_input::{Diagnostic, Diagnostics};
-use drape_kes::{Direction, Error, Sheet, Test};
+use drape_kes::{Direction, Error, Model, Sheet, Test};
 
 const CURVE: &str = r#"
 [[curve]]
@@ -210,4 +210,12 @@ fn an_unusual_value_is_a_warning_and_not_an_error() {
         "{}",
         warnings[0]
     );
+}
+
+#[test]
+fn a_sheet_may_ask_for_a_law() {
+    let sheet = read("name = \"x\"\nmodel = \"breen-1994\"", "").expect("a good sheet");
+    assert_eq!(sheet.model, Some(Model::Breen1994));
+    let found = finding("name = \"x\"\nmodel = \"breen-1995\"", "");
+    assert_eq!(help(&found), "did you mean \"breen-1994\"?");
 }

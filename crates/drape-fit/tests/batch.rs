@@ -1,0 +1,94 @@
+//! Many sheets at once: each as if alone, one bad sheet stopping nothing, memory flat.
+
+#![allow(clippy::print_stdout)]
+
+use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
+use drape_fit::{Error, Settings, identify, identify_all};
+use drape_kes::{Curve, Direction, Sheet, Test, Values};
+
+/// A small generator of its own, so that the sheets are the same on every machine (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A sheet with tensile values and two noisy bending loops of 200 points, or one that is no fabric's.
+fn sheet(seed: u64, good: bool) -> Sheet {
+    let mut random = Random(seed << 32);
+    let mut sheet = Sheet::default();
+    sheet.name = format!("fabric {seed}");
+    sheet.w = Some(10.0 + 20.0 * random.unit());
+    let rt = if good { 60.0 } else { 130.0 };
+    sheet.warp = Values { em: Some(4.0), lt: Some(0.7), rt: Some(rt), ..Values::default() };
+    for direction in [Direction::Warp, Direction::Weft] {
+        let law = BendingLaw {
+            backbone: BendingBackbone::Linear { rigidity: 1e-5 * (0.5 + random.unit()) },
+            rest_curvature: 0.0,
+            friction: BlimanSorine::first_order(3e-4, 5.0 + 20.0 * random.unit()),
+        };
+        let steps = |from: f64, to: f64, n: u32| {
+            (1..=n).map(move |i| from + (to - from) * f64::from(i) / f64::from(n))
+        };
+        let out = steps(0.0, 250.0, 50).chain(steps(250.0, -250.0, 100));
+        let q: Vec<f64> = out.chain(steps(-250.0, 0.0, 50)).collect();
+        let mut load = drive(&law, law.virgin(), &q);
+        load.iter_mut().for_each(|m| *m += 1e-4 * (random.unit() - 0.5));
+        let curve = Curve::new(Test::Bending, direction, q, load).expect("a curve of a law");
+        sheet.curves.push(curve);
+    }
+    sheet
+}
+
+#[test]
+fn each_fabric_of_a_batch_is_as_if_alone_and_a_bad_one_stops_nothing() {
+    let seeds: Vec<u64> = (0..40).collect();
+    let good = |seed: u64| seed % 7 != 3;
+    let summaries = identify_all(
+        &seeds,
+        &Settings::default(),
+        |&seed| Ok::<_, Error>(sheet(seed, good(seed))),
+        |&seed, result| (seed, result.map(|(_, fit)| fit.clone()).map_err(|e| e.to_string())),
+    );
+    assert_eq!(summaries.len(), seeds.len());
+    for (place, (seed, summary)) in summaries.into_iter().enumerate() {
+        assert_eq!(seed, place as u64);
+        match summary {
+            Ok(fit) => assert_eq!(fit, identify(&sheet(seed, true)).expect("identified")),
+            Err(message) => assert!(!good(seed) && message.contains("RT is 130.0 %"), "{message}"),
+        }
+    }
+}
+
+/// Highest memory that the process ever held, in kB.
+fn peak_memory() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
+    let line = status.lines().find(|line| line.starts_with("VmHWM:")).expect("a peak");
+    line.split_whitespace().nth(1).and_then(|kb| kb.parse().ok()).expect("a number of kB")
+}
+
+#[test]
+#[ignore = "ten thousand sheets take a minute, and it reads the memory of the process from Linux"]
+fn ten_thousand_sheets_take_the_memory_of_a_few() {
+    let mut peaks = Vec::new();
+    for count in [100, 1000, 10_000] {
+        let seeds: Vec<u64> = (0..count).collect();
+        let misfits = identify_all(
+            &seeds,
+            &Settings::default(),
+            |&seed| Ok::<_, Error>(sheet(seed, true)),
+            |_, result| result.map_or(f64::NAN, |(_, fit)| fit.curves[0].misfit),
+        );
+        assert!(misfits.iter().all(|misfit| *misfit < 0.03), "{misfits:?}");
+        peaks.push(peak_memory());
+        println!("{count} sheets: peak {} kB", peaks[peaks.len() - 1]);
+    }
+    // The list of seeds and summaries is 160 kB; the allocator's pools take some more.
+    assert!(peaks[2] < peaks[0] + 4096, "{peaks:?} kB");
+}
