@@ -9,7 +9,7 @@ use drape::report::{
     ComparePage, ComparedValue, FabricName, FitPage, Interval, LawReport, Parameter, Quantity,
 };
 
-use crate::fit_page::loop_plot;
+use crate::fit_page::{Loads, loop_plot};
 use crate::{kes_test, kes_value, quantity};
 
 const VERSION: &str = concat!("drape ", env!("CARGO_PKG_VERSION"));
@@ -70,7 +70,10 @@ fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
         }
     };
     LawReport {
-        plots: vec![loop_plot(title.clone(), &curve, |i| (None, Some(curve.load()[i])))],
+        plots: vec![loop_plot(title.clone(), &curve, |i| Loads {
+            fitted: Some(curve.load()[i]),
+            ..Loads::default()
+        })],
         parameters: parameters(fabric, test, direction).into_iter().map(parameter).collect(),
         title,
         ..LawReport::default()

@@ -126,19 +126,23 @@ fn notes(fit: &CurveFit) -> Vec<String> {
     notes
 }
 
+/// The loads at a point of a history, in SI.
+#[derive(Default)]
+pub(crate) struct Loads {
+    pub(crate) measured: Option<f64>,
+    pub(crate) fitted: Option<f64>,
+    pub(crate) band: Option<[f64; 2]>,
+}
+
 /// A history, branch by branch, with its measured and its fitted load at each point.
-pub(crate) fn loop_plot(
-    title: String,
-    curve: &Curve,
-    loads: impl Fn(usize) -> (Option<f64>, Option<f64>),
-) -> LoopPlot {
+pub(crate) fn loop_plot(title: String, curve: &Curve, loads: impl Fn(usize) -> Loads) -> LoopPlot {
     let [deformation, load] = quantity::axes(curve.test);
     let branches = curve.branches();
     let both_sides = matches!(curve.test, Test::Bending | Test::Shear);
     let first = branches.first().is_some_and(|branch| branch.rising);
     let point = |i: usize| {
-        let (measured, fitted) = loads(i);
-        Point { deformation: curve.deformation()[i], measured, fitted, band: None }
+        let Loads { measured, fitted, band } = loads(i);
+        Point { deformation: curve.deformation()[i], measured, fitted, band }
     };
     let branch = |(index, branch): (usize, &drape::kes::Branch)| Branch {
         kind: match (branch.rising == first, both_sides && index > 0) {
@@ -158,7 +162,10 @@ fn plot(curve: &Curve, fit: &CurveFit) -> LoopPlot {
     // A load equal to the measured one to the last bit marks a point that the fit left out.
     loop_plot(title(fit), curve, |i| {
         let measured = curve.load()[i];
-        (Some(measured), Some(fit.load[i]).filter(|fitted| *fitted != measured))
+        let fitted = Some(fit.load[i]).filter(|fitted| *fitted != measured);
+        let width = fit.band.get(i).filter(|width| width.is_finite());
+        let band = fitted.zip(width).map(|(fitted, width)| [fitted - width, fitted + width]);
+        Loads { measured: Some(measured), fitted, band }
     })
 }
 
