@@ -4,7 +4,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use drape::fit::{FrictionOrder, Intervals, LoopModel, Settings, TractionModel};
 
 use crate::failure::Failure;
-use crate::{check, fabric, fit, run};
+use crate::{check, fabric, fit, run, validate};
 
 /// From measured fabric to moving cloth.
 #[derive(Parser)]
@@ -17,7 +17,9 @@ pub(crate) enum Command {
     Fabric(FabricCommand),
     /// Simulates a scene: frames, a picture and summary.json.
     Run(RunArguments),
-    /// Validates scenes, fabrics and sheets without simulating.
+    /// Holds simulations against exact solutions and measurements.
+    Validate(ValidateArguments),
+    /// Checks scenes, fabrics and sheets without simulating.
     Check(CheckArguments),
 }
 
@@ -155,6 +157,16 @@ pub(crate) struct RunArguments {
 }
 
 #[derive(Args)]
+pub(crate) struct ValidateArguments {
+    /// Cases to run [default: all].
+    #[arg(value_name = "CASE")]
+    pub(crate) cases: Vec<String>,
+    /// Prints the outcomes as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
 pub(crate) struct CheckArguments {
     /// Scenes, fabrics or sheets.
     #[arg(required = true, value_name = "FILE")]
@@ -167,6 +179,7 @@ impl Command {
             Self::Fit(arguments) => fit::fit(arguments),
             Self::Fabric(command) => fabric::fabric(command),
             Self::Run(arguments) => run::run(arguments),
+            Self::Validate(arguments) => validate::validate(arguments),
             Self::Check(arguments) => check::check(arguments),
         }
     }

@@ -16,6 +16,8 @@ pub(crate) enum Failure {
     Batch,
     /// Exit code 5: the solver failed, or the cloth did not settle.
     Solver(String),
+    /// Exit code 7: a figure is beyond its limit.
+    Limit(String),
     /// Exit code 6: a file could not be written.
     Output(String),
 }
@@ -29,6 +31,7 @@ impl Failure {
             Self::Input(_) | Self::Batch => 3,
             Self::Solver(_) => 5,
             Self::Output(_) => 6,
+            Self::Limit(_) => 7,
         })
     }
 
@@ -46,9 +49,10 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Usage(message) | Self::Solver(message) | Self::Output(message) => {
-                f.write_str(message)
-            }
+            Self::Usage(message)
+            | Self::Solver(message)
+            | Self::Output(message)
+            | Self::Limit(message) => f.write_str(message),
             Self::Input(mistakes) => mistakes.fmt(f),
             Self::Batch => f.write_str("not all sheets could be fitted"),
         }

@@ -20,6 +20,7 @@ mod progress;
 mod quantity;
 mod run;
 mod say;
+mod validate;
 
 fn main() -> ExitCode {
     let command = command::Command::parse();

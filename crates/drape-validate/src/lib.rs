@@ -6,7 +6,9 @@ mod error;
 pub mod reference;
 pub mod statics;
 mod strip;
+mod suite;
 
-pub use check::Check;
+pub use check::{Check, Kind};
 pub use error::ValidationError;
 pub use strip::{GRAVITY, Hold, Strip, finish};
+pub use suite::{CASES, Case, Outcome};

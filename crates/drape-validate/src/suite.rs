@@ -1,0 +1,106 @@
+use serde::Serialize;
+
+use crate::{Check, ValidationError, dynamics, statics};
+
+/// A case of the suite.
+#[derive(Debug, Clone, Copy)]
+pub struct Case {
+    /// The name by which it is asked for.
+    pub name: &'static str,
+    /// What it shows, and where the reference is from.
+    pub title: &'static str,
+    run: fn() -> Result<Vec<Check>, ValidationError>,
+}
+
+impl Case {
+    /// Simulates and compares.
+    ///
+    /// # Errors
+    /// A simulation that cannot be run to its end.
+    pub fn run(&self) -> Result<Vec<Check>, ValidationError> {
+        (self.run)()
+    }
+}
+
+/// Every case, in the order of the report.
+pub const CASES: &[Case] = &[
+    Case {
+        name: "heavy-cantilever",
+        title: "A clamped strip bends under its own weight (heavy elastica)",
+        run: statics::heavy_cantilever,
+    },
+    Case {
+        name: "end-load",
+        title: "A clamped strip bends under a load at its tip (Bisshopp & Drucker 1945)",
+        run: statics::end_loaded_cantilever,
+    },
+    Case {
+        name: "catenary",
+        title: "A limp strip between two hinges (catenary)",
+        run: statics::catenary,
+    },
+    Case {
+        name: "self-stretch",
+        title: "A hanging strip stretches under its own weight",
+        run: statics::self_stretch,
+    },
+    Case {
+        name: "column",
+        title: "An upright strip bends over under its own weight (Greenhill 1881)",
+        run: statics::column,
+    },
+    Case {
+        name: "hanging-chain",
+        title: "Modes of a limp hanging strip (Bernoulli 1732)",
+        run: dynamics::hanging_chain,
+    },
+    Case {
+        name: "hanging-strip",
+        title: "First mode of a hanging strip with bending rigidity",
+        run: dynamics::hanging_strip,
+    },
+    Case {
+        name: "pendulum",
+        title: "Period of a stiff strip on a hinge at large amplitudes",
+        run: dynamics::pendulum,
+    },
+    Case { name: "free-fall", title: "A strip that nothing holds", run: dynamics::free_fall },
+];
+
+/// What came of a case.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Outcome {
+    /// The case's name.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// Its figures; none where it could not be run.
+    pub checks: Vec<Check>,
+    /// Why it could not be run.
+    pub failure: Option<String>,
+    /// How long it took, in s.
+    pub seconds: f64,
+}
+
+impl Outcome {
+    /// Runs a case.
+    pub fn of(case: &Case) -> Self {
+        let start = std::time::Instant::now();
+        let (checks, failure) = match case.run() {
+            Ok(checks) => (checks, None),
+            Err(error) => (Vec::new(), Some(error.to_string())),
+        };
+        Self {
+            name: case.name.into(),
+            title: case.title.into(),
+            checks,
+            failure,
+            seconds: start.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// Whether it could be run, and every figure is within its limit.
+    pub fn passes(&self) -> bool {
+        self.failure.is_none() && self.checks.iter().all(Check::passes)
+    }
+}

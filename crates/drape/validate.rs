@@ -1,0 +1,69 @@
+//! `drape validate`: simulations against what is known.
+
+use drape::validate::{CASES, Case, Check, Kind, Outcome};
+
+use crate::command::ValidateArguments;
+use crate::failure::Failure;
+use crate::say::say;
+
+pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
+    let cases = chosen(&arguments.cases)?;
+    let mut outcomes = Vec::new();
+    for case in cases {
+        let outcome = Outcome::of(case);
+        if !arguments.json {
+            show(&outcome)?;
+        }
+        outcomes.push(outcome);
+    }
+    if arguments.json {
+        let json = serde_json::to_string_pretty(&outcomes);
+        say(json.expect("numbers and strings have a JSON form"))?;
+    }
+    let failed = outcomes.iter().filter(|outcome| !outcome.passes()).count();
+    if failed > 0 {
+        let message = format!("{failed} of {} cases are off their references", outcomes.len());
+        return Err(Failure::Limit(message));
+    }
+    Ok(())
+}
+
+/// The cases of some names, or all.
+fn chosen(names: &[String]) -> Result<Vec<&'static Case>, Failure> {
+    if names.is_empty() {
+        return Ok(CASES.iter().collect());
+    }
+    let case = |name: &String| {
+        CASES.iter().find(|case| case.name == name).ok_or_else(|| {
+            let known: Vec<&str> = CASES.iter().map(|case| case.name).collect();
+            Failure::Usage(format!("there is no case \"{name}\"; there are {}", known.join(", ")))
+        })
+    };
+    names.iter().map(case).collect()
+}
+
+fn show(outcome: &Outcome) -> Result<(), Failure> {
+    say(format_args!("{}  [{}, {:.1} s]", outcome.title, outcome.name, outcome.seconds))?;
+    outcome.checks.iter().try_for_each(|check| say(line(check)))?;
+    if let Some(failure) = &outcome.failure {
+        say(format_args!("  FAIL  {failure}"))?;
+    }
+    Ok(())
+}
+
+fn line(check: &Check) -> String {
+    let verdict = if check.passes() { "pass" } else { "FAIL" };
+    let Check { what, measured, reference, limit, kind } = check;
+    let limit = match kind {
+        Kind::Equal => {
+            format!("= {reference:.5}, off {:+.3} % of {} %", 100.0 * check.error(), 100.0 * limit)
+        }
+        Kind::AtLeast => format!("≥ {reference:.5}"),
+        Kind::AtMost => format!("≤ {reference:.1e}"),
+    };
+    let measured = match kind {
+        Kind::AtMost => format!("{measured:.1e}"),
+        _ => format!("{measured:.5}"),
+    };
+    format!("  {verdict}  {what:<66} {measured:>9} {limit}")
+}
