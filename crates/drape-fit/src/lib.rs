@@ -22,6 +22,7 @@ mod loop_bending;
 mod loop_model;
 mod measured;
 mod prediction;
+mod pull;
 mod search;
 mod shear;
 mod shear_from_values;

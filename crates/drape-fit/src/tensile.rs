@@ -5,8 +5,8 @@ use drape_kes::{Curve, Test};
 
 use crate::choice::{Model, Predict};
 use crate::curve_fit::{self, Identified};
-use crate::history::{along, along_slack};
 use crate::prediction::{last_cycle, predict};
+use crate::pull::{along, along_slack};
 use crate::tensile_start::Guess;
 use crate::{Error, Settings};
 

@@ -153,3 +153,14 @@ fn matsudairas_values_become_fabrics_that_have_them() {
         assert!(fit.assumed.iter().any(|note| note.starts_with("traction: not measured")));
     }
 }
+
+#[test]
+fn every_shipped_curve_is_followed_within_two_percent_but_the_arches() {
+    for name in ["cupro-weave", "tagawa-2003", "matsudaira-a", "matsudaira-b"] {
+        for curve in fabric(name).curves {
+            // The arches' force drifts by as much as the stiffness changes it, and up and down disagree.
+            let most = if curve.test == Test::LoopBending { 0.09 } else { 0.02 };
+            assert!(curve.misfit < most, "{}: {}", curve.name, curve.misfit);
+        }
+    }
+}
