@@ -3,8 +3,9 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use drape::fit::{FrictionOrder, Intervals, LoopModel, Settings, TractionModel};
 
+use crate::bench::BenchArguments;
 use crate::failure::Failure;
-use crate::{check, fabric, fit, run};
+use crate::{bench, check, fabric, fit, run};
 
 /// From measured fabric to moving cloth.
 #[derive(Parser)]
@@ -19,6 +20,8 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Validates scenes, fabrics and sheets without simulating.
     Check(CheckArguments),
+    /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
+    Bench(BenchArguments),
 }
 
 #[derive(Args)]
@@ -168,6 +171,7 @@ impl Command {
             Self::Fabric(command) => fabric::fabric(command),
             Self::Run(arguments) => run::run(arguments),
             Self::Check(arguments) => check::check(arguments),
+            Self::Bench(arguments) => bench::bench(arguments),
         }
     }
 }
