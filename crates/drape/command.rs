@@ -3,8 +3,9 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use drape::fit::{FrictionOrder, Intervals, LoopModel, Settings, TractionModel};
 
+use crate::bench::BenchArguments;
 use crate::failure::Failure;
-use crate::{check, fabric, fit, run, validate};
+use crate::{bench, check, fabric, fit, run, validate};
 
 /// From measured fabric to moving cloth.
 #[derive(Parser)]
@@ -21,6 +22,8 @@ pub(crate) enum Command {
     Validate(ValidateArguments),
     /// Checks scenes, fabrics and sheets without simulating.
     Check(CheckArguments),
+    /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
+    Bench(BenchArguments),
 }
 
 #[derive(Args)]
@@ -181,6 +184,7 @@ impl Command {
             Self::Run(arguments) => run::run(arguments),
             Self::Validate(arguments) => validate::validate(arguments),
             Self::Check(arguments) => check::check(arguments),
+            Self::Bench(arguments) => bench::bench(arguments),
         }
     }
 }

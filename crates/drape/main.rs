@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 mod batch;
+mod bench;
 mod check;
 mod command;
 mod fabric;

@@ -97,7 +97,7 @@ fn balance(energy: &Energy) -> String {
         energy.friction_dissipated,
         energy.body_dissipated,
         energy.air_dissipated,
-        energy.numerical_dissipated,
+        energy.numerical_dissipated + energy.turning_dissipated,
         energy.remainder,
     )
 }

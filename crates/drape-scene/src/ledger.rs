@@ -13,6 +13,9 @@ pub(crate) struct Ledger {
     pub(crate) stored: f64,
     /// In the contact with bodies at the start of the step.
     pub(crate) barrier: f64,
+    /// Potential of the connectors when it was first and last asked for in this step. With the balance
+    /// on, the integrator does so at the start and at the end.
+    pub(crate) connectors: Option<[f64; 2]>,
     /// Room for forces, one of them with and one without the friction of the step.
     pub(crate) forces: [Vec<f64>; 2],
     sums: Energy,
@@ -45,8 +48,16 @@ impl Ledger {
         Self { stored, forces, ..Self::default() }
     }
 
+    /// Takes note of the potential of the connectors somewhere in the step.
+    pub(crate) fn saw(&mut self, potential: f64) {
+        let first = self.connectors.map_or(potential, |[first, _]| first);
+        self.connectors = Some([first, potential]);
+    }
+
     pub(crate) fn enter(&mut self, entry: &Entry) {
+        let [start, end] = self.connectors.unwrap_or_default();
         let sums = &mut self.sums;
+        sums.turning_dissipated += end - start - (entry.stored - self.stored) - entry.friction;
         sums.gravity += entry.gravity;
         sums.contact += entry.contact;
         sums.elastic += entry.stored - self.stored;
@@ -73,7 +84,8 @@ impl Ledger {
         let Energy { elastic, gravity, contact, .. } = self.sums;
         let Energy { friction_dissipated, body_dissipated, air_dissipated, .. } = self.sums;
         let held = kinetic + elastic + gravity + contact;
-        let lost = friction_dissipated + body_dissipated + air_dissipated;
+        let turning = self.sums.turning_dissipated;
+        let lost = friction_dissipated + body_dissipated + air_dissipated + turning;
         let remainder = self.sums.work_in - held - lost - self.sums.numerical_dissipated;
         Energy { kinetic, remainder, ..self.sums }
     }

@@ -122,6 +122,8 @@ impl World {
     /// What each pin bears, without the inertia of the particles it holds.
     pub(crate) fn pin_loads(&mut self) -> Vec<PinLoad> {
         let positions = self.state.positions.clone();
+        // What stands in for inertia counts as little as inertia itself.
+        self.brake.fill(0.0);
         let mut forces = vec![0.0; positions.len()];
         self.forces(&positions, &mut forces);
         self.pins.iter().map(|pin| pin.load(&positions, &forces)).collect()
@@ -161,6 +163,7 @@ impl System for World {
         self.contact.begin(start, if self.creeps { dt.min(CREEP_TIME) } else { dt });
         if let Some(ledger) = &mut self.ledger {
             ledger.barrier = self.contact.potential(start);
+            ledger.connectors = None;
         }
         let momenta = self.brake.chunks_exact_mut(3).zip(self.state.velocities.chunks_exact(3));
         for ((brake, velocity), mass) in momenta.zip(self.cloth.masses()) {
@@ -199,6 +202,9 @@ impl System for World {
         self.each_drag(positions, |particle, way, _| drag += 0.5 * self.drag[particle] * way * way);
         let cloth = self.workspace.potential(&self.cloth, &self.state, positions);
         let brake: f64 = self.brake.iter().zip(positions).map(|(brake, x)| -brake * x).sum();
+        if let Some(ledger) = &mut self.ledger {
+            ledger.saw(cloth);
+        }
         cloth + self.weight_energy(positions) + brake + drag + self.contact.potential(positions)
     }
 

@@ -1,0 +1,9 @@
+//! Scenes in motion: energies, lengths of steps, rest, and explicit steps as a cross-check.
+#![allow(clippy::unwrap_used)]
+
+mod adaptive;
+mod energy;
+mod explicit;
+mod rest;
+mod robust;
+mod sheet;

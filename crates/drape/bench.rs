@@ -1,0 +1,190 @@
+use std::fmt::Write;
+
+use clap::Args;
+use drape::input::Document;
+use drape::scene::{Scene, Simulation, Summary};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+
+use crate::failure::Failure;
+use crate::say::say;
+
+#[derive(Args)]
+pub(crate) struct BenchArguments {
+    /// Particles along a side of the square, one run each.
+    #[arg(long, value_delimiter = ',', default_value = "20,50,100", value_name = "N,…")]
+    sizes: Vec<usize>,
+    /// Number of threads.
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    threads: usize,
+    /// Length of a step, in seconds.
+    #[arg(long, default_value_t = 0.005, value_name = "SECONDS")]
+    step: f64,
+    /// Simulated time, in seconds.
+    #[arg(long, default_value_t = 1.0, value_name = "SECONDS")]
+    until: f64,
+    /// Prints the results as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Plain weave of 200 g/m² with friction in every law.
+const FABRIC: &str = r#"name = "bench"
+density = 0.2
+thickness = 0.0004
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
+traction.friction = [{ plateau = 4.0, length = 0.001 }]
+bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4.0 }] }
+[weft]
+traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
+traction.friction = [{ plateau = 4.0, length = 0.001 }]
+bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4.0 }] }
+[shear]
+stiffness = 50.0
+friction = [{ plateau = 0.5, length = 0.004 }]
+"#;
+
+/// A square metre held at two corners: how it starts.
+const MOTIONS: [(&str, &str); 2] = [
+    ("curtain", "ripple = { amplitude = 0.005, wavelength = 0.25 }"),
+    ("swing", "turn = [-90, 0, 0]"),
+];
+
+/// What one run took.
+struct Run {
+    motion: &'static str,
+    size: usize,
+    summary: Summary,
+}
+
+impl Run {
+    /// Processor time per simulated second, or time where the system does not tell.
+    fn load(&self) -> f64 {
+        let Summary { cpu_seconds, wall_seconds, simulated_seconds, .. } = &self.summary;
+        cpu_seconds.unwrap_or(*wall_seconds) / simulated_seconds
+    }
+
+    fn step_milliseconds(&self) -> f64 {
+        1e3 * self.load() * self.summary.simulated_seconds / self.summary.steps as f64
+    }
+
+    /// Linear iterations per step.
+    fn linear(&self) -> f64 {
+        self.summary.solver.linear_iterations as f64 / self.summary.steps as f64
+    }
+}
+
+/// `drape bench`.
+pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
+    let BenchArguments { sizes, threads, step, until, json } = arguments;
+    let usage = |message: String| Err(Failure::Usage(message));
+    if let Some(size) = sizes.iter().find(|size| !(3..=1000).contains(*size)) {
+        return usage(format!("--sizes {size}: from 3 to 1000 particles along a side"));
+    }
+    if !(*step >= 1e-5 && *step <= 0.1 && *until >= *step && *until <= 1e3) {
+        return usage(format!("--step {step} --until {until}: seconds, one step at least"));
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(*threads).build_global();
+    pool.map_err(|error| Failure::Usage(format!("--threads {threads}: {error}")))?;
+    let bar = ProgressBar::new((MOTIONS.len() * sizes.len() * 1000) as u64);
+    let style = "{elapsed_precise} {bar:32} {percent} %, {eta} left  {msg}";
+    bar.set_style(ProgressStyle::with_template(style).expect("the template is right"));
+    let mut runs = Vec::new();
+    for (motion, start) in MOTIONS {
+        for &size in sizes {
+            bar.set_message(format!("{motion}, {size} × {size}"));
+            let base = (runs.len() * 1000) as u64;
+            let done = |part: f64| bar.set_position(base + (1000.0 * part) as u64);
+            let summary = run(start, size, (*step, *until), &done)?;
+            runs.push(Run { motion, size, summary });
+        }
+    }
+    bar.finish_and_clear();
+    say(if *json { as_json(&runs, *step) } else { table(&runs, *step) })
+}
+
+fn run(
+    start: &str,
+    size: usize,
+    (step, until): (f64, f64),
+    done: &dyn Fn(f64),
+) -> Result<Summary, Failure> {
+    let spacing = 1.0 / (size as f64 - 1.0);
+    let text = format!(
+        "name = \"bench\"\nspacing = {spacing}\nair.density = 0.0\nfabric.bench.file = \"bench.toml\"\n\
+         [[panel]]\nname = \"sheet\"\nfabric = \"bench\"\nrectangle = [1.0, 1.0]\n{start}\n\
+         [[pin]]\npanel = \"sheet\"\npoints = [[0, 1], [1, 1]]\n\
+         [time]\nstep = {step:?}\nend = {until:?}\n[output]\nevery = {until:?}\nenergy = false\n"
+    );
+    let fabric = Document::new("bench.toml", FABRIC);
+    let scene = Scene::from_documents(&Document::new("scene.toml", text), &[fabric])?;
+    let mut simulation = Simulation::new(scene)?;
+    loop {
+        let step = simulation.step().map_err(|error| Failure::Solver(error.to_string()))?;
+        done(step.time / until);
+        if step.finished {
+            return Ok(simulation.summary());
+        }
+    }
+}
+
+fn table(runs: &[Run], step: f64) -> String {
+    let mut text = format!(
+        "A square metre of 0.2 kg/m², 5000 N/m, friction in every law, held at two corners;\n\
+         steps of {} ms, tolerance 1e-4 g, {} threads.\n\n\
+         motion    particles  ms/step  iterations  linear  rejected  CPU s per simulated s\n",
+        1e3 * step,
+        runs[0].summary.threads
+    );
+    for run in runs {
+        let Summary { particles, solver, .. } = &run.summary;
+        let _ = writeln!(
+            text,
+            "{:8} {particles:10} {:8.2} {:11.1} {:7.0} {:9} {:22.3}",
+            run.motion,
+            run.step_milliseconds(),
+            solver.iterations_mean,
+            run.linear(),
+            solver.rejected_steps,
+            run.load()
+        );
+    }
+    for (motion, exponent) in growths(runs) {
+        let _ = writeln!(text, "{motion} grows like N^{exponent:.2}");
+    }
+    text.trim_end().to_owned()
+}
+
+fn as_json(runs: &[Run], step: f64) -> String {
+    let rows = runs.iter().map(|run| {
+        json!({
+            "motion": run.motion,
+            "size": run.size,
+            "particles": run.summary.particles,
+            "step_milliseconds": run.step_milliseconds(),
+            "cpu_per_simulated_second": run.load(),
+            "summary": run.summary,
+        })
+    });
+    let growth: serde_json::Map<_, _> =
+        growths(runs).into_iter().map(|(motion, g)| (motion.to_owned(), g.into())).collect();
+    let all = json!({ "step": step, "runs": rows.collect::<Vec<_>>(), "growth_exponent": growth });
+    serde_json::to_string_pretty(&all).expect("numbers and words always have a JSON form")
+}
+
+/// For each motion of two sizes or more: the exponent of the number of particles that the processor
+/// time grows with, by least squares of the logarithms.
+fn growths(runs: &[Run]) -> Vec<(&'static str, f64)> {
+    let exponent = |motion: &'static str| {
+        let points = runs.iter().filter(|run| run.motion == motion);
+        let points: Vec<[f64; 2]> =
+            points.map(|run| [(run.summary.particles as f64).ln(), run.load().ln()]).collect();
+        let mean = |axis: usize| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64;
+        let (x, y) = (mean(0), mean(1));
+        let spread: f64 = points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum();
+        let slope: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
+        (spread > 0.0).then_some((motion, slope / spread))
+    };
+    MOTIONS.iter().filter_map(|(motion, _)| exponent(motion)).collect()
+}
