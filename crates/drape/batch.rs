@@ -3,15 +3,14 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use drape::fit::identify_all;
 use drape::report::{FitPage, Trust};
 use indicatif::{ProgressBar, ProgressStyle};
-use rayon::prelude::*;
 
 use crate::command::FitArguments;
 use crate::failure::Failure;
-use crate::file;
-use crate::fit::{beside, identified, store};
 use crate::say::say;
+use crate::{file, fit};
 
 const SHEET_FILE: &str = "sheet.toml";
 /// Folders deeper than this below one that was named are not searched: a link back up would never end.
@@ -86,19 +85,26 @@ struct Row {
 
 /// Fits every sheet, on all threads; a bad one does not stop the others.
 #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
-pub(crate) fn fit(sheets: &[PathBuf], arguments: &FitArguments) -> Result<(), Failure> {
+pub(crate) fn fit_all(sheets: &[PathBuf], arguments: &FitArguments) -> Result<(), Failure> {
     let bar = ProgressBar::new(sheets.len() as u64);
     let style = "{elapsed_precise} {bar:32} {pos}/{len} sheets, {per_sec}, {eta} left";
     bar.set_style(ProgressStyle::with_template(style).expect("the template is right"));
-    let rows: Vec<Result<Row, Failure>> = sheets
-        .par_iter()
-        .zip(names(sheets))
-        .map(|(sheet, name)| {
-            let row = one(sheet, &name, arguments);
-            bar.inc(1);
-            row
-        })
-        .collect();
+    let inputs: Vec<(&PathBuf, String)> = sheets.iter().zip(names(sheets)).collect();
+    let settings = arguments.laws.settings();
+    let read = |(path, name): &(&PathBuf, String)| {
+        free(path, name, arguments)?;
+        fit::read(path)
+    };
+    let rows = identify_all(&inputs, &settings, read, |(path, name), found| {
+        let row = found.and_then(|(sheet, fit)| {
+            let page = fit::page(sheet, fit, &settings)?;
+            file::write(&target(path, name, arguments), &fit.fabric.to_toml())?;
+            fit::store(&page, name, arguments.report.as_deref())?;
+            Ok(Row::new(&page))
+        });
+        bar.inc(1);
+        row.map_err(|failure| failure.of(path))
+    });
     bar.finish_and_clear();
     let failed = rows.iter().filter(|row| row.is_err()).count();
     if arguments.json {
@@ -117,19 +123,21 @@ pub(crate) fn fit(sheets: &[PathBuf], arguments: &FitArguments) -> Result<(), Fa
     if failed > 0 { Err(Failure::Batch) } else { Ok(()) }
 }
 
-/// Fits one sheet and writes what was asked for.
-fn one(sheet: &Path, name: &str, arguments: &FitArguments) -> Result<Row, Failure> {
-    let path = match &arguments.output {
+/// Where the fabric of a sheet goes.
+fn target(sheet: &Path, name: &str, arguments: &FitArguments) -> PathBuf {
+    match &arguments.output {
         Some(folder) => folder.join(format!("{name}.toml")),
-        None => beside(sheet),
-    };
+        None => fit::beside(sheet),
+    }
+}
+
+/// Refuses to replace a fabric unless that is allowed.
+fn free(sheet: &Path, name: &str, arguments: &FitArguments) -> Result<(), Failure> {
+    let path = target(sheet, name, arguments);
     if path.exists() && !arguments.force {
         return Err(Failure::Usage(format!("{} exists; replace it with --force", path.display())));
     }
-    let (fit, page) = identified(sheet, &arguments.laws.settings())?;
-    file::write(&path, &fit.fabric.to_toml())?;
-    store(&page, name, arguments.report.as_deref())?;
-    Ok(Row::new(&page))
+    Ok(())
 }
 
 impl Row {

@@ -1,4 +1,5 @@
 use std::fmt;
+use std::path::Path;
 use std::process::ExitCode;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
@@ -12,6 +13,8 @@ pub(crate) enum Failure {
     Usage(String),
     /// Exit code 3: the input has mistakes.
     Input(Diagnostics),
+    /// Exit code 3: a sheet gives no fabric.
+    Fit(drape::fit::Error),
     /// Exit code 3: some sheets of a batch failed, and said why.
     Batch,
     /// Exit code 5: the solver failed, or the cloth did not settle.
@@ -28,7 +31,7 @@ impl Failure {
         self.print();
         ExitCode::from(match self {
             Self::Usage(_) => 2,
-            Self::Input(_) | Self::Batch => 3,
+            Self::Input(_) | Self::Fit(_) | Self::Batch => 3,
             Self::Solver(_) => 5,
             Self::Output(_) => 6,
             Self::Limit(_) => 7,
@@ -46,6 +49,22 @@ impl Failure {
     }
 }
 
+impl Failure {
+    /// The same with the sheet that it is about, where it does not say so yet.
+    pub(crate) fn of(self, sheet: &Path) -> Self {
+        match self {
+            Self::Fit(error) => Self::Input(Diagnostic::new(sheet, error.to_string()).into()),
+            other => other,
+        }
+    }
+}
+
+impl From<drape::fit::Error> for Failure {
+    fn from(error: drape::fit::Error) -> Self {
+        Self::Fit(error)
+    }
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -54,6 +73,7 @@ impl fmt::Display for Failure {
             | Self::Output(message)
             | Self::Limit(message) => f.write_str(message),
             Self::Input(mistakes) => mistakes.fmt(f),
+            Self::Fit(error) => error.fmt(f),
             Self::Batch => f.write_str("not all sheets could be fitted"),
         }
     }

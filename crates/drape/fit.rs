@@ -16,7 +16,7 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     let sheets = batch::sheets(&arguments.sheets)?;
     match sheets.as_slice() {
         [sheet] => one(sheet, arguments),
-        sheets => batch::fit(sheets, arguments),
+        sheets => batch::fit_all(sheets, arguments),
     }
 }
 
@@ -45,12 +45,22 @@ fn one(sheet: &Path, arguments: &FitArguments) -> Result<(), Failure> {
 
 /// Reads a sheet, fits it, and judges the fit.
 pub(crate) fn identified(path: &Path, settings: &Settings) -> Result<(Fit, FitPage), Failure> {
-    let sheet = Sheet::read(path).map_err(|error| input(path, error))?;
-    let fit = identify_with(&sheet, settings)
-        .map_err(|error| Diagnostics::from(Diagnostic::new(path, error.to_string())))?;
-    let page = fit_page(&sheet, &fit, settings);
-    page.check()?;
+    let sheet = read(path)?;
+    let fit = identify_with(&sheet, settings).map_err(|error| Failure::from(error).of(path))?;
+    let page = page(&sheet, &fit, settings)?;
     Ok((fit, page))
+}
+
+/// Reads a sheet.
+pub(crate) fn read(path: &Path) -> Result<Sheet, Failure> {
+    Sheet::read(path).map_err(|error| input(path, error).into())
+}
+
+/// The report of a fit, checked.
+pub(crate) fn page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> Result<FitPage, Failure> {
+    let page = fit_page(sheet, fit, settings);
+    page.check()?;
+    Ok(page)
 }
 
 /// Writes the page of a fit into a folder, if there is one.
