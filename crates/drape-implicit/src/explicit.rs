@@ -154,11 +154,11 @@ impl Explicit {
         positions.copy_from_slice(&motion.positions);
         system.begin(end, dt, &motion.positions, positions);
         let before = system.potential(&motion.positions);
-        for (particle, held) in system.held().iter().enumerate() {
-            for k in 3 * particle..3 * particle + 3 {
-                if !held {
-                    positions[k] = motion.positions[k] + dt * motion.velocities[k];
-                }
+        let held = system.held();
+        let moving = motion.positions.iter().zip(&motion.velocities);
+        for (k, (end, (start, velocity))) in positions.iter_mut().zip(moving).enumerate() {
+            if !held[k / 3] {
+                *end = start + dt * velocity;
             }
         }
         system.forces(positions, forces);

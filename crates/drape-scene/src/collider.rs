@@ -95,7 +95,5 @@ impl Reader<'_> {
 fn pose(center: [f64; 3], turn: [f64; 3]) -> Pose {
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let turns = axes.into_iter().zip(turn).filter(|(_, angle)| *angle != 0.0);
-    let pose =
-        turns.fold(Pose::new(center), |pose, (axis, angle)| pose.turned(axis, angle.to_radians()));
-    pose
+    turns.fold(Pose::new(center), |pose, (axis, angle)| pose.turned(axis, angle.to_radians()))
 }

@@ -21,6 +21,8 @@ mod simulation;
 mod stopwatch;
 mod summary;
 mod world;
+#[cfg(test)]
+mod world_check;
 
 pub use clock::Clock;
 pub use error::SceneError;

@@ -84,7 +84,7 @@ mod tests {
 
     fn clock(error: Option<f64>) -> Clock {
         let (step, end, ramp) = (0.004, 1.0, 0.0);
-        let (ticks_per_step, ticks_max, ticks_per_frame) = (4, 16, 40);
+        let (ticks_per_step, ticks_max, ticks_per_frame) = (4, 16, 48);
         Clock { step, ticks_per_step, ticks_max, error, end, ramp, ticks_per_frame }
     }
 

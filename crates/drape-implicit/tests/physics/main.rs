@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod chains;
+mod explicit;
 mod failures;
 mod methods;
 mod springs;

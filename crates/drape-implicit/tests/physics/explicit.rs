@@ -1,0 +1,85 @@
+//! Explicit steps, and the estimate of a step's error.
+
+use drape_implicit::{Error, ErrorEstimate, Explicit, Integrator, Motion, Settings, Stepper};
+
+use crate::springs::Springs;
+use crate::well::Well;
+
+const OMEGA: f64 = 10.0;
+
+fn spring_law(x: f64) -> [f64; 3] {
+    [0.5 * OMEGA * OMEGA * x * x, OMEGA * OMEGA * x, OMEGA * OMEGA]
+}
+
+#[test]
+fn explicit_steps_are_of_first_order_and_keep_the_energy() {
+    let run = |steps: usize| {
+        let mut system = Well::new(spring_law);
+        let mut explicit = Explicit::new(&system);
+        let mut motion = Motion::at_rest(vec![1.0, 0.0, 0.0]);
+        let (mut lost, mut largest) = (0.0, 0.0_f64);
+        for _ in 0..steps {
+            let report = explicit.advance(&mut system, &mut motion, 1.0 / steps as f64).unwrap();
+            lost += report.energy.unwrap().numerical_dissipation;
+            largest = largest.max(lost.abs());
+        }
+        let error = (motion.positions[0] - (OMEGA * motion.time).cos()).abs();
+        (error, largest, lost)
+    };
+    let [coarse, fine] = [1000, 2000].map(run);
+    let order = (coarse.0 / fine.0).log2();
+    assert!((order - 1.0).abs() < 0.1, "order {order}: {} and {}", coarse.0, fine.0);
+    // The energy swings by half of ω dt of its 50 J and does not drift.
+    assert!(coarse.1 < 0.00505 * 50.0, "{}", coarse.1);
+    assert!(fine.1 < 0.51 * coarse.1, "{} and {}", fine.1, coarse.1);
+}
+
+#[test]
+fn a_long_step_is_made_in_as_many_parts_as_stability_asks_for() {
+    let mut system = Springs::sheet(6, 5000.0);
+    let mut explicit = Explicit::new(&system);
+    let mut motion = Motion::at_rest(Springs::flat(6));
+    let stable = explicit.stable_step(&mut system, &motion, 0.01).unwrap();
+    let report = explicit.advance(&mut system, &mut motion, 0.01).unwrap();
+    assert_eq!(report.sub_steps, (0.01 / (0.5 * stable)).ceil() as usize);
+    for _ in 0..50 {
+        explicit.advance(&mut system, &mut motion, 0.01).unwrap();
+    }
+    let farthest = motion.positions.iter().fold(0.0, |far: f64, x| far.max(x.abs()));
+    assert!(farthest < 2.0, "it swings within its reach: {farthest}");
+
+    // The bound is a bound, and not a loose one: at three times its length the sheet flies apart.
+    let mut explicit = Explicit::new(&system).with_fraction(3.0);
+    let mut motion = Motion::at_rest(Springs::flat(6));
+    let blown_up = (0..100).find_map(|_| explicit.advance(&mut system, &mut motion, 0.01).err());
+    let far = motion.positions.iter().any(|x| x.abs() > 1e3);
+    assert!(far || matches!(blown_up, Some(Error::NotFinite { .. })), "{blown_up:?}");
+}
+
+#[test]
+fn the_estimate_is_the_error_of_one_step() {
+    for (integrator, tolerance) in [(Integrator::BackwardEuler, 0.05), (Integrator::Bdf2, 0.05)] {
+        for ratio in [0.5, 1.0, 2.0] {
+            let mut system = Well::new(spring_law);
+            let settings = Settings { integrator, tolerance: 1e-12, ..Settings::default() };
+            let mut stepper = Stepper::new(&system, settings).unwrap();
+            // Two steps of the exact motion, then one of the formula.
+            let (before, dt) = (0.001, 0.001 * ratio);
+            let exact = |t: f64| {
+                (vec![(OMEGA * t).cos(), 0.0, 0.0], vec![-OMEGA * (OMEGA * t).sin(), 0.0, 0.0])
+            };
+            let start = 0.06;
+            let (positions, velocities) = exact(start);
+            let mut motion = Motion::new(positions, velocities);
+            let (positions, velocities) = exact(start - before);
+            motion.previous = Some(drape_implicit::Previous { dt: before, positions, velocities });
+            let mut estimate = ErrorEstimate::new(1);
+            estimate.predict(&motion, integrator, dt);
+            stepper.advance(&mut system, &mut motion, dt).unwrap();
+            let error = (motion.positions[0] - exact(start + dt).0[0]).abs();
+            let found = estimate.estimate(&motion);
+            let miss = (found / error - 1.0).abs();
+            assert!(miss < tolerance, "{integrator:?}, ratio {ratio}: {found:e} for {error:e}");
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! What a scene says is what is simulated, and what it says wrongly is answered at its place.
+#![allow(clippy::unwrap_used)]
+
+use drape_implicit::{Integrator, LinearSolver, Method};
+use drape_input::{Diagnostics, Document};
+use drape_scene::{Scene, Scheme};
+
+const FABRIC: &str = r#"name = "plain"
+density = 0.12
+thickness = 0.0003
+surface_friction = 0.25
+shear = { stiffness = 35.0 }
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
+bending.rigidity = 1.2e-5
+[weft]
+traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
+bending.rigidity = 0.8e-5
+"#;
+
+const LEAST: &str = r#"fabric.plain.file = "plain.toml"
+[[panel]]
+name = "towel"
+fabric = "plain"
+rectangle = [0.2, 0.3]
+[time]
+step = 0.004
+end = 0.1
+"#;
+
+fn read(text: &str) -> Result<Scene, Diagnostics> {
+    let fabric = Document::new("plain.toml", FABRIC);
+    Scene::from_documents(&Document::new("towel.toml", text), &[fabric])
+}
+
+/// A scene in which one line is replaced, or one is added at the end.
+fn with(old: &str, new: &str) -> String {
+    assert!(old.is_empty() || LEAST.contains(old), "{old}");
+    if old.is_empty() { format!("{LEAST}{new}\n") } else { LEAST.replace(old, new) }
+}
+
+#[test]
+fn what_is_not_said_has_its_default() {
+    let scene = read(LEAST).unwrap();
+    assert_eq!(scene.name, "unnamed");
+    assert_eq!(scene.cloth.particles(), 21 * 31, "10 mm apart");
+    assert_eq!(scene.gravity, [0.0, -9.81, 0.0]);
+    assert!((scene.air - 0.5 * 1.2 * 1.28).abs() < 1e-15);
+    assert_eq!(
+        (scene.clock.step, scene.clock.tick(), scene.clock.ticks_to_do()),
+        (0.004, 0.004, 25)
+    );
+    assert_eq!(
+        (scene.clock.ticks_per_frame, scene.clock.ticks_max, scene.clock.error),
+        (10, 1, None)
+    );
+    assert_eq!((scene.clock.ramp, scene.settle, scene.energy), (0.0, None, true));
+    let Scheme::Implicit(solver) = &scene.scheme else { panic!("implicit") };
+    assert_eq!((solver.integrator, solver.method), (Integrator::Bdf2, Method::Broyden));
+    assert_eq!((solver.linear_solver, solver.tolerance), (LinearSolver::ConjugateGradient, 1e-4));
+    assert_eq!(scene.folder, None);
+    assert!(!scene.held.iter().any(|held| *held));
+    // The middle of the panel is at the origin.
+    let low = scene.positions.chunks(3).map(|p| p[1]).fold(f64::INFINITY, f64::min);
+    assert!((low + 0.15).abs() < 1e-12, "{low}");
+}
+
+#[test]
+fn every_key_is_heard() {
+    let text = r#"name = "all"
+length = "cm"
+spacing = 2
+gravity = [0, 0, -1]
+air = { density = 2, drag = 1 }
+fabric.plain.file = "plain.toml"
+[[panel]]
+name = "towel"
+fabric = "plain"
+rectangle = [20, 30]
+center = [0, 100, 0]
+turn = [90, 0, 0]
+ripple = { amplitude = 0.1, wavelength = 10 }
+noise = { amplitude = 0.01, seed = 2 }
+[[panel]]
+name = "disc"
+fabric = "plain"
+disc = 20
+spacing = 1
+[[pin]]
+panel = "towel"
+points = [[0, 0], [20, 30]]
+[[pin]]
+panel = "towel"
+edge = "left"
+[[collider.sphere]]
+name = "ball"
+radius = 5
+center = [0, 50, 0]
+friction = 0.7
+[[collider.box]]
+size = [10, 10, 10]
+edge_radius = 1
+center = [50, 50, 0]
+turn = [0, 45, 0]
+[[collider.cylinder]]
+radius = 3
+height = 10
+center = [-50, 50, 0]
+[[collider.plane]]
+center = [0, -50, 0]
+[contact]
+offset = 0.3
+stiffness = 1e6
+slip_speed = 0.002
+[time]
+step = 0.008
+step_min = 0.001
+step_max = 0.032
+error = 0.01
+end = 2
+ramp = 0.5
+[solver]
+integrator = "backward-euler"
+method = "newton"
+linear = "cholesky"
+tolerance = 1e-6
+[output]
+folder = "here"
+every = 0.08
+azimuth = 10
+elevation = 20
+energy = false
+"#;
+    let scene = read(text).unwrap();
+    assert_eq!(scene.name, "all");
+    assert_eq!((scene.panels.len(), scene.panels[1].first), (2, 11 * 16));
+    assert_eq!(scene.gravity, [0.0, 0.0, -1.0]);
+    assert!((scene.air - 1.0).abs() < 1e-15);
+    assert_eq!(scene.held.iter().filter(|held| **held).count(), 16 + 1);
+    let towel = &scene.positions[..3 * 176];
+    let high = towel.chunks(3).map(|p| (p[1] - 1.0).abs()).fold(0.0, f64::max);
+    assert!(high > 5e-4 && high < 1.2e-3, "it lies flat at 1 m but for ripple and noise: {high}");
+    let bodies = scene.contact.bodies();
+    let names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
+    assert_eq!(names, ["ball", "box 1", "cylinder 1", "plane 1"]);
+    assert_eq!((bodies[0].friction, bodies[1].friction), (0.7, 0.25), "its own, or the fabric's");
+    let contact = scene.contact.settings();
+    assert!((contact.offset - 0.003).abs() < 1e-15);
+    assert_eq!((contact.stiffness, contact.slip_speed), (1e6, 0.002));
+    let clock = scene.clock;
+    assert_eq!((clock.step, clock.ticks_per_step, clock.ticks_max), (0.008, 8, 32));
+    assert_eq!((clock.error, clock.ramp, clock.ticks_per_frame), (Some(1e-4), 0.5, 80));
+    let Scheme::Implicit(solver) = &scene.scheme else { panic!("implicit") };
+    assert_eq!((solver.integrator, solver.method), (Integrator::BackwardEuler, Method::Newton));
+    assert_eq!((solver.linear_solver, solver.tolerance), (LinearSolver::Cholesky, 1e-6));
+    assert_eq!((scene.energy, solver.energy_balance), (false, false));
+    assert_eq!((scene.folder, scene.view), (Some("here".into()), [Some(10.0), Some(20.0)]));
+}
+
+#[test]
+fn rest_is_defined_by_its_table() {
+    let settle = read(&with("", "[settle]")).unwrap().settle.unwrap();
+    assert_eq!((settle.speed, settle.residual, settle.inertia), (0.002, 1e-3, false));
+    assert!((settle.stride - 0.0025).abs() < 1e-15, "a quarter of the spacing");
+    let text = with("", "[settle]\nspeed = 0.01\nresidual = 1e-2\nstride = 0.001\ninertia = true");
+    let settle = read(&text).unwrap().settle.unwrap();
+    assert_eq!((settle.speed, settle.residual, settle.stride), (0.01, 1e-2, 0.001));
+    assert!(settle.inertia);
+    let scene = read(&with("", "[solver]\nintegrator = \"explicit\"")).unwrap();
+    assert_eq!(scene.scheme, Scheme::Explicit);
+}
+
+#[test]
+fn a_mistake_is_answered_at_its_line_with_its_value() {
+    let cases = [
+        ("step = 0.004", "step = -1", "-1", 7),
+        ("end = 0.1", "end = 0.001", "0.001", 8),
+        ("end = 0.1", "end = 0.1\nerror = 1.0", "1", 9),
+        ("end = 0.1", "end = 0.1\nstep_max = 0.1", "one length", 9),
+        ("end = 0.1", "end = 0.1\nerror = 1e-4\nstep_min = 0.1", "0.1", 10),
+        ("end = 0.1", "end = 0.1\nramp = -2", "-2", 9),
+        ("", "[settle]\nspeed = 0", "0", 10),
+        ("", "[settle]\nresidual = 5", "5", 10),
+        ("", "[settle]\nstride = -0.1", "-0.1", 10),
+        ("", "[solver]\nintegrator = \"leapfrog\"", "leapfrog", 10),
+        ("", "[solver]\ntolerance = 2", "2", 10),
+        ("", "[contact]\nslip_speed = 9", "9", 10),
+        ("", "[output]\nevery = 0", "0", 10),
+        ("", "[[pin]]\npanel = \"towl\"\nedge = \"top\"", "towl", 10),
+        ("", "[[pin]]\npanel = \"towel\"\npoints = [[1, 1]]", "[1.0, 1.0]", 11),
+        ("", "[[collider.sphere]]\nradius = 1", "inside", 2),
+        ("fabric = \"plain\"", "fabric = \"plane\"", "plane", 4),
+        ("rectangle = [0.2, 0.3]", "rectangle = [0.2, -0.3]", "-0.3", 5),
+    ];
+    for (old, new, value, line) in cases {
+        let mistakes = read(&with(old, new)).expect_err(new);
+        let text = mistakes.to_string();
+        assert!(text.contains(value), "{new}: {text}");
+        assert!(text.contains(&format!("towel.toml:{line}")), "{new} is in line {line}: {text}");
+    }
+}
+
+#[test]
+fn explicit_steps_neither_settle_nor_vary() {
+    let text = with("", "[settle]\n[solver]\nintegrator = \"explicit\"");
+    assert!(read(&text).expect_err("refused").to_string().contains("one length"));
+}
