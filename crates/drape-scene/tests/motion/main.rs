@@ -1,5 +1,5 @@
 //! Scenes in motion: energies, lengths of steps, rest, and explicit steps as a cross-check.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "studies print their figures")]
 
 mod adaptive;
 mod energy;
