@@ -82,9 +82,9 @@ turn = [90, 0, 0]
 ripple = { amplitude = 0.1, wavelength = 10 }
 noise = { amplitude = 0.01, seed = 2 }
 [[panel]]
-name = "disc"
+name = "mat"
 fabric = "plain"
-disc = 20
+rectangle = [10, 12]
 spacing = 1
 [[pin]]
 panel = "towel"
