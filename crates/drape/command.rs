@@ -164,6 +164,9 @@ pub(crate) struct ValidateArguments {
     /// Cases to run [default: all].
     #[arg(value_name = "CASE")]
     pub(crate) cases: Vec<String>,
+    /// Writes the outcomes as a page in Markdown.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) markdown: Option<PathBuf>,
     /// Prints the outcomes as JSON.
     #[arg(long)]
     pub(crate) json: bool,

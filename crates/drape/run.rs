@@ -89,7 +89,7 @@ fn describe(summary: &Summary) -> String {
 
 fn balance(energy: &Energy) -> String {
     format!(
-        "\nenergy: the fall gave {:.4} J; elastic {:.4} J, kinetic {:.1e} J; lost in the fabric {:.4} J, \
+        "\nenergy: the fall gave {:.4} J; elastic {:+.4} J, kinetic {:.1e} J; lost in the fabric {:.4} J, \
          on bodies {:.4} J, to the air {:.4} J, in the integration {:.4} J; unaccounted {:.0e} J",
         -energy.gravity,
         energy.elastic + energy.contact,
