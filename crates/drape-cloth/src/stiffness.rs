@@ -265,13 +265,15 @@ fn across_cells(scratch: &mut Scratch, trial: &Trial<'_>) {
     let Trial { panel, strip, .. } = *trial;
     let places = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
     for start in places.step_by(LANES) {
-        let turns = [0, 1, 2, 3].map(|corner: usize| scratch.turns[corner].from(start));
+        let [first, second, third, fourth] = &scratch.turns;
+        let (first, second) = (first.from(start), second.from(start));
+        let (third, fourth) = (third.from(start), fourth.from(start));
         let mut blocks = [[[0.0; LANES]; 9]; 2];
         for k in 0..9 {
             let turned = TRANSPOSED[k];
             for lane in 0..LANES {
-                blocks[0][k][lane] = -turns[1].0[turned][lane] - turns[3].0[k][lane];
-                blocks[1][k][lane] = turns[0].0[turned][lane] + turns[2].0[k][lane];
+                blocks[0][k][lane] = -second.0[turned][lane] - fourth.0[k][lane];
+                blocks[1][k][lane] = first.0[turned][lane] + third.0[k][lane];
             }
         }
         scratch.blocks[2].put(start, &blocks[0]);
@@ -301,10 +303,12 @@ fn gather(scratch: &Scratch, trial: &Trial<'_>, values: &mut [f64]) {
         let mut own = [[0.0; LANES]; 6];
         for (k, (row, column)) in HALF.into_iter().enumerate() {
             let (entry, turned) = (3 * row + column, 3 * column + row);
-            let [a, b, c, d] = next.map(|blocks| blocks.0[entry]);
-            let [e, f, g, h] = before.map(|blocks| blocks.0[turned]);
-            let [i, j] = far.map(|blocks| blocks.0[k]);
-            let [l, m] = far_before.map(|blocks| blocks.0[k]);
+            let [a, b, c, d] = &next;
+            let (a, b, c, d) = (a.0[entry], b.0[entry], c.0[entry], d.0[entry]);
+            let [e, f, g, h] = &before;
+            let (e, f, g, h) = (e.0[turned], f.0[turned], g.0[turned], h.0[turned]);
+            let (i, j) = (far[0].0[k], far[1].0[k]);
+            let (l, m) = (far_before[0].0[k], far_before[1].0[k]);
             for lane in 0..LANES {
                 let near = (a[lane] + e[lane]) + (b[lane] + f[lane]);
                 let cell = (c[lane] + g[lane]) + (d[lane] + h[lane]);
@@ -312,9 +316,16 @@ fn gather(scratch: &Scratch, trial: &Trial<'_>, values: &mut [f64]) {
                 own[k][lane] = -(near + cell + bows);
             }
         }
-        let [near, slant, up, over] = next.map(|batch| batch.0);
-        let rows: [[&Lanes; 9]; BLOCKS] =
-            [whole(own.each_ref()), near, whole(far[0].0), slant, up, over, whole(far[1].0)];
+        let [near, slant, up, over] = &next;
+        let rows: [[&Lanes; 9]; BLOCKS] = [
+            whole(own.each_ref()),
+            near.0,
+            whole(far[0].0),
+            slant.0,
+            up.0,
+            over.0,
+            whole(far[1].0),
+        ];
         for (lane, slots) in slots.iter().enumerate() {
             for (slot, block) in slots.iter().zip(&rows) {
                 if *slot != NO_BLOCK {
@@ -331,5 +342,6 @@ fn gather(scratch: &Scratch, trial: &Trial<'_>, values: &mut [f64]) {
 /// A symmetric block from its upper half.
 #[inline(always)]
 fn whole(half: [&Lanes; 6]) -> [&Lanes; 9] {
-    IN_HALF.map(|k| half[k])
+    let [a, b, c, d, e, f] = half;
+    [a, b, c, b, d, e, c, e, f]
 }

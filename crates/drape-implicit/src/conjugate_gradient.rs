@@ -1,8 +1,11 @@
 //! Conjugate gradients with the incomplete factor as preconditioner.
 
-use crate::BlockMatrix;
+use crate::block;
 use crate::incomplete::Incomplete;
-use crate::vector::{descend, dot, norm};
+use crate::lanes::{Columns, LANES};
+use crate::packed::Packed;
+use crate::vector::{add_scaled, dot, sum};
+use crate::waves::Waves;
 
 /// How conjugate gradients ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,66 +18,159 @@ pub(crate) enum Ending {
     Indefinite,
 }
 
-/// Work space of the iteration.
+/// Work space of the iteration: vectors by rows of the waves, with zeros where no particle is.
 #[derive(Debug)]
 pub(crate) struct ConjugateGradient {
-    residual: Vec<f64>,
-    preconditioned: Vec<f64>,
-    direction: Vec<f64>,
-    product: Vec<f64>,
+    solution: Columns<f64>,
+    residual: Columns<f64>,
+    direction: Columns<f64>,
+    /// Zeros between two products.
+    product: Columns<f64>,
 }
 
 impl ConjugateGradient {
-    pub(crate) fn new(length: usize) -> Self {
-        let zeros = || vec![0.0; length];
-        Self { residual: zeros(), preconditioned: zeros(), direction: zeros(), product: zeros() }
+    pub(crate) fn new(waves: &Waves) -> Self {
+        let zeros = || Columns::new(waves.rows);
+        Self { solution: zeros(), residual: zeros(), direction: zeros(), product: zeros() }
     }
 
     /// Solves `A x = b` from `x = 0` until `‖b − A x‖₂ ≤ target`, in at least one iteration. `x` holds `b ≠ 0` on
     /// entry. Returns the iterations made and how they ended.
+    #[inline(always)]
     pub(crate) fn solve(
         &mut self,
-        (matrix, preconditioner): (&BlockMatrix, &mut Incomplete),
+        (waves, matrix, preconditioner): (&Waves, &Packed, &mut Incomplete),
         x: &mut [f64],
         target: f64,
         limit: usize,
     ) -> (usize, Ending) {
-        let Self { residual, preconditioned, direction, product } = self;
-        residual.copy_from_slice(x);
-        x.fill(0.0);
-        preconditioner.solve(residual, preconditioned, norm(residual));
-        direction.copy_from_slice(preconditioned);
-        let mut weight = dot(residual, preconditioned);
+        for (b, &row) in block::triples(x).iter().zip(&waves.places) {
+            for (column, b) in self.residual.0.iter_mut().zip(b) {
+                column[row as usize] = *b;
+            }
+        }
+        for column in self.solution.0.iter_mut().chain(&mut self.product.0) {
+            column.fill(0.0);
+        }
+        let end = self.iterate((waves, matrix, preconditioner), target, limit);
+        for (x, &row) in block::triples_mut(x).iter_mut().zip(&waves.places) {
+            for (x, column) in x.iter_mut().zip(&self.solution.0) {
+                *x = column[row as usize];
+            }
+        }
+        end
+    }
+
+    /// Every vector passes through the processor as rarely as the method allows, which is what most of the time goes
+    /// into besides the matrix: the preconditioned residual is read where the preconditioner leaves it.
+    #[inline(always)]
+    fn iterate(
+        &mut self,
+        (waves, matrix, preconditioner): (&Waves, &Packed, &mut Incomplete),
+        target: f64,
+        limit: usize,
+    ) -> (usize, Ending) {
+        let Self { solution, residual, direction, product } = self;
+        // Keeps the numbers of the preconditioner in the range of single precision.
+        let mut scale = {
+            let [x, y, z] = &residual.0;
+            (dot(x, x) + dot(y, y) + dot(z, z)).sqrt()
+        };
+        for axis in 0..3 {
+            let image = &mut preconditioner.image.0[axis];
+            descend(0.0, &mut residual.0[axis], &mut product.0[axis], (image, 1.0 / scale));
+        }
+        preconditioner.apply(waves);
+        let mut weight = 0.0;
+        for axis in 0..3 {
+            let image = &preconditioner.image.0[axis];
+            weight += dot_scaled(&residual.0[axis], image, scale);
+            turn(&mut direction.0[axis], 0.0, (image, scale));
+        }
         for iteration in 1..=limit {
-            matrix.multiply(direction, product);
-            let curvature = dot(direction, product);
+            matrix.add_product(waves, direction, product);
+            let mut curvature = 0.0;
+            for axis in 0..3 {
+                curvature += dot(&direction.0[axis], &product.0[axis]);
+            }
             // Written so that a NaN takes this way too.
             let positive = curvature > 0.0 && weight > 0.0;
             if !positive {
                 return (iteration, Ending::Indefinite);
             }
             let step = weight / curvature;
-            let length = descend(step, (&mut *x, direction), (residual, product));
+            let mut square = 0.0;
+            for axis in 0..3 {
+                let image = &mut preconditioner.image.0[axis];
+                let (residual, product) = (&mut residual.0[axis], &mut product.0[axis]);
+                square += descend(step, residual, product, (image, 1.0 / scale));
+            }
+            let length = square.sqrt();
+            for (x, direction) in solution.0.iter_mut().zip(&direction.0) {
+                add_scaled(x, step, direction);
+            }
             if length <= target {
                 return (iteration, Ending::Converged);
             }
-            preconditioner.solve(residual, preconditioned, length);
-            let next = dot(residual, preconditioned);
-            let turn = next / weight;
-            weight = next;
-            for (d, z) in direction.iter_mut().zip(preconditioned.iter()) {
-                *d = z + turn * *d;
+            preconditioner.apply(waves);
+            let mut next = 0.0;
+            for axis in 0..3 {
+                next += dot_scaled(&residual.0[axis], &preconditioner.image.0[axis], scale);
             }
+            for axis in 0..3 {
+                let image = &preconditioner.image.0[axis];
+                turn(&mut direction.0[axis], next / weight, (image, scale));
+            }
+            weight = next;
+            scale = length;
         }
         (limit, Ending::Truncated)
+    }
+}
+
+/// `r − step · p`, and its image times a factor in single precision; `p` becomes zero. Returns the new `‖r‖₂²`.
+#[inline(always)]
+fn descend(step: f64, r: &mut [f64], p: &mut [f64], (image, factor): (&mut [f32], f64)) -> f64 {
+    let mut partial = [0.0; LANES];
+    let (heads, _) = r.as_chunks_mut::<LANES>();
+    let (products, _) = p.as_chunks_mut::<LANES>();
+    let (images, _) = image.as_chunks_mut::<LANES>();
+    for ((r, p), image) in heads.iter_mut().zip(products).zip(images) {
+        for k in 0..LANES {
+            r[k] -= step * p[k];
+            partial[k] += r[k] * r[k];
+            image[k] = (r[k] * factor) as f32;
+            p[k] = 0.0;
+        }
+    }
+    sum(partial)
+}
+
+/// `Σ rᵢ zᵢ` with `z` the image times a factor.
+#[inline(always)]
+fn dot_scaled(r: &[f64], image: &[f32], factor: f64) -> f64 {
+    let mut partial = [0.0; LANES];
+    for (r, image) in r.as_chunks::<LANES>().0.iter().zip(image.as_chunks::<LANES>().0) {
+        for k in 0..LANES {
+            partial[k] += r[k] * (f64::from(image[k]) * factor);
+        }
+    }
+    sum(partial)
+}
+
+/// `z + factor · d` with `z` the image times a scale.
+#[inline(always)]
+fn turn(d: &mut [f64], factor: f64, (image, scale): (&[f32], f64)) {
+    for (d, image) in d.iter_mut().zip(image) {
+        *d = f64::from(*image) * scale + factor * *d;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Pattern;
-    use crate::vector::add_scaled;
+    use crate::vector::norm;
+    use crate::{BlockMatrix, Pattern};
 
     /// The Laplacian of an n × n grid, shifted: its incomplete factor is not exact.
     fn grid(n: usize, shift: f64) -> BlockMatrix {
@@ -98,13 +194,16 @@ mod tests {
     fn solve(matrix: &BlockMatrix, limit: usize) -> (f64, usize, Ending) {
         let size = 3 * matrix.pattern().particles();
         let b: Vec<f64> = (0..size).map(|k| (k as f64 * 0.37).sin()).collect();
-        let mut incomplete = Incomplete::new(matrix.pattern());
-        incomplete.factorise(matrix).unwrap();
+        let waves = Waves::new(matrix.pattern());
+        let mut packed = Packed::new(&waves);
+        let mut incomplete = Incomplete::new(&waves);
+        incomplete.factorise(&waves, matrix, &mut packed).unwrap();
         let mut x = b.clone();
         let mut back = vec![0.0; size];
         let target = 1e-10 * norm(&b);
-        let mut gradient = ConjugateGradient::new(size);
-        let (iterations, ending) = gradient.solve((matrix, &mut incomplete), &mut x, target, limit);
+        let mut gradient = ConjugateGradient::new(&waves);
+        let (iterations, ending) =
+            gradient.solve((&waves, &packed, &mut incomplete), &mut x, target, limit);
         matrix.multiply(&x, &mut back);
         add_scaled(&mut back, -1.0, &b);
         assert!(ending == Ending::Indefinite || dot(&x, &b) > 0.0, "not a descent direction");

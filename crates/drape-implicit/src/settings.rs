@@ -85,8 +85,8 @@ pub struct Settings {
     pub tangent_iterations: usize,
     /// Broyden: the linear residual relative to the nonlinear one at which conjugate gradients stop. Default 0.03.
     pub broyden_forcing: f64,
-    /// The same for Newton steps. Default 0.003: looser costs more tangents than it saves iterations, and one tangent
-    /// costs as much as ten to fifteen of these; from 0.01 to 0.001 the cost is flat.
+    /// The same for Newton steps. Default 0.01: looser costs more tangents than it saves iterations, and one tangent
+    /// costs as much as ten to fifteen of these; from 0.01 to 0.001 the cost is flat within a tenth.
     pub newton_forcing: f64,
     /// Conjugate-gradient iterations after which the direction found so far is taken. Default 2000.
     pub max_linear_iterations: usize,
@@ -106,7 +106,7 @@ impl Default for Settings {
             max_halvings: 10,
             tangent_iterations: 3,
             broyden_forcing: 0.03,
-            newton_forcing: 0.003,
+            newton_forcing: 0.01,
             max_linear_iterations: 2000,
             energy_balance: false,
         }

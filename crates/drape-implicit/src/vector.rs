@@ -1,10 +1,9 @@
-//! Sums over flat vectors, in an order that depends on their length alone.
+//! Sums over flat vectors, in an order that depends on their length alone, and so are the same on every machine.
 
-/// Number of partial sums: enough for the compiler to use the widest registers of the machine, and the
-/// same on every machine, so that the bits are too.
-const LANES: usize = 8;
+use crate::lanes::LANES;
 
 /// `Σ aᵢ bᵢ`.
+#[inline(always)]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (heads, tail) = a.as_chunks::<LANES>();
     let (other_heads, other_tail) = b.as_chunks::<LANES>();
@@ -14,16 +13,22 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
             partial[k] += x[k] * y[k];
         }
     }
-    let mut sum = 0.0;
+    let mut rest = 0.0;
     for (x, y) in tail.iter().zip(other_tail) {
-        sum += x * y;
+        rest += x * y;
     }
+    sum(partial) + rest
+}
+
+/// The sum of partial sums.
+#[inline(always)]
+pub(crate) fn sum(mut partial: [f64; LANES]) -> f64 {
     for half in [4, 2, 1] {
         for k in 0..half {
             partial[k] += partial[k + half];
         }
     }
-    partial[0] + sum
+    partial[0]
 }
 
 /// Euclidean length; NaN if an entry is NaN.
@@ -32,34 +37,11 @@ pub(crate) fn norm(a: &[f64]) -> f64 {
 }
 
 /// `y + factor · x`.
+#[inline(always)]
 pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += factor * x;
     }
-}
-
-/// `x + step · direction` and `r − step · product` in one pass, with the new `‖r‖₂`.
-pub(crate) fn descend(
-    step: f64,
-    (x, direction): (&mut [f64], &[f64]),
-    (r, product): (&mut [f64], &[f64]),
-) -> f64 {
-    add_scaled(x, step, direction);
-    let mut partial = [0.0; LANES];
-    let (heads, tail) = r.as_chunks_mut::<LANES>();
-    let (products, product_tail) = product.as_chunks::<LANES>();
-    for (r, p) in heads.iter_mut().zip(products) {
-        for k in 0..LANES {
-            r[k] -= step * p[k];
-            partial[k] += r[k] * r[k];
-        }
-    }
-    let mut sum = partial.iter().sum::<f64>();
-    for (r, p) in tail.iter_mut().zip(product_tail) {
-        *r -= step * p;
-        sum += *r * *r;
-    }
-    sum.sqrt()
 }
 
 #[cfg(test)]

@@ -1,0 +1,151 @@
+//! Three-by-three blocks, eight side by side.
+
+use core::ops::{Add, Mul};
+
+use crate::lanes::{Double, LANES};
+
+/// Three-by-three blocks in lanes, row by row.
+pub(crate) type Blocks<T> = [T; 9];
+
+/// Symmetric blocks in lanes, the upper half: xx, xy, xz, yy, yz, zz.
+pub(crate) type Halves<T> = [T; 6];
+
+/// Rows and columns of a block's upper half.
+const UPPER: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+
+/// `a x`.
+#[inline(always)]
+pub(crate) fn product<T: Copy + Add<Output = T> + Mul<Output = T>>(
+    a: &Blocks<T>,
+    [x, y, z]: [T; 3],
+) -> [T; 3] {
+    [
+        (a[0] * x + a[1] * y) + a[2] * z,
+        (a[3] * x + a[4] * y) + a[5] * z,
+        (a[6] * x + a[7] * y) + a[8] * z,
+    ]
+}
+
+/// `aᵀ x`.
+#[inline(always)]
+pub(crate) fn transposed_product<T: Copy + Add<Output = T> + Mul<Output = T>>(
+    a: &Blocks<T>,
+    [x, y, z]: [T; 3],
+) -> [T; 3] {
+    [
+        (a[0] * x + a[3] * y) + a[6] * z,
+        (a[1] * x + a[4] * y) + a[7] * z,
+        (a[2] * x + a[5] * y) + a[8] * z,
+    ]
+}
+
+/// `a x` of a symmetric block.
+#[inline(always)]
+pub(crate) fn half_product<T: Copy + Add<Output = T> + Mul<Output = T>>(
+    [a, b, c, d, e, f]: &Halves<T>,
+    [x, y, z]: [T; 3],
+) -> [T; 3] {
+    [(*a * x + *b * y) + *c * z, (*b * x + *d * y) + *e * z, (*c * x + *e * y) + *f * z]
+}
+
+/// Determinants of symmetric blocks.
+#[inline(always)]
+pub(crate) fn determinant([a, b, c, d, e, f]: &Halves<Double>) -> Double {
+    (*a * (*d * *f - *e * *e) - *b * (*b * *f - *e * *c)) + *c * (*b * *e - *d * *c)
+}
+
+/// Whether all blocks are positive definite (their leading minors are positive) with determinants not below `least`:
+/// one with a NaN in it is not.
+#[inline(always)]
+pub(crate) fn sound(blocks: &Halves<Double>, least: Double) -> bool {
+    let [a, b, _, d, ..] = blocks;
+    let minor = *a * *d - *b * *b;
+    let det = determinant(blocks);
+    let mut sound = true;
+    for lane in 0..LANES {
+        sound &= (a.0[lane] > 0.0) & (minor.0[lane] > 0.0);
+        sound &= (det.0[lane] > 0.0) & (det.0[lane] >= least.0[lane]);
+    }
+    sound
+}
+
+/// Inverses of symmetric blocks of known determinant.
+#[inline(always)]
+pub(crate) fn inverse([a, b, c, d, e, f]: &Halves<Double>, det: Double) -> Halves<Double> {
+    let mut s = Double::ZERO;
+    for (s, det) in s.0.iter_mut().zip(det.0) {
+        *s = 1.0 / det;
+    }
+    [
+        (*d * *f - *e * *e) * s,
+        (*c * *e - *b * *f) * s,
+        (*b * *e - *c * *d) * s,
+        (*a * *f - *c * *c) * s,
+        (*b * *c - *a * *e) * s,
+        (*a * *d - *b * *b) * s,
+    ]
+}
+
+/// `p b` of symmetric `p`.
+#[inline(always)]
+pub(crate) fn half_times(p: &Halves<Double>, b: &Blocks<Double>) -> Blocks<Double> {
+    let x = half_product(p, [b[0], b[3], b[6]]);
+    let y = half_product(p, [b[1], b[4], b[7]]);
+    let z = half_product(p, [b[2], b[5], b[8]]);
+    [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]]
+}
+
+/// `aᵀ b`.
+#[inline(always)]
+pub(crate) fn transposed_times(a: &Blocks<Double>, b: &Blocks<Double>) -> Blocks<Double> {
+    let x = transposed_product(a, [b[0], b[3], b[6]]);
+    let y = transposed_product(a, [b[1], b[4], b[7]]);
+    let z = transposed_product(a, [b[2], b[5], b[8]]);
+    [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]]
+}
+
+/// Upper half of a product `aᵀ b` that is symmetric.
+#[inline(always)]
+pub(crate) fn half_of_product(a: &Blocks<Double>, b: &Blocks<Double>) -> Halves<Double> {
+    let mut half = [Double::ZERO; 6];
+    for (half, (row, column)) in half.iter_mut().zip(UPPER) {
+        *half = (a[row] * b[column] + a[3 + row] * b[3 + column]) + a[6 + row] * b[6 + column];
+    }
+    half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The same block in all lanes.
+    fn halves(a: Halves<f64>) -> Halves<Double> {
+        a.map(Double::splat)
+    }
+
+    #[test]
+    fn a_symmetric_block_times_its_inverse_is_the_identity() {
+        let a = halves([4.0, 1.0, -0.5, 3.0, 0.25, 2.0]);
+        let inverse = inverse(&a, determinant(&a));
+        let [p, q, r, s, t, u] = inverse;
+        let product = half_times(&a, &[p, q, r, q, s, t, r, t, u]);
+        for (k, value) in product.iter().enumerate() {
+            let expected = if k % 4 == 0 { 1.0 } else { 0.0 };
+            assert!((value.0[3] - expected).abs() < 1e-15, "entry {k}: {value:?}");
+        }
+    }
+
+    #[test]
+    fn blocks_indefinite_in_one_lane_or_not_a_number_are_not_sound() {
+        let mut a = halves([4.0, 1.0, -0.5, 3.0, 0.25, 2.0]);
+        assert!(sound(&a, Double::ZERO));
+        assert!(!sound(&a, Double::splat(100.0)), "its determinant is 20.75");
+        // Two negative directions: the determinant alone would let it pass.
+        let twice = [-1.0, 0.0, 0.0, -1.0, 0.0, 1.0];
+        for (entry, value) in a.iter_mut().zip(twice) {
+            entry.0[5] = value;
+        }
+        assert!(!sound(&a, Double::ZERO));
+        assert!(!sound(&halves([f64::NAN; 6]), Double::ZERO));
+    }
+}

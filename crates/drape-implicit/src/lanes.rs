@@ -1,0 +1,142 @@
+//! Eight numbers side by side, in arithmetic that compilers turn into vector instructions.
+//!
+//! The number of lanes is fixed, and no operation is fused, so that every machine computes the same bits whatever
+//! instructions it has. Nor are closures passed to functions of other crates, array's `map` for one: those are compiled
+//! without the machine's vector instructions.
+
+use core::ops::{Add, Mul, Sub};
+
+/// Number of lanes: one register of the widest instructions in double precision, and few enough that short waves
+/// (see [`Waves`](crate::waves::Waves)) fill them.
+pub(crate) const LANES: usize = 8;
+
+macro_rules! lanes {
+    ($name:ident, $number:ty, $align:literal) => {
+        #[derive(Clone, Copy, Debug)]
+        #[repr(align($align))]
+        pub(crate) struct $name(pub [$number; LANES]);
+
+        impl $name {
+            pub(crate) const ZERO: Self = Self([0.0; LANES]);
+
+            #[inline(always)]
+            pub(crate) fn load(column: &[$number], at: usize) -> Self {
+                let mut lanes = [0.0; LANES];
+                lanes.copy_from_slice(&column[at..at + LANES]);
+                Self(lanes)
+            }
+
+            #[inline(always)]
+            pub(crate) fn store(self, column: &mut [$number], at: usize) {
+                column[at..at + LANES].copy_from_slice(&self.0);
+            }
+        }
+
+        impl Add for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn add(mut self, other: Self) -> Self {
+                for (a, b) in self.0.iter_mut().zip(other.0) {
+                    *a += b;
+                }
+                self
+            }
+        }
+
+        impl Sub for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn sub(mut self, other: Self) -> Self {
+                for (a, b) in self.0.iter_mut().zip(other.0) {
+                    *a -= b;
+                }
+                self
+            }
+        }
+
+        impl Mul for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn mul(mut self, other: Self) -> Self {
+                for (a, b) in self.0.iter_mut().zip(other.0) {
+                    *a *= b;
+                }
+                self
+            }
+        }
+    };
+}
+
+lanes!(Double, f64, 64);
+lanes!(Single, f32, 32);
+
+impl Double {
+    #[inline(always)]
+    pub(crate) fn splat(x: f64) -> Self {
+        Self([x; LANES])
+    }
+
+    #[inline(always)]
+    pub(crate) fn narrow(self) -> Single {
+        let mut lanes = Single::ZERO;
+        for (lane, x) in lanes.0.iter_mut().zip(self.0) {
+            *lane = x as f32;
+        }
+        lanes
+    }
+}
+
+impl Single {
+    #[inline(always)]
+    pub(crate) fn widen(self) -> Double {
+        let mut lanes = Double::ZERO;
+        for (lane, x) in lanes.0.iter_mut().zip(self.0) {
+            *lane = x.into();
+        }
+        lanes
+    }
+}
+
+/// Numbers of particles by axis: three columns.
+#[derive(Clone, Debug)]
+pub(crate) struct Columns<T>(pub [Vec<T>; 3]);
+
+impl<T: Copy + Default> Columns<T> {
+    pub(crate) fn new(rows: usize) -> Self {
+        let column = || vec![T::default(); rows];
+        Self([column(), column(), column()])
+    }
+}
+
+impl Columns<f64> {
+    #[inline(always)]
+    pub(crate) fn load(&self, at: usize) -> [Double; 3] {
+        let [x, y, z] = &self.0;
+        [Double::load(x, at), Double::load(y, at), Double::load(z, at)]
+    }
+
+    #[inline(always)]
+    pub(crate) fn store(&mut self, at: usize, lanes: [Double; 3]) {
+        for (column, lanes) in self.0.iter_mut().zip(lanes) {
+            lanes.store(column, at);
+        }
+    }
+}
+
+impl Columns<f32> {
+    #[inline(always)]
+    pub(crate) fn load(&self, at: usize) -> [Single; 3] {
+        let [x, y, z] = &self.0;
+        [Single::load(x, at), Single::load(y, at), Single::load(z, at)]
+    }
+
+    #[inline(always)]
+    pub(crate) fn store(&mut self, at: usize, lanes: [Single; 3]) {
+        for (column, lanes) in self.0.iter_mut().zip(lanes) {
+            lanes.store(column, at);
+        }
+    }
+}
