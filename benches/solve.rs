@@ -8,7 +8,7 @@ use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
 use drape_implicit::{Initial, LinearSolver, Method, Settings};
-use drape_scene::{Scene, Simulation};
+use drape_scene::{Scene, Scheme, Simulation};
 
 /// Particles along a side of the square sheet.
 const SIDES: [usize; 6] = [20, 50, 70, 100, 141, 200];
@@ -85,7 +85,7 @@ fn sheet(side: usize, step: f64, settings: &Settings) -> Simulation {
     write(folder.path().join("fabric.toml"), fabric).expect("a file");
     write(&file, scene).expect("a file");
     let mut scene = Scene::read(&file).expect("a right scene");
-    scene.solver = settings.clone();
+    scene.scheme = Scheme::Implicit(settings.clone());
     let mut sheet = Simulation::new(scene).expect("a solver");
     while sheet.time() < START {
         sheet.step().expect("it converges");
@@ -136,8 +136,8 @@ fn steps(criterion: &mut Criterion) {
 }
 
 fn one_thread(criterion: &mut Criterion) {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
-    pool.install(|| steps(criterion));
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the first pool");
+    steps(criterion);
 }
 
 criterion_group!(benches, one_thread);
