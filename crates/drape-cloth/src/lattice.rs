@@ -9,6 +9,12 @@ const PARTICLES_MAX: f64 = 4e6;
 /// that is kept, so that the total is exact. Larger values make the rim more ragged.
 const CELL_PART_MIN: f64 = 0.1;
 
+/// Least part of a cell's area that each of its corners gets.
+///
+/// The outline may cut a quadrant of a cell off; its corner would be a particle without mass, or by rounding
+/// one of less than none. Larger values carry more mass outwards; the cell's area is exact in any case.
+const QUADRANT_PART_MIN: f64 = 0.05;
+
 /// A panel cut into the cells of a grid that follows the yarns: the particles' places before the
 /// cloth is deformed.
 ///
@@ -144,6 +150,7 @@ impl Lattice {
         }
         let cells = kept
             .into_iter()
+            .map(|(column, row, areas)| (column, row, shared(areas)))
             .map(|(column, row, quadrants)| Cell {
                 corners: corners(column, row)
                     .map(|point| grid[point].expect("the corners of kept cells are particles")),
@@ -189,6 +196,20 @@ impl Lattice {
     }
 }
 
+/// The areas of a cell's quadrants with none below [`QUADRANT_PART_MIN`] of the cell, and the same sum.
+fn shared(areas: [f64; 4]) -> [f64; 4] {
+    let whole: f64 = areas.iter().sum();
+    let least = QUADRANT_PART_MIN * whole;
+    let [lacking, above] = areas.iter().fold([0.0, 0.0], |[lacking, above], area| {
+        [lacking + (least - area).max(0.0), above + (area - least).max(0.0)]
+    });
+    areas.map(
+        |area| {
+            if area < least { least } else { least + (area - least) * (1.0 - lacking / above) }
+        },
+    )
+}
+
 fn check(what: &'static str, value: f64) -> Result<(), ClothError> {
     if value > 0.0 && value.is_finite() { Ok(()) } else { Err(ClothError::Length { what, value }) }
 }
@@ -227,6 +248,23 @@ mod tests {
             assert!((area / exact - 1.0).abs() < 1e-12, "{spacing}: {area} against {exact}");
             let quadrants = lattice.cells.iter().flat_map(|c| c.quadrants);
             assert!(quadrants.into_iter().all(|q| q >= -1e-15));
+        }
+    }
+
+    #[test]
+    fn no_particle_of_a_disc_is_without_area() {
+        for (tenths, hundredths) in (5..30).flat_map(|r| [50, 77, 100].map(|h| (r, h))) {
+            let (radius, spacing) = (0.01 * f64::from(tenths), 1e-4 * f64::from(hundredths));
+            let lattice = Lattice::disc(radius, spacing).expect("a disc");
+            let mut areas = vec![0.0; lattice.coordinates.len()];
+            for cell in &lattice.cells {
+                for (corner, quadrant) in cell.corners.iter().zip(cell.quadrants) {
+                    areas[*corner as usize] += quadrant;
+                }
+            }
+            let least = areas.iter().fold(f64::INFINITY, |least, area| least.min(*area));
+            let part = least / (spacing * spacing);
+            assert!(part > 0.004, "{part} of a cell for radius {radius}, spacing {spacing}");
         }
     }
 
