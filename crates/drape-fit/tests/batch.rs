@@ -2,22 +2,12 @@
 
 #![allow(clippy::print_stdout)]
 
+mod random;
+
 use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
 use drape_fit::{Error, Settings, identify, identify_all};
 use drape_kes::{Curve, Direction, Sheet, Test, Values};
-
-/// A small generator of its own, so that the sheets are the same on every machine (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
+use random::Random;
 
 /// A sheet with tensile values and two noisy bending loops of 200 points, or one that is no fabric's.
 fn sheet(seed: u64, good: bool) -> Sheet {

@@ -2,9 +2,12 @@
 
 #![allow(clippy::print_stdout)]
 
+mod random;
+
 use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
 use drape_fit::{FrictionOrder, LoopModel, Settings, identify_bending};
 use drape_kes::{Curve, Direction, Test};
+use random::Random;
 use rayon::prelude::*;
 
 const TRIALS: u64 = 200;
@@ -15,29 +18,6 @@ const LEAST: f64 = 0.95;
 /// The KES cycle, and loops that grow from curvatures of drape to those of the test, in 1/m.
 const CYCLE: [f64; 4] = [0.0, 250.0, -250.0, 250.0];
 const NESTED: [f64; 9] = [0.0, 25.0, -25.0, 75.0, -75.0, 150.0, -150.0, 250.0, -250.0];
-
-/// A small generator of its own, so that the trials are the same on every machine (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// A normal deviate, by Box and Muller's method.
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.unit()).cos()
-    }
-}
 
 /// A noisy loop with steps of 2 1/m.
 fn measure(friction: BlimanSorine, turns: &[f64], random: &mut Random) -> Curve {

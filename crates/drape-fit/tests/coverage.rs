@@ -5,34 +5,18 @@
 
 #![allow(clippy::print_stdout)]
 
+mod random;
+
 use drape_fabric::{
     BendingBackbone, BendingLaw, BlimanSorine, Law, ShearBackbone, ShearLaw, drive,
 };
 use drape_fit::lm::{Covariance, Loss, Parameter, Problem, Settings, minimise, profile};
+use random::Random;
 use rayon::prelude::*;
 
 const LEVEL: f64 = 0.95;
 /// Standard deviations of the noise, over the range of the loads.
 const NOISE: [f64; 3] = [0.005, 0.01, 0.02];
-
-/// A small generator of its own, so that the trials are the same on every machine (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// A normal deviate, by Box and Muller's method.
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.unit()).cos()
-    }
-}
 
 /// The loads that a model predicts with some parameters.
 type Predict = Box<dyn Fn(&[f64]) -> Vec<f64> + Sync>;

@@ -5,6 +5,8 @@
 
 #![allow(clippy::print_stdout)]
 
+mod random;
+
 use drape_fabric::{
     BendingBackbone, BendingLaw, BlimanSorine, Buckling, Law, Piecewise, Polynomial, Primed,
     ShearBackbone, ShearLaw, TractionBackbone, TractionLaw, drive,
@@ -14,6 +16,7 @@ use drape_fit::{
     identify_bending, identify_shear, identify_tensile,
 };
 use drape_kes::{Curve, Direction, Test};
+use random::Random;
 
 const FABRICS: u64 = 100;
 
@@ -22,27 +25,6 @@ const FABRICS: u64 = 100;
 /// The loads are exact to 1e-16 of their range and the worst conditioned parameter, the short friction
 /// length of a second order, moves them by some 1e-4 of it per unit: 1e-6 leaves five digits for that.
 const TOLERANCE: f64 = 1e-6;
-
-/// A small generator of its own, so that the fabrics are the same on every machine (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn logarithmic(&mut self, low: f64, high: f64) -> f64 {
-        self.between(low.ln(), high.ln()).exp()
-    }
-}
 
 fn primed_settings() -> Settings {
     Settings {

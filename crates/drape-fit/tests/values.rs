@@ -4,36 +4,14 @@
 
 #![allow(clippy::print_stdout)]
 
+mod random;
+
 use drape_fit::{Error, Settings, compare_values, fabric_values, identify};
 use drape_kes::{Curve, Direction, Sheet, Symbol, Test, Values};
+use random::Random;
 
 /// What a value may be off by, relative.
 const TOLERANCE: f64 = 1e-3;
-
-/// A small generator of its own, so that the trials are the same on every machine (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn logarithmic(&mut self, low: f64, high: f64) -> f64 {
-        self.between(low.ln(), high.ln()).exp()
-    }
-
-    fn coin(&mut self) -> bool {
-        self.unit() < 0.5
-    }
-}
 
 /// Values within the ranges of apparel fabrics: B of the 5th to 95th percentile of 251 fabrics, the others
 /// between the extremes of published KES tables for shirtings, suitings and dress fabrics.
