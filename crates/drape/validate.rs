@@ -79,8 +79,6 @@ const LEFT_OUT: &str = "\
 * Drape coefficients, and the loops of an instrument returned by whole specimens, are not compared yet.
 * Cloth does not meet itself, and meets bodies at its particles only.
 * The model has no creep and no rate dependence: what the friction holds, it holds for ever.
-* Curvature is Breen's, twice the sine of half the turn over the spacing: 1.6 % low where a yarn turns by 36° from
-  one particle to the next.
 ";
 
 /// The page that `crates/drape/VALIDATION.md` is.

@@ -2,7 +2,8 @@
 
 use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes};
 
-use crate::field::{Field, Vector, dot, lanes, scale, subtract};
+use crate::angle::Angle;
+use crate::field::{Field, dot, lanes, scale, subtract};
 use crate::panel::{Panel, Strip};
 use crate::scratch::{Scratch, Trial};
 use crate::state::{History, Moving};
@@ -23,7 +24,7 @@ pub(crate) fn potential(scratch: &mut Scratch, trial: &Trial<'_>) -> f64 {
             weigh(&mut sums, &works, (&yarns.segment_areas, strip, start));
 
             let memory = history.bending[direction].from(place);
-            let along = scratch.bends(yarns, &history.normals, (start, strip));
+            let along = scratch.bends(yarns, &history.normals, (start, strip)).curvature;
             let mut works = bent(scratch, trial, direction, start);
             yarns.bending.slide_work(&memory, &along, &mut works);
             weigh(&mut sums, &works, (&yarns.triple_areas, strip, start));
@@ -58,7 +59,7 @@ pub(crate) fn commit(
             let lost = yarns.traction.commit(memories, place, &strains);
             weigh(&mut sums, &lost, (&yarns.segment_areas, strip, start));
 
-            let along = scratch.bends(yarns, normals, (start, strip));
+            let along = scratch.bends(yarns, normals, (start, strip)).curvature;
             let memories = &mut moving.bending[direction];
             let lost = yarns.bending.commit(memories, place, &along);
             weigh(&mut sums, &lost, (&yarns.triple_areas, strip, start));
@@ -86,7 +87,7 @@ pub(crate) fn start(
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let strains = scratch.strains(yarns, direction, (start, strip));
             history.traction[direction].start(&yarns.traction, place, &strains);
-            let along = scratch.bends(yarns, &history.normals, (start, strip));
+            let along = scratch.bends(yarns, &history.normals, (start, strip)).curvature;
             history.bending[direction].start(&yarns.bending, place, &along);
         }
         for (corner, memories) in history.shear.iter_mut().enumerate() {
@@ -142,20 +143,24 @@ fn weigh(sums: &mut Lanes, energies: &Lanes, (areas, strip, start): (&[f64], &St
 #[inline(always)]
 fn bent(scratch: &Scratch, trial: &Trial<'_>, direction: usize, start: usize) -> Lanes {
     let yarns = &trial.panel.yarns[direction];
-    let rest = yarns.bending.law().rest_curvature;
-    let curvatures = scratch.curvatures(yarns, start);
+    let rest = yarns.rest_bow;
+    let bows = scratch.bows(yarns, start);
     let normals = trial.history.normals.from(trial.strip.offset + start);
-    let excess = |lane| -> Vector { subtract(curvatures.at(lane), scale(normals.at(lane), rest)) };
+    let square = |lane| {
+        let excess = subtract(bows.at(lane), scale(normals.at(lane), rest));
+        let square = dot(excess, excess);
+        square * Angle::of(square, yarns.length).square
+    };
     let mut energies = [0.0; LANES];
     match yarns.bending.law().backbone {
         BendingBackbone::Linear { rigidity } => {
             for lane in 0..LANES {
-                energies[lane] = 0.5 * rigidity * dot(excess(lane), excess(lane));
+                energies[lane] = 0.5 * rigidity * square(lane);
             }
         }
         BendingBackbone::Piecewise(piecewise) => {
             for lane in 0..LANES {
-                energies[lane] = piecewise.energy(dot(excess(lane), excess(lane)).sqrt());
+                energies[lane] = piecewise.energy(square(lane).sqrt());
             }
         }
     }

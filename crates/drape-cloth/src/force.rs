@@ -2,6 +2,7 @@
 
 use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes, Responses};
 
+use crate::angle::Angle;
 use crate::field::{add, dot, lanes, put, scale, set, subtract};
 use crate::scratch::{Edges, Scratch, Trial};
 
@@ -85,23 +86,26 @@ fn moments_of(
 ) {
     let Trial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
-    let rest = yarns.bending.law().rest_curvature;
+    let rest = yarns.rest_bow;
     let inverse_square = 1.0 / (yarns.length * yarns.length);
     let places = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
     for start in places.step_by(LANES) {
-        let curvatures = scratch.curvatures(yarns, start);
+        let bows = scratch.bows(yarns, start);
         let normals = trial.history.normals.from(strip.offset + start);
         let memory = trial.history.bending[direction].from(strip.offset + start);
-        let along = scratch.bends(yarns, &trial.history.normals, (start, strip));
+        let bends = scratch.bends(yarns, &trial.history.normals, (start, strip));
         let mut friction = Responses::default();
-        yarns.bending.slide::<false>(&memory, &along, &mut friction);
+        yarns.bending.slide::<false>(&memory, &bends.curvature, &mut friction);
         let areas = lanes(&yarns.triple_areas, strip.points.start + start);
         let mut moments = [[0.0; LANES]; 3];
         for lane in 0..LANES {
             let normal = normals.at(lane);
-            let excess = subtract(curvatures.at(lane), scale(normal, rest));
-            let elastic = scale(excess, secant(dot(excess, excess)));
-            let moment = add(elastic, scale(normal, friction.load[lane]));
+            let excess = subtract(bows.at(lane), scale(normal, rest));
+            let square = dot(excess, excess);
+            let angle = Angle::of(square, yarns.length);
+            let elastic = scale(excess, secant(square * angle.square) * angle.slope);
+            let rub = friction.load[lane] * bends.slope[lane];
+            let moment = add(elastic, scale(normal, rub));
             set(&mut moments, lane, scale(moment, areas[lane] * inverse_square));
         }
         scratch.moments[direction].put(start, &moments);

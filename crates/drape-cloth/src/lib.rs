@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod angle;
 mod cloth;
 mod connectors;
 mod energy;

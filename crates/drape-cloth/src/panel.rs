@@ -2,6 +2,7 @@ use std::ops::Range;
 
 use drape_fabric::{BendingBatch, Fabric, LANES, ShearBatch, TractionBatch};
 
+use crate::angle::bow_of;
 use crate::connectors::{segments, triples};
 use crate::{Lattice, Pattern};
 
@@ -57,6 +58,8 @@ pub(crate) struct Yarns {
     pub(crate) length: f64,
     pub(crate) traction: TractionBatch,
     pub(crate) bending: BendingBatch,
+    /// Bow of a triple that has the bending's rest curvature, in m⁻¹.
+    pub(crate) rest_bow: f64,
     /// Column of the areas of the segments, kept at their first point.
     pub(crate) segment_areas: Vec<f64>,
     /// Column of the areas of the triples, kept at their middle point.
@@ -124,6 +127,7 @@ impl Panel {
                 length: rest,
                 traction: TractionBatch::new(laws.traction),
                 bending: BendingBatch::new(laws.bending),
+                rest_bow: bow_of(laws.bending.rest_curvature, rest),
                 segment_areas: vec![0.0; length],
                 triple_areas: vec![0.0; length],
                 segments: Vec::new(),

@@ -1,5 +1,6 @@
 use drape_fabric::{BendingLaw, Fabric, Law, Memory, ShearLaw, TractionLaw};
 
+use crate::angle::{Angle, bow_of};
 use crate::connectors::{segments, triples};
 use crate::field::{Vector, add, dot, scale, subtract};
 use crate::{Lattice, Pattern};
@@ -163,36 +164,51 @@ impl<L, const N: usize> Connector<L, N> {
 }
 
 impl<L> Connector<L, 3> {
-    /// Curvature vector of a triple whose segments are `measure` long.
-    fn curvature(&self, positions: &[f64]) -> Vector {
+    /// Bow of a triple whose segments are `measure` long.
+    fn bow(&self, positions: &[f64]) -> Vector {
         let [before, middle, after] = self.particles.map(|p| at(positions, p));
         let bow = subtract(add(before, after), scale(middle, 2.0));
         scale(bow, 1.0 / (self.measure * self.measure))
     }
+
+    /// Curvature about the normal.
+    fn curvature(&self, positions: &[f64], normal: Vector) -> f64 {
+        let bow = dot(self.bow(positions), normal);
+        Angle::of(bow * bow, self.measure).curvature(bow)
+    }
 }
 
 impl Connector<BendingLaw, 3> {
-    /// Moment at the trial, its derivative with respect to the curvature vector, and the energy.
+    /// Derivatives of the energy at the trial with respect to the bow, and the energy.
     fn bend(&self, positions: &[f64], normals: &[f64], definite: bool) -> (Vector, Block, f64) {
         let normal = at(normals, self.particles[1]);
-        let curvature = self.curvature(positions);
-        let excess = subtract(curvature, scale(normal, self.law.rest_curvature));
-        let size = dot(excess, excess).sqrt();
+        let bow = self.bow(positions);
+        let rest = bow_of(self.law.rest_curvature, self.measure);
+        let excess = subtract(bow, scale(normal, rest));
+        let length = dot(excess, excess).sqrt();
+        let angle = Angle::of(length * length, self.measure);
+        let size = angle.curvature(length);
         let elastic = self.law.backbone.respond(size);
-        let slip = dot(curvature, normal) - self.memory.position;
+        let (first, second) = angle.derivatives(length);
+        let (load, tangent) =
+            (elastic.load * first, elastic.tangent * first * first + elastic.load * second);
+        let along = dot(bow, normal);
+        let slip = self.curvature(positions, normal) - self.memory.position;
         let loads = self.memory.friction;
         let (friction, slope) = self.law.friction.respond(loads, slip);
+        let (first, second) = Angle::of(along * along, self.measure).derivatives(along);
+        let (friction, slope) = (friction * first, slope * first * first + friction * second);
         let slope = if definite { slope.max(0.0) } else { slope };
-        let (secant, unit) = if size > 0.0 {
-            (elastic.load / size, scale(excess, 1.0 / size))
+        let (secant, unit) = if length > 0.0 {
+            (load / length, scale(excess, 1.0 / length))
         } else {
-            (elastic.tangent, excess)
+            (tangent, excess)
         };
         let moment = add(scale(excess, secant), scale(normal, friction));
         let block = sum([
             (slope, outer(normal, normal)),
             (secant, one()),
-            (elastic.tangent - secant, outer(unit, unit)),
+            (tangent - secant, outer(unit, unit)),
         ]);
         let energy = self.law.backbone.energy(size) + self.law.friction.work(loads, slip);
         (moment, block, energy)
@@ -231,7 +247,7 @@ impl Reference {
         }
         for triple in &mut all.triples {
             let normal = at(normals, triple.particles[1]);
-            triple.memory.position = dot(triple.curvature(positions), normal);
+            triple.memory.position = triple.curvature(positions, normal);
             triple.memory.peak = triple.memory.position.abs();
         }
         all
@@ -372,7 +388,7 @@ impl Reference {
         }
         for triple in &mut self.triples {
             let normal = at(normals, triple.particles[1]);
-            let curvature = dot(triple.curvature(positions), normal);
+            let curvature = triple.curvature(positions, normal);
             lost += move_on(triple, curvature);
         }
         lost

@@ -2,6 +2,7 @@ use std::ops::Range;
 
 use drape_fabric::{LANES, Lanes};
 
+use crate::angle::Angle;
 use crate::field::{Columns, Field, Vector, add, dot, lanes, put, scale, set, subtract};
 use crate::panel::{Panel, Strip, Yarns};
 use crate::state::History;
@@ -32,8 +33,8 @@ pub(crate) struct Scratch {
     pub(crate) slopes: [Vec<f64>; 4],
     /// Second derivatives of the potential with respect to the warp and the weft edge of a corner.
     pub(crate) turns: [Columns<9>; 4],
-    /// Second derivatives with respect to the curvature at a point, over the length to the fourth.
-    pub(crate) bows: [Columns<6>; 2],
+    /// Second derivatives with respect to the bow at a point, over the length to the fourth.
+    pub(crate) rigidities: [Columns<6>; 2],
     /// Blocks of each point with the next along the warp and the weft, and with the one across its
     /// cell, and of the two other points of its cell.
     pub(crate) blocks: [Columns<9>; 4],
@@ -108,7 +109,7 @@ impl Scratch {
             pulls: [field(), field()],
             slopes: [column(), column(), column(), column()],
             turns: [blocks(), blocks(), blocks(), blocks()],
-            bows: [Columns::new(reach), Columns::new(reach)],
+            rigidities: [Columns::new(reach), Columns::new(reach)],
             blocks: [blocks(), blocks(), blocks(), blocks()],
         }
     }
@@ -149,36 +150,40 @@ impl Scratch {
         strains
     }
 
-    /// Curvature vectors `$(x_a - 2x_c + x_b)/h^2$` at the points from a place on.
+    /// Bows `$(x_a - 2x_c + x_b)/h^2$` at the points from a place on.
     #[inline(always)]
-    pub(crate) fn curvatures(&self, yarns: &Yarns, start: usize) -> Curvatures {
+    pub(crate) fn bows(&self, yarns: &Yarns, start: usize) -> Bows {
         let [before, here, after] =
             [start - yarns.step, start, start + yarns.step].map(|place| self.positions.from(place));
         let inverse_square = 1.0 / (yarns.length * yarns.length);
-        let mut curvatures = [[0.0; LANES]; 3];
+        let mut bows = [[0.0; LANES]; 3];
         for lane in 0..LANES {
             let ends = add(before.at(lane), after.at(lane));
             let bow = subtract(ends, scale(here.at(lane), 2.0));
-            set(&mut curvatures, lane, scale(bow, inverse_square));
+            set(&mut bows, lane, scale(bow, inverse_square));
         }
-        Curvatures(curvatures)
+        Bows(bows)
     }
 
-    /// Curvatures along the normals from a place on; of triples that do not exist, zero.
+    /// Curvatures about the normals from a place on, and how they follow from the bows; of triples that do not exist,
+    /// zero.
     #[inline(always)]
     pub(crate) fn bends(
         &self,
         yarns: &Yarns,
         normals: &Field,
         (start, strip): (usize, &Strip),
-    ) -> Lanes {
-        let curvatures = self.curvatures(yarns, start);
+    ) -> Bends {
+        let bows = self.bows(yarns, start);
         let normals = normals.from(strip.offset + start);
         let areas = lanes(&yarns.triple_areas, strip.points.start + start);
-        let mut bends = [0.0; LANES];
+        let mut bends = Bends::default();
         for lane in 0..LANES {
-            let bend = dot(curvatures.at(lane), normals.at(lane));
-            bends[lane] = if areas[lane] == 0.0 { 0.0 } else { bend };
+            let bow = dot(bows.at(lane), normals.at(lane));
+            let angle = Angle::of(bow * bow, yarns.length);
+            let bend = angle.curvature(bow);
+            bends.curvature[lane] = if areas[lane] == 0.0 { 0.0 } else { bend };
+            (bends.slope[lane], bends.slope_change[lane]) = angle.derivatives(bow);
         }
         bends
     }
@@ -205,10 +210,18 @@ impl Scratch {
     }
 }
 
-/// Curvature vectors of a batch.
-pub(crate) struct Curvatures([Lanes; 3]);
+/// Curvatures of a batch about the normals, in m⁻¹, and their first and second derivatives with respect to the bow.
+#[derive(Default)]
+pub(crate) struct Bends {
+    pub(crate) curvature: Lanes,
+    pub(crate) slope: Lanes,
+    pub(crate) slope_change: Lanes,
+}
 
-impl Curvatures {
+/// Bows of a batch.
+pub(crate) struct Bows([Lanes; 3]);
+
+impl Bows {
     #[inline(always)]
     pub(crate) fn at(&self, lane: usize) -> Vector {
         [self.0[0][lane], self.0[1][lane], self.0[2][lane]]

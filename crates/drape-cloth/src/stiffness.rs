@@ -2,6 +2,7 @@
 
 use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes, Responses};
 
+use crate::angle::Angle;
 use crate::field::{dot, lanes, put, scale, subtract};
 use crate::panel::{BLOCKS, NO_BLOCK};
 use crate::scratch::{Scratch, Trial};
@@ -32,7 +33,7 @@ pub(crate) fn add_stiffness(
         turns(scratch, trial, (corner, definite));
     }
     for direction in 0..2 {
-        bows(scratch, trial, (direction, definite));
+        rigidities(scratch, trial, (direction, definite));
     }
     for direction in 0..2 {
         along_yarns(scratch, trial, (direction, definite));
@@ -96,13 +97,13 @@ fn turns(scratch: &mut Scratch, trial: &Trial<'_>, (corner, definite): (usize, b
 }
 
 #[inline(always)]
-fn bows(scratch: &mut Scratch, trial: &Trial<'_>, (direction, definite): (usize, bool)) {
+fn rigidities(scratch: &mut Scratch, trial: &Trial<'_>, (direction, definite): (usize, bool)) {
     match trial.panel.yarns[direction].bending.law().backbone {
         BendingBackbone::Linear { rigidity } => {
-            bows_of(scratch, trial, (direction, definite), |_| (rigidity, 0.0));
+            rigidities_of(scratch, trial, (direction, definite), |_| (rigidity, 0.0));
         }
         BendingBackbone::Piecewise(piecewise) => {
-            bows_of(scratch, trial, (direction, definite), |square| {
+            rigidities_of(scratch, trial, (direction, definite), |square| {
                 let size = square.sqrt();
                 let secant = piecewise.secant(size);
                 let more = (piecewise.tangent(size) - secant) / square;
@@ -115,7 +116,7 @@ fn bows(scratch: &mut Scratch, trial: &Trial<'_>, (direction, definite): (usize,
 /// Blocks of the triples, with the secant stiffness of a squared curvature and what the tangent is
 /// larger by, over that square.
 #[inline(always)]
-fn bows_of(
+fn rigidities_of(
     scratch: &mut Scratch,
     trial: &Trial<'_>,
     (direction, definite): (usize, bool),
@@ -123,23 +124,29 @@ fn bows_of(
 ) {
     let Trial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
-    let rest = yarns.bending.law().rest_curvature;
+    let rest = yarns.rest_bow;
     let inverse_square = 1.0 / (yarns.length * yarns.length);
     let places = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
     for start in places.step_by(LANES) {
-        let curvatures = scratch.curvatures(yarns, start);
+        let bows = scratch.bows(yarns, start);
         let normals = trial.history.normals.from(strip.offset + start);
         let memory = trial.history.bending[direction].from(strip.offset + start);
-        let along = scratch.bends(yarns, &trial.history.normals, (start, strip));
+        let bends = scratch.bends(yarns, &trial.history.normals, (start, strip));
         let mut friction = Responses::default();
-        yarns.bending.slide::<true>(&memory, &along, &mut friction);
+        yarns.bending.slide::<true>(&memory, &bends.curvature, &mut friction);
         let areas = lanes(&yarns.triple_areas, strip.points.start + start);
         let mut blocks = [[0.0; LANES]; 6];
         for lane in 0..LANES {
             let normal = normals.at(lane);
-            let excess = subtract(curvatures.at(lane), scale(normal, rest));
-            let (secant, more) = stiffness(dot(excess, excess));
-            let tangent = friction.tangent[lane];
+            let excess = subtract(bows.at(lane), scale(normal, rest));
+            let square = dot(excess, excess);
+            let angle = Angle::of(square, yarns.length);
+            let (secant, more) = stiffness(square * angle.square);
+            let more = more * angle.slope * angle.slope + 2.0 * secant * angle.bend;
+            let secant = secant * angle.slope;
+            let first = bends.slope[lane];
+            let tangent = friction.tangent[lane] * first * first
+                + friction.load[lane] * bends.slope_change[lane];
             let slope = if definite && tangent < 0.0 { 0.0 } else { tangent };
             let size = areas[lane] * inverse_square * inverse_square;
             let (secant, more, slope) = (secant * size, more * size, slope * size);
@@ -150,7 +157,7 @@ fn bows_of(
                     + one;
             }
         }
-        scratch.bows[direction].put(start, &blocks);
+        scratch.rigidities[direction].put(start, &blocks);
     }
 }
 
@@ -228,8 +235,8 @@ fn along_yarns(scratch: &mut Scratch, trial: &Trial<'_>, (direction, definite): 
     let places = panel.margin - step..panel.margin + strip.points.len();
     for start in places.step_by(LANES) {
         let edges = edge_blocks(scratch, trial, (direction, definite), start);
-        let bows = &scratch.bows[direction];
-        let (here, next) = (bows.from(start), bows.from(start + step));
+        let rigidities = &scratch.rigidities[direction];
+        let (here, next) = (rigidities.from(start), rigidities.from(start + step));
         let mut blocks = [[0.0; LANES]; 9];
         for (k, block) in blocks.iter_mut().enumerate() {
             let half = IN_HALF[k];
@@ -288,7 +295,7 @@ fn gather(scratch: &Scratch, trial: &Trial<'_>, values: &mut [f64]) {
     let Trial { panel, strip, .. } = *trial;
     let stride = panel.stride;
     let [warp, weft, third, second] = &scratch.blocks;
-    let [warp_bows, weft_bows] = &scratch.bows;
+    let [warp_bends, weft_bends] = &scratch.rigidities;
     for (batch, slots) in panel.slots[strip.points.clone()].chunks(LANES).enumerate() {
         let start = panel.margin + batch * LANES;
         let next = [weft.from(start), second.from(start - 1), warp.from(start), third.from(start)];
@@ -298,8 +305,8 @@ fn gather(scratch: &Scratch, trial: &Trial<'_>, values: &mut [f64]) {
             warp.from(start - stride),
             third.from(start - stride - 1),
         ];
-        let far = [weft_bows.from(start + 1), warp_bows.from(start + stride)];
-        let far_before = [weft_bows.from(start - 1), warp_bows.from(start - stride)];
+        let far = [weft_bends.from(start + 1), warp_bends.from(start + stride)];
+        let far_before = [weft_bends.from(start - 1), warp_bends.from(start - stride)];
         let mut own = [[0.0; LANES]; 6];
         for (k, (row, column)) in HALF.into_iter().enumerate() {
             let (entry, turned) = (3 * row + column, 3 * column + row);
@@ -312,8 +319,8 @@ fn gather(scratch: &Scratch, trial: &Trial<'_>, values: &mut [f64]) {
             for lane in 0..LANES {
                 let near = (a[lane] + e[lane]) + (b[lane] + f[lane]);
                 let cell = (c[lane] + g[lane]) + (d[lane] + h[lane]);
-                let bows = (i[lane] + l[lane]) + (j[lane] + m[lane]);
-                own[k][lane] = -(near + cell + bows);
+                let bends = (i[lane] + l[lane]) + (j[lane] + m[lane]);
+                own[k][lane] = -(near + cell + bends);
             }
         }
         let [near, slant, up, over] = &next;
