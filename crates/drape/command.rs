@@ -5,7 +5,7 @@ use drape::fit::{FrictionOrder, Intervals, LoopModel, Settings, TractionModel};
 
 use crate::bench::BenchArguments;
 use crate::failure::Failure;
-use crate::{bench, check, fabric, fit, run, validate};
+use crate::{bench, check, fabric, fit, run, test, validate};
 
 /// From measured fabric to moving cloth.
 #[derive(Parser)]
@@ -20,6 +20,8 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Holds simulations against exact solutions and measurements.
     Validate(ValidateArguments),
+    /// Puts specimens of a fabric into simulated KES instruments and compares the loops with its laws.
+    Test(TestArguments),
     /// Checks scenes, fabrics and sheets without simulating.
     Check(CheckArguments),
     /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
@@ -173,6 +175,21 @@ pub(crate) struct ValidateArguments {
 }
 
 #[derive(Args)]
+pub(crate) struct TestArguments {
+    /// A fabric, or a sheet, which is fitted on the way.
+    pub(crate) fabric: PathBuf,
+    /// Spacing of the particles.
+    #[arg(long, value_name = "MM", default_value_t = 5.0)]
+    pub(crate) spacing: f64,
+    /// Folder for a page with the loops overlaid.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) report: Option<PathBuf>,
+    /// Prints the loops and values as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
 pub(crate) struct CheckArguments {
     /// Scenes, fabrics or sheets.
     #[arg(required = true, value_name = "FILE")]
@@ -186,6 +203,7 @@ impl Command {
             Self::Fabric(command) => fabric::fabric(command),
             Self::Run(arguments) => run::run(arguments),
             Self::Validate(arguments) => validate::validate(arguments),
+            Self::Test(arguments) => test::test(arguments),
             Self::Check(arguments) => check::check(arguments),
             Self::Bench(arguments) => bench::bench(arguments),
         }

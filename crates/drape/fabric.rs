@@ -28,7 +28,7 @@ pub(crate) fn fabric(command: &FabricCommand) -> Result<(), Failure> {
 }
 
 /// A fabric from its file, or from a sheet, which is fitted on the way.
-fn read(path: &Path) -> Result<Fabric, Failure> {
+pub(crate) fn read(path: &Path) -> Result<Fabric, Failure> {
     if path.is_dir() {
         return Ok(fit::identified(path, &Settings::default())?.0.fabric);
     }

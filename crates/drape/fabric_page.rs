@@ -8,11 +8,14 @@ use drape::report::plot::{OverlayPlot, Trace};
 use drape::report::{
     ComparePage, ComparedValue, FabricName, FitPage, Interval, LawReport, Parameter, Quantity,
 };
+use drape::validate::instrument;
 
 use crate::fit_page::{Loads, loop_plot};
-use crate::{kes_test, kes_value, quantity};
+use crate::{kes_value, quantity};
 
-const VERSION: &str = concat!("drape ", env!("CARGO_PKG_VERSION"));
+/// Points of a branch of a loop; enough for the trapezoids of WT to be right to a hundred-thousandth.
+const POINTS: usize = 400;
+pub(crate) const VERSION: &str = concat!("drape ", env!("CARGO_PKG_VERSION"));
 const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
 /// The tests, each with the directions in which it differs; there is one shear law.
 const TESTS: [(Test, &[Direction]); 3] =
@@ -52,7 +55,7 @@ pub(crate) fn show_page(fabric: &Fabric) -> FitPage {
 }
 
 fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
-    let curve = kes_test::curve(fabric, test, direction);
+    let curve = instrument::ideal(fabric, test, direction, POINTS);
     let title = match test {
         Test::Shear => test.name().to_owned(),
         _ => format!("{}, {}", test.name(), direction.name()),
@@ -142,7 +145,7 @@ pub(crate) fn compare_page(fabrics: [&Fabric; 2]) -> ComparePage {
     let overlay = |(test, directions): (Test, &[Direction])| {
         let [deformation, load] = quantity::axes(test);
         let trace = |fabric: &Fabric, direction: Direction| {
-            let curve = kes_test::curve(fabric, test, direction);
+            let curve = instrument::ideal(fabric, test, direction, POINTS);
             let points = curve.deformation().iter().zip(curve.load());
             Trace {
                 label: if test == Test::Shear { "shear" } else { direction.name() }.into(),

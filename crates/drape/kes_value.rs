@@ -3,7 +3,7 @@
 use drape::fabric::Fabric;
 use drape::fit::{Settings, ValueRow, compare_values, fabric_values};
 use drape::kes::{Direction, Sheet, Symbol};
-use drape::report::{KesValue, Units};
+use drape::report::{ComparedValue, KesValue, Units};
 
 use crate::quantity;
 
@@ -41,6 +41,14 @@ pub(crate) fn of_fabric(fabric: &Fabric, direction: Direction) -> Vec<KesValue> 
     let reading = Settings::default().reading(&Sheet::default());
     let values = fabric_values(fabric, direction, &reading);
     Symbol::ALL.map(|symbol| shown(direction, symbol, [None, None, values.get(symbol)])).into()
+}
+
+/// A value of two fabrics that is given in the laboratory's unit.
+pub(crate) fn compared(direction: Direction, symbol: Symbol, numbers: [f64; 2]) -> ComparedValue {
+    let [first, second] = numbers;
+    let KesValue { symbol, name, direction, units, sheet, curve, .. } =
+        shown(direction, symbol, [Some(first), Some(second), None]);
+    ComparedValue { symbol, name, direction, units, values: [sheet, curve] }
 }
 
 /// A value that is given in the laboratory's unit.

@@ -14,13 +14,13 @@ mod failure;
 mod file;
 mod fit;
 mod fit_page;
-mod kes_test;
 mod kes_value;
 mod picture;
 mod progress;
 mod quantity;
 mod run;
 mod say;
+mod test;
 mod validate;
 
 fn main() -> ExitCode {

@@ -11,6 +11,9 @@ pub enum ValidationError {
     /// A step could not be solved.
     #[error("{0}")]
     Step(#[from] drape_implicit::Error),
+    /// A curve that is none.
+    #[error("{0}")]
+    Curve(#[from] drape_kes::Error),
     /// A strip that should rest still moves.
     #[error("the strip did not come to rest in {seconds} s")]
     NotSettled {

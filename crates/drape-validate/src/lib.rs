@@ -3,10 +3,14 @@
 mod check;
 pub mod dynamics;
 mod error;
+pub mod instrument;
+mod loops;
 pub mod reference;
+mod shipped;
 pub mod statics;
 mod strip;
 mod suite;
+pub mod tester;
 
 pub use check::{Check, Kind};
 pub use error::ValidationError;

@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use crate::{Check, ValidationError, dynamics, statics};
+use crate::{Check, ValidationError, dynamics, loops, statics};
 
 /// A case of the suite.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +24,11 @@ impl Case {
 
 /// Every case, in the order of the report.
 pub const CASES: &[Case] = &[
+    Case {
+        name: "instruments",
+        title: "Specimens in simulated KES instruments return the loops of the laws",
+        run: loops::instruments,
+    },
     Case {
         name: "heavy-cantilever",
         title: "A clamped strip bends under its own weight (heavy elastica)",

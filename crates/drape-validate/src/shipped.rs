@@ -1,0 +1,19 @@
+//! The fabrics of the suite: those that `drape fit` makes of the sheets in the workspace's `fabrics`.
+
+use drape_fabric::Fabric;
+use drape_input::Document;
+
+use crate::ValidationError;
+
+/// A real cupro weave, from its stretch and loop-bending curves (see the sheet for the source).
+pub const CUPRO: &str = include_str!("../fabrics/cupro-weave.toml");
+/// Matsudaira's fabric A, a cotton broad, from published KES values; its shear is assumed.
+pub const COTTON: &str = include_str!("../fabrics/matsudaira-a.toml");
+
+/// A fabric from its text.
+///
+/// # Errors
+/// A text that is none.
+pub fn fabric(text: &str) -> Result<Fabric, ValidationError> {
+    Ok(Fabric::from_document(&Document::new("fabric.toml", text))?)
+}

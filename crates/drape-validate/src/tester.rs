@@ -1,0 +1,242 @@
+//! Specimens of a fabric in simulated KES instruments.
+//!
+//! A specimen has its true size and is held and moved as in the instrument, in a vacuum and without weight: clamps are
+//! pins, and what they bear is the load. Every step of the simulation is a point of the curve.
+
+use drape_fabric::Fabric;
+use drape_input::Document;
+use drape_kes::{BendingPoints, Curve, Direction, Reading, ShearPoints, Symbol, Test};
+use drape_scene::{PinLoad, Scene, Simulation};
+
+use crate::ValidationError;
+use crate::instrument::{LARGEST_TENSION, SHEAR_TENSION, curve, cycle, extension, ideal, laws};
+
+/// Width of a specimen: 20 cm.
+const WIDTH: f64 = 0.2;
+/// Free length in the tensile and the shear test: 5 cm.
+const GAUGE: f64 = 0.05;
+/// Free length in the bending test: 1 cm.
+const BENDING_GAUGE: f64 = 0.01;
+/// Time between two points of a curve, in s: as long as an instrument takes, and longer than any wave.
+const STEP: f64 = 0.1;
+/// Steps in which the tension of the shear test is put on.
+const LOADING_STEPS: usize = 10;
+
+/// The specimen, level, its yarns along x, and the clamp that moves.
+struct Specimen {
+    spacing: f64,
+    /// Whole cells between the lines of the clamps.
+    cells: usize,
+    /// Rows of particles in the clamp that stays and in the one that moves.
+    rows: [usize; 2],
+    /// Length of the panel and the middle of it along x; the line of the clamp that stays is at 0.
+    length: f64,
+    middle: f64,
+    /// What the moving clamp turns about, along x.
+    pivot: f64,
+}
+
+/// Where the moving clamp is: shift of its pivot, in m, and turn about z, in rad.
+#[derive(Clone, Copy, Default)]
+struct Place {
+    shift: [f64; 3],
+    turn: f64,
+}
+
+impl Specimen {
+    /// Between two lines of particles.
+    fn between_lines(spacing: f64) -> Self {
+        let cells = (GAUGE / spacing).round().max(1.0) as usize;
+        let spacing = GAUGE / cells as f64;
+        Self { spacing, cells, rows: [1, 1], length: GAUGE, middle: 0.5 * GAUGE, pivot: GAUGE }
+    }
+
+    /// In clamps that hold the slope too: three rows each, its line midway between the second and the third, which
+    /// bends as the first free cell does. A single cell is bent at the third row of both, which the clamp that stays
+    /// holds. The moving clamp turns about its third row.
+    fn in_clamps(spacing: f64) -> Self {
+        let cells = (BENDING_GAUGE / spacing).round().max(1.0) as usize;
+        let h = BENDING_GAUGE / cells as f64;
+        Self {
+            spacing: h,
+            cells,
+            rows: [3, if cells == 1 { 2 } else { 3 }],
+            length: BENDING_GAUGE + 3.0 * h,
+            middle: 0.5 * BENDING_GAUGE,
+            pivot: BENDING_GAUGE - 0.5 * h,
+        }
+    }
+
+    /// The moving clamp at a curvature: where equal turns of cells that keep their length lead it.
+    fn bent(&self, curvature: f64) -> Place {
+        let Self { spacing: h, cells, pivot, .. } = self;
+        let turn = curvature * h;
+        let mut shift = [0.5 * h - pivot, 0.0, 0.0];
+        for cell in 1..*cells {
+            let (sin, cos) = (cell as f64 * turn).sin_cos();
+            shift = [shift[0] + h * cos, shift[1] + h * sin, 0.0];
+        }
+        Place { shift, turn: *cells as f64 * turn }
+    }
+
+    /// Moves the clamp from place to place, one in each step, and records what it bears.
+    fn drive(
+        &self,
+        fabric: &Fabric,
+        direction: Direction,
+        places: &[Place],
+    ) -> Result<Vec<PinLoad>, ValidationError> {
+        let Self { spacing, length, middle, pivot, rows: [still, moving], .. } = self;
+        let (size, turn, edges) = match direction {
+            Direction::Weft => ([*length, WIDTH], [-90, 0, 0], ["left", "right"]),
+            Direction::Warp => ([WIDTH, *length], [-90, -90, 0], ["bottom", "top"]),
+        };
+        let list = |of: &dyn Fn(&Place) -> String| {
+            let first = of(&Place::default());
+            places.iter().fold(first, |list, place| list + ", " + &of(place))
+        };
+        let times: Vec<f64> = (0..=places.len()).map(|k| k as f64 * STEP).collect();
+        let shifts = list(&|place| format!("{:?}", place.shift));
+        let turns = list(&|place| format!("[0, 0, {:e}]", place.turn.to_degrees()));
+        let text = format!(
+            "name = \"specimen\"\nspacing = {spacing:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n\
+             fabric.specimen.file = \"fabric.toml\"\n[[panel]]\nname = \"specimen\"\n\
+             fabric = \"specimen\"\nrectangle = {size:?}\ncenter = [{middle:e}, 0, 0]\nturn = {turn:?}\n\
+             [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {still}\n\
+             [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {moving}\n\
+             [pin.motion]\ntimes = {times:?}\ncenter = [{pivot:e}, 0, 0]\n\
+             shift = [{shifts}]\nturn = [{turns}]\n\
+             [time]\nstep = {STEP}\nend = {:e}\n[output]\nenergy = false\n",
+            edges[0],
+            edges[1],
+            STEP * places.len() as f64
+        );
+        let fabric = Document::new("fabric.toml", fabric.to_toml());
+        let scene = Scene::from_documents(&Document::new("specimen.toml", text), &[fabric])?;
+        let mut simulation = Simulation::new(scene)?;
+        let mut loads = Vec::with_capacity(places.len());
+        while loads.len() < places.len() {
+            simulation.step()?;
+            loads.push(simulation.pin_loads()[1]);
+        }
+        Ok(loads)
+    }
+}
+
+/// The curve that a simulated instrument draws of a specimen of particles at a spacing, in m.
+///
+/// The path is [`cycle`]'s with so many points in a branch; the spacing is the nearest that divides the free length.
+///
+/// # Errors
+/// A specimen that cannot be simulated, or a load that is no number.
+pub fn measure(
+    fabric: &Fabric,
+    test: Test,
+    direction: Direction,
+    (spacing, points): (f64, usize),
+) -> Result<Curve, ValidationError> {
+    let path = cycle(fabric, test, direction, points);
+    let load = match test {
+        Test::Tensile => stretch(fabric, direction, spacing, &path)?,
+        Test::Shear => shear(fabric, direction, spacing, &path)?,
+        Test::Bending | Test::LoopBending => bend(fabric, direction, spacing, &path)?,
+    };
+    Ok(curve(test, direction, path, load)?)
+}
+
+/// Tension per width at strains.
+fn stretch(fabric: &Fabric, direction: Direction, spacing: f64, path: &[f64]) -> Loads {
+    let specimen = Specimen::between_lines(spacing);
+    let place = |strain: &f64| Place { shift: [strain * GAUGE, 0.0, 0.0], turn: 0.0 };
+    let places: Vec<Place> = path[1..].iter().map(place).collect();
+    let loads = specimen.drive(fabric, direction, &places)?;
+    Ok(from_rest(loads.iter().map(|load| -load.force[0] / WIDTH)))
+}
+
+/// Force per width across the specimen at angles, less the part of its tension: that is not the fabric's resistance.
+///
+/// The clamp moves so that the yarns keep the length that the tension has given them. The law is one per area of relaxed
+/// cloth, so the force counts by that length over the relaxed one.
+fn shear(fabric: &Fabric, direction: Direction, spacing: f64, path: &[f64]) -> Loads {
+    let specimen = Specimen::between_lines(spacing);
+    let strain = extension(&laws(fabric, direction).traction, SHEAR_TENSION);
+    let pulled = |strain: f64, angle: f64| {
+        let (sin, cos) = angle.sin_cos();
+        let length = (1.0 + strain) * GAUGE;
+        Place { shift: [length * cos - GAUGE, 0.0, length * sin], turn: 0.0 }
+    };
+    let loading =
+        (1..=LOADING_STEPS).map(|k| pulled(strain * k as f64 / LOADING_STEPS as f64, 0.0));
+    let places: Vec<Place> =
+        loading.chain(path[1..].iter().map(|&angle| pulled(strain, angle))).collect();
+    let loads = specimen.drive(fabric, direction, &places)?;
+    let share = (1.0 + strain) / WIDTH;
+    let across = loads[LOADING_STEPS..].iter().zip(&path[1..]);
+    Ok(from_rest(across.map(|(load, angle)| share * (load.force[0] * angle.tan() - load.force[2]))))
+}
+
+/// Moment per width at curvatures.
+fn bend(fabric: &Fabric, direction: Direction, spacing: f64, path: &[f64]) -> Loads {
+    let specimen = Specimen::in_clamps(spacing);
+    let places: Vec<Place> = path[1..].iter().map(|&curvature| specimen.bent(curvature)).collect();
+    let loads = specimen.drive(fabric, direction, &places)?;
+    // From the pivot to the middle of what the clamp holds.
+    let arm = specimen.spacing * if specimen.rows[1] == 2 { 1.5 } else { 1.0 };
+    let moments = loads.iter().zip(&places).map(|(load, place)| {
+        let (sin, cos) = place.turn.sin_cos();
+        load.moment[2] + arm * (cos * load.force[1] - sin * load.force[0])
+    });
+    Ok(from_rest(moments.map(|moment| -moment / WIDTH)))
+}
+
+type Loads = Result<Vec<f64>, ValidationError>;
+
+/// A history that begins without load.
+fn from_rest(loads: impl Iterator<Item = f64>) -> Vec<f64> {
+    std::iter::once(0.0).chain(loads).collect()
+}
+
+/// A curve of a simulated instrument beside that of the laws.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// What the simulated instrument draws.
+    pub measured: Curve,
+    /// What the laws alone answer.
+    pub ideal: Curve,
+}
+
+impl Comparison {
+    /// Simulates a test and drives the laws through the same deformations; see [`measure`].
+    ///
+    /// # Errors
+    /// Those of [`measure`].
+    pub fn of(
+        fabric: &Fabric,
+        (test, direction): (Test, Direction),
+        resolution: (f64, usize),
+    ) -> Result<Self, ValidationError> {
+        let measured = measure(fabric, test, direction, resolution)?;
+        Ok(Self { measured, ideal: ideal(fabric, test, direction, resolution.1) })
+    }
+
+    /// Root mean square of the differences of the loads, over the range of the laws' loads.
+    pub fn distance(&self) -> f64 {
+        let pairs = self.measured.load().iter().zip(self.ideal.load());
+        let count = self.measured.load().len().min(self.ideal.load().len());
+        let squares: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
+        let (low, high) = self.ideal.load_range();
+        (squares / count as f64).sqrt() / (high - low)
+    }
+
+    /// The KES values of both, simulated and of the laws, in the laboratory's units; those that both curves have.
+    pub fn values(&self) -> Vec<(Symbol, [f64; 2])> {
+        let reading = Reading {
+            maximum_tension: LARGEST_TENSION,
+            bending: BendingPoints::default(),
+            shear: ShearPoints::default(),
+        };
+        let [measured, ideal] = [&self.measured, &self.ideal].map(|curve| curve.values(&reading));
+        let pairs = measured.into_iter().zip(ideal);
+        pairs.filter_map(|((symbol, a), (_, b))| Some((symbol, [a.ok()?, b.ok()?]))).collect()
+    }
+}
