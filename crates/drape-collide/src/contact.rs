@@ -3,8 +3,9 @@ use crate::body::{Body, Solid};
 use crate::detect::{Chunk, Touch};
 use crate::error::{CollideError, check};
 use crate::friction::Friction;
+use crate::pose::Pose;
 use crate::proximity::Proximity;
-use crate::vector::{Vector, at, combine, outer};
+use crate::vector::{Vector, at, combine, dot, outer};
 use rayon::prelude::*;
 
 /// How stiff contact is and where it begins.
@@ -135,12 +136,42 @@ impl Contact {
                     particle: touch.particle,
                     body: touch.body,
                     start: at(start, touch.particle),
+                    carried: [0.0; 3],
                     normal: touch.proximity.normal,
                     limit: coefficient * pressure * self.areas[touch.particle],
                 });
             }
         }
         self.frictions = frictions;
+    }
+
+    /// Moves a body within the open step: friction resists the way of the cloth over the body.
+    ///
+    /// # Errors
+    /// A pose that is none.
+    pub fn place(&mut self, body: usize, pose: Pose) -> Result<(), CollideError> {
+        if self.bodies[body].pose == pose {
+            return Ok(());
+        }
+        self.bodies[body].pose = pose;
+        let frame = self.bodies[body].check()?;
+        let before = std::mem::replace(&mut self.solids[body].frame, frame);
+        let frame = &self.solids[body].frame;
+        for friction in self.frictions.iter_mut().filter(|friction| friction.body == body) {
+            friction.carry(&before, frame);
+        }
+        self.chunks.iter_mut().for_each(|chunk| chunk.forget(body, self.bodies.len()));
+        self.seen.clear();
+        Ok(())
+    }
+
+    /// Work that the bodies have done by friction on the cloth in the open step, in J.
+    pub fn friction_drive(&self, positions: &[f64]) -> f64 {
+        let works = self.frictions.iter().map(|friction| {
+            let force = friction.force(at(positions, friction.particle), self.stick);
+            dot(force, friction.carried)
+        });
+        works.sum()
     }
 
     /// Adds the contact and friction forces, in N.
@@ -161,9 +192,12 @@ impl Contact {
             .touches()
             .map(|touch| self.areas[touch.particle] * barrier.energy(touch.proximity.distance))
             .sum();
-        let friction: f64 =
-            self.frictions.iter().map(|f| f.energy(at(positions, f.particle), self.stick)).sum();
-        self.settings.stiffness * contact + friction
+        self.settings.stiffness * contact + self.friction_potential(positions)
+    }
+
+    /// The part of the step's friction in [`potential`](Contact::potential), in J.
+    pub fn friction_potential(&self, positions: &[f64]) -> f64 {
+        self.frictions.iter().map(|f| f.energy(at(positions, f.particle), self.stick)).sum()
     }
 
     /// Hands over the blocks `$-\partial f_i / \partial x_i$`, row by row, in N/m.

@@ -22,7 +22,7 @@ pub(crate) struct Touch {
 /// What is known of one particle and one body: a place and the distance from the body there.
 ///
 /// A distance changes by no more than the way gone, so the pair needs no query while the particle
-/// stays near that place. The bodies rest; a body that moves would void this.
+/// stays near that place. A body that moves voids this.
 #[derive(Debug, Clone, Copy)]
 struct Known {
     place: Vector,
@@ -59,6 +59,11 @@ impl Chunk {
                 touches: Vec::new(),
             })
             .collect()
+    }
+
+    /// Forgets what is known of one of so many bodies, because it moved.
+    pub(crate) fn forget(&mut self, body: usize, bodies: usize) {
+        self.known.iter_mut().skip(body).step_by(bodies).for_each(|k| *k = Known::NOTHING);
     }
 
     /// Finds the particles nearer than `reach` to a solid.

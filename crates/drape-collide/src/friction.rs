@@ -1,4 +1,5 @@
-use crate::vector::{Block, Vector, across, combine, dot, norm, outer, scale, subtract};
+use crate::pose::Frame;
+use crate::vector::{Block, Vector, across, add, combine, dot, norm, outer, scale, subtract};
 
 /// Coulomb friction of one particle on one body during one step.
 ///
@@ -16,14 +17,24 @@ use crate::vector::{Block, Vector, across, combine, dot, norm, outer, scale, sub
 pub(crate) struct Friction {
     pub(crate) particle: usize,
     pub(crate) body: usize,
-    /// Where the particle was at the step's start, in m.
+    /// Where the particle was at the step's start, in m, carried along with the body.
     pub(crate) start: Vector,
+    /// How far it was carried, in m.
+    pub(crate) carried: Vector,
     pub(crate) normal: Vector,
     /// `$F$`, the largest friction force, in N.
     pub(crate) limit: f64,
 }
 
 impl Friction {
+    /// Moves the start with a body from one frame to another.
+    pub(crate) fn carry(&mut self, from: &Frame, to: &Frame) {
+        let start = to.to_world(from.to_local(self.start));
+        self.carried = add(self.carried, subtract(start, self.start));
+        self.start = start;
+        self.normal = to.turn(from.turn_back(self.normal));
+    }
+
     fn slip(&self, position: Vector) -> Vector {
         let moved = subtract(position, self.start);
         subtract(moved, scale(self.normal, dot(moved, self.normal)))

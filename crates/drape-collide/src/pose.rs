@@ -93,6 +93,10 @@ impl Frame {
         add(self.origin, times(&self.rotation, point))
     }
 
+    pub(crate) fn turn_back(&self, direction: Vector) -> Vector {
+        transposed_times(&self.rotation, direction)
+    }
+
     pub(crate) fn turn(&self, direction: Vector) -> Vector {
         times(&self.rotation, direction)
     }

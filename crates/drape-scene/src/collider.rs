@@ -2,8 +2,9 @@ use std::path::Path;
 
 use drape_collide::{Body, Mesh, Pose, Settings, Shape};
 
-use crate::file::SceneFile;
+use crate::file::{MotionFile, SceneFile};
 use crate::reader::Reader;
+use crate::track::{Track, turn};
 
 /// What all bodies have in common.
 struct Parts<'a> {
@@ -12,6 +13,16 @@ struct Parts<'a> {
     center: [f64; 3],
     turn: [f64; 3],
     friction: Option<f64>,
+    motion: &'a Option<MotionFile>,
+}
+
+/// A body with what the file says beyond its form and place.
+pub(crate) struct Moving {
+    pub(crate) body: Body,
+    /// Its coefficient of friction; the fabric's if missing.
+    pub(crate) friction: Option<f64>,
+    /// Its way; none if it stays.
+    pub(crate) track: Option<Track>,
 }
 
 impl Reader<'_> {
@@ -33,29 +44,31 @@ impl Reader<'_> {
         settings
     }
 
-    pub(crate) fn bodies(
-        &mut self,
-        file: &SceneFile,
-        folder: &Path,
-        unit: f64,
-    ) -> Vec<(Body, Option<f64>)> {
+    /// The bodies, with the friction and the way of each where the file gives them.
+    pub(crate) fn bodies(&mut self, file: &SceneFile, folder: &Path, unit: f64) -> Vec<Moving> {
         let colliders = &file.collider;
         let mut bodies = Vec::new();
-        let mut add = |kind: &str, index: usize, parts: Parts<'_>| {
+        let mut add = |reader: &mut Self, (kind, index): (&str, usize), parts: Parts<'_>| {
             let name = parts.name.cloned().unwrap_or_else(|| format!("{kind} {}", index + 1));
-            let pose = pose(parts.center.map(|x| x * unit), parts.turn);
-            bodies.push((Body::new(name, parts.shape, pose), parts.friction));
+            let center = parts.center.map(|x| x * unit);
+            let key = format!("collider.{kind}[{index}].motion");
+            let motion = parts.motion.as_ref();
+            let track = motion.and_then(|motion| reader.track(&key, motion, (center, unit)));
+            let body = Body::new(name, parts.shape, turn(Pose::new(center), parts.turn));
+            bodies.push(Moving { body, friction: parts.friction, track });
         };
         for (index, s) in colliders.sphere.iter().enumerate() {
             let shape = Shape::Sphere { radius: s.radius * unit };
-            let (name, friction) = (s.name.as_ref(), s.friction);
-            add("sphere", index, Parts { name, shape, center: s.center, turn: [0.0; 3], friction });
+            let (name, friction, motion) = (s.name.as_ref(), s.friction, &s.motion);
+            let (center, turn) = (s.center, [0.0; 3]);
+            add(self, ("sphere", index), Parts { name, shape, center, turn, friction, motion });
         }
         for (index, b) in colliders.boxes.iter().enumerate() {
             let half_extents = b.size.map(|side| 0.5 * side * unit);
             let shape = Shape::Box { half_extents, edge_radius: b.edge_radius * unit };
-            let (name, friction) = (b.name.as_ref(), b.friction);
-            add("box", index, Parts { name, shape, center: b.center, turn: b.turn, friction });
+            let (name, friction, motion) = (b.name.as_ref(), b.friction, &b.motion);
+            let (center, turn) = (b.center, b.turn);
+            add(self, ("box", index), Parts { name, shape, center, turn, friction, motion });
         }
         for (index, c) in colliders.cylinder.iter().enumerate() {
             let shape = Shape::Cylinder {
@@ -63,22 +76,25 @@ impl Reader<'_> {
                 half_height: 0.5 * c.height * unit,
                 edge_radius: c.edge_radius * unit,
             };
-            let (name, friction) = (c.name.as_ref(), c.friction);
-            add("cylinder", index, Parts { name, shape, center: c.center, turn: c.turn, friction });
+            let (name, friction, motion) = (c.name.as_ref(), c.friction, &c.motion);
+            let (center, turn) = (c.center, c.turn);
+            add(self, ("cylinder", index), Parts { name, shape, center, turn, friction, motion });
         }
         for (index, p) in colliders.plane.iter().enumerate() {
             let (name, shape, friction) = (p.name.as_ref(), Shape::Plane, p.friction);
-            add("plane", index, Parts { name, shape, center: p.center, turn: p.turn, friction });
+            let (center, turn, motion) = (p.center, p.turn, &p.motion);
+            add(self, ("plane", index), Parts { name, shape, center, turn, friction, motion });
         }
         for (index, m) in colliders.mesh.iter().enumerate() {
             match Mesh::load(folder.join(&m.file), m.scale.unwrap_or(unit)) {
                 Ok(mesh) => {
                     let (name, shape) = (m.name.as_ref(), Shape::Mesh(mesh));
-                    let friction = m.friction;
+                    let (center, turn, friction) = (m.center, m.turn, m.friction);
+                    let motion = &m.motion;
                     add(
-                        "mesh",
-                        index,
-                        Parts { name, shape, center: m.center, turn: m.turn, friction },
+                        self,
+                        ("mesh", index),
+                        Parts { name, shape, center, turn, friction, motion },
                     );
                 }
                 Err(error) => {
@@ -89,11 +105,4 @@ impl Reader<'_> {
         }
         bodies
     }
-}
-
-/// The pose that turns as a panel does.
-fn pose(center: [f64; 3], turn: [f64; 3]) -> Pose {
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let turns = axes.into_iter().zip(turn).filter(|(_, angle)| *angle != 0.0);
-    turns.fold(Pose::new(center), |pose, (axis, angle)| pose.turned(axis, angle.to_radians()))
 }

@@ -89,6 +89,8 @@ pub(crate) struct PinFile {
     /// Places on the panel, weft × warp from its lower left corner (a disc's middle).
     #[serde(default)]
     pub(crate) points: Vec<[f64; 2]>,
+    /// How far from the places particles are held; without it, the nearest to each.
+    pub(crate) radius: Option<f64>,
     /// `top`, `bottom`, `left` or `right`.
     pub(crate) edge: Option<String>,
     /// Rows that an edge holds.
@@ -134,6 +136,7 @@ pub(crate) struct SphereFile {
     #[serde(default)]
     pub(crate) center: [f64; 3],
     pub(crate) friction: Option<f64>,
+    pub(crate) motion: Option<MotionFile>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -149,6 +152,7 @@ pub(crate) struct BoxFile {
     #[serde(default)]
     pub(crate) turn: [f64; 3],
     pub(crate) friction: Option<f64>,
+    pub(crate) motion: Option<MotionFile>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -164,6 +168,7 @@ pub(crate) struct CylinderFile {
     #[serde(default)]
     pub(crate) turn: [f64; 3],
     pub(crate) friction: Option<f64>,
+    pub(crate) motion: Option<MotionFile>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -175,6 +180,7 @@ pub(crate) struct PlaneFile {
     #[serde(default)]
     pub(crate) turn: [f64; 3],
     pub(crate) friction: Option<f64>,
+    pub(crate) motion: Option<MotionFile>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -189,6 +195,7 @@ pub(crate) struct MeshFile {
     #[serde(default)]
     pub(crate) turn: [f64; 3],
     pub(crate) friction: Option<f64>,
+    pub(crate) motion: Option<MotionFile>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -13,6 +13,10 @@ pub(crate) struct Ledger {
     pub(crate) stored: f64,
     /// In the contact with bodies at the start of the step.
     pub(crate) barrier: f64,
+    /// Potential of the friction with bodies at the start of the step, which they have moved on from.
+    pub(crate) slip: f64,
+    /// What their way in this step did to the energy of contact.
+    pub(crate) push: f64,
     /// Potential of the connectors when it was first and last asked for in this step. With the balance
     /// on, the integrator does so at the start and at the end.
     pub(crate) connectors: Option<[f64; 2]>,
@@ -28,9 +32,12 @@ pub(crate) struct Entry {
     pub(crate) gravity: f64,
     /// Growth of the energy of contact.
     pub(crate) contact: f64,
+    /// By bodies that move, against contact, and by their friction.
+    pub(crate) push: f64,
+    pub(crate) drive: f64,
     /// Against the friction with bodies, with its force at the end of the step.
     pub(crate) slip: f64,
-    /// The same friction's potential, which is what the step's solution is the minimum of.
+    /// Growth of the same friction's potential, which is what the step's solution is the minimum of.
     pub(crate) slip_potential: f64,
     /// Against the air, with its force at the end of the step; its potential is half of that.
     pub(crate) air: f64,
@@ -60,6 +67,7 @@ impl Ledger {
         sums.turning_dissipated += end - start - (entry.stored - self.stored) - entry.friction;
         sums.gravity += entry.gravity;
         sums.contact += entry.contact;
+        sums.work_in += entry.push + entry.drive;
         sums.elastic += entry.stored - self.stored;
         sums.friction_dissipated += entry.friction;
         sums.body_dissipated += entry.slip;
@@ -67,6 +75,7 @@ impl Ledger {
         // The integrator takes potentials for the work of all forces. For forces that grow along the
         // step, as friction and drag with the speed, that falls short of the work at its end.
         sums.numerical_dissipated += entry.slip_potential - entry.slip - 0.5 * entry.air;
+        sums.numerical_dissipated += entry.drive;
         sums.numerical_dissipated += entry.brake;
         self.stored = entry.stored;
     }

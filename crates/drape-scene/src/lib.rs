@@ -20,6 +20,7 @@ mod settle;
 mod simulation;
 mod stopwatch;
 mod summary;
+mod track;
 mod world;
 #[cfg(test)]
 mod world_check;
@@ -36,3 +37,4 @@ pub use scheme::Scheme;
 pub use settle::Settle;
 pub use simulation::{Progress, Simulation, Step};
 pub use summary::{Contacts, Energy, Solver, Status, Strain, Summary};
+pub use track::Track;

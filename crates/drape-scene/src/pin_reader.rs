@@ -1,6 +1,6 @@
-use crate::file::{MotionFile, PinFile};
+use crate::file::PinFile;
 use crate::panel::Panel;
-use crate::pin::{Key, Pin};
+use crate::pin::Pin;
 use crate::reader::Reader;
 
 impl Reader<'_> {
@@ -38,14 +38,19 @@ impl Reader<'_> {
         }
         particles.sort_unstable();
         particles.dedup();
-        if let Some(motion) = &pin.motion {
-            let held = (particles, positions, unit);
-            return self.motion(&format!("{key}.motion"), motion, held);
-        }
-        Some(Pin::resting(particles))
+        let place = |&particle: &usize| std::array::from_fn(|axis| positions[3 * particle + axis]);
+        let start: Vec<[f64; 3]> = particles.iter().map(place).collect();
+        let middle = std::array::from_fn(|axis| {
+            start.iter().map(|place| place[axis]).sum::<f64>() / start.len() as f64
+        });
+        let track = match &pin.motion {
+            Some(motion) => Some(self.track(&format!("{key}.motion"), motion, (middle, unit))?),
+            None => None,
+        };
+        Some(Pin { particles, start, track })
     }
 
-    /// The particles nearest to the places that a pin names.
+    /// The particles nearest to the places that a pin names, or all within its radius of them.
     fn points(&mut self, key: &str, pin: &PinFile, panel: &Panel, unit: f64) -> Vec<usize> {
         let coordinates = &panel.lattice.coordinates;
         let [across, along] = panel.lattice.spacing;
@@ -57,6 +62,10 @@ impl Reader<'_> {
                 distance(&coordinates[*a]).total_cmp(&distance(&coordinates[*b]))
             };
             let nearest = (0..coordinates.len()).min_by(by_distance);
+            if let Some(radius) = pin.radius {
+                let within = |&place: &usize| distance(&coordinates[place]) <= radius * unit;
+                particles.extend((0..coordinates.len()).filter(within).map(|p| panel.first + p));
+            }
             match nearest {
                 Some(nearest) if distance(&coordinates[nearest]) <= across.hypot(along) => {
                     particles.push(panel.first + nearest);
@@ -87,47 +96,5 @@ impl Reader<'_> {
             self.fail(&format!("{key}.rows"), "holds nothing".into(), "rows = 1 or more");
         }
         particles
-    }
-
-    /// The motion of a pin's particles.
-    fn motion(
-        &mut self,
-        key: &str,
-        file: &MotionFile,
-        (particles, positions, unit): (Vec<usize>, &[f64], f64),
-    ) -> Option<Pin> {
-        let count = file.times.len();
-        let lists = [("shift", &file.shift), ("turn", &file.turn)];
-        for (name, list) in lists {
-            if !list.is_empty() && list.len() != count {
-                let message = format!("{} places for {count} times", list.len());
-                self.fail(&format!("{key}.{name}"), message, "give one for each of the times");
-                return None;
-            }
-        }
-        let rising = file.times.windows(2).all(|pair| pair[0] < pair[1]);
-        let finite = |list: &[[f64; 3]]| list.iter().flatten().all(|x| x.is_finite());
-        if count == 0 || !rising || !finite(&file.shift) || !finite(&file.turn) {
-            let help = "give times = [0, 1, …] in s, each later than the one before, and as many \
-                        shift = [[x, y, z], …] or turn = [[x, y, z], …]";
-            self.fail(key, "the motion is not one".into(), help);
-            return None;
-        }
-        let nought = [0.0; 3];
-        let at = |list: &[[f64; 3]], k: usize| list.get(k).copied().unwrap_or(nought);
-        let keys = file.times.iter().enumerate().map(|(k, &time)| Key {
-            time,
-            shift: at(&file.shift, k).map(|x| x * unit),
-            turn: at(&file.turn, k),
-        });
-        let start: Vec<[f64; 3]> = particles
-            .iter()
-            .map(|&particle| std::array::from_fn(|axis| positions[3 * particle + axis]))
-            .collect();
-        let middle = std::array::from_fn(|axis| {
-            start.iter().map(|place| place[axis]).sum::<f64>() / start.len() as f64
-        });
-        let center = file.center.map_or(middle, |center| center.map(|x| x * unit));
-        Some(Pin { keys: keys.collect(), particles, start, center })
     }
 }

@@ -5,6 +5,7 @@ use drape_collide::Contact;
 use drape_input::{Diagnostic, Diagnostics, Document};
 
 use crate::clock::Clock;
+use crate::collider::Moving;
 use crate::file::SceneFile;
 use crate::material::Material;
 use crate::panel::Panel;
@@ -12,6 +13,7 @@ use crate::pin::Pin;
 use crate::reader::Reader;
 use crate::scheme::Scheme;
 use crate::settle::Settle;
+use crate::track::Track;
 
 /// Density of air at 20 °C and sea level, in kg/m³.
 const AIR_DENSITY: f64 = 1.2;
@@ -40,6 +42,8 @@ pub struct Scene {
     pub pins: Vec<Pin>,
     /// Contact of the cloth with the bodies.
     pub contact: Contact,
+    /// The ways of the bodies, of those that move.
+    pub tracks: Vec<Option<Track>>,
     /// Acceleration of gravity, in m/s².
     pub gravity: [f64; 3],
     /// Half the air's density times the drag coefficient, in kg/m³.
@@ -120,10 +124,12 @@ impl Reader<'_> {
         let mut held = vec![false; cloth.particles()];
         pins.iter().flat_map(|pin| &pin.particles).for_each(|&particle| held[particle] = true);
         let fallback = materials.iter().map(|m| m.fabric.surface_friction).fold(0.0, f64::max);
-        let bodies = bodies
+        let (bodies, tracks) = bodies
             .into_iter()
-            .map(|(body, friction)| body.with_friction(friction.unwrap_or(fallback)))
-            .collect();
+            .map(|Moving { body, friction, track }| {
+                (body.with_friction(friction.unwrap_or(fallback)), track)
+            })
+            .unzip();
         let contact = Contact::new(bodies, contact_settings, cloth.areas().to_vec());
         let contact = contact.map_err(|error| self.document.at("collider", error.to_string()))?;
         self.start_is_free(&contact, &positions);
@@ -139,6 +145,7 @@ impl Reader<'_> {
             held,
             pins,
             contact,
+            tracks,
             gravity,
             air,
             clock,

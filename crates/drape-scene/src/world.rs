@@ -1,10 +1,11 @@
 use drape_cloth::{Cloth, State, Workspace};
-use drape_collide::Contact;
+use drape_collide::{Contact, Pose};
 use drape_implicit::{BlockMatrix, Pattern, Stiffness, System};
 
 use crate::ledger::{Entry, Ledger};
 use crate::pin::{Pin, PinLoad};
 use crate::scene::Scene;
+use crate::track::Track;
 
 /// Longest time over which contact with a body counts slip in one step of a creeping cloth, in s.
 ///
@@ -33,6 +34,8 @@ pub(crate) struct World {
     brake: Vec<f64>,
     pub(crate) held: Vec<bool>,
     pub(crate) pins: Vec<Pin>,
+    /// The bodies that move: which, where it started, its way.
+    moving: Vec<(usize, Pose, Track)>,
     /// Half the air's density times the drag coefficient, in kg/m³.
     air: f64,
     pattern: Pattern,
@@ -44,7 +47,11 @@ pub(crate) struct World {
 
 impl World {
     pub(crate) fn new(scene: Scene) -> Self {
-        let Scene { cloth, positions, held, pins, contact, gravity, air, .. } = scene;
+        let Scene { cloth, positions, held, pins, contact, tracks, gravity, air, .. } = scene;
+        let poses = contact.bodies().iter().map(|body| body.pose).enumerate();
+        let moving =
+            poses.zip(tracks).filter_map(|((body, pose), track)| Some((body, pose, track?)));
+        let moving = moving.collect();
         let creeps = scene.settle.is_some_and(|settle| !settle.inertia);
         let state = cloth.state(positions).expect("a scene places every particle");
         let offsets = cloth.pattern().offsets.clone();
@@ -64,6 +71,7 @@ impl World {
             creeps,
             held,
             pins,
+            moving,
             air: if creeps { 0.0 } else { air },
             pattern,
             drag,
@@ -101,21 +109,31 @@ impl World {
         };
         // A step just opened has no slip and so no friction.
         let potential = push(contact, with);
+        let drive = contact.friction_drive(positions);
         contact.begin(positions, dt);
         let barrier = push(contact, without);
         let moved = positions.iter().zip(&state.positions).map(|(end, start)| end - start);
         let frictions = without.iter().zip(&*with).map(|(without, with)| without - with);
-        let slip = moved.zip(frictions).map(|(moved, friction)| moved * friction).sum();
+        let slip: f64 = moved.zip(frictions).map(|(moved, friction)| moved * friction).sum();
         let moved = positions.iter().zip(&state.positions).map(|(end, start)| end - start);
         let brake = moved.zip(&self.brake).map(|(moved, brake)| -moved * brake).sum();
         Entry {
             gravity,
-            contact: barrier - ledger.barrier,
-            slip,
-            slip_potential: potential - barrier,
+            contact: barrier - ledger.barrier + ledger.push,
+            push: ledger.push,
+            drive,
+            slip: slip + drive,
+            slip_potential: potential - barrier - ledger.slip,
             air,
             brake,
             ..Entry::default()
+        }
+    }
+
+    fn place_bodies(&mut self, time: f64) {
+        for (body, start, track) in &self.moving {
+            let pose = track.pose(time, *start);
+            self.contact.place(*body, pose).expect("a rigid motion turns a pose into a pose");
         }
     }
 
@@ -160,9 +178,15 @@ impl System for World {
         self.pins.iter().for_each(|pin| pin.place(end_time, target));
         let grown = if end_time < self.ramp { end_time / self.ramp } else { 1.0 };
         self.gravity = self.full_gravity.map(|g| grown * g);
+        // A step that is tried again begins where the bodies were at its start.
+        self.place_bodies(end_time - dt);
         self.contact.begin(start, if self.creeps { dt.min(CREEP_TIME) } else { dt });
+        let rest = if self.ledger.is_some() { self.contact.potential(start) } else { 0.0 };
+        self.place_bodies(end_time);
         if let Some(ledger) = &mut self.ledger {
-            ledger.barrier = self.contact.potential(start);
+            ledger.slip = self.contact.friction_potential(start);
+            ledger.barrier = self.contact.potential(start) - ledger.slip;
+            ledger.push = ledger.barrier - rest;
             ledger.connectors = None;
         }
         let momenta = self.brake.chunks_exact_mut(3).zip(self.state.velocities.chunks_exact(3));

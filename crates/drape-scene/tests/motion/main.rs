@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "studies print their figures")]
 
 mod adaptive;
+mod bodies;
 mod energy;
 mod explicit;
 mod rest;
