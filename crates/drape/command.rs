@@ -178,15 +178,40 @@ pub(crate) struct ValidateArguments {
 pub(crate) struct TestArguments {
     /// A fabric, or a sheet, which is fitted on the way.
     pub(crate) fabric: PathBuf,
-    /// Spacing of the particles.
-    #[arg(long, value_name = "MM", default_value_t = 5.0)]
-    pub(crate) spacing: f64,
+    /// Spacing of the particles [default: 5; for a drape what the fabric asks for, at most 5].
+    #[arg(long, value_name = "MM")]
+    pub(crate) spacing: Option<f64>,
+    /// Puts the fabric on a drapemeter instead: drape coefficient, nodes, harmonics.
+    #[arg(long)]
+    pub(crate) drape: bool,
+    /// The drapemeter.
+    #[arg(long, value_enum, default_value = "frl", requires = "drape")]
+    pub(crate) meter: Meter,
+    /// Specimens draped, each from another start.
+    #[arg(long, value_name = "N", default_value_t = 10, requires = "drape")]
+    pub(crate) starts: u64,
     /// Folder for a page with the loops overlaid.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) report: Option<PathBuf>,
     /// Prints the loops and values as JSON.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// Drapemeters, by the diameters of specimen and disc.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum Meter {
+    /// 254 mm on 127 mm.
+    Frl,
+    /// Cusick's, 24 cm on 18 cm.
+    #[value(name = "cusick-24")]
+    Cusick24,
+    /// Cusick's, 30 cm on 18 cm.
+    #[value(name = "cusick-30")]
+    Cusick30,
+    /// Cusick's, 36 cm on 18 cm.
+    #[value(name = "cusick-36")]
+    Cusick36,
 }
 
 #[derive(Args)]

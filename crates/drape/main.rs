@@ -8,6 +8,7 @@ mod batch;
 mod bench;
 mod check;
 mod command;
+mod drapemeter;
 mod fabric;
 mod fabric_page;
 mod failure;

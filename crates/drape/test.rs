@@ -10,8 +10,10 @@ use serde_json::json;
 use crate::command::TestArguments;
 use crate::failure::Failure;
 use crate::say::say;
-use crate::{batch, fabric, fabric_page, file, kes_value, quantity};
+use crate::{batch, drapemeter, fabric, fabric_page, file, kes_value, quantity};
 
+/// Spacing of the particles, in mm.
+const SPACING: f64 = 5.0;
 /// Points of a branch of a loop.
 const POINTS: usize = 50;
 const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
@@ -19,11 +21,14 @@ const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
 
 pub(crate) fn test(arguments: &TestArguments) -> Result<(), Failure> {
     let fabric = fabric::read(&arguments.fabric)?;
-    let spacing = 1e-3 * arguments.spacing;
-    if !(spacing >= 5e-4 && spacing <= 0.05) {
-        let message = format!("--spacing {} is not between 0.5 and 50 (mm)", arguments.spacing);
+    if let Some(spacing) = arguments.spacing.filter(|mm| !(*mm >= 0.5 && *mm <= 50.0)) {
+        let message = format!("--spacing {spacing} is not between 0.5 and 50 (mm)");
         return Err(Failure::Usage(message));
     }
+    if arguments.drape {
+        return drapemeter::drape(&fabric, arguments);
+    }
+    let spacing = 1e-3 * arguments.spacing.unwrap_or(SPACING);
     let mut found = Vec::new();
     for test in TESTS {
         for direction in DIRECTIONS {

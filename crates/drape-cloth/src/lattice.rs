@@ -67,27 +67,39 @@ impl Lattice {
 
     /// A disc of the given radius, in m, with a particle at its centre.
     ///
+    /// # Errors
+    /// As for [`Lattice::disc_on`].
+    pub fn disc(radius: f64, spacing: f64) -> Result<Self, ClothError> {
+        Self::disc_on([0.0; 2], radius, spacing)
+    }
+
+    /// A disc of the given radius, in m, cut from a grid with a particle at the given place from its centre, in m.
+    ///
     /// The cells are those of the grid, so the rim is ragged by up to one spacing; mass and
     /// connectors carry the exact area of the disc in every cell.
     ///
     /// # Errors
     /// When a length is not positive, or fewer than 3 particles would lie across the disc.
-    pub fn disc(radius: f64, spacing: f64) -> Result<Self, ClothError> {
+    pub fn disc_on(grid: [f64; 2], radius: f64, spacing: f64) -> Result<Self, ClothError> {
         check("the radius", radius)?;
         check("the spacing", spacing)?;
         if radius < spacing {
             return Err(ClothError::Spacing { spacing, size: 2.0 * radius });
         }
-        let half = (radius / spacing).ceil();
-        let start = -half * spacing;
+        let grid = grid.map(|place| place - spacing * (place / spacing).round());
+        if !grid.iter().all(|place| place.is_finite()) {
+            return Err(ClothError::Length { what: "the place of the grid", value: f64::NAN });
+        }
+        let half = (radius / spacing + 0.5).ceil();
+        let start = grid.map(|place| place - half * spacing);
         let area = |u0: f64, v0: f64, u1: f64, v1: f64| {
             let corner = |u: f64, v: f64| disc_corner_area(radius, u, v);
             corner(u1, v1) - corner(u0, v1) - corner(u1, v0) + corner(u0, v0)
         };
-        Self::cut([spacing; 2], [start; 2], [2.0 * half; 2], |column, row| {
-            let at = |index: f64| start + index * spacing;
-            let (u0, um, u1) = (at(column), at(column + 0.5), at(column + 1.0));
-            let (v0, vm, v1) = (at(row), at(row + 0.5), at(row + 1.0));
+        Self::cut([spacing; 2], start, [2.0 * half; 2], |column, row| {
+            let at = |axis: usize, index: f64| start[axis] + index * spacing;
+            let (u0, um, u1) = (at(0, column), at(0, column + 0.5), at(0, column + 1.0));
+            let (v0, vm, v1) = (at(1, row), at(1, row + 0.5), at(1, row + 1.0));
             [area(u0, v0, um, vm), area(um, v0, u1, vm), area(um, vm, u1, v1), area(u0, vm, um, v1)]
         })
     }
@@ -217,11 +229,10 @@ fn check(what: &'static str, value: f64) -> Result<(), ClothError> {
 /// Signed area of the disc about the origin in the rectangle with the corners (0, 0) and (u, v).
 fn disc_corner_area(radius: f64, u: f64, v: f64) -> f64 {
     let (a, b) = (u.abs().min(radius), v.abs().min(radius));
-    let segment = |x: f64| {
-        0.5 * (x * (radius * radius - x * x).max(0.0).sqrt()
-            + radius * radius * (x / radius).asin())
-    };
-    let meets = (radius * radius - b * b).max(0.0).sqrt();
+    // Towards the rim the arc sine would lose half of the digits.
+    let chord = |x: f64| ((radius - x) * (radius + x)).max(0.0).sqrt();
+    let segment = |x: f64| 0.5 * (x * chord(x) + radius * radius * x.atan2(chord(x)));
+    let meets = chord(b);
     let area = if a <= meets { a * b } else { b * meets + segment(a) - segment(meets) };
     area * u.signum() * v.signum()
 }

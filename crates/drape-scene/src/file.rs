@@ -56,6 +56,8 @@ pub(crate) struct PanelFile {
     pub(crate) rectangle: Option<[f64; 2]>,
     /// Diameter.
     pub(crate) disc: Option<f64>,
+    /// Place of a particle from the disc's middle; a particle is in the middle if missing.
+    pub(crate) grid: Option<[f64; 2]>,
     pub(crate) spacing: Option<f64>,
     /// Where the middle of the panel is.
     #[serde(default)]

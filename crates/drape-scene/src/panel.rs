@@ -86,7 +86,10 @@ impl Reader<'_> {
             (Some([width, height]), None) => {
                 Lattice::rectangle(width * unit, height * unit, spacing)
             }
-            (None, Some(diameter)) => Lattice::disc(0.5 * diameter * unit, spacing),
+            (None, Some(diameter)) => {
+                let grid = entry.grid.unwrap_or_default().map(|place| place * unit);
+                Lattice::disc_on(grid, 0.5 * diameter * unit, spacing)
+            }
             _ => {
                 let help = "give one of rectangle = [weft, warp] and disc = diameter";
                 self.fail(key, format!("panel \"{}\" has no single shape", entry.name), help);

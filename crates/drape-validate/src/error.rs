@@ -14,6 +14,12 @@ pub enum ValidationError {
     /// A curve that is none.
     #[error("{0}")]
     Curve(#[from] drape_kes::Error),
+    /// Too few starts for a deviation.
+    #[error("{starts} starts have no standard deviation; take 2 or more")]
+    Starts {
+        /// As asked for.
+        starts: u64,
+    },
     /// A strip that should rest still moves.
     #[error("the strip did not come to rest in {seconds} s")]
     NotSettled {

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod check;
+pub mod drapemeter;
 pub mod dynamics;
 mod error;
 pub mod instrument;
