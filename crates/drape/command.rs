@@ -163,9 +163,12 @@ pub(crate) struct RunArguments {
 
 #[derive(Args)]
 pub(crate) struct ValidateArguments {
-    /// Cases to run [default: all].
+    /// Cases to run [default: all that take seconds].
     #[arg(value_name = "CASE")]
     pub(crate) cases: Vec<String>,
+    /// Runs the cases that take minutes too.
+    #[arg(long, conflicts_with = "cases")]
+    pub(crate) full: bool,
     /// Writes the outcomes as a page in Markdown.
     #[arg(long, value_name = "FILE")]
     pub(crate) markdown: Option<PathBuf>,

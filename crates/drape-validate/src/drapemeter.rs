@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
-use drape_fabric::{BlimanSorine, Fabric};
+use drape_fabric::{BlimanSorine, Fabric, ShearBackbone};
 use drape_input::Document;
 use drape_scene::{Scene, Simulation};
 use rayon::prelude::*;
@@ -90,6 +90,45 @@ pub fn spacing_bound(fabric: &Fabric) -> f64 {
     let rigidity = fabric.warp.bending.backbone.respond(0.0).tangent;
     let rigidity = rigidity.min(fabric.weft.bending.backbone.respond(0.0).tangent);
     0.25 * (rigidity / (fabric.density * GRAVITY)).cbrt()
+}
+
+/// What a drape depends on and a sheet with values alone does not have, from one end of what it may be to the other.
+///
+/// No survey of many fabrics is behind the ends; they are meant to be wide for apparel weaves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prior {
+    /// G, in N/(m·rad).
+    pub stiffness: f64,
+    /// Half of 2HG, in N/m.
+    pub plateau: f64,
+    /// Curvature over which the friction of bending builds up, in 1/m.
+    pub length: f64,
+}
+
+impl Prior {
+    /// The end at which a fabric drapes most: G 0.3 gf/(cm·deg), 2HG 0.2 gf/cm, 0.2 1/cm.
+    pub const LIMP: Self = Self { stiffness: 16.86, plateau: 0.0981, length: 20.0 };
+    /// The end at which it drapes least: G 1 gf/(cm·deg), 2HG 2 gf/cm, 0.02 1/cm.
+    pub const STIFF: Self = Self { stiffness: 56.19, plateau: 0.9807, length: 2.0 };
+
+    /// The fabric with these in the place of what was assumed in its fit; none if nothing of them was.
+    pub fn of(self, fabric: &Fabric) -> Option<Fabric> {
+        let assumed = &fabric.provenance.as_ref()?.assumed;
+        let starts = |with: &str| assumed.iter().any(|text| text.starts_with(with));
+        let [shear, warp, weft] =
+            ["shear stiffness", "warp bending friction", "weft bending friction"].map(starts);
+        let mut changed = fabric.clone();
+        if shear {
+            changed.shear.backbone = ShearBackbone::Linear { stiffness: self.stiffness };
+            changed.shear.friction.elements[0].plateau = self.plateau;
+        }
+        for (laws, assumed) in [(&mut changed.warp, warp), (&mut changed.weft, weft)] {
+            if assumed {
+                laws.bending.friction.elements[0].length = self.length;
+            }
+        }
+        (shear || warp || weft).then_some(changed)
+    }
 }
 
 /// The same fabric without friction in any of its laws.

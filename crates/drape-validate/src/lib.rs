@@ -2,6 +2,7 @@
 
 mod check;
 pub mod drapemeter;
+mod drapes;
 pub mod dynamics;
 mod error;
 pub mod instrument;
@@ -12,6 +13,7 @@ pub mod statics;
 mod strip;
 mod suite;
 pub mod tester;
+mod vacuum;
 
 pub use check::{Check, Kind};
 pub use error::ValidationError;

@@ -10,6 +10,11 @@ pub const CUPRO: &str = include_str!("../fabrics/cupro-weave.toml");
 /// Matsudaira's fabric A, a cotton broad, from published KES values; its shear is assumed.
 pub const COTTON: &str = include_str!("../fabrics/matsudaira-a.toml");
 
+/// Matsudaira's fabric B, a wool tropical, likewise.
+pub const WOOL: &str = include_str!("../fabrics/matsudaira-b.toml");
+/// The cotton of Tagawa, Hayashi & Kijima (2003), from their fitted law; its shear is assumed.
+pub const TAGAWA: &str = include_str!("../fabrics/tagawa-2003.toml");
+
 /// A fabric from its text.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use crate::{Check, ValidationError, dynamics, loops, statics};
+use crate::{Check, ValidationError, drapes, dynamics, loops, statics, vacuum};
 
 /// A case of the suite.
 #[derive(Debug, Clone, Copy)]
@@ -9,6 +9,8 @@ pub struct Case {
     pub name: &'static str,
     /// What it shows, and where the reference is from.
     pub title: &'static str,
+    /// Whether it takes minutes and is left out unless asked for.
+    pub long: bool,
     run: fn() -> Result<Vec<Check>, ValidationError>,
 }
 
@@ -27,49 +29,75 @@ pub const CASES: &[Case] = &[
     Case {
         name: "instruments",
         title: "Specimens in simulated KES instruments return the loops of the laws",
+        long: false,
         run: loops::instruments,
     },
     Case {
         name: "heavy-cantilever",
         title: "A clamped strip bends under its own weight (heavy elastica)",
+        long: false,
         run: statics::heavy_cantilever,
     },
     Case {
         name: "end-load",
         title: "A clamped strip bends under a load at its tip (Bisshopp & Drucker 1945)",
+        long: false,
         run: statics::end_loaded_cantilever,
     },
     Case {
         name: "catenary",
         title: "A limp strip between two hinges (catenary)",
+        long: false,
         run: statics::catenary,
     },
     Case {
         name: "self-stretch",
         title: "A hanging strip stretches under its own weight",
+        long: false,
         run: statics::self_stretch,
     },
     Case {
         name: "column",
         title: "An upright strip bends over under its own weight (Greenhill 1881)",
+        long: false,
         run: statics::column,
     },
     Case {
         name: "hanging-chain",
         title: "Modes of a limp hanging strip (Bernoulli 1732)",
+        long: false,
         run: dynamics::hanging_chain,
     },
     Case {
         name: "hanging-strip",
         title: "First mode of a hanging strip with bending rigidity",
+        long: false,
         run: dynamics::hanging_strip,
     },
     Case {
         name: "pendulum",
         title: "Period of a stiff strip on a hinge at large amplitudes",
+        long: false,
         run: dynamics::pendulum,
     },
-    Case { name: "free-fall", title: "A strip that nothing holds", run: dynamics::free_fall },
+    Case {
+        name: "free-fall",
+        title: "A strip that nothing holds",
+        long: false,
+        run: dynamics::free_fall,
+    },
+    Case {
+        name: "vacuum",
+        title: "A strip in a vacuum swings, and is thrown over (Tagawa, Hayashi & Kijima 2003)",
+        long: false,
+        run: vacuum::tagawa,
+    },
+    Case {
+        name: "drapemeter",
+        title: "Drape coefficients of two fabrics (Matsudaira et al. 2015)",
+        long: true,
+        run: drapes::drapemeter,
+    },
 ];
 
 /// What came of a case.
