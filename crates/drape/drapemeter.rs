@@ -27,6 +27,10 @@ pub(crate) fn drape(fabric: &Fabric, arguments: &TestArguments) -> Result<(), Fa
         Meter::Cusick30 => Drapemeter::CUSICK_30,
         Meter::Cusick36 => Drapemeter::CUSICK_36,
     };
+    if arguments.starts < 2 {
+        let message = "--starts below 2 have no standard deviation; take 2 or more";
+        return Err(Failure::Usage(message.into()));
+    }
     let bound = spacing_bound(fabric);
     let spacing = arguments.spacing.map_or(bound.min(SPACING_MAX), |mm| 1e-3 * mm);
     if !arguments.json {

@@ -1,3 +1,5 @@
+#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
+
 use std::ops::Range;
 
 use drape_fabric::{LANES, Lanes};
