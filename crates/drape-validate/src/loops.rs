@@ -1,15 +1,17 @@
 //! Loops of simulated instruments.
 
-use drape_kes::{Direction, Test};
+use drape_kes::{Curve, Direction, Test};
 
 use crate::shipped::{COTTON, CUPRO, fabric};
-use crate::tester::Comparison;
+use crate::tester::{Comparison, measure};
 use crate::{Check, ValidationError};
 
 /// Points of a branch of a loop.
 const POINTS: usize = 50;
 /// Spacings, in m, with how far the loop may be off, root mean square over its range.
 const SPACINGS: [(f64, f64); 3] = [(0.01, 0.02), (0.005, 0.01), (0.0025, 0.02)];
+/// Points of a branch where the area of a loop is wanted: trapezoids then err by a thousandth.
+const FINE: usize = 200;
 /// How far a KES value may be off.
 const VALUE_LIMIT: f64 = 0.02;
 
@@ -37,4 +39,59 @@ pub fn instruments() -> Result<Vec<Check>, ValidationError> {
         }
     }
     Ok(checks)
+}
+
+/// Energy that a bent specimen loses in a cycle, and the curvature that it keeps, against the closed forms for a linear
+/// rigidity beside a Dahl element of plateau `$F$` and length `$\ell$`: the steady loop between `$\pm\kappa$` loses
+/// `$4F(\kappa - \ell\tanh(\kappa/\ell))$`, and its unloading branch is
+/// `$M = B\kappa' - F + 2F e^{(\kappa' - \kappa)/\ell}/(1 + e^{-2\kappa/\ell})$`.
+pub fn bending_hysteresis() -> Result<Vec<Check>, ValidationError> {
+    let mut checks = Vec::new();
+    for text in [CUPRO, COTTON] {
+        let fabric = fabric(text)?;
+        let law = fabric.weft.bending;
+        let rigidity = law.backbone.respond(0.0).tangent;
+        let element = law.friction.elements[0];
+        let (plateau, length) = (element.plateau, element.length);
+        let curve = measure(&fabric, Test::Bending, Direction::Weft, (0.005, FINE))?;
+        let (_, top) = curve.deformation_range();
+        let what = |what: &str| format!("{}: {what}", fabric.name);
+        let lost = 4.0 * plateau * (top - length * (top / length).tanh());
+        let found = steady_area(&curve);
+        checks.push(Check::within(what("energy lost in a cycle, J/m²"), found, lost, 0.02));
+        let turned = 2.0 * plateau / (1.0 + (-2.0 * top / length).exp());
+        let moment = |k: f64| rigidity * k - plateau + turned * ((k - top) / length).exp();
+        let kept = root(moment, (0.0, top));
+        let found = -kept_curvature(&curve);
+        checks.push(Check::within(what("curvature kept after bending, 1/m"), found, kept, 0.02));
+    }
+    Ok(checks)
+}
+
+/// Area of the loop between the curve's last two branches, which are steady.
+fn steady_area(curve: &Curve) -> f64 {
+    let branches = curve.branches();
+    let steady = branches[branches.len() - 2].points.start..branches[branches.len() - 1].points.end;
+    let (q, load) = (&curve.deformation()[steady.clone()], &curve.load()[steady]);
+    let halves =
+        q.windows(2).zip(load.windows(2)).map(|(q, f)| 0.5 * (f[0] + f[1]) * (q[1] - q[0]));
+    halves.sum()
+}
+
+/// Where the last branch crosses the line of no load.
+fn kept_curvature(curve: &Curve) -> f64 {
+    let branches = curve.branches();
+    let last = branches[branches.len() - 1].points.clone();
+    let (q, load) = (&curve.deformation()[last.clone()], &curve.load()[last]);
+    let crossing = load.windows(2).position(|pair| pair[0] <= 0.0 && pair[1] > 0.0);
+    crossing.map_or(f64::NAN, |k| q[k] - load[k] * (q[k + 1] - q[k]) / (load[k + 1] - load[k]))
+}
+
+/// Root of a rising function, by halving.
+fn root(function: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64)) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if function(middle) < 0.0 { low = middle } else { high = middle }
+    }
+    low
 }

@@ -33,6 +33,12 @@ pub const CASES: &[Case] = &[
         run: loops::instruments,
     },
     Case {
+        name: "hysteresis",
+        title: "A specimen that was bent loses energy and keeps a curvature (Dahl friction, closed forms)",
+        long: false,
+        run: loops::bending_hysteresis,
+    },
+    Case {
         name: "heavy-cantilever",
         title: "A clamped strip bends under its own weight (heavy elastica)",
         long: false,
