@@ -65,6 +65,11 @@ pub(crate) struct PanelFile {
     /// Turns about the x, y and z axes, one after the other, in degrees.
     #[serde(default)]
     pub(crate) turn: [f64; 3],
+    /// Velocity of its middle at the start, and spin about the world's axes through it in degrees/s.
+    #[serde(default)]
+    pub(crate) velocity: [f64; 3],
+    #[serde(default)]
+    pub(crate) spin: [f64; 3],
     pub(crate) ripple: Option<RippleFile>,
     pub(crate) noise: Option<NoiseFile>,
 }

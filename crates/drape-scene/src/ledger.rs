@@ -22,6 +22,8 @@ pub(crate) struct Ledger {
     pub(crate) connectors: Option<[f64; 2]>,
     /// Room for forces, one of them with and one without the friction of the step.
     pub(crate) forces: [Vec<f64>; 2],
+    /// Kinetic energy at the start.
+    pub(crate) start: f64,
     sums: Energy,
 }
 
@@ -88,11 +90,11 @@ impl Ledger {
         }
     }
 
-    /// The balance so far, for a cloth that began at rest.
+    /// The balance so far, given the kinetic energy now.
     pub(crate) fn balance(&self, kinetic: f64) -> Energy {
         let Energy { elastic, gravity, contact, .. } = self.sums;
         let Energy { friction_dissipated, body_dissipated, air_dissipated, .. } = self.sums;
-        let held = kinetic + elastic + gravity + contact;
+        let held = kinetic - self.start + elastic + gravity + contact;
         let turning = self.sums.turning_dissipated;
         let lost = friction_dissipated + body_dissipated + air_dissipated + turning;
         let remainder = self.sums.work_in - held - lost - self.sums.numerical_dissipated;

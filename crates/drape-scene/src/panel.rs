@@ -55,6 +55,10 @@ impl Reader<'_> {
             let lattice = self.lattice(&key, entry, file.spacing, unit);
             let placement = Placement::new(entry, unit);
             let bad = entry.center.iter().chain(&entry.turn).any(|x| !x.is_finite());
+            if entry.velocity.iter().chain(&entry.spin).any(|x| !x.is_finite()) {
+                let help = "velocity in the file's unit per second, spin in degrees per second";
+                self.fail(&format!("{key}.velocity"), "is not finite".into(), help);
+            }
             if bad {
                 self.fail(&format!("{key}.center"), "is not finite".into(), "in the file's unit");
             }

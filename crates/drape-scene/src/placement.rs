@@ -7,6 +7,11 @@ use crate::file::{NoiseFile, PanelFile, RippleFile};
 pub(crate) struct Placement {
     pub(crate) center: [f64; 3],
     pub(crate) turn: [f64; 3],
+    /// Whether the panel's own coordinates count from its middle: those of a disc.
+    from_middle: bool,
+    /// Velocity of the middle, in m/s, and spin about the world's axes, in rad/s.
+    velocity: [f64; 3],
+    spin: [f64; 3],
     ripple: Option<(f64, f64)>,
     noise: Option<(f64, u64)>,
 }
@@ -18,6 +23,9 @@ impl Placement {
         Self {
             center: panel.center.map(|x| x * unit),
             turn: panel.turn,
+            from_middle: panel.disc.is_some(),
+            velocity: panel.velocity.map(|v| v * unit),
+            spin: panel.spin.map(f64::to_radians),
             ripple: panel.ripple.as_ref().map(ripple),
             noise: panel.noise.as_ref().map(noise),
         }
@@ -32,7 +40,10 @@ impl Placement {
             (low, values.fold(f64::NEG_INFINITY, f64::max))
         };
         let ((u0, u1), (v0, v1)) = (bounds(0), bounds(1));
-        let middle = [0.5 * (u0 + u1), 0.5 * (v0 + v1)];
+        let middle = match self.from_middle {
+            true => [0.0; 2],
+            false => [0.5 * (u0 + u1), 0.5 * (v0 + v1)],
+        };
         let mut random = Random(self.noise.map_or(0, |(_, seed)| seed));
         let mut positions = Vec::with_capacity(3 * lattice.coordinates.len());
         for &[u, v] in &lattice.coordinates {
@@ -47,6 +58,19 @@ impl Placement {
             positions.extend((0..3).map(|axis| turned[axis] + self.center[axis]));
         }
         positions
+    }
+
+    /// Velocities of particles that start at positions: those of a rigid body.
+    pub(crate) fn velocities(&self, positions: &[f64]) -> Vec<f64> {
+        let mut velocities = Vec::with_capacity(positions.len());
+        for place in positions.chunks_exact(3) {
+            let arm: [f64; 3] = std::array::from_fn(|axis| place[axis] - self.center[axis]);
+            velocities.extend((0..3).map(|axis| {
+                let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+                self.velocity[axis] + self.spin[j] * arm[k] - self.spin[k] * arm[j]
+            }));
+        }
+        velocities
     }
 }
 

@@ -36,6 +36,8 @@ pub struct Scene {
     pub cloth: Cloth,
     /// Positions of the particles at the start, three numbers each, in m.
     pub positions: Vec<f64>,
+    /// Their velocities, likewise, in m/s.
+    pub velocities: Vec<f64>,
     /// Particles that are held.
     pub held: Vec<bool>,
     /// What each pin holds, and how that moves, in the order of the file.
@@ -116,6 +118,13 @@ impl Reader<'_> {
         let materials: Vec<Material> = materials.into_iter().flatten().collect();
         let positions: Vec<f64> =
             panels.iter().flat_map(|(panel, place)| place.positions(&panel.lattice)).collect();
+        let mut velocities: Vec<f64> = panels
+            .iter()
+            .flat_map(|(panel, place)| {
+                let own = 3 * panel.first..3 * (panel.first + panel.lattice.coordinates.len());
+                place.velocities(&positions[own])
+            })
+            .collect();
         let panels: Vec<Panel> = panels.into_iter().map(|(panel, _)| panel).collect();
         let pins = file.pin.iter().enumerate();
         let pins: Vec<Pin> = pins
@@ -123,6 +132,9 @@ impl Reader<'_> {
             .collect();
         let mut held = vec![false; cloth.particles()];
         pins.iter().flat_map(|pin| &pin.particles).for_each(|&particle| held[particle] = true);
+        for particle in (0..held.len()).filter(|&particle| held[particle]) {
+            velocities[3 * particle..3 * particle + 3].fill(0.0);
+        }
         let fallback = materials.iter().map(|m| m.fabric.surface_friction).fold(0.0, f64::max);
         let (bodies, tracks) = bodies
             .into_iter()
@@ -142,6 +154,7 @@ impl Reader<'_> {
             panels,
             cloth,
             positions,
+            velocities,
             held,
             pins,
             contact,

@@ -112,7 +112,10 @@ impl Simulation {
         };
         let order = if integrator(&scheme) == Integrator::Bdf2 { 2.0 } else { 1.0 };
         Ok(Self {
-            motion: Motion::at_rest(world.state.positions.clone()),
+            motion: Motion {
+                velocities: world.state.velocities.clone(),
+                ..Motion::at_rest(world.state.positions.clone())
+            },
             estimate: ErrorEstimate::new(world.cloth.particles()),
             world,
             scheme,

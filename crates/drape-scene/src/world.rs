@@ -47,19 +47,22 @@ pub(crate) struct World {
 
 impl World {
     pub(crate) fn new(scene: Scene) -> Self {
-        let Scene { cloth, positions, held, pins, contact, tracks, gravity, air, .. } = scene;
+        let Scene {
+            cloth, positions, velocities, held, pins, contact, tracks, gravity, air, ..
+        } = scene;
         let poses = contact.bodies().iter().map(|body| body.pose).enumerate();
         let moving =
             poses.zip(tracks).filter_map(|((body, pose), track)| Some((body, pose, track?)));
         let moving = moving.collect();
         let creeps = scene.settle.is_some_and(|settle| !settle.inertia);
-        let state = cloth.state(positions).expect("a scene places every particle");
+        let mut state = cloth.state(positions).expect("a scene places every particle");
+        state.velocities = velocities;
         let offsets = cloth.pattern().offsets.clone();
         let columns = cloth.pattern().columns.iter().map(|&c| c as u32).collect();
         let pattern = Pattern::new(offsets, columns).expect("a cloth's pattern is sorted");
         let drag = vec![0.0; cloth.particles()];
         let ledger = scene.energy.then(|| Ledger::new(cloth.stored(&state), cloth.particles()));
-        Self {
+        let mut world = Self {
             workspace: cloth.workspace(),
             cloth,
             state,
@@ -76,7 +79,12 @@ impl World {
             pattern,
             drag,
             ledger,
+        };
+        let kinetic = world.kinetic();
+        if let Some(ledger) = &mut world.ledger {
+            ledger.start = kinetic;
         }
+        world
     }
 
     /// Calls with the particle's way along its normal since the start of the step, for every

@@ -153,3 +153,38 @@ pub fn free_fall() -> Checks {
         Check::at_most("bend of a falling strip, m", bent, TOLERANCE * way),
     ])
 }
+
+/// What nothing holds and nothing pulls at turns on for ever.
+pub fn rotation() -> Checks {
+    let turns = 1.0;
+    let strip = Strip { hold: Hold::Free, cells: 20, spin: turns, ..Strip::default() };
+    let end = 2.25;
+    let rest = format!("gravity = [0, 0, 0]\n{}", motion(0.002, end));
+    let rest = rest.replace("energy = false", "energy = true");
+    let mut simulation = strip.simulation(0.0, &rest)?;
+    while !simulation.step()?.finished {}
+    let line = strip.line(&simulation);
+    let ([x0, y0, _], [x1, y1, _]) = (line[0].1, line[line.len() - 1].1);
+    let angle = (y1 - y0).atan2(x1 - x0);
+    // A quarter beyond whole turns.
+    let turned = end - 0.25 + angle / TAU;
+    let kinetic = simulation.energy().unwrap_or_default().kinetic;
+    let speed = turns * TAU;
+    // Particles stand for the cells around them.
+    let lumped = 1.0 + 2.0 / (strip.cells as f64).powi(2);
+    let inertia = lumped * strip.density * strip.width * strip.length.powi(3) / 12.0;
+    Ok(vec![
+        Check::within(
+            "turns of a free strip in 2.25 s at one a second",
+            turned,
+            end * turns,
+            0.001,
+        ),
+        Check::within(
+            "its energy of motion then, µJ",
+            1e6 * kinetic,
+            0.5e6 * inertia * speed * speed,
+            0.001,
+        ),
+    ])
+}

@@ -40,6 +40,8 @@ pub struct Strip {
     pub rigidity: f64,
     /// Tensile stiffness of both yarn systems, in N/m.
     pub stiffness: f64,
+    /// Turns per second about z through its middle, at the start.
+    pub spin: f64,
 }
 
 impl Default for Strip {
@@ -53,6 +55,7 @@ impl Default for Strip {
             density: 0.2,
             rigidity: 1.6e-5,
             stiffness: 1e4,
+            spin: 0.0,
         }
     }
 }
@@ -97,6 +100,7 @@ impl Strip {
     /// A scene that cannot be read or prepared.
     pub fn simulation(&self, angle: f64, rest: &str) -> Result<Simulation, ValidationError> {
         let (beyond, width, spacing) = (self.beyond(), self.width, self.spacing());
+        let spin = 360.0 * self.spin;
         let panel = self.length + beyond;
         let pin =
             |rows: usize| format!("[[pin]]\npanel = \"strip\"\nedge = \"left\"\nrows = {rows}\n");
@@ -113,7 +117,7 @@ impl Strip {
             "name = \"strip\"\nspacing = {spacing:e}\nair = {{ density = 0 }}\n\
              fabric.strip.file = \"strip-fabric.toml\"\n{}[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
              rectangle = [{panel:e}, {width:e}]\ncenter = [{x:e}, {y:e}, 0]\nturn = [-90, 0, {angle:e}]\n\
-             {pin}{}",
+             spin = [0, 0, {spin:e}]\n{pin}{}",
             rest.lines().filter(|line| line.starts_with("gravity")).collect::<String>() + "\n",
             rest.lines().filter(|line| !line.starts_with("gravity")).collect::<Vec<_>>().join("\n")
         );

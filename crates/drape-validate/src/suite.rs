@@ -93,6 +93,12 @@ pub const CASES: &[Case] = &[
         run: dynamics::free_fall,
     },
     Case {
+        name: "rotation",
+        title: "A strip that nothing holds or pulls at turns on",
+        long: false,
+        run: dynamics::rotation,
+    },
+    Case {
         name: "vacuum",
         title: "A strip in a vacuum swings, and is thrown over (Tagawa, Hayashi & Kijima 2003)",
         long: false,
