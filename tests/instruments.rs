@@ -30,7 +30,7 @@ fn a_sheet_is_fitted_and_tested_and_a_page_is_left() {
     }
     let page = std::fs::read_to_string(folder.path().join("tagawa-2003-tested.html"));
     let page = page.expect("a page");
-    assert!(page.contains("simulated") && page.matches("<svg").count() >= 3);
+    assert!(page.contains("Simulated specimens") && page.matches("<svg").count() >= 3);
 }
 
 #[test]

@@ -105,6 +105,7 @@ fn row(evaluation: &Evaluation) -> serde_json::Value {
             "nodes": drape.nodes,
             "amplitudes": drape.amplitudes,
             "edge": drape.edge,
+            "speed": drape.speed,
         })
     });
     json!({

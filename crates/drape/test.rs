@@ -90,7 +90,7 @@ fn row((test, direction, comparison): &Found) -> serde_json::Value {
 
 /// The loops overlaid and the values beside each other.
 fn page(fabric: &Fabric, found: &[Found]) -> ComparePage {
-    let names = [format!("{}, simulated", fabric.name), format!("{}, its laws", fabric.name)];
+    let names = ["Simulated specimens", "Laws"].map(str::to_owned);
     let overlay = |test: Test| {
         let [deformation, load] = quantity::axes(test);
         let traces = |curve: fn(&Comparison) -> &drape::kes::Curve| {
@@ -116,8 +116,9 @@ fn page(fabric: &Fabric, found: &[Found]) -> ComparePage {
         let values = comparison.values().into_iter();
         values.map(|(symbol, values)| kes_value::compared(*direction, symbol, values))
     });
+    let source = format!("{}. {}", fabric.name, fabric.source);
     ComparePage {
-        fabrics: names.clone().map(|name| FabricName { name, source: fabric.source.clone() }),
+        fabrics: names.clone().map(|name| FabricName { name, source: source.clone() }),
         version: fabric_page::VERSION.into(),
         overlays: TESTS.into_iter().map(overlay).collect(),
         values: values.collect(),

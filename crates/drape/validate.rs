@@ -82,9 +82,9 @@ const LEFT_OUT: &str = "\
   cells between (2.5 mm) fabrics whose traction begins soft are 1.5 to 1.8 % off, because a bow also pulls at its yarn
   with the moment times the curvature, and such a yarn gives way.
 * A drape coefficient from B and 2HB alone is uncertain by what they do not say: shear, and the curvature over which the
-  friction of bending builds up. Both are given a range here. The path matters as much: the platform is lowered slowly
-  and nothing is shaken, which leaves the most friction in the cloth, so that predictions lie high; without any friction
-  they lie below what was measured. How the measured specimens were handled is not known.
+  friction of bending builds up. Both are given a range here. How the specimen is let down matters as much: without
+  inertia it would keep 7 points more, and a platform that sinks ten times faster takes 7 points from a stiff cotton.
+  The speed of the measured one is not known, nor whether it was shaken.
 * The shapes that Tagawa and others photographed are not legible enough to compare.
 * Cloth does not meet itself, and meets bodies at its particles only.
 * The model has no creep and no rate dependence: what the friction holds, it holds for ever.

@@ -42,8 +42,8 @@ pub struct Drape {
     pub amplitudes: Vec<f64>,
     /// Radius of the shadow's edge at even angles, in m.
     pub edge: Vec<f64>,
-    /// Processor-independent measure of the work: steps of the simulation.
-    pub steps: usize,
+    /// How fast the fastest particle still was, in m/s.
+    pub speed: f64,
 }
 
 /// Drapes from several starts.
@@ -168,11 +168,12 @@ impl Drapemeter {
     /// Drapes a specimen of particles at a spacing, in m, from a start that a seed perturbs: the particles' heights by
     /// a tenth of a millimetre, and where the grid lies on the specimen.
     ///
-    /// The specimen lies on the disc and on a platform around it, which sinks away from under it. Inertia is left out:
-    /// the platform is slow.
+    /// The specimen lies on the disc and on a platform around it, which sinks away from under it, and then hangs in air
+    /// for a while. Its inertia matters, however slow the platform: as folds fall into place the cloth sways, and works
+    /// against its friction. Without inertia a cotton and a wool of 83 and 50 % drape to 91 and 58 %.
     ///
     /// # Errors
-    /// A simulation that cannot be run to rest.
+    /// A simulation that cannot be run to its end.
     pub fn drape(
         &self,
         fabric: &Fabric,
@@ -189,6 +190,8 @@ impl Drapemeter {
         (spacing, seed): (f64, u64),
     ) -> Result<Simulation, ValidationError> {
         let Self { disc, specimen } = self;
+        // A little more than the specimen can hang.
+        let sink = 1.1 * (specimen - disc);
         let grid = grid(seed).map(|part| part * spacing);
         let text = format!(
             "name = \"drapemeter\"\nspacing = {spacing:e}\nfabric.specimen.file = \"fabric.toml\"\n\
@@ -199,15 +202,15 @@ impl Drapemeter {
              edge_radius = 0.0005\ncenter = [0, {:e}, 0]\n\
              [[collider.plane]]\nname = \"platform\"\ncenter = [0, {:e}, 0]\n\
              [collider.plane.motion]\ntimes = [0, {:e}]\nshift = [[0, 0, 0], [0, {:e}, 0]]\n\
-             [contact]\noffset = {GAP:e}\n[time]\nstep = 0.005\nstep_max = {STEP_MAX}\nend = 10000\n[settle]\n\
-             stride = {STRIDE}\n\
+             [contact]\noffset = {GAP:e}\n[time]\nstep = {STEP}\nend = {:e}\n\
              [output]\nenergy = false\n",
             2.0 * specimen,
             disc + CLAMP_REACH * spacing,
             -0.5 * PEDESTAL - GAP,
             -GAP,
-            specimen / SINK_SPEED,
-            -specimen,
+            sink / SINK_SPEED,
+            -sink,
+            sink / SINK_SPEED + REST,
         );
         let fabric = Document::new("fabric.toml", fabric.to_toml());
         let scene = Scene::from_documents(&Document::new("drapemeter.toml", text), &[fabric])?;
@@ -230,7 +233,7 @@ impl Drapemeter {
             nodes: maxima(&smooth.curve(edge.len()), PROMINENCE),
             amplitudes: smooth.amplitudes(),
             edge,
-            steps: simulation.summary().steps,
+            speed: simulation.summary().speed_max,
         }
     }
 }
@@ -245,12 +248,11 @@ fn grid(seed: u64) -> [f64; 2] {
 const PEDESTAL: f64 = 0.3;
 /// Distance at which the cloth feels disc and platform, in m.
 const GAP: f64 = 1e-3;
-/// How fast the platform sinks, in m/s.
+/// How fast the platform sinks, in m/s. A cotton of 83 % drapes to 84, 79 and 77 % at 20, 67 and 200 mm/s.
 const SINK_SPEED: f64 = 0.02;
-/// Longest step, in s, and farthest way of a particle in one, in m. With longer ones the friction does not follow the
-/// way: at a quarter of a spacing a stiff cotton drapes by 3 points more, at a third of this no differently.
-const STEP_MAX: f64 = 0.02;
-const STRIDE: f64 = 3e-4;
+/// Length of a step, and for how long the specimen hangs before its shadow is read, in s.
+const STEP: f64 = 0.005;
+const REST: f64 = 2.5;
 /// How far beyond the disc particles are held, over the spacing: the last ones lie half a spacing beyond the line
 /// where the slope is held, and half a spacing less than this beyond the disc on the average.
 const CLAMP_REACH: f64 = 1.0;
