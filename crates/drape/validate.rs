@@ -96,7 +96,8 @@ const LEFT_OUT: &str = "\
 /// The page that `crates/drape/VALIDATION.md` is.
 fn markdown(outcomes: &[Outcome]) -> String {
     let mut page = String::from(
-        "# Validation\n\nSimulations against exact solutions and measurements. `drape validate --full --markdown FILE` writes this page; \
+        "# Validation\n\nSimulations against exact solutions and measurements. `drape validate --markdown FILE` \
+         writes this page, with `--full` the cases that take minutes too; \
          the references are computed in `crates/drape-validate/src/reference` or cited there.\n",
     );
     for outcome in outcomes {
