@@ -1,7 +1,7 @@
 //! `drape test --drape`: specimens of a fabric in a simulated drapemeter.
 
 use drape::fabric::Fabric;
-use drape::validate::drapemeter::{Drapemeter, Prior, Study, elastic, spacing_bound};
+use drape::validate::drapemeter::{Drapemeter, Prior, Study, spacing_bound};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
@@ -45,8 +45,10 @@ pub(crate) fn drape(fabric: &Fabric, arguments: &TestArguments) -> Result<(), Fa
             say(format_args!("warning: {message} {:.2} mm or less", 1e3 * bound))?;
         }
     }
-    let mut wanted =
-        vec![("with its friction".to_owned(), fabric.clone()), ("elastic".into(), elastic(fabric))];
+    let mut wanted = vec![
+        ("with its friction".to_owned(), fabric.clone()),
+        ("elastic".into(), fabric.elastic()),
+    ];
     let ends = [("limp end of the prior", Prior::LIMP), ("stiff end", Prior::STIFF)];
     wanted.extend(ends.into_iter().filter_map(|(of, prior)| Some((of.into(), prior.of(fabric)?))));
     let bar = ProgressBar::new(arguments.starts * wanted.len() as u64);

@@ -3,7 +3,7 @@
 use drape::fabric::{
     BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
 };
-use drape::kes::{Direction, Test};
+use drape::kes::{Curve, Direction, Test};
 use drape::report::plot::{OverlayPlot, Trace};
 use drape::report::{
     ComparePage, ComparedValue, FabricName, FitPage, Interval, LawReport, Parameter, Quantity,
@@ -16,7 +16,7 @@ use crate::{kes_value, quantity};
 /// Points of a branch of a loop; enough for the trapezoids of WT to be right to a hundred-thousandth.
 const POINTS: usize = 400;
 pub(crate) const VERSION: &str = concat!("drape ", env!("CARGO_PKG_VERSION"));
-const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
+pub(crate) const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
 /// The tests, each with the directions in which it differs; there is one shear law.
 const TESTS: [(Test, &[Direction]); 3] =
     [(Test::Tensile, &DIRECTIONS), (Test::Bending, &DIRECTIONS), (Test::Shear, &[Direction::Warp])];
@@ -139,18 +139,20 @@ fn elements(friction: &BlimanSorine) -> Vec<(&'static str, f64)> {
         .collect()
 }
 
+/// A curve as a plot draws it.
+pub(crate) fn trace_of(label: &str, curve: &Curve) -> Trace {
+    let points = curve.deformation().iter().zip(curve.load());
+    Trace { label: label.into(), points: points.map(|(&q, &f)| [q, f]).collect() }
+}
+
 /// The loops of two fabrics overlaid, and their values beside each other.
 pub(crate) fn compare_page(fabrics: [&Fabric; 2]) -> ComparePage {
     let names = fabrics.map(|fabric| fabric.name.clone());
     let overlay = |(test, directions): (Test, &[Direction])| {
         let [deformation, load] = quantity::axes(test);
         let trace = |fabric: &Fabric, direction: Direction| {
-            let curve = instrument::ideal(fabric, test, direction, POINTS);
-            let points = curve.deformation().iter().zip(curve.load());
-            Trace {
-                label: if test == Test::Shear { "shear" } else { direction.name() }.into(),
-                points: points.map(|(&q, &f)| [q, f]).collect(),
-            }
+            let label = if test == Test::Shear { "shear" } else { direction.name() };
+            trace_of(label, &instrument::ideal(fabric, test, direction, POINTS))
         };
         OverlayPlot {
             title: test.name().into(),

@@ -1,7 +1,7 @@
 //! `drape test`: specimens of a fabric in simulated KES instruments.
 
 use drape::fabric::Fabric;
-use drape::kes::{Direction, Test};
+use drape::kes::{Curve, Direction, Test};
 use drape::report::plot::{OverlayPlot, Trace};
 use drape::report::{ComparePage, FabricName};
 use drape::validate::tester::Comparison;
@@ -17,7 +17,6 @@ const SPACING: f64 = 5.0;
 /// Points of a branch of a loop.
 const POINTS: usize = 50;
 const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
-const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
 
 pub(crate) fn test(arguments: &TestArguments) -> Result<(), Failure> {
     let fabric = fabric::read(&arguments.fabric)?;
@@ -31,7 +30,7 @@ pub(crate) fn test(arguments: &TestArguments) -> Result<(), Failure> {
     let spacing = 1e-3 * arguments.spacing.unwrap_or(SPACING);
     let mut found = Vec::new();
     for test in TESTS {
-        for direction in DIRECTIONS {
+        for direction in fabric_page::DIRECTIONS {
             let comparison = Comparison::of(&fabric, (test, direction), (spacing, POINTS))
                 .map_err(|error| Failure::Solver(error.to_string()))?;
             if !arguments.json {
@@ -93,16 +92,11 @@ fn page(fabric: &Fabric, found: &[Found]) -> ComparePage {
     let names = ["Simulated specimens", "Laws"].map(str::to_owned);
     let overlay = |test: Test| {
         let [deformation, load] = quantity::axes(test);
-        let traces = |curve: fn(&Comparison) -> &drape::kes::Curve| {
+        let traces = |curve: fn(&Comparison) -> &Curve| -> Vec<Trace> {
             let of_test = found.iter().filter(|(of, ..)| *of == test);
             of_test
-                .map(|(_, direction, comparison)| {
-                    let points =
-                        curve(comparison).deformation().iter().zip(curve(comparison).load());
-                    let points = points.map(|(&q, &f)| [q, f]).collect();
-                    Trace { label: direction.name().into(), points }
-                })
-                .collect::<Vec<_>>()
+                .map(|(_, direction, both)| fabric_page::trace_of(direction.name(), curve(both)))
+                .collect()
         };
         OverlayPlot {
             title: test.name().into(),

@@ -74,6 +74,18 @@ pub struct Problem {
 }
 
 impl Fabric {
+    /// The same fabric without friction in any of its laws.
+    #[must_use]
+    pub fn elastic(&self) -> Self {
+        let mut fabric = self.clone();
+        for laws in [&mut fabric.warp, &mut fabric.weft] {
+            laws.traction.friction = BlimanSorine::default();
+            laws.bending.friction = BlimanSorine::default();
+        }
+        fabric.shear.friction = BlimanSorine::default();
+        fabric
+    }
+
     /// Everything about the numbers that cannot be: empty for a usable fabric.
     #[must_use]
     pub fn problems(&self) -> Vec<Problem> {

@@ -48,8 +48,9 @@ impl Pin {
     /// Writes the places of the particles at a time, in s, into the flat array of all places.
     pub(crate) fn place(&self, time: f64, positions: &mut [f64]) {
         let Some(track) = &self.track else { return };
+        let place = track.points(time);
         for (&particle, &start) in self.particles.iter().zip(&self.start) {
-            positions[3 * particle..3 * particle + 3].copy_from_slice(&track.point(time, start));
+            positions[3 * particle..3 * particle + 3].copy_from_slice(&place(start));
         }
     }
 }

@@ -26,17 +26,19 @@ pub struct Track {
 }
 
 impl Track {
-    /// Where a point that starts at a place is at a time, in m.
-    pub(crate) fn point(&self, time: f64, start: [f64; 3]) -> [f64; 3] {
-        let Key { shift, turn, .. } = self.at(time);
-        let arm = turned(std::array::from_fn(|axis| start[axis] - self.center[axis]), turn);
-        std::array::from_fn(|axis| self.center[axis] + arm[axis] + shift[axis])
+    /// Where points are at a time, from where they start, in m.
+    pub(crate) fn points(&self, time: f64) -> impl Fn([f64; 3]) -> [f64; 3] {
+        let (center, Key { shift, turn, .. }) = (self.center, self.at(time));
+        move |start| {
+            let arm = turned(std::array::from_fn(|axis| start[axis] - center[axis]), turn);
+            std::array::from_fn(|axis| center[axis] + arm[axis] + shift[axis])
+        }
     }
 
     /// The pose at a time of what starts at one.
     pub(crate) fn pose(&self, time: f64, start: Pose) -> Pose {
         let turned = turn(start, self.at(time).turn);
-        Pose { position: self.point(time, start.position), ..turned }
+        Pose { position: self.points(time)(start.position), ..turned }
     }
 
     fn at(&self, time: f64) -> Key {
@@ -117,7 +119,7 @@ mod tests {
         for (time, expected) in
             [(0.0, [2.0, 1.0]), (1.0, [2.0, 1.0]), (1.5, [1.25, 2.0]), (9.0, [0.5, 1.0])]
         {
-            let place = track().point(time, [2.0, 1.0, 0.0]);
+            let place = track().points(time)([2.0, 1.0, 0.0]);
             assert!(near(place, expected), "{place:?} at {time}");
         }
     }

@@ -1,7 +1,7 @@
-use drape_input::Document;
-use drape_scene::{Scene, Simulation};
+use drape_scene::Simulation;
 
 use crate::ValidationError;
+use crate::stage::simulation;
 
 /// Acceleration of gravity in all scenes here, in m/s².
 pub const GRAVITY: f64 = 9.81;
@@ -78,17 +78,16 @@ impl Strip {
         if self.hold == Hold::Clamp { 1.5 * self.spacing() } else { 0.0 }
     }
 
-    fn fabric(&self) -> Document {
+    fn fabric(&self) -> String {
         let Self { density, rigidity, stiffness, .. } = self;
         let direction = format!(
             "traction = {{ primed = {{ stiffness = {stiffness:e}, toe_ratio = 1.0, toe_strain = 0.01, \
              toe_strain_after = 0.01 }} }}\nbending = {{ rigidity = {rigidity:e} }}\n"
         );
-        let text = format!(
+        format!(
             "name = \"strip\"\ndensity = {density:e}\nthickness = 0.0001\nshear = {{ stiffness = 50 }}\n\
              [warp]\n{direction}[weft]\n{direction}"
-        );
-        Document::new("strip-fabric.toml", text)
+        )
     }
 
     /// A simulation of the strip without air, level along x and held at the origin, then turned about z by an
@@ -115,14 +114,13 @@ impl Strip {
         let (x, y) = (middle * cos, middle * sin);
         let text = format!(
             "name = \"strip\"\nspacing = {spacing:e}\nair = {{ density = 0 }}\n\
-             fabric.strip.file = \"strip-fabric.toml\"\n{}[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
+             fabric.strip.file = \"fabric.toml\"\n{}[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
              rectangle = [{panel:e}, {width:e}]\ncenter = [{x:e}, {y:e}, 0]\nturn = [-90, 0, {angle:e}]\n\
              spin = [0, 0, {spin:e}]\n{pin}{}",
             rest.lines().filter(|line| line.starts_with("gravity")).collect::<String>() + "\n",
             rest.lines().filter(|line| !line.starts_with("gravity")).collect::<Vec<_>>().join("\n")
         );
-        let scene = Scene::from_documents(&Document::new("strip.toml", text), &[self.fabric()])?;
-        Ok(Simulation::new(scene)?)
+        simulation(text, self.fabric())
     }
 
     /// Places along the middle of the strip with their distance from its held end, both in m; from there.

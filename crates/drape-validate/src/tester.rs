@@ -4,12 +4,12 @@
 //! pins, and what they bear is the load. Every step of the simulation is a point of the curve.
 
 use drape_fabric::Fabric;
-use drape_input::Document;
 use drape_kes::{BendingPoints, Curve, Direction, Reading, ShearPoints, Symbol, Test};
-use drape_scene::{PinLoad, Scene, Simulation};
+use drape_scene::PinLoad;
 
 use crate::ValidationError;
 use crate::instrument::{LARGEST_TENSION, SHEAR_TENSION, curve, cycle, extension, ideal, laws};
+use crate::stage::simulation;
 
 /// Width of a specimen: 20 cm.
 const WIDTH: f64 = 0.2;
@@ -111,9 +111,7 @@ impl Specimen {
             edges[1],
             STEP * places.len() as f64
         );
-        let fabric = Document::new("fabric.toml", fabric.to_toml());
-        let scene = Scene::from_documents(&Document::new("specimen.toml", text), &[fabric])?;
-        let mut simulation = Simulation::new(scene)?;
+        let mut simulation = simulation(text, fabric.to_toml())?;
         let mut loads = Vec::with_capacity(places.len());
         while loads.len() < places.len() {
             simulation.step()?;

@@ -6,11 +6,10 @@
 //! way of the strip does not depend on the grid.
 
 use drape_fabric::Fabric;
-use drape_input::Document;
-use drape_scene::{Scene, Simulation};
+use drape_scene::Simulation;
 
-use crate::drapemeter::elastic;
 use crate::shipped::{TAGAWA, fabric};
+use crate::stage::simulation;
 use crate::strip::GRAVITY;
 use crate::{Check, ValidationError};
 
@@ -55,8 +54,7 @@ fn strip(
         -below * cos,
         -below * sin
     );
-    let fabric = Document::new("fabric.toml", fabric.to_toml());
-    Ok(Simulation::new(Scene::from_documents(&Document::new("strip.toml", text), &[fabric])?)?)
+    simulation(text, fabric.to_toml())
 }
 
 /// A swing set going by a clamp that turns upright: what is lost of its energy, by the fabric and in all.
@@ -72,7 +70,7 @@ fn swing(fabric: &Fabric) -> Result<[f64; 2], ValidationError> {
 /// Both experiments.
 pub fn tagawa() -> Result<Vec<Check>, ValidationError> {
     let fabric = fabric(TAGAWA)?;
-    let rest = elastic(&fabric);
+    let rest = fabric.elastic();
     let mass = fabric.density * LENGTH * WIDTH;
     let swung = mass * GRAVITY * 0.5 * LENGTH * (1.0 - ANGLE.to_radians().cos());
     // The first mode of a hanging strip, whose bending is small beside its weight.

@@ -1,0 +1,231 @@
+//! The shadow of a draped specimen, and the folds in its edge.
+
+use std::f64::consts::TAU;
+
+/// Side of the squares in which the shadow is measured, in m.
+const PIXEL: f64 = 5e-4;
+/// Parts into which the side of a triangle is split to follow the specimen's edge.
+const PARTS: usize = 4;
+/// Angles at which the edge is read.
+const ANGLES: usize = 720;
+/// Harmonics of the edge that count as its shape.
+pub(crate) const HARMONICS: usize = 20;
+/// How far a fold must stand out, in m.
+pub(crate) const PROMINENCE: f64 = 3e-3;
+
+/// What light from straight above leaves dark, in squares.
+pub(crate) struct Shadow {
+    side: usize,
+    dark: Vec<bool>,
+}
+
+impl Shadow {
+    /// The shadow of the part of a surface that lies within a radius in its material coordinates.
+    pub(crate) fn of(
+        triangles: &[[u32; 3]],
+        (coordinates, positions): (&[[f64; 2]], &[f64]),
+        radius: f64,
+    ) -> Self {
+        let side = (2.2 * radius / PIXEL).ceil() as usize;
+        let mut shadow = Self { side, dark: vec![false; side * side] };
+        let material = |weights: [f64; 3], triangle: &[u32; 3]| {
+            let mut sum = [0.0; 2];
+            for (weight, &corner) in weights.iter().zip(triangle) {
+                let [u, v] = coordinates[corner as usize];
+                sum = [sum[0] + weight * u, sum[1] + weight * v];
+            }
+            sum[0].hypot(sum[1])
+        };
+        let place = |weights: [f64; 3], triangle: &[u32; 3]| {
+            let mut sum = [0.0; 2];
+            for (weight, &corner) in weights.iter().zip(triangle) {
+                let corner = 3 * corner as usize;
+                sum =
+                    [sum[0] + weight * positions[corner], sum[1] + weight * positions[corner + 2]];
+            }
+            sum
+        };
+        for triangle in triangles {
+            for part in parts() {
+                let mean =
+                    [0, 1, 2].map(|k| part.iter().map(|corner| corner[k]).sum::<f64>() / 3.0);
+                if material(mean, triangle) <= radius {
+                    shadow.darken(part.map(|corner| place(corner, triangle)));
+                }
+            }
+        }
+        shadow
+    }
+
+    /// Darkens the squares whose middles lie in a triangle.
+    fn darken(&mut self, corners: [[f64; 2]; 3]) {
+        let half = 0.5 * self.side as f64;
+        let [a, b, c] = corners.map(|corner| corner.map(|x| x / PIXEL + half));
+        let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+        };
+        let sign = cross(a, b, c).signum();
+        let range = |axis: usize| {
+            let low = a[axis].min(b[axis]).min(c[axis]) - 0.5;
+            let high = a[axis].max(b[axis]).max(c[axis]) - 0.5;
+            low.ceil().max(0.0) as usize..=(high.floor().max(-1.0) + 1.0) as usize
+        };
+        for row in range(1) {
+            for column in range(0) {
+                let point = [column as f64 + 0.5, row as f64 + 0.5];
+                let inside =
+                    [(a, b), (b, c), (c, a)].iter().all(|&(p, q)| sign * cross(p, q, point) >= 0.0);
+                if inside && row < self.side && column < self.side {
+                    self.dark[row * self.side + column] = true;
+                }
+            }
+        }
+    }
+
+    /// In m².
+    pub(crate) fn area(&self) -> f64 {
+        self.dark.iter().filter(|dark| **dark).count() as f64 * PIXEL * PIXEL
+    }
+
+    /// Radius of the outermost dark square at each angle, in m.
+    pub(crate) fn edge(&self) -> Vec<f64> {
+        let half = 0.5 * self.side as f64;
+        let radius = |angle: f64| {
+            let (sin, cos) = angle.sin_cos();
+            let dark = |steps: &usize| {
+                let r = *steps as f64 * 0.5;
+                let [column, row] = [half + r * cos, half + r * sin].map(|x| x as usize);
+                row < self.side && column < self.side && self.dark[row * self.side + column]
+            };
+            let outermost = (0..self.side).rev().find(dark);
+            outermost.unwrap_or(0) as f64 * 0.5 * PIXEL
+        };
+        (0..ANGLES).map(|k| radius(TAU * k as f64 / ANGLES as f64)).collect()
+    }
+}
+
+/// The small triangles of a triangle, by the weights of its corners.
+fn parts() -> impl Iterator<Item = [[f64; 3]; 3]> {
+    let at = |i: usize, j: usize| {
+        let [a, b] = [i, j].map(|k| k as f64 / PARTS as f64);
+        [1.0 - a - b, a, b]
+    };
+    (0..PARTS).flat_map(move |i| {
+        (0..PARTS - i).flat_map(move |j| {
+            let upright = [at(i, j), at(i + 1, j), at(i, j + 1)];
+            let turned =
+                (i + j + 2 <= PARTS).then(|| [at(i + 1, j + 1), at(i, j + 1), at(i + 1, j)]);
+            std::iter::once(upright).chain(turned)
+        })
+    })
+}
+
+/// A closed curve by its first harmonics.
+pub(crate) struct LowPass {
+    mean: f64,
+    /// Cosine and sine parts.
+    parts: Vec<[f64; 2]>,
+}
+
+impl LowPass {
+    pub(crate) fn of(curve: &[f64]) -> Self {
+        let count = curve.len() as f64;
+        let part = |harmonic: usize| {
+            let mut sums = [0.0; 2];
+            for (k, value) in curve.iter().enumerate() {
+                let (sin, cos) = (TAU * (harmonic * k) as f64 / count).sin_cos();
+                sums = [sums[0] + value * cos, sums[1] + value * sin];
+            }
+            sums.map(|sum| 2.0 * sum / count)
+        };
+        let parts = (1..=HARMONICS).map(part).collect();
+        Self { mean: curve.iter().sum::<f64>() / count, parts }
+    }
+
+    pub(crate) fn amplitudes(&self) -> Vec<f64> {
+        self.parts.iter().map(|[cos, sin]| cos.hypot(*sin)).collect()
+    }
+
+    pub(crate) fn curve(&self, count: usize) -> Vec<f64> {
+        let at = |k: usize| {
+            let parts = self.parts.iter().enumerate().map(|(n, part)| {
+                let (sin, cos) = (TAU * ((n + 1) * k) as f64 / count as f64).sin_cos();
+                part[0] * cos + part[1] * sin
+            });
+            self.mean + parts.sum::<f64>()
+        };
+        (0..count).map(at).collect()
+    }
+}
+
+/// Maxima of a closed curve that stand out by at least so much.
+pub(crate) fn maxima(curve: &[f64], prominence: f64) -> usize {
+    let count = curve.len();
+    let at = |k: usize| curve[k % count];
+    // From a lowest place, so that none is counted across the end.
+    let first = (0..count).min_by(|&a, &b| curve[a].total_cmp(&curve[b])).unwrap_or(0);
+    let (mut low, mut high, mut found, mut rising) = (at(first), at(first), 0, true);
+    for k in first..=first + count {
+        let value = at(k);
+        if rising {
+            high = high.max(value);
+            if high - value >= prominence {
+                if high - low >= prominence {
+                    found += 1;
+                }
+                (low, rising) = (value, false);
+            }
+        } else {
+            low = low.min(value);
+            if value - low >= prominence {
+                (high, rising) = (value, true);
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn waves_are_counted_and_ripples_are_not() {
+        let wave = |count: f64, amplitude: f64| {
+            let at = |k: usize| {
+                let angle = TAU * k as f64 / ANGLES as f64;
+                0.1 + amplitude * (count * angle + 0.3).cos() + 1e-3 * (40.0 * angle).cos()
+            };
+            maxima(&LowPass::of(&(0..ANGLES).map(at).collect::<Vec<_>>()).curve(ANGLES), PROMINENCE)
+        };
+        assert_eq!([wave(2.0, 0.01), wave(7.0, 0.004), wave(5.0, 0.001)], [2, 7, 0]);
+    }
+
+    #[test]
+    fn the_shadow_of_a_flat_disc_is_the_disc() {
+        // One square sheet of two triangles around it.
+        let corners = [[-0.15, -0.15], [0.15, -0.15], [0.15, 0.15], [-0.15, 0.15]];
+        let count = 40;
+        let mut coordinates = Vec::new();
+        let mut triangles = Vec::new();
+        for i in 0..=count {
+            for j in 0..=count {
+                let at = |k: usize| corners[0][0] + 0.3 * k as f64 / count as f64;
+                coordinates.push([at(i), at(j)]);
+            }
+        }
+        for i in 0..count {
+            for j in 0..count {
+                let corner = |a: usize, b: usize| ((i + a) * (count + 1) + j + b) as u32;
+                triangles.push([corner(0, 0), corner(1, 0), corner(1, 1)]);
+                triangles.push([corner(0, 0), corner(1, 1), corner(0, 1)]);
+            }
+        }
+        let positions: Vec<f64> = coordinates.iter().flat_map(|&[u, v]| [u, 0.0, -v]).collect();
+        let shadow = Shadow::of(&triangles, (&coordinates, &positions), 0.127);
+        assert!((shadow.area() / (PI * 0.127 * 0.127) - 1.0).abs() < 2e-3, "{}", shadow.area());
+        let edge = shadow.edge();
+        assert!(edge.iter().all(|r| (r - 0.127).abs() < 2e-3), "{edge:?}");
+    }
+}
