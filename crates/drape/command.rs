@@ -190,6 +190,9 @@ pub(crate) struct TestArguments {
     /// The drapemeter.
     #[arg(long, value_enum, default_value = "frl", requires = "drape")]
     pub(crate) meter: Meter,
+    /// Shakes the specimen after it was let down.
+    #[arg(long, value_enum, requires = "drape")]
+    pub(crate) shake: Option<ShakeName>,
     /// Specimens draped, each from another start.
     #[arg(long, value_name = "N", default_value_t = 10, requires = "drape")]
     pub(crate) starts: u64,
@@ -215,6 +218,13 @@ pub(crate) enum Meter {
     /// Cusick's, 36 cm on 18 cm.
     #[value(name = "cusick-36")]
     Cusick36,
+}
+
+/// Ways to shake a draped specimen.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum ShakeName {
+    /// The disc goes up and down three times by 10 mm to either side, twice a second.
+    Bounce,
 }
 
 #[derive(Args)]

@@ -64,6 +64,7 @@ fn line(check: &Check) -> String {
         }
         Kind::AtLeast => format!("≥ {reference:.5}"),
         Kind::AtMost => format!("≤ {reference:.1e}"),
+        Kind::Told => String::new(),
     };
     let measured = match kind {
         Kind::AtMost => format!("{measured:.1e}"),
@@ -125,5 +126,6 @@ fn row(check: &Check) -> String {
         Kind::AtMost => {
             format!("| {what} | {measured:.1e} | | | ≤ {reference:.0e} | {verdict} |\n")
         }
+        Kind::Told => format!("| {what} | {measured:.3} | | | | |\n"),
     }
 }

@@ -25,6 +25,8 @@ pub enum Kind {
     AtLeast,
     /// It must be at most as large.
     AtMost,
+    /// It has none, and is told for what it is.
+    Told,
 }
 
 impl Check {
@@ -43,6 +45,11 @@ impl Check {
         Self { what: what.into(), measured, reference, limit: 0.0, kind: Kind::AtLeast }
     }
 
+    /// A figure that has no reference.
+    pub fn told(what: impl Into<String>, measured: f64) -> Self {
+        Self { what: what.into(), measured, reference: f64::NAN, limit: 0.0, kind: Kind::Told }
+    }
+
     /// How far the figure is off, as a part of the reference.
     pub fn error(&self) -> f64 {
         (self.measured - self.reference) / self.reference.abs()
@@ -54,6 +61,7 @@ impl Check {
             Kind::Equal => self.error().abs() <= self.limit,
             Kind::AtLeast => self.measured >= self.reference,
             Kind::AtMost => self.measured <= self.reference,
+            Kind::Told => self.measured.is_finite(),
         }
     }
 }

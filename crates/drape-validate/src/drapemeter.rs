@@ -1,9 +1,9 @@
 //! Simulated drapemeters: a disc of fabric between two smaller ones, let down.
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
-use drape_fabric::{Fabric, ShearBackbone};
+use drape_fabric::Fabric;
 use drape_scene::Simulation;
 use rayon::prelude::*;
 
@@ -16,34 +16,79 @@ use crate::strip::{GRAVITY, finish};
 const PEDESTAL: f64 = 0.3;
 /// Distance at which the cloth feels disc and platform, in m.
 const GAP: f64 = 1e-3;
-/// How fast the platform sinks, in m/s. At 5 mm spacing a cotton of 83 % drapes to 84 % at 20 mm/s
-/// (10 starts), 79 % at 67 (4) and 77 % at 200 (1).
-const SINK_SPEED: f64 = 0.02;
-/// Length of a step, and for how long the specimen hangs before its shadow is read, in s.
-const STEP: f64 = 0.005;
+/// How long the specimen hangs before its shadow is read, in s.
 const REST: f64 = 2.5;
+/// Keys of the way of a shaken disc in a period.
+const SHAKE_KEYS: usize = 8;
 /// How far beyond the disc particles are held, over the spacing: the last ones lie half a spacing beyond the line
 /// where the slope is held, and half a spacing less than this beyond the disc on the average.
 const CLAMP_REACH: f64 = 1.0;
 
-/// A drapemeter: its disc and the specimen's size, radii in m.
+/// A drapemeter: its disc and the specimen's size, radii in m, and how the specimen is treated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drapemeter {
     /// Radius of the disc that holds the specimen.
     pub disc: f64,
     /// Radius of the specimen.
     pub specimen: f64,
+    /// How it is let down.
+    pub protocol: Protocol,
+}
+
+/// How a specimen is let down, and how that is simulated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Protocol {
+    /// How fast the platform sinks, in m/s. The standards do not give it.
+    pub sink_speed: f64,
+    /// How the disc is shaken when the platform is down.
+    pub shake: Option<Shake>,
+    /// Turn of the specimen about the upright, in degrees: what is read must not depend on it.
+    pub turn: f64,
+    /// Length of a time step, in s.
+    pub step: f64,
+}
+
+impl Default for Protocol {
+    fn default() -> Self {
+        Self { sink_speed: 0.02, shake: None, turn: 0.0, step: 0.005 }
+    }
+}
+
+/// Strokes of the disc up and down, a sine in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shake {
+    /// Greatest distance from its place, in m.
+    pub amplitude: f64,
+    /// Strokes per second.
+    pub frequency: f64,
+    /// How many.
+    pub strokes: usize,
+}
+
+impl Shake {
+    /// Three strokes of 10 mm to either side at 2 Hz, as a hand gives: 1.6 times gravity at the turns.
+    pub const BOUNCE: Self = Self { amplitude: 0.01, frequency: 2.0, strokes: 3 };
+
+    fn seconds(&self) -> f64 {
+        self.strokes as f64 / self.frequency
+    }
 }
 
 impl Drapemeter {
     /// The FRL meter: 127 mm on 63.5 mm.
-    pub const FRL: Self = Self { disc: 0.0635, specimen: 0.127 };
-    /// Cusick's with the specimen of 24 cm, for limp fabrics (BS 5058, ISO 9073-9).
-    pub const CUSICK_24: Self = Self { disc: 0.09, specimen: 0.12 };
-    /// Cusick's with the specimen of 30 cm.
-    pub const CUSICK_30: Self = Self { disc: 0.09, specimen: 0.15 };
-    /// Cusick's with the specimen of 36 cm, for stiff fabrics.
-    pub const CUSICK_36: Self = Self { disc: 0.09, specimen: 0.18 };
+    pub fn frl() -> Self {
+        Self::of_diameters(0.127, 0.254)
+    }
+
+    /// Cusick's, 18 cm, with a specimen of some diameter in m: 0.24 for limp fabrics, 0.3, or 0.36 for stiff ones
+    /// (BS 5058, ISO 9073-9).
+    pub fn cusick(specimen: f64) -> Self {
+        Self::of_diameters(0.18, specimen)
+    }
+
+    fn of_diameters(disc: f64, specimen: f64) -> Self {
+        Self { disc: 0.5 * disc, specimen: 0.5 * specimen, protocol: Protocol::default() }
+    }
 }
 
 /// What is read from the shadow of a draped specimen.
@@ -107,45 +152,6 @@ pub fn spacing_bound(fabric: &Fabric) -> f64 {
     0.25 * (rigidity / (fabric.density * GRAVITY)).cbrt()
 }
 
-/// What a drape depends on and a sheet with values alone does not have, from one end of what it may be to the other.
-///
-/// No survey of many fabrics is behind the ends; they are meant to be wide for apparel weaves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Prior {
-    /// G, in N/(m·rad).
-    pub stiffness: f64,
-    /// Half of 2HG, in N/m.
-    pub plateau: f64,
-    /// Curvature over which the friction of bending builds up, in 1/m.
-    pub length: f64,
-}
-
-impl Prior {
-    /// The end at which a fabric drapes most: G 0.3 gf/(cm·deg), 2HG 0.2 gf/cm, 0.2 1/cm.
-    pub const LIMP: Self = Self { stiffness: 16.86, plateau: 0.0981, length: 20.0 };
-    /// The end at which it drapes least: G 1 gf/(cm·deg), 2HG 2 gf/cm, 0.02 1/cm.
-    pub const STIFF: Self = Self { stiffness: 56.19, plateau: 0.9807, length: 2.0 };
-
-    /// The fabric with these in the place of what was assumed in its fit; none if nothing of them was.
-    pub fn of(self, fabric: &Fabric) -> Option<Fabric> {
-        let assumed = &fabric.provenance.as_ref()?.assumed;
-        let starts = |with: &str| assumed.iter().any(|text| text.starts_with(with));
-        let [shear, warp, weft] =
-            ["shear stiffness", "warp bending friction", "weft bending friction"].map(starts);
-        let mut changed = fabric.clone();
-        if shear {
-            changed.shear.backbone = ShearBackbone::Linear { stiffness: self.stiffness };
-            changed.shear.friction.elements[0].plateau = self.plateau;
-        }
-        for (laws, assumed) in [(&mut changed.warp, warp), (&mut changed.weft, weft)] {
-            if assumed {
-                laws.bending.friction.elements[0].length = self.length;
-            }
-        }
-        (shear || warp || weft).then_some(changed)
-    }
-}
-
 impl Drapemeter {
     /// Drapes specimens of particles at a spacing, in m, from so many starts, side by side; tells after each.
     ///
@@ -193,28 +199,30 @@ impl Drapemeter {
         fabric: &Fabric,
         (spacing, seed): (f64, u64),
     ) -> Result<Simulation, ValidationError> {
-        let Self { disc, specimen } = self;
-        // A little more than the specimen can hang.
-        let sink = 1.1 * (specimen - disc);
+        let Self { disc, specimen, protocol } = self;
+        let Protocol { sink_speed, shake, turn, step } = protocol;
+        // A little more than the specimen can hang, shaken or not.
+        let sink = 1.1 * (specimen - disc) + shake.map_or(0.0, |shake| 2.0 * shake.amplitude);
         let grid = grid(seed).map(|part| part * spacing);
+        let down = sink / sink_speed;
+        let (keys, end) = shaken(*shake, down);
         let text = format!(
             "name = \"drapemeter\"\nspacing = {spacing:e}\nfabric.specimen.file = \"fabric.toml\"\n\
-             [[panel]]\nname = \"specimen\"\nfabric = \"specimen\"\ndisc = {:e}\ngrid = {grid:?}\nturn = [-90, 0, 0]\n\
-             noise = {{ amplitude = 1e-4, seed = {seed} }}\n\
-             [[pin]]\npanel = \"specimen\"\npoints = [[0, 0]]\nradius = {:e}\n\
+             [[panel]]\nname = \"specimen\"\nfabric = \"specimen\"\ndisc = {:e}\ngrid = {grid:?}\n\
+             turn = [-90, {turn:?}, 0]\nnoise = {{ amplitude = 1e-4, seed = {seed} }}\n\
+             [[pin]]\npanel = \"specimen\"\npoints = [[0, 0]]\nradius = {:e}\nmotion = {keys}\n\
              [[collider.cylinder]]\nname = \"disc\"\nradius = {disc:e}\nheight = {PEDESTAL:e}\n\
-             edge_radius = 0.0005\ncenter = [0, {:e}, 0]\n\
+             edge_radius = 0.0005\ncenter = [0, {:e}, 0]\nmotion = {keys}\n\
              [[collider.plane]]\nname = \"platform\"\ncenter = [0, {:e}, 0]\n\
-             [collider.plane.motion]\ntimes = [0, {:e}]\nshift = [[0, 0, 0], [0, {:e}, 0]]\n\
-             [contact]\noffset = {GAP:e}\n[time]\nstep = {STEP}\nend = {:e}\n\
+             [collider.plane.motion]\ntimes = [0, {down:e}]\nshift = [[0, 0, 0], [0, {:e}, 0]]\n\
+             [contact]\noffset = {GAP:e}\n[time]\nstep = {step:e}\nend = {:e}\n\
              [output]\nenergy = false\n",
             2.0 * specimen,
             disc + CLAMP_REACH * spacing,
             -0.5 * PEDESTAL - GAP,
             -GAP,
-            sink / SINK_SPEED,
             -sink,
-            sink / SINK_SPEED + REST,
+            end + REST,
         );
         simulation(text, fabric.to_toml())
     }
@@ -238,6 +246,20 @@ impl Drapemeter {
             speed: simulation.summary().speed_max,
         }
     }
+}
+
+/// The keys of the disc's way when it is shaken from a time on, as TOML, and when it rests again.
+fn shaken(shake: Option<Shake>, start: f64) -> (String, f64) {
+    let shake = shake.unwrap_or(Shake { amplitude: 0.0, frequency: 1.0, strokes: 0 });
+    let end = start + shake.seconds();
+    let count = shake.strokes * SHAKE_KEYS;
+    let at = |k: usize| {
+        let part = k as f64 / SHAKE_KEYS as f64;
+        let height = if k == count { 0.0 } else { shake.amplitude * (TAU * part).sin() };
+        (start + part / shake.frequency, [0.0, height, 0.0])
+    };
+    let (times, shift): (Vec<f64>, Vec<[f64; 3]>) = (0..=count).map(at).unzip();
+    (format!("{{ times = {times:?}, shift = {shift:?} }}"), end)
 }
 
 /// Where the grid of a start has a particle, from the specimen's middle in spacings: places that fill the square evenly

@@ -1,46 +1,92 @@
 //! Drape coefficients against measured ones.
 
-use crate::drapemeter::{Drapemeter, Prior, spacing_bound};
+use drape_fabric::Fabric;
+
+use crate::drapemeter::{Drapemeter, Protocol, spacing_bound};
+use crate::prior::Prediction;
+use crate::sensitivity::FACTORS;
 use crate::shipped::{COTTON, WOOL, fabric};
 use crate::{Check, ValidationError};
 
-/// Starts of an evaluation.
+/// Starts of an evaluation, and of each row of the table of what matters.
 const STARTS: u64 = 10;
-/// How far a prediction may reach to either side, standard deviation over starts, and difference of spacings; points.
+const TABLE_STARTS: u64 = 4;
+/// How far a prediction may reach to either side, standard deviation over starts, and difference of spacings and of
+/// turns; points.
 const HALF_WIDTH: f64 = 8.0;
 const DEVIATION: f64 = 3.0;
 const CONVERGENCE: f64 = 2.0;
 /// The finer spacing, over the one that the fabric asks for.
 const FINER: f64 = 0.7;
 
+/// The fabrics, with their drape coefficients on the FRL meter in % and their nodes, as measured.
+const MEASURED: [(&str, f64, f64); 2] = [(COTTON, 82.9, 2.0), (WOOL, 49.8, 5.0)];
+
+fn spacing(fabric: &Fabric) -> f64 {
+    spacing_bound(fabric).min(0.005)
+}
+
 /// Two fabrics with measured drape coefficients on the FRL meter, over what their sheets leave open.
 pub fn drapemeter() -> Result<Vec<Check>, ValidationError> {
     let mut checks = Vec::new();
-    for (text, measured) in [(COTTON, 82.9), (WOOL, 49.8)] {
+    let meter = Drapemeter::frl();
+    let turned = Drapemeter { protocol: Protocol { turn: 45.0, ..meter.protocol }, ..meter };
+    for (text, measured, nodes) in MEASURED {
         let fabric = fabric(text)?;
-        let name = fabric.name.clone();
-        let spacing = spacing_bound(&fabric).min(0.005);
-        let study = |fabric: &_, spacing| Drapemeter::FRL.study(fabric, (spacing, STARTS), &|| ());
-        let mut means = Vec::new();
-        for (end, prior) in [("limp", Prior::LIMP), ("stiff", Prior::STIFF)] {
-            let changed = prior.of(&fabric).unwrap_or_else(|| fabric.clone());
-            let found = study(&changed, spacing)?;
-            let what =
-                format!("{name}, {end} end: standard deviation over {STARTS} starts, points");
-            checks.push(Check::at_most(what, 100.0 * found.deviation(), DEVIATION));
-            if end == "limp" {
-                let finer = study(&changed, FINER * spacing)?;
-                let apart = 100.0 * (finer.mean() - found.mean()).abs();
-                let what = format!("{name}, {end} end: change at {FINER} of the spacing, points");
-                checks.push(Check::at_most(what, apart, CONVERGENCE));
-            }
-            means.push(100.0 * found.mean());
+        let what = |what: &str| format!("{}: {what}", fabric.name);
+        let points = |study: &crate::drapemeter::Study| 100.0 * study.mean();
+        let spacing = spacing(&fabric);
+        let found = Prediction::of(&meter, &fabric, (spacing, STARTS), &|| ())?;
+        let [low, high] = found.interval().map(|part| 100.0 * part);
+        checks.extend([
+            Check::told(what("measured drape coefficient, %"), measured),
+            Check::told(what("with the shear assumed in the fit, %"), points(&found.fitted)),
+            Check::at_most(what("lower end of the prediction, %"), low, measured),
+            Check::at_least(what("upper end of the prediction, %"), high, measured),
+            Check::at_most(what("half of its width, points"), 0.5 * (high - low), HALF_WIDTH),
+        ]);
+        let elastic = meter.study(&fabric.elastic(), (spacing, STARTS), &|| ())?;
+        checks.push(Check::told(what("without friction, %"), points(&elastic)));
+        checks.push(Check::told(what("nodes as measured"), nodes));
+        for (count, times) in found.fitted.nodes() {
+            let what = what(&format!("starts of {STARTS} with {count} nodes"));
+            checks.push(Check::told(what, times as f64));
         }
-        let what = |end| format!("{name}: drape coefficient at the {end} end and as measured, %");
-        checks.push(Check::at_most(what("limp"), means[0], measured));
-        checks.push(Check::at_least(what("stiff"), means[1], measured));
-        let what = format!("{name}: half of the width of the prediction, points");
-        checks.push(Check::at_most(what, 0.5 * (means[1] - means[0]), HALF_WIDTH));
+        let deviation = what("standard deviation over the starts, points");
+        checks.push(Check::at_most(deviation, 100.0 * found.fitted.deviation(), DEVIATION));
+        for (parameter, [low, high]) in &found.ends {
+            let what = |what: &str| format!("{}, {}: {what}", fabric.name, parameter.name());
+            checks.push(Check::told(what("drape coefficient at the limp end, %"), points(low)));
+            checks.push(Check::told(what("at the stiff end, %"), points(high)));
+        }
+        for (other, what) in [
+            (
+                meter.study(&fabric, (FINER * spacing, STARTS), &|| ())?,
+                what("change at 0.7 of the spacing, points"),
+            ),
+            (
+                turned.study(&fabric, (spacing, STARTS), &|| ())?,
+                what("change with the grid turned by 45°, points"),
+            ),
+        ] {
+            let change = (points(&other) - points(&found.fitted)).abs();
+            checks.push(Check::at_most(what, change, CONVERGENCE));
+        }
+    }
+    Ok(checks)
+}
+
+/// How far the drape coefficients of the two fabrics change as one thing changes.
+pub fn sensitivity() -> Result<Vec<Check>, ValidationError> {
+    let mut checks = Vec::new();
+    for (text, ..) in MEASURED {
+        let fabric = fabric(text)?;
+        let resolution = (spacing(&fabric), TABLE_STARTS);
+        for factor in &FACTORS {
+            let [low, high] = factor.vary(&Drapemeter::frl(), &fabric, resolution)?;
+            let what = format!("{}, {}: change, points", fabric.name, factor.name);
+            checks.push(Check::told(what, 100.0 * (high.mean() - low.mean())));
+        }
     }
     Ok(checks)
 }

@@ -110,6 +110,12 @@ pub const CASES: &[Case] = &[
         long: true,
         run: drapes::drapemeter,
     },
+    Case {
+        name: "drape-sensitivity",
+        title: "What the drape coefficients of the two fabrics depend on",
+        long: true,
+        run: drapes::sensitivity,
+    },
 ];
 
 /// What came of a case.
