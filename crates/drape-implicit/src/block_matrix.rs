@@ -9,14 +9,23 @@ use crate::block::{self, Block};
 pub struct BlockMatrix {
     pattern: Pattern,
     blocks: Vec<Block>,
+    couplings: Vec<Coupling>,
     stray: Option<(usize, usize)>,
+}
+
+/// A block of two different particles that the pattern has no room for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Coupling {
+    pub row: u32,
+    pub column: u32,
+    pub block: Block,
 }
 
 impl BlockMatrix {
     /// The matrix of zeros on a pattern.
     pub fn zeros(pattern: Pattern) -> Self {
         let blocks = vec![block::ZERO; pattern.blocks()];
-        Self { pattern, blocks, stray: None }
+        Self { pattern, blocks, couplings: Vec::new(), stray: None }
     }
 
     /// Its sparsity.
@@ -47,6 +56,7 @@ impl BlockMatrix {
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
         self.blocks.fill(block::ZERO);
+        self.couplings.clear();
         self.stray = None;
     }
 
@@ -70,6 +80,24 @@ impl BlockMatrix {
             Some(slot) => self.add_block(slot, &block::transposed(value)),
             None => self.stray = self.stray.or(Some((i, j))),
         }
+    }
+
+    /// Adds to the block in row `i` and column `j`, and so to its mirror image, with or without room in the pattern.
+    ///
+    /// For couplings that come and go, as those of contact do. Give each pair once, in either order. What the pattern
+    /// has no room for is part of the matrix, not of what is factorised: conjugate gradients then take more iterations.
+    /// Particles that the matrix does not have make it [`stray`](Self::stray).
+    pub fn couple(&mut self, i: usize, j: usize, value: &[f64; 9]) {
+        let particles = self.pattern.particles();
+        if i >= particles || j >= particles || self.pattern.slot(i, j).is_some() {
+            return self.add(i, j, value);
+        }
+        self.couplings.push(Coupling { row: i as u32, column: j as u32, block: *value });
+    }
+
+    /// What was coupled beyond the pattern.
+    pub(crate) fn couplings(&self) -> &[Coupling] {
+        &self.couplings
     }
 
     /// The first block since the last [`clear`](Self::clear) that the pattern had no room for.
@@ -101,6 +129,11 @@ impl BlockMatrix {
                 *y += sum;
             }
         }
+        for Coupling { row, column, block } in &self.couplings {
+            let (row, column) = (*row as usize, *column as usize);
+            block::add_product(block, &x[column], &mut y[row]);
+            block::add_transposed_product(block, &x[row], &mut y[column]);
+        }
     }
 
     /// Turns a stiffness into the tangent of a step: adds the inertia (N/m per particle) to the diagonal and
@@ -118,6 +151,8 @@ impl BlockMatrix {
                 diagonal[k] += inertia;
             }
         }
+        self.couplings
+            .retain(|coupling| !held[coupling.row as usize] && !held[coupling.column as usize]);
     }
 }
 
@@ -182,6 +217,23 @@ mod tests {
         assert_eq!(matrix.stray(), Some((2, 1)));
         matrix.clear();
         assert_eq!(matrix.stray(), None);
+    }
+
+    #[test]
+    fn what_is_coupled_beyond_the_pattern_counts_and_is_cut_out_with_the_held() {
+        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(3, [(0, 1)]).unwrap());
+        let value = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
+        matrix.couple(2, 0, &value);
+        matrix.couple(1, 0, &value);
+        assert_eq!(matrix.blocks()[1], block::transposed(&value), "has room");
+        let x = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        let mut y = [f64::NAN; 9];
+        matrix.multiply(&x, &mut y);
+        assert_eq!(y, [4.0, 5.0, 6.0, 1.0, 4.0, 7.0, 1.0, 4.0, 7.0]);
+        matrix.couple(0, 3, &value);
+        assert_eq!(matrix.stray(), Some((0, 3)));
+        matrix.complete(&[0.0; 3], &[false, false, true]);
+        assert!(matrix.couplings().is_empty());
     }
 
     #[test]

@@ -87,6 +87,12 @@ pub enum Error {
         /// The other.
         column: usize,
     },
+    /// The method does not let a system guard its ways.
+    #[error(
+        "the system guards the solver's ways, which textbook Broyden and the explicit scheme do not let it; \
+         use Broyden's or Newton's method"
+    )]
+    Unguarded,
     /// The sparse factorisation does not fit into memory; conjugate gradients need far less.
     #[error("no memory to factorise a matrix of {blocks} blocks; use conjugate gradients")]
     TooLarge {

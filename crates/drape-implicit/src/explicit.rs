@@ -61,7 +61,7 @@ impl Explicit {
     /// formula lost (or, negative, made).
     ///
     /// # Errors
-    /// [`Error::NotFinite`] where the motion blows up, and others for input that no step can be made with.
+    /// [`Error::NotFinite`] where the motion blows up, [`Error::Unguarded`], and others for input that no step can be made with.
     pub fn advance(
         &mut self,
         system: &mut dyn System,
@@ -70,6 +70,9 @@ impl Explicit {
     ) -> Result<Report, Error> {
         if !(dt > 0.0 && dt.is_finite()) {
             return Err(Error::StepLength { dt });
+        }
+        if system.guards() {
+            return Err(Error::Unguarded);
         }
         let expected = self.positions.len();
         for (what, found) in

@@ -6,7 +6,7 @@
 
 use crate::error::Quantity;
 use crate::tangent::Tangent;
-use crate::{Error, Report, Stiffness, Stop, System, block, vector};
+use crate::{Error, Report, Stiffness, Stop, System, Way, block, vector};
 
 /// Why an attempt at a sub-step ends without a solution.
 #[derive(Clone, Debug)]
@@ -30,12 +30,20 @@ pub(crate) struct Point {
     pub residual: Vec<f64>,
     /// `‖φ‖₂`, N. NaN or infinite if the forces are.
     pub norm: f64,
+    /// Part of the prescribed motions that is done: all of them but on the ways of a system that guards.
+    pub progress: f64,
 }
 
 impl Point {
     pub(crate) fn new(length: usize) -> Self {
         let zeros = || vec![0.0; length];
-        Self { deviation: zeros(), positions: zeros(), residual: zeros(), norm: f64::NAN }
+        Self {
+            deviation: zeros(),
+            positions: zeros(),
+            residual: zeros(),
+            norm: f64::NAN,
+            progress: 1.0,
+        }
     }
 
     /// Whether the residual is within the limit: never if it is NaN, and with all particles held always.
@@ -54,16 +62,16 @@ pub(crate) struct Incremental<'a> {
     pub base: &'a [f64],
     /// The norm of `φ` at which the step is solved, N.
     pub limit: f64,
+    /// Whether the system watches the solver's ways.
+    pub guarded: bool,
     pub report: &'a mut Report,
 }
 
 impl Incremental<'_> {
     /// Fills in what follows from the deviations.
     pub(crate) fn evaluate(&mut self, point: &mut Point) {
-        let Point { deviation, positions, residual, norm } = point;
-        for ((x, base), d) in positions.iter_mut().zip(self.base).zip(deviation.iter()) {
-            *x = base + d;
-        }
+        self.locate(point);
+        let Point { deviation, positions, residual, norm, .. } = point;
         self.system.forces(positions, residual);
         self.report.force_evaluations += 1;
         let triples = block::triples_mut(residual).iter_mut().zip(block::triples(deviation));
@@ -73,6 +81,23 @@ impl Incremental<'_> {
             }
         }
         *norm = vector::norm(residual);
+    }
+
+    /// Fills in the positions, and puts there what moves by prescription.
+    pub(crate) fn locate(&mut self, point: &mut Point) {
+        for ((x, base), d) in point.positions.iter_mut().zip(self.base).zip(&point.deviation) {
+            *x = base + d;
+        }
+        if self.guarded {
+            self.system.arrive(point.progress);
+        }
+    }
+
+    /// Shortens the way from a point to what the system allows; see [`System::allow`].
+    pub(crate) fn allow(&mut self, point: &Point, step: &mut [f64], advance: &mut f64) -> bool {
+        let Point { positions, progress, .. } = point;
+        !self.guarded
+            || self.system.allow(Way { from: positions, step, progress: *progress, advance })
     }
 
     /// The energy of an evaluated point, J.

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod approach;
 mod block;
 mod block_matrix;
 mod broyden;
@@ -27,6 +28,7 @@ mod tangent;
 mod textbook;
 mod vector;
 mod waves;
+mod way;
 
 pub use block_matrix::BlockMatrix;
 pub use check::{Check, check_system};
@@ -39,3 +41,4 @@ pub use report::{Energy, Report, Stop};
 pub use settings::{Initial, Integrator, LinearSolver, Method, Settings};
 pub use stepper::Stepper;
 pub use system::{Stiffness, System};
+pub use way::Way;

@@ -2,6 +2,7 @@
 
 use crate::BlockMatrix;
 use crate::block::{self, Block};
+use crate::block_matrix::Coupling;
 use crate::lane_block::{Blocks, Halves, half_product, product, transposed_product};
 use crate::lanes::{Columns, Double, LANES, Single};
 use crate::waves::{NOWHERE, Waves};
@@ -24,6 +25,8 @@ pub(crate) struct Packed {
     above: Vec<Blocks<Single>>,
     /// Upper halves by row. Rows without a particle have the identity.
     own: [Vec<f64>; 6],
+    /// What the pattern had no room for, between rows.
+    couplings: Vec<Coupling>,
 }
 
 impl Packed {
@@ -31,6 +34,7 @@ impl Packed {
         Self {
             above: vec![[Single::ZERO; 9]; waves.slots.len()],
             own: core::array::from_fn(|_| vec![0.0; waves.rows]),
+            couplings: Vec::new(),
         }
     }
 
@@ -38,6 +42,12 @@ impl Packed {
     #[inline(always)]
     pub(crate) fn pack(&mut self, waves: &Waves, matrix: &BlockMatrix, work: &mut [f64]) {
         let blocks = matrix.blocks();
+        self.couplings.clear();
+        self.couplings.extend(matrix.couplings().iter().map(|coupling| Coupling {
+            row: waves.places[coupling.row as usize],
+            column: waves.places[coupling.column as usize],
+            ..*coupling
+        }));
         for run in &waves.runs {
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
                 let slots = &waves.own_slots[run.batches + batch];
@@ -115,6 +125,16 @@ impl Packed {
                 }
                 let old = y.load(row);
                 y.store(row, [old[0] + sum[0], old[1] + sum[1], old[2] + sum[2]]);
+            }
+        }
+        for Coupling { row, column, block } in &self.couplings {
+            let [row, column] = [*row as usize, *column as usize];
+            for axis in 0..3 {
+                for other in 0..3 {
+                    let entry = block[3 * axis + other];
+                    y.0[axis][row] += entry * x.0[other][column];
+                    y.0[other][column] += entry * x.0[axis][row];
+                }
             }
         }
     }

@@ -89,6 +89,10 @@ pub enum Stop {
     LineSearch,
     /// The stiffness given as definite is not.
     Indefinite,
+    /// What moves by prescription was not allowed to go on.
+    Blocked,
+    /// The system did not certify the solution.
+    Certificate,
 }
 
 impl core::fmt::Display for Stop {
@@ -97,6 +101,8 @@ impl core::fmt::Display for Stop {
             Self::Iterations => "iteration limit",
             Self::LineSearch => "no progress along the last direction",
             Self::Indefinite => "the stiffness given as definite is not",
+            Self::Blocked => "what moves by prescription is blocked",
+            Self::Certificate => "the solution was not certified",
         })
     }
 }

@@ -5,7 +5,7 @@ use crate::error::Quantity;
 use crate::incremental::{Halt, Incremental, Point, first_not_finite};
 use crate::tangent::Tangent;
 use crate::vector::{add_scaled, dot};
-use crate::{Method, Settings, Stiffness, Stop};
+use crate::{Error, Method, Settings, Stiffness, Stop};
 
 /// A full Newton step that shrinks the residual by this factor shows that the tangent describes the neighbourhood:
 /// only then is it kept for Broyden steps. Larger values keep tangents that waste iterations, smaller ones throw
@@ -89,7 +89,13 @@ impl Solver {
     ) -> Result<(), Halt> {
         self.iterations = 0;
         self.cautious = false;
-        problem.evaluate(&mut self.current);
+        self.current.progress = 1.0;
+        self.trial.progress = 1.0;
+        if problem.guarded {
+            self.approach(problem);
+        } else {
+            problem.evaluate(&mut self.current);
+        }
         if !self.current.norm.is_finite() {
             core::mem::swap(&mut self.current, &mut self.trial);
             problem.evaluate(&mut self.current);
@@ -99,6 +105,7 @@ impl Solver {
             return Err(Halt::NotFinite(Quantity::Force, particle));
         }
         match settings.method {
+            Method::Textbook { .. } if problem.guarded => Err(Halt::Fatal(Error::Unguarded)),
             Method::Textbook { initial } => self.textbook(problem, settings, initial),
             Method::Newton => self.on_tangents(problem, settings, 1),
             Method::Broyden => self.on_tangents(problem, settings, settings.tangent_iterations),
@@ -126,14 +133,18 @@ impl Solver {
         settings: &Settings,
         uses: usize,
     ) -> Result<(), Halt> {
-        while !self.current.solves(problem.limit) {
+        while self.current.progress < 1.0 || !self.current.solves(problem.limit) {
             self.count(problem, settings)?;
+            if self.current.progress < 1.0 {
+                self.carry(problem)?;
+            }
             let before = self.current.norm;
-            let length = self.newton_step(problem, settings.newton_forcing)?;
+            let whole = self.newton_step(problem, settings.newton_forcing)?;
             self.updates.forget();
             let contraction = self.current.norm / before;
             let expected = self.current.norm * contraction.max(EXPECTED_CONTRACTION);
-            let mut trusted = length == 1.0
+            let mut trusted = whole
+                && self.current.progress == 1.0
                 && contraction <= TRUSTED_CONTRACTION
                 && expected <= REACH * problem.limit;
             let mut left = uses - 1;
@@ -146,11 +157,12 @@ impl Solver {
         Ok(())
     }
 
-    /// A step along the exact tangent's direction, or along the definite one's if that fails. Returns its length.
+    /// A step along the exact tangent's direction, or along the definite one's if that fails. Returns whether it went
+    /// the whole way.
     ///
     /// After a direction of negative curvature the exact tangent is left out once: tried at every iteration, most of
     /// them were assembled in vain.
-    fn newton_step(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> Result<f64, Halt> {
+    fn newton_step(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> Result<bool, Halt> {
         let mut stop = Stop::Indefinite;
         let kinds: &[Stiffness] = match core::mem::take(&mut self.cautious) {
             true => &[Stiffness::Definite],
@@ -158,7 +170,7 @@ impl Solver {
         };
         for &kind in kinds {
             problem.assemble(&self.current, kind, &mut self.tangent)?;
-            let Some(slope) = self.newton_direction(problem, forcing) else {
+            let Some(mut slope) = self.newton_direction(problem, forcing) else {
                 if let Some(entry) =
                     self.tangent.matrix.values().iter().position(|x| !x.is_finite())
                 {
@@ -170,10 +182,14 @@ impl Solver {
                 }
                 continue;
             };
-            if let Some(length) = self.line_search(problem, slope) {
-                return Ok(length);
+            let whole = problem.allow(&self.current, &mut self.direction, &mut 0.0);
+            if !whole {
+                slope = dot(&self.direction, &self.current.residual);
             }
             stop = Stop::LineSearch;
+            if let Some(length) = self.line_search(problem, slope) {
+                return Ok(whole && length == 1.0);
+            }
         }
         Err(Halt::Stop(stop))
     }
@@ -196,6 +212,10 @@ impl Solver {
     fn line_search(&mut self, problem: &mut Incremental<'_>, slope: f64) -> Option<f64> {
         let mut start = None;
         let mut length = 1.0;
+        // A way that was cut need not lead down.
+        if !(slope < 0.0) {
+            return None;
+        }
         for _ in 0..=MAX_CUTS {
             self.try_step(problem, length);
             if self.trial.norm <= (1.0 - ARMIJO * length) * self.current.norm {
@@ -232,11 +252,12 @@ impl Solver {
             return false;
         }
         let before = self.current.norm;
+        let whole = problem.allow(&self.current, &mut self.direction, &mut 0.0);
         self.try_step(problem, 1.0);
         if self.trial.norm < before {
             self.accept(1.0);
         }
-        self.current.norm <= SLOW_CONTRACTION * before
+        whole && self.current.norm <= SLOW_CONTRACTION * before
     }
 
     /// Learns from the last step, of the given length along `direction`, with `image = H₀ φ` of its end; sets
@@ -255,9 +276,15 @@ impl Solver {
 
     /// Evaluates the point at some length along the direction.
     pub(crate) fn try_step(&mut self, problem: &mut Incremental<'_>, length: f64) {
+        self.move_trial(length);
+        problem.evaluate(&mut self.trial);
+    }
+
+    /// Moves the trial to some length along the direction.
+    pub(crate) fn move_trial(&mut self, length: f64) {
         self.trial.deviation.copy_from_slice(&self.current.deviation);
         add_scaled(&mut self.trial.deviation, length, &self.direction);
-        problem.evaluate(&mut self.trial);
+        self.trial.progress = self.current.progress;
     }
 
     /// Makes the trial the current point.

@@ -3,7 +3,7 @@
 use crate::error::Quantity;
 use crate::formula::Formula;
 use crate::incremental::{Halt, Incremental};
-use crate::{Energy, Error, Motion, Previous, Report, Stepper, System, block, vector};
+use crate::{Energy, Error, Motion, Previous, Report, Stepper, Stop, System, block, vector};
 
 /// One attempted sub-step.
 #[derive(Clone, Copy)]
@@ -36,9 +36,14 @@ impl Stepper {
             }));
         }
         self.held.copy_from_slice(held);
-        let limit = self.place(motion, formula, span.dt)?;
+        let guarded = system.guards();
+        let limit = self.place(motion, formula, (span.dt, guarded))?;
         let start = self.settings.energy_balance.then(|| {
             report.potential_evaluations += 1;
+            if guarded {
+                // Where bodies will be, the cloth may not be yet.
+                system.arrive(0.0);
+            }
             (self.kinetic(&motion.velocities), system.potential(&motion.positions))
         });
 
@@ -48,9 +53,13 @@ impl Stepper {
             held: &self.held,
             base: &self.base,
             limit: limit * self.settings.tolerance,
+            guarded,
             report: &mut *report,
         };
         self.solver.solve(&mut problem, &self.settings)?;
+        if !system.certify(&self.solver.current.positions) {
+            return Err(Halt::Stop(Stop::Certificate));
+        }
 
         self.set_velocities(formula);
         if let Some(start) = start {
@@ -83,7 +92,12 @@ impl Stepper {
 
     /// Turns targets into the base of deviations, and sets the first guess and the one to fall back on. Returns the
     /// norm that residuals are relative to, N.
-    fn place(&mut self, motion: &Motion, formula: Formula, dt: f64) -> Result<f64, Halt> {
+    fn place(
+        &mut self,
+        motion: &Motion,
+        formula: Formula,
+        (dt, guarded): (f64, bool),
+    ) -> Result<f64, Halt> {
         let Self { solver, base, drift, momentum, held, inertia, masses, .. } = self;
         let mut squares = 0.0;
         for (particle, &held) in held.iter().enumerate() {
@@ -97,6 +111,9 @@ impl Stepper {
                 if held {
                     if !base[k].is_finite() {
                         return Err(Halt::NotFinite(Quantity::Target, particle));
+                    }
+                    if guarded {
+                        fallback = motion.positions[k] - base[k];
                     }
                 } else {
                     base[k] = drift[k] + formula.reach * momentum[k];

@@ -41,10 +41,11 @@ impl Tangent {
 
     /// Makes the matrix ready for [`solve`](Self::solve).
     pub(crate) fn prepare(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
-        self.direct = self.cholesky.is_some();
+        // The factor has no room for couplings beyond the pattern.
+        self.direct = self.cholesky.is_some() && self.matrix.couplings().is_empty();
         match &mut self.cholesky {
-            Some(cholesky) => cholesky.factorise(&self.matrix),
-            None => self.precondition(report),
+            Some(cholesky) if self.direct => cholesky.factorise(&self.matrix),
+            _ => self.precondition(report),
         }
     }
 

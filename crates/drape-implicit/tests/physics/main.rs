@@ -5,6 +5,7 @@ mod accuracy;
 mod chains;
 mod explicit;
 mod failures;
+mod guard;
 mod methods;
 mod springs;
 mod steps;
