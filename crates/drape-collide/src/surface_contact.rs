@@ -1,0 +1,368 @@
+use rayon::prelude::*;
+
+use crate::crossing::{Crossing, Crossings};
+use crate::detector::Detector;
+use crate::error::{CollideError, check};
+use crate::filter::Filter;
+use crate::gap::{Gap, Gradient, Hessian};
+use crate::pair::Pair;
+use crate::slip::{Anchor, Slip};
+use crate::surface::Surface;
+
+/// Pairs that are looked at as one, whatever the number of threads.
+const CHUNK: usize = 256;
+
+/// How stiff the contact of surfaces is, and when it slides.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceSettings {
+    /// Stiffness `$k$` per area, in N/m³.
+    pub stiffness: f64,
+    /// Way `$\delta$` that two surfaces which stick give way before they slide, in m.
+    ///
+    /// A load below Coulomb's limit moves them by less than this, once. Shorter holds stiffer and is harder to solve.
+    pub stick: f64,
+    /// Coefficient of friction of each two groups, row by row.
+    pub friction: Vec<f64>,
+}
+
+impl SurfaceSettings {
+    /// Default of [`stick`](SurfaceSettings::stick), in m.
+    pub const STICK: f64 = 5e-6;
+}
+
+/// Contact of a surface with itself and with bodies: barrier and friction, their forces and derivatives, and a guard
+/// of the ways on which it moves.
+///
+/// The free vertices are the caller's; those of the bodies lie behind them and go straight from where they are at the
+/// start of a step to where [`begin`](SurfaceContact::begin) says that they end.
+#[derive(Debug, Clone)]
+pub struct SurfaceContact {
+    surface: Surface,
+    settings: SurfaceSettings,
+    detector: Detector,
+    filter: Filter,
+    crossings: Crossings,
+    /// Where the bodies' vertices are at the start and at the end of the step, in m.
+    bodies: [Vec<f64>; 2],
+    progress: f64,
+    /// Places of all vertices at which `touching` holds, in m.
+    places: Vec<f64>,
+    /// The pairs within their reach.
+    touching: Vec<Touching>,
+    slips: Vec<Slip>,
+    anchors: Vec<Anchor>,
+    /// What kept the last detection from being made.
+    failure: Option<CollideError>,
+    /// Margin of detections, in m.
+    margin: f64,
+    /// The longest margin that pays, in m: that of the edges.
+    margin_max: f64,
+}
+
+/// A pair within its reach.
+#[derive(Debug, Clone)]
+struct Touching {
+    pair: Pair,
+    gap: Gap,
+}
+
+/// How the surfaces lie to each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearness {
+    /// Pairs within their reach.
+    pub touching: usize,
+    /// Smallest distance of a pair; infinite if none is near, in m.
+    pub min_distance: f64,
+    /// Smallest distance over the separation that its pair keeps.
+    pub min_ratio: f64,
+}
+
+impl SurfaceContact {
+    /// Contact of a surface whose bodies are at flat positions, in m.
+    ///
+    /// # Errors
+    /// Settings that are none, or bodies with another number of vertices.
+    pub fn new(
+        surface: Surface,
+        settings: SurfaceSettings,
+        bodies: Vec<f64>,
+    ) -> Result<SurfaceContact, CollideError> {
+        let positive = |what: &str, value: f64| check(what, value, "above 0", value > 0.0);
+        positive("the contact stiffness (N/m³)", settings.stiffness)?;
+        positive("the way before sliding (m)", settings.stick)?;
+        let groups = surface.skins().len();
+        let wanted = [(groups * groups, settings.friction.len())];
+        let found = [(3 * (surface.vertices() - surface.free()), bodies.len())];
+        for (expected, found) in wanted.into_iter().chain(found) {
+            if expected != found {
+                return Err(CollideError::Count { expected, found });
+            }
+        }
+        for &coefficient in &settings.friction {
+            check("a coefficient of friction", coefficient, "0 or more", coefficient >= 0.0)?;
+        }
+        let margin = surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max);
+        let margin_max = (0.5 * surface.median_edge()).max(margin);
+        Ok(SurfaceContact {
+            surface,
+            settings,
+            detector: Detector::default(),
+            filter: Filter::default(),
+            crossings: Crossings::default(),
+            bodies: [bodies.clone(), bodies],
+            progress: 1.0,
+            places: Vec::new(),
+            touching: Vec::new(),
+            slips: Vec::new(),
+            anchors: Vec::new(),
+            failure: None,
+            margin,
+            margin_max,
+        })
+    }
+
+    /// The surface.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Where the vertices of the bodies are, in m.
+    pub fn bodies(&self) -> &[f64] {
+        &self.bodies[1]
+    }
+
+    /// What kept the last detection from being made: forces are then NaN.
+    pub fn failure(&self) -> Option<&CollideError> {
+        self.failure.as_ref()
+    }
+
+    /// Opens a step from the free vertices' positions, in m, in which they are expected to go so far, in m.
+    ///
+    /// The bodies go back to where they were when the last step was closed. Friction takes its normal forces from
+    /// here.
+    pub fn begin(&mut self, start: &[f64], bodies: &[f64], expected: f64) {
+        self.bodies[1].copy_from_slice(bodies);
+        self.margin = (2.0 * expected).max(self.least_margin()).min(self.margin_max);
+        self.progress = 0.0;
+        self.slips.clear();
+        self.look(start);
+        let groups = self.surface.skins().len();
+        let mut slips = std::mem::take(&mut self.slips);
+        for Touching { pair, gap } in &self.touching {
+            let [a, b] = [pair.vertices[0], pair.vertices[3]];
+            let [a, b] = [a, b].map(|vertex| self.surface.group(vertex) as usize);
+            let coefficient = self.settings.friction[a * groups + b];
+            let limit = coefficient * gap.normal_force(self.settings.stiffness);
+            if limit > 0.0 {
+                slips.push(Slip::new(pair, (gap, &self.places), limit, &self.anchors));
+            }
+        }
+        self.slips = slips;
+    }
+
+    fn least_margin(&self) -> f64 {
+        self.surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max)
+    }
+
+    /// Puts the bodies to a part of their way in the open step, from 0 to 1.
+    pub fn arrive(&mut self, progress: f64) {
+        self.progress = progress;
+    }
+
+    /// Closes a step at the free vertices' positions, in m: what slid stays where it is.
+    pub fn commit(&mut self, positions: &[f64]) {
+        self.progress = 1.0;
+        self.look(positions);
+        let stick = self.settings.stick;
+        self.anchors.clear();
+        self.anchors.extend(self.slips.iter().map(|slip| slip.kept(&self.places, stick)));
+        let [start, end] = &mut self.bodies;
+        start.copy_from_slice(end);
+    }
+
+    /// Adds the forces on the free vertices, in N; NaN where something has no place.
+    pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
+        self.look(positions);
+        if self.failure.is_some() {
+            return forces.fill(f64::NAN);
+        }
+        self.each_gradient(|vertices, gradient| {
+            for (corner, &vertex) in vertices.iter().enumerate() {
+                let first = 3 * vertex as usize;
+                if first < forces.len() {
+                    for axis in 0..3 {
+                        forces[first + axis] -= gradient[3 * corner + axis];
+                    }
+                }
+            }
+        });
+    }
+
+    /// Work that the bodies do in the open step if it ends at these positions, in J: the forces on them there times
+    /// their way.
+    pub fn body_work(&mut self, positions: &[f64]) -> f64 {
+        self.look(positions);
+        let free = 3 * self.surface.free();
+        let [start, end] = &self.bodies;
+        let mut work = 0.0;
+        self.each_gradient(|vertices, gradient| {
+            for (corner, &vertex) in vertices.iter().enumerate() {
+                if let Some(first) = (3 * vertex as usize).checked_sub(free) {
+                    for axis in 0..3 {
+                        let way = end[first + axis] - start[first + axis];
+                        work += gradient[3 * corner + axis] * way;
+                    }
+                }
+            }
+        });
+        work
+    }
+
+    fn each_gradient(&self, mut visit: impl FnMut(&[u32; 4], &Gradient)) {
+        let stiffness = self.settings.stiffness;
+        let of = |touching: &Touching| touching.gap.gradient(stiffness);
+        let gradients: Vec<Gradient> =
+            self.touching.par_iter().with_min_len(CHUNK).map(of).collect();
+        for (touching, gradient) in self.touching.iter().zip(&gradients) {
+            visit(&touching.pair.vertices, gradient);
+        }
+        for slip in &self.slips {
+            visit(&slip.vertices, &slip.gradient(&self.places, self.settings.stick));
+        }
+    }
+
+    /// Energy of the contact, the potential of friction in it, in J; infinite or NaN where something has no place.
+    pub fn potential(&mut self, positions: &[f64]) -> f64 {
+        self.look(positions);
+        if self.failure.is_some() {
+            return f64::NAN;
+        }
+        let stiffness = self.settings.stiffness;
+        let barrier: f64 = self.touching.iter().map(|touching| touching.gap.energy(stiffness)).sum();
+        barrier + self.friction()[0]
+    }
+
+    /// Potential of friction at the places looked at last, and the part of it that is lost if the step ends there,
+    /// in J.
+    pub fn friction(&self) -> [f64; 2] {
+        self.slips.iter().fold([0.0; 2], |[sum, lost], slip| {
+            let [energy, more] = slip.energy(&self.places, self.settings.stick);
+            [sum + energy, lost + more]
+        })
+    }
+
+    /// Hands over the blocks of the second derivative of the potential by two free vertices, row by row, in N/m: for
+    /// every two of a pair's once, in either order, and for each with itself.
+    ///
+    /// With `definite` only parts that have no negative eigenvalue.
+    pub fn add_stiffness(
+        &mut self,
+        positions: &[f64],
+        definite: bool,
+        add: &mut dyn FnMut([usize; 2], &[f64; 9]),
+    ) {
+        self.look(positions);
+        let free = self.surface.free();
+        let stiffness = self.settings.stiffness;
+        let of = |touching: &Touching| {
+            if definite { gauss_newton(&touching.gap, stiffness) } else { touching.gap.hessian(stiffness) }
+        };
+        let hessians: Vec<Hessian> = self.touching.par_iter().with_min_len(CHUNK).map(of).collect();
+        let mut hand_over = |vertices: &[u32; 4], hessian: &Hessian| {
+            for a in 0..4 {
+                for b in a..4 {
+                    let [i, j] = [vertices[a], vertices[b]].map(|vertex| vertex as usize);
+                    if i < free && j < free {
+                        let block = std::array::from_fn(|k| hessian[3 * a + k / 3][3 * b + k % 3]);
+                        add([i, j], &block);
+                    }
+                }
+            }
+        };
+        for (touching, hessian) in self.touching.iter().zip(&hessians) {
+            hand_over(&touching.pair.vertices, hessian);
+        }
+        for slip in &self.slips {
+            hand_over(&slip.vertices, &slip.hessian(&self.places, self.settings.stick));
+        }
+    }
+
+    /// Every crossing of the surface with itself and the bodies at the free vertices' positions; exact.
+    ///
+    /// # Errors
+    /// Positions that are none.
+    pub fn crossings(&mut self, positions: &[f64]) -> Result<Vec<Crossing>, CollideError> {
+        let places = self.all(positions, self.progress);
+        self.crossings.find(&self.surface, &places)
+    }
+
+    /// How near the surfaces are to each other at the places looked at last.
+    pub fn nearness(&self) -> Nearness {
+        let mut nearness = Nearness {
+            touching: self.touching.len(),
+            min_distance: f64::INFINITY,
+            min_ratio: f64::INFINITY,
+        };
+        for Touching { pair, gap } in &self.touching {
+            nearness.min_distance = nearness.min_distance.min(gap.distance());
+            nearness.min_ratio = nearness.min_ratio.min(gap.distance() / pair.separation);
+        }
+        nearness
+    }
+
+    /// Places of all vertices for the free ones' positions, with the bodies at a part of their way.
+    fn all(&self, positions: &[f64], progress: f64) -> Vec<f64> {
+        let [start, end] = &self.bodies;
+        let way = start.iter().zip(end).map(|(start, end)| {
+            // Exact at both ends.
+            if progress == 1.0 { *end } else { start + progress * (end - start) }
+        });
+        positions.iter().copied().chain(way).collect()
+    }
+
+    /// Finds what touches at positions.
+    pub(crate) fn look(&mut self, positions: &[f64]) {
+        let places = self.all(positions, self.progress);
+        // NaN is never equal, and so never taken from here.
+        if places == self.places && self.failure.is_none() {
+            return;
+        }
+        self.places = places;
+        self.failure = None;
+        self.touching.clear();
+        // Within half of the margin to both sides no pair comes into reach that was not found.
+        if !(self.strayed(&self.places) <= 0.5 * self.detector.pairs().margin()) {
+            if let Err(failure) = self.detector.detect(&self.surface, &self.places, self.margin) {
+                self.failure = Some(failure);
+                return;
+            }
+        }
+        let places = &self.places;
+        let near = |pair: &Pair| {
+            let gap = Gap::new(pair, places);
+            // Written so that NaN counts as near.
+            (!(gap.distance() >= pair.reach)).then_some(Touching { pair: *pair, gap })
+        };
+        let pairs = self.detector.pairs().as_slice();
+        self.touching = pairs.par_iter().with_min_len(CHUNK).filter_map(near).collect();
+    }
+
+    /// The farthest that a vertex is from where it was detected, in m.
+    fn strayed(&self, places: &[f64]) -> f64 {
+        let detected = self.detector.pairs().positions();
+        if detected.len() != places.len() {
+            return f64::INFINITY;
+        }
+        let square = |(now, then): (&[f64], &[f64])| -> f64 {
+            now.iter().zip(then).map(|(now, then)| (now - then) * (now - then)).sum()
+        };
+        let squares = places.chunks_exact(3).zip(detected.chunks_exact(3)).map(square);
+        // A maximum that keeps NaN.
+        squares.fold(0.0, |most: f64, square| if square <= most { most } else { square }).sqrt()
+    }
+}
+
+fn gauss_newton(gap: &Gap, stiffness: f64) -> Hessian {
+    let (curvature, direction) = gap.definite(stiffness);
+    direction.map(|a| direction.map(|b| curvature * a * b))
+}
