@@ -16,14 +16,28 @@ const EXTENDED: f64 = 0.1;
 /// Zero from `$r$` on; below `$g_0$` its Taylor parabola at `$g_0$`, so energy and force are finite
 /// and grow with any penetration. Value and slope are continuous everywhere, the second derivative
 /// everywhere but at `$r$`, where it jumps from 1 to 0.
+///
+/// A [`strict`](Barrier::strict) barrier has no such parabola: it is infinite from 0 down.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Barrier {
     range: f64,
+    /// The gap `$g_0$` below which the barrier goes on as a parabola, in m.
+    end: f64,
 }
 
 impl Barrier {
     pub(crate) fn new(range: f64) -> Barrier {
-        Barrier { range }
+        Barrier { range, end: EXTENDED * range }
+    }
+
+    /// A barrier that no gap above zero gets through.
+    pub(crate) fn strict(range: f64) -> Barrier {
+        Barrier { range, end: 0.0 }
+    }
+
+    /// The gap from which on the barrier is zero, in m.
+    pub(crate) fn range(&self) -> f64 {
+        self.range
     }
 
     /// `$b$`, in m².
@@ -33,12 +47,15 @@ impl Barrier {
             0.0
         } else if gap >= 0.5 * range {
             0.5 * (range - gap).powi(2)
-        } else if gap >= EXTENDED * range {
+        } else if gap > self.end {
             -0.25 * range * range * ((2.0 * gap / range).ln() - 0.5)
+        } else if self.end == 0.0 {
+            // Not the sum below, which would take infinities from each other.
+            f64::INFINITY
         } else {
-            let end = EXTENDED * range;
-            let over = gap - end;
-            self.energy(end) + over * (self.slope(end) + 0.5 * over * self.curvature(end))
+            let over = gap - self.end;
+            let [energy, slope] = self.at_end();
+            energy + over * (slope + 0.5 * over * self.curvature(self.end))
         }
     }
 
@@ -49,12 +66,19 @@ impl Barrier {
             0.0
         } else if gap >= 0.5 * range {
             gap - range
-        } else if gap >= EXTENDED * range {
+        } else if gap > self.end {
             -0.25 * range * range / gap
+        } else if self.end == 0.0 {
+            f64::NEG_INFINITY
         } else {
-            let end = EXTENDED * range;
-            self.slope(end) + (gap - end) * self.curvature(end)
+            self.at_end()[1] + (gap - self.end) * self.curvature(self.end)
         }
+    }
+
+    /// Value and slope at the upper end of the parabola.
+    fn at_end(&self) -> [f64; 2] {
+        let (range, end) = (self.range, self.end);
+        [-0.25 * range * range * ((2.0 * end / range).ln() - 0.5), -0.25 * range * range / end]
     }
 
     /// `$b''$`, without unit; never negative.
@@ -65,7 +89,7 @@ impl Barrier {
         } else if gap >= 0.5 * range {
             1.0
         } else {
-            (0.5 * range / gap.max(EXTENDED * range)).powi(2)
+            (0.5 * range / gap.max(self.end)).powi(2)
         }
     }
 }

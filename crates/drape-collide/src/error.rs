@@ -135,6 +135,96 @@ pub enum CollideError {
         /// The area as given, in m².
         area: f64,
     },
+
+    /// A list does not have as many entries as the surface asks for.
+    #[error("there are {found} {what}, but the surface needs {needed}")]
+    WrongLength {
+        /// What the list holds.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that it should have.
+        needed: usize,
+    },
+
+    /// A vertex is of a group that has no skin.
+    #[error("vertex {vertex} is of group {group}, but there are {skins} skins (numbered from 0)")]
+    NoSuchSkin {
+        /// The vertex, from 0.
+        vertex: usize,
+        /// Its group.
+        group: u32,
+        /// Number of skins.
+        skins: usize,
+    },
+
+    /// Two sewn vertices include one that does not exist.
+    #[error("vertex {index} is sewn, but the surface has {vertices} vertices (numbered from 0)")]
+    NoSuchTwin {
+        /// The vertex that is named.
+        index: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+
+    /// A triangle of a surface names a vertex twice.
+    #[error("triangle {triangle} has the corners {corners:?}; they must differ")]
+    RepeatedVertex {
+        /// The triangle, from 0.
+        triangle: usize,
+        /// Its vertices.
+        corners: [u32; 3],
+    },
+
+    /// A triangle of a surface joins two groups, or free and prescribed vertices.
+    #[error(
+        "triangle {triangle} has the corners {corners:?}, which are not all of one group or not \
+         all free; sew panels with twins instead"
+    )]
+    MixedTriangle {
+        /// The triangle, from 0.
+        triangle: usize,
+        /// Its vertices.
+        corners: [u32; 3],
+    },
+
+    /// Two parts of a panel or a body that share no vertex touch at rest.
+    #[error(
+        "the vertices {vertices:?} of one group are {distance:e} m apart at rest and share no \
+         triangle; contact needs at least {least:e} m"
+    )]
+    TouchingAtRest {
+        /// The vertices of the two primitives.
+        vertices: [u32; 4],
+        /// Their distance at rest, in m.
+        distance: f64,
+        /// The smallest distance that would do, in m.
+        least: f64,
+    },
+
+    /// More pairs are close to each other than the list may hold.
+    #[error(
+        "more than {capacity} pairs of primitives are near each other; is the cloth crushed, or \
+         the reach far larger than the triangles?"
+    )]
+    TooManyPairs {
+        /// How many the list may hold.
+        capacity: usize,
+    },
+
+    /// A vertex has moved on from where pairs were last detected, by more than they allow.
+    #[error(
+        "vertex {vertex} is {moved:e} m from where its pairs were detected, but they hold for \
+         {budget:e} m only; detect again before so long a way"
+    )]
+    OutOfBudget {
+        /// The vertex, from 0.
+        vertex: usize,
+        /// The way from the place of detection, in m.
+        moved: f64,
+        /// The longest way that the pairs allow, in m.
+        budget: f64,
+    },
 }
 
 /// Checks one number against its range.
@@ -166,4 +256,12 @@ pub(crate) fn check_place(
         return Ok(());
     }
     Err(CollideError::BadPlace { what: what(), place, limit: MAX_COORDINATE })
+}
+
+/// Checks flat positions, three numbers each.
+pub(crate) fn check_places(what: &str, positions: &[f64]) -> Result<(), CollideError> {
+    for (k, place) in positions.chunks_exact(3).enumerate() {
+        check_place(|| format!("{what} {k}"), [place[0], place[1], place[2]])?;
+    }
+    Ok(())
 }

@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// A triangle counts as flat below this ratio of twice its area to its longest edge squared.
 ///
 /// Rounding leaves about 1e-16 of exactly collinear corners; a sliver of 1 m by 1 µm has 1e-6.
-const FLAT: f64 = 1e-12;
+pub(crate) const FLAT: f64 = 1e-12;
 
 /// A closed surface counts as empty below this ratio of its volume to its extent cubed.
 ///

@@ -1,0 +1,320 @@
+use crate::error::CollideError;
+use crate::pair::{Kind, Pair, closest, distance};
+use crate::surface::Surface;
+use crate::tree::{Bounds, Tree};
+use crate::vector::at;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Pairs that a list may hold unless told otherwise.
+///
+/// A hundred for each of half a million vertices, and 4 GB: more is a mistake of the input.
+const CAPACITY: usize = 50_000_000;
+
+/// Primitives that one thread looks after at a time.
+///
+/// A constant, so that no result depends on the number of threads.
+const CHUNK: usize = 256;
+
+/// Smallest reach of a pair that lies close at rest, in m: a thousand times the rounding of
+/// coordinates of 1 m, and far below any cloth.
+const LEAST: f64 = 1e-9;
+
+/// Squared sine of the angle below which two edges count as parallel: 1.8° (Li et al. 2020,
+/// "Incremental Potential Contact", eq. 24).
+const PARALLEL: f64 = 1e-3;
+
+/// Two primitives of a group that lie close at rest, with their distances.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Close {
+    key: (Kind, [u32; 2]),
+    reach: f64,
+    separation: f64,
+}
+
+/// A sorted list of all pairs that were near each other at some positions.
+#[derive(Debug, Clone, Default)]
+pub struct Pairs {
+    list: Vec<Pair>,
+    positions: Vec<f64>,
+    margin: f64,
+}
+
+impl Pairs {
+    /// The pairs, sorted by kind and features.
+    pub fn as_slice(&self) -> &[Pair] {
+        &self.list
+    }
+
+    /// The flat positions at which they were detected, in m.
+    pub fn positions(&self) -> &[f64] {
+        &self.positions
+    }
+
+    /// By how much each pair's distance could exceed its reach, in m.
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+}
+
+/// Finds all pairs of primitives that are near each other.
+///
+/// It keeps boxes and lists between calls and allocates only when they grow; it may be used for
+/// one surface after another.
+#[derive(Debug, Clone)]
+pub struct Detector {
+    triangles: Tree,
+    edges: Tree,
+    chunks: Vec<Chunk>,
+    pairs: Pairs,
+    capacity: usize,
+}
+
+impl Default for Detector {
+    fn default() -> Detector {
+        Detector {
+            triangles: Tree::default(),
+            edges: Tree::default(),
+            chunks: Vec::new(),
+            pairs: Pairs::default(),
+            capacity: CAPACITY,
+        }
+    }
+}
+
+impl Detector {
+    /// A detector whose list may hold so many pairs, instead of 50 million.
+    pub fn with_capacity(capacity: usize) -> Detector {
+        Detector { capacity, ..Detector::default() }
+    }
+
+    /// The pairs of the last detection that succeeded.
+    pub fn pairs(&self) -> &Pairs {
+        &self.pairs
+    }
+
+    /// Finds every pair whose distance is below its reach plus a margin in m, at flat positions.
+    ///
+    /// Left out are pairs that share a vertex, directly or through twins, and pairs without a free
+    /// vertex. On an error the pairs of the detection before stay.
+    ///
+    /// # Errors
+    ///
+    /// If there are not three coordinates for each vertex, one is not finite or beyond 1000 km,
+    /// the margin is not a positive number, or the list would be too long.
+    pub fn detect(
+        &mut self,
+        surface: &Surface,
+        positions: &[f64],
+        margin: f64,
+    ) -> Result<&Pairs, CollideError> {
+        surface.check_positions(positions)?;
+        crate::error::check("the margin of contact (m)", margin, "above 0", margin > 0.0)?;
+        let query = Query {
+            surface,
+            positions,
+            around: surface.skins().iter().map(|skin| skin.reach + 0.5 * margin).collect(),
+            limit: Limit::Margin(margin),
+        };
+        self.scan(&query)?;
+        let pairs = &mut self.pairs;
+        pairs.list.clear();
+        for chunk in &self.chunks {
+            pairs.list.extend_from_slice(&chunk.pairs);
+        }
+        pairs.positions.clear();
+        pairs.positions.extend_from_slice(positions);
+        pairs.margin = margin;
+        Ok(&self.pairs)
+    }
+
+    /// Leaves what the query asks for in the chunks.
+    fn scan(&mut self, query: &Query<'_>) -> Result<(), CollideError> {
+        let surface = query.surface;
+        let Detector { triangles, edges, chunks, .. } = self;
+        triangles.fit(&surface.triangle_order, |triangle| {
+            query.bounds(surface.triangles()[triangle as usize])
+        });
+        edges.fit(&surface.edge_order, |edge| query.bounds(surface.edges()[edge as usize]));
+
+        let vertex_chunks = surface.vertices().div_ceil(CHUNK);
+        let edge_chunks = surface.edges().len().div_ceil(CHUNK);
+        chunks.resize_with(vertex_chunks + edge_chunks, Chunk::default);
+        let (found, capacity) = (AtomicUsize::new(0), self.capacity);
+        let scan = |(k, chunk): (usize, &mut Chunk)| {
+            chunk.pairs.clear();
+            let (kind, first, end) = if k < vertex_chunks {
+                (Kind::VertexFace, k * CHUNK, surface.vertices())
+            } else {
+                (Kind::EdgeEdge, (k - vertex_chunks) * CHUNK, surface.edges().len())
+            };
+            for feature in first..end.min(first + CHUNK) {
+                let before = chunk.pairs.len();
+                match kind {
+                    Kind::VertexFace => chunk.scan_vertex(query, triangles, feature as u32),
+                    Kind::EdgeEdge => chunk.scan_edge(query, edges, feature as u32),
+                }
+                let more = chunk.pairs.len() - before;
+                if found.fetch_add(more, Ordering::Relaxed) + more > capacity {
+                    // The sum only grows, so whoever comes first, the call fails.
+                    return;
+                }
+            }
+        };
+        chunks.par_iter_mut().enumerate().for_each(scan);
+        if found.into_inner() > capacity {
+            return Err(CollideError::TooManyPairs { capacity });
+        }
+        Ok(())
+    }
+}
+
+/// Pairs of primitives that lie close at rest, within twice their reach.
+///
+/// They push below half of their distance at rest, so a fine mesh does not push itself apart, and
+/// keep a quarter.
+pub(crate) fn close_at_rest(surface: &Surface, rest: &[f64]) -> Result<Vec<Close>, CollideError> {
+    let mut detector = Detector::default();
+    let around = surface.skins().iter().map(|skin| 2.0 * skin.reach).collect();
+    let query = Query { surface, positions: rest, around, limit: Limit::Rest };
+    detector.scan(&query)?;
+    let mut close = Vec::new();
+    for pair in detector.chunks.iter().flat_map(|chunk| &chunk.pairs) {
+        let reach = pair.reach.min(0.5 * pair.distance);
+        let separation = pair.separation.min(0.25 * pair.distance);
+        // Written so that NaN fails.
+        if !(separation >= LEAST) {
+            return Err(CollideError::TouchingAtRest {
+                vertices: pair.vertices,
+                distance: pair.distance,
+                least: 4.0 * LEAST,
+            });
+        }
+        close.push(Close { key: pair.key(), reach, separation });
+    }
+    Ok(close)
+}
+
+/// How near two primitives must be.
+#[derive(Debug, Clone, Copy)]
+enum Limit {
+    /// Below their reach and so much more, in m.
+    Margin(f64),
+    /// Below twice their reach, and of one group.
+    Rest,
+}
+
+/// What is asked for.
+struct Query<'a> {
+    surface: &'a Surface,
+    positions: &'a [f64],
+    /// By how much boxes of each group are larger than what they hold, in m.
+    around: Vec<f64>,
+    limit: Limit,
+}
+
+impl Query<'_> {
+    fn bounds<const N: usize>(&self, vertices: [u32; N]) -> Bounds {
+        let group = self.surface.group(vertices[0]);
+        let places = vertices.map(|vertex| at(self.positions, vertex as usize));
+        Bounds::around(places, self.around[group as usize])
+    }
+
+    /// The pair of two primitives that share no vertex, if they are near enough.
+    fn pair(&self, kind: Kind, features: [u32; 2], vertices: [u32; 4]) -> Option<Pair> {
+        let surface = self.surface;
+        let other = match kind {
+            Kind::VertexFace => vertices[1],
+            Kind::EdgeEdge => vertices[2],
+        };
+        let mut skin = surface.distances(vertices[0], other);
+        let same_group = surface.group(vertices[0]) == surface.group(other);
+        let places = vertices.map(|vertex| at(self.positions, vertex as usize));
+        let distance = distance(&closest(kind, places));
+        let limit = match self.limit {
+            Limit::Margin(margin) => skin.reach + margin,
+            Limit::Rest if same_group => 2.0 * skin.reach,
+            Limit::Rest => return None,
+        };
+        if !(distance < limit) {
+            return None;
+        }
+        if same_group && !surface.close.is_empty() {
+            let close = &surface.close;
+            if let Ok(place) = close.binary_search_by_key(&(kind, features), |close| close.key) {
+                (skin.reach, skin.separation) = (close[place].reach, close[place].separation);
+                if let Limit::Margin(margin) = self.limit
+                    && !(distance < skin.reach + margin)
+                {
+                    return None;
+                }
+            }
+        }
+        let [a, b] = features.map(|feature| feature as usize);
+        let (area, parallel) = match kind {
+            Kind::VertexFace => (surface.vertex_face_area(a, b), 0.0),
+            Kind::EdgeEdge => {
+                let lengths = surface.edge_length_squared(a) * surface.edge_length_squared(b);
+                (surface.edge_edge_area(a, b), PARALLEL * lengths)
+            }
+        };
+        let (reach, separation) = (skin.reach, skin.separation);
+        Some(Pair { kind, features, vertices, reach, separation, area, parallel, distance })
+    }
+}
+
+/// A run of vertices or of edges with the pairs of which they come first.
+#[derive(Debug, Clone, Default)]
+struct Chunk {
+    /// Those that may be near the primitive at hand.
+    near: Vec<u32>,
+    /// Sorted by features.
+    pairs: Vec<Pair>,
+}
+
+impl Chunk {
+    fn scan_vertex(&mut self, query: &Query<'_>, tree: &Tree, vertex: u32) {
+        let surface = query.surface;
+        let bounds = query.bounds([vertex]);
+        let class = surface.class(vertex);
+        self.near.clear();
+        let only_free = !surface.is_free(&[vertex]);
+        tree.visit(&surface.triangle_order, (&bounds, only_free), |triangle| {
+            let corners = surface.triangles()[triangle as usize];
+            if corners.iter().all(|&corner| surface.class(corner) != class) {
+                self.near.push(triangle);
+            }
+        });
+        self.near.sort_unstable();
+        for &triangle in &self.near {
+            let [a, b, c] = surface.triangles()[triangle as usize];
+            let found = query.pair(Kind::VertexFace, [vertex, triangle], [vertex, a, b, c]);
+            self.pairs.extend(found);
+        }
+    }
+
+    fn scan_edge(&mut self, query: &Query<'_>, tree: &Tree, edge: u32) {
+        let surface = query.surface;
+        let ends = surface.edges()[edge as usize];
+        let bounds = query.bounds(ends);
+        let classes = ends.map(|end| surface.class(end));
+        self.near.clear();
+        let only_free = !surface.is_free(&ends);
+        tree.visit(&surface.edge_order, (&bounds, only_free), |other| {
+            if other <= edge {
+                return;
+            }
+            let others = surface.edges()[other as usize];
+            let apart = |&end: &u32| !classes.contains(&surface.class(end));
+            if others.iter().all(apart) {
+                self.near.push(other);
+            }
+        });
+        self.near.sort_unstable();
+        for &other in &self.near {
+            let [c, d] = surface.edges()[other as usize];
+            let found = query.pair(Kind::EdgeEdge, [edge, other], [ends[0], ends[1], c, d]);
+            self.pairs.extend(found);
+        }
+    }
+}

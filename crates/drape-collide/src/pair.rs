@@ -1,0 +1,65 @@
+use crate::closest::{Closest, edge_edge, vertex_face};
+use crate::vector::{at, dot};
+
+/// Which primitives a pair is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// A vertex and a triangle.
+    VertexFace,
+    /// Two edges.
+    EdgeEdge,
+}
+
+/// Two primitives of a surface that are near each other and share no vertex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// Which primitives these are.
+    pub kind: Kind,
+    /// The vertex and the triangle, or the two edges, the lower first, by number in the surface.
+    ///
+    /// Kind and features together name a pair; lists of pairs are sorted by them.
+    pub features: [u32; 2],
+    /// The vertex and the three corners, or the two ends of one edge and the two of the other.
+    pub vertices: [u32; 4],
+    /// Distance `$r$` below which the two push each other, in m.
+    pub reach: f64,
+    /// Distance `$\xi$` that the two always keep, in m.
+    pub separation: f64,
+    /// Area that the contact of the two stands for, in m².
+    pub area: f64,
+    /// Square of the sine times the lengths at rest below which two edges count as parallel, in
+    /// m⁴; 0 for a vertex and a triangle.
+    pub parallel: f64,
+    /// Distance where the pair was detected, in m.
+    pub distance: f64,
+}
+
+impl Pair {
+    /// Kind and features: the order in a list.
+    pub fn key(&self) -> (Kind, [u32; 2]) {
+        (self.kind, self.features)
+    }
+
+    /// The four vertices' places, in m.
+    pub(crate) fn places(&self, positions: &[f64]) -> [[f64; 3]; 4] {
+        self.vertices.map(|vertex| at(positions, vertex as usize))
+    }
+
+    /// Distance of the two primitives at flat positions, in m.
+    pub fn distance_at(&self, positions: &[f64]) -> f64 {
+        distance(&closest(self.kind, self.places(positions)))
+    }
+}
+
+/// The closest points of two primitives of a kind.
+pub(crate) fn closest(kind: Kind, places: [[f64; 3]; 4]) -> Closest {
+    match kind {
+        Kind::VertexFace => vertex_face(places),
+        Kind::EdgeEdge => edge_edge(places),
+    }
+}
+
+/// The distance of two closest points, in m.
+pub(crate) fn distance(closest: &Closest) -> f64 {
+    dot(closest.way, closest.way).sqrt()
+}

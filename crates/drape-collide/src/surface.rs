@@ -1,0 +1,256 @@
+use crate::detector::{Close, close_at_rest};
+use crate::error::{CollideError, check, check_places};
+use crate::order::Order;
+use crate::topology::{self, Topology};
+use crate::vector::{at, dot, subtract};
+
+/// Half of the distances at which a surface touches.
+///
+/// A pair of primitives of two groups has the sum of both: it pushes below the reach `$r$` and is
+/// kept above the separation `$\xi$`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Skin {
+    /// Half of the distance `$r$` below which two such surfaces push each other, in m.
+    pub reach: f64,
+    /// Half of the distance `$\xi$` that two such surfaces always keep, in m; below the reach.
+    pub separation: f64,
+}
+
+/// What a [`Surface`] is made of: `n` vertices, of which the first `free` are cloth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceParts {
+    /// Three coordinates per vertex at rest, in m; of cloth, its flat panel.
+    ///
+    /// Distances at rest are taken within a group only, so groups may lie over each other.
+    pub rest: Vec<f64>,
+    /// Three vertices each, all of one group.
+    pub triangles: Vec<[u32; 3]>,
+    /// Area of cloth that each vertex stands for, in m²; that of a body's vertex is not used.
+    pub areas: Vec<f64>,
+    /// Which skin each vertex has; a panel or a body is a group.
+    pub group: Vec<u32>,
+    /// One per group.
+    pub skins: Vec<Skin>,
+    /// The vertices below this number move freely; those from it on belong to bodies and move as
+    /// prescribed. Pairs without a free vertex are never made.
+    pub free: usize,
+    /// Pairs of vertices that are sewn together: primitives that share a vertex through them do
+    /// not touch.
+    pub twins: Vec<[u32; 2]>,
+}
+
+/// The surface of all cloth and all bodies: everything about contact that never changes.
+///
+/// It has been checked, and holds edges, shares of area, the order of the primitives in space, and
+/// the pairs that lie close at rest.
+#[derive(Debug, Clone)]
+pub struct Surface {
+    triangles: Vec<[u32; 3]>,
+    edges: Vec<[u32; 2]>,
+    group: Vec<u32>,
+    skins: Vec<Skin>,
+    free: usize,
+    vertex_areas: Vec<f64>,
+    edge_areas: Vec<f64>,
+    triangle_areas: Vec<f64>,
+    edge_lengths_squared: Vec<f64>,
+    /// The smallest of the vertices that are sewn to each vertex.
+    class: Vec<u32>,
+    pub(crate) edge_order: Order,
+    pub(crate) triangle_order: Order,
+    pub(crate) close: Vec<Close>,
+}
+
+impl Surface {
+    /// A surface of checked parts.
+    ///
+    /// # Errors
+    ///
+    /// If a list has the wrong length, an index is out of range, a coordinate is not finite or
+    /// beyond 1000 km, a triangle has no area, names a vertex twice or spans two groups, an area is
+    /// negative, a skin is not positive or its separation not below its reach, or two primitives
+    /// of one group that share no vertex touch at rest.
+    pub fn new(parts: SurfaceParts) -> Result<Surface, CollideError> {
+        check_parts(&parts)?;
+        let SurfaceParts { rest, triangles, areas, group, skins, free, twins } = parts;
+        let topology = Topology::new(&triangles);
+        let triangle_areas = topology::areas_of_triangles(&rest, &triangles);
+        // A body's vertices stand for the area of their triangles.
+        let mut vertex_areas =
+            topology::areas_of_vertices(&triangle_areas, &triangles, areas.len());
+        let geometric = vertex_areas.clone();
+        vertex_areas[..free].copy_from_slice(&areas[..free]);
+        let triangle_areas = topology::shares(&triangle_areas, &triangles, |vertex| {
+            // The geometric area is above 0, for each corner has a triangle with an area.
+            vertex_areas[vertex] / geometric[vertex]
+        });
+        let length_squared = |&[a, b]: &[u32; 2]| {
+            let edge = subtract(at(&rest, b as usize), at(&rest, a as usize));
+            dot(edge, edge)
+        };
+        let places = |vertices: &[u32]| topology::middle(&rest, vertices);
+        let first_group = |vertices: &[u32]| group[vertices[0] as usize];
+        let is_free = |vertices: &[u32]| vertices.iter().any(|&v| (v as usize) < free);
+        let entry = |vertices: &[u32]| (first_group(vertices), places(vertices), is_free(vertices));
+        let mut surface = Surface {
+            edge_order: Order::new(topology.edges.iter().map(|e| entry(e))),
+            triangle_order: Order::new(triangles.iter().map(|t| entry(t))),
+            edge_lengths_squared: topology.edges.iter().map(length_squared).collect(),
+            edge_areas: topology.areas_of_edges(&triangle_areas),
+            class: topology::classes(areas.len(), &twins),
+            edges: topology.edges,
+            vertex_areas,
+            triangle_areas,
+            triangles,
+            group,
+            skins,
+            free,
+            close: Vec::new(),
+        };
+        surface.close = close_at_rest(&surface, &rest)?;
+        Ok(surface)
+    }
+
+    /// Number of vertices.
+    pub fn vertices(&self) -> usize {
+        self.group.len()
+    }
+
+    /// Number of free vertices, which come first.
+    pub fn free(&self) -> usize {
+        self.free
+    }
+
+    /// Three vertices each, as given.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Two vertices each, the lower first, sorted.
+    pub fn edges(&self) -> &[[u32; 2]] {
+        &self.edges
+    }
+
+    /// Half distances per group.
+    pub fn skins(&self) -> &[Skin] {
+        &self.skins
+    }
+
+    /// Group of a vertex, and so of all primitives at it.
+    pub fn group(&self, vertex: u32) -> u32 {
+        self.group[vertex as usize]
+    }
+
+    /// Reach and separation of a pair of vertices or of primitives at them, in m, without regard
+    /// to their distance at rest.
+    pub fn distances(&self, a: u32, b: u32) -> Skin {
+        let [a, b] = [a, b].map(|v| self.skins[self.group(v) as usize]);
+        Skin { reach: a.reach + b.reach, separation: a.separation + b.separation }
+    }
+
+    pub(crate) fn check_positions(&self, positions: &[f64]) -> Result<(), CollideError> {
+        let needed = 3 * self.vertices();
+        if positions.len() != needed {
+            return Err(CollideError::WrongLength {
+                what: "positions",
+                found: positions.len(),
+                needed,
+            });
+        }
+        check_places("vertex", positions)
+    }
+
+    pub(crate) fn class(&self, vertex: u32) -> u32 {
+        self.class[vertex as usize]
+    }
+
+    pub(crate) fn is_free(&self, vertices: &[u32]) -> bool {
+        vertices.iter().any(|&v| (v as usize) < self.free)
+    }
+
+    pub(crate) fn edge_length_squared(&self, edge: usize) -> f64 {
+        self.edge_lengths_squared[edge]
+    }
+
+    /// Area that the contact of a vertex and a triangle stands for, in m².
+    pub(crate) fn vertex_face_area(&self, vertex: usize, triangle: usize) -> f64 {
+        let (point, face) = (self.vertex_areas[vertex], self.triangle_areas[triangle]);
+        let corner = self.triangles[triangle][0] as usize;
+        0.25 * match (vertex < self.free, corner < self.free) {
+            (true, true) => point + face.min(point),
+            (true, false) => point,
+            // However fine a body's mesh, its vertices push no more than their own area.
+            (false, _) => face.min(point),
+        }
+    }
+
+    /// Area that the contact of two edges stands for, in m².
+    pub(crate) fn edge_edge_area(&self, a: usize, b: usize) -> f64 {
+        let smaller = self.edge_areas[a].min(self.edge_areas[b]);
+        let free = |edge: usize| self.is_free(&self.edges[edge]);
+        if free(a) && free(b) { 0.5 * smaller } else { 0.25 * smaller }
+    }
+}
+
+fn check_parts(parts: &SurfaceParts) -> Result<(), CollideError> {
+    let vertices = parts.areas.len();
+    let length = |what, found: usize, needed: usize| {
+        if found == needed {
+            return Ok(());
+        }
+        Err(CollideError::WrongLength { what, found, needed })
+    };
+    length("rest coordinates", parts.rest.len(), 3 * vertices)?;
+    length("groups", parts.group.len(), vertices)?;
+    let free = parts.free as f64;
+    check("the number of free vertices", free, "at most all", parts.free <= vertices)?;
+    check_places("rest position of vertex", &parts.rest)?;
+    for (k, skin) in parts.skins.iter().enumerate() {
+        let Skin { reach, separation } = *skin;
+        check(format!("the reach of skin {k} (m)"), reach, "above 0", reach > 0.0)?;
+        let what = format!("the separation of skin {k} (m)");
+        check(
+            what,
+            separation,
+            "above 0 and below its reach",
+            separation > 0.0 && separation < reach,
+        )?;
+    }
+    for (vertex, &group) in parts.group.iter().enumerate() {
+        if group as usize >= parts.skins.len() {
+            return Err(CollideError::NoSuchSkin { vertex, group, skins: parts.skins.len() });
+        }
+    }
+    let bad = |(_, area): &(usize, &f64)| !area.is_finite() || **area < 0.0;
+    if let Some((particle, &area)) = parts.areas.iter().enumerate().find(bad) {
+        return Err(CollideError::BadArea { particle, area });
+    }
+    let out = |vertex: &&u32| **vertex as usize >= vertices;
+    if let Some(&index) = parts.twins.iter().flatten().find(out) {
+        return Err(CollideError::NoSuchTwin { index, vertices });
+    }
+    for (triangle, corners) in parts.triangles.iter().enumerate() {
+        if let Some(&index) = corners.iter().find(out) {
+            return Err(CollideError::NoSuchVertex { triangle, index, vertices });
+        }
+        check_triangle(parts, triangle)?;
+    }
+    Ok(())
+}
+
+fn check_triangle(parts: &SurfaceParts, triangle: usize) -> Result<(), CollideError> {
+    let corners = parts.triangles[triangle];
+    let [a, b, c] = corners;
+    if a == b || b == c || c == a {
+        return Err(CollideError::RepeatedVertex { triangle, corners });
+    }
+    let kind = |v: u32| (parts.group[v as usize], (v as usize) < parts.free);
+    if kind(a) != kind(b) || kind(b) != kind(c) {
+        return Err(CollideError::MixedTriangle { triangle, corners });
+    }
+    let places = corners.map(|v| at(&parts.rest, v as usize));
+    match topology::doubled_area(places) {
+        Ok(_) => Ok(()),
+        Err(area) => Err(CollideError::FlatTriangle { triangle, place: places[0], area }),
+    }
+}
