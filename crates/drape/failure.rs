@@ -17,6 +17,8 @@ pub(crate) enum Failure {
     Fit(drape::fit::Error),
     /// Exit code 3: some sheets of a batch failed, and said why.
     Batch,
+    /// Exit code 4: surfaces crossed.
+    Certificate(String),
     /// Exit code 5: the solver failed, or the cloth did not settle.
     Solver(String),
     /// Exit code 7: a figure is beyond its limit.
@@ -32,6 +34,7 @@ impl Failure {
         ExitCode::from(match self {
             Self::Usage(_) => 2,
             Self::Input(_) | Self::Fit(_) | Self::Batch => 3,
+            Self::Certificate(_) => 4,
             Self::Solver(_) => 5,
             Self::Output(_) => 6,
             Self::Limit(_) => 7,
@@ -69,6 +72,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Usage(message)
+            | Self::Certificate(message)
             | Self::Solver(message)
             | Self::Output(message)
             | Self::Limit(message) => f.write_str(message),

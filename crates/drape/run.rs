@@ -56,6 +56,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
             1e3 * summary.speed_max,
             summary.imbalance
         ))),
+        Status::CertificateFailed => Err(Failure::Certificate(format!(
+            "surfaces crossed in the step after {} s, however short it was made; the last good state was written",
+            summary.simulated_seconds
+        ))),
         Status::SolverFailed => Err(Failure::Solver(format!(
             "the step after {} s could not be solved; the last good state was written",
             summary.simulated_seconds

@@ -131,6 +131,13 @@ impl Surface {
         &self.edges
     }
 
+    /// Median length of the edges at rest, in m; 0 without edges.
+    pub fn median_edge(&self) -> f64 {
+        let mut squares = self.edge_lengths_squared.clone();
+        squares.sort_by(f64::total_cmp);
+        squares.get(squares.len() / 2).map_or(0.0, |square| square.sqrt())
+    }
+
     /// Half distances per group.
     pub fn skins(&self) -> &[Skin] {
         &self.skins

@@ -1,9 +1,7 @@
 use rayon::prelude::*;
 
-use crate::crossing::{Crossing, Crossings};
 use crate::detector::Detector;
 use crate::error::{CollideError, check};
-use crate::filter::Filter;
 use crate::gap::{Gap, Gradient, Hessian};
 use crate::pair::Pair;
 use crate::slip::{Anchor, Slip};
@@ -40,8 +38,6 @@ pub struct SurfaceContact {
     surface: Surface,
     settings: SurfaceSettings,
     detector: Detector,
-    filter: Filter,
-    crossings: Crossings,
     /// Where the bodies' vertices are at the start and at the end of the step, in m.
     bodies: [Vec<f64>; 2],
     progress: f64,
@@ -91,11 +87,13 @@ impl SurfaceContact {
         positive("the contact stiffness (N/m³)", settings.stiffness)?;
         positive("the way before sliding (m)", settings.stick)?;
         let groups = surface.skins().len();
-        let wanted = [(groups * groups, settings.friction.len())];
-        let found = [(3 * (surface.vertices() - surface.free()), bodies.len())];
-        for (expected, found) in wanted.into_iter().chain(found) {
-            if expected != found {
-                return Err(CollideError::Count { expected, found });
+        let prescribed = 3 * (surface.vertices() - surface.free());
+        for (what, needed, found) in [
+            ("coefficients of friction", groups * groups, settings.friction.len()),
+            ("coordinates of bodies", prescribed, bodies.len()),
+        ] {
+            if needed != found {
+                return Err(CollideError::WrongLength { what, found, needed });
             }
         }
         for &coefficient in &settings.friction {
@@ -107,8 +105,6 @@ impl SurfaceContact {
             surface,
             settings,
             detector: Detector::default(),
-            filter: Filter::default(),
-            crossings: Crossings::default(),
             bodies: [bodies.clone(), bodies],
             progress: 1.0,
             places: Vec::new(),
@@ -126,9 +122,9 @@ impl SurfaceContact {
         &self.surface
     }
 
-    /// Where the vertices of the bodies are, in m.
+    /// Where the vertices of the bodies were when the last step was closed, in m.
     pub fn bodies(&self) -> &[f64] {
-        &self.bodies[1]
+        &self.bodies[0]
     }
 
     /// What kept the last detection from being made: forces are then NaN.
@@ -287,13 +283,55 @@ impl SurfaceContact {
         }
     }
 
-    /// Every crossing of the surface with itself and the bodies at the free vertices' positions; exact.
-    ///
-    /// # Errors
-    /// Positions that are none.
-    pub fn crossings(&mut self, positions: &[f64]) -> Result<Vec<Crossing>, CollideError> {
-        let places = self.all(positions, self.progress);
-        self.crossings.find(&self.surface, &places)
+    /// Shortens a step
+    pub fn allow(
+        &mut self,
+        (from, step): (&[f64], &mut [f64]),
+        _held: &[usize],
+        (progress, advance): (f64, &mut f64),
+    ) -> bool {
+        let before = self.progress;
+        self.progress = progress;
+        let places = self.all(from, progress);
+        let [start, end] = &self.bodies;
+        let mut moves: Vec<f64> = step.to_vec();
+        moves.extend(start.iter().zip(end).map(|(s, e)| *advance * (e - s)));
+        let longest = moves
+            .chunks_exact(3)
+            .map(|m| m.iter().map(|x| x * x).sum::<f64>())
+            .fold(0.0, f64::max)
+            .sqrt();
+        if !(self.strayed(&places) + longest <= 0.45 * self.detector.pairs().margin()) {
+            let margin = (2.5 * longest).clamp(self.least_margin(), self.margin_max);
+            if let Err(failure) = self.detector.detect(&self.surface, &places, margin) {
+                self.failure = Some(failure);
+            }
+            self.places.clear();
+        }
+        let mut part: f64 = (0.45 * self.detector.pairs().margin() / longest).min(1.0);
+        for pair in self.detector.pairs().as_slice() {
+            let d = pair.distance_at(&places);
+            let mv = pair.vertices.map(|v| crate::vector::at(&moves, v as usize));
+            let cross: &[(usize, usize)] = match pair.kind {
+                crate::pair::Kind::VertexFace => &[(0, 1), (0, 2), (0, 3)],
+                crate::pair::Kind::EdgeEdge => &[(0, 2), (0, 3), (1, 2), (1, 3)],
+            };
+            let l = cross
+                .iter()
+                .map(|&(a, b)| crate::vector::norm(crate::vector::subtract(mv[a], mv[b])))
+                .fold(0.0, f64::max);
+            let room = 0.9 * (d - pair.separation);
+            if l > room {
+                part = part.min(room / l);
+            }
+        }
+        self.progress = before;
+        if part >= 1.0 {
+            return true;
+        }
+        step.iter_mut().for_each(|s| *s *= part);
+        *advance *= part;
+        false
     }
 
     /// How near the surfaces are to each other at the places looked at last.

@@ -214,6 +214,8 @@ pub(crate) struct ContactFile {
     pub(crate) stiffness: Option<f64>,
     /// In m/s.
     pub(crate) slip_speed: Option<f64>,
+    /// Whether surfaces are kept from passing through each other, and not particles out of bodies only.
+    pub(crate) surfaces: Option<bool>,
 }
 
 #[derive(Debug, Deserialize)]

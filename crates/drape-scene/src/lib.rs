@@ -20,6 +20,7 @@ mod settle;
 mod simulation;
 mod stopwatch;
 mod summary;
+mod surfaces;
 mod track;
 mod world;
 #[cfg(test)]
@@ -36,5 +37,6 @@ pub use scene::Scene;
 pub use scheme::Scheme;
 pub use settle::Settle;
 pub use simulation::{Progress, Simulation, Step};
+pub use surfaces::Surfaces;
 pub use summary::{Contacts, Energy, Solver, Status, Strain, Summary};
 pub use track::Track;

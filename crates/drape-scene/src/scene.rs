@@ -13,6 +13,7 @@ use crate::pin::Pin;
 use crate::reader::Reader;
 use crate::scheme::Scheme;
 use crate::settle::Settle;
+use crate::surfaces::{Parts, Surfaces};
 use crate::track::Track;
 
 /// Density of air at 20 °C and sea level, in kg/m³.
@@ -44,6 +45,8 @@ pub struct Scene {
     pub pins: Vec<Pin>,
     /// Contact of the cloth with the bodies.
     pub contact: Contact,
+    /// The surfaces of cloth and bodies, if they are kept apart; `contact` then has the bodies for pictures only.
+    pub surfaces: Option<Surfaces>,
     /// The ways of the bodies, of those that move.
     pub tracks: Vec<Option<Track>>,
     /// Acceleration of gravity, in m/s².
@@ -136,12 +139,27 @@ impl Reader<'_> {
             velocities[3 * particle..3 * particle + 3].fill(0.0);
         }
         let fallback = materials.iter().map(|m| m.fabric.surface_friction).fold(0.0, f64::max);
-        let (bodies, tracks) = bodies
+        let (bodies, tracks): (Vec<_>, Vec<_>) = bodies
             .into_iter()
             .map(|Moving { body, friction, track }| {
                 (body.with_friction(friction.unwrap_or(fallback)), track)
             })
             .unzip();
+        let surfaces = file.contact.surfaces.unwrap_or(false).then(|| {
+            Surfaces::new(&Parts {
+                panels: &panels,
+                materials: &materials,
+                cloth: &cloth,
+                bodies: &bodies,
+                tracks: &tracks,
+                held: &held,
+                offset: contact_settings.offset,
+                stiffness: contact_settings.stiffness,
+            })
+        });
+        let surfaces = surfaces.transpose();
+        let surfaces =
+            surfaces.map_err(|error| self.document.at("contact.surfaces", error.to_string()))?;
         let contact = Contact::new(bodies, contact_settings, cloth.areas().to_vec());
         let contact = contact.map_err(|error| self.document.at("collider", error.to_string()))?;
         self.start_is_free(&contact, &positions);
@@ -158,6 +176,7 @@ impl Reader<'_> {
             held,
             pins,
             contact,
+            surfaces,
             tracks,
             gravity,
             air,

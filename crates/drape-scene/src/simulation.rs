@@ -1,6 +1,6 @@
 mod outcome;
 
-use drape_implicit::{ErrorEstimate, Integrator, Method, Motion, Report, Settings};
+use drape_implicit::{Error, ErrorEstimate, Integrator, Method, Motion, Report, Settings, Stop};
 
 use crate::SceneError;
 use crate::clock::Clock;
@@ -59,6 +59,8 @@ pub struct Simulation {
     solver: Solver,
     iterations: usize,
     pairs_max: usize,
+    /// The smallest distance of two surfaces after any step, in m.
+    distance_min: f64,
     stopwatch: Stopwatch,
 }
 
@@ -136,6 +138,7 @@ impl Simulation {
             solver: Solver::default(),
             iterations: 0,
             pairs_max: 0,
+            distance_min: f64::INFINITY,
             stopwatch: Stopwatch::start(),
         })
     }
@@ -205,7 +208,7 @@ impl Simulation {
     ///
     /// # Errors
     /// When the step cannot be solved even in parts; the state is then the last good one.
-    pub fn step(&mut self) -> Result<Step, drape_implicit::Error> {
+    pub fn step(&mut self) -> Result<Step, Error> {
         // The clock counts ticks; a sum of lengths would drift.
         self.motion.time = self.time();
         let (ticks, report) = self.advance()?;
@@ -230,7 +233,7 @@ impl Simulation {
     }
 
     /// Makes one step as long as it may be; its ticks and what the solver says.
-    fn advance(&mut self) -> Result<(usize, Report), drape_implicit::Error> {
+    fn advance(&mut self) -> Result<(usize, Report), Error> {
         if self.world.creeps {
             self.motion.restart();
         }
@@ -261,8 +264,15 @@ impl Simulation {
         if let Some(ledger) = &mut self.world.ledger {
             ledger.report(report);
         }
-        let survey = self.world.contact.survey(&self.motion.positions);
-        self.pairs_max = self.pairs_max.max(survey.touching);
+        let touching = match &self.world.surfaces {
+            Some(surfaces) => {
+                let nearness = surfaces.contact.nearness();
+                self.distance_min = self.distance_min.min(nearness.min_distance);
+                nearness.touching
+            }
+            None => self.world.contact.survey(&self.motion.positions).touching,
+        };
+        self.pairs_max = self.pairs_max.max(touching);
     }
 
     fn count(&mut self, report: &Report) {
@@ -298,7 +308,7 @@ impl Simulation {
 
     /// Whether the cloth is at rest after a step of so many ticks. A creeping cloth is solved the
     /// better the nearer it is.
-    fn judge_rest(&mut self, ticks: usize) -> Result<(), drape_implicit::Error> {
+    fn judge_rest(&mut self, ticks: usize) -> Result<(), Error> {
         let Some(settle) = self.settle else { return Ok(()) };
         let mut exact = true;
         if let (true, Scheme::Implicit(settings)) = (self.world.creeps, &self.scheme) {
@@ -324,9 +334,17 @@ impl Simulation {
         progress.frame(&self.frame())?;
         loop {
             let before = self.ticks / self.clock.ticks_per_frame;
-            let Ok(step) = self.step() else {
-                self.status = Status::SolverFailed;
-                break;
+            let step = match self.step() {
+                Ok(step) => step,
+                Err(error) => {
+                    let certificate =
+                        matches!(error, Error::NotConverged { stop: Stop::Certificate, .. });
+                    self.status = match certificate {
+                        true => Status::CertificateFailed,
+                        false => Status::SolverFailed,
+                    };
+                    break;
+                }
             };
             progress.step(&step, self.ticks);
             if step.finished || self.ticks / self.clock.ticks_per_frame > before {

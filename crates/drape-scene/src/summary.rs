@@ -50,6 +50,9 @@ pub enum Status {
     /// The end came before the rest that the scene asks for.
     #[serde(rename = "did not settle")]
     DidNotSettle,
+    /// Surfaces crossed in a step, however short.
+    #[serde(rename = "certificate failed")]
+    CertificateFailed,
     /// A step could not be solved.
     #[serde(rename = "solver failed")]
     SolverFailed,
@@ -125,13 +128,16 @@ pub struct Strain {
     pub curvature_p99: f64,
 }
 
-/// Contact with bodies.
+/// Contact of surfaces or, without them, of particles with bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Contacts {
-    /// Largest number of particles that touched a body after a step.
+    /// Largest number of pairs of primitives, or of particles and bodies, that touched after a step.
     pub pairs_max: usize,
-    /// Smallest distance of a particle from a body at the end, in m; none where nothing is near.
+    /// Smallest distance of two surfaces after any step, or of a particle from a body at the end, in m; none where
+    /// nothing was near.
     pub min_distance: Option<f64>,
-    /// Particles inside a body at the end.
+    /// Crossings of surfaces at the end, found by exact arithmetic, or particles inside a body.
     pub intersections: usize,
+    /// Crossings of surfaces that were found after steps, which were then taken back.
+    pub crossings_found: usize,
 }

@@ -1,10 +1,11 @@
 use drape_cloth::{Cloth, State, Workspace};
 use drape_collide::{Contact, Pose};
-use drape_implicit::{BlockMatrix, Pattern, Stiffness, System};
+use drape_implicit::{BlockMatrix, Pattern, Stiffness, System, Way};
 
 use crate::ledger::{Entry, Ledger};
 use crate::pin::{Pin, PinLoad};
 use crate::scene::Scene;
+use crate::surfaces::Surfaces;
 use crate::track::Track;
 
 /// Longest time over which contact with a body counts slip in one step of a creeping cloth, in s.
@@ -20,6 +21,8 @@ pub(crate) struct World {
     workspace: Workspace,
     pub(crate) state: State,
     pub(crate) contact: Contact,
+    /// The surfaces, if they are kept apart: the bodies are then among them and not in the contact of the particles.
+    pub(crate) surfaces: Option<Surfaces>,
     /// Acceleration of gravity when it has grown to its value, in m/s².
     full_gravity: [f64; 3],
     /// The one at the end of the step.
@@ -48,7 +51,17 @@ pub(crate) struct World {
 impl World {
     pub(crate) fn new(scene: Scene) -> Self {
         let Scene {
-            cloth, positions, velocities, held, pins, contact, tracks, gravity, air, ..
+            cloth,
+            positions,
+            velocities,
+            held,
+            pins,
+            contact,
+            surfaces,
+            tracks,
+            gravity,
+            air,
+            ..
         } = scene;
         let poses = contact.bodies().iter().map(|body| body.pose).enumerate();
         let moving =
@@ -67,6 +80,7 @@ impl World {
             cloth,
             state,
             contact,
+            surfaces,
             full_gravity: gravity,
             gravity,
             ramp: scene.clock.ramp,
@@ -107,6 +121,22 @@ impl World {
         let mut air = 0.0;
         self.each_drag(positions, |particle, way, _| air += self.drag[particle] * way * way);
         let gravity = self.weight_energy(positions) - self.weight_energy(&self.state.positions);
+        if let (Some(surfaces), Some(ledger)) = (&mut self.surfaces, &self.ledger) {
+            let energy = surfaces.contact.potential(positions);
+            let [_, lost] = surfaces.contact.friction();
+            let moved = positions.iter().zip(&self.state.positions).map(|(end, start)| end - start);
+            let brake = moved.zip(&self.brake).map(|(moved, brake)| -moved * brake).sum();
+            return Entry {
+                gravity,
+                contact: energy - lost - ledger.barrier,
+                drive: surfaces.contact.body_work(positions),
+                slip: lost,
+                slip_potential: lost,
+                air,
+                brake,
+                ..Entry::default()
+            };
+        }
         let Self { contact, ledger, state, .. } = self;
         let ledger = ledger.as_mut().expect("entries are made for a ledger");
         let [with, without] = &mut ledger.forces;
@@ -135,6 +165,21 @@ impl World {
             air,
             brake,
             ..Entry::default()
+        }
+    }
+
+    /// Opens a step for the contact of particles with bodies.
+    fn begin_contact(&mut self, start: &[f64], (end_time, dt): (f64, f64)) {
+        // A step that is tried again begins where the bodies were at its start.
+        self.place_bodies(end_time - dt);
+        self.contact.begin(start, if self.creeps { dt.min(CREEP_TIME) } else { dt });
+        let rest = if self.ledger.is_some() { self.contact.potential(start) } else { 0.0 };
+        self.place_bodies(end_time);
+        if let Some(ledger) = &mut self.ledger {
+            ledger.slip = self.contact.friction_potential(start);
+            ledger.barrier = self.contact.potential(start) - ledger.slip;
+            ledger.push = ledger.barrier - rest;
+            ledger.connectors = None;
         }
     }
 
@@ -186,16 +231,17 @@ impl System for World {
         self.pins.iter().for_each(|pin| pin.place(end_time, target));
         let grown = if end_time < self.ramp { end_time / self.ramp } else { 1.0 };
         self.gravity = self.full_gravity.map(|g| grown * g);
-        // A step that is tried again begins where the bodies were at its start.
-        self.place_bodies(end_time - dt);
-        self.contact.begin(start, if self.creeps { dt.min(CREEP_TIME) } else { dt });
-        let rest = if self.ledger.is_some() { self.contact.potential(start) } else { 0.0 };
-        self.place_bodies(end_time);
-        if let Some(ledger) = &mut self.ledger {
-            ledger.slip = self.contact.friction_potential(start);
-            ledger.barrier = self.contact.potential(start) - ledger.slip;
-            ledger.push = ledger.barrier - rest;
-            ledger.connectors = None;
+        if let Some(surfaces) = &mut self.surfaces {
+            let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
+            let squares = self.state.velocities.chunks_exact(3).map(square);
+            surfaces.begin(end_time, start, dt * squares.fold(0.0, f64::max).sqrt());
+            if let Some(ledger) = &mut self.ledger {
+                (ledger.slip, ledger.push) = (0.0, 0.0);
+                ledger.barrier = surfaces.contact.potential(start);
+                ledger.connectors = None;
+            }
+        } else {
+            self.begin_contact(start, (end_time, dt));
         }
         let momenta = self.brake.chunks_exact_mut(3).zip(self.state.velocities.chunks_exact(3));
         for ((brake, velocity), mass) in momenta.zip(self.cloth.masses()) {
@@ -226,7 +272,10 @@ impl System for World {
                 forces[3 * particle + axis] -= pull * normal[axis];
             }
         });
-        self.contact.add_forces(positions, forces);
+        match &mut self.surfaces {
+            Some(surfaces) => surfaces.contact.add_forces(positions, forces),
+            None => self.contact.add_forces(positions, forces),
+        }
     }
 
     fn potential(&mut self, positions: &[f64]) -> f64 {
@@ -237,7 +286,11 @@ impl System for World {
         if let Some(ledger) = &mut self.ledger {
             ledger.saw(cloth);
         }
-        cloth + self.weight_energy(positions) + brake + drag + self.contact.potential(positions)
+        let contact = match &mut self.surfaces {
+            Some(surfaces) => surfaces.contact.potential(positions),
+            None => self.contact.potential(positions),
+        };
+        cloth + self.weight_energy(positions) + brake + drag + contact
     }
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
@@ -254,17 +307,45 @@ impl System for World {
             let block: [f64; 9] = std::array::from_fn(|k| drag * normal[k / 3] * normal[k % 3]);
             matrix.add_block(offsets[particle], &block);
         });
-        self.contact.add_stiffness(positions, definite, &mut |particle, block| {
-            matrix.add_block(offsets[particle], &block);
-        });
+        match &mut self.surfaces {
+            Some(surfaces) => {
+                surfaces.contact.add_stiffness(positions, definite, &mut |[i, j], block| {
+                    matrix.couple(i, j, block);
+                });
+            }
+            None => self.contact.add_stiffness(positions, definite, &mut |particle, block| {
+                matrix.add_block(offsets[particle], &block);
+            }),
+        }
     }
 
     fn pattern(&self) -> Pattern {
         self.pattern.clone()
     }
 
+    fn guards(&self) -> bool {
+        self.surfaces.is_some()
+    }
+
+    fn allow(&mut self, way: Way<'_>) -> bool {
+        self.surfaces.as_mut().is_none_or(|surfaces| surfaces.allow(way))
+    }
+
+    fn arrive(&mut self, progress: f64) {
+        if let Some(surfaces) = &mut self.surfaces {
+            surfaces.contact.arrive(progress);
+        }
+    }
+
+    fn certify(&mut self, positions: &[f64]) -> bool {
+        self.surfaces.as_mut().is_none_or(|surfaces| surfaces.certify(positions))
+    }
+
     fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {
         let entry = self.ledger.is_some().then(|| self.entry(positions, dt));
+        if let Some(surfaces) = &mut self.surfaces {
+            surfaces.contact.commit(positions);
+        }
         let committed =
             self.workspace.commit(&self.cloth, &mut self.state, (positions, velocities));
         if let (Some(ledger), Some(entry)) = (&mut self.ledger, entry) {

