@@ -72,6 +72,20 @@ pub(crate) struct PanelFile {
     pub(crate) spin: [f64; 3],
     pub(crate) ripple: Option<RippleFile>,
     pub(crate) noise: Option<NoiseFile>,
+    /// Further panels like this one.
+    pub(crate) stack: Option<StackFile>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StackFile {
+    /// How many there are in all; they are called NAME 2, NAME 3 and so on.
+    pub(crate) count: usize,
+    /// From the middle of each to that of the next.
+    pub(crate) step: [f64; 3],
+    /// Turn from each to the next, added to the panel's, in degrees.
+    #[serde(default)]
+    pub(crate) turn: [f64; 3],
 }
 
 #[derive(Debug, Deserialize)]

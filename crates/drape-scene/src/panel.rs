@@ -9,6 +9,9 @@ use crate::reader::Reader;
 /// Distance between particles when the scene gives none, in m.
 const SPACING: f64 = 0.01;
 
+/// Most particles of a stack of panels.
+const PARTICLES_MAX: usize = 4_000_000;
+
 /// A panel of a scene.
 #[derive(Debug, Clone)]
 pub struct Panel {
@@ -67,14 +70,35 @@ impl Reader<'_> {
                     self.thick_enough(&key, &lattice, material);
                 }
                 let particles = lattice.coordinates.len();
-                panels.push((
-                    Panel { name: entry.name.clone(), material, lattice, first },
-                    placement,
-                ));
-                first += particles;
+                for copy in 0..self.copies(&key, entry, particles) {
+                    let name = match copy {
+                        0 => entry.name.clone(),
+                        _ => format!("{} {}", entry.name, copy + 1),
+                    };
+                    let lattice = lattice.clone();
+                    let placement = placement.copied(copy, (entry.stack.as_ref(), unit));
+                    panels.push((Panel { name, material, lattice, first }, placement));
+                    first += particles;
+                }
             }
         }
         panels
+    }
+
+    /// How many panels an entry stands for.
+    fn copies(&mut self, key: &str, entry: &PanelFile, particles: usize) -> usize {
+        let Some(stack) = &entry.stack else { return 1 };
+        if stack.step.iter().chain(&stack.turn).any(|x| !x.is_finite()) {
+            self.fail(&format!("{key}.stack"), "is not finite".into(), "step is in the file's unit");
+        }
+        let most = PARTICLES_MAX / particles;
+        if (1..=most).contains(&stack.count) {
+            return stack.count;
+        }
+        let message = format!("{} panels of {particles} particles", stack.count);
+        let help = format!("from 1 panel to {most}, for {PARTICLES_MAX} particles in all");
+        self.fail(&format!("{key}.stack.count"), message, &help);
+        1
     }
 
     fn lattice(

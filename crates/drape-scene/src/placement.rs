@@ -1,6 +1,6 @@
 use drape_cloth::Lattice;
 
-use crate::file::{NoiseFile, PanelFile, RippleFile};
+use crate::file::{NoiseFile, PanelFile, RippleFile, StackFile};
 
 /// Where a panel is before the simulation begins, in m.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +28,20 @@ impl Placement {
             spin: panel.spin.map(f64::to_radians),
             ripple: panel.ripple.as_ref().map(ripple),
             noise: panel.noise.as_ref().map(noise),
+        }
+    }
+
+    /// The placement of a panel's copy of some number; another seed makes it noise of its own.
+    pub(crate) fn copied(&self, copy: usize, (stack, unit): (Option<&StackFile>, f64)) -> Self {
+        let Some(stack) = stack else { return self.clone() };
+        let along = |from: [f64; 3], step: [f64; 3], unit: f64| {
+            std::array::from_fn(|axis| from[axis] + copy as f64 * step[axis] * unit)
+        };
+        Self {
+            center: along(self.center, stack.step, unit),
+            turn: along(self.turn, stack.turn, 1.0),
+            noise: self.noise.map(|(amplitude, seed)| (amplitude, seed + copy as u64)),
+            ..self.clone()
         }
     }
 
