@@ -8,9 +8,9 @@ const WELL_SHAPED: f64 = 1e-6;
 
 /// Squared sine below which a triangle is a line, and two edges are parallel.
 ///
-/// The cross product is then mostly rounding. What a line leaves out of a triangle is 1e-12 of its
+/// The cross product is then mostly rounding. What a line leaves out of a triangle is 1e-15 of its
 /// length.
-const DEGENERATE: f64 = 1e-24;
+const DEGENERATE: f64 = 1e-30;
 
 /// The closest points of two primitives, as weights of their four vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]

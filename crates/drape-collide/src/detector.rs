@@ -37,7 +37,8 @@ pub(crate) struct Close {
 pub struct Pairs {
     list: Vec<Pair>,
     positions: Vec<f64>,
-    margin: f64,
+    pub(crate) margin: f64,
+    pub(crate) free: usize,
 }
 
 impl Pairs {
@@ -125,6 +126,7 @@ impl Detector {
         pairs.positions.clear();
         pairs.positions.extend_from_slice(positions);
         pairs.margin = margin;
+        pairs.free = surface.free();
         Ok(&self.pairs)
     }
 

@@ -40,6 +40,14 @@ impl Pair {
         (self.kind, self.features)
     }
 
+    /// Vertices of the first primitive: one, or two.
+    pub(crate) fn first(&self) -> usize {
+        match self.kind {
+            Kind::VertexFace => 1,
+            Kind::EdgeEdge => 2,
+        }
+    }
+
     /// The four vertices' places, in m.
     pub(crate) fn places(&self, positions: &[f64]) -> [[f64; 3]; 4] {
         self.vertices.map(|vertex| at(positions, vertex as usize))

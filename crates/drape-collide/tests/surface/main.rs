@@ -7,4 +7,5 @@ mod support;
 
 mod broad_phase;
 mod derivatives;
+mod layers;
 mod sheets;

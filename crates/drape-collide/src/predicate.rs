@@ -1,0 +1,85 @@
+use crate::vector::Vector;
+use robust::{Coord, Coord3D, orient2d, orient3d};
+
+fn side(a: Vector, b: Vector, c: Vector, d: Vector) -> f64 {
+    let coordinate = |[x, y, z]: Vector| Coord3D { x, y, z };
+    orient3d(coordinate(a), coordinate(b), coordinate(c), coordinate(d))
+}
+
+/// Whether a segment and a triangle have a point in common, exactly.
+///
+/// Either may be degenerate to a shorter segment or a point.
+pub(crate) fn segment_meets_triangle([p, q]: [Vector; 2], [a, b, c]: [Vector; 3]) -> bool {
+    let (over_p, over_q) = (side(a, b, c, p), side(a, b, c, q));
+    if over_p == 0.0 && over_q == 0.0 {
+        return meets_in_plane([p, q], [a, b, c]);
+    }
+    if (over_p > 0.0 && over_q > 0.0) || (over_p < 0.0 && over_q < 0.0) {
+        return false;
+    }
+    // The line crosses the plane once, and passes all sides of the triangle in the same sense.
+    let turns = [side(p, q, a, b), side(p, q, b, c), side(p, q, c, a)];
+    turns.iter().all(|&turn| turn >= 0.0) || turns.iter().all(|&turn| turn <= 0.0)
+}
+
+/// The same of a segment in the plane of the triangle, or of any if that is degenerate.
+fn meets_in_plane(segment: [Vector; 2], triangle: [Vector; 3]) -> bool {
+    // Along an axis along which the triangle has an area the plane is seen one to one.
+    for axis in 0..3 {
+        let [a, b, c] = triangle.map(|corner| along(corner, axis));
+        if orient2d(a, b, c) != 0.0 {
+            return meets_flat(segment.map(|end| along(end, axis)), [a, b, c]);
+        }
+    }
+    let [a, b, c] = triangle;
+    [[a, b], [b, c], [c, a]].into_iter().any(|edge| segments_meet(segment, edge))
+}
+
+fn along(place: Vector, axis: usize) -> Coord<f64> {
+    Coord { x: place[(axis + 1) % 3], y: place[(axis + 2) % 3] }
+}
+
+/// Whether a segment meets a triangle with an area, in two dimensions.
+fn meets_flat([p, q]: [Coord<f64>; 2], [a, b, c]: [Coord<f64>; 3]) -> bool {
+    let inside = |point: Coord<f64>| {
+        let turns = [orient2d(a, b, point), orient2d(b, c, point), orient2d(c, a, point)];
+        turns.iter().all(|&turn| turn >= 0.0) || turns.iter().all(|&turn| turn <= 0.0)
+    };
+    inside(p) || [[a, b], [b, c], [c, a]].into_iter().any(|edge| meet_flat([p, q], edge))
+}
+
+/// Whether two segments meet, in two dimensions.
+fn meet_flat([p, q]: [Coord<f64>; 2], [a, b]: [Coord<f64>; 2]) -> bool {
+    let opposite =
+        |one: f64, other: f64| !((one > 0.0 && other > 0.0) || (one < 0.0 && other < 0.0));
+    let of_first = [orient2d(p, q, a), orient2d(p, q, b)];
+    let of_second = [orient2d(a, b, p), orient2d(a, b, q)];
+    let overlap = |p: f64, q: f64, a: f64, b: f64| p.min(q) <= a.max(b) && a.min(b) <= p.max(q);
+    // The boxes decide for segments on one line, and are needed by none else.
+    opposite(of_first[0], of_first[1])
+        && opposite(of_second[0], of_second[1])
+        && overlap(p.x, q.x, a.x, b.x)
+        && overlap(p.y, q.y, a.y, b.y)
+}
+
+/// Whether two segments in space meet.
+fn segments_meet([p, q]: [Vector; 2], [a, b]: [Vector; 2]) -> bool {
+    if side(p, q, a, b) != 0.0 {
+        return false;
+    }
+    // Along an axis along which three of the ends have an area their plane is seen one to one;
+    // if there is none all lie on one line, which each axis but those across it sees one to one.
+    let axes = [0, 1, 2];
+    let meet = |axis| meet_flat([along(p, axis), along(q, axis)], [along(a, axis), along(b, axis)]);
+    let spans = |&axis: &usize| {
+        let [p, q, a, b] = [p, q, a, b].map(|end| along(end, axis));
+        orient2d(p, q, a) != 0.0
+            || orient2d(p, q, b) != 0.0
+            || orient2d(a, b, p) != 0.0
+            || orient2d(a, b, q) != 0.0
+    };
+    match axes.iter().find(|axis| spans(axis)) {
+        Some(&axis) => meet(axis),
+        None => axes.into_iter().all(meet),
+    }
+}
