@@ -167,14 +167,15 @@ impl Filter {
         }
         check_places("vertex", positions)?;
         check_places("the displacement of vertex", displacements)?;
+        // A vertex on its budget has been moved there by this filter, to rounding.
         let budget = BUDGET * pairs.margin();
+        let farthest = budget * (1.0 + 1e-9) + 4.0 * last_place(positions);
         let detected = pairs.positions();
         self.moved.clear();
         self.lengths.clear();
         for vertex in 0..needed / 3 {
             let moved = norm(subtract(at(positions, vertex), at(detected, vertex))) * UPWARDS;
-            // A vertex on its budget has been moved there by this filter, to rounding.
-            if self.guards.budget && moved > budget * (1.0 + 1e-9) + 4.0 * last_place(positions) {
+            if self.guards.budget && moved > farthest {
                 return Err(CollideError::OutOfBudget { vertex, moved, budget });
             }
             self.moved.push(moved);

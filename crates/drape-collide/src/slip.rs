@@ -99,11 +99,8 @@ impl Slip {
         let slides = length > stick;
         let block = |row: usize, column: usize| {
             let same = if row == column { 1.0 } else { 0.0 };
-            let along = if slides {
-                stretch[row] * stretch[column] / (length * length)
-            } else {
-                0.0
-            };
+            let along =
+                if slides { stretch[row] * stretch[column] / (length * length) } else { 0.0 };
             pull * (same - self.normal[row] * self.normal[column] - along)
         };
         std::array::from_fn(|row| {

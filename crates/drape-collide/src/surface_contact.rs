@@ -1,7 +1,9 @@
 use rayon::prelude::*;
 
+use crate::crossing::{Crossing, crossings};
 use crate::detector::Detector;
 use crate::error::{CollideError, check};
+use crate::filter::Filter;
 use crate::gap::{Gap, Gradient, Hessian};
 use crate::pair::Pair;
 use crate::slip::{Anchor, Slip};
@@ -9,6 +11,16 @@ use crate::surface::Surface;
 
 /// Pairs that are looked at as one, whatever the number of threads.
 const CHUNK: usize = 256;
+
+/// Share of the margin that a vertex may move by before the pairs are detected anew: what [`Filter`] allows.
+const BUDGET: f64 = 0.45;
+
+/// Largest margin of a detection over the length of an edge: a longer list costs more than detecting more often.
+const MARGIN_MAX: f64 = 0.25;
+
+/// Share of a step below which it is shortened vertex by vertex and not as a whole. What is one step for all keeps
+/// going downhill, but one near pair then stops everything.
+const LOCKED: f64 = 0.2;
 
 /// How stiff the contact of surfaces is, and when it slides.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,11 +45,12 @@ impl SurfaceSettings {
 ///
 /// The free vertices are the caller's; those of the bodies lie behind them and go straight from where they are at the
 /// start of a step to where [`begin`](SurfaceContact::begin) says that they end.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct SurfaceContact {
     surface: Surface,
     settings: SurfaceSettings,
     detector: Detector,
+    filter: Filter,
     /// Where the bodies' vertices are at the start and at the end of the step, in m.
     bodies: [Vec<f64>; 2],
     progress: f64,
@@ -49,10 +62,8 @@ pub struct SurfaceContact {
     anchors: Vec<Anchor>,
     /// What kept the last detection from being made.
     failure: Option<CollideError>,
-    /// Margin of detections, in m.
-    margin: f64,
-    /// The longest margin that pays, in m: that of the edges.
-    margin_max: f64,
+    /// The smallest and the largest margin of a detection, in m.
+    margins: [f64; 2],
 }
 
 /// A pair within its reach.
@@ -99,12 +110,13 @@ impl SurfaceContact {
         for &coefficient in &settings.friction {
             check("a coefficient of friction", coefficient, "0 or more", coefficient >= 0.0)?;
         }
-        let margin = surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max);
-        let margin_max = (0.5 * surface.median_edge()).max(margin);
+        let least = surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max);
+        let most = (MARGIN_MAX * surface.median_edge()).max(least);
         Ok(SurfaceContact {
             surface,
             settings,
             detector: Detector::default(),
+            filter: Filter::default(),
             bodies: [bodies.clone(), bodies],
             progress: 1.0,
             places: Vec::new(),
@@ -112,8 +124,7 @@ impl SurfaceContact {
             slips: Vec::new(),
             anchors: Vec::new(),
             failure: None,
-            margin,
-            margin_max,
+            margins: [least, most],
         })
     }
 
@@ -132,13 +143,12 @@ impl SurfaceContact {
         self.failure.as_ref()
     }
 
-    /// Opens a step from the free vertices' positions, in m, in which they are expected to go so far, in m.
+    /// Opens a step from the free vertices' positions, in m, to the bodies' at its end.
     ///
     /// The bodies go back to where they were when the last step was closed. Friction takes its normal forces from
     /// here.
-    pub fn begin(&mut self, start: &[f64], bodies: &[f64], expected: f64) {
+    pub fn begin(&mut self, start: &[f64], bodies: &[f64]) {
         self.bodies[1].copy_from_slice(bodies);
-        self.margin = (2.0 * expected).max(self.least_margin()).min(self.margin_max);
         self.progress = 0.0;
         self.slips.clear();
         self.look(start);
@@ -154,10 +164,6 @@ impl SurfaceContact {
             }
         }
         self.slips = slips;
-    }
-
-    fn least_margin(&self) -> f64 {
-        self.surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max)
     }
 
     /// Puts the bodies to a part of their way in the open step, from 0 to 1.
@@ -234,7 +240,8 @@ impl SurfaceContact {
             return f64::NAN;
         }
         let stiffness = self.settings.stiffness;
-        let barrier: f64 = self.touching.iter().map(|touching| touching.gap.energy(stiffness)).sum();
+        let barrier: f64 =
+            self.touching.iter().map(|touching| touching.gap.energy(stiffness)).sum();
         barrier + self.friction()[0]
     }
 
@@ -250,19 +257,12 @@ impl SurfaceContact {
     /// Hands over the blocks of the second derivative of the potential by two free vertices, row by row, in N/m: for
     /// every two of a pair's once, in either order, and for each with itself.
     ///
-    /// With `definite` only parts that have no negative eigenvalue.
-    pub fn add_stiffness(
-        &mut self,
-        positions: &[f64],
-        definite: bool,
-        add: &mut dyn FnMut([usize; 2], &[f64; 9]),
-    ) {
+    /// It is the part without negative eigenvalues: with the exact one a stack of sheets took no fewer iterations.
+    pub fn add_stiffness(&mut self, positions: &[f64], add: &mut dyn FnMut([usize; 2], &[f64; 9])) {
         self.look(positions);
         let free = self.surface.free();
         let stiffness = self.settings.stiffness;
-        let of = |touching: &Touching| {
-            if definite { gauss_newton(&touching.gap, stiffness) } else { touching.gap.hessian(stiffness) }
-        };
+        let of = |touching: &Touching| gauss_newton(&touching.gap, stiffness);
         let hessians: Vec<Hessian> = self.touching.par_iter().with_min_len(CHUNK).map(of).collect();
         let mut hand_over = |vertices: &[u32; 4], hessian: &Hessian| {
             for a in 0..4 {
@@ -283,55 +283,84 @@ impl SurfaceContact {
         }
     }
 
-    /// Shortens a step
+    /// Shortens a step of the free vertices, and of the bodies that go so much of their way along, to what keeps every
+    /// pair apart; says whether it is still the whole one.
+    ///
+    /// The step is shortened for all vertices alike or, where that would leave little of it, vertex by vertex. The
+    /// bodies and the free vertices that are held go a common share of their way.
     pub fn allow(
         &mut self,
         (from, step): (&[f64], &mut [f64]),
-        _held: &[usize],
+        held: &[usize],
         (progress, advance): (f64, &mut f64),
     ) -> bool {
-        let before = self.progress;
-        self.progress = progress;
         let places = self.all(from, progress);
         let [start, end] = &self.bodies;
-        let mut moves: Vec<f64> = step.to_vec();
-        moves.extend(start.iter().zip(end).map(|(s, e)| *advance * (e - s)));
-        let longest = moves
-            .chunks_exact(3)
-            .map(|m| m.iter().map(|x| x * x).sum::<f64>())
-            .fold(0.0, f64::max)
-            .sqrt();
-        if !(self.strayed(&places) + longest <= 0.45 * self.detector.pairs().margin()) {
-            let margin = (2.5 * longest).clamp(self.least_margin(), self.margin_max);
-            if let Err(failure) = self.detector.detect(&self.surface, &places, margin) {
-                self.failure = Some(failure);
-            }
-            self.places.clear();
+        let mut moves = step.to_vec();
+        moves.extend(start.iter().zip(end).map(|(start, end)| *advance * (end - start)));
+        let shared = self.shorten(&places, &mut moves, held);
+        let Ok(share) = shared.map_err(|failure| self.failure = Some(failure)) else {
+            // Nothing is known to be safe.
+            step.fill(0.0);
+            *advance = 0.0;
+            return false;
+        };
+        if share.is_some() {
+            step.copy_from_slice(&moves[..step.len()]);
         }
-        let mut part: f64 = (0.45 * self.detector.pairs().margin() / longest).min(1.0);
-        for pair in self.detector.pairs().as_slice() {
-            let d = pair.distance_at(&places);
-            let mv = pair.vertices.map(|v| crate::vector::at(&moves, v as usize));
-            let cross: &[(usize, usize)] = match pair.kind {
-                crate::pair::Kind::VertexFace => &[(0, 1), (0, 2), (0, 3)],
-                crate::pair::Kind::EdgeEdge => &[(0, 2), (0, 3), (1, 2), (1, 3)],
-            };
-            let l = cross
-                .iter()
-                .map(|&(a, b)| crate::vector::norm(crate::vector::subtract(mv[a], mv[b])))
-                .fold(0.0, f64::max);
-            let room = 0.9 * (d - pair.separation);
-            if l > room {
-                part = part.min(room / l);
-            }
+        *advance *= share.unwrap_or(1.0);
+        share.is_none()
+    }
+
+    /// Shortens the ways of all vertices. Returns the share of theirs that bodies and held vertices go, none if all go
+    /// the whole way.
+    fn shorten(
+        &mut self,
+        places: &[f64],
+        moves: &mut [f64],
+        held: &[usize],
+    ) -> Result<Option<f64>, CollideError> {
+        let square = |way: &[f64]| way.iter().map(|x| x * x).sum::<f64>();
+        let longest = moves.chunks_exact(3).map(square).fold(0.0, f64::max).sqrt();
+        // Written so that NaN detects anew.
+        if !(self.strayed(places) + longest <= BUDGET * self.detector.pairs().margin()) {
+            let [least, most] = self.margins;
+            let margin = (1.1 / BUDGET * longest).clamp(least, most);
+            self.detector.detect(&self.surface, places, margin)?;
         }
-        self.progress = before;
-        if part >= 1.0 {
-            return true;
+        let pairs = self.detector.pairs();
+        let fraction = self.filter.scalar(pairs, places, moves)?.value;
+        if fraction >= 1.0 {
+            return Ok(None);
         }
-        step.iter_mut().for_each(|s| *s *= part);
-        *advance *= part;
-        false
+        if fraction >= LOCKED {
+            moves.iter_mut().for_each(|way| *way *= fraction);
+            return Ok(Some(fraction));
+        }
+        let whole = moves.to_vec();
+        let truncation = self.filter.truncate(pairs, places, moves)?;
+        let free = 3 * self.surface.free();
+        let went = |vertex: usize| {
+            let own = 3 * vertex..3 * vertex + 3;
+            let [after, before] = [square(&moves[own.clone()]), square(&whole[own])];
+            if before > 0.0 { (after / before).sqrt() } else { 1.0 }
+        };
+        let share = held.iter().map(|&vertex| went(vertex)).fold(truncation.bodies, f64::min);
+        // Less of a safe way is safe too.
+        let prescribed = held.iter().flat_map(|vertex| 3 * vertex..3 * vertex + 3);
+        for k in prescribed.chain(free..moves.len()) {
+            moves[k] = share * whole[k];
+        }
+        Ok(Some(share))
+    }
+
+    /// Every crossing of the surface with itself and the bodies at the free vertices' positions in the open step;
+    /// exact.
+    ///
+    /// # Errors
+    /// Positions that are none.
+    pub fn crossings(&self, positions: &[f64]) -> Result<Vec<Crossing>, CollideError> {
+        crossings(&self.surface, &self.all(positions, self.progress))
     }
 
     /// How near the surfaces are to each other at the places looked at last.
@@ -369,14 +398,20 @@ impl SurfaceContact {
         self.failure = None;
         self.touching.clear();
         // Within half of the margin to both sides no pair comes into reach that was not found.
-        if !(self.strayed(&self.places) <= 0.5 * self.detector.pairs().margin()) {
-            if let Err(failure) = self.detector.detect(&self.surface, &self.places, self.margin) {
+        let mut strayed = self.strayed(&self.places);
+        if !(strayed <= 0.5 * self.detector.pairs().margin()) {
+            if let Err(failure) = self.detector.detect(&self.surface, &self.places, self.margins[0])
+            {
                 self.failure = Some(failure);
                 return;
             }
+            strayed = 0.0;
         }
         let places = &self.places;
         let near = |pair: &Pair| {
+            if pair.distance - 2.0 * strayed >= pair.reach {
+                return None;
+            }
             let gap = Gap::new(pair, places);
             // Written so that NaN counts as near.
             (!(gap.distance() >= pair.reach)).then_some(Touching { pair: *pair, gap })

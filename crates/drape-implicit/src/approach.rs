@@ -3,26 +3,65 @@
 
 use crate::incremental::{Halt, Incremental};
 use crate::solver::Solver;
+use crate::vector::dot;
 use crate::{Stop, block};
 
 /// Least part of the prescribed motions that one iteration must do. Less, and the iterations that are left would not
 /// do: a shorter step helps sooner.
 const ADVANCE_MIN: f64 = 1e-3;
 
+/// Most ways from the start to the first guess, and the least share of the rest that one of them must go: a guess need
+/// not be reached.
+const APPROACHES: usize = 12;
+const APPROACH_MIN: f64 = 0.05;
+
+/// A particle that goes less than this of what the freest one goes is near something. It stays there: pushed on, it
+/// would go into the last tenth of a gap again and again, from where no iteration brings it back soon.
+const STOPPED: f64 = 0.5;
+
 impl Solver {
     /// Goes from the start, which lies in `trial`, as far as the system allows towards the first guess, which lies in
-    /// `current`. Both are left evaluated or, if the forces at the guess are not finite, the start in `trial` to be.
+    /// `current`. Leaves where it ends in `current`, evaluated, and a place before that in `trial`.
     pub(crate) fn approach(&mut self, problem: &mut Incremental<'_>) {
         core::mem::swap(&mut self.current, &mut self.trial);
-        let Self { current, trial, direction, .. } = self;
+        let Self { current, trial, image, .. } = self;
         current.progress = 0.0;
         problem.locate(current);
-        let ways = direction.iter_mut().zip(&trial.deviation).zip(&current.deviation);
+        // Nothing else needs the image yet: it keeps what is left of the way.
+        let ways = image.iter_mut().zip(&trial.deviation).zip(&current.deviation);
         for ((way, guess), start) in ways {
             *way = guess - start;
         }
-        self.go(problem, 1.0);
-        core::mem::swap(&mut self.current, &mut self.trial);
+        for _ in 0..APPROACHES {
+            self.direction.copy_from_slice(&self.image);
+            let left = 1.0 - self.current.progress;
+            let whole = self.go(problem, left);
+            core::mem::swap(&mut self.current, &mut self.trial);
+            if whole || self.leave(problem.held) < APPROACH_MIN {
+                break;
+            }
+        }
+        problem.evaluate(&mut self.current);
+    }
+
+    /// Takes the way gone along `direction` from what is left of it in `image`, all of it where a particle was stopped.
+    /// Returns the share that the freest particle went.
+    fn leave(&mut self, held: &[bool]) -> f64 {
+        let share = |went: &[f64; 3], left: &[f64; 3]| {
+            let square = dot(left, left);
+            if square > 0.0 { dot(went, left) / square } else { 0.0 }
+        };
+        let ways = block::triples(&self.direction).iter().zip(block::triples(&self.image));
+        let freest = ways.map(|(went, left)| share(went, left)).fold(0.0, f64::max);
+        let ways = block::triples(&self.direction).iter();
+        let ways = ways.zip(block::triples_mut(&mut self.image)).zip(held);
+        for ((went, left), &held) in ways {
+            let stopped = !held && share(went, left) < STOPPED * freest;
+            for (left, went) in left.iter_mut().zip(went) {
+                *left = if stopped { 0.0 } else { *left - went };
+            }
+        }
+        freest
     }
 
     /// Moves held particles and bodies on towards their places, as far as the system allows.
@@ -34,6 +73,7 @@ impl Solver {
         }
         let done = self.current.progress;
         self.go(problem, 1.0 - done);
+        problem.evaluate(&mut self.trial);
         if !self.trial.norm.is_finite() || self.trial.progress < done + ADVANCE_MIN {
             return Err(Halt::Stop(Stop::Blocked));
         }
@@ -41,14 +81,15 @@ impl Solver {
         Ok(())
     }
 
-    /// Evaluates the end of what the system allows of the way along the direction.
-    fn go(&mut self, problem: &mut Incremental<'_>, advance: f64) {
+    /// Moves the trial to the end of what the system allows of the way along the direction; whether that is all of it.
+    fn go(&mut self, problem: &mut Incremental<'_>, advance: f64) -> bool {
         let mut allowed = advance;
-        problem.allow(&self.current, &mut self.direction, &mut allowed);
+        let whole = problem.allow(&self.current, &mut self.direction, &mut allowed);
         let done = self.current.progress;
         self.move_trial(1.0);
         // A part that was not cut ends exactly where it should.
-        self.trial.progress = if allowed < advance { done + allowed } else { done + advance };
-        problem.evaluate(&mut self.trial);
+        self.trial.progress = if whole { done + advance } else { done + allowed };
+        problem.locate(&mut self.trial);
+        whole
     }
 }

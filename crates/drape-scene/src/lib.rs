@@ -37,6 +37,6 @@ pub use scene::Scene;
 pub use scheme::Scheme;
 pub use settle::Settle;
 pub use simulation::{Progress, Simulation, Step};
-pub use surfaces::Surfaces;
 pub use summary::{Contacts, Energy, Solver, Status, Strain, Summary};
+pub use surfaces::Surfaces;
 pub use track::Track;

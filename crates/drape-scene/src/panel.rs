@@ -89,7 +89,11 @@ impl Reader<'_> {
     fn copies(&mut self, key: &str, entry: &PanelFile, particles: usize) -> usize {
         let Some(stack) = &entry.stack else { return 1 };
         if stack.step.iter().chain(&stack.turn).any(|x| !x.is_finite()) {
-            self.fail(&format!("{key}.stack"), "is not finite".into(), "step is in the file's unit");
+            self.fail(
+                &format!("{key}.stack"),
+                "is not finite".into(),
+                "step is in the file's unit",
+            );
         }
         let most = PARTICLES_MAX / particles;
         if (1..=most).contains(&stack.count) {

@@ -57,7 +57,9 @@ impl Surfaces {
         };
         let mut frictions = Vec::new();
         for (index, panel) in panels.iter().enumerate() {
-            surface.group.extend(std::iter::repeat_n(index as u32, panel.lattice.coordinates.len()));
+            surface
+                .group
+                .extend(std::iter::repeat_n(index as u32, panel.lattice.coordinates.len()));
             let half = 0.5 * thickness(panel);
             surface.skins.push(Skin { reach: half, separation: CRUSHED * half });
             frictions.push(Err(materials[panel.material].fabric.surface_friction));
@@ -100,8 +102,8 @@ impl Surfaces {
         Ok(Self { contact, start, moving, crossings: 0, held })
     }
 
-    /// Opens a step that ends at a time, in s, in which the fastest particle is expected to go so far, in m.
-    pub(crate) fn begin(&mut self, end_time: f64, positions: &[f64], expected: f64) {
+    /// Opens a step that ends at a time, in s.
+    pub(crate) fn begin(&mut self, end_time: f64, positions: &[f64]) {
         let mut ends = self.start.clone();
         for (own, track) in &self.moving {
             let place = track.points(end_time);
@@ -111,13 +113,7 @@ impl Surfaces {
                 ends[own].copy_from_slice(&place(start));
             }
         }
-        let way = |(from, to): (&[f64], &[f64])| -> f64 {
-            from.iter().zip(to).map(|(from, to)| (to - from) * (to - from)).sum()
-        };
-        let before = self.contact.bodies().chunks_exact(3);
-        let ways = before.zip(ends.chunks_exact(3)).map(way);
-        let farthest = ways.fold(0.0, f64::max).sqrt();
-        self.contact.begin(positions, &ends, expected.max(farthest));
+        self.contact.begin(positions, &ends);
     }
 
     /// Shortens a way to what keeps all surfaces apart; see [`drape_implicit::System::allow`].
@@ -127,7 +123,12 @@ impl Surfaces {
 
     /// Whether no surface crosses another at these positions.
     pub(crate) fn certify(&mut self, positions: &[f64]) -> bool {
-        let _ = positions;
-        true
+        match self.contact.crossings(positions) {
+            Ok(crossings) => {
+                self.crossings += crossings.len();
+                crossings.is_empty()
+            }
+            Err(_) => false,
+        }
     }
 }

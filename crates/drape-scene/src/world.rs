@@ -232,9 +232,7 @@ impl System for World {
         let grown = if end_time < self.ramp { end_time / self.ramp } else { 1.0 };
         self.gravity = self.full_gravity.map(|g| grown * g);
         if let Some(surfaces) = &mut self.surfaces {
-            let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
-            let squares = self.state.velocities.chunks_exact(3).map(square);
-            surfaces.begin(end_time, start, dt * squares.fold(0.0, f64::max).sqrt());
+            surfaces.begin(end_time, start);
             if let Some(ledger) = &mut self.ledger {
                 (ledger.slip, ledger.push) = (0.0, 0.0);
                 ledger.barrier = surfaces.contact.potential(start);
@@ -309,7 +307,7 @@ impl System for World {
         });
         match &mut self.surfaces {
             Some(surfaces) => {
-                surfaces.contact.add_stiffness(positions, definite, &mut |[i, j], block| {
+                surfaces.contact.add_stiffness(positions, &mut |[i, j], block| {
                     matrix.couple(i, j, block);
                 });
             }

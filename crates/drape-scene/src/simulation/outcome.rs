@@ -42,7 +42,9 @@ impl Simulation {
         let World { contact, surfaces, state, .. } = &self.world;
         let (min_distance, intersections, crossings_found) = match surfaces {
             Some(surfaces) => {
-                (self.distance_min, 0, surfaces.crossings)
+                let found = surfaces.contact.crossings(&state.positions);
+                let crossings = found.map_or(usize::MAX, |found| found.len());
+                (self.distance_min, crossings, surfaces.crossings)
             }
             None => {
                 let survey = contact.survey(&state.positions);
