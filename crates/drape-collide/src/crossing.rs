@@ -1,12 +1,14 @@
+use crate::detector::array;
 use crate::error::CollideError;
+use crate::order::Run;
 use crate::predicate::segment_meets_triangle;
 use crate::surface::Surface;
-use crate::tree::{Bounds, Tree};
+use crate::tree::{Bounds, Probe, Tree};
 use crate::vector::at;
 use rayon::prelude::*;
 
-/// Edges that one thread looks after at a time.
-const CHUNK: usize = 256;
+/// Runs of edges that one thread looks after at a time.
+const CHUNK: usize = 64;
 
 /// An edge and a triangle that meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -36,27 +38,31 @@ pub fn crossings(surface: &Surface, positions: &[f64]) -> Result<Vec<Crossing>, 
     tree.fit(order, |triangle| {
         Bounds::around(surface.triangles()[triangle as usize].map(place), 0.0)
     });
-    let chunk_crossings = |(chunk, edges): (usize, &[[u32; 2]])| {
+    let runs = |runs: &[Run]| {
         let mut found = Vec::new();
-        for (k, &ends) in edges.iter().enumerate() {
-            let edge = (chunk * CHUNK + k) as u32;
-            let segment = ends.map(place);
+        for run in runs {
+            let ends = |k: usize| surface.edges()[run.first as usize + k];
+            let segment = |k: usize| ends(k).map(place);
+            let probe = Probe {
+                bounds: array(run.count, Bounds::EMPTY, |k| Bounds::around(segment(k), 0.0)),
+                only_free: !surface.is_free(&ends(0)),
+                after: None,
+            };
+            let classes = array(run.count, [0; 2], |k| ends(k).map(|end| surface.class(end)));
             let first = found.len();
-            let only_free = !surface.is_free(&ends);
-            tree.visit(order, (&Bounds::around(segment, 0.0), only_free), |triangle| {
-                let corners = surface.triangles()[triangle as usize];
-                let shared = |&end: &u32| {
-                    corners.iter().any(|&corner| surface.class(corner) == surface.class(end))
-                };
-                if !ends.iter().any(shared) && segment_meets_triangle(segment, corners.map(place)) {
-                    found.push(Crossing { edge, triangle });
+            tree.visit(order, &probe, |k, slot| {
+                let triangle = order.items[slot];
+                let corners = surface.triangles()[triangle as usize].map(place);
+                let shared = |class| surface.triangle_classes[slot].contains(class);
+                if !classes[k].iter().any(shared) && segment_meets_triangle(segment(k), corners) {
+                    found.push(Crossing { edge: run.first + k as u32, triangle });
                 }
             });
             found[first..].sort_unstable();
         }
         found
     };
-    let chunks = surface.edges().par_chunks(CHUNK).enumerate().map(chunk_crossings);
+    let chunks = surface.edge_runs.par_chunks(CHUNK).map(runs);
     let chunks: Vec<Vec<Crossing>> = chunks.collect();
     Ok(chunks.concat())
 }

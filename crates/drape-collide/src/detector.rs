@@ -1,7 +1,8 @@
 use crate::error::CollideError;
+use crate::order::Run;
 use crate::pair::{Kind, Pair, closest, distance};
 use crate::surface::Surface;
-use crate::tree::{Bounds, Tree};
+use crate::tree::{Bounds, Probe, Tree, WIDTH};
 use crate::vector::at;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -11,10 +12,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// A hundred for each of half a million vertices, and 4 GB: more is a mistake of the input.
 const CAPACITY: usize = 50_000_000;
 
-/// Primitives that one thread looks after at a time.
+/// Runs of primitives that one thread looks after at a time.
 ///
 /// A constant, so that no result depends on the number of threads.
-const CHUNK: usize = 256;
+const CHUNK: usize = 64;
 
 /// Smallest reach of a pair that lies close at rest, in m: a thousand times the rounding of
 /// coordinates of 1 m, and far below any cloth.
@@ -139,22 +140,21 @@ impl Detector {
         });
         edges.fit(&surface.edge_order, |edge| query.bounds(surface.edges()[edge as usize]));
 
-        let vertex_chunks = surface.vertices().div_ceil(CHUNK);
-        let edge_chunks = surface.edges().len().div_ceil(CHUNK);
+        let vertex_chunks = surface.vertex_runs.len().div_ceil(CHUNK);
+        let edge_chunks = surface.edge_runs.len().div_ceil(CHUNK);
         chunks.resize_with(vertex_chunks + edge_chunks, Chunk::default);
         let (found, capacity) = (AtomicUsize::new(0), self.capacity);
         let scan = |(k, chunk): (usize, &mut Chunk)| {
             chunk.pairs.clear();
-            let (kind, first, end) = if k < vertex_chunks {
-                (Kind::VertexFace, k * CHUNK, surface.vertices())
-            } else {
-                (Kind::EdgeEdge, (k - vertex_chunks) * CHUNK, surface.edges().len())
+            let (kind, runs) = match k.checked_sub(vertex_chunks) {
+                None => (Kind::VertexFace, surface.vertex_runs.chunks(CHUNK).nth(k)),
+                Some(k) => (Kind::EdgeEdge, surface.edge_runs.chunks(CHUNK).nth(k)),
             };
-            for feature in first..end.min(first + CHUNK) {
+            for &run in runs.unwrap_or_default() {
                 let before = chunk.pairs.len();
                 match kind {
-                    Kind::VertexFace => chunk.scan_vertex(query, triangles, feature as u32),
-                    Kind::EdgeEdge => chunk.scan_edge(query, edges, feature as u32),
+                    Kind::VertexFace => chunk.scan_vertices(query, triangles, run),
+                    Kind::EdgeEdge => chunk.scan_edges(query, edges, run),
                 }
                 let more = chunk.pairs.len() - before;
                 if found.fetch_add(more, Ordering::Relaxed) + more > capacity {
@@ -265,58 +265,73 @@ impl Query<'_> {
     }
 }
 
-/// A run of vertices or of edges with the pairs of which they come first.
+/// Some runs of vertices or of edges with the pairs in which they come first.
 #[derive(Debug, Clone, Default)]
 struct Chunk {
-    /// Those that may be near the primitive at hand.
-    near: Vec<u32>,
+    /// The primitives that may be near each of the run at hand.
+    near: [Vec<u32>; WIDTH],
     /// Sorted by features.
     pairs: Vec<Pair>,
 }
 
 impl Chunk {
-    fn scan_vertex(&mut self, query: &Query<'_>, tree: &Tree, vertex: u32) {
+    fn scan_vertices(&mut self, query: &Query<'_>, tree: &Tree, run: Run) {
         let surface = query.surface;
-        let bounds = query.bounds([vertex]);
-        let class = surface.class(vertex);
-        self.near.clear();
-        let only_free = !surface.is_free(&[vertex]);
-        tree.visit(&surface.triangle_order, (&bounds, only_free), |triangle| {
-            let corners = surface.triangles()[triangle as usize];
-            if corners.iter().all(|&corner| surface.class(corner) != class) {
-                self.near.push(triangle);
+        let vertex = |k: usize| run.first + k as u32;
+        let probe = Probe {
+            bounds: array(run.count, Bounds::EMPTY, |k| query.bounds([vertex(k)])),
+            only_free: !surface.is_free(&[run.first]),
+            after: None,
+        };
+        let class = array(run.count, 0, |k| surface.class(vertex(k)));
+        self.near.iter_mut().for_each(Vec::clear);
+        let order = &surface.triangle_order;
+        tree.visit(order, &probe, |k, slot| {
+            if !surface.triangle_classes[slot].contains(&class[k]) {
+                self.near[k].push(order.items[slot]);
             }
         });
-        self.near.sort_unstable();
-        for &triangle in &self.near {
-            let [a, b, c] = surface.triangles()[triangle as usize];
-            let found = query.pair(Kind::VertexFace, [vertex, triangle], [vertex, a, b, c]);
-            self.pairs.extend(found);
+        for (k, near) in self.near[..run.count].iter_mut().enumerate() {
+            near.sort_unstable();
+            let pairs = near.iter().filter_map(|&triangle| {
+                let [a, b, c] = surface.triangles()[triangle as usize];
+                query.pair(Kind::VertexFace, [vertex(k), triangle], [vertex(k), a, b, c])
+            });
+            self.pairs.extend(pairs);
         }
     }
 
-    fn scan_edge(&mut self, query: &Query<'_>, tree: &Tree, edge: u32) {
+    fn scan_edges(&mut self, query: &Query<'_>, tree: &Tree, run: Run) {
         let surface = query.surface;
-        let ends = surface.edges()[edge as usize];
-        let bounds = query.bounds(ends);
-        let classes = ends.map(|end| surface.class(end));
-        self.near.clear();
-        let only_free = !surface.is_free(&ends);
-        tree.visit(&surface.edge_order, (&bounds, only_free), |other| {
-            if other <= edge {
-                return;
-            }
-            let others = surface.edges()[other as usize];
-            let apart = |&end: &u32| !classes.contains(&surface.class(end));
-            if others.iter().all(apart) {
-                self.near.push(other);
+        let edge = |k: usize| run.first + k as u32;
+        let ends = |k: usize| surface.edges()[run.first as usize + k];
+        let probe = Probe {
+            bounds: array(run.count, Bounds::EMPTY, |k| query.bounds(ends(k))),
+            only_free: !surface.is_free(&ends(0)),
+            after: Some(run.first),
+        };
+        let classes = array(run.count, [0; 2], |k| ends(k).map(|end| surface.class(end)));
+        self.near.iter_mut().for_each(Vec::clear);
+        let order = &surface.edge_order;
+        tree.visit(order, &probe, |k, slot| {
+            let (other, [c, d]) = (order.items[slot], surface.edge_classes[slot]);
+            if other > edge(k) && !classes[k].contains(&c) && !classes[k].contains(&d) {
+                self.near[k].push(other);
             }
         });
-        self.near.sort_unstable();
-        for &other in &self.near {
-            let [c, d] = surface.edges()[other as usize];
-            let found = query.pair(Kind::EdgeEdge, [edge, other], [ends[0], ends[1], c, d]);
-            self.pairs.extend(found);
+        for (k, near) in self.near[..run.count].iter_mut().enumerate() {
+            near.sort_unstable();
+            let [a, b] = ends(k);
+            let pairs = near.iter().filter_map(|&other| {
+                let [c, d] = surface.edges()[other as usize];
+                query.pair(Kind::EdgeEdge, [edge(k), other], [a, b, c, d])
+            });
+            self.pairs.extend(pairs);
         }
     }
+}
+
+/// The first few from a function, and the rest alike.
+pub(crate) fn array<T: Copy>(count: usize, rest: T, item: impl Fn(usize) -> T) -> [T; WIDTH] {
+    std::array::from_fn(|k| if k < count { item(k) } else { rest })
 }

@@ -167,23 +167,24 @@ impl Filter {
         }
         check_places("vertex", positions)?;
         check_places("the displacement of vertex", displacements)?;
-        // A vertex on its budget has been moved there by this filter, to rounding.
         let budget = BUDGET * pairs.margin();
-        let farthest = budget * (1.0 + 1e-9) + 4.0 * last_place(positions);
         let detected = pairs.positions();
+        let last_places = [last_place(positions), last_place(displacements)];
+        // A vertex on its budget has been moved there by this filter, to rounding.
+        let most = budget * (1.0 + 1e-9) + 4.0 * last_places[0];
         self.moved.clear();
         self.lengths.clear();
         for vertex in 0..needed / 3 {
             let moved = norm(subtract(at(positions, vertex), at(detected, vertex))) * UPWARDS;
-            if self.guards.budget && moved > farthest {
+            if self.guards.budget && moved > most {
                 return Err(CollideError::OutOfBudget { vertex, moved, budget });
             }
             self.moved.push(moved);
             self.lengths.push(norm(at(displacements, vertex)) * UPWARDS);
         }
-        let largest = last_place(positions).max(last_place(displacements));
         // The coordinates of the end are at most twice the larger of both.
-        let smallest = SMALLEST.max(2.0 * PLACES * largest);
+        let largest = 2.0 * last_places[0].max(last_places[1]);
+        let smallest = SMALLEST.max(PLACES * largest);
         Ok(Step { positions, displacements, smallest })
     }
 

@@ -1,5 +1,5 @@
 use crate::tree::WIDTH;
-use crate::vector::Vector;
+use crate::vector::{Vector, subtract};
 
 /// The order of primitives in space, from which their tree of boxes is built.
 ///
@@ -12,15 +12,24 @@ pub(crate) struct Order {
     /// For each level of the tree and each of its quads, which of the four boxes hold a free
     /// primitive, as bits.
     pub(crate) free: Vec<Vec<u8>>,
+    /// Likewise the largest number of a primitive in each of the four boxes.
+    pub(crate) last: Vec<Vec<[u32; WIDTH]>>,
+}
+
+/// Where a primitive is at rest.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Entry {
+    pub(crate) group: u32,
+    /// Middle of its vertices, in m.
+    pub(crate) place: Vector,
+    pub(crate) free: bool,
 }
 
 impl Order {
-    /// The order of primitives of given group, place at rest, and freedom.
-    pub(crate) fn new(entries: impl Iterator<Item = (u32, Vector, bool)>) -> Order {
-        let entries: Vec<_> = entries.collect();
+    pub(crate) fn new(entries: &[Entry]) -> Order {
         let mut keys: Vec<(u32, u64, u32)> = Vec::with_capacity(entries.len());
         let mut bounds: Vec<(Vector, Vector)> = Vec::new();
-        for &(group, place, _) in &entries {
+        for &Entry { group, place, .. } in entries {
             let group = group as usize;
             if bounds.len() <= group {
                 bounds.resize(group + 1, ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]));
@@ -31,23 +40,60 @@ impl Order {
                 high[k] = high[k].max(place[k]);
             }
         }
-        for (k, &(group, place, _)) in entries.iter().enumerate() {
+        for (k, &Entry { group, place, .. }) in entries.iter().enumerate() {
             keys.push((group, morton(place, bounds[group as usize]), k as u32));
         }
         keys.sort_unstable();
         let items: Vec<u32> = keys.iter().map(|key| key.2).collect();
-        let mut level: Vec<bool> = items.iter().map(|&item| entries[item as usize].2).collect();
-        let mut free = Vec::new();
+        let mut level: Vec<bool> = items.iter().map(|&item| entries[item as usize].free).collect();
+        let mut lasts = items.clone();
+        let (mut free, mut last) = (Vec::new(), Vec::new());
         loop {
             let bits = |four: &[bool]| four.iter().rev().fold(0, |all, &b| 2 * all + u8::from(b));
             let quads: Vec<u8> = level.chunks(WIDTH).map(bits).collect();
             level = quads.iter().map(|&bits| bits != 0).collect();
             free.push(quads);
+            let four = |four: &[u32]| std::array::from_fn(|k| four.get(k).copied().unwrap_or(0));
+            let quads: Vec<[u32; WIDTH]> = lasts.chunks(WIDTH).map(four).collect();
+            lasts = lasts.chunks(WIDTH).filter_map(|four| four.iter().copied().max()).collect();
+            last.push(quads);
             if level.len() <= 1 {
                 break;
             }
         }
-        Order { items, free }
+        Order { items, free, last }
+    }
+}
+
+/// Primitives with consecutive numbers that lie together at rest, and so may be looked for at once.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Run {
+    pub(crate) first: u32,
+    /// From 1 to [`WIDTH`].
+    pub(crate) count: usize,
+}
+
+impl Run {
+    /// Divides primitives into runs within a size for each group, in m.
+    pub(crate) fn divide(entries: &[Entry], sizes: &[f64]) -> Vec<Run> {
+        let mut runs: Vec<Run> = Vec::new();
+        for (k, entry) in entries.iter().enumerate() {
+            let joins = |run: &&mut Run| {
+                let near = |other: &Entry| {
+                    let way = subtract(entry.place, other.place);
+                    let size = sizes[entry.group as usize];
+                    entry.group == other.group
+                        && entry.free == other.free
+                        && way.iter().all(|length| length.abs() <= size)
+                };
+                run.count < WIDTH && entries[run.first as usize..k].iter().all(near)
+            };
+            match runs.last_mut().filter(joins) {
+                Some(run) => run.count += 1,
+                None => runs.push(Run { first: k as u32, count: 1 }),
+            }
+        }
+        runs
     }
 }
 

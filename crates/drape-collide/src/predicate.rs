@@ -1,4 +1,5 @@
-use crate::vector::Vector;
+use crate::plane::height;
+use crate::vector::{Vector, cross, subtract};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 fn side(a: Vector, b: Vector, c: Vector, d: Vector) -> f64 {
@@ -10,6 +11,9 @@ fn side(a: Vector, b: Vector, c: Vector, d: Vector) -> f64 {
 ///
 /// Either may be degenerate to a shorter segment or a point.
 pub(crate) fn segment_meets_triangle([p, q]: [Vector; 2], [a, b, c]: [Vector; 3]) -> bool {
+    if surely_apart([p, q], [a, b, c]) {
+        return false;
+    }
     let (over_p, over_q) = (side(a, b, c, p), side(a, b, c, q));
     if over_p == 0.0 && over_q == 0.0 {
         return meets_in_plane([p, q], [a, b, c]);
@@ -20,6 +24,28 @@ pub(crate) fn segment_meets_triangle([p, q]: [Vector; 2], [a, b, c]: [Vector; 3]
     // The line crosses the plane once, and passes all sides of the triangle in the same sense.
     let turns = [side(p, q, a, b), side(p, q, b, c), side(p, q, c, a)];
     turns.iter().all(|&turn| turn >= 0.0) || turns.iter().all(|&turn| turn <= 0.0)
+}
+
+/// Whether a plane that is easily found has the two on different sides, with all rounding.
+///
+/// The exact tests take long on points in one plane, such as neighbours in a flat sheet.
+fn surely_apart(segment: [Vector; 2], triangle: [Vector; 3]) -> bool {
+    let [a, b, c] = triangle;
+    let sides = [subtract(b, a), subtract(c, b), subtract(a, c)];
+    let normal = cross(sides[0], sides[1]);
+    let parts = |direction: Vector| {
+        let range = |points: &[Vector]| {
+            points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &point| {
+                let (value, error) = height(direction, point, a);
+                (low.min(value - error), high.max(value + error))
+            })
+        };
+        let (of_segment, of_triangle) = (range(&segment), range(&triangle));
+        of_segment.0 > of_triangle.1 || of_segment.1 < of_triangle.0
+    };
+    let along = subtract(segment[1], segment[0]);
+    let lines = [sides[0], sides[1], sides[2], along];
+    parts(normal) || lines.into_iter().any(|line| parts(cross(normal, line)))
 }
 
 /// The same of a segment in the plane of the triangle, or of any if that is degenerate.

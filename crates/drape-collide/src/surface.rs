@@ -1,6 +1,6 @@
 use crate::detector::{Close, close_at_rest};
 use crate::error::{CollideError, check, check_places};
-use crate::order::Order;
+use crate::order::{Entry, Order, Run};
 use crate::topology::{self, Topology};
 use crate::vector::{at, dot, subtract};
 
@@ -58,6 +58,11 @@ pub struct Surface {
     class: Vec<u32>,
     pub(crate) edge_order: Order,
     pub(crate) triangle_order: Order,
+    /// The classes of the vertices of the edge or the triangle in each slot of its order.
+    pub(crate) edge_classes: Vec<[u32; 2]>,
+    pub(crate) triangle_classes: Vec<[u32; 3]>,
+    pub(crate) vertex_runs: Vec<Run>,
+    pub(crate) edge_runs: Vec<Run>,
     pub(crate) close: Vec<Close>,
 }
 
@@ -88,16 +93,29 @@ impl Surface {
             let edge = subtract(at(&rest, b as usize), at(&rest, a as usize));
             dot(edge, edge)
         };
-        let places = |vertices: &[u32]| topology::middle(&rest, vertices);
-        let first_group = |vertices: &[u32]| group[vertices[0] as usize];
-        let is_free = |vertices: &[u32]| vertices.iter().any(|&v| (v as usize) < free);
-        let entry = |vertices: &[u32]| (first_group(vertices), places(vertices), is_free(vertices));
+        let entry = |vertices: &[u32]| Entry {
+            group: group[vertices[0] as usize],
+            place: topology::middle(&rest, vertices),
+            free: (vertices[0] as usize) < free,
+        };
+        let vertices: Vec<Entry> = (0..areas.len() as u32).map(|v| entry(&[v])).collect();
+        let edges: Vec<Entry> = topology.edges.iter().map(|edge| entry(edge)).collect();
+        let faces: Vec<Entry> = triangles.iter().map(|triangle| entry(triangle)).collect();
+        let lengths: Vec<f64> = topology.edges.iter().map(length_squared).collect();
+        let sizes = run_sizes(&edges, &lengths, skins.len());
+        let class = topology::classes(areas.len(), &twins);
+        let edge_order = Order::new(&edges);
+        let triangle_order = Order::new(&faces);
         let mut surface = Surface {
-            edge_order: Order::new(topology.edges.iter().map(|e| entry(e))),
-            triangle_order: Order::new(triangles.iter().map(|t| entry(t))),
-            edge_lengths_squared: topology.edges.iter().map(length_squared).collect(),
+            edge_classes: classes_of(&edge_order, &topology.edges, &class),
+            triangle_classes: classes_of(&triangle_order, &triangles, &class),
+            edge_order,
+            triangle_order,
+            vertex_runs: Run::divide(&vertices, &sizes),
+            edge_runs: Run::divide(&edges, &sizes),
+            edge_lengths_squared: lengths,
             edge_areas: topology.areas_of_edges(&triangle_areas),
-            class: topology::classes(areas.len(), &twins),
+            class,
             edges: topology.edges,
             vertex_areas,
             triangle_areas,
@@ -197,6 +215,26 @@ impl Surface {
         let free = |edge: usize| self.is_free(&self.edges[edge]);
         if free(a) && free(b) { 0.5 * smaller } else { 0.25 * smaller }
     }
+}
+
+/// Edges of a mean length that a run may span: four neighbours in a row do.
+const RUN: f64 = 4.0;
+
+/// How large runs of each group may be, in m.
+fn run_sizes(edges: &[Entry], lengths_squared: &[f64], groups: usize) -> Vec<f64> {
+    let mut sums = vec![(0.0, 0.0); groups];
+    for (edge, square) in edges.iter().zip(lengths_squared) {
+        let (count, sum) = &mut sums[edge.group as usize];
+        *count += 1.0;
+        *sum += square.sqrt();
+    }
+    sums.iter().map(|(count, sum)| if *count > 0.0 { RUN * sum / count } else { 0.0 }).collect()
+}
+
+/// The classes of the vertices of the primitive in each slot.
+fn classes_of<const N: usize>(order: &Order, items: &[[u32; N]], class: &[u32]) -> Vec<[u32; N]> {
+    let classes = |&item: &u32| items[item as usize].map(|vertex| class[vertex as usize]);
+    order.items.iter().map(classes).collect()
 }
 
 fn check_parts(parts: &SurfaceParts) -> Result<(), CollideError> {

@@ -19,6 +19,21 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
+    /// Overlaps nothing.
+    pub(crate) const EMPTY: Bounds =
+        Bounds { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+
+    fn union(list: &[Bounds]) -> Bounds {
+        let mut all = Bounds::EMPTY;
+        for bounds in list {
+            for k in 0..3 {
+                all.low[k] = all.low[k].min(bounds.low[k]);
+                all.high[k] = all.high[k].max(bounds.high[k]);
+            }
+        }
+        all
+    }
+
     /// The box of some points with so much around.
     pub(crate) fn around<const N: usize>(points: [[f64; 3]; N], margin: f64) -> Bounds {
         let mut bounds = Bounds { low: [0.0; 3], high: [0.0; 3] };
@@ -63,15 +78,31 @@ impl Quad {
 
     /// Which of the four overlap a box, as bits.
     fn overlaps(&self, bounds: &Bounds) -> u8 {
-        let mut hits = [true; WIDTH];
+        // The largest way between the two along any axis, in lanes that vectorise; a difference is
+        // never rounded to the other sign.
+        let mut apart = [f32::NEG_INFINITY; WIDTH];
         for k in 0..3 {
-            for (lane, hit) in hits.iter_mut().enumerate() {
-                *hit &=
-                    (self.low[k][lane] <= bounds.high[k]) & (self.high[k][lane] >= bounds.low[k]);
+            for (lane, apart) in apart.iter_mut().enumerate() {
+                let below = self.low[k][lane] - bounds.high[k];
+                let above = bounds.low[k] - self.high[k][lane];
+                // Not `max`, which takes care of NaN.
+                let more = if below > above { below } else { above };
+                *apart = if more > *apart { more } else { *apart };
             }
         }
-        hits.iter().rev().fold(0, |bits, &hit| 2 * bits + u8::from(hit))
+        apart.iter().rev().fold(0, |bits, &apart| 2 * bits + u8::from(apart <= 0.0))
     }
+}
+
+/// What is looked for in a tree: up to four primitives at once.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Probe {
+    /// The box of each, and of the places that are not used one that overlaps nothing.
+    pub(crate) bounds: [Bounds; WIDTH],
+    /// Whether nothing is looked for but free primitives.
+    pub(crate) only_free: bool,
+    /// Primitives up to this number are not looked for.
+    pub(crate) after: Option<u32>,
 }
 
 /// A tree of boxes over primitives in a fixed order.
@@ -110,9 +141,12 @@ impl Tree {
         }
     }
 
-    /// Visits the primitives whose box overlaps a box; if asked so, only where some are free.
-    pub(crate) fn visit(&self, order: &Order, query: (&Bounds, bool), mut visit: impl FnMut(u32)) {
-        let (bounds, only_free) = query;
+    /// Visits the slots of primitives whose box overlaps one of the probe's, with the number of
+    /// that in the probe.
+    ///
+    /// Primitives that the probe does not look for may be among them.
+    pub(crate) fn visit(&self, order: &Order, probe: &Probe, mut visit: impl FnMut(usize, usize)) {
+        let all = Bounds::union(&probe.bounds);
         let mut stack = [(0u32, 0u8); DEPTH];
         let Some(top) = self.levels.len().checked_sub(1) else { return };
         if order.items.is_empty() {
@@ -124,18 +158,30 @@ impl Tree {
             waiting -= 1;
             let (index, level) = stack[waiting];
             let (index, level) = (index as usize, level as usize);
-            let mut hits = self.levels[level][index].overlaps(bounds);
-            if only_free {
-                hits &= order.free[level][index];
+            let quad = &self.levels[level][index];
+            let mut asked = 0xff;
+            if probe.only_free {
+                asked &= order.free[level][index];
             }
-            while hits != 0 {
-                let child = WIDTH * index + hits.trailing_zeros() as usize;
-                hits &= hits - 1;
-                if level == 0 {
-                    visit(order.items[child]);
-                } else {
-                    stack[waiting] = (child as u32, level as u8 - 1);
+            if let Some(after) = probe.after {
+                let last = &order.last[level][index];
+                asked &= last.iter().rev().fold(0, |bits, &last| 2 * bits + u8::from(last > after));
+            }
+            if level == 0 {
+                for (k, bounds) in probe.bounds.iter().enumerate() {
+                    let mut hits = asked & quad.overlaps(bounds);
+                    while hits != 0 {
+                        visit(k, WIDTH * index + hits.trailing_zeros() as usize);
+                        hits &= hits - 1;
+                    }
+                }
+            } else {
+                let mut hits = asked & quad.overlaps(&all);
+                while hits != 0 {
+                    stack[waiting] =
+                        ((WIDTH * index) as u32 + hits.trailing_zeros(), level as u8 - 1);
                     waiting += 1;
+                    hits &= hits - 1;
                 }
             }
         }

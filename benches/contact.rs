@@ -1,0 +1,170 @@
+//! Contact between surfaces: finding near pairs, their energies, the filter of steps and the exact
+//! test, of a flat sheet and of one that hangs in folds over a ball.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use drape_collide::{
+    Body, Detector, Filter, Gap, Pose, Shape, Skin, Surface, SurfaceParts, crossings,
+};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// Particles along a side of the square sheet.
+const SIDES: [usize; 3] = [50, 100, 200];
+
+const SPACING: f64 = 5e-3;
+
+/// Half of a cloth of 0.6 mm, and of what is left of it under load.
+const SKIN: Skin = Skin { reach: 3e-4, separation: 1e-4 };
+
+/// How much farther than the reach pairs are found, in m.
+const MARGIN: f64 = 6e-4;
+
+struct Sheet {
+    surface: Surface,
+    positions: Vec<f64>,
+}
+
+impl Sheet {
+    /// A sheet, and the ball of a third of its width under it if it is draped.
+    fn new(side: usize, draped: bool) -> Sheet {
+        let half = 0.5 * SPACING * (side - 1) as f64;
+        let vertices = side * side;
+        let place = |v: usize| [v % side, v / side].map(|k| SPACING * k as f64 - half);
+        let mut parts = SurfaceParts {
+            rest: (0..vertices).flat_map(|v| [place(v)[0], 0.0, place(v)[1]]).collect(),
+            triangles: grid(side),
+            areas: vec![SPACING * SPACING; vertices],
+            group: vec![0; vertices],
+            skins: vec![SKIN; 2],
+            free: vertices,
+            twins: Vec::new(),
+        };
+        let mut positions = parts.rest.clone();
+        if draped {
+            let radius = 0.4 * half;
+            // The facets of a ball lie inside it, so the cloth is just out of touch.
+            let over = radius + 3e-4;
+            positions = (0..vertices).flat_map(|v| drape(place(v), over)).collect();
+            let ball = Body::new("ball", Shape::Sphere { radius }, Pose::default());
+            let ball = ball.triangulate().expect("a ball");
+            parts.areas.extend(vec![0.0; ball.vertices.len()]);
+            parts.group.extend(vec![1; ball.vertices.len()]);
+            parts.rest.extend(ball.vertices.as_flattened());
+            positions.extend(ball.vertices.as_flattened());
+            let first = vertices as u32;
+            parts.triangles.extend(ball.triangles.iter().map(|t| t.map(|v| first + v)));
+        }
+        Sheet { surface: Surface::new(parts).expect("a surface"), positions }
+    }
+
+    /// A way of some tenths of a millimetre of each cloth vertex, up and down.
+    fn way(&self) -> Vec<f64> {
+        let free = 3 * self.surface.free();
+        let ripple = |(k, x): (usize, &f64)| if k < free { 3e-4 * (900.0 * x).sin() } else { 0.0 };
+        self.positions.iter().enumerate().map(ripple).collect()
+    }
+}
+
+/// Two triangles per cell, with alternating diagonals.
+fn grid(side: usize) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::new();
+    for cell in 0..side * (side - 1) {
+        if cell % side == side - 1 {
+            continue;
+        }
+        let [a, b, c, d] = [0, 1, side + 1, side].map(|k| (cell + k) as u32);
+        let even = (cell % side + cell / side) % 2 == 0;
+        triangles.extend(if even { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
+    }
+    triangles
+}
+
+/// Over a ball to its equator, and from there down in folds whose depth grows.
+fn drape([u, v]: [f64; 2], radius: f64) -> [f64; 3] {
+    let (way, turn) = ((u * u + v * v).sqrt(), v.atan2(u));
+    let lean = (way / radius).min(std::f64::consts::FRAC_PI_2);
+    let below = way - radius * lean;
+    let out = radius * lean.sin() + 0.25 * below * (1.0 + (10.0 * turn).cos());
+    [out * turn.cos(), radius * lean.cos() - below, out * turn.sin()]
+}
+
+/// One thread and all.
+fn pools() -> [(&'static str, ThreadPool); 2] {
+    let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    [("one thread", pool(1)), ("all threads", pool(0))]
+}
+
+fn contact(criterion: &mut Criterion) {
+    for (shape, draped) in [("flat", false), ("draped", true)] {
+        let sheets = SIDES.map(|side| (side * side, Sheet::new(side, draped)));
+        let mut group = criterion.benchmark_group(shape);
+        group
+            .sample_size(20)
+            .warm_up_time(Duration::from_millis(300))
+            .measurement_time(Duration::from_millis(1000));
+        for (particles, Sheet { surface, positions }) in &sheets {
+            group.throughput(Throughput::Elements(*particles as u64));
+            for (threads, pool) in pools() {
+                let id = |what: &str| BenchmarkId::new(format!("{what} ({threads})"), particles);
+                let mut detector = Detector::default();
+                group.bench_function(id("detect"), |bencher| {
+                    let detect = || {
+                        let pairs = detector.detect(surface, positions, MARGIN);
+                        black_box(pairs.expect("near pairs").as_slice().len());
+                    };
+                    pool.install(|| bencher.iter(detect));
+                });
+                group.bench_function(id("crossings"), |bencher| {
+                    let test = || black_box(crossings(surface, positions).expect("a test").len());
+                    pool.install(|| bencher.iter(test));
+                });
+            }
+        }
+        group.finish();
+    }
+}
+
+fn pairs(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("per pair");
+    group
+        .sample_size(20)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_millis(1000));
+    let sheet = Sheet::new(200, true);
+    let (positions, way) = (&sheet.positions, sheet.way());
+    let mut detector = Detector::default();
+    let pairs = detector.detect(&sheet.surface, positions, MARGIN).expect("near pairs");
+    let list = pairs.as_slice();
+    group.throughput(Throughput::Elements(list.len() as u64));
+    // The baseline of all others: no work on a pair can do without its distance.
+    group.bench_function("distance", |bencher| {
+        bencher.iter(|| list.iter().map(|pair| pair.distance_at(positions)).sum::<f64>());
+    });
+    group.bench_function("gradient", |bencher| {
+        let gradient = |pair| Gap::new(pair, positions).gradient(1e8)[0];
+        bencher.iter(|| list.iter().map(gradient).sum::<f64>());
+    });
+    group.bench_function("hessian", |bencher| {
+        let hessian = |pair| Gap::new(pair, positions).hessian(1e8)[0][0];
+        bencher.iter(|| list.iter().map(hessian).sum::<f64>());
+    });
+    let mut filter = Filter::default();
+    let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    group.bench_function("scalar filter", |bencher| {
+        let mut share = || filter.scalar(pairs, positions, &way).expect("a share").value;
+        pool.install(|| bencher.iter(&mut share));
+    });
+    group.bench_function("truncating filter", |bencher| {
+        let mut truncate = || {
+            let mut way = way.clone();
+            filter.truncate(pairs, positions, &mut way).expect("a truncation").shortened
+        };
+        pool.install(|| bencher.iter(&mut truncate));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, contact, pairs);
+criterion_main!(benches);
