@@ -230,6 +230,8 @@ pub(crate) struct ContactFile {
     pub(crate) slip_speed: Option<f64>,
     /// Whether surfaces are kept from passing through each other, and not particles out of bodies only.
     pub(crate) surfaces: Option<bool>,
+    /// How far surfaces that stick give way before they slide.
+    pub(crate) stick: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use drape_cloth::Cloth;
-use drape_collide::Contact;
+use drape_collide::{Contact, SurfaceSettings};
 use drape_input::{Diagnostic, Diagnostics, Document};
 
 use crate::clock::Clock;
@@ -107,6 +107,8 @@ impl Reader<'_> {
         }
         let bodies = self.bodies(&file, &folder, unit);
         let contact_settings = self.contact_settings(&file, unit);
+        let stick = file.contact.stick.map_or(SurfaceSettings::STICK, |stick| stick * unit);
+        self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
         // What follows needs sound panels.
         Diagnostics::check(std::mem::take(&mut self.mistakes))?;
 
@@ -155,6 +157,7 @@ impl Reader<'_> {
                 held: &held,
                 offset: contact_settings.offset,
                 stiffness: contact_settings.stiffness,
+                stick,
             })
         });
         let surfaces = surfaces.transpose();

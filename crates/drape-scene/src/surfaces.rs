@@ -39,6 +39,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) offset: f64,
     /// In N/m³.
     pub(crate) stiffness: f64,
+    /// In m.
+    pub(crate) stick: f64,
 }
 
 impl Surfaces {
@@ -94,7 +96,7 @@ impl Surfaces {
         let friction = frictions.iter().flat_map(|a| frictions.iter().map(move |b| pair(a, b)));
         let settings = SurfaceSettings {
             stiffness: parts.stiffness,
-            stick: SurfaceSettings::STICK,
+            stick: parts.stick,
             friction: friction.collect(),
         };
         let contact = SurfaceContact::new(Surface::new(surface)?, settings, start.clone())?;
