@@ -43,7 +43,7 @@ pub use pair::{Kind, Pair};
 pub use pose::Pose;
 pub use proximity::Proximity;
 pub use surface::{Skin, Surface, SurfaceParts};
-pub use surface_contact::{Nearness, SurfaceContact, SurfaceSettings};
+pub use surface_contact::{Nearness, SurfaceContact, SurfaceMemory, SurfaceSettings};
 pub use survey::Survey;
 pub use triangulate::Outline;
 pub use truncate::Truncation;

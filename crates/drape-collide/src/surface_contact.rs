@@ -73,6 +73,13 @@ struct Touching {
     gap: Gap,
 }
 
+/// What a [`SurfaceContact`] remembers between two steps: the stretches of friction, and where the bodies are.
+#[derive(Debug, Clone)]
+pub struct SurfaceMemory {
+    anchors: Vec<Anchor>,
+    bodies: Vec<f64>,
+}
+
 /// How the surfaces lie to each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearness {
@@ -180,6 +187,19 @@ impl SurfaceContact {
         self.anchors.extend(self.slips.iter().map(|slip| slip.kept(&self.places, stick)));
         let [start, end] = &mut self.bodies;
         start.copy_from_slice(end);
+    }
+
+    /// What the contact remembers between two steps.
+    pub fn memory(&self) -> SurfaceMemory {
+        SurfaceMemory { anchors: self.anchors.clone(), bodies: self.bodies[0].clone() }
+    }
+
+    /// Goes back to what it remembered, as if the steps since had not been closed.
+    pub fn restore(&mut self, memory: SurfaceMemory) {
+        let SurfaceMemory { anchors, bodies } = memory;
+        self.anchors = anchors;
+        self.bodies = [bodies.clone(), bodies];
+        self.progress = 1.0;
     }
 
     /// Adds the forces on the free vertices, in N; NaN where something has no place.
@@ -361,6 +381,15 @@ impl SurfaceContact {
     /// Positions that are none.
     pub fn crossings(&self, positions: &[f64]) -> Result<Vec<Crossing>, CollideError> {
         crossings(&self.surface, &self.all(positions, self.progress))
+    }
+
+    /// How near the surfaces are to each other at the free vertices' positions.
+    ///
+    /// # Errors
+    /// Positions that are none, or too many pairs.
+    pub fn survey(&mut self, positions: &[f64]) -> Result<Nearness, CollideError> {
+        self.look(positions);
+        self.failure.clone().map_or_else(|| Ok(self.nearness()), Err)
     }
 
     /// How near the surfaces are to each other at the places looked at last.

@@ -163,6 +163,7 @@ impl Reader<'_> {
         let surfaces = surfaces.transpose();
         let surfaces =
             surfaces.map_err(|error| self.document.at("contact.surfaces", error.to_string()))?;
+        let surfaces = surfaces.map(|surfaces| self.start_is_apart(surfaces, &positions));
         let contact = Contact::new(bodies, contact_settings, cloth.areas().to_vec());
         let contact = contact.map_err(|error| self.document.at("collider", error.to_string()))?;
         self.start_is_free(&contact, &positions);
@@ -222,6 +223,24 @@ impl Reader<'_> {
         self.within("air.density", density, (0.0, 100.0), "in kg/m³; 1.2 is usual, 0 a vacuum");
         self.within("air.drag", drag, (0.0, 10.0), "1.28 for a plate");
         0.5 * density * drag
+    }
+
+    /// The start must keep what every step keeps.
+    fn start_is_apart(&mut self, mut surfaces: Surfaces, positions: &[f64]) -> Surfaces {
+        let contact = &mut surfaces.contact;
+        let crossings = contact.crossings(positions).map(|found| found.len());
+        let fault = match (crossings, contact.survey(positions)) {
+            (Ok(0), Ok(near)) if near.min_ratio < 1.0 => {
+                let [distance, kept] = [near.min_distance, near.min_distance / near.min_ratio];
+                format!("surfaces start {distance:.3e} m apart, where {kept:.3e} m is kept")
+            }
+            (Ok(0), Ok(_)) => return surfaces,
+            (Ok(count), _) if count > 0 => format!("surfaces cross in {count} places at the start"),
+            (Err(error), _) | (_, Err(error)) => error.to_string(),
+            (Ok(_), Ok(_)) => return surfaces,
+        };
+        self.fail("panel", fault, "move or turn panels and bodies apart");
+        surfaces
     }
 
     fn start_is_free(&mut self, contact: &Contact, positions: &[f64]) {

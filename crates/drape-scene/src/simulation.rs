@@ -246,6 +246,7 @@ impl Simulation {
                 return Ok((ticks, report));
             }
             let start = (self.motion.clone(), self.world.state.clone(), self.world.ledger.clone());
+            let memory = self.world.surfaces.as_ref().map(|surfaces| surfaces.contact.memory());
             self.estimate.predict(&self.motion, integrator(&self.scheme), dt);
             let report = self.integration.advance(&mut self.world, &mut self.motion, dt)?;
             let error = self.estimate.estimate(&self.motion);
@@ -255,6 +256,9 @@ impl Simulation {
                 return Ok((ticks, report));
             }
             (self.motion, self.world.state, self.world.ledger) = start;
+            if let (Some(surfaces), Some(memory)) = (&mut self.world.surfaces, memory) {
+                surfaces.contact.restore(memory);
+            }
             self.solver.inexact_steps += 1;
             self.count(&report);
         }

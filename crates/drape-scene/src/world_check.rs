@@ -22,6 +22,10 @@ bending = { rigidity = 0.8e-5, friction = [{ plateau = 4e-4, length = 4.0 }] }
 
 /// 7 × 7 particles lying 2 mm deep in the range of contact with a ball, in air.
 fn world(more: &str) -> World {
+    let (more, surfaces) = match more {
+        "surfaces" => ("", true),
+        more => (more, false),
+    };
     let text = format!(
         r#"spacing = 0.02
 fabric.plain.file = "plain.toml"
@@ -38,6 +42,7 @@ radius = 0.3
 friction = 0.3
 [contact]
 offset = 0.005
+surfaces = {surfaces}
 [time]
 step = 0.005
 end = 1.0
@@ -74,6 +79,19 @@ fn forces_potential_and_stiffness_agree_in_contact_and_in_air() {
         assert!(check.stiffness_error < 1e-5, "{check:?}");
         assert!(check.definite_shift <= 1e-10, "{check:?}");
     }
+}
+
+#[test]
+fn forces_and_potential_agree_where_surfaces_touch() {
+    let mut world = world("surfaces");
+    let motion = moved(&mut world);
+    let touching = |world: &World| world.surfaces.as_ref().map(|s| s.contact.nearness().touching);
+    assert!(touching(&world).is_some_and(|pairs| pairs > 10), "{:?}", touching(&world));
+    let step = |(x, v): (&f64, &f64)| x + 0.001 * v;
+    let trial: Vec<f64> = motion.positions.iter().zip(&motion.velocities).map(step).collect();
+    let check = check_system(&mut world, &motion.positions, &trial, 0.001).expect("sound");
+    assert!(check.force_error < 1e-6, "{check:?}");
+    assert!(check.definite_shift <= 1e-10, "{check:?}");
 }
 
 #[test]

@@ -8,3 +8,4 @@ mod explicit;
 mod rest;
 mod robust;
 mod sheet;
+mod surfaces;

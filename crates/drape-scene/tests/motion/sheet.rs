@@ -1,6 +1,6 @@
 //! A square metre of cloth, or less, in scenes that differ in few words.
 
-use drape_input::Document;
+use drape_input::{Diagnostics, Document};
 use drape_scene::{Scene, Simulation};
 
 /// A cloth and how it is held. `Sheet::default()` is 0.2 kg/m² of plain weave in a vacuum.
@@ -50,6 +50,10 @@ impl Sheet {
     }
 
     pub fn scene(&self) -> Scene {
+        self.try_scene().unwrap()
+    }
+
+    pub fn try_scene(&self) -> Result<Scene, Diagnostics> {
         let Self { particles, side, panel, scene, .. } = self;
         let spacing = side / (*particles as f64 - 1.0);
         let text = format!(
@@ -59,7 +63,7 @@ impl Sheet {
         let text = text.replace("SIDE", &format!("{side:?}"));
         let scene = Document::new("sheet.toml", text);
         let fabric = Document::new("plain.toml", self.fabric());
-        Scene::from_documents(&scene, &[fabric]).unwrap()
+        Scene::from_documents(&scene, &[fabric])
     }
 
     fn fabric(&self) -> String {
