@@ -90,7 +90,7 @@ const LEFT_OUT: &str = "\
   points more, and a platform that sinks ten times faster than 20 mm/s took 7 from the cotton in one start. The speed of the measured
   ones is not known, nor whether they were shaken.
 * The shapes that Tagawa and others photographed are not legible enough to compare.
-* Cloth does not meet itself, and meets bodies at its particles only.
+* In these cases cloth meets bodies at its particles only, and does not meet itself.
 * The model has no creep and no rate dependence: what the friction holds, it holds for ever.
 ";
 
