@@ -7,5 +7,8 @@ mod support;
 
 mod broad_phase;
 mod derivatives;
+mod exact;
+mod exactness;
 mod layers;
+mod oracle;
 mod sheets;
