@@ -106,9 +106,9 @@ fn adversary(dice: &mut Dice, kind: usize) -> (Places, Places) {
                 n.map(|c| c / length)
             };
             x[3] = [0, 1, 2].map(|i| foot[i] + gap * normal[i]);
-            for k in 4..6 {
+            for place in &mut x[4..] {
                 let apart = dice.roll().abs() + 2.0 * gap;
-                x[k] = [0, 1, 2].map(|i| x[k][i] + apart * normal[i]);
+                *place = [0, 1, 2].map(|i| place[i] + apart * normal[i]);
             }
             way = [[0.0; 3]; 6];
             // To the touch exactly, or on.
