@@ -112,12 +112,7 @@ impl Detector {
     ) -> Result<&Pairs, CollideError> {
         surface.check_positions(positions)?;
         crate::error::check("the margin of contact (m)", margin, "above 0", margin > 0.0)?;
-        let query = Query {
-            surface,
-            positions,
-            around: surface.skins().iter().map(|skin| skin.reach + 0.5 * margin).collect(),
-            limit: Limit::Margin(margin),
-        };
+        let query = Query { surface, positions, limit: Limit::Margin(margin) };
         self.scan(&query)?;
         let pairs = &mut self.pairs;
         pairs.list.clear();
@@ -177,8 +172,7 @@ impl Detector {
 /// keep a quarter.
 pub(crate) fn close_at_rest(surface: &Surface, rest: &[f64]) -> Result<Vec<Close>, CollideError> {
     let mut detector = Detector::default();
-    let around = surface.skins().iter().map(|skin| 2.0 * skin.reach).collect();
-    let query = Query { surface, positions: rest, around, limit: Limit::Rest };
+    let query = Query { surface, positions: rest, limit: Limit::Rest };
     detector.scan(&query)?;
     let mut close = Vec::new();
     for pair in detector.chunks.iter().flat_map(|chunk| &chunk.pairs) {
@@ -210,16 +204,19 @@ enum Limit {
 struct Query<'a> {
     surface: &'a Surface,
     positions: &'a [f64],
-    /// By how much boxes of each group are larger than what they hold, in m.
-    around: Vec<f64>,
     limit: Limit,
 }
 
 impl Query<'_> {
     fn bounds<const N: usize>(&self, vertices: [u32; N]) -> Bounds {
-        let group = self.surface.group(vertices[0]);
+        let skin = self.surface.skins()[self.surface.group(vertices[0]) as usize];
         let places = vertices.map(|vertex| at(self.positions, vertex as usize));
-        Bounds::around(places, self.around[group as usize])
+        // Half of how near two must be, in each of two boxes that then overlap.
+        let around = match self.limit {
+            Limit::Margin(margin) => skin.reach + 0.5 * margin,
+            Limit::Rest => 2.0 * skin.reach,
+        };
+        Bounds::around(places, around)
     }
 
     /// The pair of two primitives that share no vertex, if they are near enough.

@@ -1,5 +1,6 @@
 use crate::detector::Pairs;
 use crate::error::{CollideError, check_places};
+use crate::guards::Guards;
 use crate::pair::Pair;
 use crate::plane::{Planes, Slab};
 use crate::vector::{Vector, add, at, dot, norm, scale, subtract};
@@ -77,19 +78,6 @@ pub struct Filter {
     pub(crate) shares: Vec<AtomicU64>,
     pub(crate) planes: Vec<Planes>,
     pub(crate) guards: Guards,
-}
-
-/// Parts of the proof that the tests take away, to see that they are needed.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Guards {
-    pub(crate) freeze: bool,
-    pub(crate) budget: bool,
-}
-
-impl Default for Guards {
-    fn default() -> Guards {
-        Guards { freeze: true, budget: true }
-    }
 }
 
 /// A step to be filtered: flat positions and displacements of all vertices.

@@ -10,6 +10,9 @@ pub type Gradient = [f64; 12];
 /// Second derivatives by the twelve coordinates, row by row.
 pub type Hessian = [[f64; 12]; 12];
 
+/// Squared sine of an angle between edges that a difference of their coordinates still resolves.
+const PARALLEL: f64 = 1e-28;
+
 /// How the two primitives of a [`Pair`] lie to each other, and the energy of their contact.
 ///
 /// With the distance `$d$`, the separation `$\xi$`, the reach `$r$` and the area `$A$` of the pair,
@@ -204,7 +207,10 @@ impl Gap {
                 let rest = subtract(f, scale(e, share));
                 let second: Gradient = std::array::from_fn(|i| second[i] - share * first[i]);
                 add_outer(hessian, -factor / dot(e, e), &first, &first);
-                add_outer(hessian, -factor / dot(rest, rest), &second, &second);
+                // What is left of parallel edges is rounding; their contact has faded out.
+                if dot(rest, rest) > PARALLEL * dot(f, f) {
+                    add_outer(hessian, -factor / dot(rest, rest), &second, &second);
+                }
             }
         }
     }

@@ -11,6 +11,7 @@ mod error;
 mod filter;
 mod friction;
 mod gap;
+mod guards;
 mod mesh;
 mod mollifier;
 mod obj;

@@ -7,5 +7,10 @@ mod support;
 
 mod broad_phase;
 mod derivatives;
+mod energy;
+mod exact;
+mod exactness;
 mod layers;
+mod oracle;
 mod sheets;
+mod surfaces;

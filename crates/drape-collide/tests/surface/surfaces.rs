@@ -1,0 +1,187 @@
+//! What a surface takes, and that nothing depends on threads or on earlier calls.
+
+use crate::sheets::{sheets, surface};
+use crate::support::Dice;
+use drape_collide::{
+    CollideError, Detector, Filter, Limit, Pairs, Skin, Surface, SurfaceParts, crossings,
+};
+use rayon::ThreadPoolBuilder;
+
+#[test]
+fn parts_that_make_no_surface_are_refused() {
+    let good = sheets(2, 4, 0.01);
+    let refused = |change: fn(&mut SurfaceParts)| {
+        let mut parts = good.clone();
+        change(&mut parts);
+        Surface::new(parts).unwrap_err()
+    };
+    type Change = fn(&mut SurfaceParts);
+    type Expected = fn(&CollideError) -> bool;
+    let cases: [(Change, Expected); 15] = [
+        (|p| _ = p.rest.pop(), |e| matches!(e, CollideError::WrongLength { .. })),
+        (|p| _ = p.group.pop(), |e| matches!(e, CollideError::WrongLength { .. })),
+        (|p| p.rest[4] = f64::NAN, |e| matches!(e, CollideError::BadPlace { .. })),
+        (|p| p.rest[4] = 1e7, |e| matches!(e, CollideError::BadPlace { .. })),
+        (|p| p.free = 33, |e| matches!(e, CollideError::OutOfRange { .. })),
+        (|p| p.skins[1].reach = 0.0, |e| matches!(e, CollideError::OutOfRange { .. })),
+        (|p| p.skins[1].separation = 0.0, |e| matches!(e, CollideError::OutOfRange { .. })),
+        (|p| p.skins[1].separation = 3e-4, |e| matches!(e, CollideError::OutOfRange { .. })),
+        (|p| p.group[5] = 2, |e| matches!(e, CollideError::NoSuchSkin { vertex: 5, .. })),
+        (|p| p.areas[3] = -1.0, |e| matches!(e, CollideError::BadArea { particle: 3, .. })),
+        (|p| p.twins.push([0, 32]), |e| matches!(e, CollideError::NoSuchTwin { .. })),
+        (|p| p.triangles[2][1] = 32, |e| matches!(e, CollideError::NoSuchVertex { .. })),
+        (|p| p.triangles[2] = [1, 2, 1], |e| matches!(e, CollideError::RepeatedVertex { .. })),
+        (|p| p.triangles[2] = [0, 1, 17], |e| matches!(e, CollideError::MixedTriangle { .. })),
+        (|p| p.triangles[2] = [0, 1, 2], |e| matches!(e, CollideError::FlatTriangle { .. })),
+    ];
+    for (k, (change, expected)) in cases.into_iter().enumerate() {
+        let error = refused(change);
+        assert!(expected(&error), "case {k}: {error}");
+    }
+    // A body and cloth in one triangle; two corners of a sheet in one place at rest.
+    let mixed = refused(|p| p.free = 30);
+    assert!(matches!(mixed, CollideError::MixedTriangle { .. }), "{mixed}");
+    let touching = refused(|p| p.rest.copy_within(0..3, 45));
+    assert!(matches!(touching, CollideError::TouchingAtRest { .. }), "{touching}");
+}
+
+/// Two crumpled sheets and a way for them.
+fn crumpled() -> (Surface, Vec<f64>, Vec<f64>) {
+    let mut parts = sheets(2, 40, 5e-3);
+    parts.skins.fill(Skin { reach: 3e-4, separation: 1e-4 });
+    let mut dice = Dice::new(71);
+    let positions: Vec<f64> = parts
+        .rest
+        .chunks(3)
+        .zip(&parts.group)
+        .flat_map(|(x, group)| {
+            let height = 0.02 * (60.0 * x[0]).sin() + 1e-3 * f64::from(*group);
+            [0.3 * x[0], x[1], height]
+        })
+        .collect();
+    let way = positions.iter().map(|_| 2e-3 * dice.roll()).collect();
+    (surface(&parts), positions, way)
+}
+
+fn filtered(pairs: &Pairs, positions: &[f64], way: &[f64]) -> (Vec<f64>, f64) {
+    let mut filter = Filter::default();
+    let mut shortened = way.to_vec();
+    filter.truncate(pairs, positions, &mut shortened).unwrap();
+    (shortened, filter.scalar(pairs, positions, way).unwrap().value)
+}
+
+#[test]
+fn all_answers_have_the_same_bits_for_any_number_of_threads() {
+    let (surface, positions, way) = crumpled();
+    let answers = [1, 2, 3, 8].map(|threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut detector = Detector::default();
+            let pairs = detector.detect(&surface, &positions, 1e-3).unwrap();
+            let filtered = filtered(pairs, &positions, &way);
+            let met: Vec<f64> = positions.iter().zip(&way).map(|(x, w)| x + w).collect();
+            (pairs.as_slice().to_vec(), filtered, crossings(&surface, &met).unwrap())
+        })
+    });
+    let [(pairs, (_, share), met), ..] = &answers;
+    assert!(
+        pairs.len() > 1000 && met.len() > 100,
+        "{} pairs, {} crossings",
+        pairs.len(),
+        met.len()
+    );
+    assert!(*share > 0.0 && *share < 0.5, "{share}");
+    assert!(answers.iter().all(|answer| *answer == answers[0]));
+}
+
+#[test]
+fn a_detector_and_a_filter_forget_what_they_did_before() {
+    let (surface, positions, way) = crumpled();
+    let (other, flat) = {
+        let parts = sheets(3, 9, 1e-3);
+        (crate::sheets::surface(&parts), parts.rest)
+    };
+    let mut used = Detector::default();
+    used.detect(&other, &flat, 5e-4).unwrap();
+    let mut filter = Filter::default();
+    filter.truncate(used.pairs(), &flat, &mut vec![1e-5; flat.len()]).unwrap();
+    let pairs = used.detect(&surface, &positions, 1e-3).unwrap();
+    let mut new = Detector::default();
+    let fresh = new.detect(&surface, &positions, 1e-3).unwrap();
+    assert_eq!(pairs.as_slice(), fresh.as_slice());
+    let mut shortened = way.clone();
+    filter.truncate(pairs, &positions, &mut shortened).unwrap();
+    assert_eq!(shortened, filtered(fresh, &positions, &way).0);
+}
+
+#[test]
+fn a_filtered_step_is_shorter_straight_and_stays_as_it_is() {
+    let (surface, positions, way) = crumpled();
+    let way: Vec<f64> = way.iter().map(|w| 0.1 * w).collect();
+    let mut detector = Detector::default();
+    let pairs = detector.detect(&surface, &positions, 1e-3).unwrap();
+    let (shortened, _) = filtered(pairs, &positions, &way);
+    let mut shares = [0; 3];
+    for (short, full) in shortened.chunks(3).zip(way.chunks(3)) {
+        let share = short[0] / full[0];
+        assert!((0.0..=1.0).contains(&share), "{short:?} of {full:?}");
+        assert!(short.iter().zip(full).all(|(s, f)| (s - share * f).abs() <= 1e-15 * f.abs()));
+        shares[usize::from(share > 0.0) + usize::from(share == 1.0)] += 1;
+    }
+    assert!(shares[1] > 100 && shares[2] > 100, "{shares:?}");
+    // Each vertex has used its room to nine tenths or stands at its budget: little is left to
+    // take away from the same step, and nothing from half of it.
+    let half: Vec<f64> = shortened.iter().map(|s| 0.5 * s).collect();
+    assert_eq!(filtered(pairs, &positions, &half).0, half);
+}
+
+#[test]
+fn a_step_beyond_the_pairs_is_limited_or_refused() {
+    let (surface, positions, _) = crumpled();
+    let margin = 1e-3;
+    let mut detector = Detector::default();
+    let pairs = detector.detect(&surface, &positions, margin).unwrap();
+    let mut filter = Filter::default();
+    // All together, so that only the budget can be in the way.
+    let up: Vec<f64> = (0..positions.len()).map(|k| 1e-2 * f64::from(k % 3 == 1)).collect();
+    let fraction = filter.scalar(pairs, &positions, &up).unwrap();
+    assert_eq!(fraction.limit, Limit::Budget);
+    assert!((fraction.value - 0.45 * margin / 1e-2).abs() < 1e-9, "{fraction:?}");
+    let moved: Vec<f64> = positions.iter().zip(&up).map(|(x, u)| x + fraction.value * u).collect();
+    let fraction = filter.scalar(pairs, &moved, &up).unwrap();
+    assert!(fraction.value < 1e-9 && fraction.limit == Limit::Budget, "{fraction:?}");
+    let back: Vec<f64> = up.iter().map(|u| -0.03 * u).collect();
+    let fraction = filter.scalar(pairs, &moved, &back).unwrap();
+    assert_eq!((fraction.value, fraction.limit), (1.0, Limit::None));
+    let truncation = filter.truncate(pairs, &moved, &mut up.clone()).unwrap();
+    assert_eq!(truncation.exhausted, surface.vertices());
+
+    let beyond: Vec<f64> = positions.iter().zip(&up).map(|(x, u)| x + 0.05 * u).collect();
+    let refused = filter.scalar(pairs, &beyond, &up);
+    assert!(matches!(refused, Err(CollideError::OutOfBudget { vertex: 0, .. })), "{refused:?}");
+    let mut bad = up.clone();
+    bad[40] = f64::NAN;
+    let refused = filter.truncate(pairs, &positions, &mut bad);
+    assert!(matches!(refused, Err(CollideError::BadPlace { .. })), "{refused:?}");
+    let refused = filter.scalar(pairs, &positions, &up[3..]);
+    assert!(matches!(refused, Err(CollideError::WrongLength { .. })), "{refused:?}");
+}
+
+#[test]
+fn a_second_detection_allocates_nothing() {
+    let (surface, positions, way) = crumpled();
+    let pool = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    pool.install(|| {
+        let (mut detector, mut filter) = (Detector::default(), Filter::default());
+        let mut shortened = way.clone();
+        let mut work = || {
+            let pairs = detector.detect(&surface, &positions, 1e-3).unwrap();
+            filter.scalar(pairs, &positions, &way).unwrap();
+            shortened.copy_from_slice(&way);
+            filter.truncate(pairs, &positions, &mut shortened).unwrap();
+        };
+        work();
+        let counted = allocation_counter::measure(work);
+        assert_eq!(counted.count_total, 0, "{counted:?}");
+    });
+}
