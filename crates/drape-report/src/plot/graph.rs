@@ -15,7 +15,7 @@ pub enum Look {
     Dots,
     /// A line in the next colour.
     Line,
-    /// A thin line in the colour of the text: what the others are held against.
+    /// A pale band beneath the others: what they are held against.
     Exact,
 }
 
@@ -114,7 +114,7 @@ pub fn graph_svg(plot: &GraphPlot) -> Result<String, ReportError> {
 pub(crate) fn graph_figure(plot: &GraphPlot, place: Place) -> String {
     let classes = classes(&plot.series);
     let mut entries: Vec<(Sign, String, String)> = Vec::new();
-    for (series, class) in plot.series.iter().zip(&classes) {
+    for (series, class) in above(plot, &classes).chain(beneath(plot, &classes)) {
         let sign = if series.look == Look::Dots { Sign::Points } else { Sign::Line };
         let entry = (sign, class.clone(), series.label.clone());
         if !entries.contains(&entry) {
@@ -128,7 +128,8 @@ pub(crate) fn graph_figure(plot: &GraphPlot, place: Place) -> String {
         let [a, b] = [0, 1].map(|k| point[k] / plot.axes[k].in_si);
         [x.pixel(a), y.pixel(b)]
     };
-    let series = plot.series.iter().zip(classes).map(|(series, class)| {
+    let drawn = beneath(plot, &classes).chain(above(plot, &classes));
+    let series = drawn.map(|(series, class)| {
         let pixels = series.points.iter().map(pixel);
         let (kind, data) = match series.look {
             Look::Dots => ("points", dots(pixels)),
@@ -160,6 +161,22 @@ fn classes(series: &[GraphSeries]) -> Vec<String> {
         Look::Dots | Look::Line => format!("tone{}", tones.next().unwrap_or(0)),
     };
     series.iter().map(class).collect()
+}
+
+/// The series that are held against others, with their classes.
+fn beneath<'a>(
+    plot: &'a GraphPlot,
+    classes: &'a [String],
+) -> impl Iterator<Item = (&'a GraphSeries, &'a String)> {
+    plot.series.iter().zip(classes).filter(|(series, _)| series.look == Look::Exact)
+}
+
+/// The others.
+fn above<'a>(
+    plot: &'a GraphPlot,
+    classes: &'a [String],
+) -> impl Iterator<Item = (&'a GraphSeries, &'a String)> {
+    plot.series.iter().zip(classes).filter(|(series, _)| series.look != Look::Exact)
 }
 
 /// The axes on the pixels of a frame that begins at a height.
