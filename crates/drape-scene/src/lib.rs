@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod bonds;
 mod clock;
 mod collider;
 mod error;
@@ -7,6 +8,7 @@ mod file;
 mod frame;
 mod ledger;
 mod material;
+mod model;
 mod output;
 mod pace;
 mod panel;
@@ -30,6 +32,7 @@ pub use clock::Clock;
 pub use error::SceneError;
 pub use frame::Frame;
 pub use material::Material;
+pub use model::Model;
 pub use output::{Output, prepare_folder};
 pub use panel::Panel;
 pub use pin::{Pin, PinLoad};
