@@ -98,7 +98,7 @@ pub(crate) fn fit_all(sheets: &[PathBuf], arguments: &FitArguments) -> Result<()
     let rows = identify_all(&inputs, &settings, read, |(path, name), found| {
         let row = found.and_then(|(sheet, fit)| {
             let page = fit::page(sheet, fit, &settings)?;
-            file::write(&target(path, name, arguments), &fit.fabric.to_toml())?;
+            file::write(&target(path, name, arguments), fit.fabric.to_toml())?;
             fit::store(&page, name, arguments.report.as_deref())?;
             Ok(Row::new(&page))
         });

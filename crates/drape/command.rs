@@ -169,6 +169,9 @@ pub(crate) struct ValidateArguments {
     /// Runs the cases that take minutes too.
     #[arg(long, conflicts_with = "cases")]
     pub(crate) full: bool,
+    /// Folder for a page with plots and pictures, and each of them as a file.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) report: Option<PathBuf>,
     /// Writes the outcomes as a page in Markdown.
     #[arg(long, value_name = "FILE")]
     pub(crate) markdown: Option<PathBuf>,

@@ -28,7 +28,7 @@ fn one(sheet: &Path, arguments: &FitArguments) -> Result<(), Failure> {
         return Err(Failure::Usage(message));
     }
     let (fit, page) = identified(sheet, &arguments.laws.settings())?;
-    file::write(&path, &fit.fabric.to_toml())?;
+    file::write(&path, fit.fabric.to_toml())?;
     let report = store(&page, &batch::stem(sheet), arguments.report.as_deref())?;
     if arguments.json {
         let json = serde_json::to_string_pretty(&page);

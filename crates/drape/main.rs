@@ -23,6 +23,7 @@ mod run;
 mod say;
 mod test;
 mod validate;
+mod validation_page;
 
 fn main() -> ExitCode {
     let command = command::Command::parse();

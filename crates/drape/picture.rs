@@ -1,5 +1,5 @@
-use drape::report::{Scene, Surface, View, render};
-use drape::scene::{Frame, Output, Simulation};
+use drape::report::{Picture, Scene, Surface, View, render};
+use drape::scene::Snapshot;
 
 use crate::failure::Failure;
 
@@ -9,41 +9,33 @@ const LINE_SPACING: f64 = 0.05;
 /// How far below the lowest point of the cloth its floor is, in m.
 const FLOOR: f64 = 0.01;
 
-/// Stores a picture of a frame as `picture.png`.
+/// Pixels of a picture that stands alone.
+pub(crate) const SIZE: [u32; 2] = [1200, 900];
+
+/// Draws a scene as it was, seen from an azimuth and an elevation in degrees, in so many pixels.
 pub(crate) fn draw(
-    simulation: &Simulation,
-    frame: &Frame,
-    view: [Option<f64>; 2],
-    output: &Output,
-) -> Result<(), Failure> {
-    let coordinates: Vec<f64> = simulation.coordinates().iter().flatten().copied().collect();
-    let outlines: Vec<_> = simulation
-        .contact()
-        .bodies()
-        .iter()
-        .filter(|body| !matches!(body.shape, drape::collide::Shape::Plane))
-        .filter_map(|body| body.triangulate().ok())
-        .collect();
-    let vertices: Vec<Vec<f64>> =
-        outlines.iter().map(|outline| outline.vertices.concat()).collect();
-    let bodies = vertices.iter().zip(&outlines);
-    let lowest = frame.positions.chunks_exact(3).map(|p| p[1]).fold(f64::INFINITY, f64::min);
+    snapshot: &Snapshot,
+    [azimuth, elevation]: [Option<f64>; 2],
+    [width, height]: [u32; 2],
+) -> Result<Picture, Failure> {
+    let Snapshot { positions, coordinates, triangles, bodies, spacing } = snapshot;
+    let coordinates: Vec<f64> = coordinates.iter().flatten().copied().collect();
+    let lowest = positions.chunks_exact(3).map(|p| p[1]).fold(f64::INFINITY, f64::min);
     let size = coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
-    let cloth = Surface::cloth(&frame.positions, simulation.triangles());
+    let cloth = Surface::cloth(positions, triangles);
     let scene = Scene {
         cloths: vec![cloth.with_lines(&coordinates, LINE_SPACING * size.max(0.1))],
-        bodies: bodies.map(|(v, outline)| Surface::body(v, &outline.triangles)).collect(),
+        bodies: bodies.iter().map(|body| Surface::body(&body.positions, &body.triangles)).collect(),
         floor: Some(lowest - FLOOR),
     };
-    let [azimuth, elevation] = view;
     let standard = View::default();
     let view = View {
         azimuth_deg: azimuth.unwrap_or(standard.azimuth_deg),
         elevation_deg: elevation.unwrap_or(standard.elevation_deg),
-        body_setback: simulation.spacing(),
+        body_setback: *spacing,
+        width,
+        height,
         ..standard
     };
-    let path = output.path("picture.png");
-    let stored = render(&scene, &view).and_then(|picture| picture.save(&path));
-    stored.map_err(|error| Failure::Output(error.to_string()))
+    render(&scene, &view).map_err(|error| Failure::Output(error.to_string()))
 }

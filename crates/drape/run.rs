@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use drape::scene::{Energy, Scene, Simulation, Status, Summary, prepare_folder};
+use drape::scene::{Energy, Scene, Simulation, Snapshot, Status, Summary, prepare_folder};
 
 use crate::command::RunArguments;
 use crate::failure::Failure;
@@ -37,7 +37,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let summary = summary?;
     output.summary(&summary)?;
     if let Some(frame) = &screen.last {
-        picture::draw(&simulation, frame, view, &output)?;
+        let shown = Snapshot { positions: frame.positions.clone(), ..simulation.snapshot() };
+        let picture = picture::draw(&shown, view, picture::SIZE)?;
+        let stored = picture.save(output.path("picture.png"));
+        stored.map_err(|error| Failure::Output(error.to_string()))?;
     }
     if arguments.json {
         let json = serde_json::to_string_pretty(&summary);

@@ -4,8 +4,8 @@ use drape::validate::{CASES, Case, Check, Kind, Outcome};
 
 use crate::command::ValidateArguments;
 use crate::failure::Failure;
-use crate::file;
 use crate::say::say;
+use crate::{file, validation_page};
 
 pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     let cases = chosen(&arguments.cases, arguments.full)?;
@@ -22,7 +22,14 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
         say(json.expect("numbers and strings have a JSON form"))?;
     }
     if let Some(path) = &arguments.markdown {
-        file::write(path, &markdown(&outcomes))?;
+        file::write(path, validation_page::markdown(&outcomes))?;
+    }
+    if let Some(folder) = &arguments.report {
+        validation_page::store(&outcomes, folder)?;
+        if !arguments.json {
+            let page = folder.join(validation_page::NAME);
+            say(format_args!("page written to {}", page.display()))?;
+        }
     }
     let failed = outcomes.iter().filter(|outcome| !outcome.passes()).count();
     if failed > 0 {
@@ -71,61 +78,4 @@ fn line(check: &Check) -> String {
         _ => format!("{measured:.5}"),
     };
     format!("  {verdict}  {what:<66} {measured:>9} {limit}")
-}
-
-/// What the model is known to leave out, for the page.
-const LEFT_OUT: &str = "\
-## What this does not show
-
-* Specimens cut at an angle to the yarns, and strips on the bias, are not tested yet, nor crease recovery.
-* What an instrument's loop is held against is the law that was fitted, not the measured curve: how well a law follows
-  a curve is the fit's report. At 10 and 5 mm a bending specimen of 1 cm is one or two cells, all of them held; with free
-  cells between (2.5 mm) fabrics whose traction begins soft are 1.5 to 1.8 % off, because a bow also pulls at its yarn
-  with the moment times the curvature, and such a yarn gives way.
-* The drape coefficients of two fabrics have been compared once with `drape test --drape` (the
-  case `drapemeter` as a whole has not): Matsudaira's cotton came out at 84.4 ± 2.0 % (10 starts; measured 82.9), his wool at 50.3 ± 1.6 % (6
-  starts; measured 49.8), with five to seven nodes where two and five were counted. Their shear is assumed. Over what
-  it and the building up of the bending friction may be, the cotton reaches from 68 to 89 %, which is wider than the 16
-  points a prediction should have. How the specimen is let down matters as much: without inertia the two keep 6 and 8
-  points more, and a platform that sinks ten times faster than 20 mm/s took 7 from the cotton in one start. The speed of the measured
-  ones is not known, nor whether they were shaken.
-* The shapes that Tagawa and others photographed are not legible enough to compare.
-* In these cases cloth meets bodies at its particles only, and does not meet itself.
-* The model has no creep and no rate dependence: what the friction holds, it holds for ever.
-";
-
-/// The page that `crates/drape/VALIDATION.md` is.
-fn markdown(outcomes: &[Outcome]) -> String {
-    let mut page = String::from(
-        "# Validation\n\nSimulations against exact solutions and measurements. `drape validate --markdown FILE` \
-         writes this page, with `--full` the cases that take minutes too; \
-         the references are computed in `crates/drape-validate/src/reference` or cited there.\n",
-    );
-    for outcome in outcomes {
-        page += &format!("\n## {}\n\n`drape validate {}`\n\n", outcome.title, outcome.name);
-        if let Some(failure) = &outcome.failure {
-            page += &format!("It could not be run: {failure}\n");
-            continue;
-        }
-        page += "| figure | simulated | reference | error | limit | |\n|---|---|---|---|---|---|\n";
-        outcome.checks.iter().for_each(|check| page += &row(check));
-    }
-    page + "\n" + LEFT_OUT
-}
-
-fn row(check: &Check) -> String {
-    let Check { what, measured, reference, limit, kind } = check;
-    let verdict = if check.passes() { "pass" } else { "**fail**" };
-    match kind {
-        Kind::Equal => format!(
-            "| {what} | {measured:.5} | {reference:.5} | {:+.3} % | {} % | {verdict} |\n",
-            100.0 * check.error(),
-            100.0 * limit
-        ),
-        Kind::AtLeast => format!("| {what} | {measured:.3} | | | ≥ {reference} | {verdict} |\n"),
-        Kind::AtMost => {
-            format!("| {what} | {measured:.1e} | | | ≤ {reference:.0e} | {verdict} |\n")
-        }
-        Kind::Told => format!("| {what} | {measured:.3} | | | | |\n"),
-    }
 }

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod angle;
+mod breen;
 mod cloth;
 mod connectors;
 mod energy;
@@ -18,6 +19,7 @@ mod stiffness;
 mod tangent;
 mod workspace;
 
+pub use breen::{Block, Breen};
 pub use cloth::{Areas, Cloth, Committed, Strains};
 pub use error::ClothError;
 pub use lattice::Lattice;

@@ -3,6 +3,7 @@
 mod batch;
 mod bending;
 mod bending_batch;
+mod breen;
 mod fabric;
 mod file;
 mod law;
@@ -17,6 +18,7 @@ mod traction_batch;
 pub use batch::{BatchLaw, LANES, Lanes, Responses, Sliders};
 pub use bending::{BendingBackbone, BendingLaw};
 pub use bending_batch::BendingBatch;
+pub use breen::{BreenWork, Work, breen_curvature};
 pub use drape_hysteresis::{BlimanSorine, Dahl};
 pub use fabric::{Direction, Fabric, Problem, Provenance, SURFACE_FRICTION};
 pub use law::{Law, Memory, Response, drive};

@@ -4,7 +4,6 @@ mod assumed;
 mod basis;
 mod batch;
 mod bending;
-mod breen;
 mod choice;
 mod curve_fit;
 mod elastica;
@@ -35,7 +34,6 @@ mod weighting;
 
 pub use batch::identify_all;
 pub use bending::identify_bending;
-pub use breen::{BreenWork, breen_curvature};
 pub use choice::Candidate;
 pub use curve_fit::{CurveFit, Identified};
 pub use error::Error;

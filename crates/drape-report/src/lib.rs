@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod base64;
 mod camera;
 mod check;
 mod compare_page;
@@ -21,6 +22,7 @@ mod shown;
 mod symbol;
 mod table;
 mod triangle;
+mod validation_page;
 mod vector;
 mod view;
 
@@ -33,4 +35,5 @@ pub use parameter::{Interval, Parameter, Unit, Units};
 pub use picture::Picture;
 pub use render::render;
 pub use scene::{Colour, Scene, Surface};
+pub use validation_page::{ValidationCase, ValidationPage, ValidationRow};
 pub use view::View;

@@ -7,17 +7,20 @@
 mod axis;
 mod correlation;
 mod frame;
+mod graph;
 mod loop_plot;
 mod overlay;
 mod uncertainty;
 
 pub use axis::Axis;
 pub use correlation::{Correlation, correlation_svg};
+pub use graph::{GraphPlot, GraphSeries, Look, graph_svg};
 pub use loop_plot::{Branch, BranchKind, LoopPlot, Point, loop_svg};
 pub use overlay::{OverlayPlot, Trace, overlay_svg};
 pub use uncertainty::{UncertaintyPlot, uncertainty_svg};
 
 pub(crate) use correlation::{correlation_figure, correlation_side};
+pub(crate) use graph::graph_figure;
 pub(crate) use loop_plot::loop_figure;
 pub(crate) use overlay::overlay_figure;
 pub(crate) use uncertainty::uncertainty_figure;

@@ -2,7 +2,7 @@
   "use strict";
   const pair = /M(-?[\d.]+) (-?[\d.]+)/g;
   const digits = function (value) { return Number(value.toPrecision(4)).toString().replace("-", "−"); };
-  document.querySelectorAll("svg.loop, svg.overlay").forEach(function (svg) {
+  document.querySelectorAll("svg.loop, svg.overlay, svg.graph").forEach(function (svg) {
     svg.classList.add("live");
     svg.querySelectorAll(".key").forEach(function (key) {
       const names = "." + key.dataset.key.split(" ").join(".");
@@ -14,6 +14,11 @@
     const readout = svg.parentElement.querySelector(".readout");
     const group = svg.querySelector(".series");
     const map = svg.querySelector(".frame").dataset.map.split(" ").map(Number);
+    const logs = svg.querySelector(".frame").dataset.log || "";
+    const value = function (axis, at) {
+      const found = axis === "x" ? map[0] + map[1] * at : map[2] + map[3] * at;
+      return digits(logs.includes(axis) ? Math.pow(10, found) : found);
+    };
     const residuals = Array.from(svg.querySelectorAll(".residuals path"));
     const residualMap = residuals.length ? svg.querySelectorAll(".frame")[1].dataset.map.split(" ").map(Number) : null;
     const read = function (path) {
@@ -48,8 +53,8 @@
       cursor.setAttribute("cy", best.at[1]);
       const data = group.dataset;
       let text = best.series.path.dataset.label
-        + " · " + data.x + " " + digits(map[0] + map[1] * best.at[0]) + " " + data.xUnit
-        + " · " + data.y + " " + digits(map[2] + map[3] * best.at[1]) + " " + data.yUnit;
+        + " · " + data.x + " " + value("x", best.at[0]) + " " + data.xUnit
+        + " · " + data.y + " " + value("y", best.at[1]) + " " + data.yUnit;
       if (best.series.below.length === best.series.points.length) {
         text += " · residual " + digits(residualMap[2] + residualMap[3] * best.series.below[best.index][1]) + " %";
       }

@@ -4,8 +4,8 @@
 
 mod samples;
 
-use drape_report::plot::{UncertaintyPlot, loop_svg, overlay_svg, uncertainty_svg};
-use samples::{a_loop, a_page, an_overlay, classes, tree};
+use drape_report::plot::{UncertaintyPlot, graph_svg, loop_svg, overlay_svg, uncertainty_svg};
+use samples::{a_graph, a_loop, a_page, an_overlay, classes, tree};
 
 /// The pixels of a path's data.
 fn pixels(data: &str) -> Vec<[f64; 2]> {
@@ -113,4 +113,28 @@ fn uncertainty_bars_reach_as_far_as_the_errors() {
     let (interval, error) = (bar("interval"), bar("error"));
     let ratio = interval / error;
     assert!((ratio - 0.90 / 0.46).abs() < 1e-3, "the bars are in the ratio {ratio}");
+}
+
+#[test]
+fn points_of_a_graph_are_drawn_where_they_are_on_logarithmic_axes() {
+    let plot = a_graph();
+    let svg = graph_svg(&plot).unwrap();
+    let svg = tree(&svg);
+    let frame = svg.descendants().find(|n| n.attribute("data-log").is_some()).unwrap();
+    assert_eq!(frame.attribute("data-log"), Some("xy"));
+    let map = inverse(&svg, 0);
+    let series = svg.descendants().filter(|n| n.attribute("data-label").is_some());
+    let series: Vec<_> = series.collect();
+    assert_eq!(series.len(), 2);
+    // What is held against lies beneath.
+    for (node, series) in series.iter().zip(plot.series.iter().rev()) {
+        let found = pixels(node.attribute("d").unwrap());
+        assert_eq!(found.len(), series.points.len());
+        for ([x, y], [spacing, error]) in found.into_iter().zip(series.points.clone()) {
+            let [a, b] = [map[0] + map[1] * x, map[2] + map[3] * y].map(|log| 10f64.powf(log));
+            assert!((a / (spacing / 1e-3) - 1.0).abs() < 1e-3, "{spacing} m drawn at {a} mm");
+            assert!((b / (error / 0.01) - 1.0).abs() < 1e-3, "{error} drawn at {b} %");
+        }
+    }
+    assert_eq!(classes(&series[0]), ["line", "exact"]);
 }

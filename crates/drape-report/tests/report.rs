@@ -5,9 +5,12 @@
 mod samples;
 
 use drape_report::plot::{Point, UncertaintyPlot, correlation_svg, loop_svg, uncertainty_svg};
-use drape_report::{ComparePage, ComparedValue, FabricName, FitPage, Interval, ReportError, Units};
+use drape_report::{
+    ComparePage, ComparedValue, FabricName, FitPage, Interval, ReportError, Scene, Surface, Units,
+    ValidationCase, ValidationPage, ValidationRow, View, render,
+};
 use proptest::prelude::*;
-use samples::{a_loop, a_page, an_overlay, classes, text_of, tree};
+use samples::{a_graph, a_loop, a_page, an_overlay, classes, text_of, tree};
 
 #[test]
 fn names_with_markup_stay_names() {
@@ -202,4 +205,50 @@ proptest! {
             prop_assert!(page.to_text().is_ok());
         }
     }
+}
+
+#[test]
+fn a_validation_has_its_figures_plots_and_pictures_in_one_page() {
+    let corners = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    let scene = Scene { cloths: vec![Surface::cloth(&corners, &[[0, 1, 2]])], ..Scene::default() };
+    let view = View { width: 40, height: 30, ..View::default() };
+    let picture = render(&scene, &view).unwrap();
+    let row = |what: &str, passes| ValidationRow {
+        what: what.to_owned(),
+        cells: ["1.01", "1", "+1 %", "2 %"].map(str::to_owned),
+        passes,
+    };
+    let case = |name: &str, rows| ValidationCase {
+        name: name.to_owned(),
+        title: format!("{name} & <more>"),
+        rows,
+        plots: vec![a_graph()],
+        pictures: vec![("a triangle".to_owned(), picture.clone())],
+        ..ValidationCase::default()
+    };
+    let mut page = ValidationPage {
+        version: "drape 0.1.0".to_owned(),
+        cases: vec![
+            case("good", vec![row("a", true)]),
+            case("bad", vec![row("b", true), row("c", false)]),
+        ],
+        notes: vec!["nothing else".to_owned()],
+    };
+    let html = page.to_html().unwrap();
+    assert_eq!(html, page.to_html().unwrap());
+    let tree = tree(&html);
+    let found = |tag: &str| tree.descendants().filter(|n| n.has_tag_name(tag)).count();
+    assert_eq!((found("svg"), found("img")), (2, 2));
+    let image = tree.descendants().find(|n| n.has_tag_name("img")).unwrap();
+    // The first bytes of every PNG file.
+    let start = "data:image/png;base64,iVBORw0KGgo";
+    assert!(image.attribute("src").unwrap().starts_with(start));
+    assert!(html.contains("1 of 2 cases are within their limits; 3 figures"), "{html}");
+    let failed = tree.descendants().filter(|n| classes(n) == ["failed"]);
+    assert_eq!(failed.count(), 1);
+    assert!(!html.contains("http"));
+    page.cases[0].plots[0].series[0].points[0][0] = f64::NAN;
+    assert!(matches!(page.to_html(), Err(ReportError::NotFinite { .. })));
+    let none = ValidationPage::default().to_html();
+    assert!(matches!(none, Err(ReportError::EmptyReport { .. })));
 }

@@ -8,6 +8,8 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneFile {
     pub(crate) name: Option<String>,
+    /// `kes` or `breen-1994`.
+    pub(crate) model: Option<String>,
     /// Unit of all lengths of the file: `m`, `cm` or `mm`.
     pub(crate) length: Option<String>,
     /// Distance between particles.

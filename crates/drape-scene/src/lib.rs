@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod bonds;
 mod clock;
 mod collider;
 mod error;
@@ -7,6 +8,7 @@ mod file;
 mod frame;
 mod ledger;
 mod material;
+mod model;
 mod output;
 mod pace;
 mod panel;
@@ -18,6 +20,7 @@ mod scene;
 mod scheme;
 mod settle;
 mod simulation;
+mod snapshot;
 mod stopwatch;
 mod summary;
 mod surfaces;
@@ -30,6 +33,7 @@ pub use clock::Clock;
 pub use error::SceneError;
 pub use frame::Frame;
 pub use material::Material;
+pub use model::Model;
 pub use output::{Output, prepare_folder};
 pub use panel::Panel;
 pub use pin::{Pin, PinLoad};
@@ -37,6 +41,7 @@ pub use scene::Scene;
 pub use scheme::Scheme;
 pub use settle::Settle;
 pub use simulation::{Progress, Simulation, Step};
+pub use snapshot::{Body, Snapshot};
 pub use summary::{Contacts, Energy, Solver, Status, Strain, Summary};
 pub use surfaces::Surfaces;
 pub use track::Track;

@@ -1,8 +1,11 @@
 use std::path::{Path, PathBuf};
 
 use drape_fabric::Fabric;
+use drape_fit::{LoopModel, Settings};
 use drape_input::{Diagnostic, Diagnostics, Document};
 use drape_kes::Sheet;
+
+use crate::model::Model;
 
 /// A fabric of a scene and where it comes from.
 #[derive(Debug, Clone)]
@@ -24,15 +27,18 @@ impl Material {
         Ok(Self { name: name.to_owned(), file: document.path().to_owned(), fabric, fit: None })
     }
 
-    /// Reads a `fabric.toml`, or a `sheet.toml` (or its folder), which is fitted on the way.
-    pub(crate) fn read(name: &str, path: &Path) -> Result<Self, Diagnostics> {
+    /// Reads a `fabric.toml`, or a `sheet.toml` (or its folder), which is fitted on the way with the loads that a model has:
+    /// Breen's are fitted to the first branches of the curves.
+    pub(crate) fn read((name, path): (&str, &Path), model: Model) -> Result<Self, Diagnostics> {
         let file = if path.is_dir() { path.join("sheet.toml") } else { path.to_owned() };
         let document = Document::read(&file)?;
         let (fabric, fit) = if is_fabric(&document) {
             (Fabric::from_document(&document)?, None)
         } else {
             let sheet = Sheet::read(&file).map_err(|error| located(&file, error))?;
-            let fit = drape_fit::identify(&sheet)
+            let loads = (model == Model::Breen1994).then_some(LoopModel::Piecewise);
+            let settings = Settings { bending: loads, shear: loads, ..Settings::default() };
+            let fit = drape_fit::identify_with(&sheet, &settings)
                 .map_err(|error| Diagnostics::from(Diagnostic::new(&file, error.to_string())))?;
             (fit.fabric.clone(), Some(fit))
         };

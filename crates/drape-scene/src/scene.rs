@@ -1,13 +1,15 @@
 use std::path::{Path, PathBuf};
 
-use drape_cloth::Cloth;
+use drape_cloth::{Breen, Cloth, Lattice};
 use drape_collide::{Contact, SurfaceSettings};
+use drape_fabric::Fabric;
 use drape_input::{Diagnostic, Diagnostics, Document};
 
 use crate::clock::Clock;
 use crate::collider::Moving;
 use crate::file::SceneFile;
 use crate::material::Material;
+use crate::model::Model;
 use crate::panel::Panel;
 use crate::pin::Pin;
 use crate::reader::Reader;
@@ -35,6 +37,8 @@ pub struct Scene {
     pub panels: Vec<Panel>,
     /// All panels as one cloth.
     pub cloth: Cloth,
+    /// The same in the model of Breen, if the scene asks for it: then the laws of the cloth have no friction.
+    pub breen: Option<Breen>,
     /// Positions of the particles at the start, three numbers each, in m.
     pub positions: Vec<f64>,
     /// Their velocities, likewise, in m/s.
@@ -93,7 +97,8 @@ impl Reader<'_> {
     fn scene(mut self, file: SceneFile) -> Result<Scene, Diagnostics> {
         let unit = self.unit(file.length.as_deref());
         let folder = self.document.path().parent().unwrap_or(Path::new("")).to_owned();
-        let materials = self.materials(&file, &folder);
+        let model = self.model(&file);
+        let materials = self.materials(&file, &folder, model);
         let panels = self.panels(&file, &materials, unit);
         let clock = self.clock(&file, unit);
         let spacings = panels.iter().flat_map(|(panel, _)| panel.lattice.spacing);
@@ -119,7 +124,11 @@ impl Reader<'_> {
                 (&panel.lattice, &material.expect("mistakes were reported").fabric)
             })
             .collect();
-        let cloth = Cloth::new(&pairs);
+        let breen = (model == Model::Breen1994).then(|| Breen::new(&pairs));
+        let cloth = match model {
+            Model::Kes => Cloth::new(&pairs),
+            Model::Breen1994 => without_friction(&pairs),
+        };
         let materials: Vec<Material> = materials.into_iter().flatten().collect();
         let positions: Vec<f64> =
             panels.iter().flat_map(|(panel, place)| place.positions(&panel.lattice)).collect();
@@ -175,6 +184,7 @@ impl Reader<'_> {
             materials,
             panels,
             cloth,
+            breen,
             positions,
             velocities,
             held,
@@ -193,7 +203,12 @@ impl Reader<'_> {
         })
     }
 
-    fn materials(&mut self, file: &SceneFile, folder: &Path) -> Vec<Option<Material>> {
+    fn materials(
+        &mut self,
+        file: &SceneFile,
+        folder: &Path,
+        model: Model,
+    ) -> Vec<Option<Material>> {
         if file.fabric.is_empty() {
             let help = "add [fabric.NAME] with file = \"…\", a fabric.toml or a sheet.toml";
             self.mistakes
@@ -211,7 +226,7 @@ impl Reader<'_> {
                 self.fail(&format!("fabric.{name}.file"), message, help);
                 return None;
             }
-            Material::read(name, &path).map_err(|e| self.mistakes.extend(e.0)).ok()
+            Material::read((name, &path), model).map_err(|e| self.mistakes.extend(e.0)).ok()
         };
         file.fabric.iter().map(read).collect()
     }
@@ -254,6 +269,13 @@ impl Reader<'_> {
             self.fail("panel", message, "move or turn the panel so that it starts outside");
         }
     }
+}
+
+/// A cloth that keeps the account of its strains and of nothing else.
+fn without_friction(panels: &[(&Lattice, &Fabric)]) -> Cloth {
+    let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.elastic()).collect();
+    let lattices = panels.iter().map(|(lattice, _)| *lattice);
+    Cloth::new(&lattices.zip(&fabrics).collect::<Vec<_>>())
 }
 
 fn hash(document: &Document, materials: &[Material]) -> String {

@@ -1,7 +1,8 @@
-use drape_cloth::{Cloth, State, Workspace};
+use drape_cloth::{Cloth, State};
 use drape_collide::{Contact, Pose};
 use drape_implicit::{BlockMatrix, Pattern, Stiffness, System, Way};
 
+use crate::bonds::Bonds;
 use crate::ledger::{Entry, Ledger};
 use crate::pin::{Pin, PinLoad};
 use crate::scene::Scene;
@@ -18,7 +19,7 @@ const CREEP_TIME: f64 = 0.01;
 #[derive(Debug)]
 pub(crate) struct World {
     pub(crate) cloth: Cloth,
-    workspace: Workspace,
+    bonds: Bonds,
     pub(crate) state: State,
     pub(crate) contact: Contact,
     /// The surfaces, if they are kept apart: the bodies are then among them and not in the contact of the particles.
@@ -41,7 +42,6 @@ pub(crate) struct World {
     moving: Vec<(usize, Pose, Track)>,
     /// Half the air's density times the drag coefficient, in kg/m³.
     air: f64,
-    pattern: Pattern,
     /// Drag of each particle over the length of the step, in N/m along its normal.
     drag: Vec<f64>,
     /// Where the energy goes, if that is asked for.
@@ -52,6 +52,7 @@ impl World {
     pub(crate) fn new(scene: Scene) -> Self {
         let Scene {
             cloth,
+            breen,
             positions,
             velocities,
             held,
@@ -70,13 +71,12 @@ impl World {
         let creeps = scene.settle.is_some_and(|settle| !settle.inertia);
         let mut state = cloth.state(positions).expect("a scene places every particle");
         state.velocities = velocities;
-        let offsets = cloth.pattern().offsets.clone();
-        let columns = cloth.pattern().columns.iter().map(|&c| c as u32).collect();
-        let pattern = Pattern::new(offsets, columns).expect("a cloth's pattern is sorted");
+        let mut bonds = Bonds::new(&cloth, breen, &state.positions);
         let drag = vec![0.0; cloth.particles()];
-        let ledger = scene.energy.then(|| Ledger::new(cloth.stored(&state), cloth.particles()));
+        let stored = bonds.stored(&cloth, &state);
+        let ledger = scene.energy.then(|| Ledger::new(stored, cloth.particles()));
         let mut world = Self {
-            workspace: cloth.workspace(),
+            bonds,
             cloth,
             state,
             contact,
@@ -90,7 +90,6 @@ impl World {
             pins,
             moving,
             air: if creeps { 0.0 } else { air },
-            pattern,
             drag,
             ledger,
         };
@@ -263,7 +262,7 @@ impl System for World {
             force.iter_mut().zip(self.gravity).for_each(|(f, g)| *f = mass * g);
         }
         forces.iter_mut().zip(&self.brake).for_each(|(force, brake)| *force += brake);
-        self.workspace.add_forces(&self.cloth, &self.state, positions, forces);
+        self.bonds.add_forces(&self.cloth, &self.state, positions, forces);
         self.each_drag(positions, |particle, way, normal| {
             let pull = self.drag[particle] * way;
             for axis in 0..3 {
@@ -279,7 +278,7 @@ impl System for World {
     fn potential(&mut self, positions: &[f64]) -> f64 {
         let mut drag = 0.0;
         self.each_drag(positions, |particle, way, _| drag += 0.5 * self.drag[particle] * way * way);
-        let cloth = self.workspace.potential(&self.cloth, &self.state, positions);
+        let cloth = self.bonds.potential(&self.cloth, &self.state, positions);
         let brake: f64 = self.brake.iter().zip(positions).map(|(brake, x)| -brake * x).sum();
         if let Some(ledger) = &mut self.ledger {
             ledger.saw(cloth);
@@ -293,17 +292,11 @@ impl System for World {
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
         let definite = kind == Stiffness::Definite;
-        self.workspace.add_stiffness(
-            &self.cloth,
-            &self.state,
-            (positions, definite),
-            matrix.values_mut(),
-        );
-        let offsets = self.cloth.pattern().offsets.as_slice();
+        self.bonds.add_stiffness(&self.cloth, &self.state, (positions, definite), matrix);
         self.each_drag(positions, |particle, _, normal| {
             let drag = self.drag[particle];
             let block: [f64; 9] = std::array::from_fn(|k| drag * normal[k / 3] * normal[k % 3]);
-            matrix.add_block(offsets[particle], &block);
+            matrix.add_block(matrix.pattern().row(particle).start, &block);
         });
         match &mut self.surfaces {
             Some(surfaces) => {
@@ -312,13 +305,17 @@ impl System for World {
                 });
             }
             None => self.contact.add_stiffness(positions, definite, &mut |particle, block| {
-                matrix.add_block(offsets[particle], &block);
+                matrix.add_block(matrix.pattern().row(particle).start, &block);
             }),
         }
     }
 
     fn pattern(&self) -> Pattern {
-        self.pattern.clone()
+        self.bonds.coupling().clone()
+    }
+
+    fn pattern_version(&self) -> u64 {
+        self.bonds.version()
     }
 
     fn guards(&self) -> bool {
@@ -344,10 +341,9 @@ impl System for World {
         if let Some(surfaces) = &mut self.surfaces {
             surfaces.contact.commit(positions);
         }
-        let committed =
-            self.workspace.commit(&self.cloth, &mut self.state, (positions, velocities));
+        let committed = self.bonds.commit(&self.cloth, &mut self.state, (positions, velocities));
         if let (Some(ledger), Some(entry)) = (&mut self.ledger, entry) {
-            let stored = self.workspace.stored(&self.cloth, &self.state);
+            let stored = self.bonds.stored(&self.cloth, &self.state);
             ledger.enter(&Entry { friction: committed.dissipated, stored, ..entry });
         }
     }

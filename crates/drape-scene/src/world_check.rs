@@ -66,7 +66,7 @@ fn moved(world: &mut World) -> Motion {
 
 #[test]
 fn forces_potential_and_stiffness_agree_in_contact_and_in_air() {
-    for more in ["", "settle = {}"] {
+    for more in ["", "settle = {}", "model = \"breen-1994\""] {
         let mut world = world(more);
         let motion = moved(&mut world);
         assert!(world.contact.survey(&motion.positions).touching > 3, "it touches the ball");

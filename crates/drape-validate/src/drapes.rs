@@ -2,11 +2,11 @@
 
 use drape_fabric::Fabric;
 
-use crate::drapemeter::{Drapemeter, Protocol, spacing_bound};
+use crate::drapemeter::{Drapemeter, Protocol, Study, spacing_bound};
 use crate::prior::Prediction;
 use crate::sensitivity::FACTORS;
 use crate::shipped::{COTTON, WOOL, fabric};
-use crate::{Check, ValidationError};
+use crate::{Axis, Check, Findings, Graph, Layout, Source, ValidationError};
 
 /// Starts of an evaluation, and of each row of the table of what matters.
 const STARTS: u64 = 10;
@@ -27,14 +27,15 @@ fn spacing(fabric: &Fabric) -> f64 {
 }
 
 /// Two fabrics with measured drape coefficients on the FRL meter, over what their sheets leave open.
-pub fn drapemeter() -> Result<Vec<Check>, ValidationError> {
+pub fn drapemeter() -> Result<Findings, ValidationError> {
     let mut checks = Vec::new();
+    let mut graphs = Vec::new();
     let meter = Drapemeter::frl();
     let turned = Drapemeter { protocol: Protocol { turn: 45.0, ..meter.protocol }, ..meter };
     for (text, measured, nodes) in MEASURED {
         let fabric = fabric(text)?;
         let what = |what: &str| format!("{}: {what}", fabric.name);
-        let points = |study: &crate::drapemeter::Study| 100.0 * study.mean();
+        let points = |study: &Study| 100.0 * study.mean();
         let spacing = spacing(&fabric);
         let found = Prediction::of(&meter, &fabric, (spacing, STARTS), &|| ())?;
         let [low, high] = found.interval().map(|part| 100.0 * part);
@@ -45,6 +46,7 @@ pub fn drapemeter() -> Result<Vec<Check>, ValidationError> {
             Check::at_least(what("upper end of the prediction, %"), high, measured),
             Check::at_most(what("half of its width, points"), 0.5 * (high - low), HALF_WIDTH),
         ]);
+        graphs.push(shadows(&fabric.name, &meter, &found));
         let elastic = meter.study(&fabric.elastic(), (spacing, STARTS), &|| ())?;
         checks.push(Check::told(what("without friction, %"), points(&elastic)));
         checks.push(Check::told(what("nodes as measured"), nodes));
@@ -73,11 +75,11 @@ pub fn drapemeter() -> Result<Vec<Check>, ValidationError> {
             checks.push(Check::at_most(what, change, CONVERGENCE));
         }
     }
-    Ok(checks)
+    Ok(Findings { checks, graphs, ..Findings::default() })
 }
 
 /// How far the drape coefficients of the two fabrics change as one thing changes.
-pub fn sensitivity() -> Result<Vec<Check>, ValidationError> {
+pub fn sensitivity() -> Result<Findings, ValidationError> {
     let mut checks = Vec::new();
     for (text, ..) in MEASURED {
         let fabric = fabric(text)?;
@@ -88,5 +90,33 @@ pub fn sensitivity() -> Result<Vec<Check>, ValidationError> {
             checks.push(Check::told(what, 100.0 * (high.mean() - low.mean())));
         }
     }
-    Ok(checks)
+    Ok(Findings { checks, ..Findings::default() })
+}
+
+/// The shadows of a start, as fitted and with each open parameter at its ends.
+fn shadows(name: &str, meter: &Drapemeter, found: &Prediction) -> Graph {
+    let axes = [Axis::new("across", "mm", 1e-3), Axis::new("along", "mm", 1e-3)];
+    let mut graph =
+        Graph::new(format!("{name}: shadows of a start"), axes).laid_out(Layout::ToScale);
+    let mut add = |label: String, study: &Study| {
+        let edge = &study.drapes[0].edge;
+        let places = (0..=edge.len()).map(|k| on_circle(k, edge.len(), edge[k % edge.len()]));
+        graph.add(Source::Traced, label, places.collect());
+    };
+    add("as fitted".into(), &found.fitted);
+    for (parameter, [low, high]) in &found.ends {
+        add(format!("{}, limp", parameter.name()), low);
+        add(format!("{}, stiff", parameter.name()), high);
+    }
+    for (label, radius) in [("disc", meter.disc), ("specimen", meter.specimen)] {
+        let circle = (0..=180).map(|k| on_circle(k, 180, radius)).collect();
+        graph.add(Source::Reference, label, circle);
+    }
+    graph
+}
+
+/// The place at one of so many even angles and a radius.
+fn on_circle(number: usize, count: usize, radius: f64) -> [f64; 2] {
+    let (sin, cos) = (std::f64::consts::TAU * number as f64 / count as f64).sin_cos();
+    [radius * cos, radius * sin]
 }

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use crate::reference;
 use crate::strip::{GRAVITY, Hold, Strip};
-use crate::{Check, ValidationError};
+use crate::{Axis, Check, Findings, Graph, Source, ValidationError};
 
-type Checks = Result<Vec<Check>, ValidationError>;
+type Found = Result<Findings, ValidationError>;
 
 /// Moves a simulation to its end, and gives a figure of it after every step with the time.
 fn record(
@@ -38,6 +38,11 @@ fn period(history: &[[f64; 2]]) -> f64 {
     }
 }
 
+/// Four periods of an oscillation.
+fn cosine() -> Vec<[f64; 2]> {
+    (0..=400).map(|k| 0.01 * f64::from(k)).map(|time| [time, (TAU * time).cos()]).collect()
+}
+
 /// Error of the accelerations over g to which steps are solved, a ratio.
 const TOLERANCE: f64 = 1e-6;
 
@@ -61,7 +66,7 @@ fn bessel(x: f64) -> f64 {
 ///
 /// A straight strip a little off the vertical holds all modes at once. They are orthogonal in the mass, so the
 /// deflection weighed with the shape of one swings with its frequency alone.
-pub fn hanging_chain() -> Checks {
+pub fn hanging_chain() -> Found {
     let strip = Strip {
         length: 0.5,
         width: 0.025,
@@ -72,6 +77,11 @@ pub fn hanging_chain() -> Checks {
     };
     let unit = (GRAVITY / strip.length).sqrt();
     let mut checks = Vec::new();
+    let axes = [
+        Axis::ratio("time over the exact period"),
+        Axis::ratio("part of the mode over that at the start"),
+    ];
+    let mut graph = Graph::new("modes of a limp hanging strip", axes);
     for (number, exact) in reference::CHAIN_MODES.iter().enumerate() {
         let shape = |s: f64| bessel(2.0 * exact * (1.0 - s / strip.length).max(0.0).sqrt());
         let weighed = |line: &[(f64, [f64; 3])]| {
@@ -87,13 +97,21 @@ pub fn hanging_chain() -> Checks {
         let found = TAU / period(&history) / unit;
         let what = format!("mode {} of a hanging chain, ω over √(g/L)", number + 1);
         checks.push(Check::within(what, found, *exact, 0.01));
+        let start = history[0][1] / (exact * unit * history[0][0]).cos();
+        let period = TAU / (exact * unit);
+        let parts = history.iter().map(|[t, x]| [t / period, x / start]).collect();
+        graph.add(Source::Traced, format!("mode {}", number + 1), parts);
     }
-    Ok(checks)
+    graph.add(Source::Reference, "exact", cosine());
+    Ok(Findings { checks, graphs: vec![graph], ..Findings::default() })
 }
 
 /// The first mode of a strip that hangs from a clamp and resists bending.
-pub fn hanging_strip() -> Checks {
+pub fn hanging_strip() -> Found {
     let mut checks = Vec::new();
+    let axes =
+        [Axis::ratio("time over the exact period"), Axis::ratio("tip over its place at the start")];
+    let mut graph = Graph::new("swing of a hanging strip", axes);
     for ratio in [1.0, 10.0, 100.0] {
         let strip = Strip { cells: 20, ..Strip::default() }.of_weight(ratio);
         let unit = (GRAVITY / strip.length).sqrt();
@@ -109,12 +127,16 @@ pub fn hanging_strip() -> Checks {
         let found = TAU / period(&about) / unit;
         let what = format!("first mode of a hanging strip with wL³/B = {ratio}, ω over √(g/L)");
         checks.push(Check::within(what, found, exact, 0.02));
+        // The tip starts at nought, off its slanted rest.
+        let swing = about.iter().map(|[t, x]| [t / period_exact, -x / middle]).collect();
+        graph.add(Source::Traced, format!("wL³/B = {ratio}"), swing);
     }
-    Ok(checks)
+    graph.add(Source::Reference, "the first mode alone", cosine());
+    Ok(Findings { checks, graphs: vec![graph], ..Findings::default() })
 }
 
 /// A short stiff strip swings from a hinge as a rod does.
-pub fn pendulum() -> Checks {
+pub fn pendulum() -> Found {
     let strip = Strip {
         length: 0.05,
         width: 0.01,
@@ -125,18 +147,26 @@ pub fn pendulum() -> Checks {
     };
     let small = TAU * (2.0 * strip.length / (3.0 * GRAVITY)).sqrt();
     let mut checks = Vec::new();
+    let axes = [Axis::new("time", "s", 1.0), Axis::ratio("tip, across over length")];
+    let mut graph = Graph::new("swing of a stiff strip on a hinge", axes);
     for amplitude in [30.0, 60.0, 90.0_f64] {
         let exact = small * reference::pendulum_period(amplitude.to_radians());
         let rest = motion(exact / 400.0, 4.0 * exact);
         let history = record(&strip, (amplitude - 90.0, &rest), |line| line[line.len() - 1].1[0])?;
         let what = format!("period of a pendulum of {amplitude}°, s");
         checks.push(Check::within(what, period(&history), exact, 0.01));
+        let periods = history[history.len() - 1][0] / small;
+        let swing = reference::pendulum_swing(amplitude.to_radians(), periods, 800);
+        let tip = history.iter().map(|[t, x]| [*t, x / strip.length]).collect();
+        graph.add(Source::Traced, format!("from {amplitude}°"), tip);
+        let swing = swing.into_iter().map(|[t, angle]| [t * small, angle.sin()]).collect();
+        graph.add(Source::Reference, "rod", swing);
     }
-    Ok(checks)
+    Ok(Findings { checks, graphs: vec![graph], ..Findings::default() })
 }
 
 /// What nothing holds falls, and keeps its shape.
-pub fn free_fall() -> Checks {
+pub fn free_fall() -> Found {
     let strip = Strip { hold: Hold::Free, cells: 20, ..Strip::default() };
     let end = 0.5;
     let rest = motion(0.001, end);
@@ -151,11 +181,12 @@ pub fn free_fall() -> Checks {
         Check::within("way of half a second's fall, m", way, 0.5 * GRAVITY * end * end, 0.005),
         // Accelerations are right to the tolerance, so ways are to that part of the fall.
         Check::at_most("bend of a falling strip, m", bent, TOLERANCE * way),
-    ])
+    ]
+    .into())
 }
 
 /// What nothing holds and nothing pulls at turns on for ever.
-pub fn rotation() -> Checks {
+pub fn rotation() -> Found {
     let turns = 1.0;
     let strip = Strip { hold: Hold::Free, cells: 20, spin: turns, ..Strip::default() };
     let end = 2.25;
@@ -186,5 +217,6 @@ pub fn rotation() -> Checks {
             0.5e6 * inertia * speed * speed,
             0.001,
         ),
-    ])
+    ]
+    .into())
 }

@@ -5,6 +5,8 @@ pub mod drapemeter;
 mod drapes;
 pub mod dynamics;
 mod error;
+mod findings;
+mod graph;
 pub mod instrument;
 mod loops;
 pub mod prior;
@@ -21,5 +23,7 @@ mod vacuum;
 
 pub use check::{Check, Kind};
 pub use error::ValidationError;
+pub use findings::{Findings, Still};
+pub use graph::{Axis, Graph, Layout, Series, Source};
 pub use strip::{GRAVITY, Hold, Strip, finish};
 pub use suite::{CASES, Case, Outcome};

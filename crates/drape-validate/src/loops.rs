@@ -4,7 +4,7 @@ use drape_kes::{Curve, Direction, Test};
 
 use crate::shipped::{COTTON, CUPRO, fabric};
 use crate::tester::{Comparison, measure};
-use crate::{Check, ValidationError};
+use crate::{Axis, Check, Findings, Graph, Source, ValidationError};
 
 /// Points of a branch of a loop.
 const POINTS: usize = 50;
@@ -15,12 +15,32 @@ const FINE: usize = 200;
 /// How far a KES value may be off.
 const VALUE_LIMIT: f64 = 0.02;
 
+/// Deformation and load of a test, as laboratories plot them.
+fn axes(test: Test) -> [Axis; 2] {
+    match test {
+        Test::Tensile => [Axis::new("strain", "%", 0.01), Axis::new("tension", "N/m", 1.0)],
+        Test::Bending | Test::LoopBending => {
+            [Axis::new("curvature", "1/cm", 100.0), Axis::new("moment per width", "mN", 1e-3)]
+        }
+        Test::Shear => {
+            [Axis::new("angle", "°", 1_f64.to_radians()), Axis::new("shear force", "N/m", 1.0)]
+        }
+    }
+}
+
+/// The points of a curve.
+fn points(curve: &Curve) -> Vec<[f64; 2]> {
+    curve.deformation().iter().zip(curve.load()).map(|(&q, &load)| [q, load]).collect()
+}
+
 /// Every test of two fabrics, along both yarns; at 5 mm with the KES values read from the loops.
-pub fn instruments() -> Result<Vec<Check>, ValidationError> {
-    let mut checks = Vec::new();
+pub fn instruments() -> Result<Findings, ValidationError> {
+    let mut findings = Findings::default();
+    let Findings { checks, graphs, .. } = &mut findings;
     for text in [CUPRO, COTTON] {
         let fabric = fabric(text)?;
         for test in [Test::Tensile, Test::Bending, Test::Shear] {
+            let mut graph = Graph::new(format!("{}, {}", fabric.name, test.name()), axes(test));
             for direction in [Direction::Warp, Direction::Weft] {
                 let what = format!("{}, {} {}", fabric.name, test.name(), direction.name());
                 for (spacing, limit) in SPACINGS {
@@ -29,6 +49,9 @@ pub fn instruments() -> Result<Vec<Check>, ValidationError> {
                     let distance = format!("{what}, {millimetres} mm: distance of the loops");
                     checks.push(Check::at_most(distance, found.distance(), limit));
                     if spacing == 0.005 {
+                        let label = format!("specimen, {}", direction.name());
+                        graph.add(Source::Simulated, label, points(&found.measured));
+                        graph.add(Source::Reference, "law", points(&found.ideal));
                         checks.extend(found.values().into_iter().map(|(symbol, [a, b])| {
                             let what = format!("{what}: {} {}", symbol.name(), symbol.unit());
                             Check::within(what, a, b, VALUE_LIMIT)
@@ -36,17 +59,19 @@ pub fn instruments() -> Result<Vec<Check>, ValidationError> {
                     }
                 }
             }
+            graphs.push(graph);
         }
     }
-    Ok(checks)
+    Ok(findings)
 }
 
 /// Energy that a bent specimen loses in a cycle, and the curvature that it keeps, against the closed forms for a linear
 /// rigidity beside a Dahl element of plateau `$F$` and length `$\ell$`: the steady loop between `$\pm\kappa$` loses
 /// `$4F(\kappa - \ell\tanh(\kappa/\ell))$`, and its unloading branch is
 /// `$M = B\kappa' - F + 2F e^{(\kappa' - \kappa)/\ell}/(1 + e^{-2\kappa/\ell})$`.
-pub fn bending_hysteresis() -> Result<Vec<Check>, ValidationError> {
-    let mut checks = Vec::new();
+pub fn bending_hysteresis() -> Result<Findings, ValidationError> {
+    let mut findings = Findings::default();
+    let Findings { checks, graphs, .. } = &mut findings;
     for text in [CUPRO, COTTON] {
         let fabric = fabric(text)?;
         let law = fabric.weft.bending;
@@ -64,8 +89,18 @@ pub fn bending_hysteresis() -> Result<Vec<Check>, ValidationError> {
         let kept = root(moment, (0.0, top));
         let found = -kept_curvature(&curve);
         checks.push(Check::within(what("curvature kept after bending, 1/m"), found, kept, 0.02));
+        let mut graph = Graph::new(what("bent to both sides"), axes(Test::Bending));
+        graph.add(Source::Traced, "specimen", points(&curve));
+        // The unloading branch, and the reloading one that is its image.
+        let branch = |sign: f64| {
+            let at = |k: u32| sign * top * (1.0 - f64::from(k) / 60.0);
+            (0..=120).map(|k| [at(k), sign * moment(sign * at(k))]).collect()
+        };
+        graph.add(Source::Reference, "closed form", branch(1.0));
+        graph.add(Source::Reference, "closed form", branch(-1.0));
+        graphs.push(graph);
     }
-    Ok(checks)
+    Ok(findings)
 }
 
 /// Area of the loop between the curve's last two branches, which are steady.

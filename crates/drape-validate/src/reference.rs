@@ -8,7 +8,7 @@ mod integrate;
 mod vibration;
 
 pub use bias::bias_stiffness;
-pub use catenary::catenary_sag;
+pub use catenary::{catenary_sag, catenary_shape};
 pub use column::{END_LOAD_BUCKLING, SELF_WEIGHT_BUCKLING};
-pub use heavy_elastica::{Tip, cantilever};
-pub use vibration::{CHAIN_MODES, pendulum_period, strip_modes};
+pub use heavy_elastica::{Tip, cantilever, cantilever_shape};
+pub use vibration::{CHAIN_MODES, pendulum_period, pendulum_swing, strip_modes};

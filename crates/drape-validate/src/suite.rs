@@ -1,6 +1,8 @@
 use serde::Serialize;
 
-use crate::{Check, ValidationError, drapes, dynamics, loops, statics, vacuum};
+use crate::{
+    Check, Findings, Graph, Still, ValidationError, drapes, dynamics, loops, statics, vacuum,
+};
 
 /// A case of the suite.
 #[derive(Debug, Clone, Copy)]
@@ -11,7 +13,7 @@ pub struct Case {
     pub title: &'static str,
     /// Whether it takes minutes and is left out unless asked for.
     pub long: bool,
-    run: fn() -> Result<Vec<Check>, ValidationError>,
+    run: fn() -> Result<Findings, ValidationError>,
 }
 
 impl Case {
@@ -19,7 +21,7 @@ impl Case {
     ///
     /// # Errors
     /// A simulation that cannot be run to its end.
-    pub fn run(&self) -> Result<Vec<Check>, ValidationError> {
+    pub fn run(&self) -> Result<Findings, ValidationError> {
         (self.run)()
     }
 }
@@ -127,6 +129,12 @@ pub struct Outcome {
     pub title: String,
     /// Its figures; none where it could not be run.
     pub checks: Vec<Check>,
+    /// Its plots.
+    #[serde(skip)]
+    pub graphs: Vec<Graph>,
+    /// Its pictures.
+    #[serde(skip)]
+    pub stills: Vec<Still>,
     /// Why it could not be run.
     pub failure: Option<String>,
     /// How long it took, in s.
@@ -137,14 +145,17 @@ impl Outcome {
     /// Runs a case.
     pub fn of(case: &Case) -> Self {
         let start = std::time::Instant::now();
-        let (checks, failure) = match case.run() {
-            Ok(checks) => (checks, None),
-            Err(error) => (Vec::new(), Some(error.to_string())),
+        let (findings, failure) = match case.run() {
+            Ok(findings) => (findings, None),
+            Err(error) => (Findings::default(), Some(error.to_string())),
         };
+        let Findings { checks, graphs, stills } = findings;
         Self {
             name: case.name.into(),
             title: case.title.into(),
             checks,
+            graphs,
+            stills,
             failure,
             seconds: start.elapsed().as_secs_f64(),
         }

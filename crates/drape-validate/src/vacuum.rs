@@ -11,7 +11,7 @@ use drape_scene::Simulation;
 use crate::shipped::{TAGAWA, fabric};
 use crate::stage::simulation;
 use crate::strip::GRAVITY;
-use crate::{Check, ValidationError};
+use crate::{Axis, Check, Findings, Graph, Layout, Source, Still, ValidationError};
 
 /// Length and width of the strip beyond the clamp, in m.
 const LENGTH: f64 = 0.2;
@@ -24,6 +24,8 @@ const IMPULSE: (f64, f64) = (2.88, 0.0481);
 /// The grids that are compared, in m, and times, in s, at which they are.
 const GRIDS: [f64; 2] = [0.005, 0.0025];
 const TIMES: [f64; 4] = [0.03, 0.05, 0.07, 0.09];
+/// From where the strip is seen, azimuth and elevation in degrees.
+const VIEW: [f64; 2] = [60.0, 15.0];
 
 /// Turn of the clamp in the paper's second experiment at a time, in rad.
 fn impulse(t: f64) -> f64 {
@@ -57,25 +59,52 @@ fn strip(
     simulation(text, fabric.to_toml())
 }
 
-/// A swing set going by a clamp that turns upright: what is lost of its energy, by the fabric and in all.
-fn swing(fabric: &Fabric) -> Result<[f64; 2], ValidationError> {
+/// A swing set going by a clamp that turns upright.
+struct Swing {
+    /// What is lost of its energy by the fabric, and in all, in J.
+    lost: [f64; 2],
+    /// Time, and how far the tip is to the side, in s and m.
+    tip: Vec<[f64; 2]>,
+}
+
+fn swing(fabric: &Fabric) -> Result<Swing, ValidationError> {
     let keys = [(0.0, 0.0), (0.05, ANGLE)];
     let mut simulation = strip(fabric, (GRIDS[0], -ANGLE), &keys, (0.002, SWING))?;
-    while !simulation.step()?.finished {}
+    let mut tip = Vec::new();
+    loop {
+        let step = simulation.step()?;
+        tip.push([step.time, middle(&simulation)[0][0]]);
+        if step.finished {
+            break;
+        }
+    }
     let energy = simulation.energy().unwrap_or_default();
     let lost = energy.numerical_dissipated + energy.turning_dissipated;
-    Ok([energy.friction_dissipated, lost + energy.friction_dissipated])
+    Ok(Swing { lost: [energy.friction_dissipated, lost + energy.friction_dissipated], tip })
+}
+
+/// Places along the middle of the strip, to the side and up, from its tip to the clamp; in m.
+fn middle(simulation: &Simulation) -> Vec<[f64; 2]> {
+    let positions = simulation.frame().positions;
+    let points = simulation.coordinates().iter().zip(positions.chunks_exact(3));
+    let mut middle: Vec<(f64, [f64; 2])> = points
+        .filter(|(c, _)| (c[0] - 0.5 * WIDTH).abs() < 0.25 * simulation.spacing())
+        .map(|(c, x)| (c[1], [x[2], x[1]]))
+        .collect();
+    middle.sort_by(|a, b| a.0.total_cmp(&b.0));
+    middle.into_iter().map(|(_, place)| place).collect()
 }
 
 /// Both experiments.
-pub fn tagawa() -> Result<Vec<Check>, ValidationError> {
+pub fn tagawa() -> Result<Findings, ValidationError> {
     let fabric = fabric(TAGAWA)?;
     let rest = fabric.elastic();
     let mass = fabric.density * LENGTH * WIDTH;
     let swung = mass * GRAVITY * 0.5 * LENGTH * (1.0 - ANGLE.to_radians().cos());
     // The first mode of a hanging strip, whose bending is small beside its weight.
     let periods = SWING * 1.2024 * (GRAVITY / LENGTH).sqrt() / std::f64::consts::TAU;
-    let [_, lost] = swing(&rest)?;
+    let elastic = swing(&rest)?;
+    let [_, lost] = elastic.lost;
     // The energy goes with the square of the amplitude.
     let loss = 1.0 - (1.0 - lost / swung).max(0.0).powf(0.5 / periods);
     let mut checks = vec![Check::at_most(
@@ -83,7 +112,8 @@ pub fn tagawa() -> Result<Vec<Check>, ValidationError> {
         loss,
         0.01,
     )];
-    let [friction, lost] = swing(&fabric)?;
+    let rubbing = swing(&fabric)?;
+    let [friction, lost] = rubbing.lost;
     let what = "part of the loss of a swing with friction that the fabric takes";
     checks.push(Check::at_least(what, friction / lost, 0.9));
 
@@ -91,6 +121,13 @@ pub fn tagawa() -> Result<Vec<Check>, ValidationError> {
         .map(|k| IMPULSE.1 * f64::from(k) / 97.0)
         .map(|t| (t, impulse(t).to_degrees()))
         .collect();
+    let axes = [Axis::new("time", "s", 1.0), Axis::new("tip to the side", "mm", 1e-3)];
+    let mut swings = Graph::new("swing in a vacuum", axes);
+    swings.add(Source::Traced, "without friction", elastic.tip);
+    swings.add(Source::Traced, "with the fabric's friction", rubbing.tip);
+    let axes = [Axis::new("to the side", "mm", 1e-3), Axis::new("up", "mm", 1e-3)];
+    let mut shapes = Graph::new("thrown over by its clamp", axes).laid_out(Layout::ToScale);
+    let mut thrown = Vec::new();
     let mut tips = Vec::new();
     for spacing in GRIDS {
         let mut simulation = strip(&fabric, (spacing, 0.0), &keys, (0.0005, TIMES[3]))?;
@@ -98,12 +135,16 @@ pub fn tagawa() -> Result<Vec<Check>, ValidationError> {
         while found.len() < TIMES.len() {
             let step = simulation.step()?;
             if step.time >= TIMES[found.len()] - 1e-9 {
-                let lowest =
-                    |a: &(&[f64; 2], &[f64]), b: &(&[f64; 2], &[f64])| a.0[1].total_cmp(&b.0[1]);
-                let positions = simulation.frame().positions;
-                let points = simulation.coordinates().iter().zip(positions.chunks_exact(3));
-                let tip = points.min_by(lowest).map_or([f64::NAN; 2], |(_, x)| [x[1], x[2]]);
-                found.push(tip);
+                let time = TIMES[found.len()];
+                let shape = middle(&simulation);
+                found.push(shape[0]);
+                let (source, label) = if spacing == GRIDS[0] {
+                    (Source::Simulated, format!("{time} s, 5 mm"))
+                } else {
+                    thrown.push(simulation.snapshot());
+                    (Source::Reference, "2.5 mm".to_owned())
+                };
+                shapes.add(source, label, shape);
             }
         }
         tips.push(found);
@@ -115,5 +156,7 @@ pub fn tagawa() -> Result<Vec<Check>, ValidationError> {
         );
         checks.push(Check::at_most(what, (a[0] - b[0]).hypot(a[1] - b[1]) / LENGTH, 0.05));
     }
-    Ok(checks)
+    let title = format!("thrown over by its clamp, after {TIMES:?} s");
+    let still = Still { title, snapshots: thrown, columns: 2, view: VIEW };
+    Ok(Findings { checks, graphs: vec![swings, shapes], stills: vec![still] })
 }

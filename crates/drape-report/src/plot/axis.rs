@@ -52,9 +52,11 @@ const LEAST_WIDTH: f64 = 1e-9;
 /// Least width of a range: the logarithms and powers of the marks stay ordinary numbers.
 const LEAST: f64 = 1e-90;
 
-/// A range of shown values laid on a stretch of pixels.
+/// A range of shown values, or of their logarithms, laid on a stretch of pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Map {
+    /// Whether the range is of decimal logarithms.
+    logarithmic: bool,
     /// Value at the first pixel.
     low: f64,
     /// Value at the last pixel.
@@ -75,17 +77,49 @@ impl Map {
         let least = if size == 0.0 { 1.0 } else { (LEAST_WIDTH * size).max(LEAST) };
         let margin =
             if high - low > least { MARGIN * (high - low) } else { (0.1 * size).max(least) };
-        Map { low: low - margin, high: high + margin, from, to }
+        Map { logarithmic: false, low: low - margin, high: high + margin, from, to }
+    }
+
+    /// The same with the logarithms of positive values.
+    pub(crate) fn around_logarithms(values: impl Iterator<Item = f64>, pixels: [f64; 2]) -> Map {
+        Map { logarithmic: true, ..Map::around(values.map(f64::log10), pixels) }
+    }
+
+    /// The same range laid on other pixels.
+    pub(crate) fn on(self, [from, to]: [f64; 2]) -> Map {
+        Map { from, to, ..self }
+    }
+
+    /// Its first and its last pixel.
+    pub(crate) fn ends(&self) -> [f64; 2] {
+        [self.from, self.to]
+    }
+
+    /// The width of the range.
+    pub(crate) fn width(&self) -> f64 {
+        self.high - self.low
+    }
+
+    /// The range widened evenly to both sides.
+    pub(crate) fn widened(self, width: f64) -> Map {
+        let more = 0.5 * (width - self.width());
+        Map { low: self.low - more, high: self.high + more, ..self }
     }
 
     /// The pixel of a value.
     pub(crate) fn pixel(&self, value: f64) -> f64 {
+        let value = if self.logarithmic { value.log10() } else { value };
         self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)
     }
 
     /// Whether a value lies on the axis.
     pub(crate) fn holds(&self, value: f64) -> bool {
-        (self.low..=self.high).contains(&value)
+        !self.logarithmic && (self.low..=self.high).contains(&value)
+    }
+
+    /// Whether the pixels lead back to logarithms.
+    pub(crate) fn logarithmic(&self) -> bool {
+        self.logarithmic
     }
 
     /// The value at pixel 0 and the value per pixel: what a reader of the plot needs to go back.
@@ -96,6 +130,9 @@ impl Map {
 
     /// Round values along the axis with their labels.
     pub(crate) fn ticks(&self) -> Vec<(f64, String)> {
+        if self.logarithmic {
+            return self.decades();
+        }
         let [least, most] = FEWEST_TICKS;
         let fewest = ((self.to - self.from).abs() / TICK_ROOM).clamp(least, most);
         let rough = (self.high - self.low) / fewest;
@@ -111,7 +148,23 @@ impl Map {
         let values = (first..=last).map(|k| k as f64 * step);
         values.map(|value| (self.pixel(value), label(value, step, largest))).collect()
     }
+
+    /// Powers of ten along a logarithmic axis, with their doubles and fivefold where there are few.
+    fn decades(&self) -> Vec<(f64, String)> {
+        let factors: &[f64] = if self.width() > DECADES { &[1.0] } else { &[1.0, 2.0, 5.0] };
+        let powers = self.low.floor() as i32..=self.high.ceil() as i32;
+        let values = powers.flat_map(|k| factors.iter().map(move |f| f * 10f64.powi(k)));
+        let on = |value: &f64| (self.low..=self.high).contains(&value.log10());
+        let label = |value: f64| {
+            let text = crate::number::typeset(&crate::number::significant(value, 1));
+            text.strip_prefix("1 × ").map_or(text.replace(" × ", "×"), str::to_owned)
+        };
+        values.filter(on).map(|value| (self.pixel(value), label(value))).collect()
+    }
 }
+
+/// Powers of ten up to which an axis has marks between them.
+const DECADES: f64 = 2.5;
 
 /// Axes whose largest label is outside of this range are labelled with a power of ten.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e5;
@@ -137,7 +190,7 @@ mod tests {
     use super::*;
 
     fn labels(low: f64, high: f64) -> Vec<String> {
-        let map = Map { low, high, from: 0.0, to: 340.0 };
+        let map = Map { logarithmic: false, low, high, from: 0.0, to: 340.0 };
         map.ticks().into_iter().map(|(_, label)| label).collect()
     }
 
@@ -167,6 +220,20 @@ mod tests {
             let back = at_zero + per_pixel * map.pixel(value);
             assert!((back - value).abs() < 1e-12, "{value} came back as {back}");
         }
+    }
+
+    #[test]
+    fn logarithms_have_round_marks_and_even_steps() {
+        let labels = |values: [f64; 2]| -> Vec<String> {
+            let map = Map::around_logarithms(values.into_iter(), [0.0, 340.0]);
+            map.ticks().into_iter().map(|(_, label)| label).collect()
+        };
+        assert_eq!(labels([2e-3, 0.06]), ["0.002", "0.005", "0.01", "0.02", "0.05"]);
+        assert_eq!(labels([1e-4, 11.0]), ["10⁻⁴", "0.001", "0.01", "0.1", "1", "10"]);
+        let map = Map::around_logarithms([1.0, 1000.0].into_iter(), [0.0, 340.0]);
+        let steps = [1.0, 10.0, 100.0].map(|value| map.pixel(10.0 * value) - map.pixel(value));
+        assert!(steps.iter().all(|step| (step - steps[0]).abs() < 1e-9), "{steps:?}");
+        assert!(!map.holds(0.0));
     }
 
     #[test]

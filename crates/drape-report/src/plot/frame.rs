@@ -40,8 +40,10 @@ pub(crate) struct Frame {
     pub(crate) zero: [Option<String>; 2],
     pub(crate) y_middle: String,
     pub(crate) y_title: String,
-    /// Value at pixel 0 and per pixel, for both axes.
+    /// Value, or its decimal logarithm, at pixel 0 and per pixel, for both axes.
     pub(crate) inverse: String,
+    /// The axes whose pixels lead back to logarithms, by their letters; empty for none.
+    pub(crate) logarithmic: String,
 }
 
 impl Frame {
@@ -71,6 +73,10 @@ impl Frame {
             y_middle: px(0.5 * (top + bottom)),
             y_title,
             inverse: inverse.join(" "),
+            logarithmic: [("x", x), ("y", y)]
+                .iter()
+                .filter_map(|(letter, map)| map.logarithmic().then_some(*letter))
+                .collect(),
         }
     }
 

@@ -3,7 +3,8 @@
 #![allow(dead_code, reason = "each test file uses some of them")]
 
 use drape_report::plot::{
-    Axis, Branch, BranchKind, Correlation, LoopPlot, OverlayPlot, Point, Trace,
+    Axis, Branch, BranchKind, Correlation, GraphPlot, GraphSeries, Look, LoopPlot, OverlayPlot,
+    Point, Trace,
 };
 use drape_report::{
     FitPage, Interval, KesValue, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,
@@ -122,6 +123,23 @@ pub fn an_overlay() -> OverlayPlot {
         load: Axis::new("tension", "gf/cm", GRAM_FORCE_PER_CM),
         fabrics: ["A".to_owned(), "B".to_owned()],
         traces: [vec![trace("warp", 2.0), trace("weft", 3.0)], vec![trace("weft", 4.0)]],
+    }
+}
+
+/// Errors of a strip against its spacing, and the line of the second order, on logarithmic axes.
+pub fn a_graph() -> GraphPlot {
+    let order = |spacing: f64| 0.4 * spacing * spacing;
+    let series = |label: &str, look, factor: f64| GraphSeries {
+        label: label.to_owned(),
+        look,
+        points: [0.02, 0.01, 0.005].map(|h| [h, factor * order(h)]).to_vec(),
+    };
+    GraphPlot {
+        title: "error against spacing".to_owned(),
+        axes: [Axis::new("spacing", "mm", 1e-3), Axis::new("error", "%", 0.01)],
+        logarithmic: [true, true],
+        to_scale: false,
+        series: vec![series("simulated", Look::Dots, 1.1), series("h²", Look::Exact, 1.0)],
     }
 }
 

@@ -6,9 +6,23 @@ use super::integrate::root;
 /// L = 2a\sinh\frac{D}{2a},\qquad f = a\left(\cosh\frac{D}{2a} - 1\right)
 /// ```
 pub fn catenary_sag(length_over_span: f64) -> f64 {
-    // In x = D/2a the length is sinh(x)/x, which rises from one.
-    let x = root(|x| x.sinh() / x - length_over_span, 1e-9, 50.0);
+    let x = half_angle(length_over_span);
     (x.cosh() - 1.0) / (2.0 * x)
+}
+
+/// The shape of the same line: place across and height over its ends, both over the span, at so many even places.
+pub fn catenary_shape(length_over_span: f64, places: usize) -> Vec<[f64; 2]> {
+    let x = half_angle(length_over_span);
+    let at = |k: usize| {
+        let across = k as f64 / places as f64;
+        [across, ((x * (2.0 * across - 1.0)).cosh() - x.cosh()) / (2.0 * x)]
+    };
+    (0..=places).map(at).collect()
+}
+
+/// `$D/2a$`: in it the length over the span is `$\sinh(x)/x$`, which rises from one.
+fn half_angle(length_over_span: f64) -> f64 {
+    root(|x| x.sinh() / x - length_over_span, 1e-9, 50.0)
 }
 
 #[cfg(test)]
@@ -21,6 +35,15 @@ mod tests {
         let excess: f64 = 1e-6;
         let sag = catenary_sag(1.0 + excess);
         assert!((sag / (3.0 * excess / 8.0).sqrt() - 1.0).abs() < 1e-6, "{sag}");
+    }
+
+    #[test]
+    fn the_shape_has_the_length_and_the_sag() {
+        let shape = catenary_shape(1.5, 2000);
+        let lengths = shape.windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]));
+        let (length, lowest) = (lengths.sum::<f64>(), shape[1000][1]);
+        assert!((length - 1.5).abs() < 1e-6 && (lowest + catenary_sag(1.5)).abs() < 1e-12);
+        assert_eq!([shape[0][1].abs() < 1e-12, shape[2000][1].abs() < 1e-12], [true, true]);
     }
 
     #[test]

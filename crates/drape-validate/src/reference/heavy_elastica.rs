@@ -1,4 +1,4 @@
-use super::integrate::{march, root};
+use super::integrate::{march, root, way};
 
 /// Steps of the integration along the strip: the error of the fourth order is then below 1e-10 of the length.
 const STEPS: usize = 4000;
@@ -24,17 +24,36 @@ pub struct Tip {
 /// for `$\lambda = wL^3/B$` and `$\mu = PL^2/B$`: the heavy elastica [Bickley 1934] where `$\mu = 0$`, the
 /// end-loaded cantilever [Bisshopp & Drucker 1945] where `$\lambda = 0$`. Solved by shooting from the tip.
 pub fn cantilever(weight: f64, load: f64) -> Tip {
-    let shape = |tip: f64| {
-        let slope = |s: f64, [theta, bend, ..]: [f64; 4]| {
-            let pull = -(weight * s + load) * theta.cos();
-            [bend, pull, theta.sin(), theta.cos()]
-        };
-        march(slope, [tip, 0.0, 0.0, 0.0], 1.0, STEPS)
-    };
-    // The slope at the clamp rises with that at the tip from below nought to above.
-    let tip = root(|tip| shape(tip)[0], 0.0, std::f64::consts::FRAC_PI_2);
-    let [_, _, drop, reach] = shape(tip);
+    let start = [tip_slope(weight, load), 0.0, 0.0, 0.0];
+    let [_, _, drop, reach] = march(elastica(weight, load), start, 1.0, STEPS);
     Tip { drop, reach }
+}
+
+/// The whole shape of the same strip, from its clamp at (0, 0): reach and drop over the length at so many even places.
+pub fn cantilever_shape((weight, load): (f64, f64), places: usize) -> Vec<[f64; 2]> {
+    let start = [tip_slope(weight, load), 0.0, 0.0, 0.0];
+    let shape: Vec<[f64; 4]> =
+        std::iter::once(start).chain(way(elastica(weight, load), start, 1.0, STEPS)).collect();
+    let [_, _, drop, reach] = shape[STEPS];
+    let at = |k: usize| {
+        let [_, _, down, across] = shape[STEPS - k * STEPS / places];
+        [reach - across, drop - down]
+    };
+    (0..=places).map(at).collect()
+}
+
+/// Derivatives of slope, bend, drop and reach along the strip from its tip.
+fn elastica(weight: f64, load: f64) -> impl Fn(f64, [f64; 4]) -> [f64; 4] {
+    move |s, [theta, bend, ..]| {
+        let pull = -(weight * s + load) * theta.cos();
+        [bend, pull, theta.sin(), theta.cos()]
+    }
+}
+
+/// The slope at the tip for which the clamp is level: that at the clamp rises with it from below nought to above.
+fn tip_slope(weight: f64, load: f64) -> f64 {
+    let clamp = |tip: f64| march(elastica(weight, load), [tip, 0.0, 0.0, 0.0], 1.0, STEPS)[0];
+    root(clamp, 0.0, std::f64::consts::FRAC_PI_2)
 }
 
 #[cfg(test)]
@@ -59,6 +78,17 @@ mod tests {
             assert!((tip.drop - drop).abs() < 1e-5, "{tip:?} for {load}");
             assert!((1.0 - tip.reach - shortening).abs() < 1e-5, "{tip:?} for {load}");
         }
+    }
+
+    #[test]
+    fn the_shape_goes_from_the_clamp_to_the_tip() {
+        let (shape, tip) = (cantilever_shape((10.0, 0.0), 40), cantilever(10.0, 0.0));
+        let ([x0, y0], [x1, y1]) = (shape[0], shape[shape.len() - 1]);
+        assert!(x0.abs() < 1e-9 && y0.abs() < 1e-9, "it begins at {x0}, {y0}");
+        assert!((x1 - tip.reach).abs() < 1e-9 && (y1 - tip.drop).abs() < 1e-9, "{tip:?}");
+        let lengths = shape.windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]));
+        let length: f64 = lengths.sum();
+        assert!(length < 1.0 && length > 0.999, "the chords are {length} long together");
     }
 
     #[test]

@@ -5,23 +5,33 @@ pub(crate) fn march<const N: usize>(
     end: f64,
     steps: usize,
 ) -> [f64; N] {
+    way(slope, start, end, steps).last().unwrap_or(start)
+}
+
+/// The same, step by step from the first one's end on.
+pub(crate) fn way<const N: usize>(
+    slope: impl Fn(f64, [f64; N]) -> [f64; N],
+    start: [f64; N],
+    end: f64,
+    steps: usize,
+) -> impl Iterator<Item = [f64; N]> {
     let h = end / steps as f64;
-    let along = |y: [f64; N], k: [f64; N], part: f64| {
+    let along = move |y: [f64; N], k: [f64; N], part: f64| {
         let mut out = y;
         out.iter_mut().zip(k).for_each(|(y, k)| *y += part * h * k);
         out
     };
-    (0..steps).fold(start, |y, step| {
+    let mut y = start;
+    (0..steps).map(move |step| {
         let s = step as f64 * h;
         let a = slope(s, y);
         let b = slope(s + 0.5 * h, along(y, a, 0.5));
         let c = slope(s + 0.5 * h, along(y, b, 0.5));
         let d = slope(s + h, along(y, c, 1.0));
-        let mut out = y;
-        for (i, y) in out.iter_mut().enumerate() {
+        for (i, y) in y.iter_mut().enumerate() {
             *y += h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]);
         }
-        out
+        y
     })
 }
 

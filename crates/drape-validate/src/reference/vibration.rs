@@ -1,4 +1,8 @@
+use std::f64::consts::TAU;
+
 use nalgebra::{DMatrix, SymmetricEigen};
+
+use super::integrate::way;
 
 /// Angular frequencies of the swinging modes of a chain of length `$L$` that hangs from one end, over
 /// `$\sqrt{g/L}$`: half the zeros of the Bessel function `$J_0$` [Bernoulli 1732].
@@ -96,6 +100,16 @@ pub fn pendulum_period(amplitude: f64) -> f64 {
     1.0 / a
 }
 
+/// The swing of a pendulum let go at an amplitude (in rad): time over that of small swings, and angle in rad, at so
+/// many even times of a number of such periods. By integration of `$\theta'' = -\sin\theta$`.
+pub fn pendulum_swing(amplitude: f64, periods: f64, places: usize) -> Vec<[f64; 2]> {
+    let end = periods * TAU;
+    let swing = way(|_, [angle, rate]| [rate, -f64::sin(angle)], [amplitude, 0.0], end, places);
+    let time = |k: usize| periods * (k + 1) as f64 / places as f64;
+    let later = swing.enumerate().map(|(k, [angle, _])| [time(k), angle]);
+    std::iter::once([0.0, amplitude]).chain(later).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -134,6 +148,14 @@ mod tests {
             }
             assert!(f64::abs(sum) < 1e-10, "J₀ is {sum:e} at {omega}");
         }
+    }
+
+    #[test]
+    fn a_pendulum_is_back_after_its_period() {
+        let amplitude = 90f64.to_radians();
+        let swing = pendulum_swing(amplitude, pendulum_period(amplitude), 4000);
+        let [half, whole] = [2000, 4000].map(|k| swing[k][1]);
+        assert!((half + amplitude).abs() < 1e-9 && (whole - amplitude).abs() < 1e-9);
     }
 
     #[test]

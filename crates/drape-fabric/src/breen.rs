@@ -1,0 +1,342 @@
+//! Breen's derivation of work curves from the first branches of KES loops.
+
+use std::f64::consts::FRAC_PI_4;
+
+use drape_hysteresis::BlimanSorine;
+
+use crate::{BendingBackbone, BendingLaw, Locking, Piecewise, ShearBackbone, ShearLaw};
+
+/// Angle of shear at which Breen's work has its pole, in rad: cloth does not shear to about 60°.
+const SHEAR_LIMIT: f64 = 1.05;
+
+/// Curvature of three particles with mean spacing `$h$` and the inner angle `$\theta$` between their segments
+/// (`$\pi$`: straight), in 1/m [Breen, House & Wozny 1994, eq. 5.5].
+///
+/// ```math
+/// K = \frac2h\cos\frac\theta2\;(\theta > \tfrac\pi4), \qquad
+/// K = \left(\frac\pi4\right)^2\frac{\beta}{\theta} + \alpha - \frac\pi4\beta\;(\theta \le \tfrac\pi4)
+/// ```
+///
+/// with `$\alpha = \frac2h\cos\frac\pi8$` and `$\beta = \frac1h\sin\frac\pi8$`. The paper prints the second line
+/// with signs that make a folded cloth infinitely limp; with these it is infinitely stiff, and value and slope
+/// meet at `$\pi/4$`.
+#[must_use]
+pub fn breen_curvature(spacing: f64, angle: f64) -> f64 {
+    if angle > FRAC_PI_4 {
+        return 2.0 / spacing * (0.5 * angle).cos();
+    }
+    let half = 0.5 * FRAC_PI_4;
+    let (alpha, beta) = (2.0 / spacing * half.cos(), half.sin() / spacing);
+    FRAC_PI_4 * FRAC_PI_4 * beta / angle + alpha - FRAC_PI_4 * beta
+}
+
+/// Work of bending and shearing per area, from a quadratic and a line for each [Breen, House & Wozny 1994, §5].
+///
+/// The paper's eq. 5.4 has the work of a bent beam, `$MK/2$`, which is right for a straight line alone; cloth of that
+/// work would not return the moment that was measured. Here it is `$\int M\,\mathrm{d}K$`, as the paper has it of
+/// shearing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BreenWork {
+    /// Moment per width against curvature, from the first branch of a bending test.
+    pub bending: Piecewise,
+    /// Force per length against the sine of the shear angle, from the first branch of a shear test.
+    pub shear: Piecewise,
+    /// Shear angle where the test ends and the continuation begins, in rad; below 1.05.
+    pub shear_end: f64,
+}
+
+/// Work per area at a deformation, in J/m², and its derivatives with respect to the deformation.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Work {
+    /// The work, in J/m².
+    pub work: f64,
+    /// Its first derivative, in J/m² per deformation.
+    pub first: f64,
+    /// Its second derivative, in J/m² per deformation squared.
+    pub second: f64,
+}
+
+impl BreenWork {
+    /// The first branches of two laws: what each answers to a fabric that was never deformed.
+    ///
+    /// Of a line with friction the outer part is the line plus the friction's plateau. The knot is where the quadratic
+    /// has to begin for the work beyond to be the law's; where friction overshoots its plateau, no quadratic has that
+    /// work, and the knot is that of the fast element alone. Breen's curves are even: a rest curvature is left out.
+    #[must_use]
+    pub fn of(bending: &BendingLaw, shear: &ShearLaw) -> Self {
+        let backbone = match bending.backbone {
+            BendingBackbone::Linear { rigidity } => [rigidity, 0.0, 0.0],
+            BendingBackbone::Piecewise(piecewise) => outline(&piecewise),
+        };
+        let bending = branch(backbone, &bending.friction, 0.0);
+        let backbone = match shear.backbone {
+            ShearBackbone::Linear { stiffness } => [stiffness, 0.0, 0.0],
+            ShearBackbone::Piecewise(piecewise) => outline(&piecewise),
+        };
+        let end = shear.locking.unwrap_or_default().onset.min(Locking::default().limit);
+        Self {
+            bending,
+            shear: branch(backbone, &shear.friction, shear.growth),
+            shear_end: end.asin().min(0.95 * SHEAR_LIMIT),
+        }
+    }
+
+    /// Work of bending to an inner angle of segments of a spacing, in J/m²: `$\int_0^K M\,\mathrm{d}K$`.
+    #[must_use]
+    pub fn bending(&self, spacing: f64, angle: f64) -> f64 {
+        self.bending.energy(breen_curvature(spacing, angle))
+    }
+
+    /// Work of shearing to an angle, in J/m²: `$\int_0^\varphi F\cos\varphi\,\mathrm{d}\varphi$` up to the end of
+    /// the test [eq. 5.7], and `$a/(1.05-\varphi)+b$` beyond, with the same value and slope; infinite from
+    /// 1.05 rad on.
+    #[must_use]
+    pub fn shearing(&self, angle: f64) -> f64 {
+        let (angle, end) = (angle.abs(), self.shear_end);
+        if angle <= end {
+            return self.shear.energy(angle.sin());
+        }
+        if angle >= SHEAR_LIMIT {
+            return f64::INFINITY;
+        }
+        let left = SHEAR_LIMIT - end;
+        let pole = self.shear.load(end.sin()) * end.cos() * left * left;
+        self.shear.energy(end.sin()) + pole * (1.0 / (SHEAR_LIMIT - angle) - 1.0 / left)
+    }
+
+    /// The work of bending as a function of the chord, the difference of the directions of two segments of a spacing:
+    /// `$2\cos\frac\theta2$` for the inner angle `$\theta$`, 0 for a straight yarn, 2 for a folded one.
+    #[must_use]
+    pub fn of_chord(&self, spacing: f64, chord: f64) -> Work {
+        let [curvature, first, second] = curvature_of_chord(spacing, chord);
+        let (moment, rigidity) = (self.bending.load(curvature), self.bending.tangent(curvature));
+        Work {
+            work: self.bending.energy(curvature),
+            first: moment * first,
+            second: rigidity * first * first + moment * second,
+        }
+    }
+
+    /// The work of shearing as a function of the sine of the angle, even.
+    #[must_use]
+    pub fn of_sine(&self, sine: f64) -> Work {
+        let (size, end) = (sine.abs(), self.shear_end);
+        let (onset, limit) = (end.sin(), SHEAR_LIMIT.sin());
+        let (first, second) = if size <= onset {
+            (self.shear.load(size), self.shear.tangent(size))
+        } else if size < limit {
+            let angle = size.asin();
+            let (cosine, left) = (angle.cos(), SHEAR_LIMIT - angle);
+            let pole = self.shear.load(onset) * end.cos() * (SHEAR_LIMIT - end).powi(2);
+            let [first, second] = [pole / left.powi(2), 2.0 * pole / left.powi(3)];
+            (first / cosine, (second + first * size / cosine) / cosine.powi(2))
+        } else {
+            (f64::INFINITY, f64::INFINITY)
+        };
+        let work = if size < limit { self.shearing(size.min(1.0).asin()) } else { f64::INFINITY };
+        Work { work, first: first * sine.signum(), second }
+    }
+}
+
+/// Curvature at a chord, and its two derivatives with respect to it [eq. 5.5].
+fn curvature_of_chord(spacing: f64, chord: f64) -> [f64; 3] {
+    let half = 0.5 * chord;
+    // cos(θ/2) at θ = π/4.
+    if half <= (0.5 * FRAC_PI_4).cos() {
+        return [chord / spacing, 1.0 / spacing, 0.0];
+    }
+    let angle = 2.0 * half.min(1.0).acos();
+    let (sine, cosine) = (0.5 * angle).sin_cos();
+    let size = FRAC_PI_4 * FRAC_PI_4 * (0.5 * FRAC_PI_4).sin() / spacing;
+    let first = size / (angle * angle * sine);
+    let second = first * (2.0 / (angle * sine) + 0.5 * cosine / (sine * sine));
+    [breen_curvature(spacing, angle), first, second]
+}
+
+/// Slope and intercept of the line of a curve, and the work by which it stays below the line's.
+fn outline(piecewise: &Piecewise) -> [f64; 3] {
+    let Piecewise { slope, intercept, knot } = *piecewise;
+    [slope, intercept, intercept * knot / 3.0]
+}
+
+/// The first branch of a curve with friction whose plateau grows.
+///
+/// Along it an element of plateau `$F$`, length `$\ell$` and growth `$\gamma$` has the load
+/// `$F(1 + \gamma(s - \ell)) - F(1 - \gamma\ell)e^{-s/\ell}$`.
+fn branch(
+    [mut slope, mut intercept, mut below]: [f64; 3],
+    friction: &BlimanSorine,
+    growth: f64,
+) -> Piecewise {
+    for element in &friction.elements {
+        let outer = element.plateau * (1.0 - growth * element.length);
+        slope += element.plateau * growth;
+        intercept += outer;
+        below += outer * element.length;
+    }
+    let fast = 3.0 * friction.elements[0].length;
+    let knot = 3.0 * below / intercept;
+    let knot = if knot > 0.0 && knot.is_finite() { knot } else { fast };
+    Piecewise { slope, intercept: intercept.max(-0.5 * slope * knot), knot }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Law;
+
+    const WORK: BreenWork = BreenWork {
+        bending: Piecewise { slope: 1.2e-5, intercept: 6e-4, knot: 70.0 },
+        shear: Piecewise { slope: 33.0, intercept: 0.6, knot: 0.02 },
+        shear_end: 0.14,
+    };
+
+    /// Simpson's rule on pieces, exact for the cubics here.
+    fn integral(f: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
+        const PIECES: usize = 20_000;
+        let h = (to - from) / PIECES as f64;
+        let at = |i: usize| from + h * i as f64;
+        let piece = |i: usize| h / 6.0 * (f(at(i)) + 4.0 * f(at(i) + 0.5 * h) + f(at(i + 1)));
+        (0..PIECES).map(piece).sum()
+    }
+
+    /// Derivatives from below and from above, by one-sided differences of second order.
+    fn sides(f: impl Fn(f64) -> f64, at: f64, h: f64) -> [f64; 2] {
+        let below = (3.0 * f(at) - 4.0 * f(at - h) + f(at - 2.0 * h)) / (2.0 * h);
+        let above = (-3.0 * f(at) + 4.0 * f(at + h) - f(at + 2.0 * h)) / (2.0 * h);
+        [below, above]
+    }
+
+    fn assert_smooth(f: impl Fn(f64) -> f64, at: f64, what: &str) {
+        let h = 1e-5 * at;
+        let jump = (f(at * (1.0 + 1e-13)) - f(at)).abs() / f(at).abs();
+        assert!(jump < 1e-11, "{what} jumps by {jump:e}");
+        let [below, above] = sides(&f, at, h);
+        // Rounding of 1e-16 over steps of 1e-5, and a formula that errs by the step squared.
+        assert!((below / above - 1.0).abs() < 1e-7, "{what}: slope {below} and {above}");
+    }
+
+    #[test]
+    fn curvature_meets_its_continuation_and_grows_without_end_when_folded() {
+        let curvature = |angle: f64| breen_curvature(0.005, angle);
+        assert_smooth(curvature, FRAC_PI_4, "curvature");
+        assert!(curvature(std::f64::consts::PI).abs() < 1e-10);
+        assert!((curvature(FRAC_PI_4) * 0.005 - 1.8478).abs() < 1e-4);
+        let angles = [3.0, 2.0, 1.0, 0.7, 0.3, 0.1, 1e-3, 1e-6];
+        let rises = angles.windows(2).all(|pair| curvature(pair[1]) > curvature(pair[0]));
+        assert!(rises && curvature(1e-9) > 1e10);
+    }
+
+    #[test]
+    fn loads_and_work_are_smooth_where_their_pieces_meet() {
+        let BreenWork { bending, shear, shear_end } = WORK;
+        assert_smooth(|k| bending.load(k), bending.knot, "moment");
+        assert_smooth(|s| shear.load(s), shear.knot, "force");
+        assert_smooth(|k| bending.energy(k), bending.knot, "bending work");
+        assert_smooth(|angle| WORK.shearing(angle), shear.knot.asin(), "shearing work");
+        assert_smooth(|angle| WORK.shearing(angle), shear_end, "shearing work at the end");
+        assert_smooth(|angle| WORK.bending(0.005, angle), FRAC_PI_4, "bending work of a fold");
+    }
+
+    #[test]
+    fn work_is_the_integral_of_the_load() {
+        let BreenWork { bending, shear, .. } = WORK;
+        for angle in [3.1, 2.8, 2.0, 1.0, 0.5, 0.1] {
+            let curvature = breen_curvature(0.005, angle);
+            let exact = integral(|k| bending.load(k), 0.0, curvature);
+            let error = (WORK.bending(0.005, angle) / exact - 1.0).abs();
+            assert!(error < 1e-9, "angle {angle}: off by {error}");
+        }
+        for angle in [0.01, 0.05, 0.1, 0.14] {
+            let exact = integral(|phi| shear.load(phi.sin()) * phi.cos(), 0.0, angle);
+            let error = (WORK.shearing(angle) / exact - 1.0).abs();
+            assert!(error < 1e-9, "shear {angle}: off by {error}");
+        }
+    }
+
+    #[test]
+    fn work_by_chord_and_by_sine_is_that_by_angle() {
+        let spacing = 0.005;
+        for angle in [3.1, 2.5, 1.2, 0.79, 0.78, 0.5, 0.1] {
+            let chord = 2.0 * f64::cos(0.5 * angle);
+            let work = WORK.of_chord(spacing, chord).work;
+            let exact = WORK.bending(spacing, angle);
+            // Near a fold the angle is the root of a small difference.
+            assert!((work / exact - 1.0).abs() < 1e-11, "{work} and {exact} at {angle}");
+        }
+        for angle in [-1.0, -0.3, -0.1, 0.0, 0.01, 0.14, 0.2, 1.04] {
+            let (work, exact) = (WORK.of_sine(f64::sin(angle)).work, WORK.shearing(angle));
+            assert!((work - exact).abs() <= 1e-12 * exact, "{work} and {exact} at {angle}");
+        }
+        assert!(
+            WORK.of_sine(0.868).work.is_infinite() && WORK.of_sine(-0.9).first == f64::NEG_INFINITY
+        );
+    }
+
+    #[test]
+    fn derivatives_of_the_work_are_its_derivatives() {
+        let check = |work: &dyn Fn(f64) -> Work, at: f64, scale: f64| {
+            let h = 1e-5 * scale;
+            let Work { first, second, .. } = work(at);
+            let slope = (work(at + h).work - work(at - h).work) / (2.0 * h);
+            let bend = (work(at + h).first - work(at - h).first) / (2.0 * h);
+            let size = second.abs() * scale;
+            assert!((slope - first).abs() < 1e-7 * size, "{slope} and {first} at {at}");
+            assert!((bend - second).abs() < 1e-6 * second.abs(), "{bend} and {second} at {at}");
+        };
+        for chord in [0.01, 0.3, 1.0, 1.8, 1.9, 1.99] {
+            check(&|chord| WORK.of_chord(0.005, chord), chord, 2.0 - chord);
+        }
+        for sine in [-0.8, -0.2, -0.1, 0.005, 0.05, 0.3, 0.6, 0.85] {
+            check(&|sine| WORK.of_sine(sine), sine, 0.867 - f64::abs(sine));
+        }
+    }
+
+    #[test]
+    fn the_first_branch_of_a_law_has_its_load_far_out_and_its_work() {
+        let friction = BlimanSorine::first_order(6e-4, 4.0);
+        let law = BendingLaw {
+            backbone: BendingBackbone::Linear { rigidity: 1.2e-5 },
+            rest_curvature: 0.0,
+            friction,
+        };
+        let shear = ShearLaw {
+            backbone: ShearBackbone::Linear { stiffness: 30.0 },
+            friction: BlimanSorine::first_order(0.4, 0.004),
+            growth: 6.0,
+            locking: Some(Locking::default()),
+        };
+        let found = BreenWork::of(&law, &shear);
+        // Beyond the knot the load is the law's to the exponential's tail, and so is the work.
+        let (virgin, far) = (law.virgin(), 150.0);
+        let (load, work) = (law.respond(&virgin, far).load, law.work(&virgin, far));
+        assert!((found.bending.load(far) / load - 1.0).abs() < 1e-12, "{found:?}");
+        assert!((found.bending.energy(far) / work - 1.0).abs() < 1e-12, "{found:?}");
+        let (virgin, far) = (shear.virgin(), 0.13);
+        let (load, work) = (shear.respond(&virgin, far).load, shear.work(&virgin, far));
+        assert!((found.shear.load(far) / load - 1.0).abs() < 1e-9, "{found:?}");
+        assert!((found.shear.energy(far) / work - 1.0).abs() < 1e-9, "{found:?}");
+        assert!((found.shear_end - 8_f64.to_radians()).abs() < 1e-12);
+        // A curve that is Breen's already stays what it is.
+        let again = BendingLaw {
+            backbone: BendingBackbone::Piecewise(found.bending),
+            friction: BlimanSorine::none(),
+            ..law
+        };
+        let twice = BreenWork::of(&again, &shear).bending;
+        assert!((twice.knot / found.bending.knot - 1.0).abs() < 1e-12, "{twice:?}");
+        // Friction that overshoots has a knot all the same.
+        let stiction = BlimanSorine::second_order(6e-4, 5e-4, 0.1, 4.0);
+        let found = BreenWork::of(&BendingLaw { friction: stiction, ..law }, &shear).bending;
+        assert!(found.knot > 0.0 && found.intercept > 0.0, "{found:?}");
+    }
+
+    #[test]
+    fn no_shear_passes_the_limit() {
+        let angles = [0.14, 0.3, 0.6, 0.9, 1.0, 1.04, 1.0499];
+        let work = angles.map(|angle| WORK.shearing(angle));
+        assert!(work.windows(2).all(|pair| pair[1] > pair[0]), "{work:?}");
+        assert!(work[6] > 100.0 * work[4] && WORK.shearing(1.05).is_infinite(), "{work:?}");
+        assert_eq!(WORK.shearing(-0.6), WORK.shearing(0.6));
+    }
+}

@@ -1,0 +1,192 @@
+use drape_cloth::{Breen, Cloth, Committed, Pattern, State, Workspace};
+use drape_implicit::{BlockMatrix, Pattern as Coupling};
+
+/// What holds the particles of a cloth together.
+#[derive(Debug)]
+pub(crate) struct Bonds {
+    /// The connectors of the cloth. In Breen's model they keep the account of strains alone.
+    workspace: Workspace,
+    breen: Option<Breen>,
+    /// Which particles act on each other.
+    coupling: Coupling,
+    /// How often that has changed.
+    version: u64,
+}
+
+/// The coupling of a cloth's connectors and of some more pairs.
+fn coupling(pattern: &Pattern, more: &[[u32; 2]]) -> Coupling {
+    let rows = (0..pattern.offsets.len() - 1).flat_map(|row| {
+        let columns = &pattern.columns[pattern.offsets[row]..pattern.offsets[row + 1]];
+        columns.iter().map(move |&column| (row, column))
+    });
+    let more = more.iter().map(|&[a, b]| (a as usize, b as usize));
+    let particles = pattern.offsets.len() - 1;
+    Coupling::from_pairs(particles, rows.chain(more)).expect("pairs are of the cloth's particles")
+}
+
+impl Bonds {
+    pub(crate) fn new(cloth: &Cloth, breen: Option<Breen>, positions: &[f64]) -> Self {
+        let mut bonds = Self {
+            workspace: cloth.workspace(),
+            breen,
+            coupling: coupling(cloth.pattern(), &[]),
+            version: 0,
+        };
+        bonds.couple(cloth, positions);
+        bonds
+    }
+
+    pub(crate) fn coupling(&self) -> &Coupling {
+        &self.coupling
+    }
+
+    pub(crate) fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Takes the pairs that have come near each other into the coupling. Those that have left stay until then.
+    fn couple(&mut self, cloth: &Cloth, positions: &[f64]) {
+        let Some(breen) = &mut self.breen else { return };
+        let near = breen.near(positions);
+        let known = |&[a, b]: &[u32; 2]| self.coupling.slot(a as usize, b as usize).is_some();
+        if !near.iter().all(known) {
+            self.coupling = coupling(cloth.pattern(), near);
+            self.version += 1;
+        }
+    }
+
+    pub(crate) fn add_forces(
+        &mut self,
+        cloth: &Cloth,
+        state: &State,
+        positions: &[f64],
+        forces: &mut [f64],
+    ) {
+        match &mut self.breen {
+            Some(breen) => breen.add_forces(positions, forces),
+            None => self.workspace.add_forces(cloth, state, positions, forces),
+        }
+    }
+
+    pub(crate) fn potential(&mut self, cloth: &Cloth, state: &State, positions: &[f64]) -> f64 {
+        match &mut self.breen {
+            Some(breen) => breen.energy(positions),
+            None => self.workspace.potential(cloth, state, positions),
+        }
+    }
+
+    /// Adds the stiffness. A pair that has come near since the matrix was laid out has no block in it; its particles then
+    /// bear it each by itself, twice, which is more than the two of them bear together.
+    pub(crate) fn add_stiffness(
+        &mut self,
+        cloth: &Cloth,
+        state: &State,
+        (positions, definite): (&[f64], bool),
+        matrix: &mut BlockMatrix,
+    ) {
+        let Some(breen) = &mut self.breen else {
+            let kind = (positions, definite);
+            self.workspace.add_stiffness(cloth, state, kind, matrix.values_mut());
+            return;
+        };
+        breen.stiffness(positions, definite, &mut |[a, b], block| {
+            let (row, column) = (a as usize, b as usize);
+            match matrix.pattern().slot(row, column) {
+                Some(slot) => matrix.add_block(slot, block),
+                None => {
+                    let against = block.map(|entry| -entry);
+                    matrix.add(row, row, &against);
+                    matrix.add(column, column, &against);
+                }
+            }
+        });
+    }
+
+    pub(crate) fn commit(
+        &mut self,
+        cloth: &Cloth,
+        state: &mut State,
+        (positions, velocities): (&[f64], &[f64]),
+    ) -> Committed {
+        let committed = self.workspace.commit(cloth, state, (positions, velocities));
+        self.couple(cloth, positions);
+        if self.breen.is_some() { Committed::default() } else { committed }
+    }
+
+    /// Energy that can be had back, in J.
+    pub(crate) fn stored(&mut self, cloth: &Cloth, state: &State) -> f64 {
+        match &mut self.breen {
+            Some(breen) => breen.energy(&state.positions),
+            None => self.workspace.stored(cloth, state),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use drape_cloth::Lattice;
+    use drape_fabric::Fabric;
+    use drape_input::Document;
+
+    use super::*;
+
+    const FABRIC: &str = r#"name = "plain"
+density = 0.12
+thickness = 0.0003
+shear = { stiffness = 35.0 }
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
+bending.rigidity = 1.2e-5
+[weft]
+traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
+bending.rigidity = 0.8e-5
+"#;
+
+    #[test]
+    fn a_pair_without_a_block_is_borne_by_its_particles_alone_and_more() {
+        let fabric = Fabric::from_document(&Document::new("plain.toml", FABRIC)).expect("right");
+        let lattice = Lattice::rectangle(0.04, 0.04, 0.01).expect("a sheet");
+        let panels = [(&lattice, &fabric), (&lattice, &fabric)];
+        let cloth = Cloth::new(&panels);
+        let place = |gap: f64| -> Vec<f64> {
+            let sheet =
+                |height: f64| lattice.coordinates.iter().flat_map(move |&[u, v]| [u, v, height]);
+            sheet(0.0).chain(sheet(gap)).collect()
+        };
+        let state = cloth.state(place(0.05)).expect("it fits");
+        let mut bonds = Bonds::new(&cloth, Some(Breen::new(&panels)), &state.positions);
+        let fill = |bonds: &mut Bonds| {
+            let mut matrix = BlockMatrix::zeros(bonds.coupling().clone());
+            bonds.add_stiffness(&cloth, &state, (&place(0.008), true), &mut matrix);
+            assert_eq!(matrix.stray(), None);
+            matrix
+        };
+        let (before, alone) = (bonds.version(), fill(&mut bonds));
+        bonds.couple(&cloth, &place(0.008));
+        assert_eq!(bonds.version(), before + 1);
+        let whole = fill(&mut bonds);
+        assert!(whole.pattern().blocks() > alone.pattern().blocks());
+        // Sheets that near each other by a length of one each: the coupled matrix has them pull four times as much as
+        // sheets that move as one, which it does not feel at all.
+        let count = cloth.particles();
+        let energy = |matrix: &BlockMatrix, lower: f64| {
+            let way = |k: usize| if k / 3 < count / 2 { lower } else { 1.0 };
+            let way: Vec<f64> =
+                (0..3 * count).map(|k| if k % 3 == 2 { way(k) } else { 0.0 }).collect();
+            let mut pull = vec![0.0; way.len()];
+            matrix.multiply(&way, &mut pull);
+            way.iter().zip(&pull).map(|(a, b)| a * b).sum::<f64>()
+        };
+        let (together, against) = (energy(&whole, 1.0), energy(&whole, -1.0));
+        assert!(against > 0.0 && together.abs() < 1e-12 * against, "{together} and {against}");
+        for lower in [1.0, -1.0, 0.3] {
+            let (alone, whole) = (energy(&alone, lower), energy(&whole, lower));
+            assert!(alone >= whole * (1.0 - 1e-12), "{alone} and {whole} for {lower}");
+        }
+        // Where they go against each other the two are the same.
+        assert!((energy(&alone, -1.0) / against - 1.0).abs() < 1e-12);
+        // Once more changes nothing.
+        bonds.couple(&cloth, &place(0.008));
+        assert_eq!(bonds.version(), before + 1);
+    }
+}

@@ -1,0 +1,33 @@
+use drape_scene::Snapshot;
+
+use crate::{Check, Graph};
+
+/// What a case came to: figures beside their references, and what there is to look at.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Findings {
+    /// The figures.
+    pub checks: Vec<Check>,
+    /// Plots.
+    pub graphs: Vec<Graph>,
+    /// Pictures.
+    pub stills: Vec<Still>,
+}
+
+/// Cloths to be drawn side by side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Still {
+    /// What is shown, in the order of the pictures.
+    pub title: String,
+    /// The cloths, row by row.
+    pub snapshots: Vec<Snapshot>,
+    /// How many stand in a row.
+    pub columns: usize,
+    /// From where they are seen, azimuth and elevation in degrees.
+    pub view: [f64; 2],
+}
+
+impl From<Vec<Check>> for Findings {
+    fn from(checks: Vec<Check>) -> Self {
+        Self { checks, ..Self::default() }
+    }
+}
