@@ -1,12 +1,14 @@
 #![doc = include_str!("../README.md")]
 
 mod angle;
+mod clip;
 mod cloth;
 mod connectors;
 mod energy;
 mod error;
 mod field;
 mod force;
+mod grain;
 mod lattice;
 mod panel;
 mod pattern;
@@ -20,6 +22,7 @@ mod workspace;
 
 pub use cloth::{Areas, Cloth, Committed, Strains};
 pub use error::ClothError;
+pub use grain::Grain;
 pub use lattice::Lattice;
 pub use pattern::Pattern;
 pub use reference::Reference;
