@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod bias;
 mod check;
 pub mod drapemeter;
 mod drapes;

@@ -4,7 +4,7 @@ use crate::reference;
 use crate::strip::{GRAVITY, Hold, Strip, finish};
 use crate::{Check, ValidationError};
 
-type Checks = Result<Vec<Check>, ValidationError>;
+pub(crate) type Checks = Result<Vec<Check>, ValidationError>;
 
 /// How a strip goes to rest: without inertia, to a hundredth of what a scene usually asks for.
 const REST: &str = "[time]\nstep = 0.002\nend = 10000\n[settle]\nresidual = 1e-5\nspeed = 1e-5\n\

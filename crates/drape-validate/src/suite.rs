@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use crate::{Check, ValidationError, drapes, dynamics, loops, statics, vacuum};
+use crate::{Check, ValidationError, bias, drapes, dynamics, loops, statics, vacuum};
 
 /// A case of the suite.
 #[derive(Debug, Clone, Copy)]
@@ -61,6 +61,12 @@ pub const CASES: &[Case] = &[
         title: "A hanging strip stretches under its own weight",
         long: false,
         run: statics::self_stretch,
+    },
+    Case {
+        name: "bias-strip",
+        title: "Strips cut at an angle to the grain stretch (Kilby 1963)",
+        long: false,
+        run: bias::bias_strip,
     },
     Case {
         name: "column",
