@@ -33,6 +33,12 @@ pub const CASES: &[Case] = &[
         run: loops::instruments,
     },
     Case {
+        name: "bias-bending",
+        title: "Bending specimens cut on the bias, with both yarns' loops (closed form)",
+        long: false,
+        run: loops::bias_bending,
+    },
+    Case {
         name: "hysteresis",
         title: "A specimen that was bent loses energy and keeps a curvature (Dahl friction, closed forms)",
         long: false,
