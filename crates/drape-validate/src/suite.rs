@@ -69,6 +69,12 @@ pub const CASES: &[Case] = &[
         run: statics::self_stretch,
     },
     Case {
+        name: "cylinder",
+        title: "A sheet on a cylinder stores the energy of its yarns' bending",
+        long: false,
+        run: statics::cylinder,
+    },
+    Case {
         name: "bias-strip",
         title: "Strips cut at an angle to the grain stretch (Kilby 1963)",
         long: false,
