@@ -105,6 +105,8 @@ pub(crate) struct PinFile {
     pub(crate) edge: Option<String>,
     /// Rows that an edge holds: all within so many spacings less a half.
     pub(crate) rows: Option<usize>,
+    /// When it lets go, in s; never if missing.
+    pub(crate) release: Option<f64>,
     /// How what it holds moves; it stays where it is if missing.
     pub(crate) motion: Option<MotionFile>,
 }

@@ -47,7 +47,11 @@ impl Reader<'_> {
             Some(motion) => Some(self.track(&format!("{key}.motion"), motion, (middle, unit))?),
             None => None,
         };
-        Some(Pin { particles, start, track })
+        let release = pin.release.unwrap_or(f64::INFINITY);
+        if pin.release.is_some() {
+            self.within(&format!("{key}.release"), release, (0.0, 1e5), "when it lets go, in s");
+        }
+        Some(Pin { particles, start, track, release })
     }
 
     /// The particles nearest to the places that a pin names, or all within its radius of them.
