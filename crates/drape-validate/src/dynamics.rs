@@ -41,7 +41,7 @@ fn period(history: &[[f64; 2]]) -> f64 {
 /// Error of the accelerations over g to which steps are solved, a ratio.
 const TOLERANCE: f64 = 1e-6;
 
-fn motion(step: f64, end: f64) -> String {
+pub(crate) fn motion(step: f64, end: f64) -> String {
     format!(
         "[time]\nstep = {step}\nend = {end}\n[solver]\ntolerance = {TOLERANCE:e}\n[output]\nenergy = false\n"
     )

@@ -2,6 +2,8 @@
 
 mod bias;
 mod check;
+mod crease;
+mod decrement;
 pub mod drapemeter;
 mod drapes;
 pub mod dynamics;

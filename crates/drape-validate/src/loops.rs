@@ -132,7 +132,7 @@ fn kept_curvature(curve: &Curve) -> f64 {
 }
 
 /// Root of a rising function, by halving.
-fn root(function: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64)) -> f64 {
+pub(crate) fn root(function: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64)) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if function(middle) < 0.0 { low = middle } else { high = middle }

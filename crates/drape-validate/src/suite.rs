@@ -1,6 +1,8 @@
 use serde::Serialize;
 
-use crate::{Check, ValidationError, bias, drapes, dynamics, loops, statics, vacuum};
+use crate::{
+    Check, ValidationError, bias, crease, decrement, drapes, dynamics, loops, statics, vacuum,
+};
 
 /// A case of the suite.
 #[derive(Debug, Clone, Copy)]
@@ -43,6 +45,24 @@ pub const CASES: &[Case] = &[
         title: "A specimen that was bent loses energy and keeps a curvature (Dahl friction, closed forms)",
         long: false,
         run: loops::bending_hysteresis,
+    },
+    Case {
+        name: "decrement",
+        title: "A strip with friction swings less and less (Dahl friction, area of the loop)",
+        long: false,
+        run: decrement::decrement,
+    },
+    Case {
+        name: "permanent-set",
+        title: "A strip that was bent in clamps and let go stays curved (Dahl friction, closed form)",
+        long: false,
+        run: crease::permanent_set,
+    },
+    Case {
+        name: "crease",
+        title: "A strip that was folded and let go recovers (Dahl friction, closed form)",
+        long: false,
+        run: crease::recovery,
     },
     Case {
         name: "heavy-cantilever",

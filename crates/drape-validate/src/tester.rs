@@ -46,9 +46,21 @@ struct Specimen {
 
 /// Where the moving clamp is: shift of its pivot, in m, and turn about z, in rad.
 #[derive(Clone, Copy, Default)]
-struct Place {
-    shift: [f64; 3],
-    turn: f64,
+pub(crate) struct Place {
+    pub(crate) shift: [f64; 3],
+    pub(crate) turn: f64,
+}
+
+/// A clamp that bends a specimen to a curvature, in 1/m: where equal turns of so many rows at a distance, in m, lead it if
+/// they keep that. The clamp that stays has its line at 0, and both lines are midway between two rows.
+pub(crate) fn bent((row, cells): (f64, usize), curvature: f64) -> Place {
+    let turn = curvature * row;
+    let mut shift = [(1.0 - cells as f64) * row, 0.0, 0.0];
+    for cell in 1..cells {
+        let (sin, cos) = (cell as f64 * turn).sin_cos();
+        shift = [shift[0] + row * cos, shift[1] + row * sin, 0.0];
+    }
+    Place { shift, turn: cells as f64 * turn }
 }
 
 impl Specimen {
@@ -93,18 +105,6 @@ impl Specimen {
         let h = BENDING_GAUGE / cells as f64;
         let along = Self::in_clamps(h);
         Self { grain: 45.0, spacing: h * SQRT_2, rows: [2, 2], ..along }
-    }
-
-    /// The moving clamp at a curvature: where equal turns of cells that keep their length lead it.
-    fn bent(&self, curvature: f64) -> Place {
-        let Self { row: h, cells, pivot, .. } = self;
-        let turn = curvature * h;
-        let mut shift = [0.5 * h - pivot, 0.0, 0.0];
-        for cell in 1..*cells {
-            let (sin, cos) = (cell as f64 * turn).sin_cos();
-            shift = [shift[0] + h * cos, shift[1] + h * sin, 0.0];
-        }
-        Place { shift, turn: *cells as f64 * turn }
     }
 
     /// Moves the clamp from place to place, one in each step, and records what it bears; the moment is about its pivot.
@@ -220,7 +220,10 @@ fn shear(fabric: &Fabric, direction: Direction, spacing: f64, path: &[f64]) -> L
 
 /// Moment per width at curvatures.
 fn bend(fabric: &Fabric, direction: Direction, specimen: &Specimen, path: &[f64]) -> Loads {
-    let places: Vec<Place> = path[1..].iter().map(|&curvature| specimen.bent(curvature)).collect();
+    let places: Vec<Place> = path[1..]
+        .iter()
+        .map(|&curvature| bent((specimen.row, specimen.cells), curvature))
+        .collect();
     let loads = specimen.drive(fabric, direction, &places)?;
     Ok(from_rest(loads.iter().map(|load| -load.moment[2] / WIDTH)))
 }
