@@ -1,4 +1,5 @@
-use crate::ClothError;
+use crate::clip::area_within;
+use crate::{ClothError, Grain};
 
 /// Most particles of one panel; beyond it a spacing in the wrong unit is far more likely.
 const PARTICLES_MAX: f64 = 4e6;
@@ -27,6 +28,12 @@ pub struct Lattice {
     pub spacing: [f64; 2],
     /// Material coordinates of the particles, in m.
     pub coordinates: Vec<[f64; 2]>,
+    /// How the yarns lie in the panel's own frame.
+    pub grain: Grain,
+    /// The middle of the panel in its own frame, in m: [0, 0] for a disc.
+    pub middle: [f64; 2],
+    /// Width and height of a rectangle, in m.
+    size: Option<[f64; 2]>,
     /// Cells kept, row by row along the warp.
     pub cells: Vec<Cell>,
     /// Particle at each grid point, `columns` to a row.
@@ -48,21 +55,69 @@ pub struct Cell {
 impl Lattice {
     /// A rectangle, `width` along the weft and `height` along the warp, in m.
     ///
-    /// The spacing is stretched a little so that both sides are multiples of it.
+    /// # Errors
+    /// As for [`Lattice::rectangle_at`].
+    pub fn rectangle(width: f64, height: f64, spacing: f64) -> Result<Self, ClothError> {
+        Self::rectangle_at(Grain::default(), [0.0; 2], [width, height], spacing)
+    }
+
+    /// A rectangle of a width and a height, in m, with its yarns at an angle; material coordinates count from its lower
+    /// left corner.
+    ///
+    /// Where the yarns are parallel to its sides, the spacing is stretched a little so that both sides are multiples of
+    /// it. Elsewhere the cells are those of a grid with a particle at the given material coordinates from the middle of
+    /// the rectangle, in m; its sides are ragged by up to one spacing, and mass and connectors carry the exact area of
+    /// the rectangle in every cell.
     ///
     /// # Errors
     /// When a length is not positive, or fewer than 3 particles would lie across the rectangle.
-    pub fn rectangle(width: f64, height: f64, spacing: f64) -> Result<Self, ClothError> {
+    pub fn rectangle_at(
+        grain: Grain,
+        grid: [f64; 2],
+        size: [f64; 2],
+        spacing: f64,
+    ) -> Result<Self, ClothError> {
+        let [width, height] = size;
         check("the width", width)?;
         check("the height", height)?;
         check("the spacing", spacing)?;
-        let [across, along] = [width, height].map(|side| (side / spacing).round());
-        if across < 2.0 || along < 2.0 {
+        let cells = size.map(|side| (side / spacing).round());
+        if cells.iter().any(|cells| *cells < 2.0) {
             return Err(ClothError::Spacing { spacing, size: width.min(height) });
         }
-        let spacing = [width / across, height / along];
+        let corners = [[0.0, 0.0], [width, 0.0], size, [0.0, height]];
+        let outline = corners.map(|corner| grain.coordinates(corner));
+        if !grain.is_straight() {
+            let lattice = Self::ragged(&outline, on_grid(grid, spacing)?, spacing)?;
+            return Ok(lattice.of_size(grain, size));
+        }
+        let (cells, sides) = (grain.exchanged(cells), grain.exchanged(size));
+        let spacing = [sides[0] / cells[0], sides[1] / cells[1]];
         let quarter = 0.25 * spacing[0] * spacing[1];
-        Self::cut(spacing, [0.0, 0.0], [across, along], |_, _| [quarter; 4])
+        let start = [0, 1].map(|axis| lowest(&outline, axis));
+        let lattice = Self::cut(spacing, start, cells, |_, _| [quarter; 4])?;
+        let sides = [cells[0] * spacing[0], cells[1] * spacing[1]];
+        Ok(lattice.of_size(grain, grain.exchanged(sides)))
+    }
+
+    /// The cells of a grid that lie, or parts of them, in a rectangle with the given corners; `grid` is the place of a
+    /// particle from its middle.
+    fn ragged(outline: &[[f64; 2]; 4], grid: [f64; 2], spacing: f64) -> Result<Self, ClothError> {
+        let middle = [0, 1].map(|axis| 0.5 * (outline[0][axis] + outline[2][axis]));
+        let reach = [0, 1].map(|axis| middle[axis] - lowest(outline, axis));
+        let half = reach.map(|reach| (reach / spacing + 0.5).ceil());
+        let start = [0, 1].map(|axis| middle[axis] + grid[axis] - half[axis] * spacing);
+        Self::cut([spacing; 2], start, half.map(|half| 2.0 * half), |column, row| {
+            let at = |[u, v]: [f64; 2]| {
+                [start[0] + (column + u) * spacing, start[1] + (row + v) * spacing]
+            };
+            let quadrants = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+            quadrants.map(|[u, v]| area_within(outline, at([u, v]), at([u + 0.5, v + 0.5])))
+        })
+    }
+
+    fn of_size(self, grain: Grain, size: [f64; 2]) -> Self {
+        Self { grain, middle: size.map(|side| 0.5 * side), size: Some(size), ..self }
     }
 
     /// A disc of the given radius, in m, with a particle at its centre.
@@ -86,10 +141,7 @@ impl Lattice {
         if radius < spacing {
             return Err(ClothError::Spacing { spacing, size: 2.0 * radius });
         }
-        let grid = grid.map(|place| place - spacing * (place / spacing).round());
-        if !grid.iter().all(|place| place.is_finite()) {
-            return Err(ClothError::Length { what: "the place of the grid", value: f64::NAN });
-        }
+        let grid = on_grid(grid, spacing)?;
         let half = (radius / spacing + 0.5).ceil();
         let start = grid.map(|place| place - half * spacing);
         let area = |u0: f64, v0: f64, u1: f64, v1: f64| {
@@ -102,6 +154,12 @@ impl Lattice {
             let (v0, vm, v1) = (at(1, row), at(1, row + 0.5), at(1, row + 1.0));
             [area(u0, v0, um, vm), area(um, v0, u1, vm), area(um, vm, u1, v1), area(u0, vm, um, v1)]
         })
+    }
+
+    /// A disc with its yarns at an angle in the panel's own frame.
+    #[must_use]
+    pub fn turned(self, grain: Grain) -> Self {
+        Self { grain, ..self }
     }
 
     /// Cuts a grid of cells whose quadrants have the areas that `quadrants` gives for a cell's
@@ -170,7 +228,27 @@ impl Lattice {
                 even: (column + row) % 2 == 0,
             })
             .collect();
-        Ok(Self { spacing, coordinates, cells, grid, columns })
+        let grain = Grain::default();
+        Ok(Self { spacing, coordinates, grain, middle: [0.0; 2], size: None, cells, grid, columns })
+    }
+
+    /// Places of the particles in the panel's own frame, in m: from the lower left corner of a rectangle, from the
+    /// middle of a disc.
+    #[must_use]
+    pub fn places(&self) -> Vec<[f64; 2]> {
+        self.coordinates.iter().map(|&coordinates| self.grain.place(coordinates)).collect()
+    }
+
+    /// How far each particle is inside a side of the panel, in spacings: 0 on it, negative beyond it. The side is that
+    /// at the low (−1) or the high end (1) of an axis of the panel's own frame; a disc has its outermost particles there.
+    #[must_use]
+    pub fn depths(&self, axis: usize, end: f64) -> Vec<f64> {
+        let places = self.places();
+        let outermost = || places.iter().map(|place| end * place[axis]).fold(f64::MIN, f64::max);
+        let side =
+            self.size.map_or_else(outermost, |size| if end > 0.0 { size[axis] } else { 0.0 });
+        let spacing = self.grain.exchanged(self.spacing)[axis];
+        places.iter().map(|place| (side - end * place[axis]) / spacing).collect()
     }
 
     /// Area of the panel, in m².
@@ -220,6 +298,17 @@ fn shared(areas: [f64; 4]) -> [f64; 4] {
             if area < least { least } else { least + (area - least) * (1.0 - lacking / above) }
         },
     )
+}
+
+/// The place of the particle nearest to where a grid is counted from.
+fn on_grid(grid: [f64; 2], spacing: f64) -> Result<[f64; 2], ClothError> {
+    let grid = grid.map(|place| place - spacing * (place / spacing).round());
+    let lost = grid.into_iter().find(|place| !place.is_finite());
+    lost.map_or(Ok(grid), |value| Err(ClothError::Length { what: "the place of the grid", value }))
+}
+
+fn lowest(outline: &[[f64; 2]; 4], axis: usize) -> f64 {
+    outline.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min)
 }
 
 fn check(what: &'static str, value: f64) -> Result<(), ClothError> {

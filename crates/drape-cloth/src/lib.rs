@@ -2,12 +2,14 @@
 
 mod angle;
 mod breen;
+mod clip;
 mod cloth;
 mod connectors;
 mod energy;
 mod error;
 mod field;
 mod force;
+mod grain;
 mod lattice;
 mod panel;
 mod pattern;
@@ -22,6 +24,7 @@ mod workspace;
 pub use breen::{Block, Breen};
 pub use cloth::{Areas, Cloth, Committed, Strains};
 pub use error::ClothError;
+pub use grain::Grain;
 pub use lattice::Lattice;
 pub use pattern::Pattern;
 pub use reference::Reference;

@@ -1,6 +1,6 @@
 //! Forces and tangents against finite differences, conservation, and known energies.
 
-use drape_cloth::{Cloth, Lattice, State};
+use drape_cloth::{Cloth, Grain, Lattice, State};
 use drape_fabric::{Fabric, Law};
 use drape_input::Document;
 
@@ -78,6 +78,11 @@ fn panels() -> Vec<(&'static str, Lattice)> {
     vec![
         ("rectangle", Lattice::rectangle(0.10, 0.08, 0.012).expect("a rectangle")),
         ("disc", Lattice::disc(0.05, 0.011).expect("a disc")),
+        (
+            "bias",
+            Lattice::rectangle_at(Grain::from_degrees(33.0), [0.0; 2], [0.10, 0.08], 0.012)
+                .expect("a rectangle"),
+        ),
     ]
 }
 
@@ -225,6 +230,8 @@ fn internal_forces_and_torques_cancel() {
             let (force, torque) = balance(&cloth, &state, &trial);
             println!("{name}: with friction, step {step}: force {force:.1e}, torque {torque:.1e}");
             assert!(force < 1e-12, "{name}: net force {force:e}");
+            // At ragged corners yarns of two particles give normals of the first order only.
+            let limit = if name == "bias" { 3.0 * limit } else { limit };
             assert!(torque < limit, "{name}: net torque {torque:e}");
         }
     }

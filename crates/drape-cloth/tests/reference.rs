@@ -1,6 +1,6 @@
 //! The cloth on its grid against its connectors one by one.
 
-use drape_cloth::{Cloth, Lattice, Reference};
+use drape_cloth::{Cloth, Grain, Lattice, Reference};
 use drape_fabric::Fabric;
 use drape_input::Document;
 
@@ -73,8 +73,11 @@ fn the_grid_gives_the_numbers_of_the_connectors_one_by_one() {
     let wide = Lattice::rectangle(0.6, 0.5, 0.012).expect("a rectangle");
     let narrow = Lattice::rectangle(0.024, 0.3, 0.012).expect("three columns");
     let disc = Lattice::disc(0.1, 0.011).expect("a disc");
-    let cloths: [&[(&Lattice, &Fabric)]; 4] = [
+    let bias = Lattice::rectangle_at(Grain::from_degrees(33.0), [0.0; 2], [0.2, 0.1], 0.012);
+    let bias = bias.expect("a rectangle");
+    let cloths: [&[(&Lattice, &Fabric)]; 5] = [
         &[(&wide, &rich)],
+        &[(&bias, &rich)],
         &[(&disc, &plain)],
         &[(&narrow, &rich)],
         &[(&disc, &rich), (&narrow, &plain), (&wide, &plain)],

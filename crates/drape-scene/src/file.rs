@@ -54,11 +54,14 @@ pub(crate) struct FabricFile {
 pub(crate) struct PanelFile {
     pub(crate) name: String,
     pub(crate) fabric: String,
-    /// Weft × warp.
+    /// Width × height: weft × warp where no grain is given.
     pub(crate) rectangle: Option<[f64; 2]>,
     /// Diameter.
     pub(crate) disc: Option<f64>,
-    /// Place of a particle from the disc's middle; a particle is in the middle if missing.
+    /// Angle from the panel's height to its warp, anticlockwise, in degrees.
+    #[serde(default)]
+    pub(crate) grain: f64,
+    /// Place of a particle from the middle, weft × warp; a particle is in the middle if missing.
     pub(crate) grid: Option<[f64; 2]>,
     pub(crate) spacing: Option<f64>,
     /// Where the middle of the panel is.
@@ -109,15 +112,17 @@ pub(crate) struct NoiseFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct PinFile {
     pub(crate) panel: String,
-    /// Places on the panel, weft × warp from its lower left corner (a disc's middle).
+    /// Places on the panel, width × height from its lower left corner (a disc's middle).
     #[serde(default)]
     pub(crate) points: Vec<[f64; 2]>,
     /// How far from the places particles are held; without it, the nearest to each.
     pub(crate) radius: Option<f64>,
     /// `top`, `bottom`, `left` or `right`.
     pub(crate) edge: Option<String>,
-    /// Rows that an edge holds.
+    /// Rows that an edge holds: all within so many spacings less a half.
     pub(crate) rows: Option<usize>,
+    /// When it lets go, in s; never if missing.
+    pub(crate) release: Option<f64>,
     /// How what it holds moves; it stays where it is if missing.
     pub(crate) motion: Option<MotionFile>,
 }

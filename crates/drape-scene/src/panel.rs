@@ -1,4 +1,4 @@
-use drape_cloth::{ClothError, Lattice};
+use drape_cloth::{ClothError, Grain, Lattice};
 use drape_input::{Diagnostic, closest};
 
 use crate::file::{PanelFile, SceneFile};
@@ -105,6 +105,7 @@ impl Reader<'_> {
         1
     }
 
+    /// The particles of a panel before it is deformed.
     fn lattice(
         &mut self,
         key: &str,
@@ -114,16 +115,18 @@ impl Reader<'_> {
     ) -> Option<Lattice> {
         let own = entry.spacing.is_some();
         let spacing = entry.spacing.or(spacing).map_or(SPACING, |s| s * unit);
+        let grid = entry.grid.unwrap_or_default().map(|place| place * unit);
+        let grain = self.grain(key, entry)?;
         let lattice = match (entry.rectangle, entry.disc) {
-            (Some([width, height]), None) => {
-                Lattice::rectangle(width * unit, height * unit, spacing)
+            (Some(size), None) => {
+                Lattice::rectangle_at(grain, grid, size.map(|side| side * unit), spacing)
             }
             (None, Some(diameter)) => {
-                let grid = entry.grid.unwrap_or_default().map(|place| place * unit);
-                Lattice::disc_on(grid, 0.5 * diameter * unit, spacing)
+                let disc = Lattice::disc_on(grid, 0.5 * diameter * unit, spacing);
+                disc.map(|disc| disc.turned(grain))
             }
             _ => {
-                let help = "give one of rectangle = [weft, warp] and disc = diameter";
+                let help = "give one of rectangle = [width, height] and disc = diameter";
                 self.fail(key, format!("panel \"{}\" has no single shape", entry.name), help);
                 return None;
             }
@@ -141,6 +144,23 @@ impl Reader<'_> {
             self.fail(&place, format!("panel \"{}\": {error}", entry.name), help);
         };
         lattice.map_err(report).ok()
+    }
+
+    /// How the yarns lie in a panel; a grid that its place has no meaning for is refused.
+    fn grain(&mut self, key: &str, entry: &PanelFile) -> Option<Grain> {
+        let help = "degrees from the panel's height to its warp, anticlockwise; 45 is the bias";
+        if !self.within(&format!("{key}.grain"), entry.grain, (-180.0, 180.0), help) {
+            return None;
+        }
+        if entry.grid.is_some() && entry.rectangle.is_some() && entry.grain % 90.0 == 0.0 {
+            let message = format!("the yarns of panel \"{}\" follow its sides", entry.name);
+            self.fail(
+                &format!("{key}.grid"),
+                message,
+                "its grid begins at a corner; leave grid out",
+            );
+        }
+        Some(Grain::from_degrees(entry.grain))
     }
 
     /// The particles must be farther apart than the cloth is thick.

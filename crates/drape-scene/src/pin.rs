@@ -9,6 +9,8 @@ pub struct Pin {
     pub(crate) start: Vec<[f64; 3]>,
     /// Their way; none if they stay.
     pub(crate) track: Option<Track>,
+    /// When it lets go, in s; infinite if it never does.
+    pub(crate) release: f64,
 }
 
 /// What a pin bears: the pull of the cloth and the weight that hangs on it.
@@ -21,6 +23,11 @@ pub struct PinLoad {
 }
 
 impl Pin {
+    /// Whether it holds its particles in a step that ends at a time, in s.
+    pub(crate) fn holds(&self, end_time: f64) -> bool {
+        end_time <= self.release
+    }
+
     /// The load from the forces on all particles.
     pub(crate) fn load(&self, positions: &[f64], forces: &[f64]) -> PinLoad {
         let vector = |all: &[f64], particle: usize| -> [f64; 3] {

@@ -47,12 +47,16 @@ impl Reader<'_> {
             Some(motion) => Some(self.track(&format!("{key}.motion"), motion, (middle, unit))?),
             None => None,
         };
-        Some(Pin { particles, start, track })
+        let release = pin.release.unwrap_or(f64::INFINITY);
+        if pin.release.is_some() {
+            self.within(&format!("{key}.release"), release, (0.0, 1e5), "when it lets go, in s");
+        }
+        Some(Pin { particles, start, track, release })
     }
 
     /// The particles nearest to the places that a pin names, or all within its radius of them.
     fn points(&mut self, key: &str, pin: &PinFile, panel: &Panel, unit: f64) -> Vec<usize> {
-        let coordinates = &panel.lattice.coordinates;
+        let coordinates = panel.lattice.places();
         let [across, along] = panel.lattice.spacing;
         let mut particles = Vec::new();
         for (number, point) in pin.points.iter().enumerate() {
@@ -72,7 +76,7 @@ impl Reader<'_> {
                 }
                 _ => {
                     let message = format!("{point:?} is not on panel \"{}\"", panel.name);
-                    let help = "places are weft × warp from the lower left corner of a rectangle, \
+                    let help = "places are width × height from the lower left corner of a rectangle, \
                                 from the middle of a disc";
                     self.fail(&format!("{key}.points[{number}]"), message, help);
                 }
@@ -81,16 +85,14 @@ impl Reader<'_> {
         particles
     }
 
-    /// The particles of the outermost rows along an edge.
+    /// The particles of the outermost rows along an edge: those less than half a spacing farther inside it than the last
+    /// of the rows, also where the rows run at an angle to it.
     fn edge(&mut self, key: &str, edge: &str, (panel, rows): (&Panel, usize)) -> Vec<usize> {
         let edges =
             [("top", (1, 1.0)), ("bottom", (1, -1.0)), ("left", (0, -1.0)), ("right", (0, 1.0))];
-        let (axis, sign) = self.choice(&format!("{key}.edge"), Some(edge), &edges);
-        let coordinates = &panel.lattice.coordinates;
-        let extreme = coordinates.iter().map(|c| sign * c[axis]).fold(f64::MIN, f64::max);
-        let depth = (rows as f64 - 0.5) * panel.lattice.spacing[axis];
-        let held = |c: &[f64; 2]| sign * c[axis] > extreme - depth;
-        let numbered = coordinates.iter().enumerate().filter(|(_, c)| held(c));
+        let (axis, end) = self.choice(&format!("{key}.edge"), Some(edge), &edges);
+        let depths = panel.lattice.depths(axis, end);
+        let numbered = depths.iter().enumerate().filter(|(_, depth)| **depth < rows as f64 - 0.5);
         let particles: Vec<usize> = numbered.map(|(particle, _)| panel.first + particle).collect();
         if particles.is_empty() {
             self.fail(&format!("{key}.rows"), "holds nothing".into(), "rows = 1 or more");

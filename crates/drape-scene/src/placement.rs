@@ -7,8 +7,6 @@ use crate::file::{NoiseFile, PanelFile, RippleFile, StackFile};
 pub(crate) struct Placement {
     pub(crate) center: [f64; 3],
     pub(crate) turn: [f64; 3],
-    /// Whether the panel's own coordinates count from its middle: those of a disc.
-    from_middle: bool,
     /// Velocity of the middle, in m/s, and spin about the world's axes, in rad/s.
     velocity: [f64; 3],
     spin: [f64; 3],
@@ -23,7 +21,6 @@ impl Placement {
         Self {
             center: panel.center.map(|x| x * unit),
             turn: panel.turn,
-            from_middle: panel.disc.is_some(),
             velocity: panel.velocity.map(|v| v * unit),
             spin: panel.spin.map(f64::to_radians),
             ripple: panel.ripple.as_ref().map(ripple),
@@ -45,30 +42,23 @@ impl Placement {
         }
     }
 
-    /// Positions of a panel's particles: in the panel's own frame the weft is x, the warp y and the
+    /// Positions of a panel's particles: in the panel's own frame the width is x, the height y and the
     /// right side z; the middle of the panel is turned and brought to the centre.
     pub(crate) fn positions(&self, lattice: &Lattice) -> Vec<f64> {
-        let bounds = |axis: usize| {
-            let values = lattice.coordinates.iter().map(|c| c[axis]);
-            let low = values.clone().fold(f64::INFINITY, f64::min);
-            (low, values.fold(f64::NEG_INFINITY, f64::max))
-        };
-        let ((u0, u1), (v0, v1)) = (bounds(0), bounds(1));
-        let middle = match self.from_middle {
-            true => [0.0; 2],
-            false => [0.5 * (u0 + u1), 0.5 * (v0 + v1)],
-        };
+        let places = lattice.places();
+        let left = places.iter().map(|place| place[0]).fold(f64::INFINITY, f64::min);
+        let middle = lattice.middle;
         let mut random = Random(self.noise.map_or(0, |(_, seed)| seed));
         let mut positions = Vec::with_capacity(3 * lattice.coordinates.len());
-        for &[u, v] in &lattice.coordinates {
+        for [x, y] in places {
             let mut height = 0.0;
             if let Some((amplitude, wavelength)) = self.ripple {
-                height += amplitude * (std::f64::consts::TAU * (u - u0) / wavelength).sin();
+                height += amplitude * (std::f64::consts::TAU * (x - left) / wavelength).sin();
             }
             if let Some((amplitude, _)) = self.noise {
                 height += amplitude * random.next();
             }
-            let turned = turned([u - middle[0], v - middle[1], height], self.turn);
+            let turned = turned([x - middle[0], y - middle[1], height], self.turn);
             positions.extend((0..3).map(|axis| turned[axis] + self.center[axis]));
         }
         positions

@@ -192,9 +192,9 @@ impl Simulation {
         self.settle.is_some()
     }
 
-    /// What each pin bears, in the order of the scene, without the inertia of what it holds.
+    /// What each pin bears, in the order of the scene, without the inertia of what it holds; nothing once it has let go.
     pub fn pin_loads(&mut self) -> Vec<PinLoad> {
-        self.world.pin_loads()
+        self.world.pin_loads(self.time())
     }
 
     /// The balance of the energy since the start, unless the scene does without.
@@ -325,7 +325,8 @@ impl Simulation {
             }
         }
         let slow = self.speed_max <= settle.speed && self.imbalance <= settle.residual;
-        let quiet = slow && exact && self.time() >= self.clock.ramp;
+        let busy = self.clock.ramp.max(self.world.last_release());
+        let quiet = slow && exact && self.time() >= busy;
         self.quiet_ticks = if quiet { self.quiet_ticks + ticks } else { 0 };
         Ok(())
     }

@@ -189,14 +189,34 @@ impl World {
         }
     }
 
-    /// What each pin bears, without the inertia of the particles it holds.
-    pub(crate) fn pin_loads(&mut self) -> Vec<PinLoad> {
+    /// Takes note of what the pins hold in a step that ends at a time, in s.
+    fn hold(&mut self, end_time: f64) {
+        if self.pins.iter().all(|pin| pin.release == f64::INFINITY) {
+            return;
+        }
+        self.held.fill(false);
+        for pin in self.pins.iter().filter(|pin| pin.holds(end_time)) {
+            pin.particles.iter().for_each(|&particle| self.held[particle] = true);
+        }
+    }
+
+    /// When the last of the pins that let go does so, in s.
+    pub(crate) fn last_release(&self) -> f64 {
+        let releases = self.pins.iter().map(|pin| pin.release);
+        releases.filter(|release| release.is_finite()).fold(0.0, f64::max)
+    }
+
+    /// What each pin bears at a time, in s, without the inertia of the particles it holds.
+    pub(crate) fn pin_loads(&mut self, time: f64) -> Vec<PinLoad> {
         let positions = self.state.positions.clone();
         // What stands in for inertia counts as little as inertia itself.
         self.brake.fill(0.0);
         let mut forces = vec![0.0; positions.len()];
         self.forces(&positions, &mut forces);
-        self.pins.iter().map(|pin| pin.load(&positions, &forces)).collect()
+        let load = |pin: &Pin| {
+            if pin.holds(time) { pin.load(&positions, &forces) } else { PinLoad::default() }
+        };
+        self.pins.iter().map(load).collect()
     }
 
     pub(crate) fn kinetic(&self) -> f64 {
@@ -227,7 +247,9 @@ impl System for World {
     }
 
     fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]) {
-        self.pins.iter().for_each(|pin| pin.place(end_time, target));
+        self.hold(end_time);
+        let holding = self.pins.iter().filter(|pin| pin.holds(end_time));
+        holding.for_each(|pin| pin.place(end_time, target));
         let grown = if end_time < self.ramp { end_time / self.ramp } else { 1.0 };
         self.gravity = self.full_gravity.map(|g| grown * g);
         if let Some(surfaces) = &mut self.surfaces {

@@ -158,6 +158,38 @@ energy = false
 }
 
 #[test]
+fn a_panel_is_cut_at_its_angle_to_the_grain() {
+    let text = with("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = 30");
+    let scene = read(&format!("{text}[[pin]]\npanel = \"towel\"\nedge = \"top\"\n")).unwrap();
+    let mass: f64 = scene.cloth.masses().iter().sum();
+    assert!((mass / (0.2 * 0.3 * 0.12) - 1.0).abs() < 1e-12, "{mass}");
+    let place =
+        |particle: usize| [scene.positions[3 * particle], scene.positions[3 * particle + 1]];
+    // The warp leans to the left by 30°, the weft to the right end upwards, and the middle is at the origin.
+    let (sin, cos) = 30_f64.to_radians().sin_cos();
+    for (particle, [u, v]) in scene.cloth.coordinates().iter().enumerate() {
+        let [x, y] = [u * cos - v * sin - 0.1, u * sin + v * cos - 0.15];
+        let found = place(particle);
+        assert!((found[0] - x).hypot(found[1] - y) < 1e-15, "{found:?}, not {x} {y}");
+    }
+    // A row at the top: all that is less than half a spacing below it.
+    for (particle, held) in scene.held.iter().enumerate() {
+        assert_eq!(*held, place(particle)[1] > 0.145, "{:?}", place(particle));
+    }
+    assert!(scene.held.iter().filter(|held| **held).count() > 20);
+}
+
+#[test]
+fn a_disc_turns_with_its_grain() {
+    let disc = |more: &str| read(&with("rectangle = [0.2, 0.3]", &format!("disc = 0.2{more}")));
+    let (straight, turned) = (disc("").unwrap(), disc("\ngrain = 90").unwrap());
+    assert_eq!(straight.cloth.masses(), turned.cloth.masses());
+    for (a, b) in straight.positions.chunks(3).zip(turned.positions.chunks(3)) {
+        assert_eq!([-a[1], a[0], a[2]], [b[0], b[1], b[2]]);
+    }
+}
+
+#[test]
 fn rest_is_defined_by_its_table() {
     let settle = read(&with("", "[settle]")).unwrap().settle.unwrap();
     assert_eq!((settle.speed, settle.residual, settle.inertia), (0.002, 1e-3, false));
@@ -188,9 +220,14 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
         ("", "[output]\nevery = 0", "0", 10),
         ("", "[[pin]]\npanel = \"towl\"\nedge = \"top\"", "towl", 10),
         ("", "[[pin]]\npanel = \"towel\"\npoints = [[1, 1]]", "[1.0, 1.0]", 11),
+        ("", "[[pin]]\npanel = \"towel\"\nedge = \"top\"\nrelease = -1", "-1", 12),
         ("", "[[collider.sphere]]\nradius = 1", "inside", 2),
         ("fabric = \"plain\"", "fabric = \"plane\"", "plane", 4),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, -0.3]", "-0.3", 5),
+        ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = 200", "200", 6),
+        ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = nan", "NaN", 6),
+        ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrid = [0.001, 0]", "follow", 6),
+        ("rectangle = [0.2, 0.3]", "spacing = 0.15\nrectangle = [0.2, 0.3]\ngrain = 45", "0.15", 5),
     ];
     for (old, new, value, line) in cases {
         let mistakes = read(&with(old, new)).expect_err(new);

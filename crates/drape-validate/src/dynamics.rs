@@ -46,7 +46,7 @@ fn cosine() -> Vec<[f64; 2]> {
 /// Error of the accelerations over g to which steps are solved, a ratio.
 const TOLERANCE: f64 = 1e-6;
 
-fn motion(step: f64, end: f64) -> String {
+pub(crate) fn motion(step: f64, end: f64) -> String {
     format!(
         "[time]\nstep = {step}\nend = {end}\n[solver]\ntolerance = {TOLERANCE:e}\n[output]\nenergy = false\n"
     )

@@ -1,6 +1,9 @@
 #![doc = include_str!("../README.md")]
 
+mod bias;
 mod check;
+mod crease;
+mod decrement;
 pub mod drapemeter;
 mod drapes;
 pub mod dynamics;

@@ -3,11 +3,19 @@ use drape_scene::{Scene, Simulation};
 
 use crate::ValidationError;
 
+/// A scene in memory, whose fabric is `fabric.toml`.
+///
+/// # Errors
+/// A scene or a fabric that cannot be read.
+pub(crate) fn scene(scene: String, fabric: String) -> Result<Scene, ValidationError> {
+    let fabric = Document::new("fabric.toml", fabric);
+    Ok(Scene::from_documents(&Document::new("scene.toml", scene), &[fabric])?)
+}
+
 /// A simulation of a scene in memory, whose fabric is `fabric.toml`.
 ///
 /// # Errors
 /// A scene or a fabric that cannot be read, or a scene that cannot be prepared.
-pub(crate) fn simulation(scene: String, fabric: String) -> Result<Simulation, ValidationError> {
-    let fabric = Document::new("fabric.toml", fabric);
-    Ok(Simulation::new(Scene::from_documents(&Document::new("scene.toml", scene), &[fabric])?)?)
+pub(crate) fn simulation(text: String, fabric: String) -> Result<Simulation, ValidationError> {
+    Ok(Simulation::new(scene(text, fabric)?)?)
 }

@@ -1,7 +1,7 @@
-use drape_scene::Simulation;
+use drape_scene::{Scene, Simulation};
 
 use crate::ValidationError;
-use crate::stage::simulation;
+use crate::stage::scene;
 
 /// Acceleration of gravity in all scenes here, in m/s².
 pub const GRAVITY: f64 = 9.81;
@@ -40,6 +40,8 @@ pub struct Strip {
     pub rigidity: f64,
     /// Tensile stiffness of both yarn systems, in N/m.
     pub stiffness: f64,
+    /// Plateau, in N, and length, in 1/m, of the friction of bending of both yarn systems.
+    pub friction: [f64; 2],
     /// Turns per second about z through its middle, at the start.
     pub spin: f64,
 }
@@ -55,6 +57,7 @@ impl Default for Strip {
             density: 0.2,
             rigidity: 1.6e-5,
             stiffness: 1e4,
+            friction: [0.0, 1.0],
             spin: 0.0,
         }
     }
@@ -74,15 +77,20 @@ impl Strip {
     }
 
     /// What the strip holds beyond its free length at the left, in m.
-    fn beyond(&self) -> f64 {
+    pub(crate) fn beyond(&self) -> f64 {
         if self.hold == Hold::Clamp { 1.5 * self.spacing() } else { 0.0 }
     }
 
     fn fabric(&self) -> String {
-        let Self { density, rigidity, stiffness, .. } = self;
+        let Self { density, rigidity, stiffness, friction: [plateau, length], .. } = self;
+        let friction = if *plateau > 0.0 {
+            format!("friction = [{{ plateau = {plateau:e}, length = {length:e} }}], ")
+        } else {
+            String::new()
+        };
         let direction = format!(
             "traction = {{ primed = {{ stiffness = {stiffness:e}, toe_ratio = 1.0, toe_strain = 0.01, \
-             toe_strain_after = 0.01 }} }}\nbending = {{ rigidity = {rigidity:e} }}\n"
+             toe_strain_after = 0.01 }} }}\nbending = {{ {friction}rigidity = {rigidity:e} }}\n"
         );
         format!(
             "name = \"strip\"\ndensity = {density:e}\nthickness = 0.0001\nshear = {{ stiffness = 50 }}\n\
@@ -98,6 +106,14 @@ impl Strip {
     /// # Errors
     /// A scene that cannot be read or prepared.
     pub fn simulation(&self, angle: f64, rest: &str) -> Result<Simulation, ValidationError> {
+        Ok(Simulation::new(self.scene(angle, rest)?)?)
+    }
+
+    /// The scene of [`Strip::simulation`].
+    ///
+    /// # Errors
+    /// A scene that cannot be read.
+    pub fn scene(&self, angle: f64, rest: &str) -> Result<Scene, ValidationError> {
         let (beyond, width, spacing) = (self.beyond(), self.width, self.spacing());
         let spin = 360.0 * self.spin;
         let panel = self.length + beyond;
@@ -120,7 +136,7 @@ impl Strip {
             rest.lines().filter(|line| line.starts_with("gravity")).collect::<String>() + "\n",
             rest.lines().filter(|line| !line.starts_with("gravity")).collect::<Vec<_>>().join("\n")
         );
-        simulation(text, self.fabric())
+        scene(text, self.fabric())
     }
 
     /// Places along the middle of the strip with their distance from its held end, both in m; from there.

@@ -1,7 +1,8 @@
 use serde::Serialize;
 
 use crate::{
-    Check, Findings, Graph, Still, ValidationError, drapes, dynamics, loops, statics, vacuum,
+    Check, Findings, Graph, Still, ValidationError, bias, crease, decrement, drapes, dynamics,
+    loops, statics, vacuum,
 };
 
 /// A case of the suite.
@@ -35,10 +36,34 @@ pub const CASES: &[Case] = &[
         run: loops::instruments,
     },
     Case {
+        name: "bias-bending",
+        title: "Bending specimens cut on the bias, with both yarns' loops (closed form)",
+        long: false,
+        run: loops::bias_bending,
+    },
+    Case {
         name: "hysteresis",
         title: "A specimen that was bent loses energy and keeps a curvature (Dahl friction, closed forms)",
         long: false,
         run: loops::bending_hysteresis,
+    },
+    Case {
+        name: "decrement",
+        title: "A strip with friction swings less and less (Dahl friction, area of the loop)",
+        long: false,
+        run: decrement::decrement,
+    },
+    Case {
+        name: "permanent-set",
+        title: "A strip that was bent in clamps and let go stays curved (Dahl friction, closed form)",
+        long: false,
+        run: crease::permanent_set,
+    },
+    Case {
+        name: "crease",
+        title: "A strip that was folded and let go recovers (Dahl friction, closed form)",
+        long: false,
+        run: crease::recovery,
     },
     Case {
         name: "heavy-cantilever",
@@ -63,6 +88,18 @@ pub const CASES: &[Case] = &[
         title: "A hanging strip stretches under its own weight",
         long: false,
         run: statics::self_stretch,
+    },
+    Case {
+        name: "cylinder",
+        title: "A sheet on a cylinder stores the energy of its yarns' bending",
+        long: false,
+        run: statics::cylinder,
+    },
+    Case {
+        name: "bias-strip",
+        title: "Strips cut at an angle to the grain stretch (Kilby 1963)",
+        long: false,
+        run: bias::bias_strip,
     },
     Case {
         name: "column",

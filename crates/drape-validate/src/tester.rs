@@ -3,13 +3,17 @@
 //! A specimen has its true size and is held and moved as in the instrument, in a vacuum and without weight: clamps are
 //! pins, and what they bear is the load. Every step of the simulation is a point of the curve.
 
+use std::f64::consts::SQRT_2;
+
 use drape_fabric::Fabric;
 use drape_kes::{BendingPoints, Curve, Direction, Reading, ShearPoints, Symbol, Test};
-use drape_scene::PinLoad;
+use drape_scene::{PinLoad, Simulation};
 
 use crate::ValidationError;
-use crate::instrument::{LARGEST_TENSION, SHEAR_TENSION, curve, cycle, extension, ideal, laws};
-use crate::stage::simulation;
+use crate::instrument::{
+    LARGEST_TENSION, SHEAR_TENSION, curve, cycle, extension, ideal, laws, on_the_bias,
+};
+use crate::stage::scene;
 
 /// Width of a specimen: 20 cm.
 const WIDTH: f64 = 0.2;
@@ -24,10 +28,14 @@ const LOADING_STEPS: usize = 10;
 
 /// The specimen, level, its yarns along x, and the clamp that moves.
 struct Specimen {
+    /// Angle from its length to the weft, in degrees.
+    grain: f64,
+    /// Spacing of the particles along the yarns, and of the rows across the specimen.
     spacing: f64,
-    /// Whole cells between the lines of the clamps.
+    row: f64,
+    /// Whole rows between the lines of the clamps.
     cells: usize,
-    /// Rows of particles in the clamp that stays and in the one that moves.
+    /// What the clamp that stays and the one that moves hold, as a pin's rows.
     rows: [usize; 2],
     /// Length of the panel and the middle of it along x; the line of the clamp that stays is at 0.
     length: f64,
@@ -38,9 +46,21 @@ struct Specimen {
 
 /// Where the moving clamp is: shift of its pivot, in m, and turn about z, in rad.
 #[derive(Clone, Copy, Default)]
-struct Place {
-    shift: [f64; 3],
-    turn: f64,
+pub(crate) struct Place {
+    pub(crate) shift: [f64; 3],
+    pub(crate) turn: f64,
+}
+
+/// A clamp that bends a specimen to a curvature, in 1/m: where equal turns of so many rows at a distance, in m, lead it if
+/// they keep that. The clamp that stays has its line at 0, and both lines are midway between two rows.
+pub(crate) fn bent((row, cells): (f64, usize), curvature: f64) -> Place {
+    let turn = curvature * row;
+    let mut shift = [(1.0 - cells as f64) * row, 0.0, 0.0];
+    for cell in 1..cells {
+        let (sin, cos) = (cell as f64 * turn).sin_cos();
+        shift = [shift[0] + row * cos, shift[1] + row * sin, 0.0];
+    }
+    Place { shift, turn: cells as f64 * turn }
 }
 
 impl Specimen {
@@ -48,7 +68,16 @@ impl Specimen {
     fn between_lines(spacing: f64) -> Self {
         let cells = (GAUGE / spacing).round().max(1.0) as usize;
         let spacing = GAUGE / cells as f64;
-        Self { spacing, cells, rows: [1, 1], length: GAUGE, middle: 0.5 * GAUGE, pivot: GAUGE }
+        Self {
+            grain: 0.0,
+            spacing,
+            row: spacing,
+            cells,
+            rows: [1, 1],
+            length: GAUGE,
+            middle: 0.5 * GAUGE,
+            pivot: GAUGE,
+        }
     }
 
     /// In clamps that hold the slope too: three rows each, its line midway between the second and the third, which
@@ -58,7 +87,9 @@ impl Specimen {
         let cells = (BENDING_GAUGE / spacing).round().max(1.0) as usize;
         let h = BENDING_GAUGE / cells as f64;
         Self {
+            grain: 0.0,
             spacing: h,
+            row: h,
             cells,
             rows: [3, if cells == 1 { 2 } else { 3 }],
             length: BENDING_GAUGE + 3.0 * h,
@@ -67,26 +98,32 @@ impl Specimen {
         }
     }
 
-    /// The moving clamp at a curvature: where equal turns of cells that keep their length lead it.
-    fn bent(&self, curvature: f64) -> Place {
-        let Self { spacing: h, cells, pivot, .. } = self;
-        let turn = curvature * h;
-        let mut shift = [0.5 * h - pivot, 0.0, 0.0];
-        for cell in 1..*cells {
-            let (sin, cos) = (cell as f64 * turn).sin_cos();
-            shift = [shift[0] + h * cos, shift[1] + h * sin, 0.0];
-        }
-        Place { shift, turn: *cells as f64 * turn }
+    /// The same on the bias: rows of particles across the specimen are nearer to each other than particles along the
+    /// yarns by a factor of √2, and what a pin takes for two rows are three of them.
+    fn on_the_bias(spacing: f64) -> Self {
+        let cells = (BENDING_GAUGE * SQRT_2 / spacing).round().max(2.0) as usize;
+        let h = BENDING_GAUGE / cells as f64;
+        let along = Self::in_clamps(h);
+        Self { grain: 45.0, spacing: h * SQRT_2, rows: [2, 2], ..along }
     }
 
-    /// Moves the clamp from place to place, one in each step, and records what it bears.
+    /// Moves the clamp from place to place, one in each step, and records what it bears; the moment is about its pivot.
     fn drive(
         &self,
         fabric: &Fabric,
         direction: Direction,
         places: &[Place],
     ) -> Result<Vec<PinLoad>, ValidationError> {
-        let Self { spacing, length, middle, pivot, rows: [still, moving], .. } = self;
+        let Self { grain, spacing, length, middle, pivot, rows: [still, moving], .. } = self;
+        // A particle at the middle is in a row of a specimen on the bias; the clamps' rows are at its ends.
+        let rows = (length / self.row).round();
+        let grid = match (*grain != 0.0, rows % 2.0 == 1.0) {
+            (true, odd) => format!(
+                "grain = {grain}\ngrid = [{:e}, 0]\n",
+                if odd { 0.5 * spacing } else { 0.0 }
+            ),
+            (false, _) => String::new(),
+        };
         let (size, turn, edges) = match direction {
             Direction::Weft => ([*length, WIDTH], [-90, 0, 0], ["left", "right"]),
             Direction::Warp => ([WIDTH, *length], [-90, -90, 0], ["bottom", "top"]),
@@ -101,7 +138,7 @@ impl Specimen {
         let text = format!(
             "name = \"specimen\"\nspacing = {spacing:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n\
              fabric.specimen.file = \"fabric.toml\"\n[[panel]]\nname = \"specimen\"\n\
-             fabric = \"specimen\"\nrectangle = {size:?}\ncenter = [{middle:e}, 0, 0]\nturn = {turn:?}\n\
+             fabric = \"specimen\"\nrectangle = {size:?}\ncenter = [{middle:e}, 0, 0]\nturn = {turn:?}\n{grid}\
              [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {still}\n\
              [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {moving}\n\
              [pin.motion]\ntimes = {times:?}\ncenter = [{pivot:e}, 0, 0]\n\
@@ -111,11 +148,17 @@ impl Specimen {
             edges[1],
             STEP * places.len() as f64
         );
-        let mut simulation = simulation(text, fabric.to_toml())?;
+        let scene = scene(text, fabric.to_toml())?;
+        let held = scene.pins[1].particles.iter().map(|particle| scene.positions[3 * particle]);
+        let arm = held.clone().sum::<f64>() / held.count() as f64 - pivot;
+        let mut simulation = Simulation::new(scene)?;
         let mut loads = Vec::with_capacity(places.len());
-        while loads.len() < places.len() {
+        for place in places {
             simulation.step()?;
-            loads.push(simulation.pin_loads()[1]);
+            let mut load = simulation.pin_loads()[1];
+            let (sin, cos) = place.turn.sin_cos();
+            load.moment[2] += arm * (cos * load.force[1] - sin * load.force[0]);
+            loads.push(load);
         }
         Ok(loads)
     }
@@ -137,7 +180,9 @@ pub fn measure(
     let load = match test {
         Test::Tensile => stretch(fabric, direction, spacing, &path)?,
         Test::Shear => shear(fabric, direction, spacing, &path)?,
-        Test::Bending | Test::LoopBending => bend(fabric, direction, spacing, &path)?,
+        Test::Bending | Test::LoopBending => {
+            bend(fabric, direction, &Specimen::in_clamps(spacing), &path)?
+        }
     };
     Ok(curve(test, direction, path, load)?)
 }
@@ -174,17 +219,33 @@ fn shear(fabric: &Fabric, direction: Direction, spacing: f64, path: &[f64]) -> L
 }
 
 /// Moment per width at curvatures.
-fn bend(fabric: &Fabric, direction: Direction, spacing: f64, path: &[f64]) -> Loads {
-    let specimen = Specimen::in_clamps(spacing);
-    let places: Vec<Place> = path[1..].iter().map(|&curvature| specimen.bent(curvature)).collect();
+fn bend(fabric: &Fabric, direction: Direction, specimen: &Specimen, path: &[f64]) -> Loads {
+    let places: Vec<Place> = path[1..]
+        .iter()
+        .map(|&curvature| bent((specimen.row, specimen.cells), curvature))
+        .collect();
     let loads = specimen.drive(fabric, direction, &places)?;
-    // From the pivot to the middle of what the clamp holds.
-    let arm = specimen.spacing * if specimen.rows[1] == 2 { 1.5 } else { 1.0 };
-    let moments = loads.iter().zip(&places).map(|(load, place)| {
-        let (sin, cos) = place.turn.sin_cos();
-        load.moment[2] + arm * (cos * load.force[1] - sin * load.force[0])
-    });
-    Ok(from_rest(moments.map(|moment| -moment / WIDTH)))
+    Ok(from_rest(loads.iter().map(|load| -load.moment[2] / WIDTH)))
+}
+
+/// The curve of a bending specimen cut on the bias, up to a curvature in 1/m; it stands as one of the warp. The spacing is
+/// one of [`bias_spacing`].
+///
+/// # Errors
+/// Those of [`measure`].
+pub fn bend_on_the_bias(
+    fabric: &Fabric,
+    largest: f64,
+    (spacing, points): (f64, usize),
+) -> Result<Curve, ValidationError> {
+    let path = on_the_bias(fabric, largest, points).deformation().to_vec();
+    let load = bend(fabric, Direction::Weft, &Specimen::on_the_bias(spacing), &path)?;
+    Ok(curve(Test::Bending, Direction::Warp, path, load)?)
+}
+
+/// The spacing nearest to one in m, and below 8 mm, whose rows across a specimen on the bias divide its free length.
+pub fn bias_spacing(spacing: f64) -> f64 {
+    Specimen::on_the_bias(spacing).spacing
 }
 
 type Loads = Result<Vec<f64>, ValidationError>;

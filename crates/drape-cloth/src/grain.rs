@@ -1,0 +1,85 @@
+/// How the yarns lie in a panel: a turn from the panel's own frame to theirs.
+///
+/// The panel's own frame has its width along x and its height along y, its right side towards the reader.
+/// At an angle `$\gamma$` the warp is turned by it from y and the weft from x, anticlockwise:
+///
+/// ```math
+/// \text{weft} = (\cos\gamma, \sin\gamma),\qquad \text{warp} = (-\sin\gamma, \cos\gamma)
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grain {
+    cos: f64,
+    sin: f64,
+}
+
+impl Default for Grain {
+    /// The warp along the height.
+    fn default() -> Self {
+        Self { cos: 1.0, sin: 0.0 }
+    }
+}
+
+impl Grain {
+    /// The yarns turned by an angle in degrees; quarters of a circle are exact.
+    #[must_use]
+    pub fn from_degrees(angle: f64) -> Self {
+        let quarters = (angle / 90.0).round();
+        let (sin, cos) = (angle - 90.0 * quarters).to_radians().sin_cos();
+        match quarters.rem_euclid(4.0) {
+            0.0 => Self { cos, sin },
+            1.0 => Self { cos: -sin, sin: cos },
+            2.0 => Self { cos: -cos, sin: -sin },
+            _ => Self { cos: sin, sin: -cos },
+        }
+    }
+
+    /// Place in the panel's own frame of material coordinates (u along the weft, v along the warp).
+    #[must_use]
+    pub fn place(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        [u * self.cos - v * self.sin, u * self.sin + v * self.cos]
+    }
+
+    /// Material coordinates of a place in the panel's own frame.
+    #[must_use]
+    pub fn coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [x * self.cos + y * self.sin, y * self.cos - x * self.sin]
+    }
+
+    /// Two lengths along the sides of a panel as lengths along the nearest yarns, weft and warp, and the other way round.
+    pub(crate) fn exchanged(&self, [a, b]: [f64; 2]) -> [f64; 2] {
+        if self.sin.abs() > self.cos.abs() { [b, a] } else { [a, b] }
+    }
+
+    /// Whether the yarns are parallel to the sides of a rectangle.
+    pub(crate) fn is_straight(&self) -> bool {
+        self.cos == 0.0 || self.sin == 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_warp_turns_from_the_height_anticlockwise() {
+        let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-15;
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        assert!(near(Grain::from_degrees(45.0).place([0.0, 1.0]), [-half, half]));
+        assert!(near(Grain::from_degrees(45.0).place([1.0, 0.0]), [half, half]));
+        assert!(near(Grain::from_degrees(-30.0).place([0.0, 1.0]), [0.5, 0.75_f64.sqrt()]));
+        for angle in [-200.0, -45.0, 10.0, 135.0, 300.0] {
+            let grain = Grain::from_degrees(angle);
+            assert!(near(grain.coordinates(grain.place([0.3, -0.2])), [0.3, -0.2]), "{angle}");
+        }
+    }
+
+    #[test]
+    fn quarters_are_exact() {
+        assert_eq!(Grain::from_degrees(0.0), Grain::default());
+        for (angle, warp) in [(90.0, [-1.0, 0.0]), (180.0, [0.0, -1.0]), (-90.0, [1.0, 0.0])] {
+            let grain = Grain::from_degrees(angle);
+            assert_eq!(grain.place([0.0, 1.0]), warp, "{angle}");
+            assert!(grain.is_straight());
+        }
+    }
+}
