@@ -7,7 +7,7 @@ use std::f64::consts::SQRT_2;
 
 use drape_fabric::Fabric;
 use drape_kes::{BendingPoints, Curve, Direction, Reading, ShearPoints, Symbol, Test};
-use drape_scene::{PinLoad, Simulation};
+use drape_scene::{PinLoad, Scene, Simulation};
 
 use crate::ValidationError;
 use crate::instrument::{
@@ -61,6 +61,18 @@ pub(crate) fn bent((row, cells): (f64, usize), curvature: f64) -> Place {
         shift = [shift[0] + row * cos, shift[1] + row * sin, 0.0];
     }
     Place { shift, turn: cells as f64 * turn }
+}
+
+/// How far the middle of what the second pin holds is beyond a pivot along x, in m.
+pub(crate) fn arm(scene: &Scene, pivot: f64) -> f64 {
+    let held = scene.pins[1].particles.iter().map(|particle| scene.positions[3 * particle]);
+    held.clone().sum::<f64>() / held.count() as f64 - pivot
+}
+
+/// Moment of a pin's load about z through a pivot, in N·m; the middle of what it holds is an arm away, at a turn in rad.
+pub(crate) fn moment(load: &PinLoad, arm: f64, turn: f64) -> f64 {
+    let (sin, cos) = turn.sin_cos();
+    load.moment[2] + arm * (cos * load.force[1] - sin * load.force[0])
 }
 
 impl Specimen {
@@ -149,16 +161,14 @@ impl Specimen {
             STEP * places.len() as f64
         );
         let scene = scene(text, fabric.to_toml())?;
-        let held = scene.pins[1].particles.iter().map(|particle| scene.positions[3 * particle]);
-        let arm = held.clone().sum::<f64>() / held.count() as f64 - pivot;
+        let arm = arm(&scene, *pivot);
         let mut simulation = Simulation::new(scene)?;
         let mut loads = Vec::with_capacity(places.len());
         for place in places {
             simulation.step()?;
-            let mut load = simulation.pin_loads()[1];
-            let (sin, cos) = place.turn.sin_cos();
-            load.moment[2] += arm * (cos * load.force[1] - sin * load.force[0]);
-            loads.push(load);
+            let load = simulation.pin_loads()[1];
+            let [x, y, _] = load.moment;
+            loads.push(PinLoad { moment: [x, y, moment(&load, arm, place.turn)], ..load });
         }
         Ok(loads)
     }
