@@ -119,6 +119,13 @@ impl Specimen {
         Self { grain: 45.0, spacing: h * SQRT_2, rows: [2, 2], ..along }
     }
 
+    /// The panel's keys that cut it on the bias from a grid with rows at both ends; a particle in its middle is in a row.
+    fn bias_keys(&self) -> String {
+        let odd = (self.length / self.row).round() % 2.0 == 1.0;
+        let grid = if odd { 0.5 * self.spacing } else { 0.0 };
+        format!("grain = {}\ngrid = [{grid:e}, 0]\n", self.grain)
+    }
+
     /// Moves the clamp from place to place, one in each step, and records what it bears; the moment is about its pivot.
     fn drive(
         &self,
@@ -127,15 +134,7 @@ impl Specimen {
         places: &[Place],
     ) -> Result<Vec<PinLoad>, ValidationError> {
         let Self { grain, spacing, length, middle, pivot, rows: [still, moving], .. } = self;
-        // A particle at the middle is in a row of a specimen on the bias; the clamps' rows are at its ends.
-        let rows = (length / self.row).round();
-        let grid = match (*grain != 0.0, rows % 2.0 == 1.0) {
-            (true, odd) => format!(
-                "grain = {grain}\ngrid = [{:e}, 0]\n",
-                if odd { 0.5 * spacing } else { 0.0 }
-            ),
-            (false, _) => String::new(),
-        };
+        let grain = if *grain == 0.0 { String::new() } else { self.bias_keys() };
         let (size, turn, edges) = match direction {
             Direction::Weft => ([*length, WIDTH], [-90, 0, 0], ["left", "right"]),
             Direction::Warp => ([WIDTH, *length], [-90, -90, 0], ["bottom", "top"]),
@@ -150,7 +149,7 @@ impl Specimen {
         let text = format!(
             "name = \"specimen\"\nspacing = {spacing:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n\
              fabric.specimen.file = \"fabric.toml\"\n[[panel]]\nname = \"specimen\"\n\
-             fabric = \"specimen\"\nrectangle = {size:?}\ncenter = [{middle:e}, 0, 0]\nturn = {turn:?}\n{grid}\
+             fabric = \"specimen\"\nrectangle = {size:?}\ncenter = [{middle:e}, 0, 0]\nturn = {turn:?}\n{grain}\
              [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {still}\n\
              [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {moving}\n\
              [pin.motion]\ntimes = {times:?}\ncenter = [{pivot:e}, 0, 0]\n\
