@@ -2,7 +2,8 @@
 //!
 //! One clamp stays and the other turns until the specimen between them is an arc, holds it, turns back until it bears no
 //! moment, and lets go: a slow release. One that is let go at once, even without inertia, springs beyond where it would
-//! rest, and keeps 57 to 69 % of that (measured with the specimens of `permanent-set`). Nothing in the model creeps: how long the specimen is held makes no difference.
+//! rest, and keeps 57 to 69 % of that (measured with the specimens of `permanent-set`). Nothing in the model creeps: how
+//! long the specimen is held makes no difference.
 
 use std::f64::consts::PI;
 
@@ -11,9 +12,10 @@ use drape_kes::Direction;
 use drape_scene::{Scene, Simulation};
 
 use crate::instrument::{LARGEST_CURVATURE, laws};
+use crate::loops::root;
 use crate::shipped::{COTTON, CUPRO, fabric};
 use crate::stage::scene;
-use crate::tester::bent;
+use crate::tester::{arm, bent, moment};
 use crate::{Check, Findings, ValidationError, finish};
 
 type Checks = Result<Vec<Check>, ValidationError>;
@@ -29,7 +31,7 @@ const FREE_STEPS: usize = 20;
 /// Cells across a specimen: it is the same all along the arc's axis, so few will do.
 const ACROSS: f64 = 2.0;
 
-/// An arc, and how it is made.
+/// An arc between clamps, and how it is made.
 struct Arc {
     /// Length between the clamps, in m, and whole cells of it.
     length: f64,
@@ -48,7 +50,11 @@ impl Arc {
     }
 
     /// The specimen, whose clamp goes through curvatures, one in each step, and then lets go.
-    fn scene(&self, (fabric, direction): (&Fabric, Direction), path: &[f64]) -> Scenes {
+    fn scene(
+        &self,
+        (fabric, direction): (&Fabric, Direction),
+        path: &[f64],
+    ) -> Result<Scene, ValidationError> {
         let spacing = self.spacing();
         let rows = (self.leg / spacing).round().max(3.0);
         let grain = if direction == Direction::Warp { 90 } else { 0 };
@@ -63,7 +69,8 @@ impl Arc {
              [[pin]]\npanel = \"specimen\"\nedge = \"left\"\nrows = {rows}\n\
              [[pin]]\npanel = \"specimen\"\nedge = \"right\"\nrows = {rows}\nrelease = {:e}\n\
              [pin.motion]\ntimes = {times:?}\ncenter = [{:e}, 0, 0]\nshift = [{}]\nturn = [{}]\n\
-             [time]\nstep = {STEP}\nend = {:e}\n[solver]\nlinear = \"cholesky\"\ntolerance = 1e-5\n[output]\nenergy = false\n",
+             [time]\nstep = {STEP}\nend = {:e}\n[solver]\nlinear = \"cholesky\"\n\
+             tolerance = 1e-5\n[output]\nenergy = false\n",
             self.length + (2.0 * rows - 3.0) * spacing,
             ACROSS * spacing,
             0.5 * self.length,
@@ -88,17 +95,12 @@ impl Arc {
         let held = path.len();
         path.extend((1..=STEPS).map(|k| self.curvature * (1.0 - k as f64 / STEPS as f64)));
         let scene = self.scene(of, &path)?;
-        let held_rows =
-            scene.pins[1].particles.iter().map(|particle| scene.positions[3 * particle]);
-        let pivot = self.length - 0.5 * self.spacing();
-        let arm = held_rows.clone().sum::<f64>() / held_rows.count() as f64 - pivot;
+        let arm = arm(&scene, self.length - 0.5 * self.spacing());
         let mut simulation = Simulation::new(scene)?;
         let mut before = (f64::NAN, f64::NAN);
         for (step, &curvature) in path.iter().enumerate().skip(1) {
             simulation.step()?;
-            let load = simulation.pin_loads()[1];
-            let (sin, cos) = (curvature * self.length).sin_cos();
-            let moment = -load.moment[2] - arm * (cos * load.force[1] - sin * load.force[0]);
+            let moment = -moment(&simulation.pin_loads()[1], arm, curvature * self.length);
             if step >= held && moment <= 0.0 {
                 let part = before.1 / (before.1 - moment);
                 return Ok(before.0 + part * (curvature - before.0));
@@ -132,8 +134,6 @@ impl Arc {
     }
 }
 
-type Scenes = Result<Scene, ValidationError>;
-
 /// Curvature at which no moment is left after a first bending to a curvature, both in 1/m.
 ///
 /// A Dahl element of plateau `$F$` and length `$\ell$` has reached `$f_1 = F(1 - e^{-\kappa_1/\ell})$` and goes back along
@@ -148,7 +148,7 @@ fn kept_curvature(law: &BendingLaw, largest: f64) -> f64 {
         });
         rigidity * curvature + friction.sum::<f64>()
     };
-    crate::loops::root(moment, (0.0, largest))
+    root(moment, (0.0, largest))
 }
 
 /// Two fabrics along both yarns.

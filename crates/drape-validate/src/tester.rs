@@ -7,7 +7,7 @@ use std::f64::consts::SQRT_2;
 
 use drape_fabric::Fabric;
 use drape_kes::{BendingPoints, Curve, Direction, Reading, ShearPoints, Symbol, Test};
-use drape_scene::{PinLoad, Simulation};
+use drape_scene::{PinLoad, Scene, Simulation};
 
 use crate::ValidationError;
 use crate::instrument::{
@@ -63,6 +63,18 @@ pub(crate) fn bent((row, cells): (f64, usize), curvature: f64) -> Place {
     Place { shift, turn: cells as f64 * turn }
 }
 
+/// How far the middle of what the second pin holds is beyond a pivot along x, in m.
+pub(crate) fn arm(scene: &Scene, pivot: f64) -> f64 {
+    let held = scene.pins[1].particles.iter().map(|particle| scene.positions[3 * particle]);
+    held.clone().sum::<f64>() / held.count() as f64 - pivot
+}
+
+/// Moment of a pin's load about z through a pivot, in N·m; the middle of what it holds is an arm away, at a turn in rad.
+pub(crate) fn moment(load: &PinLoad, arm: f64, turn: f64) -> f64 {
+    let (sin, cos) = turn.sin_cos();
+    load.moment[2] + arm * (cos * load.force[1] - sin * load.force[0])
+}
+
 impl Specimen {
     /// Between two lines of particles.
     fn between_lines(spacing: f64) -> Self {
@@ -107,6 +119,13 @@ impl Specimen {
         Self { grain: 45.0, spacing: h * SQRT_2, rows: [2, 2], ..along }
     }
 
+    /// The panel's keys that cut it on the bias from a grid with rows at both ends; a particle in its middle is in a row.
+    fn bias_keys(&self) -> String {
+        let odd = (self.length / self.row).round() % 2.0 == 1.0;
+        let grid = if odd { 0.5 * self.spacing } else { 0.0 };
+        format!("grain = {}\ngrid = [{grid:e}, 0]\n", self.grain)
+    }
+
     /// Moves the clamp from place to place, one in each step, and records what it bears; the moment is about its pivot.
     fn drive(
         &self,
@@ -115,15 +134,7 @@ impl Specimen {
         places: &[Place],
     ) -> Result<Vec<PinLoad>, ValidationError> {
         let Self { grain, spacing, length, middle, pivot, rows: [still, moving], .. } = self;
-        // A particle at the middle is in a row of a specimen on the bias; the clamps' rows are at its ends.
-        let rows = (length / self.row).round();
-        let grid = match (*grain != 0.0, rows % 2.0 == 1.0) {
-            (true, odd) => format!(
-                "grain = {grain}\ngrid = [{:e}, 0]\n",
-                if odd { 0.5 * spacing } else { 0.0 }
-            ),
-            (false, _) => String::new(),
-        };
+        let grain = if *grain == 0.0 { String::new() } else { self.bias_keys() };
         let (size, turn, edges) = match direction {
             Direction::Weft => ([*length, WIDTH], [-90, 0, 0], ["left", "right"]),
             Direction::Warp => ([WIDTH, *length], [-90, -90, 0], ["bottom", "top"]),
@@ -138,7 +149,7 @@ impl Specimen {
         let text = format!(
             "name = \"specimen\"\nspacing = {spacing:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n\
              fabric.specimen.file = \"fabric.toml\"\n[[panel]]\nname = \"specimen\"\n\
-             fabric = \"specimen\"\nrectangle = {size:?}\ncenter = [{middle:e}, 0, 0]\nturn = {turn:?}\n{grid}\
+             fabric = \"specimen\"\nrectangle = {size:?}\ncenter = [{middle:e}, 0, 0]\nturn = {turn:?}\n{grain}\
              [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {still}\n\
              [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {moving}\n\
              [pin.motion]\ntimes = {times:?}\ncenter = [{pivot:e}, 0, 0]\n\
@@ -149,16 +160,14 @@ impl Specimen {
             STEP * places.len() as f64
         );
         let scene = scene(text, fabric.to_toml())?;
-        let held = scene.pins[1].particles.iter().map(|particle| scene.positions[3 * particle]);
-        let arm = held.clone().sum::<f64>() / held.count() as f64 - pivot;
+        let arm = arm(&scene, *pivot);
         let mut simulation = Simulation::new(scene)?;
         let mut loads = Vec::with_capacity(places.len());
         for place in places {
             simulation.step()?;
-            let mut load = simulation.pin_loads()[1];
-            let (sin, cos) = place.turn.sin_cos();
-            load.moment[2] += arm * (cos * load.force[1] - sin * load.force[0]);
-            loads.push(load);
+            let load = simulation.pin_loads()[1];
+            let [x, y, _] = load.moment;
+            loads.push(PinLoad { moment: [x, y, moment(&load, arm, place.turn)], ..load });
         }
         Ok(loads)
     }
