@@ -78,7 +78,7 @@ fn the_fabrics_of_the_validation_are_those_of_the_sheets() {
     let kept = root().join("crates/drape-validate/fabrics");
     let files: Vec<PathBuf> =
         std::fs::read_dir(&kept).expect("a folder").map(|e| e.expect("an entry").path()).collect();
-    assert_eq!(files.len(), 4);
+    assert_eq!(files.len(), 6);
     for file in files {
         let name = file.file_stem().expect("a name").to_string_lossy().into_owned();
         let fitted = folder.path().join(format!("{name}.toml"));

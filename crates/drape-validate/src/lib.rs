@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 
+mod breen;
 mod check;
+mod cube;
 pub mod drapemeter;
 mod drapes;
 pub mod dynamics;
@@ -10,6 +12,7 @@ mod graph;
 pub mod instrument;
 mod loops;
 pub mod reference;
+mod section;
 mod shadow;
 mod shipped;
 mod stage;
