@@ -41,10 +41,12 @@ fn a_drape_has_a_coefficient_and_nodes() {
     let page = json(&mut command);
     let evaluations = page["evaluations"].as_array().expect("a list");
     let of = |k: usize| evaluations[k]["coefficient"].as_f64().expect("a number");
-    // With friction, without, and the ends of what the sheet leaves open.
-    assert_eq!(evaluations.len(), 4);
-    assert!(of(1) < of(0) && of(2) < of(3), "{evaluations:?}");
-    assert!((0..4).all(|k| of(k) > 0.2 && of(k) < 1.0));
+    // With friction, without, and the ends of the three things that the sheet leaves open.
+    assert_eq!(evaluations.len(), 8);
+    assert!(of(1) < of(0), "{evaluations:?}");
+    // Shear stiffness and its friction stiffen; bending friction that builds up slower does not.
+    assert!(of(2) < of(3) && of(4) < of(5) && of(6) > of(7), "{evaluations:?}");
+    assert!((0..8).all(|k| of(k) > 0.2 && of(k) < 1.0));
 }
 
 #[test]
@@ -78,7 +80,7 @@ fn the_fabrics_of_the_validation_are_those_of_the_sheets() {
     let kept = root().join("crates/drape-validate/fabrics");
     let files: Vec<PathBuf> =
         std::fs::read_dir(&kept).expect("a folder").map(|e| e.expect("an entry").path()).collect();
-    assert_eq!(files.len(), 4);
+    assert_eq!(files.len(), 6);
     for file in files {
         let name = file.file_stem().expect("a name").to_string_lossy().into_owned();
         let fitted = folder.path().join(format!("{name}.toml"));

@@ -95,6 +95,26 @@ fn the_same_scene_gives_the_same_bits_for_any_number_of_threads() {
 }
 
 #[test]
+fn breens_particles_come_to_rest_on_a_cube_and_keep_apart() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let summary = run("cube-cotton-breen.toml", &[], folder.path());
+    assert_eq!(summary["settled"], true);
+    assert_eq!(summary["contact"]["intersections"], 0);
+    assert_eq!(number(&summary, "energy.friction_dissipated"), 0.0);
+    let open = number(&summary, "energy.remainder").abs() / -number(&summary, "energy.gravity");
+    assert!(open < 1e-9, "{open:e} of the energy is not accounted for");
+    // The weight of a metre stretches the yarns by 1 % and compresses none by as much; a quarter of the cloth hangs from
+    // the corners.
+    let most = number(&summary, "strain.traction_max");
+    assert!((0.01..0.02).contains(&most), "the longest segment is strained by {most}");
+    let heights = heights(folder.path());
+    let at = |column: usize, row: usize| heights[51 * row + column];
+    let corners = [at(0, 0), at(50, 0), at(50, 50), at(0, 50)];
+    let spread = corners.iter().fold(0.0, |s: f64, c| s.max((c - corners[0]).abs()));
+    assert!(spread < 0.01, "the corners hang alike: {corners:?}");
+}
+
+#[test]
 fn a_run_that_does_not_settle_says_so_and_keeps_its_results() {
     let folder = tempfile::tempdir().expect("a folder");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

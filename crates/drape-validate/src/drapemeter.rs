@@ -237,10 +237,10 @@ impl Drapemeter {
         );
         let [disc, specimen] = [self.disc, self.specimen].map(|radius| PI * radius * radius);
         let edge = shadow.edge();
-        let smooth = LowPass::of(&edge);
+        let smooth = LowPass::of(&edge, HARMONICS);
         Drape {
             coefficient: (shadow.area() - disc) / (specimen - disc),
-            nodes: maxima(&smooth.curve(edge.len()), PROMINENCE),
+            nodes: maxima(&smooth.curve(edge.len()), PROMINENCE).len(),
             amplitudes: smooth.amplitudes(),
             edge,
             speed: simulation.summary().speed_max,

@@ -1,8 +1,10 @@
 #![doc = include_str!("../README.md")]
 
 mod bias;
+mod breen;
 mod check;
 mod crease;
+mod cube;
 mod decrement;
 pub mod drapemeter;
 mod drapes;
@@ -14,6 +16,7 @@ pub mod instrument;
 mod loops;
 pub mod prior;
 pub mod reference;
+mod section;
 pub mod sensitivity;
 mod shadow;
 mod shipped;

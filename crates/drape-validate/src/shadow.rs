@@ -128,7 +128,7 @@ pub(crate) struct LowPass {
 }
 
 impl LowPass {
-    pub(crate) fn of(curve: &[f64]) -> Self {
+    pub(crate) fn of(curve: &[f64], harmonics: usize) -> Self {
         let count = curve.len() as f64;
         let part = |harmonic: usize| {
             let mut sums = [0.0; 2];
@@ -138,7 +138,7 @@ impl LowPass {
             }
             sums.map(|sum| 2.0 * sum / count)
         };
-        let parts = (1..=HARMONICS).map(part).collect();
+        let parts = (1..=harmonics).map(part).collect();
         Self { mean: curve.iter().sum::<f64>() / count, parts }
     }
 
@@ -158,27 +158,27 @@ impl LowPass {
     }
 }
 
-/// Maxima of a closed curve that stand out by at least so much.
-pub(crate) fn maxima(curve: &[f64], prominence: f64) -> usize {
+/// Places of the maxima of a closed curve that stand out by at least so much.
+pub(crate) fn maxima(curve: &[f64], prominence: f64) -> Vec<usize> {
     let count = curve.len();
     let at = |k: usize| curve[k % count];
     // From a lowest place, so that none is counted across the end.
     let first = (0..count).min_by(|&a, &b| curve[a].total_cmp(&curve[b])).unwrap_or(0);
-    let (mut low, mut high, mut found, mut rising) = (at(first), at(first), 0, true);
+    let (mut low, mut high, mut found, mut rising) = (at(first), first, Vec::new(), true);
     for k in first..=first + count {
         let value = at(k);
         if rising {
-            high = high.max(value);
-            if high - value >= prominence {
-                if high - low >= prominence {
-                    found += 1;
+            high = if value > at(high) { k } else { high };
+            if at(high) - value >= prominence {
+                if at(high) - low >= prominence {
+                    found.push(high % count);
                 }
                 (low, rising) = (value, false);
             }
         } else {
             low = low.min(value);
             if value - low >= prominence {
-                (high, rising) = (value, true);
+                (high, rising) = (k, true);
             }
         }
     }
@@ -197,9 +197,19 @@ mod tests {
                 let angle = TAU * k as f64 / ANGLES as f64;
                 0.1 + amplitude * (count * angle + 0.3).cos() + 1e-3 * (40.0 * angle).cos()
             };
-            maxima(&LowPass::of(&(0..ANGLES).map(at).collect::<Vec<_>>()).curve(ANGLES), PROMINENCE)
+            let smooth = LowPass::of(&(0..ANGLES).map(at).collect::<Vec<_>>(), HARMONICS);
+            maxima(&smooth.curve(ANGLES), PROMINENCE).len()
         };
         assert_eq!([wave(2.0, 0.01), wave(7.0, 0.004), wave(5.0, 0.001)], [2, 7, 0]);
+    }
+
+    #[test]
+    fn maxima_are_where_they_are() {
+        let at = |k: usize| (TAU * 3.0 * (k as f64 - 10.0) / 360.0).cos();
+        let curve: Vec<f64> = (0..360).map(at).collect();
+        let mut found = maxima(&curve, 0.5);
+        found.sort_unstable();
+        assert_eq!(found, [10, 130, 250]);
     }
 
     #[test]

@@ -15,6 +15,11 @@ pub const WOOL: &str = include_str!("../fabrics/matsudaira-b.toml");
 /// The cotton of Tagawa, Hayashi & Kijima (2003), from their fitted law; its shear is assumed.
 pub const TAGAWA: &str = include_str!("../fabrics/tagawa-2003.toml");
 
+/// What stands for Breen's stiff cotton: four times as stiff as [`COTTON`], by choice.
+pub const STIFF_COTTON: &str = include_str!("../fabrics/stiff-cotton-stand-in.toml");
+/// What stands for Breen's polyester/cotton: [`COTTON`] with a weft of a quarter of its stiffness, by choice.
+pub const LIMP_WEFT: &str = include_str!("../fabrics/polyester-cotton-stand-in.toml");
+
 /// A fabric from its text.
 ///
 /// # Errors

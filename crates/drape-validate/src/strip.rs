@@ -1,4 +1,4 @@
-use drape_scene::{Scene, Simulation};
+use drape_scene::{Scene, Simulation, Step};
 
 use crate::ValidationError;
 use crate::stage::scene;
@@ -166,7 +166,21 @@ impl Strip {
 /// # Errors
 /// A step that cannot be solved, or a strip that does not come to rest where the scene asks for it.
 pub fn finish(simulation: &mut Simulation) -> Result<(), ValidationError> {
-    while !simulation.step()?.finished {}
+    finish_with(simulation, |_, _| ())
+}
+
+/// The same, told after every step.
+pub(crate) fn finish_with(
+    simulation: &mut Simulation,
+    mut told: impl FnMut(&Simulation, &Step),
+) -> Result<(), ValidationError> {
+    loop {
+        let step = simulation.step()?;
+        told(simulation, &step);
+        if step.finished {
+            break;
+        }
+    }
     let summary = simulation.summary();
     if summary.imbalance.is_nan() || (simulation.settles() && !summary.settled) {
         return Err(ValidationError::NotSettled { seconds: summary.simulated_seconds });

@@ -1,8 +1,8 @@
 use serde::Serialize;
 
 use crate::{
-    Check, Findings, Graph, Still, ValidationError, bias, crease, decrement, drapes, dynamics,
-    loops, statics, vacuum,
+    Check, Findings, Graph, Still, ValidationError, bias, breen, crease, decrement, drapes,
+    dynamics, loops, statics, vacuum,
 };
 
 /// A case of the suite.
@@ -142,6 +142,18 @@ pub const CASES: &[Case] = &[
         title: "A strip in a vacuum swings, and is thrown over (Tagawa, Hayashi & Kijima 2003)",
         long: false,
         run: vacuum::tagawa,
+    },
+    Case {
+        name: "cube",
+        title: "A stiff cloth on a cube, in the laws of its fabric and in Breen's particles; a coarse grid",
+        long: false,
+        run: breen::coarse,
+    },
+    Case {
+        name: "breen",
+        title: "Cloths on a cube, in the laws of their fabrics and in Breen's particles (Breen, House & Wozny 1994)",
+        long: true,
+        run: breen::cloths,
     },
     Case {
         name: "drapemeter",
