@@ -75,7 +75,7 @@ fn grid(side: usize) -> Vec<[u32; 3]> {
             continue;
         }
         let [a, b, c, d] = [0, 1, side + 1, side].map(|k| (cell + k) as u32);
-        let even = (cell % side + cell / side) % 2 == 0;
+        let even = (cell % side + cell / side).is_multiple_of(2);
         triangles.extend(if even { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
     }
     triangles
