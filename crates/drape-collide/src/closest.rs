@@ -4,7 +4,7 @@ use crate::vector::{Vector, add, cross, dot, scale, subtract};
 ///
 /// Below it, of a sliver or of nearly parallel edges, all candidates are compared: three times the
 /// work, for few pairs.
-const WELL_SHAPED: f64 = 1e-6;
+const WELL_SHAPED: f64 = 1e-10;
 
 /// Squared sine below which a triangle is a line, and two edges are parallel.
 ///

@@ -194,6 +194,20 @@ impl Motion {
         self.keeps_within([a, b], (distance, Time { count: 0, level: 0 }), &mut tries)
     }
 
+    /// Whether the points are a distance apart at the start; exactly, and slowly.
+    pub fn starts_apart_by(&self, a: &[usize], b: &[usize], distance: f64) -> bool {
+        let pick = |list: &[usize]| -> Vec<Place<BigInt>> {
+            list.iter().map(|&k| self.start[k].clone()).collect()
+        };
+        let (a, b) = (pick(a), pick(b));
+        let (zero, target) = (BigInt::from(0), whole(distance, self.power));
+        directions(&a, &b).iter().any(|direction| {
+            let least = &target * &target * dot(direction, direction);
+            let sides = [clearance(direction, &a, &b), clearance(direction, &b, &a)];
+            sides.iter().any(|clear| *clear > zero && clear * clear >= least)
+        })
+    }
+
     fn keeps_within(
         &self,
         [a, b]: [&[usize]; 2],

@@ -1,9 +1,9 @@
 //! The exact test of crossings against another exact test.
 
-use crate::exact::apart;
+use crate::exact::{Motion, apart};
 use crate::sheets::{SKIN, surface};
-use crate::support::Dice;
-use drape_collide::{Crossing, SurfaceParts, crossings};
+use crate::support::{Dice, norm};
+use drape_collide::{Crossing, Gap, Kind, Pair, SurfaceParts, crossings};
 use std::collections::BTreeSet;
 
 /// Triangles on a small lattice, seen from afar: most meet, touch or lie in one plane.
@@ -77,5 +77,67 @@ fn a_last_place_decides() {
         });
         let found = crossings(&surface, &positions).unwrap();
         assert_eq!(!found.is_empty(), meets, "the edge ends at {end}: {found:?}");
+    }
+}
+
+/// The computed distance is that of two points of the primitives, and so never too small; a plane
+/// proves that it is not too large.
+#[test]
+fn distances_of_slivers_and_nearly_parallel_edges_are_exact() {
+    let mut dice = Dice::new(52);
+    for case in 0..2_000 {
+        let kind = if case % 2 == 0 { Kind::VertexFace } else { Kind::EdgeEdge };
+        let tiny = 10f64.powf(-8.0 + 8.0 * dice.roll());
+        let mut x: [[f64; 3]; 4] = std::array::from_fn(|_| dice.point(1.0));
+        // The last place is all but on the line of the second and the third, or the second edge
+        // all but along the first; both about a hundredth apart from the first.
+        let share = 2.0 * dice.roll();
+        let rough = dice.point(tiny);
+        match kind {
+            Kind::VertexFace => {
+                x[3] = [0, 1, 2].map(|k| x[1][k] + share * (x[2][k] - x[1][k]) + rough[k]);
+                // Over the sliver itself or beside it.
+                let over = dice.roll();
+                let beside = dice.point(1e-2);
+                let [u, v] = [2, 3].map(|i| [0, 1, 2].map(|k| x[i][k] - x[1][k]));
+                let up: [f64; 3] = std::array::from_fn(|k| {
+                    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                    u[i] * v[j] - u[j] * v[i]
+                });
+                let away = if case % 4 == 0 { up.map(|c| 1e-2 * c / norm(up)) } else { beside };
+                x[0] = [0, 1, 2].map(|k| x[1][k] + over * u[k] + 0.3 * rough[k] + away[k]);
+            }
+            Kind::EdgeEdge => {
+                let away = dice.point(1e-2);
+                x[2] = [0, 1, 2].map(|k| x[0][k] + 0.5 * share * (x[1][k] - x[0][k]) + away[k]);
+                x[3] = [0, 1, 2].map(|k| x[2][k] + (x[1][k] - x[0][k]) + rough[k]);
+            }
+        }
+        let pair = Pair {
+            kind,
+            features: [0, 1],
+            vertices: [0, 1, 2, 3],
+            reach: 1.0,
+            separation: 1e-9,
+            area: 1.0,
+            parallel: 0.0,
+            distance: 0.0,
+        };
+        let positions = x.as_flattened();
+        let gap = Gap::new(&pair, positions);
+        let (distance, weights) = (gap.distance(), gap.weights());
+        let first = if kind == Kind::VertexFace { 1 } else { 2 };
+        let sums = [&weights[..first], &weights[first..]].map(|list| list.iter().sum::<f64>());
+        assert!((sums[0] - 1.0).abs() < 1e-14 && (sums[1] + 1.0).abs() < 1e-14, "{weights:?}");
+        let way: [f64; 3] = [0, 1, 2].map(|k| (0..4).map(|i| weights[i] * x[i][k]).sum());
+        for (k, component) in way.into_iter().enumerate() {
+            let miss = (component - distance * gap.normal()[k]).abs();
+            assert!(miss < 1e-14, "{kind:?} {x:?}: off by {miss}");
+        }
+        let least = distance - 1e-14;
+        let still = Motion::new(&x, &x, least);
+        let sides: [Vec<usize>; 2] = [(0..first).collect(), (first..4).collect()];
+        let proved = still.starts_apart_by(&sides[0], &sides[1], least);
+        assert!(proved, "{kind:?} {x:?} with {tiny:e}: nearer than {distance}");
     }
 }
