@@ -97,7 +97,7 @@ fn the_shipped_fabrics_are_listed_and_compared() {
     let mut command = drape();
     let output = command.args(["fabric", "list"]).arg(fabrics()).assert().success();
     let text = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
-    assert_eq!(text.lines().count(), 5, "a head and four fabrics:\n{text}");
+    assert_eq!(text.lines().count(), 7, "a head and six fabrics:\n{text}");
     let folder = tempfile::tempdir().expect("a folder");
     let mut command = drape();
     command.args(["fabric", "compare"]).arg(fabrics().join("matsudaira-a"));
