@@ -2,8 +2,10 @@ use crate::error::CollideError;
 use crate::order::Run;
 use crate::pair::{Kind, Pair, closest, distance};
 use crate::surface::Surface;
+use crate::course::Course;
+use crate::pairs::Pairs;
 use crate::tree::{Bounds, Probe, Tree, WIDTH};
-use crate::vector::at;
+use crate::vector::{Vector, add, at, subtract};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -31,32 +33,6 @@ pub(crate) struct Close {
     key: (Kind, [u32; 2]),
     reach: f64,
     separation: f64,
-}
-
-/// A sorted list of all pairs that were near each other at some positions.
-#[derive(Debug, Clone, Default)]
-pub struct Pairs {
-    list: Vec<Pair>,
-    positions: Vec<f64>,
-    pub(crate) margin: f64,
-    pub(crate) free: usize,
-}
-
-impl Pairs {
-    /// The pairs, sorted by kind and features.
-    pub fn as_slice(&self) -> &[Pair] {
-        &self.list
-    }
-
-    /// The flat positions at which they were detected, in m.
-    pub fn positions(&self) -> &[f64] {
-        &self.positions
-    }
-
-    /// By how much each pair's distance could exceed its reach, in m.
-    pub fn margin(&self) -> f64 {
-        self.margin
-    }
 }
 
 /// Finds all pairs of primitives that are near each other.
@@ -110,20 +86,37 @@ impl Detector {
         positions: &[f64],
         margin: f64,
     ) -> Result<&Pairs, CollideError> {
+        self.detect_along(surface, (positions, Course::Still), margin)
+    }
+
+    /// Finds every pair whose distance falls below its reach plus a margin in m somewhere on a
+    /// course from flat positions, and perhaps some that stay a little farther.
+    ///
+    /// # Errors
+    ///
+    /// As of [`detect`](Detector::detect).
+    pub fn detect_along(
+        &mut self,
+        surface: &Surface,
+        (positions, course): (&[f64], Course<'_>),
+        margin: f64,
+    ) -> Result<&Pairs, CollideError> {
         surface.check_positions(positions)?;
-        crate::error::check("the margin of contact (m)", margin, "above 0", margin > 0.0)?;
-        let query = Query { surface, positions, limit: Limit::Margin(margin) };
-        self.scan(&query)?;
-        let pairs = &mut self.pairs;
-        pairs.list.clear();
-        for chunk in &self.chunks {
-            pairs.list.extend_from_slice(&chunk.pairs);
+        if let Some(ways) = course.ways() {
+            surface.check_positions(ways)?;
         }
-        pairs.positions.clear();
-        pairs.positions.extend_from_slice(positions);
-        pairs.margin = margin;
-        pairs.free = surface.free();
+        crate::error::check("the margin of contact (m)", margin, "above 0", margin > 0.0)?;
+        let drift = course.drift(surface.free());
+        let query = Query { surface, positions, limit: Limit::Margin(margin, course), drift };
+        self.scan(&query)?;
+        let found = self.chunks.iter().map(|chunk| &chunk.pairs[..]);
+        self.pairs.replace(found, (positions, course), (margin, surface.free()));
         Ok(&self.pairs)
+    }
+
+    /// Moves the pairs along their course to where it comes nearest to flat positions.
+    pub(crate) fn follow(&mut self, positions: &[f64]) {
+        self.pairs.follow(positions);
     }
 
     /// Leaves what the query asks for in the chunks.
@@ -172,7 +165,7 @@ impl Detector {
 /// keep a quarter.
 pub(crate) fn close_at_rest(surface: &Surface, rest: &[f64]) -> Result<Vec<Close>, CollideError> {
     let mut detector = Detector::default();
-    let query = Query { surface, positions: rest, limit: Limit::Rest };
+    let query = Query { surface, positions: rest, limit: Limit::Rest, drift: [0.0; 3] };
     detector.scan(&query)?;
     let mut close = Vec::new();
     for pair in detector.chunks.iter().flat_map(|chunk| &chunk.pairs) {
@@ -193,9 +186,9 @@ pub(crate) fn close_at_rest(surface: &Surface, rest: &[f64]) -> Result<Vec<Close
 
 /// How near two primitives must be.
 #[derive(Debug, Clone, Copy)]
-enum Limit {
-    /// Below their reach and so much more, in m.
-    Margin(f64),
+enum Limit<'a> {
+    /// Below their reach and so much more in m, somewhere on a course.
+    Margin(f64, Course<'a>),
     /// Below twice their reach, and of one group.
     Rest,
 }
@@ -204,7 +197,9 @@ enum Limit {
 struct Query<'a> {
     surface: &'a Surface,
     positions: &'a [f64],
-    limit: Limit,
+    limit: Limit<'a>,
+    /// Taken off all ways, in m: it brings no two primitives nearer.
+    drift: Vector,
 }
 
 impl Query<'_> {
@@ -212,11 +207,19 @@ impl Query<'_> {
         let skin = self.surface.skins()[self.surface.group(vertices[0]) as usize];
         let places = vertices.map(|vertex| at(self.positions, vertex as usize));
         // Half of how near two must be, in each of two boxes that then overlap.
-        let around = match self.limit {
-            Limit::Margin(margin) => skin.reach + 0.5 * margin,
-            Limit::Rest => 2.0 * skin.reach,
-        };
-        Bounds::around(places, around)
+        match self.limit {
+            Limit::Rest => Bounds::around(&places, 2.0 * skin.reach),
+            Limit::Margin(margin, course) => {
+                let around = skin.reach + 0.5 * margin;
+                let bounds = Bounds::around(&places, around);
+                let Some(ways) = course.ways() else { return bounds };
+                let mut ends = places;
+                for (end, vertex) in ends.iter_mut().zip(vertices) {
+                    *end = add(*end, subtract(at(ways, vertex as usize), self.drift));
+                }
+                bounds.with(Bounds::around(&ends, around))
+            }
+        }
     }
 
     /// The pair of two primitives that share no vertex, if they are near enough.
@@ -230,8 +233,13 @@ impl Query<'_> {
         let same_group = surface.group(vertices[0]) == surface.group(other);
         let places = vertices.map(|vertex| at(self.positions, vertex as usize));
         let distance = distance(&closest(kind, places));
+        // How much nearer the two can come on their course.
+        let mut nearer = 0.0;
         let limit = match self.limit {
-            Limit::Margin(margin) => skin.reach + margin,
+            Limit::Margin(margin, course) => {
+                nearer = course.approach(kind, vertices);
+                skin.reach + margin + nearer
+            }
             Limit::Rest if same_group => 2.0 * skin.reach,
             Limit::Rest => return None,
         };
@@ -242,8 +250,8 @@ impl Query<'_> {
             let close = &surface.close;
             if let Ok(place) = close.binary_search_by_key(&(kind, features), |close| close.key) {
                 (skin.reach, skin.separation) = (close[place].reach, close[place].separation);
-                if let Limit::Margin(margin) = self.limit
-                    && !(distance < skin.reach + margin)
+                if let Limit::Margin(margin, _) = self.limit
+                    && !(distance < skin.reach + margin + nearer)
                 {
                     return None;
                 }
@@ -258,6 +266,7 @@ impl Query<'_> {
             }
         };
         let (reach, separation) = (skin.reach, skin.separation);
+        let distance = distance - nearer;
         Some(Pair { kind, features, vertices, reach, separation, area, parallel, distance })
     }
 }

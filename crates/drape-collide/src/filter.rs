@@ -1,4 +1,4 @@
-use crate::detector::Pairs;
+use crate::pairs::Pairs;
 use crate::error::{CollideError, check_places};
 use crate::guards::Guards;
 use crate::pair::Pair;
@@ -64,8 +64,9 @@ pub struct Fraction {
 /// Positions and displacements are flat, for all vertices of the surface, bodies included. The
 /// answers are proofs for the straight way of each vertex from `x` to `x + dx` as rounded: every
 /// listed pair keeps a twentieth of its opening, and every other pair stays beyond its reach as
-/// long as no vertex moves farther than 0.45 margins from where the pairs were detected. The filter
-/// holds to that; it fails if the positions have gone farther already.
+/// long as no vertex moves farther than 0.45 margins from where the pairs were detected, or from the
+/// course along which they were. The filter holds to that; it fails if the positions have gone
+/// farther already.
 ///
 /// It keeps its memory between calls.
 #[derive(Debug, Default)]
@@ -74,6 +75,8 @@ pub struct Filter {
     pub(crate) moved: Vec<f64>,
     /// How far each vertex is to move, in m.
     pub(crate) lengths: Vec<f64>,
+    /// What of that leads off the course of the pairs, in m.
+    pub(crate) astray: Vec<f64>,
     /// Share of its way that each vertex may go, as bits: those of positive numbers are in order.
     pub(crate) shares: Vec<AtomicU64>,
     pub(crate) planes: Vec<Planes>,
@@ -111,7 +114,7 @@ impl Filter {
         positions: &[f64],
         displacements: &[f64],
     ) -> Result<Fraction, CollideError> {
-        let step = self.begin(pairs, positions, displacements)?;
+        let step = self.begin(pairs, (positions, displacements), true)?;
         let budget = (0..self.moved.len())
             .map(|vertex| self.budget_share(pairs, &step, vertex))
             .fold(1.0, f64::min);
@@ -138,12 +141,12 @@ impl Filter {
     }
 
     /// Checks a step, and measures how far the vertices are from their detection and how far they
-    /// are to move.
+    /// are to move, all the same share of their ways or each its own.
     pub(crate) fn begin<'a>(
         &mut self,
         pairs: &Pairs,
-        positions: &'a [f64],
-        displacements: &'a [f64],
+        (positions, displacements): (&'a [f64], &'a [f64]),
+        together: bool,
     ) -> Result<Step<'a>, CollideError> {
         let needed = pairs.positions().len();
         for (what, found) in
@@ -170,6 +173,7 @@ impl Filter {
             self.moved.push(moved);
             self.lengths.push(norm(at(displacements, vertex)) * UPWARDS);
         }
+        self.astray = pairs.astray(displacements, together);
         // The coordinates of the end are at most twice the larger of both.
         let largest = 2.0 * last_places[0].max(last_places[1]);
         let smallest = SMALLEST.max(PLACES * largest);
@@ -179,11 +183,12 @@ impl Filter {
     /// Largest share of its way that keeps a vertex within the budget.
     pub(crate) fn budget_share(&self, pairs: &Pairs, step: &Step<'_>, vertex: usize) -> f64 {
         let budget = BUDGET * pairs.margin();
-        if !self.guards.budget || self.moved[vertex] + self.lengths[vertex] <= budget {
+        let astray = at(&self.astray, vertex);
+        if !self.guards.budget || self.moved[vertex] + norm(astray) * UPWARDS <= budget {
             return 1.0;
         }
         let gone = subtract(at(step.positions, vertex), at(pairs.positions(), vertex));
-        share_of_ball(gone, at(step.displacements, vertex), budget)
+        share_of_ball(gone, astray, budget)
     }
 
     /// Whether a pair keeps a tenth of its opening by the lengths of the ways alone, however they

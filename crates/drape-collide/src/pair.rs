@@ -30,7 +30,7 @@ pub struct Pair {
     /// Square of the sine times the lengths at rest below which two edges count as parallel, in
     /// m⁴; 0 for a vertex and a triangle.
     pub parallel: f64,
-    /// Distance where the pair was detected, in m.
+    /// Distance where the pair was detected, in m, less what its course can take off it.
     pub distance: f64,
 }
 

@@ -1,5 +1,6 @@
 use rayon::prelude::*;
 
+use crate::course::Course;
 use crate::crossing::{Crossing, crossings};
 use crate::detector::Detector;
 use crate::error::{CollideError, check};
@@ -15,8 +16,9 @@ const CHUNK: usize = 256;
 /// Share of the margin that a vertex may move by before the pairs are detected anew: what [`Filter`] allows.
 const BUDGET: f64 = 0.45;
 
-/// Largest margin of a detection over the length of an edge: a longer list costs more than detecting more often.
-const MARGIN_MAX: f64 = 0.25;
+/// Longest way of a step over the length of an edge, of all vertices alike and of each by itself: the list of pairs that
+/// can meet on longer ones costs more than to go twice.
+const LONGEST: [f64; 2] = [4.0, 0.5];
 
 /// Share of a step below which it is shortened vertex by vertex and not as a whole. What is one step for all keeps
 /// going downhill, but one near pair then stops everything.
@@ -62,8 +64,10 @@ pub struct SurfaceContact {
     anchors: Vec<Anchor>,
     /// What kept the last detection from being made.
     failure: Option<CollideError>,
-    /// The smallest and the largest margin of a detection, in m.
-    margins: [f64; 2],
+    /// Margin of a detection, in m.
+    margin: f64,
+    /// Longest ways of a step, in m.
+    longest: [f64; 2],
 }
 
 /// A pair within its reach.
@@ -117,8 +121,8 @@ impl SurfaceContact {
         for &coefficient in &settings.friction {
             check("a coefficient of friction", coefficient, "0 or more", coefficient >= 0.0)?;
         }
-        let least = surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max);
-        let most = (MARGIN_MAX * surface.median_edge()).max(least);
+        let margin = surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max);
+        let longest = LONGEST.map(|edges| (edges * surface.median_edge()).max(margin));
         Ok(SurfaceContact {
             surface,
             settings,
@@ -131,7 +135,8 @@ impl SurfaceContact {
             slips: Vec::new(),
             anchors: Vec::new(),
             failure: None,
-            margins: [least, most],
+            margin,
+            longest,
         })
     }
 
@@ -340,38 +345,59 @@ impl SurfaceContact {
         moves: &mut [f64],
         held: &[usize],
     ) -> Result<Option<f64>, CollideError> {
-        let square = |way: &[f64]| way.iter().map(|x| x * x).sum::<f64>();
-        let longest = moves.chunks_exact(3).map(square).fold(0.0, f64::max).sqrt();
-        // Written so that NaN detects anew.
-        if !(self.strayed(places) + longest <= BUDGET * self.detector.pairs().margin()) {
-            let [least, most] = self.margins;
-            let margin = (1.1 / BUDGET * longest).clamp(least, most);
-            self.detector.detect(&self.surface, places, margin)?;
-        }
-        let pairs = self.detector.pairs();
-        let fraction = self.filter.scalar(pairs, places, moves)?.value;
+        let whole = moves.to_vec();
+        let shared = self.cover(places, moves, true)?;
+        let fraction = self.filter.scalar(self.detector.pairs(), places, moves)?.value;
         if fraction >= 1.0 {
-            return Ok(None);
+            return Ok((shared < 1.0).then_some(shared));
         }
         if fraction >= LOCKED {
             moves.iter_mut().for_each(|way| *way *= fraction);
-            return Ok(Some(fraction));
+            return Ok(Some(shared * fraction));
         }
-        let whole = moves.to_vec();
-        let truncation = self.filter.truncate(pairs, places, moves)?;
+        moves.copy_from_slice(&whole);
+        self.cover(places, moves, false)?;
+        self.filter.truncate(self.detector.pairs(), places, moves)?;
         let free = 3 * self.surface.free();
         let went = |vertex: usize| {
             let own = 3 * vertex..3 * vertex + 3;
-            let [after, before] = [square(&moves[own.clone()]), square(&whole[own])];
-            if before > 0.0 { (after / before).sqrt() } else { 1.0 }
+            let [after, before] = [length(&moves[own.clone()]), length(&whole[own])];
+            if before > 0.0 { after / before } else { 1.0 }
         };
-        let share = held.iter().map(|&vertex| went(vertex)).fold(truncation.bodies, f64::min);
+        let bodies = self.surface.free()..moves.len() / 3;
+        let share = held.iter().copied().chain(bodies).map(went).fold(1.0, f64::min);
         // Less of a safe way is safe too.
         let prescribed = held.iter().flat_map(|vertex| 3 * vertex..3 * vertex + 3);
         for k in prescribed.chain(free..moves.len()) {
             moves[k] = share * whole[k];
         }
         Ok(Some(share))
+    }
+
+    /// Detects the pairs that can meet on the ways of all vertices, if those at hand do not do. Shortens ways that are
+    /// too long for that, together or each by itself; returns the share that is left of the longest.
+    fn cover(
+        &mut self,
+        places: &[f64],
+        moves: &mut [f64],
+        together: bool,
+    ) -> Result<f64, CollideError> {
+        let longest = moves.chunks_exact(3).map(length).fold(0.0, f64::max);
+        let most = self.longest[usize::from(!together)];
+        let share = if longest > most { most / longest } else { 1.0 };
+        for way in moves.chunks_exact_mut(3) {
+            let share = if together { share } else { (most / length(way)).min(1.0) };
+            way.iter_mut().for_each(|component| *component *= share);
+        }
+        self.detector.follow(places);
+        let astray = self.detector.pairs().astray(moves, together);
+        let farthest = astray.chunks_exact(3).map(length).fold(0.0, f64::max);
+        // Written so that NaN detects anew.
+        if !(self.strayed(places) + farthest <= BUDGET * self.detector.pairs().margin()) {
+            let course = if together { Course::Together(moves) } else { Course::Each(moves) };
+            self.detector.detect_along(&self.surface, (places, course), self.margin)?;
+        }
+        Ok(share)
     }
 
     /// Every crossing of the surface with itself and the bodies at the free vertices' positions in the open step;
@@ -426,10 +452,11 @@ impl SurfaceContact {
         self.places = places;
         self.failure = None;
         self.touching.clear();
+        self.detector.follow(&self.places);
         // Within half of the margin to both sides no pair comes into reach that was not found.
         let mut strayed = self.strayed(&self.places);
         if !(strayed <= 0.5 * self.detector.pairs().margin()) {
-            if let Err(failure) = self.detector.detect(&self.surface, &self.places, self.margins[0])
+            if let Err(failure) = self.detector.detect(&self.surface, &self.places, self.margin)
             {
                 self.failure = Some(failure);
                 return;
@@ -462,6 +489,10 @@ impl SurfaceContact {
         // A maximum that keeps NaN.
         squares.fold(0.0, |most: f64, square| if square <= most { most } else { square }).sqrt()
     }
+}
+
+fn length(way: &[f64]) -> f64 {
+    way.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn gauss_newton(gap: &Gap, stiffness: f64) -> Hessian {

@@ -34,8 +34,13 @@ impl Bounds {
         all
     }
 
+    /// The box of both.
+    pub(crate) fn with(self, other: Bounds) -> Bounds {
+        Bounds::union(&[self, other])
+    }
+
     /// The box of some points with so much around.
-    pub(crate) fn around<const N: usize>(points: [[f64; 3]; N], margin: f64) -> Bounds {
+    pub(crate) fn around(points: &[[f64; 3]], margin: f64) -> Bounds {
         let mut bounds = Bounds { low: [0.0; 3], high: [0.0; 3] };
         for k in 0..3 {
             let low = points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);

@@ -1,4 +1,4 @@
-use crate::detector::Pairs;
+use crate::pairs::Pairs;
 use crate::error::CollideError;
 use crate::filter::{CHUNK, CLOSED, Filter, Step};
 use crate::pair::Pair;
@@ -46,7 +46,7 @@ impl Filter {
         displacements: &mut [f64],
     ) -> Result<Truncation, CollideError> {
         let vertices = positions.len() / 3;
-        let step = self.begin(pairs, positions, displacements)?;
+        let step = self.begin(pairs, (positions, displacements), false)?;
         self.shares.resize_with(vertices, AtomicU64::default);
         self.planes.resize(pairs.as_slice().len(), Planes::NONE);
         let mut planes = std::mem::take(&mut self.planes);

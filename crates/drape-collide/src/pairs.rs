@@ -1,0 +1,104 @@
+use crate::course::{Course, nearest};
+use crate::pair::Pair;
+
+/// A sorted list of all pairs that were near each other at some positions or on a course from
+/// there.
+///
+/// As long as no vertex is farther than half of the margin from the course, no other pair is within
+/// its reach.
+#[derive(Debug, Clone, Default)]
+pub struct Pairs {
+    list: Vec<Pair>,
+    /// The place on the course that is looked at, of each vertex.
+    positions: Vec<f64>,
+    pub(crate) margin: f64,
+    pub(crate) free: usize,
+    /// Where the course starts, and the ways; both empty if there is none.
+    start: Vec<f64>,
+    ways: Vec<f64>,
+    together: bool,
+}
+
+impl Pairs {
+    /// The pairs, sorted by kind and features.
+    pub fn as_slice(&self) -> &[Pair] {
+        &self.list
+    }
+
+    /// The flat positions at which they were detected, in m; of pairs along a course, the place on
+    /// it that was followed last.
+    pub fn positions(&self) -> &[f64] {
+        &self.positions
+    }
+
+    /// By how much each pair's distance could exceed its reach, in m.
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
+    /// Takes on other pairs.
+    pub(crate) fn replace<'a>(
+        &mut self,
+        found: impl Iterator<Item = &'a [Pair]>,
+        (positions, course): (&[f64], Course<'_>),
+        (margin, free): (f64, usize),
+    ) {
+        self.list.clear();
+        found.for_each(|pairs| self.list.extend_from_slice(pairs));
+        let fill = |own: &mut Vec<f64>, from: &[f64]| {
+            own.clear();
+            own.extend_from_slice(from);
+        };
+        fill(&mut self.positions, positions);
+        let ways = course.ways().unwrap_or_default();
+        fill(&mut self.start, if ways.is_empty() { &[] } else { positions });
+        fill(&mut self.ways, ways);
+        self.together = matches!(course, Course::Together(_));
+        (self.margin, self.free) = (margin, free);
+    }
+
+    /// Moves on the course to where it comes nearest to flat positions.
+    pub(crate) fn follow(&mut self, places: &[f64]) {
+        let count = self.ways.len();
+        if count == 0 || places.len() != count {
+            return;
+        }
+        let part = if self.together { count } else { 3 };
+        let mut gone = vec![0.0; part];
+        for first in (0..count).step_by(part) {
+            let own = first..first + part;
+            let (start, way) = (&self.start[own.clone()], &self.ways[own.clone()]);
+            for ((gone, place), start) in gone.iter_mut().zip(&places[own.clone()]).zip(start) {
+                *gone = place - start;
+            }
+            let share = nearest(way, &gone);
+            for ((position, start), way) in self.positions[own].iter_mut().zip(start).zip(way) {
+                *position = start + share * way;
+            }
+        }
+    }
+
+    /// What of displacements from near the place that is followed leads off the course, in m, if
+    /// all vertices go the same share of theirs or else each its own.
+    pub(crate) fn astray(&self, displacements: &[f64], together: bool) -> Vec<f64> {
+        let count = self.ways.len();
+        let mut rest = displacements.to_vec();
+        if count != displacements.len() || (self.together && !together) {
+            return rest;
+        }
+        let part = if self.together { count } else { 3 };
+        let mut ahead = vec![0.0; part];
+        for first in (0..count).step_by(part) {
+            let own = first..first + part;
+            // What is left of the way.
+            for (ahead, k) in ahead.iter_mut().zip(own.clone()) {
+                *ahead = self.start[k] + self.ways[k] - self.positions[k];
+            }
+            let share = nearest(&ahead, &displacements[own.clone()]);
+            for (rest, ahead) in rest[own].iter_mut().zip(&ahead) {
+                *rest -= share * ahead;
+            }
+        }
+        rest
+    }
+}
