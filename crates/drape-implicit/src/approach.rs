@@ -20,10 +20,30 @@ const APPROACH_MIN: f64 = 0.05;
 const STOPPED: f64 = 0.5;
 
 impl Solver {
-    /// Goes from the start, which lies in `trial`, as far as the system allows towards the first guess, which lies in
-    /// `current`. Leaves where it ends in `current`, evaluated, and a place before that in `trial`.
+    /// Finds a place to begin from: the start, which lies in `trial`, with all that moves by prescription carried on, or
+    /// what is allowed of the way from there to the first guess, which lies in `current`. Leaves the one that is better
+    /// balanced in `current`, evaluated.
+    ///
+    /// In free flight the guess is exact. Where surfaces touch, going on squeezes them until a step would have to undo
+    /// it: in a stack of five sheets the residual at the start was a hundred times smaller.
     pub(crate) fn approach(&mut self, problem: &mut Incremental<'_>) {
         core::mem::swap(&mut self.current, &mut self.trial);
+        self.spare.deviation.copy_from_slice(&self.current.deviation);
+        self.advance(problem);
+        core::mem::swap(&mut self.current, &mut self.spare);
+        self.current.progress = 0.0;
+        problem.locate(&mut self.current);
+        let carried = self.carry(problem).is_ok();
+        let [held, reached] = [&self.current, &self.spare];
+        let better = held.progress >= reached.progress && held.norm <= reached.norm;
+        if !(carried && better) {
+            core::mem::swap(&mut self.current, &mut self.spare);
+            problem.locate(&mut self.current);
+        }
+    }
+
+    /// Goes from the start, in `current`, as far as the system allows towards the first guess, in `trial`.
+    fn advance(&mut self, problem: &mut Incremental<'_>) {
         let Self { current, trial, image, .. } = self;
         current.progress = 0.0;
         problem.locate(current);

@@ -49,6 +49,8 @@ const LINEAR_SHARE: f64 = 0.3;
 pub(crate) struct Solver {
     pub current: Point,
     pub trial: Point,
+    /// One of two places to begin from.
+    pub spare: Point,
     /// The step to take, or the last one taken, m.
     pub direction: Vec<f64>,
     /// The residual times the inverse in use, m.
@@ -70,6 +72,7 @@ impl Solver {
         Self {
             current: Point::new(length),
             trial: Point::new(length),
+            spare: Point::new(length),
             direction: vec![0.0; length],
             image: vec![0.0; length],
             updates: Updates::with_room(updates, length),
