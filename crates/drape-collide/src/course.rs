@@ -59,10 +59,14 @@ impl<'a> Course<'a> {
     }
 }
 
-/// The share of a flat way, from 0 to 1, at which it comes nearest to a place, both from its start.
-pub(crate) fn nearest(way: &[f64], place: &[f64]) -> f64 {
-    let square: f64 = way.iter().map(|w| w * w).sum();
-    let along: f64 = way.iter().zip(place).map(|(w, p)| w * p).sum();
+/// The share of a way, from 0 to 1, at which it comes nearest to a place, both from its start and
+/// given by components.
+pub(crate) fn nearest(components: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let (mut square, mut along) = (0.0, 0.0);
+    for [way, place] in components {
+        square += way * way;
+        along += way * place;
+    }
     // Written so that no way gives the start.
     if square > 0.0 { (along / square).clamp(0.0, 1.0) } else { 0.0 }
 }

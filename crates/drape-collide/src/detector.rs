@@ -1,9 +1,9 @@
+use crate::course::Course;
 use crate::error::CollideError;
 use crate::order::Run;
 use crate::pair::{Kind, Pair, closest, distance};
-use crate::surface::Surface;
-use crate::course::Course;
 use crate::pairs::Pairs;
+use crate::surface::Surface;
 use crate::tree::{Bounds, Probe, Tree, WIDTH};
 use crate::vector::{Vector, add, at, subtract};
 use rayon::prelude::*;
@@ -114,8 +114,9 @@ impl Detector {
         Ok(&self.pairs)
     }
 
-    /// Moves the pairs along their course to where it comes nearest to flat positions.
-    pub(crate) fn follow(&mut self, positions: &[f64]) {
+    /// Moves the pairs along their course to where it comes nearest to flat positions, from where a
+    /// [`Filter`](crate::Filter) then takes further steps.
+    pub fn follow(&mut self, positions: &[f64]) {
         self.pairs.follow(positions);
     }
 

@@ -1,7 +1,7 @@
-use crate::pairs::Pairs;
 use crate::error::{CollideError, check_places};
 use crate::guards::Guards;
 use crate::pair::Pair;
+use crate::pairs::Pairs;
 use crate::plane::{Planes, Slab};
 use crate::vector::{Vector, add, at, dot, norm, scale, subtract};
 use rayon::prelude::*;
@@ -173,7 +173,7 @@ impl Filter {
             self.moved.push(moved);
             self.lengths.push(norm(at(displacements, vertex)) * UPWARDS);
         }
-        self.astray = pairs.astray(displacements, together);
+        pairs.astray(displacements, together, &mut self.astray);
         // The coordinates of the end are at most twice the larger of both.
         let largest = 2.0 * last_places[0].max(last_places[1]);
         let smallest = SMALLEST.max(PLACES * largest);

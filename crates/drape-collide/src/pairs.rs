@@ -1,5 +1,6 @@
 use crate::course::{Course, nearest};
 use crate::pair::Pair;
+use std::ops::Range;
 
 /// A sorted list of all pairs that were near each other at some positions or on a course from
 /// there.
@@ -63,42 +64,38 @@ impl Pairs {
         if count == 0 || places.len() != count {
             return;
         }
-        let part = if self.together { count } else { 3 };
-        let mut gone = vec![0.0; part];
-        for first in (0..count).step_by(part) {
-            let own = first..first + part;
+        for own in self.parts() {
             let (start, way) = (&self.start[own.clone()], &self.ways[own.clone()]);
-            for ((gone, place), start) in gone.iter_mut().zip(&places[own.clone()]).zip(start) {
-                *gone = place - start;
-            }
-            let share = nearest(way, &gone);
+            let gone = places[own.clone()].iter().zip(start).map(|(place, start)| place - start);
+            let share = nearest(way.iter().zip(gone).map(|(way, gone)| [*way, gone]));
             for ((position, start), way) in self.positions[own].iter_mut().zip(start).zip(way) {
                 *position = start + share * way;
             }
         }
     }
 
-    /// What of displacements from near the place that is followed leads off the course, in m, if
-    /// all vertices go the same share of theirs or else each its own.
-    pub(crate) fn astray(&self, displacements: &[f64], together: bool) -> Vec<f64> {
-        let count = self.ways.len();
-        let mut rest = displacements.to_vec();
-        if count != displacements.len() || (self.together && !together) {
-            return rest;
+    /// Fills in what of displacements from near the place that is followed leads off the course, in
+    /// m, if all vertices go the same share of theirs or else each its own.
+    pub(crate) fn astray(&self, displacements: &[f64], together: bool, rest: &mut Vec<f64>) {
+        rest.clear();
+        rest.extend_from_slice(displacements);
+        if self.ways.len() != displacements.len() || (self.together && !together) {
+            return;
         }
-        let part = if self.together { count } else { 3 };
-        let mut ahead = vec![0.0; part];
-        for first in (0..count).step_by(part) {
-            let own = first..first + part;
+        for own in self.parts() {
             // What is left of the way.
-            for (ahead, k) in ahead.iter_mut().zip(own.clone()) {
-                *ahead = self.start[k] + self.ways[k] - self.positions[k];
-            }
-            let share = nearest(&ahead, &displacements[own.clone()]);
-            for (rest, ahead) in rest[own].iter_mut().zip(&ahead) {
-                *rest -= share * ahead;
+            let ahead = |k: usize| self.start[k] + self.ways[k] - self.positions[k];
+            let share = nearest(own.clone().map(|k| [ahead(k), displacements[k]]));
+            for k in own {
+                rest[k] -= share * ahead(k);
             }
         }
-        rest
+    }
+
+    /// Components that go the same share of their ways.
+    fn parts(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let count = self.ways.len();
+        let part = if self.together { count.max(1) } else { 3 };
+        (0..count).step_by(part).map(move |first| first..first + part)
     }
 }

@@ -64,6 +64,8 @@ pub struct SurfaceContact {
     anchors: Vec<Anchor>,
     /// What kept the last detection from being made.
     failure: Option<CollideError>,
+    /// What of a step leads off the course of the pairs, in m.
+    astray: Vec<f64>,
     /// Margin of a detection, in m.
     margin: f64,
     /// Longest ways of a step, in m.
@@ -135,6 +137,7 @@ impl SurfaceContact {
             slips: Vec::new(),
             anchors: Vec::new(),
             failure: None,
+            astray: Vec::new(),
             margin,
             longest,
         })
@@ -390,8 +393,8 @@ impl SurfaceContact {
             way.iter_mut().for_each(|component| *component *= share);
         }
         self.detector.follow(places);
-        let astray = self.detector.pairs().astray(moves, together);
-        let farthest = astray.chunks_exact(3).map(length).fold(0.0, f64::max);
+        self.detector.pairs().astray(moves, together, &mut self.astray);
+        let farthest = self.astray.chunks_exact(3).map(length).fold(0.0, f64::max);
         // Written so that NaN detects anew.
         if !(self.strayed(places) + farthest <= BUDGET * self.detector.pairs().margin()) {
             let course = if together { Course::Together(moves) } else { Course::Each(moves) };
@@ -456,8 +459,7 @@ impl SurfaceContact {
         // Within half of the margin to both sides no pair comes into reach that was not found.
         let mut strayed = self.strayed(&self.places);
         if !(strayed <= 0.5 * self.detector.pairs().margin()) {
-            if let Err(failure) = self.detector.detect(&self.surface, &self.places, self.margin)
-            {
+            if let Err(failure) = self.detector.detect(&self.surface, &self.places, self.margin) {
                 self.failure = Some(failure);
                 return;
             }

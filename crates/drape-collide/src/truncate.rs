@@ -1,7 +1,7 @@
-use crate::pairs::Pairs;
 use crate::error::CollideError;
 use crate::filter::{CHUNK, CLOSED, Filter, Step};
 use crate::pair::Pair;
+use crate::pairs::Pairs;
 use crate::plane::{Planes, Slab};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};

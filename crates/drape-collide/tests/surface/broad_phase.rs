@@ -2,7 +2,7 @@
 
 use crate::sheets::{SKIN, sheets, soup, surface};
 use crate::support::{Dice, norm, sub};
-use drape_collide::{CollideError, Detector, Kind, Surface, SurfaceParts};
+use drape_collide::{CollideError, Course, Detector, Kind, Skin, Surface, SurfaceParts};
 use std::collections::BTreeSet;
 
 type Place = [f64; 3];
@@ -125,6 +125,53 @@ fn folded_sheets_have_the_pairs_of_brute_force() {
         let pairs = compare(&parts, &positions, 1e-3);
         assert!(layers == 1 || pairs > 10, "case {case}: only {pairs} pairs");
     }
+}
+
+#[test]
+fn what_comes_into_reach_on_a_course_is_found() {
+    let mut dice = Dice::new(13);
+    let (mut met, mut found) = (0, [0; 3]);
+    for case in 0..200 {
+        let mut parts = soup(&mut dice, 8 + case % 23, 0.3);
+        let reach = 0.03;
+        parts.skins.fill(Skin { reach, separation: 0.5 * reach });
+        let surface = surface(&parts);
+        let common = dice.point(1.0);
+        let margin = 0.02;
+        let vertices = surface.vertices();
+        let ways: Vec<f64> = (0..vertices)
+            .flat_map(|_| {
+                let own = dice.point(0.2);
+                [0, 1, 2].map(|k| common[k] + own[k])
+            })
+            .collect();
+        let mut detector = Detector::default();
+        let together = case % 2 == 0;
+        let course = if together { Course::Together(&ways) } else { Course::Each(&ways) };
+        let pairs = detector.detect_along(&surface, (&parts.rest, course), margin).unwrap();
+        let listed: BTreeSet<Key> = pairs.as_slice().iter().map(|pair| pair.key()).collect();
+        found[case % 2] += listed.len();
+        found[2] += vertices * surface.triangles().len();
+        for _ in 0..10 {
+            let all = 0.5 + dice.roll();
+            let mut there = parts.rest.clone();
+            for vertex in 0..vertices {
+                let share = if together { all } else { 0.5 + dice.roll() }.clamp(0.0, 1.0);
+                let beside = dice.direction();
+                for k in 0..3 {
+                    let way = share * ways[3 * vertex + k] + 0.49 * margin * beside[k];
+                    there[3 * vertex + k] += way;
+                }
+            }
+            let near = brute_force(&surface, &parts.twins, &there, 2.0 * reach);
+            met += near.len();
+            let missing: Vec<_> = near.difference(&listed).collect();
+            assert!(missing.is_empty(), "case {case}: missing {missing:?}");
+        }
+    }
+    assert!(met > 3000, "only {met} pairs met");
+    // What all have in common brings none nearer: the list is far from being all pairs.
+    assert!(2 * found[0] < found[1] && 2 * found[1] < found[2], "{found:?}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::sheets::{sheets, surface};
 use crate::support::Dice;
-use drape_collide::{Detector, Filter, Kind, Skin, Surface, SurfaceParts, crossings};
+use drape_collide::{Course, Detector, Filter, Kind, Skin, Surface, SurfaceParts, crossings};
 
 const SPACING: f64 = 5e-3;
 const LAYER_GAP: f64 = 4e-4;
@@ -71,6 +71,50 @@ fn shake(layers: usize, side: usize, moves: usize) {
 #[test]
 fn five_small_sheets_never_cross() {
     shake(5, 14, 60);
+}
+
+/// Pairs are detected along the whole way, with little margin; a second, shorter way then goes on from where the filter
+/// let the first end.
+#[test]
+fn sheets_never_cross_on_courses() {
+    let (parts, mut positions) = stack(5, 14);
+    let surface = surface(&parts);
+    let (mut detector, mut filter) = (Detector::default(), Filter::default());
+    let mut dice = Dice::new(32);
+    let margin = 2e-4;
+    let (mut gone, mut nearest) = (0.0f64, f64::INFINITY);
+    for k in 0..60 {
+        let way = random_move(&mut dice, k % 5, &positions);
+        for (turn, size) in [1.0, 0.01].into_iter().enumerate() {
+            let mut way: Vec<f64> = way.iter().map(|w| size * w).collect();
+            let together = k % 3 == 2;
+            if turn == 0 {
+                let course = if together { Course::Together(&way) } else { Course::Each(&way) };
+                detector.detect_along(&surface, (&positions, course), margin).unwrap();
+            } else {
+                detector.follow(&positions);
+            }
+            let pairs = detector.pairs();
+            if together {
+                let share = filter.scalar(pairs, &positions, &way).unwrap().value;
+                // As a line search may.
+                let share = if k % 2 == 0 { share } else { 0.5 * share };
+                way.iter_mut().for_each(|component| *component *= share);
+            } else {
+                filter.truncate(pairs, &positions, &mut way).unwrap();
+            }
+            gone += way.iter().map(|w| w * w).sum::<f64>().sqrt();
+            positions.iter_mut().zip(&way).for_each(|(x, w)| *x += w);
+            let met = crossings(&surface, &positions).unwrap();
+            assert!(met.is_empty(), "after move {k}: {met:?}");
+            let list = Detector::default().detect(&surface, &positions, margin).unwrap().clone();
+            let ratios = list.as_slice().iter().map(|pair| pair.distance / pair.separation);
+            nearest = ratios.fold(nearest, f64::min);
+            assert!(nearest >= 1.0 - 1e-9, "after move {k}: {nearest} of the separation");
+        }
+    }
+    let size = (positions.len() as f64).sqrt();
+    assert!(gone / size > 0.01 && nearest < 1.1, "{} m, {nearest}", gone / size);
 }
 
 /// Takes two minutes of one core.
