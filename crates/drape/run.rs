@@ -30,8 +30,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let output = prepare_folder(&folder, arguments.force || arguments.output.is_none())?;
     let view = scene.view;
     let mut simulation = Simulation::new(scene)?;
-    let surface = (simulation.coordinates().to_vec(), simulation.triangles().to_vec());
-    let mut screen = Screen::new(simulation.ticks_to_do(), &output, surface);
+    let recorder = output.record(simulation.topology())?;
+    let mut screen = Screen::new(simulation.ticks_to_do(), recorder);
     let summary = simulation.run(&mut screen);
     screen.finish();
     let summary = summary?;
