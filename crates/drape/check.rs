@@ -2,9 +2,9 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
-use drape::input::{Diagnostics, Document};
+use drape::input::{Diagnostic, Diagnostics, Document};
 use drape::kes::Sheet;
-use drape::scene::Scene;
+use drape::scene::{Scene, SceneError};
 
 use crate::command::CheckArguments;
 use crate::failure::Failure;
@@ -39,7 +39,12 @@ fn describe(file: &Path) -> Result<String, Diagnostics> {
     let table: toml::Table = document.decode()?;
     let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
     if has(&["panel", "time", "collider"]) {
-        Ok(scene(&Scene::read(file)?))
+        let read = Scene::read(file).map_err(|error| match error {
+            SceneError::Input(mistakes) => mistakes,
+            SceneError::Tangled(tangle) => tangle.mistakes,
+            other => Diagnostic::new(file, other.to_string()).into(),
+        });
+        Ok(scene(&read?))
     } else if has(&["density", "shear"]) {
         Ok(fabric(&Fabric::from_document(&document)?))
     } else {

@@ -110,6 +110,7 @@ impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         match error {
             SceneError::Input(mistakes) => Self::Input(mistakes),
+            SceneError::Tangled(tangle) => Self::Input(tangle.mistakes),
             SceneError::Occupied { .. } => Self::Usage(error.to_string()),
             SceneError::Write { .. } => Self::Output(error.to_string()),
             error => Self::Solver(error.to_string()),
