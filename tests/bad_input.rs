@@ -178,3 +178,30 @@ fn earlier_results_are_kept_unless_their_loss_is_allowed() {
     assert_eq!(drape(folder.path(), &arguments).status.code(), Some(2));
     assert!(drape(folder.path(), &[&arguments[..], &["--force"]].concat()).status.success());
 }
+
+#[test]
+fn a_body_of_another_unit_or_with_holes_is_told_from_one() {
+    let corners = "v 0 0 0\nv 1700 0 0\nv 0 1700 0\nv 0 0 1700\n";
+    let faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    let scene = |scale: &str| {
+        let body =
+            format!("[[collider.mesh]]\nfile = \"body.obj\"\n{scale}center = [0, -9000, 0]\n");
+        format!("{SCENE}{body}")
+    };
+    let folder = folder();
+    let write = |name: &str, text: String| {
+        std::fs::write(folder.path().join(name), text).expect("writes");
+    };
+    write("body.obj", format!("{corners}{faces}"));
+    write("towel.toml", scene(""));
+    check(folder.path(), RUN, &["towel.toml", "1700.0000 m long", "scale = 0.001"]);
+    write("towel.toml", scene("scale = 0.000001\n"));
+    check(folder.path(), RUN, &["towel.toml", "0.0017 m long", "unit"]);
+    write("towel.toml", scene("scale = 0.001\n"));
+    write("body.obj", corners.to_owned() + &faces[8..]);
+    check(
+        folder.path(),
+        RUN,
+        &["towel.toml", "the mesh is open: 3 boundary edges", "fill the holes"],
+    );
+}

@@ -1,25 +1,33 @@
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
-use drape::input::{Diagnostics, Document};
+use drape::input::{Diagnostic, Diagnostics, Document};
 use drape::kes::Sheet;
-use drape::scene::Scene;
+use drape::scene::{Scene, SceneError};
 
 use crate::command::CheckArguments;
 use crate::failure::Failure;
 use crate::say::say;
+use crate::verify;
 
-/// `drape check`: all files are read, all mistakes reported together.
+/// `drape check`: all files are read, all mistakes reported together; then the frames of runs are looked at.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
+    let (runs, files): (Vec<&PathBuf>, Vec<&PathBuf>) =
+        arguments.files.iter().partition(|file| verify::is_run(file));
+    if let (true, Some(file)) = (arguments.json, files.first()) {
+        let message = format!("--json is for folders of runs, and {} is none", file.display());
+        return Err(Failure::Usage(message));
+    }
     let mut mistakes = Vec::new();
-    for file in &arguments.files {
+    for file in files {
         match describe(file) {
             Ok(description) => say(format_args!("{}: {}", file.display(), description.trim_end()))?,
             Err(found) => mistakes.extend(found.0),
         }
     }
-    Diagnostics::check(mistakes).map_err(Failure::from)
+    Diagnostics::check(mistakes)?;
+    verify::verify(&runs, arguments.json)
 }
 
 /// What a file holds, in SI.
@@ -31,7 +39,12 @@ fn describe(file: &Path) -> Result<String, Diagnostics> {
     let table: toml::Table = document.decode()?;
     let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
     if has(&["panel", "time", "collider"]) {
-        Ok(scene(&Scene::read(file)?))
+        let read = Scene::read(file).map_err(|error| match error {
+            SceneError::Input(mistakes) => mistakes,
+            SceneError::Tangled(tangle) => tangle.mistakes,
+            other => Diagnostic::new(file, other.to_string()).into(),
+        });
+        Ok(scene(&read?))
     } else if has(&["density", "shear"]) {
         Ok(fabric(&Fabric::from_document(&document)?))
     } else {

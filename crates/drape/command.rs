@@ -22,7 +22,7 @@ pub(crate) enum Command {
     Validate(ValidateArguments),
     /// Puts specimens of a fabric into simulated KES instruments and compares the loops with its laws.
     Test(TestArguments),
-    /// Checks scenes, fabrics and sheets without simulating.
+    /// Checks scenes, fabrics and sheets without simulating, and the frames of a run for surfaces that cross.
     Check(CheckArguments),
     /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
     Bench(BenchArguments),
@@ -232,9 +232,12 @@ pub(crate) enum ShakeName {
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {
-    /// Scenes, fabrics or sheets.
+    /// Scenes, fabrics, sheets, or folders of runs.
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
+    /// Prints what was found in folders of runs as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 impl Command {

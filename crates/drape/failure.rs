@@ -6,6 +6,7 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
 use drape::report::ReportError;
 use drape::scene::SceneError;
+use drape::verify::VerifyError;
 
 /// Why a command ends early, with its exit code.
 pub(crate) enum Failure {
@@ -15,6 +16,8 @@ pub(crate) enum Failure {
     Input(Diagnostics),
     /// Exit code 3: a sheet gives no fabric.
     Fit(drape::fit::Error),
+    /// Exit code 3: saved frames cannot be read.
+    Frames(VerifyError),
     /// Exit code 3: some sheets of a batch failed, and said why.
     Batch,
     /// Exit code 4: surfaces crossed.
@@ -33,7 +36,7 @@ impl Failure {
         self.print();
         ExitCode::from(match self {
             Self::Usage(_) => 2,
-            Self::Input(_) | Self::Fit(_) | Self::Batch => 3,
+            Self::Input(_) | Self::Fit(_) | Self::Frames(_) | Self::Batch => 3,
             Self::Certificate(_) => 4,
             Self::Solver(_) => 5,
             Self::Output(_) => 6,
@@ -78,8 +81,15 @@ impl fmt::Display for Failure {
             | Self::Limit(message) => f.write_str(message),
             Self::Input(mistakes) => mistakes.fmt(f),
             Self::Fit(error) => error.fmt(f),
+            Self::Frames(error) => error.fmt(f),
             Self::Batch => f.write_str("not all sheets could be fitted"),
         }
+    }
+}
+
+impl From<VerifyError> for Failure {
+    fn from(error: VerifyError) -> Self {
+        Self::Frames(error)
     }
 }
 
@@ -100,6 +110,7 @@ impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         match error {
             SceneError::Input(mistakes) => Self::Input(mistakes),
+            SceneError::Tangled(tangle) => Self::Input(tangle.mistakes),
             SceneError::Occupied { .. } => Self::Usage(error.to_string()),
             SceneError::Write { .. } => Self::Output(error.to_string()),
             error => Self::Solver(error.to_string()),

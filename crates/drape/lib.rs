@@ -11,3 +11,4 @@ pub use drape_kes as kes;
 pub use drape_report as report;
 pub use drape_scene as scene;
 pub use drape_validate as validate;
+pub use drape_verify as verify;

@@ -24,6 +24,7 @@ mod say;
 mod test;
 mod validate;
 mod validation_page;
+mod verify;
 
 fn main() -> ExitCode {
     let command = command::Command::parse();

@@ -1,29 +1,23 @@
 use std::time::Duration;
 
-use drape::scene::{Frame, Output, Progress, SceneError, Step};
+use drape::scene::{Frame, Progress, Recorder, SceneError, Step};
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Shows a run on a terminal and stores its frames.
 pub(crate) struct Screen<'a> {
     bar: ProgressBar,
-    output: &'a Output,
-    coordinates: Vec<[f64; 2]>,
-    triangles: Vec<[u32; 3]>,
+    recorder: Recorder<'a>,
     pub(crate) last: Option<Frame>,
 }
 
 impl<'a> Screen<'a> {
     /// A bar on stderr, which stays silent where stderr is not a terminal.
-    pub(crate) fn new(
-        steps: usize,
-        output: &'a Output,
-        (coordinates, triangles): (Vec<[f64; 2]>, Vec<[u32; 3]>),
-    ) -> Self {
+    pub(crate) fn new(steps: usize, recorder: Recorder<'a>) -> Self {
         let bar = ProgressBar::new(steps as u64);
         let style = "{elapsed_precise} {bar:32} {pos}/{len} steps, {per_sec}, {eta} left  {msg}";
         bar.set_style(ProgressStyle::with_template(style).expect("the template is right"));
         bar.enable_steady_tick(Duration::from_millis(250));
-        Self { bar, output, coordinates, triangles, last: None }
+        Self { bar, recorder, last: None }
     }
 
     pub(crate) fn finish(&self) {
@@ -43,7 +37,7 @@ impl Progress for Screen<'_> {
     }
 
     fn frame(&mut self, frame: &Frame) -> Result<(), SceneError> {
-        self.output.frame(frame, &self.coordinates, &self.triangles)?;
+        self.recorder.frame(frame)?;
         self.last = Some(frame.clone());
         Ok(())
     }

@@ -1,6 +1,8 @@
 use std::path::PathBuf;
 
-use drape::scene::{Energy, Scene, Simulation, Snapshot, Status, Summary, prepare_folder};
+use drape::scene::{
+    Energy, Scene, SceneError, Simulation, Snapshot, Status, Summary, prepare_folder,
+};
 
 use crate::command::RunArguments;
 use crate::failure::Failure;
@@ -14,7 +16,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
         pool.map_err(|error| Failure::Usage(format!("--threads {threads}: {error}")))?;
     }
-    let mut scene = Scene::read(&arguments.scene)?;
+    let mut scene = Scene::read(&arguments.scene).map_err(|error| refuse(error, arguments))?;
     if let Some(end) = arguments.until {
         if !(end >= scene.clock.step) {
             let step = scene.clock.step;
@@ -22,16 +24,12 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         }
         scene.clock.end = end;
     }
-    let folder = arguments.output.clone().or_else(|| scene.folder.clone());
-    let folder = folder.unwrap_or_else(|| {
-        let name = arguments.scene.file_stem().unwrap_or(scene.name.as_ref());
-        PathBuf::from("out").join(name)
-    });
+    let folder = folder(arguments, scene.folder.as_ref());
     let output = prepare_folder(&folder, arguments.force || arguments.output.is_none())?;
     let view = scene.view;
     let mut simulation = Simulation::new(scene)?;
-    let surface = (simulation.coordinates().to_vec(), simulation.triangles().to_vec());
-    let mut screen = Screen::new(simulation.ticks_to_do(), &output, surface);
+    let recorder = output.record(simulation.topology())?;
+    let mut screen = Screen::new(simulation.ticks_to_do(), recorder);
     let summary = simulation.run(&mut screen);
     screen.finish();
     let summary = summary?;
@@ -68,6 +66,45 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
             summary.simulated_seconds
         ))),
     }
+}
+
+/// Where the results go.
+fn folder(arguments: &RunArguments, of_scene: Option<&PathBuf>) -> PathBuf {
+    let given = arguments.output.as_ref().or(of_scene);
+    given.cloned().unwrap_or_else(|| {
+        let name = arguments.scene.file_stem().unwrap_or_default();
+        PathBuf::from("out").join(name)
+    })
+}
+
+/// Why a scene is refused. Triangles that cross at the start are written beside where its results would be.
+fn refuse(error: SceneError, arguments: &RunArguments) -> Failure {
+    let SceneError::Tangled(mut tangle) = error else { return error.into() };
+    let folder = folder(arguments, tangle.folder.as_ref());
+    let mut name = folder.file_name().unwrap_or_default().to_owned();
+    name.push("-start.ply");
+    let path = folder.with_file_name(name);
+    let mut content = Vec::new();
+    let written = tangle.write_ply(&mut content).map_err(|error| error.to_string());
+    let written = written
+        .and_then(|()| crate::file::write(&path, content).map_err(|failure| failure.to_string()));
+    let told = match (written, tangle.overlaps.len()) {
+        (Ok(()), count) if count < tangle.total => {
+            format!(
+                "the triangles of the first {count} of {} pairs are in {}",
+                tangle.total,
+                path.display()
+            )
+        }
+        (Ok(()), _) => format!("the triangles are in {}", path.display()),
+        (Err(reason), _) => reason,
+    };
+    let mut mistakes = tangle.mistakes.0.iter_mut();
+    if let Some(mistake) = mistakes.find(|mistake| mistake.message.contains("surfaces")) {
+        let help = mistake.help.take().unwrap_or_default();
+        mistake.help = Some(format!("{help}; {told}"));
+    }
+    Failure::Input(tangle.mistakes)
 }
 
 fn describe(summary: &Summary) -> String {

@@ -54,8 +54,26 @@ pub enum CollideError {
         reason: String,
     },
 
-    /// A mesh file is not a well-formed OBJ file.
-    #[error("mesh file {}: {reason}; export it again as a Wavefront OBJ of polygons", path.display())]
+    /// A mesh file is of no known format.
+    #[error("mesh file {}: its name ends in none of .obj, .stl and .ply; export it as one of these", path.display())]
+    UnknownMeshFormat {
+        /// The file.
+        path: PathBuf,
+    },
+
+    /// A file is longer than any that is read.
+    #[error("{} has {bytes} bytes, and at most {limit} are read; simplify the mesh or shorten the motion", path.display())]
+    LongFile {
+        /// The file.
+        path: PathBuf,
+        /// Its length.
+        bytes: u64,
+        /// The greatest length.
+        limit: u64,
+    },
+
+    /// A mesh file is not well-formed.
+    #[error("mesh file {}: {reason}; export it again", path.display())]
     Malformed {
         /// The file.
         path: PathBuf,
@@ -107,11 +125,24 @@ pub enum CollideError {
         place: [f64; 3],
     },
 
-    /// The surface has edges with more than two triangles, or neighbours that disagree on which
-    /// side is out.
+    /// The surface has edges with more than two triangles.
+    #[error(
+        "the mesh is not manifold: {edges} edges have more than two triangles, one of them at \
+         {place:?} has {triangles}; remove inner faces and doubled ones"
+    )]
+    NotManifold {
+        /// Number of such edges.
+        edges: usize,
+        /// Triangles of one of them.
+        triangles: usize,
+        /// Its middle, in m.
+        place: [f64; 3],
+    },
+
+    /// The surface has neighbours that disagree on which side is out.
     #[error(
         "the mesh has {edges} edges whose triangles do not agree on inside and outside, one of \
-         them at {place:?}; make it manifold and its normals consistent"
+         them at {place:?}; make its normals consistent"
     )]
     Inconsistent {
         /// Number of such edges.

@@ -35,6 +35,8 @@ const UPRIGHT: f64 = 1.0 - 1e-12;
 #[derive(Clone)]
 pub struct Mesh {
     surface: Arc<TriMesh>,
+    /// The first of the vertices as given that became each vertex.
+    origins: Arc<[u32]>,
     was_inside_out: bool,
 }
 
@@ -55,7 +57,7 @@ impl Mesh {
     /// out, and a surface that is inside out as a whole is turned
     /// ([`was_inside_out`](Mesh::was_inside_out) tells).
     pub fn new(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Mesh, CollideError> {
-        let (vertices, mut triangles) = weld(vertices, triangles)?;
+        let ((vertices, mut triangles), origins) = welded(vertices, triangles)?;
         check_closed(&vertices, &triangles)?;
         let volume = volume(&vertices, &triangles);
         let extent = (0..3).map(|k| extent(&vertices, k)).fold(0.0, f64::max);
@@ -73,7 +75,11 @@ impl Mesh {
         // Without the flag every point would silently count as outside.
         let surface = TriMesh::with_flags(points, triangles, TriMeshFlags::ORIENTED)
             .map_err(|_| CollideError::EmptyMesh { vertices: count })?;
-        Ok(Mesh { surface: Arc::new(surface), was_inside_out: volume < 0.0 })
+        Ok(Mesh {
+            surface: Arc::new(surface),
+            origins: origins.into(),
+            was_inside_out: volume < 0.0,
+        })
     }
 
     /// Whether the triangles as given had their outside inside.
@@ -85,6 +91,11 @@ impl Mesh {
     pub fn vertices(&self) -> Vec<[f64; 3]> {
         let points = self.surface.vertices().iter();
         points.map(|v| [v.x, v.y, v.z]).collect()
+    }
+
+    /// The first of the vertices as given that became each vertex.
+    pub fn origins(&self) -> &[u32] {
+        &self.origins
     }
 
     /// The triangles, counter-clockwise from outside.
@@ -176,8 +187,17 @@ pub(crate) type Surface = (Vec<Vector>, Vec<[u32; 3]>);
 /// The surface with one vertex for those at the very same place and without triangles that lost a
 /// corner by it.
 pub(crate) fn weld(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<Surface, CollideError> {
+    welded(vertices, triangles).map(|(surface, _)| surface)
+}
+
+/// The same with the first of the vertices as given that became each.
+fn welded(
+    vertices: &[Vector],
+    triangles: &[[u32; 3]],
+) -> Result<(Surface, Vec<u32>), CollideError> {
     let mut number_at = BTreeMap::new();
     let mut kept = Vec::new();
+    let mut origins = Vec::new();
     let mut faces = Vec::with_capacity(triangles.len());
     for (t, triangle) in triangles.iter().enumerate() {
         let mut face = [0; 3];
@@ -194,6 +214,7 @@ pub(crate) fn weld(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<Surfac
             let key = place.map(|value| (value + 0.0).to_bits());
             *corner = *number_at.entry(key).or_insert_with(|| {
                 kept.push(place);
+                origins.push(index);
                 kept.len() as u32 - 1
             });
         }
@@ -213,7 +234,7 @@ pub(crate) fn weld(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<Surfac
     if faces.is_empty() {
         return Err(CollideError::EmptyMesh { vertices: vertices.len() });
     }
-    Ok((kept, faces))
+    Ok(((kept, faces), origins))
 }
 
 /// Every edge must be run through once in each direction.
@@ -229,13 +250,18 @@ fn check_closed(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<(), Colli
         let [a, b] = [vertices[edge.0 as usize], vertices[edge.1 as usize]];
         std::array::from_fn(|k| 0.5 * (a[k] + b[k]))
     };
-    let (mut open, mut bad) = (Vec::new(), Vec::new());
+    let (mut open, mut bad, mut crowded) = (Vec::new(), Vec::new(), Vec::new());
     for group in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         match group {
             [one] => open.push(*one),
             [one, other] if one.2 != other.2 => {}
-            _ => bad.push(group[0]),
+            [one, _] => bad.push(*one),
+            _ => crowded.push((group[0], group.len())),
         }
+    }
+    if let Some(&(first, triangles)) = crowded.first() {
+        let (edges, place) = (crowded.len(), middle(first));
+        return Err(CollideError::NotManifold { edges, triangles, place });
     }
     if let Some(&first) = bad.first() {
         return Err(CollideError::Inconsistent { edges: bad.len(), place: middle(first) });

@@ -1,60 +1,63 @@
-use crate::error::{CollideError, check};
-use crate::mesh::Mesh;
-use std::path::Path;
+use crate::mesh_file::MeshFile;
 
-impl Mesh {
-    /// Reads a Wavefront OBJ file and multiplies its coordinates by a scale, in m per unit of the
-    /// file.
-    ///
-    /// All groups and objects of the file are taken together as one surface; polygons become fans
-    /// of triangles. Normals, texture coordinates and materials are ignored.
-    pub fn load(path: impl AsRef<Path>, scale: f64) -> Result<Mesh, CollideError> {
-        let path = path.as_ref();
-        check("the scale of the mesh", scale, "positive", scale > 0.0)?;
-        let bytes = std::fs::read(path).map_err(|error| CollideError::Unreadable {
-            path: path.to_path_buf(),
-            reason: error.to_string(),
-        })?;
-        let malformed =
-            |reason: String| CollideError::Malformed { path: path.to_path_buf(), reason };
-        let text = surface_lines(&String::from_utf8_lossy(&bytes));
-        let options = tobj::LoadOptions {
-            triangulate: true,
-            ignore_points: true,
-            ignore_lines: true,
-            ..tobj::LoadOptions::default()
-        };
-        let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| {
-            Ok((Vec::new(), Default::default()))
-        })
-        .map_err(|error| malformed(error.to_string()))?;
-        let mut vertices: Vec<[f64; 3]> = Vec::new();
-        let mut triangles: Vec<[u32; 3]> = Vec::new();
-        for model in &models {
-            let first = vertices.len() as u32;
-            let (places, _) = model.mesh.positions.as_chunks::<3>();
-            let (faces, rest) = model.mesh.indices.as_chunks::<3>();
-            if !rest.is_empty() {
-                return Err(malformed("a face has fewer than three corners".to_string()));
-            }
-            vertices.extend(places.iter().map(|p| p.map(|value| value * scale)));
-            triangles.extend(faces.iter().map(|f| f.map(|index| index + first)));
+/// The vertices and triangles of a Wavefront OBJ text.
+pub(crate) fn parse(bytes: &[u8]) -> Result<MeshFile, String> {
+    let (text, count) = surface_lines(&String::from_utf8_lossy(bytes));
+    let options = tobj::LoadOptions {
+        triangulate: true,
+        ignore_points: true,
+        ignore_lines: true,
+        ..tobj::LoadOptions::default()
+    };
+    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| {
+        Ok((Vec::new(), Default::default()))
+    })
+    .map_err(|error| error.to_string())?;
+    let mut vertices = vec![[0.0; 3]; count];
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    for model in &models {
+        let (places, _) = model.mesh.positions.as_chunks::<3>();
+        let (colours, _) = model.mesh.vertex_color.as_chunks::<3>();
+        let (faces, rest) = model.mesh.indices.as_chunks::<3>();
+        if !rest.is_empty() {
+            return Err("a face has fewer than three corners".to_string());
         }
-        Mesh::new(&vertices, &triangles)
+        let numbers: Vec<u32> = colours.iter().map(|colour| colour[0] as u32).collect();
+        for (&number, place) in numbers.iter().zip(places) {
+            *vertices.get_mut(number as usize).ok_or("a vertex has no number")? = *place;
+        }
+        for face in faces {
+            let corner = |index: u32| numbers.get(index as usize).copied();
+            let corners = face.map(corner);
+            let [Some(a), Some(b), Some(c)] = corners else {
+                return Err("a face names a vertex that does not exist".to_string());
+            };
+            triangles.push([a, b, c]);
+        }
     }
+    Ok(MeshFile { vertices, triangles })
 }
 
-/// The vertices and faces of an OBJ text, the faces without normals and texture coordinates.
+/// The vertices and faces of an OBJ text, the faces without normals and texture coordinates; and how many vertices
+/// there are.
 ///
-/// The parser would split the surface by groups and materials, and trip over files that are
-/// careless about what is not used here.
-fn surface_lines(text: &str) -> String {
+/// The parser would split the surface by groups and materials, and trip over files that are careless about what is
+/// not used here. It also numbers vertices as faces use them: their numbers in the file go along as their colours.
+fn surface_lines(text: &str) -> (String, usize) {
     let mut kept = String::with_capacity(text.len());
+    let mut count = 0;
     for line in text.lines() {
         let mut words = line.split_whitespace();
         match words.next() {
             // A colour may follow the coordinates.
-            Some("v") => kept.extend(["v"].into_iter().chain(words.take(3)).flat_map(|w| [w, " "])),
+            Some("v") => {
+                let coordinates: Vec<&str> = words.take(3).collect();
+                kept.extend(["v"].iter().chain(&coordinates).flat_map(|w| [*w, " "]));
+                if coordinates.len() == 3 {
+                    kept.push_str(&format!("{count} 0 0"));
+                }
+                count += 1;
+            }
             Some("f") => {
                 let corners = words.map(|word| word.split('/').next().unwrap_or(""));
                 kept.extend(["f"].into_iter().chain(corners).flat_map(|w| [w, " "]));
@@ -63,5 +66,5 @@ fn surface_lines(text: &str) -> String {
         }
         kept.push('\n');
     }
-    kept
+    (kept, count)
 }

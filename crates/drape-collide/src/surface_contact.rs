@@ -435,6 +435,12 @@ impl SurfaceContact {
         nearness
     }
 
+    /// The pairs that are nearer than they keep at the places looked at last, each with its distance, in m.
+    pub fn too_near(&self) -> impl Iterator<Item = (&Pair, f64)> {
+        let near = self.touching.iter().map(|touching| (&touching.pair, touching.gap.distance()));
+        near.filter(|(pair, distance)| !(*distance >= pair.separation))
+    }
+
     /// Places of all vertices for the free ones' positions, with the bodies at a part of their way.
     fn all(&self, positions: &[f64], progress: f64) -> Vec<f64> {
         let [start, end] = &self.bodies;

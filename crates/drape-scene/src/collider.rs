@@ -6,6 +6,11 @@ use crate::file::{MotionFile, SceneFile};
 use crate::reader::Reader;
 use crate::track::{Track, turn};
 
+/// The shortest and the longest body of a mesh, in m. A figure of 1.7 m that was read in another unit is 1.7 mm, 170 m
+/// or 1.7 km long.
+const SIZE_MIN: f64 = 2e-3;
+const SIZE_MAX: f64 = 100.0;
+
 /// What all bodies have in common.
 struct Parts<'a> {
     name: Option<&'a String>,
@@ -26,6 +31,22 @@ pub(crate) struct Moving {
 }
 
 impl Reader<'_> {
+    /// A body that is no size for cloth has another unit than the scene thinks.
+    fn size(&mut self, index: usize, mesh: &Mesh) {
+        let vertices = mesh.vertices();
+        let extent = |axis: usize| {
+            let values = || vertices.iter().map(|vertex| vertex[axis]);
+            values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
+        };
+        let longest = (0..3).map(extent).fold(0.0, f64::max);
+        if !(SIZE_MIN..=SIZE_MAX).contains(&longest) {
+            let message = format!("the body is {longest:.4} m long");
+            let help = "is the unit right? scale = 0.001 reads a file in millimetres, 0.01 one in centimetres, 1 one in \
+                        metres; bodies are 2 mm to 100 m long";
+            self.fail(&format!("collider.mesh[{index}].scale"), message, help);
+        }
+    }
+
     pub(crate) fn contact_settings(&mut self, file: &SceneFile, unit: f64) -> Settings {
         let mut settings = Settings::default();
         if let Some(offset) = file.contact.offset {
@@ -88,6 +109,7 @@ impl Reader<'_> {
         for (index, m) in colliders.mesh.iter().enumerate() {
             match Mesh::load(folder.join(&m.file), m.scale.unwrap_or(unit)) {
                 Ok(mesh) => {
+                    self.size(index, &mesh);
                     let (name, shape) = (m.name.as_ref(), Shape::Mesh(mesh));
                     let (center, turn, friction) = (m.center, m.turn, m.friction);
                     let motion = &m.motion;

@@ -2,7 +2,9 @@ use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use crate::{Frame, SceneError, Summary};
+use serde::Serialize;
+
+use crate::{Frame, SceneError, Summary, Topology};
 
 /// The folder where a run stores its frames and its summary.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,6 +14,18 @@ pub struct Output {
 
 /// File that marks a folder as one of results.
 const SUMMARY: &str = "summary.json";
+
+/// File of what all frames have in common.
+const SURFACES: &str = "surfaces.json";
+
+/// Stores the frames of a run.
+#[derive(Debug)]
+pub struct Recorder<'a> {
+    output: &'a Output,
+    topology: Topology,
+    /// Where the bodies were when they were stored last, and in which file.
+    bodies: Option<(Vec<f64>, String)>,
+}
 
 /// Makes the folder for a run, emptied of the frames of an earlier one if `replace` allows it.
 ///
@@ -40,7 +54,8 @@ pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, SceneError
 
 fn is_result(path: &Path) -> bool {
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    name == SUMMARY || (name.starts_with("frame-") && name.ends_with(".obj"))
+    let numbered = name.starts_with("frame-") || name.starts_with("bodies-");
+    name == SUMMARY || name == SURFACES || (numbered && name.ends_with(".obj"))
 }
 
 impl Output {
@@ -50,18 +65,13 @@ impl Output {
         self.folder.join(name)
     }
 
-    /// Stores a frame as `frame-00012.obj`.
+    /// Begins to store frames; what they have in common goes to `surfaces.json`.
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn frame(
-        &self,
-        frame: &Frame,
-        coordinates: &[[f64; 2]],
-        triangles: &[[u32; 3]],
-    ) -> Result<(), SceneError> {
-        let path = self.path(&format!("frame-{:05}.obj", frame.number));
-        self.write(&path, |to| frame.write_obj(coordinates, triangles, to))
+    pub fn record(&self, topology: Topology) -> Result<Recorder<'_>, SceneError> {
+        self.json(SURFACES, &topology)?;
+        Ok(Recorder { output: self, topology, bodies: None })
     }
 
     /// Stores the summary as `summary.json`.
@@ -69,9 +79,12 @@ impl Output {
     /// # Errors
     /// When it cannot be written.
     pub fn summary(&self, summary: &Summary) -> Result<(), SceneError> {
-        let path = self.path(SUMMARY);
-        self.write(&path, |mut to| {
-            serde_json::to_writer_pretty(&mut to, summary)?;
+        self.json(SUMMARY, summary)
+    }
+
+    fn json(&self, name: &str, content: &impl Serialize) -> Result<(), SceneError> {
+        self.write(&self.path(name), |mut to| {
+            serde_json::to_writer_pretty(&mut to, content)?;
             writeln!(to)
         })
     }
@@ -90,5 +103,24 @@ impl Output {
             fs::rename(&temporary, path)
         };
         write().map_err(|reason| SceneError::Write { path: path.to_owned(), reason })
+    }
+}
+
+impl Recorder<'_> {
+    /// Stores a frame as `frame-00012.obj` and, where they have moved, the bodies as `bodies-00012.obj`.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn frame(&mut self, frame: &Frame) -> Result<(), SceneError> {
+        let stored = self.bodies.as_ref().is_some_and(|(places, _)| *places == frame.bodies);
+        if !frame.bodies.is_empty() && !stored {
+            let name = format!("bodies-{:05}.obj", frame.number);
+            let path = self.output.path(&name);
+            self.output.write(&path, |to| frame.write_bodies_obj(&self.topology, to))?;
+            self.bodies = Some((frame.bodies.clone(), name));
+        }
+        let bodies = self.bodies.as_ref().map(|(_, name)| name.as_str());
+        let path = self.output.path(&format!("frame-{:05}.obj", frame.number));
+        self.output.write(&path, |to| frame.write_obj(&self.topology, bodies, to))
     }
 }

@@ -5,6 +5,7 @@ use drape_collide::{Contact, SurfaceSettings};
 use drape_fabric::Fabric;
 use drape_input::{Diagnostic, Diagnostics, Document};
 
+use crate::SceneError;
 use crate::clock::Clock;
 use crate::collider::Moving;
 use crate::file::SceneFile;
@@ -16,6 +17,7 @@ use crate::reader::Reader;
 use crate::scheme::Scheme;
 use crate::settle::Settle;
 use crate::surfaces::{Parts, Surfaces};
+use crate::tangle::{Overlap, Tangle, overlaps};
 use crate::track::Track;
 
 /// Density of air at 20 °C and sea level, in kg/m³.
@@ -23,6 +25,9 @@ const AIR_DENSITY: f64 = 1.2;
 
 /// Drag coefficient of a flat plate across the flow.
 const AIR_DRAG: f64 = 1.28;
+
+/// Pairs that the message of a start that is refused tells of.
+const OVERLAPS_TOLD: usize = 5;
 
 /// A scene that has been read and checked: everything a simulation needs, in SI units.
 #[derive(Debug)]
@@ -77,8 +82,9 @@ impl Scene {
     /// Reads a scene and everything it names, without simulating.
     ///
     /// # Errors
-    /// All mistakes that could be found, each with file, line, value and remedy.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
+    /// All mistakes that could be found, each with file, line, value and remedy; with them the triangles that cross at
+    /// the start, if some do.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         Self::from_documents(&Document::read(path)?, &[])
     }
 
@@ -87,14 +93,14 @@ impl Scene {
     ///
     /// # Errors
     /// As for [`Scene::read`].
-    pub fn from_documents(scene: &Document, fabrics: &[Document]) -> Result<Self, Diagnostics> {
+    pub fn from_documents(scene: &Document, fabrics: &[Document]) -> Result<Self, SceneError> {
         let file: SceneFile = scene.decode()?;
         Reader::new(scene, fabrics).scene(file)
     }
 }
 
 impl Reader<'_> {
-    fn scene(mut self, file: SceneFile) -> Result<Scene, Diagnostics> {
+    fn scene(mut self, file: SceneFile) -> Result<Scene, SceneError> {
         let unit = self.unit(file.length.as_deref());
         let folder = self.document.path().parent().unwrap_or(Path::new("")).to_owned();
         let model = self.model(&file);
@@ -171,12 +177,28 @@ impl Reader<'_> {
         });
         let surfaces = surfaces.transpose();
         let surfaces =
-            surfaces.map_err(|error| self.document.at("contact.surfaces", error.to_string()))?;
-        let surfaces = surfaces.map(|surfaces| self.start_is_apart(surfaces, &positions));
+            surfaces.map_err(|error| self.document.at("contact.surfaces", error.to_string()));
+        let mut surfaces = surfaces.map_err(Diagnostics::from)?;
+        let parts = panels.iter().map(|panel| panel.name.clone());
+        let parts: Vec<String> = parts.chain(bodies.iter().map(|body| body.name.clone())).collect();
+        let tangle =
+            surfaces.as_mut().and_then(|surfaces| self.tangle(surfaces, &positions, &parts));
         let contact = Contact::new(bodies, contact_settings, cloth.areas().to_vec());
-        let contact = contact.map_err(|error| self.document.at("collider", error.to_string()))?;
+        let contact = contact.map_err(|error| self.document.at("collider", error.to_string()));
+        let contact = contact.map_err(Diagnostics::from)?;
         self.start_is_free(&contact, &positions);
-        Diagnostics::check(self.mistakes)?;
+        let results = file.output.folder.map(|f| folder.join(f));
+        if let Err(mistakes) = Diagnostics::check(self.mistakes) {
+            return Err(match tangle {
+                Some((overlaps, total)) => SceneError::Tangled(Box::new(Tangle {
+                    mistakes,
+                    folder: results,
+                    overlaps,
+                    total,
+                })),
+                None => SceneError::Input(mistakes),
+            });
+        }
         Ok(Scene {
             name: file.name.unwrap_or_else(|| "unnamed".into()),
             file: self.document.path().to_owned(),
@@ -198,7 +220,7 @@ impl Reader<'_> {
             settle,
             scheme,
             energy: file.output.energy.unwrap_or(true),
-            folder: file.output.folder.map(|f| folder.join(f)),
+            folder: results,
             view: [file.output.azimuth, file.output.elevation],
         })
     }
@@ -240,8 +262,13 @@ impl Reader<'_> {
         0.5 * density * drag
     }
 
-    /// The start must keep what every step keeps.
-    fn start_is_apart(&mut self, mut surfaces: Surfaces, positions: &[f64]) -> Surfaces {
+    /// The start must keep what every step keeps; if not, the pairs that do not, and how many there are.
+    fn tangle(
+        &mut self,
+        surfaces: &mut Surfaces,
+        positions: &[f64],
+        parts: &[String],
+    ) -> Option<(Vec<Overlap>, usize)> {
         let contact = &mut surfaces.contact;
         let crossings = contact.crossings(positions).map(|found| found.len());
         let fault = match (crossings, contact.survey(positions)) {
@@ -249,13 +276,27 @@ impl Reader<'_> {
                 let [distance, kept] = [near.min_distance, near.min_distance / near.min_ratio];
                 format!("surfaces start {distance:.3e} m apart, where {kept:.3e} m is kept")
             }
-            (Ok(0), Ok(_)) => return surfaces,
+            (Ok(0), Ok(_)) => return None,
             (Ok(count), _) if count > 0 => format!("surfaces cross in {count} places at the start"),
-            (Err(error), _) | (_, Err(error)) => error.to_string(),
-            (Ok(_), Ok(_)) => return surfaces,
+            (Err(error), _) | (_, Err(error)) => {
+                self.fail("panel", error.to_string(), "move or turn panels and bodies apart");
+                return None;
+            }
+            (Ok(_), Ok(_)) => return None,
         };
+        let (overlaps, total) = overlaps(contact, positions, parts);
+        let told = overlaps.iter().take(OVERLAPS_TOLD).map(|overlap| {
+            let ([a, b], [x, y, z]) = (&overlap.parts, overlap.place);
+            format!("\"{a}\" and \"{b}\" near ({x:.4}, {y:.4}, {z:.4}) m")
+        });
+        let told: Vec<String> = told.collect();
+        let more = match total.saturating_sub(told.len()) {
+            0 => String::new(),
+            more => format!("; and {more} more pairs of triangles"),
+        };
+        let fault = format!("{fault}: {}{more}", told.join("; "));
         self.fail("panel", fault, "move or turn panels and bodies apart");
-        surfaces
+        Some((overlaps, total))
     }
 
     fn start_is_free(&mut self, contact: &Contact, positions: &[f64]) {

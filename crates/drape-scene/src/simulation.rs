@@ -1,11 +1,14 @@
 mod outcome;
 
+use std::ops::Range;
+
 use drape_implicit::{Error, ErrorEstimate, Integrator, Method, Motion, Report, Settings, Stop};
 
 use crate::SceneError;
 use crate::clock::Clock;
 use crate::frame::Frame;
 use crate::pace::Pace;
+use crate::panel::Panel;
 use crate::pin::PinLoad;
 use crate::scene::Scene;
 use crate::scheme::{Integration, Scheme};
@@ -37,7 +40,7 @@ const CREEP_FORCING: f64 = 0.03;
 /// A scene in motion.
 #[derive(Debug)]
 pub struct Simulation {
-    world: World,
+    pub(crate) world: World,
     motion: Motion,
     scheme: Scheme,
     integration: Integration,
@@ -54,6 +57,8 @@ pub struct Simulation {
     speed_max: f64,
     imbalance: f64,
     spacing: f64,
+    /// Names of the panels, and which particles are theirs.
+    pub(crate) panels: Vec<(String, Range<usize>)>,
     frames: usize,
     status: Status,
     solver: Solver,
@@ -103,6 +108,9 @@ impl Simulation {
         let scheme = scene.scheme.clone();
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
+        let particles = |panel: &Panel| panel.first..panel.first + panel.lattice.coordinates.len();
+        let panels = scene.panels.iter().map(|panel| (panel.name.clone(), particles(panel)));
+        let panels = panels.collect();
         let world = World::new(scene);
         let (integration, tolerance) = match &scheme {
             Scheme::Implicit(settings) if world.creeps => {
@@ -133,6 +141,7 @@ impl Simulation {
             speed_max: 0.0,
             imbalance: f64::NAN,
             spacing,
+            panels,
             frames: 0,
             status: Status::Ok,
             solver: Solver::default(),
@@ -159,7 +168,8 @@ impl Simulation {
     #[must_use]
     pub fn frame(&self) -> Frame {
         let positions = self.motion.positions.clone();
-        Frame { number: self.frames, time: self.time(), positions }
+        let bodies = self.outlines().into_iter().flat_map(|outline| outline.vertices).flatten();
+        Frame { number: self.frames, time: self.time(), positions, bodies: bodies.collect() }
     }
 
     /// Smallest distance of particles before deformation, in m.

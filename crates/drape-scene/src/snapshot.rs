@@ -1,4 +1,4 @@
-use drape_collide::Shape;
+use drape_collide::{Outline, Shape};
 
 use crate::Simulation;
 
@@ -30,20 +30,32 @@ impl Simulation {
     /// Cloth and bodies now.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {
-        let bodies = self.contact().bodies().iter();
-        let outlines = bodies.filter(|body| !matches!(body.shape, Shape::Plane));
-        let outlines = outlines.filter_map(|body| body.triangulate().ok());
+        let bodies = self.contact().bodies().iter().zip(self.outlines());
+        let bodies = bodies.filter(|(body, _)| !matches!(body.shape, Shape::Plane));
         Snapshot {
             positions: self.frame().positions,
             coordinates: self.coordinates().to_vec(),
             triangles: self.triangles().to_vec(),
-            bodies: outlines
-                .map(|outline| Body {
+            bodies: bodies
+                .map(|(_, outline)| Body {
                     positions: outline.vertices.concat(),
                     triangles: outline.triangles,
                 })
                 .collect(),
             spacing: self.spacing(),
         }
+    }
+
+    /// The bodies as triangles, where they are now. Surfaces move their vertices along; otherwise poses do.
+    pub(crate) fn outlines(&self) -> Vec<Outline> {
+        let bodies = self.contact().bodies().iter();
+        let outlines = bodies.map(|body| body.triangulate().expect("contact has checked it"));
+        let mut outlines: Vec<Outline> = outlines.collect();
+        if let Some(surfaces) = &self.world.surfaces {
+            let mut places = surfaces.contact.bodies().as_chunks::<3>().0.iter();
+            let vertices = outlines.iter_mut().flat_map(|outline| &mut outline.vertices);
+            vertices.zip(&mut places).for_each(|(vertex, place)| *vertex = *place);
+        }
+        outlines
     }
 }

@@ -13,6 +13,8 @@ pub struct Summary {
     pub particles: usize,
     /// Steps made.
     pub steps: usize,
+    /// Frames of the run, the first at its start.
+    pub frames: usize,
     /// Time reached, in s.
     pub simulated_seconds: f64,
     /// Time taken, in s.

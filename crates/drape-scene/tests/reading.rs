@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use drape_implicit::{Integrator, LinearSolver, Method};
-use drape_input::{Diagnostics, Document};
-use drape_scene::{Scene, Scheme};
+use drape_input::Document;
+use drape_scene::{Scene, SceneError, Scheme};
 
 const FABRIC: &str = r#"name = "plain"
 density = 0.12
@@ -28,7 +28,7 @@ step = 0.004
 end = 0.1
 "#;
 
-fn read(text: &str) -> Result<Scene, Diagnostics> {
+fn read(text: &str) -> Result<Scene, SceneError> {
     let fabric = Document::new("plain.toml", FABRIC);
     Scene::from_documents(&Document::new("towel.toml", text), &[fabric])
 }

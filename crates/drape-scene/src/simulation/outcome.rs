@@ -14,6 +14,7 @@ impl Simulation {
             scene_hash: self.scene_hash.clone(),
             particles: cloth.particles(),
             steps: self.steps,
+            frames: self.frames + 1,
             simulated_seconds: self.time(),
             wall_seconds: self.stopwatch.wall_seconds(),
             cpu_seconds: self.stopwatch.cpu_seconds(),

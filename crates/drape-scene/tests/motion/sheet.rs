@@ -1,7 +1,7 @@
 //! A square metre of cloth, or less, in scenes that differ in few words.
 
-use drape_input::{Diagnostics, Document};
-use drape_scene::{Scene, Simulation};
+use drape_input::Document;
+use drape_scene::{Scene, SceneError, Simulation};
 
 /// A cloth and how it is held. `Sheet::default()` is 0.2 kg/m² of plain weave in a vacuum.
 #[derive(Clone, Debug)]
@@ -53,7 +53,7 @@ impl Sheet {
         self.try_scene().unwrap()
     }
 
-    pub fn try_scene(&self) -> Result<Scene, Diagnostics> {
+    pub fn try_scene(&self) -> Result<Scene, SceneError> {
         let Self { particles, side, panel, scene, .. } = self;
         let spacing = side / (*particles as f64 - 1.0);
         let text = format!(

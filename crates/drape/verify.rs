@@ -1,0 +1,120 @@
+use std::path::{Path, PathBuf};
+
+use drape::verify::{PartNumber, Place, Recording, Verdict};
+use serde_json::json;
+
+use crate::failure::Failure;
+use crate::say::say;
+
+/// Whether a folder is one that a run wrote, whole or not.
+pub(crate) fn is_run(path: &Path) -> bool {
+    let frame = |name: &str| path.join(name).exists();
+    Recording::is_one(path) || frame("frame-00000.obj") || frame("summary.json")
+}
+
+/// `drape check` of folders of runs: every frame is read and looked at.
+pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
+    let mut broken = Vec::new();
+    let mut found = Vec::new();
+    for folder in folders {
+        let recording = Recording::open(folder)?;
+        if !json {
+            say(headline(folder, &recording))?;
+        }
+        let mut verdicts = Vec::new();
+        for number in 0..recording.frames() {
+            let verdict = recording.verify(number)?;
+            if !json {
+                say(describe(&recording, &verdict))?;
+            }
+            if !verdict.holds() {
+                broken.push(verdict.file.clone());
+            }
+            verdicts.push(verdict);
+        }
+        let holds = verdicts.iter().all(Verdict::holds);
+        let (guarded, ended) = (recording.manifest().guarded, recording.ended());
+        let names = |part: &drape::verify::Part| part.name.clone();
+        found.push(json!({
+            "folder": folder, "holds": holds, "guarded": guarded, "ended": ended,
+            "panels": recording.manifest().panels.iter().map(names).collect::<Vec<_>>(),
+            "bodies": recording.manifest().bodies.iter().map(names).collect::<Vec<_>>(),
+            "frames": verdicts,
+        }));
+    }
+    if json {
+        let found = serde_json::to_string_pretty(&found);
+        say(found.expect("verdicts always have a JSON form"))?;
+    }
+    match broken.first() {
+        None => Ok(()),
+        Some(first) => Err(Failure::Certificate(format!(
+            "surfaces meet or are too near in {} frames, the first of them {}",
+            broken.len(),
+            first.display()
+        ))),
+    }
+}
+
+fn headline(folder: &Path, recording: &Recording) -> String {
+    let manifest = recording.manifest();
+    let promise = match manifest.guarded {
+        true => "surfaces were kept apart",
+        false => {
+            "only particles met bodies, so surfaces may meet (contact.surfaces = true keeps them apart)"
+        }
+    };
+    let end = if recording.ended() { "" } else { "; the run has not ended" };
+    format!(
+        "{}: {} frames of {} panels and {} bodies, {} triangles; {promise}{end}",
+        folder.display(),
+        recording.frames(),
+        manifest.panels.len(),
+        manifest.bodies.len(),
+        recording.mesh().triangles()
+    )
+}
+
+fn describe(recording: &Recording, verdict: &Verdict) -> String {
+    let millimetres = |distance: f64| format!("{:.4} mm", 1e3 * distance);
+    let mut text = format!(
+        "frame {:>5}{}: {} triangles, {} pairs, {} intersections, smallest distance {}",
+        verdict.number,
+        verdict.time.map_or(String::new(), |time| format!(" at {time:.4} s")),
+        verdict.triangles,
+        verdict.pairs,
+        verdict.intersections,
+        verdict.min_distance.map_or("beyond reach".to_owned(), millimetres),
+    );
+    for (count, what) in [
+        (verdict.too_near, "pairs nearer than is kept"),
+        (verdict.degenerate, "triangles without area"),
+    ] {
+        if count > 0 {
+            text += &format!(", {count} {what}");
+        }
+    }
+    let shown = if verdict.holds() { 1 } else { verdict.worst.len() };
+    for place in verdict.worst.iter().take(shown) {
+        text += &format!("\n  {}", describe_place(recording, place));
+    }
+    text
+}
+
+fn describe_place(recording: &Recording, place: &Place) -> String {
+    let manifest = recording.manifest();
+    let name = |part: PartNumber| match part {
+        PartNumber::Panel(number) => &manifest.panels[number].name,
+        PartNumber::Body(number) => &manifest.bodies[number].name,
+    };
+    let [x, y, z] = place.place;
+    let [one, other] =
+        [0, 1].map(|k| format!("triangle {} of \"{}\"", place.triangles[k], name(place.parts[k])));
+    let how = match place.distance {
+        0.0 => "meet".to_owned(),
+        distance => {
+            format!("are {:.4} mm apart, {:.4} mm is kept,", 1e3 * distance, 1e3 * place.kept)
+        }
+    };
+    format!("{one} and {other} {how} near ({x:.5}, {y:.5}, {z:.5}) m")
+}

@@ -1,0 +1,288 @@
+//! What a run saves, and how `drape check` reads it.
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use assert_cmd::Command;
+use drape::collide::{Skin, Surface, SurfaceParts, crossings};
+use drape::verify::Recording;
+use serde_json::Value;
+use tempfile::TempDir;
+
+const FABRIC: &str = r#"name = "plain weave"
+density = 0.12
+thickness = 0.0004
+shear = { stiffness = 35.0, friction = [{ plateau = 0.5, length = 0.004 }] }
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
+bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
+[weft]
+traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
+bending = { rigidity = 0.8e-5, friction = [{ plateau = 4e-4, length = 4 }] }
+"#;
+
+/// Two sheets that fall on a table which rises to meet them.
+const SCENE: &str = r#"spacing = 0.02
+fabric.plain.file = "plain.toml"
+[[panel]]
+name = "lower"
+fabric = "plain"
+rectangle = [0.2, 0.2]
+center = [0, 0.002, 0]
+turn = [-90, 0, 0]
+[[panel]]
+name = "upper"
+fabric = "plain"
+rectangle = [0.2, 0.2]
+center = [0, 0.004, 0]
+turn = [-90, 20, 0]
+[[collider.box]]
+name = "table"
+size = [0.1, 0.05, 0.1]
+center = [0, -0.026, 0]
+friction = 0.3
+[collider.box.motion]
+times = [0.02, 0.06]
+shift = [[0, 0, 0], [0, 0.01, 0]]
+[contact]
+surfaces = true
+[time]
+step = 0.005
+end = 0.06
+[output]
+every = 0.02
+folder = "results"
+"#;
+
+fn drape(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("drape").expect("the binary is built");
+    command.current_dir(folder).args(arguments).output().expect("it runs")
+}
+
+/// A folder with the results of the scene.
+fn results() -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("plain.toml"), FABRIC).expect("writes");
+    std::fs::write(folder.path().join("scene.toml"), SCENE).expect("writes");
+    let output = drape(folder.path(), &["run", "scene.toml"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    folder
+}
+
+/// Checks the results: the exit code, what it said, and the frames as JSON.
+fn check(folder: &Path) -> (Option<i32>, String, Value) {
+    let output = drape(folder, &["check", "results", "--json"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
+    (output.status.code(), said, found[0].clone())
+}
+
+fn change(folder: &Path, file: &str, change: impl FnOnce(String) -> String) {
+    let path = folder.join("results").join(file);
+    let text = std::fs::read_to_string(&path).expect("reads");
+    std::fs::write(&path, change(text)).expect("writes");
+}
+
+/// A frame with a coordinate of one vertex changed.
+fn moved(text: &str, vertex: usize, [x, y, z]: [f64; 3]) -> String {
+    let mut vertices = 0;
+    let lines = text.lines().map(|line| {
+        vertices += usize::from(line.starts_with("v "));
+        match line.starts_with("v ") && vertices == vertex + 1 {
+            true => format!("v {x:?} {y:?} {z:?}\n"),
+            false => format!("{line}\n"),
+        }
+    });
+    lines.collect()
+}
+
+#[test]
+fn what_a_run_saved_passes_with_the_bodies_where_they_were() {
+    let folder = results();
+    let (code, said, found) = check(folder.path());
+    assert_eq!((code, said.as_str()), (Some(0), ""), "{found:#}");
+    let frames = found["frames"].as_array().expect("frames");
+    assert_eq!((frames.len(), &found["ended"]), (4, &Value::Bool(true)));
+    let distances: Vec<f64> = frames.iter().filter_map(|f| f["min_distance"].as_f64()).collect();
+    let summary = std::fs::read(folder.path().join("results/summary.json")).expect("reads");
+    let summary: Value = serde_json::from_slice(&summary).expect("JSON");
+    let least = summary["contact"]["min_distance"].as_f64().expect("something was near");
+    let seen = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    // The run looks after each of its steps, the frames are some of them.
+    assert!(seen >= least * (1.0 - 1e-12) && seen < 1e-3, "{seen} of {least}");
+    assert!(frames.iter().all(|f| f["intersections"] == 0 && f["pairs"].as_u64() > Some(0)));
+    // The table is stored where it has moved, and only then.
+    let stored = |number: usize| folder.path().join(format!("results/bodies-{number:05}.obj"));
+    assert_eq!([0, 1, 2, 3].map(|number| stored(number).exists()), [true, false, true, true]);
+    // Seen with the table of the end, the first frame has it in the cloth.
+    std::fs::copy(stored(3), stored(0)).expect("copies");
+    assert_eq!(check(folder.path()).0, Some(4));
+}
+
+#[test]
+fn a_sheet_that_pokes_through_is_found_with_its_frame_and_triangles() {
+    let folder = results();
+    // A corner of the upper sheet, of one triangle or two, is put below the lower one near its middle.
+    let first_of_upper = 11 * 11;
+    change(folder.path(), "frame-00002.obj", |text| {
+        moved(&text, first_of_upper, [0.0, -0.05, 0.0])
+    });
+    let (code, said, found) = check(folder.path());
+    assert_eq!(code, Some(4), "{said}");
+    assert!(said.contains("frame-00002.obj") && said.contains("1 frames"), "{said}");
+    for (number, frame) in found["frames"].as_array().expect("frames").iter().enumerate() {
+        let meeting = frame["intersections"].as_u64().expect("a count");
+        assert_eq!(meeting > 0, number == 2, "{frame:#}");
+    }
+    let worst = found["frames"][2]["worst"].as_array().expect("places");
+    let of_corner = worst
+        .iter()
+        .find(|place| place["parts"] == serde_json::json!([{ "panel": 0 }, { "panel": 1 }]));
+    let triangle = of_corner.expect("a place")["triangles"][1].as_u64();
+    assert!(triangle <= Some(1), "a triangle at the corner, not {triangle:?}");
+    let output = drape(folder.path(), &["check", "results"]);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(text.contains("of \"lower\" and triangle 0 of \"upper\" meet"), "{text}");
+}
+
+#[test]
+fn the_smallest_step_through_is_seen() {
+    let folder = results();
+    // In the first frame both sheets are level but for rounding. A vertex goes to just below and just above the lower.
+    let touching = |height: f64| {
+        change(folder.path(), "frame-00000.obj", |text| {
+            moved(&text, 11 * 11, [0.001, height, 0.0])
+        });
+        let found = check(folder.path()).2;
+        let frame = &found["frames"][0];
+        (frame["intersections"].as_u64() > Some(0), frame["too_near"].as_u64() > Some(0))
+    };
+    let text = std::fs::read_to_string(folder.path().join("results/frame-00000.obj"));
+    let text = text.expect("reads");
+    let heights = text.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(1));
+    let height: f64 = heights.take(1).collect::<String>().parse().expect("a number");
+    assert_eq!(touching(height - 1e-15), (true, true), "at {height}");
+    assert_eq!(touching(height + 1e-15), (false, true), "at {height}");
+    assert_eq!(touching(height + 0.35 * 0.0004 + 1e-12), (false, false), "what is kept is kept");
+}
+
+#[test]
+fn files_that_are_not_as_they_were_written_are_named() {
+    type Change = fn(String) -> String;
+    let cases: [(&str, Change, &[&str]); 12] = [
+        ("frame-00001.obj", |t| t[..t.len() - 1].into(), &["frame-00001.obj", "cut off"]),
+        ("frame-00001.obj", |t| t[..t.len() / 2].into(), &["frame-00001.obj", "line"]),
+        ("frame-00001.obj", |t| moved(&t, 7, [f64::NAN, 0.0, 0.0]), &["line 10", "NaN"]),
+        ("frame-00001.obj", |t| moved(&t, 7, [0.0, f64::INFINITY, 0.0]), &["line 10", "inf"]),
+        ("frame-00001.obj", |t| t.replacen("v ", "w ", 1), &["line 3", "\"w\""]),
+        ("frame-00001.obj", |t| t.replacen("f 1/1", "f 9999/9999", 1), &["triangle 0", "its part"]),
+        ("frame-00001.obj", |t| t.replacen("f 1/1", "f 3/3", 1), &["triangle 0", "first frame"]),
+        ("frame-00001.obj", |t| t + "v 0 0 0\n", &["243 vertices", "242"]),
+        ("frame-00001.obj", |t| t.replace("bodies-0", "../bodies-0"), &["../bodies-00000.obj"]),
+        ("bodies-00002.obj", |_| String::new(), &["bodies-00002.obj", "cut off"]),
+        ("surfaces.json", |t| t.replace("\"format\": 1", "\"format\": 9"), &["format 9"]),
+        (
+            "surfaces.json",
+            |t| t.replace("242", "-1").replace("121", "-1"),
+            &["surfaces.json, line"],
+        ),
+    ];
+    let folder = results();
+    for (file, break_it, words) in cases {
+        let path = folder.path().join("results").join(file);
+        let right = std::fs::read(&path).expect("reads");
+        change(folder.path(), file, break_it);
+        let (code, said, _) = check(folder.path());
+        assert_eq!(code, Some(3), "{words:?}: {said}");
+        for word in words {
+            assert!(said.contains(word), "{word:?} is missing in: {said}");
+        }
+        std::fs::write(&path, right).expect("writes");
+    }
+    let gone = |name: &str| {
+        let path: PathBuf = folder.path().join("results").join(name);
+        let right = std::fs::read(&path).expect("reads");
+        std::fs::remove_file(&path).expect("removes");
+        let (code, said, _) = check(folder.path());
+        std::fs::write(&path, right).expect("writes");
+        assert_eq!(code, Some(3), "{name}: {said}");
+        assert!(said.contains(name), "{name}: {said}");
+    };
+    ["frame-00000.obj", "frame-00003.obj", "bodies-00000.obj", "surfaces.json"]
+        .into_iter()
+        .for_each(gone);
+    assert_eq!(check(folder.path()).0, Some(0), "all is as it was");
+}
+
+/// A level sheet of so many vertices a side, turned and bent, at a height: places and triangles.
+fn sheet(side: usize, height: f64, turn: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let places = (0..side * side).map(|k| {
+        let [u, v] = [k % side, k / side].map(|k| 0.01 * k as f64 - 0.005 * (side - 1) as f64);
+        let (x, z) = (u * turn.cos() - v * turn.sin(), u * turn.sin() + v * turn.cos());
+        [x, height + 0.004 * (70.0 * x + 9.0 * turn).sin() * (50.0 * z).cos(), z]
+    });
+    let at = |row: usize, column: usize| (row * side + column) as u32;
+    let cells = (0..side - 1).flat_map(|row| (0..side - 1).map(move |column| (row, column)));
+    let triangles = cells.flat_map(|(row, column)| {
+        let [a, b] = [at(row, column), at(row, column + 1)];
+        let [c, d] = [at(row + 1, column), at(row + 1, column + 1)];
+        [[a, b, d], [a, d, c]]
+    });
+    (places.collect(), triangles.collect())
+}
+
+#[test]
+fn two_tests_that_share_no_code_find_the_same_pairs() {
+    let sheets: Vec<_> = (0..4).map(|k| sheet(24, 0.002 * k as f64, 0.3 * k as f64)).collect();
+    let mut parts = SurfaceParts {
+        rest: Vec::new(),
+        triangles: Vec::new(),
+        areas: vec![1e-4; 4 * 576],
+        group: (0..4).flat_map(|k| [k; 576]).collect(),
+        skins: vec![Skin { reach: 1e-3, separation: 1e-4 }; 4],
+        free: 4 * 576,
+        twins: Vec::new(),
+    };
+    let mut places = Vec::new();
+    let mut text = String::new();
+    for (k, (vertices, triangles)) in sheets.iter().enumerate() {
+        parts.rest.extend(sheet(24, 0.0, 0.0).0.iter().flat_map(|[x, _, z]| [*x, *z, 0.0]));
+        parts.triangles.extend(triangles.iter().map(|t| t.map(|v| v + 576 * k as u32)));
+        places.extend(vertices.iter().flatten().copied());
+    }
+    places.chunks(3).for_each(|p| text += &format!("v {:?} {:?} {:?}\n", p[0], p[1], p[2]));
+    parts.rest.chunks(3).for_each(|p| text += &format!("vt {:?} {:?}\n", p[0], p[1]));
+    parts
+        .triangles
+        .iter()
+        .for_each(|t| text += &format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1));
+    let panel =
+        r#"{ "name": "", "vertices": 576, "triangles": 1058, "reach": 1e-3, "separation": 1e-4 }"#;
+    let panels = [panel; 4].join(", ");
+    let manifest =
+        format!("{{ \"format\": 1, \"guarded\": true, \"panels\": [{panels}], \"bodies\": [] }}\n");
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("surfaces.json"), manifest).expect("writes");
+    std::fs::write(folder.path().join("frame-00000.obj"), text).expect("writes");
+    let verdict = Recording::open(folder.path()).and_then(|recording| recording.verify(0));
+    let verdict = verdict.expect("a right frame");
+
+    // An edge that meets a triangle makes a pair of each triangle that has the edge.
+    let surface = Surface::new(parts).expect("a right surface");
+    let found = crossings(&surface, &places).expect("right places");
+    let triangles = surface.triangles();
+    let mut pairs: Vec<[u32; 2]> = Vec::new();
+    for crossing in found {
+        let edge = surface.edges()[crossing.edge as usize];
+        for (number, triangle) in triangles.iter().enumerate() {
+            if edge.iter().all(|end| triangle.contains(end)) {
+                let (a, b) = (number as u32, crossing.triangle);
+                pairs.push([a.min(b), a.max(b)]);
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    assert!(pairs.len() > 1000, "{} pairs meet", pairs.len());
+    assert_eq!(verdict.intersections, pairs.len());
+}

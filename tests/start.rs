@@ -1,0 +1,157 @@
+//! Scenes whose surfaces cross at the start are refused, and the triangles are written down.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::Output;
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+const FABRIC: &str = r#"name = "plain weave"
+density = 0.12
+thickness = 0.0004
+shear = { stiffness = 35.0, friction = [{ plateau = 0.5, length = 0.004 }] }
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
+bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
+[weft]
+traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
+bending = { rigidity = 0.8e-5, friction = [{ plateau = 4e-4, length = 4 }] }
+"#;
+
+/// An upright sheet, another level at HEIGHT that it stands in, and a ball far below.
+const SCENE: &str = r#"spacing = 0.02
+fabric.plain.file = "plain.toml"
+[[panel]]
+name = "upright"
+fabric = "plain"
+rectangle = [0.2, 0.2]
+[[panel]]
+name = "level"
+fabric = "plain"
+rectangle = [0.3, 0.3]
+center = [0.003, HEIGHT, 0.004]
+turn = [-90, 0, 0]
+[[collider.sphere]]
+name = "ball"
+radius = 0.1
+center = [0, -1, 0]
+[contact]
+surfaces = true
+[time]
+step = 0.005
+end = 0.01
+"#;
+
+fn folder(height: &str) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("plain.toml"), FABRIC).expect("writes");
+    let scene = SCENE.replace("HEIGHT", height);
+    std::fs::write(folder.path().join("scene.toml"), scene).expect("writes");
+    folder
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("drape").expect("the binary is built");
+    command.current_dir(folder).args(["run", "scene.toml"]).args(arguments).output().expect("runs")
+}
+
+/// Corners of the triangles of a PLY file as it is written here, by the name of their part.
+fn triangles(path: &Path) -> Vec<(String, [[f64; 3]; 3])> {
+    let text = std::fs::read_to_string(path).expect("was written");
+    let (header, body) = text.split_once("end_header\n").expect("a header");
+    let count = |element: &str| -> usize {
+        let mut lines = header.lines().filter_map(|line| line.strip_prefix(element));
+        lines.next().expect("an element").trim().parse().expect("a number")
+    };
+    let parts: Vec<&str> = header.lines().filter_map(|l| l.strip_prefix("comment part ")).collect();
+    let lines: Vec<Vec<f64>> = body
+        .lines()
+        .map(|line| line.split(' ').map(|word| word.parse().expect("a number")).collect())
+        .collect();
+    let (vertices, faces) = lines.split_at(count("element vertex"));
+    assert_eq!(faces.len(), count("element face"));
+    let triangle = |face: &Vec<f64>| {
+        assert_eq!((face.len(), face[0]), (8, 3.0));
+        let corner = |k: usize| std::array::from_fn(|axis| vertices[face[k] as usize][axis]);
+        let part = parts[face[7] as usize].split_once(": ").expect("a name").1;
+        (part.to_owned(), [corner(1), corner(2), corner(3)])
+    };
+    faces.iter().map(triangle).collect()
+}
+
+#[test]
+fn sheets_that_cross_are_named_and_their_triangles_are_in_a_file() {
+    let folder = folder("0.011");
+    let output = run(folder.path(), &["-o", "there/results"]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{message}");
+    let path = Path::new("there").join("results-start.ply");
+    for words in
+        ["\"upright\" and \"level\" near (", "0.0110, 0.0000) m", path.to_str().expect("text")]
+    {
+        assert!(message.contains(words), "{words:?} is missing in: {message}");
+    }
+    assert!(!message.contains("ball"), "{message}");
+    assert!(!folder.path().join("there/results").exists(), "no folder for results is made");
+
+    let triangles = triangles(&folder.path().join(path));
+    let of = |name: &'static str| {
+        let its = triangles.iter().filter(move |(part, _)| part == name);
+        its.map(|(_, corners)| corners)
+    };
+    assert_eq!(of("upright").count() + of("level").count(), triangles.len());
+    // The upright sheet stands in the plane z = 0 and is 0.2 m wide; the level one is at a height of 0.011 m.
+    for corners in of("upright") {
+        assert!(corners.iter().all(|p| p[2] == 0.0 && p[0].abs() <= 0.1 + 1e-12), "{corners:?}");
+        let heights = corners.map(|p| p[1]);
+        assert!(heights.iter().any(|y| *y <= 0.011) && heights.iter().any(|y| *y >= 0.011));
+    }
+    for corners in of("level") {
+        assert!(corners.iter().all(|p| (p[1] - 0.011).abs() < 1e-12), "{corners:?}");
+        assert!(corners.iter().any(|p| p[2] <= 0.0) && corners.iter().any(|p| p[2] >= 0.0));
+    }
+    // Ten columns of the upright sheet have a cell that is cut, of two triangles.
+    assert_eq!(of("upright").count(), 20);
+    // Each is there once.
+    let places: BTreeSet<Vec<u64>> = triangles
+        .iter()
+        .map(|(_, corners)| corners.iter().flatten().map(|x| x.to_bits()).collect())
+        .collect();
+    assert_eq!(places.len(), triangles.len());
+}
+
+#[test]
+fn sheets_that_are_too_near_are_named_too() {
+    // Of the thickness of 0.4 mm 0.14 are kept; the lower edge of the upright sheet is 0.1 mm above the level one.
+    let folder = folder("-0.1001");
+    let output = run(folder.path(), &[]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{message}");
+    for words in
+        ["start 1.000e-4 m apart", "1.400e-4 m is kept", "\"upright\" and \"level\" near ("]
+    {
+        assert!(message.contains(words), "{words:?} is missing in: {message}");
+    }
+    // The results would be in out/scene.
+    let found = triangles(&folder.path().join("out/scene-start.ply"));
+    let low = found.iter().filter(|(part, _)| part == "upright");
+    assert!(low.clone().count() >= 10);
+    assert!(low.flat_map(|(_, corners)| corners).all(|p| p[1] < -0.1 + 0.021));
+}
+
+#[test]
+fn a_heap_of_crossings_is_cut_short() {
+    let folder = folder("0.011");
+    let path = folder.path().join("scene.toml");
+    // Sheets of 81 particles a side in the same plane cross everywhere.
+    let scene = SCENE.replace("HEIGHT", "0").replace("spacing = 0.02", "spacing = 0.0025");
+    let scene = scene.replace("turn = [-90, 0, 0]", "").replace("0.003, 0, 0.004", "0.001, 0, 0");
+    std::fs::write(&path, scene).expect("writes");
+    let output = run(folder.path(), &[]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{message}");
+    assert!(message.contains("the first 1000 of ") && message.contains("more pairs"), "{message}");
+    let found = triangles(&folder.path().join("out/scene-start.ply")).len();
+    assert!((100..=2000).contains(&found), "{found} triangles");
+}
