@@ -1,0 +1,193 @@
+//! Edges shorter than half a spacing are joined with a neighbour where the outline is smooth.
+
+use crate::joints::{Joints, Link};
+use crate::mistake::Mistake;
+use crate::note::Note;
+use crate::pattern::Pattern;
+
+/// Largest turn at a joint that may be left without a node, in rad: 15 degrees. A chord across it cuts off
+/// at most a thirtieth of its length.
+const SMOOTH: f64 = std::f64::consts::PI / 12.0;
+
+/// Shortest piece of outline between nodes, in spacings.
+const SHORTEST: f64 = 0.5;
+
+impl Joints {
+    /// Joins short pieces with neighbours; what cannot be joined is a mistake.
+    pub fn join_short(&mut self, pattern: &Pattern, spacing: f64) -> (Vec<Note>, Vec<Mistake>) {
+        let shortest = SHORTEST * spacing * (1.0 - 1e-9);
+        let mut notes = Vec::new();
+        loop {
+            let mut short: Vec<(f64, usize)> = self
+                .pieces_by_first()
+                .into_iter()
+                .map(|joint| (self.longest_after(joint), joint))
+                .filter(|(length, _)| *length < shortest)
+                .collect();
+            short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let mut changed = false;
+            for &(length, joint) in &short {
+                // An earlier one of this pass may have joined it already.
+                if self.joints[joint].removed || self.longest_after(joint) != length {
+                    continue;
+                }
+                let ends = [joint, self.joints[joint].around[1]];
+                let mut classes = ends.map(|j| self.joints[j].class).to_vec();
+                classes.sort_by(|&a, &b| self.sharpest(a).total_cmp(&self.sharpest(b)));
+                if let Some(&class) = classes.iter().find(|&&class| self.removable(class)) {
+                    notes.extend(self.note(pattern, (joint, class), spacing));
+                    self.remove(class);
+                    changed = true;
+                }
+            }
+            if !changed {
+                let mistakes = short.iter().map(|&(length, joint)| {
+                    let (panel, edge) = self.names(pattern, joint);
+                    Mistake::ShortEdge { panel, edge, length, spacing }
+                });
+                return (notes, mistakes.collect());
+            }
+        }
+    }
+
+    /// For each piece of outline between joints, or pair of pieces that are sewn together, the joint from
+    /// which it goes on.
+    fn pieces_by_first(&self) -> Vec<usize> {
+        let first = |&joint: &usize| {
+            let each = &self.joints[joint];
+            let other_side = each.links[1].is_some_and(|link| {
+                let link = &self.links[link];
+                Self::foremost(link, 0) != joint
+            });
+            !each.removed && !other_side
+        };
+        (0..self.joints.len()).filter(first).collect()
+    }
+
+    /// Length of the piece after a joint, or of the longer piece that it is sewn to, in m.
+    fn longest_after(&self, joint: usize) -> f64 {
+        let Some(link) = self.joints[joint].links[1] else { return self.length_after(joint) };
+        let sides = [0, 1].map(|side| self.length_after(Self::foremost(&self.links[link], side)));
+        sides[0].max(sides[1])
+    }
+
+    fn class(&self, class: usize) -> impl Iterator<Item = usize> + '_ {
+        (class..self.joints.len())
+            .filter(move |&j| self.joints[j].class == class && !self.joints[j].removed)
+    }
+
+    fn sharpest(&self, class: usize) -> f64 {
+        self.class(class).map(|j| self.joints[j].turn).fold(0.0, f64::max)
+    }
+
+    /// The joint on the other side of a link, at a joint beside which it lies; before it with 0, after with 1.
+    fn partner(&self, joint: usize, beside: usize) -> Option<(usize, usize)> {
+        let number = self.joints[joint].links[beside]?;
+        let link = &self.links[number];
+        for side in 0..2 {
+            let end = usize::from(link.forward[side] != (beside == 1));
+            if link.ends[side][end] == joint {
+                return Some((number, link.ends[1 - side][end]));
+            }
+        }
+        None
+    }
+
+    /// Whether all joints of a class can go: smooth, and sewn alike on both sides.
+    fn removable(&self, class: usize) -> bool {
+        self.sharpest(class) < SMOOTH
+            && self.class(class).all(|joint| {
+                let [before, after] = self.joints[joint].around;
+                let alike = match (self.partner(joint, 0), self.partner(joint, 1)) {
+                    (None, None) => true,
+                    (Some((first, a)), Some((second, b))) => {
+                        a == b && a != joint && first != second && self.same_sense(first, second)
+                    }
+                    _ => false,
+                };
+                // Two joints at least stay on an outline.
+                alike && before != after && before != joint
+            })
+    }
+
+    fn same_sense(&self, first: usize, second: usize) -> bool {
+        let sense = |link: &Link| link.forward[0] == link.forward[1];
+        sense(&self.links[first]) == sense(&self.links[second])
+    }
+
+    fn remove(&mut self, class: usize) {
+        let joints: Vec<usize> = self.class(class).collect();
+        for joint in joints {
+            if let (Some((first, _)), Some((second, _))) =
+                (self.partner(joint, 0), self.partner(joint, 1))
+                && first != second
+            {
+                self.merge(first, second, joint);
+            }
+            let [before, after] = self.joints[joint].around;
+            self.joints[before].around[1] = after;
+            self.joints[after].around[0] = before;
+            self.joints[joint].removed = true;
+        }
+    }
+
+    /// Makes one link of two that meet at a joint, which the first runs towards along the outline.
+    fn merge(&mut self, first: usize, second: usize, joint: usize) {
+        let lengths = [first, second].map(|l| self.link_length(l));
+        let mut one = self.links[first].clone();
+        let mut two = self.links[second].clone();
+        // Both run along the outline on the joint's side, which comes first.
+        for link in [&mut one, &mut two] {
+            if !link.ends[0].contains(&joint) {
+                link.ends.swap(0, 1);
+                link.forward.swap(0, 1);
+            }
+            if !link.forward[0] {
+                link.ends.iter_mut().for_each(|ends| ends.swap(0, 1));
+                link.forward = link.forward.map(|f| !f);
+            }
+        }
+        for side in 0..2 {
+            one.ends[side][1] = two.ends[side][1];
+        }
+        if lengths[1] > lengths[0] {
+            one.stitch = two.stitch;
+        }
+        self.links[first] = one;
+        self.links[second].removed = true;
+        self.mark(first);
+    }
+
+    fn link_length(&self, link: usize) -> f64 {
+        self.length_after(Self::foremost(&self.links[link], 0))
+    }
+
+    /// What is said of a piece that loses an end, if that is the end of an edge.
+    fn note(
+        &self,
+        pattern: &Pattern,
+        (piece, class): (usize, usize),
+        spacing: f64,
+    ) -> Option<Note> {
+        let after = self.joints[piece].around[1];
+        let lost = if self.joints[piece].class == class { piece } else { after };
+        self.joints[lost].edge?;
+        let (panel, edge) = self.names(pattern, piece);
+        let neighbour = if lost == piece { self.joints[piece].around[0] } else { after };
+        let (_, with) = self.names(pattern, neighbour);
+        let length = self.length_after(piece);
+        (edge != with).then_some(Note::Joined { panel, edge, with, length, spacing })
+    }
+
+    /// The panel and the edge in the middle of the piece after a joint.
+    fn names(&self, pattern: &Pattern, joint: usize) -> (String, String) {
+        let Self { joints, starts, .. } = self;
+        let number = joints[joint].panel;
+        let middle = joints[joint].place + 0.5 * self.length_after(joint);
+        let middle = middle % self.whole(number);
+        let edge = starts[number].partition_point(|&s| s <= middle).max(1) - 1;
+        let panel = &pattern.panels()[number];
+        let edge = &panel.outline()[edge.min(panel.outline().len() - 1)];
+        (panel.name().into(), edge.name.clone())
+    }
+}
