@@ -119,7 +119,11 @@ impl Reader<'_> {
         }
         if self.mistakes.is_empty() {
             match Pattern::new(panels, stitches) {
-                Ok(pattern) => return Ok(pattern.with_notes(self.notes)),
+                Ok(pattern) => {
+                    // The format has no grain.
+                    self.notes.push(Note::NoGrain { panels: order });
+                    return Ok(pattern.with_notes(self.notes));
+                }
                 Err(all) => self.mistakes.extend(all.iter().map(|m| diagnostic(self.document, m))),
             }
         }

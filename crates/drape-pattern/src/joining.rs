@@ -12,6 +12,14 @@ const SMOOTH: f64 = std::f64::consts::PI / 12.0;
 /// Shortest piece of outline between nodes, in spacings.
 const SHORTEST: f64 = 0.5;
 
+/// An end of a side of a link.
+#[derive(Clone, Copy)]
+struct LinkEnd {
+    link: usize,
+    side: usize,
+    end: usize,
+}
+
 impl Joints {
     /// Joins short pieces with neighbours; what cannot be joined is a mistake.
     pub fn join_short(&mut self, pattern: &Pattern, spacing: f64) -> (Vec<Note>, Vec<Mistake>) {
@@ -80,17 +88,20 @@ impl Joints {
         self.class(class).map(|j| self.joints[j].turn).fold(0.0, f64::max)
     }
 
-    /// The joint on the other side of a link, at a joint beside which it lies; before it with 0, after with 1.
+    /// The end, at a joint, of the link beside it; of that before it with 0, after it with 1.
+    fn end_at(&self, joint: usize, beside: usize) -> Option<LinkEnd> {
+        let link = self.joints[joint].links[beside]?;
+        let Link { ends, forward, .. } = &self.links[link];
+        (0..2).find_map(|side| {
+            let end = usize::from(forward[side] != (beside == 1));
+            (ends[side][end] == joint).then_some(LinkEnd { link, side, end })
+        })
+    }
+
+    /// The number of the link beside a joint, and the joint that this is sewn to by it.
     fn partner(&self, joint: usize, beside: usize) -> Option<(usize, usize)> {
-        let number = self.joints[joint].links[beside]?;
-        let link = &self.links[number];
-        for side in 0..2 {
-            let end = usize::from(link.forward[side] != (beside == 1));
-            if link.ends[side][end] == joint {
-                return Some((number, link.ends[1 - side][end]));
-            }
-        }
-        None
+        let LinkEnd { link, side, end } = self.end_at(joint, beside)?;
+        Some((link, self.links[link].ends[1 - side][end]))
     }
 
     /// Whether all joints of a class can go: smooth, and sewn alike on both sides.
@@ -118,11 +129,11 @@ impl Joints {
     fn remove(&mut self, class: usize) {
         let joints: Vec<usize> = self.class(class).collect();
         for joint in joints {
-            if let (Some((first, _)), Some((second, _))) =
-                (self.partner(joint, 0), self.partner(joint, 1))
-                && first != second
+            // The joint on the other side may have merged them already.
+            if let (Some(before), Some(after)) = (self.end_at(joint, 0), self.end_at(joint, 1))
+                && before.link != after.link
             {
-                self.merge(first, second, joint);
+                self.merge(before, after);
             }
             let [before, after] = self.joints[joint].around;
             self.joints[before].around[1] = after;
@@ -131,31 +142,18 @@ impl Joints {
         }
     }
 
-    /// Makes one link of two that meet at a joint, which the first runs towards along the outline.
-    fn merge(&mut self, first: usize, second: usize, joint: usize) {
-        let lengths = [first, second].map(|l| self.link_length(l));
-        let mut one = self.links[first].clone();
-        let mut two = self.links[second].clone();
-        // Both run along the outline on the joint's side, which comes first.
-        for link in [&mut one, &mut two] {
-            if !link.ends[0].contains(&joint) {
-                link.ends.swap(0, 1);
-                link.forward.swap(0, 1);
-            }
-            if !link.forward[0] {
-                link.ends.iter_mut().for_each(|ends| ends.swap(0, 1));
-                link.forward = link.forward.map(|f| !f);
-            }
+    /// Makes one link of two that end at a joint. The longer one grows: it keeps its stitch, its sides and
+    /// its sense.
+    fn merge(&mut self, one: LinkEnd, two: LinkEnd) {
+        let two_longer = self.link_length(two.link) > self.link_length(one.link);
+        let (kept, lost) = if two_longer { (two, one) } else { (one, two) };
+        for other in 0..2 {
+            // The far end of the lost link, on the joint's side and on the other.
+            let far = self.links[lost.link].ends[lost.side ^ other][1 - lost.end];
+            self.links[kept.link].ends[kept.side ^ other][kept.end] = far;
         }
-        for side in 0..2 {
-            one.ends[side][1] = two.ends[side][1];
-        }
-        if lengths[1] > lengths[0] {
-            one.stitch = two.stitch;
-        }
-        self.links[first] = one;
-        self.links[second].removed = true;
-        self.mark(first);
+        self.links[lost.link].removed = true;
+        self.mark(kept.link);
     }
 
     fn link_length(&self, link: usize) -> f64 {

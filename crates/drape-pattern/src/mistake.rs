@@ -57,6 +57,12 @@ pub enum Mistake {
     /// Give each panel its own name.
     #[error("there are two panels named {panel}")]
     SamePanel { panel: String },
+    /// Correct the path.
+    #[error("panel {panel}: command {command} of its path cannot be read")]
+    PathSyntax { panel: String, command: usize },
+    /// Give each outline its own panel.
+    #[error("panel {panel}: at command {command} of its path a second outline begins, or none has")]
+    PathParts { panel: String, command: usize },
     /// Write a finite angle or place.
     #[error("panel {panel}: its {value} is not finite")]
     Placed { panel: String, value: &'static str },
@@ -136,6 +142,8 @@ impl Mistake {
             Self::Open { .. } => "let each edge begin where the one before it ends".into(),
             Self::Crossing { .. } => "let the outline run once round without meeting itself".into(),
             Self::NoArea { .. } => "let the outline run round some cloth".into(),
+            Self::PathSyntax { .. } => "a path is SVG's: M, L, H, V, C, S, Q, T, A and Z".into(),
+            Self::PathParts { .. } => "begin with M, end with Z, and draw one outline".into(),
             Self::SamePanel { .. } => "give each panel its own name".into(),
             Self::NoEdge { .. } => "name panels and edges that there are".into(),
             Self::EmptySide { .. } => "name one edge or more on each side".into(),
@@ -180,6 +188,8 @@ impl Mistake {
             | Self::NoArea { panel, .. }
             | Self::Size { panel, .. }
             | Self::SamePanel { panel }
+            | Self::PathSyntax { panel, .. }
+            | Self::PathParts { panel, .. }
             | Self::Placed { panel, .. }
             | Self::ShortEdge { panel, .. }
             | Self::Narrow { panel, .. }

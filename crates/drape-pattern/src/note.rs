@@ -14,9 +14,10 @@ pub enum Note {
     TurnedOver { panel: String },
     /// No grain was given.
     #[error(
-        "panel {panel} has no grainline: warp along the pattern's y axis is assumed; set grain"
+        "no grainline: {}; warp along the pattern's y axis is assumed; set grain",
+        panels.join(", ")
     )]
-    NoGrain { panel: String },
+    NoGrain { panels: Vec<String> },
     /// A panel is half of a symmetric one, and the file says so.
     #[error("panel {panel} is cut on the fold: it was unfolded along edge {edge}")]
     Unfolded { panel: String, edge: String },

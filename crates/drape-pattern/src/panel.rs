@@ -127,7 +127,7 @@ impl Panel {
     pub(crate) fn turned_over(mut self) -> Self {
         let mirror = |edge: &Edge| edge.reversed().moved(true, |[x, y]| [-x, y]);
         self.outline = self.outline.iter().rev().map(mirror).collect();
-        self.grain = -self.grain;
+        self.grain = 0.0 - self.grain;
         self.placement = self.placement.map(Placement::turned_over);
         self
     }

@@ -26,19 +26,26 @@ impl Pattern {
     /// All mistakes of the text, each with its place and a remedy.
     pub fn parse(document: &Document) -> Result<Self, Diagnostics> {
         let ending = document.path().extension().and_then(|e| e.to_str()).unwrap_or_default();
+        if ending.eq_ignore_ascii_case("toml") {
+            return crate::file::read(document);
+        }
         if !ending.eq_ignore_ascii_case("json") {
             let help = "patterns are *.toml, or *.json of GarmentCode or FreeSewing";
-            return Err(Diagnostic::new(document.path(), "this is not a pattern")
-                .help(help)
-                .into());
+            let message = format!("files *.{ending} hold no pattern");
+            return Err(Diagnostic::new(document.path(), message).help(help).into());
         }
         let value: Value = serde_json::from_str(document.text())
             .map_err(|error| syntax(document, &error).help("correct the JSON"))?;
-        if value.get("pattern").is_some() {
-            return crate::garmentcode::read(document);
+        match (value.get("pattern"), value.get("parts")) {
+            (Some(_), _) => crate::garmentcode::read(document),
+            (None, Some(_)) => crate::freesewing::read(document),
+            (None, None) => {
+                let help =
+                    "GarmentCode's specifications have \"pattern\", FreeSewing's drafts \"parts\"";
+                let message = "this JSON holds no pattern";
+                Err(Diagnostic::new(document.path(), message).help(help).into())
+            }
         }
-        let help = "GarmentCode's specifications have \"pattern\", FreeSewing's drafts \"parts\"";
-        Err(Diagnostic::new(document.path(), "this JSON holds no pattern").help(help).into())
     }
 }
 

@@ -15,6 +15,7 @@ pub fn check(pattern: &Pattern, cut: &CutPattern) {
     for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
         assert_eq!(panel.name(), cut.panel);
         tiling(cut);
+        clearance(cut);
         frames(cut, panel.grain());
         edges(cut);
     }
@@ -55,6 +56,20 @@ fn tiling(cut: &Cut) {
     }
     for [a, b] in sides.keys() {
         assert!(sides.contains_key(&[*b, *a]), "{}: {a} {b} has one face", cut.panel);
+    }
+}
+
+/// What joins a node of the lattice to another node is 0.6 spacings long or more.
+fn clearance(cut: &Cut) {
+    let least = 0.6 * cut.spacing[0] * (1.0 - 1e-9);
+    for triangle in &cut.triangles {
+        for k in 0..3 {
+            let [a, b] = [triangle[k], triangle[(k + 1) % 3]].map(|n| n as usize);
+            let [p, q] = [cut.positions[a], cut.positions[b]];
+            let length = (p[0] - q[0]).hypot(p[1] - q[1]);
+            let inner = cut.lattice[a].is_some() || cut.lattice[b].is_some();
+            assert!(!inner || length >= least, "{}: {length} under {least}", cut.panel);
+        }
     }
 }
 

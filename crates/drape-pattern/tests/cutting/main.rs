@@ -1,6 +1,7 @@
 //! Patterns are cut as they should be: shipped garments, the grain at any angle, darts, rectangles, and
 //! outlines of any shape.
 
+mod darts;
 mod garments;
 mod invariants;
 mod outlines;
