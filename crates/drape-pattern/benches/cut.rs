@@ -8,7 +8,7 @@ fn shirt(c: &mut Criterion) {
     let pattern = Pattern::read(path).expect("the pattern is sound");
     let mut group = c.benchmark_group("shirt");
     group.sample_size(20);
-    for spacing in [0.02, 0.01, 0.005] {
+    for spacing in [0.015, 0.01, 0.005] {
         group.bench_function(format!("{} mm", 1000.0 * spacing), |b| {
             b.iter(|| Cutter::new(spacing).cut(&pattern).expect("it can be cut"));
         });

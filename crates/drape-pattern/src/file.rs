@@ -261,31 +261,31 @@ impl Reader<'_> {
         let mut stitches = Vec::new();
         for (name, seam) in &file.seam {
             let sides = [0, 1].map(|side| {
-                let edge = |(k, word): (usize, &String)| {
-                    let key = format!("seam.{name}.sides[{side}]");
-                    self.sewn(&key, (word, k), (&names, &panels))
-                };
-                seam.sides[side].iter().enumerate().filter_map(edge).collect::<Vec<EdgeId>>()
+                let key = format!("seam.{name}.sides[{side}]");
+                let edge = |word: &String| self.sewn(&key, word, (&names, &panels));
+                seam.sides[side].iter().filter_map(edge).collect::<Vec<EdgeId>>()
             });
             let max_ease = seam.max_ease.unwrap_or(EASE);
             stitches.push(Stitch { name: name.clone(), sides, reversed: seam.reversed, max_ease });
         }
-        if self.mistakes.is_empty() {
-            match Pattern::new(panels.into_iter().flatten().collect(), stitches) {
-                Ok(pattern) => return Ok(pattern.with_notes(self.notes)),
-                Err(all) => all.iter().for_each(|mistake| self.mistake(mistake)),
+        let made = match self.mistakes.is_empty() {
+            true => Pattern::new(panels.into_iter().flatten().collect(), stitches),
+            false => Err(Vec::new()),
+        };
+        match made {
+            Ok(pattern) => Ok(pattern.with_notes(self.notes)),
+            Err(all) => {
+                all.iter().for_each(|mistake| self.mistake(mistake));
+                Err(sorted(self.mistakes))
             }
         }
-        Diagnostics::check(self.mistakes)?;
-        // There was a mistake, so this is not reached.
-        Err(Diagnostics(Vec::new()))
     }
 
     /// The edge that a word such as `front.side` names.
     fn sewn(
         &mut self,
         key: &str,
-        (word, _): (&str, usize),
+        word: &str,
         (names, panels): (&[&str], &[Option<Panel>]),
     ) -> Option<EdgeId> {
         let (panel, edge) = word.rsplit_once('.').unwrap_or((word, ""));
@@ -308,5 +308,13 @@ impl Reader<'_> {
             self.fail(key, format!("panel {panel} has no edge \"{edge}\""), help);
         }
         Some(EdgeId { panel: number, edge: found? })
+    }
+}
+
+/// Mistakes in the order of the text.
+fn sorted(mistakes: Vec<Diagnostic>) -> Diagnostics {
+    match Diagnostics::check(mistakes) {
+        Err(all) => all,
+        Ok(()) => Diagnostics(Vec::new()),
     }
 }

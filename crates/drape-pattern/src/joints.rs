@@ -4,6 +4,9 @@
 use crate::edge::Edge;
 use crate::pattern::{EdgeId, Pattern, Stitch};
 
+/// Shares of the way along a stitch that differ by less are the same: rounding.
+const SAME: f64 = 1e-9;
+
 /// A point of an outline between which arcs are sampled.
 #[derive(Debug, Clone)]
 pub(crate) struct Joint {
@@ -146,13 +149,8 @@ impl Joints {
     fn sew(&mut self, pattern: &Pattern, (index, stitch): (usize, &Stitch), spacing: f64) {
         let forward = [true, stitch.reversed];
         let sides = [0, 1].map(|side| self.pieces(pattern, &stitch.sides[side], forward[side]));
-        let near = 0.5 * spacing
-            / stitch
-                .sides
-                .each_ref()
-                .map(|s| pattern.side_length(s))
-                .iter()
-                .fold(f64::MAX, |a, b| a.min(*b));
+        let [one, other] = stitch.sides.each_ref().map(|side| pattern.side_length(side));
+        let near = 0.5 * spacing / one.min(other);
         let start = [0, 1].map(|side| [self.piece_ends(&sides[side][0])[0]; 2]);
         let mut breaks: Vec<Break> = vec![start];
         // Numbers of the pieces that begin at the last break with an end on both sides.
@@ -180,7 +178,7 @@ impl Joints {
         }
     }
 
-    /// Breaks at the ends of edges of one side alone, between two that both sides have.
+    /// Breaks at ends of edges between two that both sides have; the other side gets a notch.
     fn break_between(
         &mut self,
         sides: &[Vec<Piece>; 2],
@@ -188,10 +186,7 @@ impl Joints {
         breaks: &mut Vec<Break>,
     ) {
         // From where to where each side runs, as shares of it.
-        let range = [0, 1].map(|s| {
-            let end = sides[s][to[s] - 1].share[1];
-            [sides[s][from[s]].share[0], end]
-        });
+        let range = [0, 1].map(|s| [sides[s][from[s]].share[0], sides[s][to[s] - 1].share[1]]);
         let mut ends: Vec<(f64, usize, usize)> = Vec::new();
         for side in 0..2 {
             let [low, high] = range[side];
@@ -199,13 +194,30 @@ impl Joints {
             ends.extend(between.map(|k| ((sides[side][k].share[1] - low) / (high - low), side, k)));
         }
         ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        // By the share of the way, for both sides the piece that ends there.
+        let mut places: Vec<(f64, [Option<usize>; 2])> = Vec::new();
         for (part, side, k) in ends {
-            let [low, high] = range[1 - side];
-            let notch = self.notch(&sides[1 - side], low + part * (high - low));
-            let mut each = [[notch; 2]; 2];
-            each[side] =
-                [self.piece_ends(&sides[side][k])[1], self.piece_ends(&sides[side][k + 1])[0]];
-            breaks.push(each);
+            match places.last_mut() {
+                Some((at, both)) if part - *at < SAME && both[side].is_none() => {
+                    both[side] = Some(k)
+                }
+                _ => {
+                    let mut both = [None; 2];
+                    both[side] = Some(k);
+                    places.push((part, both));
+                }
+            }
+        }
+        for (part, both) in places {
+            breaks.push([0, 1].map(|side| match both[side] {
+                Some(k) => {
+                    [self.piece_ends(&sides[side][k])[1], self.piece_ends(&sides[side][k + 1])[0]]
+                }
+                None => {
+                    let [low, high] = range[side];
+                    [self.notch(&sides[side], low + part * (high - low)); 2]
+                }
+            }));
         }
     }
 

@@ -19,99 +19,234 @@ impl fmt::Display for Millimetres {
 /// What is wrong with a pattern, or with cutting it at a spacing. Lengths are in m.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-#[allow(missing_docs, reason = "the names and the messages say what the fields are")]
 pub enum Mistake {
-    /// Write finite numbers, and arcs of less than a full turn.
+    /// A number of an edge is not finite, or an arc turns full circle: correct it.
     #[error("panel {panel}: edge {edge} has a number that is not finite, or turns full circle")]
-    NotFinite { panel: String, edge: String },
-    /// Check the unit.
+    NotFinite {
+        /// The panel.
+        panel: String,
+        /// The edge.
+        edge: String,
+    },
+    /// An edge lies farther out than any cloth: check the unit.
     #[error("panel {panel}: edge {edge} reaches {reach:.3e} m from the origin")]
-    Far { panel: String, edge: String, reach: f64 },
-    /// Add edges.
+    Far {
+        /// The panel.
+        panel: String,
+        /// The edge.
+        edge: String,
+        /// Its farthest coordinate, in m.
+        reach: f64,
+    },
+    /// An outline has fewer than two edges: add some.
     #[error("panel {panel} has {edges} edges")]
-    FewEdges { panel: String, edges: usize },
-    /// Give each edge its own name.
+    FewEdges {
+        /// The panel.
+        panel: String,
+        /// How many edges it has.
+        edges: usize,
+    },
+    /// Two edges of a panel have one name: give each its own.
     #[error("panel {panel} has two edges named {edge}")]
-    SameEdge { panel: String, edge: String },
-    /// Remove the edge.
+    SameEdge {
+        /// The panel.
+        panel: String,
+        /// The edge.
+        edge: String,
+    },
+    /// An edge is a point: remove it.
     #[error("panel {panel}: edge {edge} has the length {}", Millimetres(*length))]
-    EmptyEdge { panel: String, edge: String, length: f64 },
-    /// Close the outline.
+    EmptyEdge {
+        /// The panel.
+        panel: String,
+        /// The edge.
+        edge: String,
+        /// Its length, in m.
+        length: f64,
+    },
+    /// An edge does not begin where the one before it ends: close the outline.
     #[error(
         "panel {panel}: {} gap between the end of edge {from} and the start of edge {to}",
         Millimetres(*gap)
     )]
-    Open { panel: String, from: String, to: String, gap: f64 },
-    /// Let the outline run once round.
+    Open {
+        /// The panel.
+        panel: String,
+        /// The edge before the gap.
+        from: String,
+        /// The edge after the gap.
+        to: String,
+        /// Width of the gap, in m.
+        gap: f64,
+    },
+    /// An outline meets itself: let it run once round.
     #[error(
         "panel {panel}: edges {first} and {second} cross or touch at ({:.1}, {:.1}) mm",
         1000.0 * at[0], 1000.0 * at[1]
     )]
-    Crossing { panel: String, first: String, second: String, at: [f64; 2] },
-    /// Give the panel area.
+    Crossing {
+        /// The panel.
+        panel: String,
+        /// One of the two.
+        first: String,
+        /// The other.
+        second: String,
+        /// Where, in the panel's frame, in m.
+        at: [f64; 2],
+    },
+    /// An outline encloses nothing: give the panel area.
     #[error("panel {panel} has an area of {area:.3e} m²")]
-    NoArea { panel: String, area: f64 },
-    /// Correct the unit of the file.
+    NoArea {
+        /// The panel.
+        panel: String,
+        /// Its area, in m².
+        area: f64,
+    },
+    /// A panel has a size that no garment's has: correct the unit of the file.
     #[error("panel {panel} is {size:.4} m wide or high")]
-    Size { panel: String, size: f64 },
-    /// Give each panel its own name.
+    Size {
+        /// The panel.
+        panel: String,
+        /// Its larger side, in m.
+        size: f64,
+    },
+    /// Two panels have one name: give each its own.
     #[error("there are two panels named {panel}")]
-    SamePanel { panel: String },
-    /// Correct the path.
+    SamePanel {
+        /// The panel.
+        panel: String,
+    },
+    /// A command of an SVG path cannot be read: correct the path.
     #[error("panel {panel}: command {command} of its path cannot be read")]
-    PathSyntax { panel: String, command: usize },
-    /// Give each outline its own panel.
+    PathSyntax {
+        /// The panel.
+        panel: String,
+        /// The command, from 1.
+        command: usize,
+    },
+    /// An SVG path is more than one outline: give each its own panel.
     #[error("panel {panel}: at command {command} of its path a second outline begins, or none has")]
-    PathParts { panel: String, command: usize },
-    /// Write a finite angle or place.
+    PathParts {
+        /// The panel.
+        panel: String,
+        /// The command, from 1.
+        command: usize,
+    },
+    /// The grain or the place of a panel is not finite: correct it.
     #[error("panel {panel}: its {value} is not finite")]
-    Placed { panel: String, value: &'static str },
-    /// Name an edge that exists.
+    Placed {
+        /// The panel.
+        panel: String,
+        /// What of it.
+        value: &'static str,
+    },
+    /// A stitch names an edge that there is not: name another.
     #[error("stitch {stitch} names edge {edge} of panel {panel}, which there is not")]
-    NoEdge { stitch: String, panel: usize, edge: usize },
-    /// Name edges on both sides.
+    NoEdge {
+        /// The stitch.
+        stitch: String,
+        /// Number of the panel, from 0.
+        panel: usize,
+        /// Number of the edge, from 0.
+        edge: usize,
+    },
+    /// A side of a stitch has no edges: name some.
     #[error("stitch {stitch} has a side without edges")]
-    EmptySide { stitch: String },
-    /// Split the edge or join a chain.
+    EmptySide {
+        /// The stitch.
+        stitch: String,
+    },
+    /// An edge is sewn twice: split it, or join both seams in one chain.
     #[error("edge {edge} of panel {panel} is sewn twice, in stitches {first} and {second}")]
-    SewnTwice { panel: String, edge: String, first: String, second: String },
-    /// Keep the limit within what can be cut.
+    SewnTwice {
+        /// The panel.
+        panel: String,
+        /// The edge.
+        edge: String,
+        /// One of the two.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// The ease of a stitch is none that can be cut: choose another.
     #[error("stitch {stitch}: max_ease is {max_ease}")]
-    MaxEase { stitch: String, max_ease: f64 },
-    /// Correct the edges or allow more fullness.
+    MaxEase {
+        /// The stitch.
+        stitch: String,
+        /// The limit.
+        max_ease: f64,
+    },
+    /// The sides of a stitch differ too much: correct the edges, or allow more fullness.
     #[error(
         "stitch {stitch}: {long} {} and {short} {}: ratio {ratio:.3} is above max_ease {max_ease}",
         Millimetres(lengths[0]), Millimetres(lengths[1])
     )]
     Ease {
+        /// The stitch.
         stitch: String,
+        /// The edges of the longer side.
         long: String,
+        /// The edges of the shorter side.
         short: String,
+        /// Lengths of the longer and the shorter side, in m.
         lengths: [f64; 2],
+        /// The ratio of the lengths.
         ratio: f64,
+        /// The limit.
         max_ease: f64,
     },
-    /// Choose a length.
+    /// The spacing is no length: choose one.
     #[error("the spacing is {spacing} m")]
-    Spacing { spacing: f64 },
-    /// Choose a smaller spacing.
+    Spacing {
+        /// The spacing, in m.
+        spacing: f64,
+    },
+    /// An edge is too short for the spacing: choose a smaller spacing.
     #[error(
         "panel {panel}: edge {edge} is {}, under half the spacing ({})",
         Millimetres(*length), Millimetres(*spacing)
     )]
-    ShortEdge { panel: String, edge: String, length: f64, spacing: f64 },
-    /// Choose a smaller spacing.
+    ShortEdge {
+        /// The panel.
+        panel: String,
+        /// The edge.
+        edge: String,
+        /// Its length, in m.
+        length: f64,
+        /// The spacing, in m.
+        spacing: f64,
+    },
+    /// A sampled outline meets itself: choose a smaller spacing.
     #[error(
         "panel {panel} is too narrow near ({:.1}, {:.1}) mm to be cut at a spacing of {}",
         1000.0 * at[0], 1000.0 * at[1], Millimetres(*spacing)
     )]
-    Narrow { panel: String, at: [f64; 2], spacing: f64 },
-    /// Choose a larger spacing.
+    Narrow {
+        /// The panel.
+        panel: String,
+        /// Where, in the panel's frame, in m.
+        at: [f64; 2],
+        /// The spacing, in m.
+        spacing: f64,
+    },
+    /// A panel would have too many nodes: choose a larger spacing.
     #[error("panel {panel} would have {nodes:.2e} nodes at a spacing of {}", Millimetres(*spacing))]
-    TooMany { panel: String, nodes: f64, spacing: f64 },
-    /// Report it: it is a fault of the cutter.
+    TooMany {
+        /// The panel.
+        panel: String,
+        /// About how many.
+        nodes: f64,
+        /// The spacing, in m.
+        spacing: f64,
+    },
+    /// The rim could not be triangulated, a fault of the cutter: report the pattern.
     #[error("panel {panel}: the rim could not be triangulated at a spacing of {}", Millimetres(*spacing))]
-    Rim { panel: String, spacing: f64 },
+    Rim {
+        /// The panel.
+        panel: String,
+        /// The spacing, in m.
+        spacing: f64,
+    },
 }
 
 /// What a mistake is about.

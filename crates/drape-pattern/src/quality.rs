@@ -47,7 +47,8 @@ impl Quality {
                 corners.iter().map(|&n| difference(at(n), at(corners[0]))).collect();
             points.windows(2).map(|p| 0.5 * (p[0][0] * p[1][1] - p[0][1] * p[1][0])).sum::<f64>()
         };
-        let in_cells: f64 = cut.quads.iter().map(|q| area(q)).sum();
+        // The sum of nothing is minus zero.
+        let in_cells: f64 = 0.0 + cut.quads.iter().map(|q| area(q)).sum::<f64>();
         let whole = in_cells + cut.triangles.iter().map(|t| area(t)).sum::<f64>();
         Self {
             nodes: cut.positions.len(),

@@ -14,17 +14,17 @@ fn the_picture_shows_every_panel_seam_and_name() {
         assert!(texts.contains(&panel.name()));
         assert!(panel.outline().iter().all(|e| texts.contains(&e.name.as_str())));
     }
-    // Each side seam is drawn in both panels, each dart in one.
+    // Side seams are drawn in two panels, the waist's in three, each dart and the end of the band in one.
     let colours: Vec<&str> = document.descendants().filter_map(|n| n.attribute("stroke")).collect();
     let mut own: Vec<&str> = colours
         .iter()
         .copied()
         .filter(|c| !["#ffffff", "#222222", "#9aa5b1", "#c9a27a"].contains(c))
         .collect();
-    assert_eq!(own.len(), 2 * 2 + 4);
+    assert_eq!(own.len(), 2 * 2 + 3 + 5);
     own.sort_unstable();
     own.dedup();
-    assert_eq!(own.len(), 6, "every stitch has its colour");
+    assert_eq!(own.len(), 8, "every stitch has its colour");
     assert!(!svg.contains("NaN") && !svg.contains("inf "));
 }
 

@@ -37,3 +37,27 @@ fn darts_are_cut_as_well_on_the_bias() {
         cut(&bias, spacing);
     }
 }
+
+#[test]
+fn a_waistband_is_sewn_over_the_mouths_of_darts_and_over_the_side_seam() {
+    let pattern = shipped("pencil-skirt.toml");
+    let (_, cut) = cut(&pattern, 0.01);
+    let number = |name: &str| pattern.panels().iter().position(|p| p.name() == name).expect(name);
+    let [back, band, front] = ["back", "band", "front"].map(number);
+    let stitch = pattern.stitches().iter().position(|s| s.name == "band").expect("it is there");
+    let seam = &cut.seams[stitch];
+    // Where the chain leaves a piece of the waist, one node of the band has two partners: at the mouths of four
+    // darts and at one side seam.
+    let twice: Vec<_> = seam.windows(2).filter(|two| two[0][0] == two[1][0]).collect();
+    assert_eq!(twice.len(), 5);
+    let sewn: Vec<u32> = twice.iter().map(|two| two[0][0].node).collect();
+    assert!(sewn.iter().all(|&node| cut.panels[band].hard[node as usize]), "{sewn:?}");
+    let panels: Vec<[usize; 2]> =
+        twice.iter().map(|two| [two[0][1].panel, two[1][1].panel]).collect();
+    assert_eq!(panels, [[front; 2], [front; 2], [front, back], [back; 2], [back; 2]]);
+    // Both mouth nodes are the ends of the legs of one dart.
+    let place = |id: drape_pattern::NodeId| cut.panels[id.panel].positions[id.node as usize];
+    assert_eq!(twice[0].iter().map(|pair| place(pair[1])[0]).collect::<Vec<_>>(), [0.1075, 0.1325]);
+    let band = &cut.panels[band];
+    assert_eq!(band.edges[0].len() - 1, seam.len() - 1 - twice.len(), "all of its nodes are sewn");
+}
