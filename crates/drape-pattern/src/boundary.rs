@@ -141,12 +141,7 @@ impl Joints {
         let mut boundary = Boundary::default();
         let outline = pattern.panels()[panel].outline();
         let (starts, whole) = (&self.starts[panel], self.whole(panel));
-        let own = |j: &usize| self.joints[*j].panel == panel && !self.joints[*j].removed;
-        let mut ring: Vec<usize> = (0..self.joints.len()).filter(own).collect();
-        ring.sort_by(|&a, &b| {
-            self.joints[a].place.total_cmp(&self.joints[b].place).then(a.cmp(&b))
-        });
-        for joint in ring {
+        for joint in self.ring(panel) {
             first_node[joint] = boundary.nodes.len();
             let (start, length) = (self.joints[joint].place, self.length_after(joint));
             for k in 0..counts[joint] {
@@ -196,6 +191,9 @@ impl Joints {
 impl Boundary {
     /// The nodes of an edge between two places: from that nearest to its start to that nearest to its end.
     fn chain(&self, [from, to]: [f64; 2], whole: f64) -> Vec<u32> {
+        if self.nodes.is_empty() {
+            return Vec::new();
+        }
         let (first, last) = (self.nearest(from, whole), self.nearest(to, whole));
         let n = self.nodes.len();
         let steps = (last + n - first) % n;

@@ -3,10 +3,11 @@
 use crate::joints::{Joints, Link};
 use crate::mistake::Mistake;
 use crate::note::Note;
+use crate::panel::Panel;
 use crate::pattern::Pattern;
 
 /// Largest turn at a joint that may be left without a node, in rad: 15 degrees. A chord across it cuts off
-/// at most a thirtieth of its length.
+/// at most a fifteenth of its length.
 const SMOOTH: f64 = std::f64::consts::PI / 12.0;
 
 /// Shortest piece of outline between nodes, in spacings.
@@ -24,7 +25,7 @@ impl Joints {
     /// Joins short pieces with neighbours; what cannot be joined is a mistake.
     pub fn join_short(&mut self, pattern: &Pattern, spacing: f64) -> (Vec<Note>, Vec<Mistake>) {
         let shortest = SHORTEST * spacing * (1.0 - 1e-9);
-        let mut notes = Vec::new();
+        let mut notes = self.dissolve_runs(pattern, (shortest, spacing));
         loop {
             let mut short: Vec<(f64, usize)> = self
                 .pieces_by_first()
@@ -58,6 +59,30 @@ impl Joints {
         }
     }
 
+    /// Removes the smooth joints inside runs of short pieces, which digitised outlines are made of.
+    fn dissolve_runs(&mut self, pattern: &Pattern, (shortest, spacing): (f64, f64)) -> Vec<Note> {
+        let short: Vec<bool> =
+            (0..self.joints.len()).map(|joint| self.longest_after(joint) < shortest).collect();
+        let inside: Vec<usize> = (0..self.joints.len())
+            .filter(|&joint| short[joint] && short[self.joints[joint].around[0]])
+            .collect();
+        let mut lost = vec![0; pattern.panels().len()];
+        for joint in inside {
+            let class = self.joints[joint].class;
+            if !self.joints[joint].removed && self.removable(class) {
+                self.class(class).for_each(|j| lost[self.joints[j].panel] += 1);
+                self.remove(class);
+            }
+        }
+        let panels = pattern.panels().iter().zip(lost).filter(|(_, ends)| *ends > 0);
+        let note = |(panel, ends): (&Panel, usize)| Note::Dissolved {
+            panel: panel.name().into(),
+            ends,
+            spacing,
+        };
+        panels.map(note).collect()
+    }
+
     /// For each piece of outline between joints, or pair of pieces that are sewn together, the joint from
     /// which it goes on.
     fn pieces_by_first(&self) -> Vec<usize> {
@@ -80,8 +105,7 @@ impl Joints {
     }
 
     fn class(&self, class: usize) -> impl Iterator<Item = usize> + '_ {
-        (class..self.joints.len())
-            .filter(move |&j| self.joints[j].class == class && !self.joints[j].removed)
+        self.classes[class].iter().copied().filter(|&j| !self.joints[j].removed)
     }
 
     fn sharpest(&self, class: usize) -> f64 {
@@ -108,7 +132,7 @@ impl Joints {
     fn removable(&self, class: usize) -> bool {
         self.sharpest(class) < SMOOTH
             && self.class(class).all(|joint| {
-                let [before, after] = self.joints[joint].around;
+                let before = self.joints[joint].around[0];
                 let alike = match (self.partner(joint, 0), self.partner(joint, 1)) {
                     (None, None) => true,
                     (Some((first, a)), Some((second, b))) => {
@@ -116,8 +140,8 @@ impl Joints {
                     }
                     _ => false,
                 };
-                // Two joints at least stay on an outline.
-                alike && before != after && before != joint
+                // One joint at least stays on an outline.
+                alike && before != joint
             })
     }
 

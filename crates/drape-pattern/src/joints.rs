@@ -17,7 +17,7 @@ pub(crate) struct Joint {
     pub turn: f64,
     /// The edge that begins here, where one does.
     pub edge: Option<usize>,
-    /// Joints sewn to each other have the same class, the least of their numbers.
+    /// Joints sewn to each other have the same class.
     pub class: usize,
     /// The joints before and after it on the outline.
     pub around: [usize; 2],
@@ -38,10 +38,12 @@ pub(crate) struct Link {
 }
 
 /// All joints and links of a pattern.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Joints {
     pub joints: Vec<Joint>,
     pub links: Vec<Link>,
+    /// The joints of each class.
+    pub classes: Vec<Vec<usize>>,
     /// For each panel the places where its edges start, and its whole length, in m.
     pub starts: Vec<Vec<f64>>,
     /// For each panel its first joint; the joints at the starts of its edges follow.
@@ -62,7 +64,7 @@ type Break = [[usize; 2]; 2];
 
 impl Joints {
     pub fn new(pattern: &Pattern, spacing: f64) -> Self {
-        let mut all = Self { joints: vec![], links: vec![], starts: vec![], first: vec![] };
+        let mut all = Self::default();
         for (panel, outline) in pattern.panels().iter().map(|p| p.outline()).enumerate() {
             all.first.push(all.joints.len());
             let mut place = 0.0;
@@ -84,9 +86,19 @@ impl Joints {
 
     fn insert(&mut self, panel: usize, place: f64, turn: f64, edge: Option<usize>) -> usize {
         let class = self.joints.len();
+        self.classes.push(vec![class]);
         let (around, links, removed) = ([0; 2], [None; 2], false);
         self.joints.push(Joint { panel, place, turn, edge, class, around, links, removed });
         class
+    }
+
+    /// The joints of a panel that were not removed, along its outline.
+    pub fn ring(&self, panel: usize) -> Vec<usize> {
+        let own = |j: &usize| self.joints[*j].panel == panel && !self.joints[*j].removed;
+        let mut ring: Vec<usize> = (0..self.joints.len()).filter(own).collect();
+        let place = |j: usize| self.joints[j].place;
+        ring.sort_by(|&a, &b| place(a).total_cmp(&place(b)).then(a.cmp(&b)));
+        ring
     }
 
     /// Whole length of a panel's outline, in m.
@@ -223,20 +235,17 @@ impl Joints {
 
     fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.joints[a].class, self.joints[b].class);
-        let (least, other) = (a.min(b), a.max(b));
-        if least != other {
-            self.joints.iter_mut().filter(|j| j.class == other).for_each(|j| j.class = least);
+        if a != b {
+            let moved = std::mem::take(&mut self.classes[a.max(b)]);
+            moved.iter().for_each(|&joint| self.joints[joint].class = a.min(b));
+            self.classes[a.min(b)].extend(moved);
         }
     }
 
     /// Orders the joints along the outlines, and notes at each what is sewn beside it.
     fn connect(&mut self) {
         for panel in 0..self.starts.len() {
-            let mut ring: Vec<usize> =
-                (0..self.joints.len()).filter(|&j| self.joints[j].panel == panel).collect();
-            ring.sort_by(|&a, &b| {
-                self.joints[a].place.total_cmp(&self.joints[b].place).then(a.cmp(&b))
-            });
+            let ring = self.ring(panel);
             for (k, &joint) in ring.iter().enumerate() {
                 let after = ring[(k + 1) % ring.len()];
                 self.joints[joint].around[1] = after;

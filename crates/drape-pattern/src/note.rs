@@ -51,6 +51,19 @@ pub enum Note {
         /// The spacing, in m.
         spacing: f64,
     },
+    /// Ends of short edges in smooth runs, as digitised outlines have, are no nodes.
+    #[error(
+        "panel {panel}: {ends} ends of edges in smooth runs of edges under half the spacing ({}) are no nodes",
+        Millimetres(*spacing)
+    )]
+    Dissolved {
+        /// The panel.
+        panel: String,
+        /// How many.
+        ends: usize,
+        /// The spacing, in m.
+        spacing: f64,
+    },
     /// Cloth with fewer than three particles across bends wrongly.
     #[error(
         "panel {panel} is {} wide near ({:.1}, {:.1}) mm: fewer than 3 particles across at a spacing of {}; bending across it will be wrong; use {}",

@@ -1,3 +1,5 @@
+use std::collections::BTreeSet;
+
 use crate::crossing::crossing;
 use crate::edge::{Edge, difference, distance};
 use crate::mistake::Mistake;
@@ -186,10 +188,11 @@ fn coordinates(panel: &str, outline: &[Edge]) -> Vec<Mistake> {
     if outline.len() < 2 {
         mistakes.push(Mistake::FewEdges { panel: panel.into(), edges: outline.len() });
     }
-    for (index, edge) in outline.iter().enumerate() {
+    let mut names = BTreeSet::new();
+    for edge in outline {
         let (panel, name) = (panel.to_owned(), edge.name.clone());
         let reach = edge.coordinates().map(f64::abs).fold(0.0, f64::max);
-        if outline[..index].iter().any(|e| e.name == edge.name) {
+        if !names.insert(&edge.name) {
             mistakes.push(Mistake::SameEdge { panel: panel.clone(), edge: name.clone() });
         }
         if !edge.is_finite() {

@@ -10,13 +10,21 @@ use crate::pattern::Pattern;
 /// Sizes that a panel of a garment has, in m. Others are slips of the unit.
 const SIZES: std::ops::RangeInclusive<f64> = 0.02..=3.0;
 
+/// Largest JSON file that is read, in bytes: drafts with all their drawings have some hundred kilobytes.
+const LARGEST: u64 = 1 << 24;
+
 impl Pattern {
     /// Reads a pattern: the project's own in TOML, GarmentCode's or FreeSewing's in JSON.
     ///
     /// # Errors
     /// All mistakes of the file, each with its place and a remedy.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
-        Ok(Self::parse(&Document::read(path)?)?)
+        let path = path.as_ref();
+        let document = match json(path) {
+            Some(text) => Document::new(path, text),
+            None => Document::read(path)?,
+        };
+        Ok(Self::parse(&document)?)
     }
 
     /// The pattern of a document in any of the formats, told apart by the ending of its path and by what the
@@ -29,7 +37,7 @@ impl Pattern {
         if ending.eq_ignore_ascii_case("toml") {
             return crate::file::read(document);
         }
-        if !ending.eq_ignore_ascii_case("json") {
+        if !is_json(document.path()) {
             let help = "patterns are *.toml, or *.json of GarmentCode or FreeSewing";
             let message = format!("files *.{ending} hold no pattern");
             return Err(Diagnostic::new(document.path(), message).help(help).into());
@@ -47,6 +55,17 @@ impl Pattern {
             }
         }
     }
+}
+
+/// Whether a path ends like that of a JSON file.
+fn is_json(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
+}
+
+/// The text of a JSON file, which may be larger than those that people write; nothing if it cannot be read.
+fn json(path: &Path) -> Option<String> {
+    let small = std::fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() <= LARGEST);
+    (is_json(path) && small).then(|| std::fs::read_to_string(path).ok()).flatten()
 }
 
 /// A mistake of grammar or type in JSON.

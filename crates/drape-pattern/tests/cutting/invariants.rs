@@ -125,7 +125,7 @@ fn seams(pattern: &Pattern, cut: &CutPattern) {
             for side in 0..2 {
                 let node = (pair[side].panel, pair[side].node);
                 // An edge that was joined with a neighbour lends its nodes to another stitch.
-                let joined = cut.notes.iter().any(|n| n.to_string().contains("joined"));
+                let joined = cut.notes.iter().any(|n| n.to_string().contains("half the spacing"));
                 assert!(joined || allowed[side].contains(&node), "{} {node:?}", stitch.name);
             }
         }
