@@ -173,17 +173,21 @@ impl Drawing<'_> {
     }
 
     fn seams(&self, cut: &CutPattern, svg: &mut String) {
+        let outline = &self.cut.outline;
+        let next = outline.iter().cycle().skip(1);
+        let sides: BTreeSet<[u32; 2]> =
+            outline.iter().zip(next).flat_map(|(&a, &b)| [[a, b], [b, a]]).collect();
         for (stitch, seam) in cut.seams.iter().enumerate() {
             let mut path = String::new();
             for side in 0..2 {
+                let here = seam.iter().map(|pair| pair[side]).filter(|id| id.panel == self.number);
                 let mut last = None;
-                for id in seam.iter().map(|pair| pair[side]) {
-                    if id.panel == self.number {
-                        let [x, y] = self.node(id.node);
-                        let command = if last == Some(self.number) { 'L' } else { 'M' };
-                        let _ = write!(path, "{command}{x:.1} {y:.1}");
-                    }
-                    last = Some(id.panel);
+                for node in here.map(|id| id.node) {
+                    let [x, y] = self.node(node);
+                    // A chain may go on elsewhere, as at the mouth of a dart.
+                    let onward = last.is_some_and(|last| sides.contains(&[last, node]));
+                    let _ = write!(path, "{}{x:.1} {y:.1}", if onward { 'L' } else { 'M' });
+                    last = Some(node);
                 }
             }
             if !path.is_empty() {
@@ -203,8 +207,8 @@ impl Drawing<'_> {
         // The arrow along the warp, a third of the way through the panel.
         let [low, high] = extent(self.cut);
         let [width, height] = difference(high, low);
-        let half =
-            (sine * width).abs().min((cosine * height).abs()).max(0.3 * width.min(height)) / 6.0;
+        let through = (width / sine.abs()).min(height / cosine.abs());
+        let half = (through / 6.0).min(4.0 * letter);
         let along = [-sine, -cosine];
         let tip = [middle[0] + half * along[0], middle[1] + half * along[1]];
         let wing = |side: f64| {

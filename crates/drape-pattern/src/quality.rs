@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use crate::cut::{Cut, CutPattern};
 use crate::edge::{difference, distance};
 use crate::note::Note;
@@ -97,23 +99,33 @@ impl Cut {
         quads.chain(triangles)
     }
 
-    /// The narrowest part of the panel, if it is thin: the shortest side across the cloth between nodes of the
-    /// outline that are far apart along it.
+    /// The narrowest part of the panel, if it is thin: the shortest way across the cloth between nodes of the
+    /// outline that are far apart along it, straight or past one node.
     pub(crate) fn thin(&self, spacing: f64) -> Option<Note> {
         let n = self.outline.len();
         let mut along = vec![None; self.positions.len()];
         for (k, &node) in self.outline.iter().enumerate() {
             along[node as usize] = Some(k);
         }
+        let mut beside: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for [a, b] in self.sides().flat_map(|[a, b]| [[a, b], [b, a]]) {
+            if along[b as usize].is_some() {
+                beside.entry(a).or_default().push(b);
+            }
+        }
         let at = |node: u32| self.positions[node as usize];
-        let width = |[a, b]: [u32; 2]| {
+        let width = |a: u32, b: u32| {
             let steps = along[a as usize]?.abs_diff(along[b as usize]?);
-            let far = steps.min(n - steps);
             let width = distance(at(a), at(b));
             // Nearer along the outline, it is the side of a corner.
-            (far > 3 && width < THIN * spacing).then_some((width, a))
+            (steps.min(n - steps) > 3 && width < THIN * spacing).then_some((width, a))
         };
-        let (width, node) = self.sides().filter_map(width).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let straight = beside.iter().flat_map(|(&a, all)| all.iter().map(move |&b| (a, b)));
+        let inner = beside.iter().filter(|(a, _)| along[**a as usize].is_none());
+        let past = inner
+            .flat_map(|(_, all)| all.iter().flat_map(move |&a| all.iter().map(move |&b| (a, b))));
+        let ways = straight.chain(past).filter_map(|(a, b)| width(a, b));
+        let (width, node) = ways.min_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(Note::Thin { panel: self.panel.clone(), width, at: at(node), spacing })
     }
 }

@@ -194,11 +194,18 @@ fn what_hinders_nothing_is_noted() {
 
 #[test]
 fn thin_panels_and_short_edges_are_noted_when_cut() {
-    let thin = "length = \"cm\"\n[panel.band]\ngrain = 10\nrectangle = [40, 1.2]\n";
-    let pattern = Pattern::parse(&Document::new("a.toml", thin)).expect("it is sound");
-    let cut = Cutter::default().cut(&pattern).expect("it can be cut");
-    let said = cut.notes.iter().map(ToString::to_string).collect::<String>();
-    assert!(said.contains("panel band is 12") && said.contains("fewer than 3 particles"), "{said}");
+    let band = |width: f64| {
+        let text =
+            format!("length = \"cm\"\n[panel.band]\ngrain = 10\nrectangle = [40, {width}]\n");
+        let pattern = Pattern::parse(&Document::new("a.toml", text)).expect("it is sound");
+        let cut = Cutter::default().cut(&pattern).expect("it can be cut");
+        cut.notes.iter().map(ToString::to_string).collect::<String>()
+    };
+    for (width, words) in [(0.8, "band is 8."), (1.2, "band is 12."), (1.45, "band is 14.")] {
+        let said = band(width);
+        assert!(said.contains(words) && said.contains("fewer than 3 particles"), "{width}: {said}");
+    }
+    assert_eq!(band(1.6), "");
 
     // A smooth joint 3 mm from a corner goes; a corner 3 mm from another is a mistake.
     let joined = squares(&[(

@@ -1,4 +1,4 @@
-use drape_pattern::{CutPattern, Cutter, Error, Mistake, Panel, Pattern, Quality};
+use drape_pattern::{CutPattern, Cutter, Error, Mistake, Note, Panel, Pattern, Quality};
 
 use crate::invariants;
 
@@ -13,6 +13,7 @@ const GARMENTS: [&str; 4] = ["shirt.json", "skirt.json", "trousers.json", "teaga
 pub fn cut(pattern: &Pattern, spacing: f64) -> (usize, CutPattern) {
     let cut = Cutter::new(spacing).cut(pattern).unwrap_or_else(|error| panic!("{error}"));
     invariants::check(pattern, &cut);
+    assert!(cut.notes.iter().all(|n| !matches!(n, Note::Thin { .. })), "{:?}", cut.notes);
     for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
         let quality = Quality::new(panel, cut, spacing);
         let name = panel.name();
