@@ -294,7 +294,7 @@ impl Reader<'_> {
                 Some(near) => format!("did you mean \"{near}.{edge}\"?"),
                 None => format!("write panel.edge; the panels are: {}", names.join(", ")),
             };
-            self.fail(key, format!("there is no panel \"{panel}\""), help);
+            self.fail(key, format!("\"{word}\": there is no panel \"{panel}\""), help);
             return None;
         };
         let known: Vec<&str> =

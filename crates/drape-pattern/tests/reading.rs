@@ -86,6 +86,16 @@ fn the_own_format_is_read() {
 }
 
 #[test]
+fn the_example_of_the_readme_lacks_nothing_but_its_back() {
+    let readme = include_str!("../README.md");
+    let (_, rest) = readme.split_once("```toml\n").expect("it has an example");
+    let (example, _) = rest.split_once("```").expect("the example ends");
+    let said = mistakes("a.toml", example);
+    assert_eq!(said.matches("a.toml:").count(), 2, "{said}");
+    assert_eq!(said.matches("there is no panel \"back\"").count(), 2, "{said}");
+}
+
+#[test]
 fn mistakes_of_the_own_format_have_line_value_and_remedy() {
     let toml =
         |exchanges: &[(&str, &str)], words: &[&str]| says("a.toml", &squares(exchanges), words);
