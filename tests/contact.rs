@@ -46,7 +46,7 @@ fn jittered(name: &str, seed: u64, folder: &Path) -> PathBuf {
             panel.insert("noise".into(), noise.into());
         }
     }
-    let mut place = |table: &mut toml::Table| {
+    let place = |table: &mut toml::Table| {
         let file = scenes.join(table["file"].as_str().expect("a path"));
         table.insert("file".into(), file.to_string_lossy().into_owned().into());
     };

@@ -1,0 +1,314 @@
+//! A picture of cut panels, as SVG.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use crate::cut::{Cut, CutPattern};
+use crate::edge::difference;
+use crate::panel::Panel;
+use crate::pattern::Pattern;
+
+/// Width of the picture over its height, about.
+const SHAPE: f64 = 2.2;
+
+/// Degrees of hue between the colours of stitches that follow each other: the golden angle, so that few are
+/// alike.
+const HUE_STEP: f64 = 137.508;
+
+/// Draws the panels of a cut side by side, in mm.
+///
+/// Grey are cells and rim, black the outline; both sides of a seam have the same colour. An arrow along
+/// the warp shows the grain, and small letters name the edges.
+#[must_use]
+pub fn figure(pattern: &Pattern, cut: &CutPattern) -> String {
+    let sheet = Sheet::new(cut);
+    let [width, height] = sheet.size.map(|x| x.ceil().max(1.0));
+    let letter = sheet.letter;
+    let mut svg = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        svg,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"{letter:.1}\" \
+         fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>"
+    );
+    for (number, panel) in pattern.panels().iter().enumerate() {
+        let drawing = Drawing { sheet: &sheet, cut: &cut.panels[number], number };
+        drawing.mesh(&mut svg);
+        drawing.seams(cut, &mut svg);
+        drawing.words(panel, &mut svg);
+    }
+    svg.push_str("</svg>\n");
+    svg
+}
+
+/// Where the panels lie in the picture. Lengths are in mm.
+struct Sheet {
+    size: [f64; 2],
+    /// Place of each panel's origin.
+    places: Vec<[f64; 2]>,
+    letter: f64,
+}
+
+/// The smallest upright rectangle round a cut, in mm: its low and its high corner.
+fn extent(cut: &Cut) -> [[f64; 2]; 2] {
+    let of = |k: usize| {
+        let all = cut.positions.iter().map(|p| 1000.0 * p[k]);
+        [all.clone().fold(f64::MAX, f64::min), all.fold(f64::MIN, f64::max)]
+    };
+    let ([left, right], [bottom, top]) = (of(0), of(1));
+    [[left, bottom], [right, top]]
+}
+
+impl Sheet {
+    /// Rows of panels, in their order.
+    fn new(cut: &CutPattern) -> Self {
+        let extents: Vec<_> = cut.panels.iter().map(extent).collect();
+        let area: f64 =
+            extents.iter().map(|[low, high]| difference(*high, *low)).map(|[x, y]| x * y).sum();
+        let row = (SHAPE * area).sqrt();
+        let letter = 0.012 * row;
+        let gap = 3.0 * letter;
+        // Tall ones first, so that rows are full.
+        let height = |k: usize| extents[k][1][1] - extents[k][0][1];
+        let mut order: Vec<usize> = (0..extents.len()).collect();
+        order.sort_by(|&a, &b| height(b).total_cmp(&height(a)).then(a.cmp(&b)));
+        let (mut x, mut y, mut tallest, mut width) = (gap, gap, 0.0_f64, 0.0_f64);
+        let mut places = vec![[0.0; 2]; extents.len()];
+        for k in order {
+            let [low, high] = extents[k];
+            let across = high[0] - low[0];
+            if x > gap && x + across > 1.15 * row {
+                (x, y, tallest) = (gap, y + tallest + gap, 0.0);
+            }
+            places[k] = [x - low[0], y + high[1]];
+            x += across + gap;
+            tallest = tallest.max(height(k));
+            width = width.max(x);
+        }
+        Self { size: [width, y + tallest + gap], places, letter }
+    }
+}
+
+/// A panel in the picture.
+struct Drawing<'a> {
+    sheet: &'a Sheet,
+    cut: &'a Cut,
+    number: usize,
+}
+
+impl Drawing<'_> {
+    /// A point of the panel, in m, in the picture.
+    fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [left, top] = self.sheet.places[self.number];
+        [left + 1000.0 * x, top - 1000.0 * y]
+    }
+
+    fn node(&self, node: u32) -> [f64; 2] {
+        self.point(self.cut.positions[node as usize])
+    }
+
+    fn line(&self, [from, to]: [u32; 2], path: &mut String) {
+        let (a, b) = (self.node(from), self.node(to));
+        let _ = write!(path, "M{:.1} {:.1}l{:.1} {:.1}", a[0], a[1], b[0] - a[0], b[1] - a[1]);
+    }
+
+    fn mesh(&self, svg: &mut String) {
+        let width = 0.06 * self.sheet.letter;
+        let outline = polygon(self.cut.outline.iter().map(|&n| self.node(n)));
+        let cells = self.cells();
+        let rim = self.rim();
+        let _ = writeln!(
+            svg,
+            "<path d=\"{outline}\" fill=\"#faf7f2\" stroke=\"#222222\" stroke-width=\"{:.2}\"/>\n\
+             <path d=\"{cells}\" stroke=\"#9aa5b1\" stroke-width=\"{width:.2}\"/>\n\
+             <path d=\"{rim}\" stroke=\"#c9a27a\" stroke-width=\"{width:.2}\"/>",
+            2.5 * width,
+        );
+    }
+
+    /// The sides of cells, those in one line drawn as one.
+    fn cells(&self) -> String {
+        let mut path = String::new();
+        let sides =
+            self.cut.quads.iter().flat_map(|&[a, b, c, d]| [[a, b], [d, c], [a, d], [b, c]]);
+        let place = |node: u32| self.cut.lattice[node as usize].unwrap_or_default();
+        // Along warp or weft, line by line, with the two ends.
+        let line = |[from, to]: [u32; 2]| {
+            let ([c, r], [column, _]) = (place(from), place(to));
+            if column == c { (0, c, r, from, to) } else { (1, r, c, from, to) }
+        };
+        let all: BTreeSet<_> = sides.map(line).collect();
+        let mut run: Option<(u32, u32, u32, [u32; 2])> = None;
+        for (axis, across, along, from, to) in all {
+            run = Some(match run {
+                Some((a, b, next, [start, _])) if (a, b, next) == (axis, across, along) => {
+                    (axis, across, along + 1, [start, to])
+                }
+                other => {
+                    if let Some((.., ends)) = other {
+                        self.line(ends, &mut path);
+                    }
+                    (axis, across, along + 1, [from, to])
+                }
+            });
+        }
+        if let Some((.., ends)) = run {
+            self.line(ends, &mut path);
+        }
+        path
+    }
+
+    /// The sides between triangles.
+    fn rim(&self) -> String {
+        let mut path = String::new();
+        let triangles = self.cut.triangles.iter();
+        let sides: BTreeSet<[u32; 2]> =
+            triangles.flat_map(|t| (0..3).map(|k| [t[k], t[(k + 1) % 3]])).collect();
+        for &[a, b] in sides.iter().filter(|[a, b]| a < b && sides.contains(&[*b, *a])) {
+            self.line([a, b], &mut path);
+        }
+        path
+    }
+
+    fn seams(&self, cut: &CutPattern, svg: &mut String) {
+        let outline = &self.cut.outline;
+        let next = outline.iter().cycle().skip(1);
+        let sides: BTreeSet<[u32; 2]> =
+            outline.iter().zip(next).flat_map(|(&a, &b)| [[a, b], [b, a]]).collect();
+        for (stitch, seam) in cut.seams.iter().enumerate() {
+            let mut path = String::new();
+            for side in 0..2 {
+                let here = seam.iter().map(|pair| pair[side]).filter(|id| id.panel == self.number);
+                let mut last = None;
+                for node in here.map(|id| id.node) {
+                    let [x, y] = self.node(node);
+                    // A chain may go on elsewhere, as at the mouth of a dart.
+                    let onward = last.is_some_and(|last| sides.contains(&[last, node]));
+                    let _ = write!(path, "{}{x:.1} {y:.1}", if onward { 'L' } else { 'M' });
+                    last = Some(node);
+                }
+            }
+            if !path.is_empty() {
+                let (colour, width) = (colour(stitch), 0.35 * self.sheet.letter);
+                let _ = writeln!(
+                    svg,
+                    "<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width:.2}\"/>"
+                );
+            }
+        }
+    }
+
+    fn words(&self, panel: &Panel, svg: &mut String) {
+        let letter = self.sheet.letter;
+        let middle = self.middle();
+        let (sine, cosine) = panel.grain().sin_cos();
+        // The arrow along the warp, a third of the way through the panel.
+        let [low, high] = extent(self.cut);
+        let [width, height] = difference(high, low);
+        let through = (width / sine.abs()).min(height / cosine.abs());
+        let half = (through / 6.0).min(4.0 * letter);
+        let along = [-sine, -cosine];
+        let tip = [middle[0] + half * along[0], middle[1] + half * along[1]];
+        let wing = |side: f64| {
+            let back = [0.7 * letter * along[0], 0.7 * letter * along[1]];
+            [tip[0] - back[0] - side * 0.5 * back[1], tip[1] - back[1] + side * 0.5 * back[0]]
+        };
+        let ([a, b], [c, d]) = (wing(1.0), wing(-1.0));
+        let _ = writeln!(
+            svg,
+            "<path d=\"M{:.1} {:.1}L{:.1} {:.1}M{a:.1} {b:.1}L{:.1} {:.1}L{c:.1} {d:.1}\" \
+             stroke=\"#222222\" stroke-width=\"{:.2}\"/>",
+            middle[0] - half * along[0],
+            middle[1] - half * along[1],
+            tip[0],
+            tip[1],
+            tip[0],
+            tip[1],
+            0.15 * letter,
+        );
+        let name = [middle[0], middle[1] + half * along[1].abs() + 1.4 * letter];
+        word(svg, (panel.name(), "middle"), (name, 1.2 * letter));
+        for (edge, nodes) in panel.outline().iter().zip(&self.cut.edges) {
+            // Beside the middle of the edge, inside.
+            let half = nodes.len() / 2;
+            let (from, to) = (self.node(nodes[half.saturating_sub(1)]), self.node(nodes[half]));
+            let [x, y] = difference(to, from);
+            let length = x.hypot(y).max(f64::MIN_POSITIVE);
+            let inward = [y / length, -x / length];
+            let at = [0, 1].map(|k| 0.5 * (from[k] + to[k]) + 0.9 * letter * inward[k]);
+            let anchor = match inward[0] {
+                0.5.. => "start",
+                ..-0.5 => "end",
+                _ => "middle",
+            };
+            word(svg, (&edge.name, anchor), (at, 0.75 * letter));
+        }
+    }
+
+    /// The middle of the cell that is farthest from the outline, or of the panel's box without cells.
+    fn middle(&self) -> [f64; 2] {
+        let centre = |quad: &[u32; 4]| {
+            let (a, c) = (self.node(quad[0]), self.node(quad[2]));
+            [0.5 * (a[0] + c[0]), 0.5 * (a[1] + c[1])]
+        };
+        let outline: Vec<[f64; 2]> = self.cut.outline.iter().map(|&n| self.node(n)).collect();
+        let clear = |p: &[f64; 2]| {
+            let distances = outline.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1]));
+            distances.fold(f64::MAX, f64::min)
+        };
+        let step = (self.cut.quads.len() / 400).max(1);
+        let centres = self.cut.quads.iter().step_by(step).map(centre);
+        let best = centres.max_by(|a, b| clear(a).total_cmp(&clear(b)));
+        best.unwrap_or_else(|| {
+            let [low, high] = extent(self.cut);
+            self.point([0, 1].map(|k| 0.0005 * (low[k] + high[k])))
+        })
+    }
+}
+
+fn polygon(points: impl Iterator<Item = [f64; 2]>) -> String {
+    let mut path = String::new();
+    for (k, [x, y]) in points.enumerate() {
+        let _ = write!(path, "{}{x:.1} {y:.1}", if k == 0 { 'M' } else { 'L' });
+    }
+    path.push('Z');
+    path
+}
+
+/// A word that begins, ends or has its middle at a place, on white.
+fn word(svg: &mut String, (text, anchor): (&str, &str), ([x, y], size): ([f64; 2], f64)) {
+    let mut clean = String::new();
+    for letter in text.chars() {
+        match letter {
+            '&' => clean.push_str("&amp;"),
+            '<' => clean.push_str("&lt;"),
+            '>' => clean.push_str("&gt;"),
+            // XML has no place for them.
+            letter if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => {
+                clean.push(' ');
+            }
+            letter => clean.push(letter),
+        }
+    }
+    let _ = writeln!(
+        svg,
+        "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"{size:.1}\" text-anchor=\"{anchor}\" fill=\"#222222\" \
+         stroke=\"#ffffff\" stroke-width=\"{:.2}\" paint-order=\"stroke\">{clean}</text>",
+        y + 0.35 * size,
+        0.25 * size,
+    );
+}
+
+/// The colour of a stitch.
+fn colour(stitch: usize) -> String {
+    // Hue in sixths of the circle; full saturation, and every other turn darker.
+    let hue = (stitch as f64 * HUE_STEP / 60.0).rem_euclid(6.0);
+    let value = if stitch.is_multiple_of(2) { 0.9 } else { 0.7 };
+    let channel = |shift: f64| {
+        let part = ((hue + shift).rem_euclid(6.0) - 3.0).abs() - 1.0;
+        (255.0 * value * part.clamp(0.0, 1.0)).round() as u8
+    };
+    format!("#{:02x}{:02x}{:02x}", channel(0.0), channel(4.0), channel(2.0))
+}

@@ -1,0 +1,111 @@
+use drape_pattern::{CutPattern, Cutter, Error, Mistake, Note, Panel, Pattern, Quality};
+
+use crate::invariants;
+
+pub fn shipped(name: &str) -> Pattern {
+    let path = format!("{}/patterns/{name}", env!("CARGO_MANIFEST_DIR"));
+    Pattern::read(path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+const GARMENTS: [&str; 4] = ["shirt.json", "skirt.json", "trousers.json", "teagan.json"];
+
+/// Cuts a pattern, holds it against what is promised, and returns the number of particles with the cut.
+pub fn cut(pattern: &Pattern, spacing: f64) -> (usize, CutPattern) {
+    let cut = Cutter::new(spacing).cut(pattern).unwrap_or_else(|error| panic!("{error}"));
+    invariants::check(pattern, &cut);
+    assert!(cut.notes.iter().all(|n| !matches!(n, Note::Thin { .. })), "{:?}", cut.notes);
+    for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
+        let quality = Quality::new(panel, cut, spacing);
+        let name = panel.name();
+        assert!(quality.shortest >= 0.5, "{name} at {spacing}: {quality:?}");
+        assert!(quality.longest <= 2.0, "{name} at {spacing}: {quality:?}");
+        assert!(quality.sharpest.to_degrees() >= 20.0, "{name} at {spacing}: {quality:?}");
+        // A chord of h across a circle of radius R cuts off h³/12R.
+        let area = 5e-4 * (spacing / 0.01).powi(2).max(1.0);
+        assert!(quality.area_error.abs() <= area, "{name} at {spacing}: {quality:?}");
+        assert!(quality.deviation <= 0.1 * spacing, "{name} at {spacing}: {quality:?}");
+    }
+    (cut.particles(), cut)
+}
+
+#[test]
+fn garments_are_cut_well_at_all_spacings() {
+    for name in GARMENTS {
+        let pattern = shipped(name);
+        for spacing in [0.005, 0.01, 0.015] {
+            println!("{name} at {spacing}: {} particles", cut(&pattern, spacing).0);
+        }
+    }
+    for name in ["skirt.json", "trousers.json", "teagan.json"] {
+        println!("{name} at 0.02: {} particles", cut(&shipped(name), 0.02).0);
+    }
+}
+
+#[test]
+fn an_edge_between_two_seams_that_is_too_short_names_the_spacing() {
+    let result = Cutter::new(0.02).cut(&shipped("shirt.json"));
+    let Err(Error::Pattern(mistakes)) = result else { panic!("the sleeves have edges of 7.5 mm") };
+    let edges: Vec<&str> = mistakes
+        .iter()
+        .map(|mistake| match mistake {
+            Mistake::ShortEdge { panel, edge, .. } => {
+                assert!(panel.ends_with("sleeve_b"), "{mistake}");
+                edge.as_str()
+            }
+            _ => panic!("{mistake}"),
+        })
+        .collect();
+    assert_eq!(edges, ["2", "3"]);
+    assert!(mistakes[0].help().contains("15.0 mm"), "{}", mistakes[0].help());
+}
+
+#[test]
+fn the_grain_may_run_at_any_angle() {
+    for name in GARMENTS {
+        let pattern = shipped(name);
+        for degrees in [17.0_f64, 45.0, 90.0] {
+            let turned = |panel: &Panel| {
+                let angle = panel.grain() + degrees.to_radians();
+                panel.clone().with_grain(angle).expect("it is finite")
+            };
+            let panels = pattern.panels().iter().map(turned).collect();
+            let turned = Pattern::new(panels, pattern.stitches().to_vec()).expect("it is sound");
+            for spacing in [0.005, 0.01, 0.015] {
+                cut(&turned, spacing);
+            }
+        }
+    }
+}
+
+#[test]
+fn cutting_again_gives_the_same_bits() {
+    let pattern = shipped("shirt.json");
+    let [one, two] = [0, 1].map(|_| Cutter::default().cut(&pattern).expect("it can be cut"));
+    assert!(one == two);
+}
+
+#[test]
+fn clockwise_panels_lie_where_the_file_puts_them_and_face_outwards() {
+    let pattern = shipped("shirt.json");
+    let panel = |name: &str| {
+        let all = pattern.panels();
+        all.iter().find(|p| p.name() == name).expect("it is there").clone()
+    };
+    let back = panel("left_btorso");
+    let placement = back.placement().expect("it has a place");
+    // Edge 4 begins where edge 3 ends, at (17.289, 43.410) cm in the file, at z = −20 cm.
+    let point = placement.point(back.outline()[4].start);
+    let expected = [0.17289, 0.9466 + 0.4341, -0.2];
+    assert!(point.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5), "{point:?}");
+    let right_side = placement.rotation.map(|row| row[2]);
+    assert!((right_side[2] + 1.0).abs() < 1e-12, "{right_side:?}");
+    let front = panel("left_ftorso");
+    let right_side = front.placement().expect("it has a place").rotation.map(|row| row[2]);
+    assert!((right_side[2] - 1.0).abs() < 1e-12, "{right_side:?}");
+    // Sewn right side on right side, no seam is twisted.
+    for name in GARMENTS {
+        let twisted =
+            shipped(name).notes().iter().filter(|n| n.to_string().contains("wrong way")).count();
+        assert_eq!(twisted, 0, "{name}");
+    }
+}

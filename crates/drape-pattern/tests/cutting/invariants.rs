@@ -1,0 +1,146 @@
+use std::collections::BTreeMap;
+
+use drape_pattern::{Cut, CutPattern, Pattern};
+
+/// Twice the area of a polygon, from its first corner.
+fn twice_area(points: &[[f64; 2]]) -> f64 {
+    let arm = |k: usize| [points[k][0] - points[0][0], points[k][1] - points[0][1]];
+    let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
+    (1..points.len() - 1).map(|k| cross(arm(k), arm(k + 1))).sum()
+}
+
+/// What holds for every cut of every pattern.
+pub fn check(pattern: &Pattern, cut: &CutPattern) {
+    assert_eq!(pattern.panels().len(), cut.panels.len());
+    for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
+        assert_eq!(panel.name(), cut.panel);
+        tiling(cut);
+        clearance(cut);
+        frames(cut, panel.grain());
+        edges(cut);
+    }
+    seams(pattern, cut);
+}
+
+/// Cells and triangles lie anticlockwise, fill the sampled outline, and meet side to side.
+fn tiling(cut: &Cut) {
+    let at = |node: &u32| cut.positions[*node as usize];
+    let faces: Vec<&[u32]> = cut
+        .quads
+        .iter()
+        .map(|q| q.as_slice())
+        .chain(cut.triangles.iter().map(|t| t.as_slice()))
+        .collect();
+    let outline: Vec<[f64; 2]> = cut.outline.iter().map(at).collect();
+    let whole = twice_area(&outline);
+    let mut sum = 0.0;
+    let mut sides: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+    let mut used = vec![false; cut.positions.len()];
+    for face in faces {
+        let corners: Vec<[f64; 2]> = face.iter().map(at).collect();
+        let area = twice_area(&corners);
+        assert!(area > 0.0, "{}: face {face:?} has twice the area {area}", cut.panel);
+        sum += area;
+        for k in 0..face.len() {
+            *sides.entry([face[k], face[(k + 1) % face.len()]]).or_default() += 1;
+            used[face[k] as usize] = true;
+        }
+    }
+    assert!((sum / whole - 1.0).abs() < 1e-10, "{}: areas {sum} and {whole}", cut.panel);
+    assert!(used.iter().all(|u| *u), "{}: a node is in no face", cut.panel);
+    assert!(sides.values().all(|n| *n == 1), "{}: a side is in two faces", cut.panel);
+    let n = cut.outline.len();
+    for k in 0..n {
+        let side = [cut.outline[k], cut.outline[(k + 1) % n]];
+        assert_eq!(sides.remove(&side), Some(1), "{}: side {k} of the outline", cut.panel);
+    }
+    for [a, b] in sides.keys() {
+        assert!(sides.contains_key(&[*b, *a]), "{}: {a} {b} has one face", cut.panel);
+    }
+}
+
+/// What joins a node of the lattice to another node is 0.6 spacings long or more.
+fn clearance(cut: &Cut) {
+    let least = 0.6 * cut.spacing[0] * (1.0 - 1e-9);
+    for triangle in &cut.triangles {
+        for k in 0..3 {
+            let [a, b] = [triangle[k], triangle[(k + 1) % 3]].map(|n| n as usize);
+            let [p, q] = [cut.positions[a], cut.positions[b]];
+            let length = (p[0] - q[0]).hypot(p[1] - q[1]);
+            let inner = cut.lattice[a].is_some() || cut.lattice[b].is_some();
+            assert!(!inner || length >= least, "{}: {length} under {least}", cut.panel);
+        }
+    }
+}
+
+/// Both frames hold the same nodes, and cells are rectangles along the yarns.
+fn frames(cut: &Cut, grain: f64) {
+    let (sine, cosine) = grain.sin_cos();
+    let far = cut.positions.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let near = 1e-13 * far + 1e-9 * cut.spacing[0].min(cut.spacing[1]);
+    for (p, q) in cut.positions.iter().zip(&cut.yarns) {
+        let [x, y] = [cosine * q[0] - sine * q[1], sine * q[0] + cosine * q[1]];
+        assert!((x - p[0]).abs() < near && (y - p[1]).abs() < near, "{p:?} {q:?}");
+    }
+    for quad in &cut.quads {
+        let [a, b, c, d] = quad.map(|n| cut.yarns[n as usize]);
+        let [u, v] = cut.spacing;
+        for (p, offset) in [(b, [u, 0.0]), (c, [u, v]), (d, [0.0, v])] {
+            let error = [p[0] - a[0] - offset[0], p[1] - a[1] - offset[1]];
+            assert!(error.iter().all(|e| e.abs() < near), "{quad:?} {error:?}");
+        }
+        let [p, q, r, s] = quad.map(|n| cut.lattice[n as usize].expect("it is of the lattice"));
+        let [x, y] = p;
+        assert_eq!([q, r, s], [[x + 1, y], [x + 1, y + 1], [x, y + 1]]);
+    }
+}
+
+/// The nodes of edges run along the outline, and each edge begins where the one before it ends.
+fn edges(cut: &Cut) {
+    let n = cut.outline.len();
+    let place =
+        |node: u32| cut.outline.iter().position(|k| *k == node).expect("it is on the outline");
+    for (k, edge) in cut.edges.iter().enumerate() {
+        let next = &cut.edges[(k + 1) % cut.edges.len()];
+        assert_eq!(edge.last(), next.first(), "{}: after edge {k}", cut.panel);
+        for pair in edge.windows(2) {
+            assert_eq!((place(pair[0]) + 1) % n, place(pair[1]), "{}: edge {k}", cut.panel);
+        }
+    }
+    let arcs: usize = cut.edges.iter().map(|e| e.len() - 1).sum();
+    assert_eq!(arcs, n, "{}: the edges make the outline", cut.panel);
+}
+
+/// Both sides of seams advance by one node at a time, in their senses, or leave for another panel.
+fn seams(pattern: &Pattern, cut: &CutPattern) {
+    assert_eq!(cut.seams.len(), pattern.stitches().len());
+    for (stitch, seam) in pattern.stitches().iter().zip(&cut.seams) {
+        let on_side = |side: usize| -> Vec<(usize, u32)> {
+            let ids = stitch.sides[side].iter();
+            ids.flat_map(|id| cut.panels[id.panel].edges[id.edge].iter().map(|n| (id.panel, *n)))
+                .collect()
+        };
+        let allowed = [on_side(0), on_side(1)];
+        for pair in seam {
+            for side in 0..2 {
+                let node = (pair[side].panel, pair[side].node);
+                // An edge that was joined with a neighbour lends its nodes to another stitch.
+                let joined = cut.notes.iter().any(|n| n.to_string().contains("half the spacing"));
+                assert!(joined || allowed[side].contains(&node), "{} {node:?}", stitch.name);
+            }
+        }
+        for two in seam.windows(2) {
+            for side in 0..2 {
+                let [from, to] = [two[0][side], two[1][side]];
+                let outline = &cut.panels[from.panel].outline;
+                let place = |n: u32| outline.iter().position(|k| *k == n).expect("on the outline");
+                if from.panel == to.panel {
+                    let (a, b) = (place(from.node), place(to.node));
+                    let (a, b) = if side == 0 || stitch.reversed { (a, b) } else { (b, a) };
+                    let step = (b + outline.len() - a) % outline.len();
+                    assert!(step <= 1 || stitch.sides[side].len() > 1, "{}: {two:?}", stitch.name);
+                }
+            }
+        }
+    }
+}
