@@ -2,9 +2,12 @@ use std::path::Path;
 
 use drape_collide::{Body, Mesh, Pose, Settings, Shape};
 
-use crate::file::{MotionFile, SceneFile};
+use crate::course::Course;
+use crate::file::{MeshMotionFile, MotionFile, SceneFile};
+use crate::placement::turned;
 use crate::reader::Reader;
-use crate::track::{Track, turn};
+use crate::shapes::{Shapes, ShapesError};
+use crate::track::turn;
 
 /// The shortest and the longest body of a mesh, in m. A figure of 1.7 m that was read in another unit is 1.7 mm, 170 m
 /// or 1.7 km long.
@@ -18,7 +21,7 @@ struct Parts<'a> {
     center: [f64; 3],
     turn: [f64; 3],
     friction: Option<f64>,
-    motion: &'a Option<MotionFile>,
+    motion: Option<&'a MotionFile>,
 }
 
 /// A body with what the file says beyond its form and place.
@@ -27,7 +30,7 @@ pub(crate) struct Moving {
     /// Its coefficient of friction; the fabric's if missing.
     pub(crate) friction: Option<f64>,
     /// Its way; none if it stays.
-    pub(crate) track: Option<Track>,
+    pub(crate) course: Option<Course>,
 }
 
 impl Reader<'_> {
@@ -73,21 +76,22 @@ impl Reader<'_> {
             let name = parts.name.cloned().unwrap_or_else(|| format!("{kind} {}", index + 1));
             let center = parts.center.map(|x| x * unit);
             let key = format!("collider.{kind}[{index}].motion");
-            let motion = parts.motion.as_ref();
+            let motion = parts.motion;
             let track = motion.and_then(|motion| reader.track(&key, motion, (center, unit)));
             let body = Body::new(name, parts.shape, turn(Pose::new(center), parts.turn));
-            bodies.push(Moving { body, friction: parts.friction, track });
+            let course = track.map(Course::Rigid);
+            bodies.push(Moving { body, friction: parts.friction, course });
         };
         for (index, s) in colliders.sphere.iter().enumerate() {
             let shape = Shape::Sphere { radius: s.radius * unit };
-            let (name, friction, motion) = (s.name.as_ref(), s.friction, &s.motion);
+            let (name, friction, motion) = (s.name.as_ref(), s.friction, s.motion.as_ref());
             let (center, turn) = (s.center, [0.0; 3]);
             add(self, ("sphere", index), Parts { name, shape, center, turn, friction, motion });
         }
         for (index, b) in colliders.boxes.iter().enumerate() {
             let half_extents = b.size.map(|side| 0.5 * side * unit);
             let shape = Shape::Box { half_extents, edge_radius: b.edge_radius * unit };
-            let (name, friction, motion) = (b.name.as_ref(), b.friction, &b.motion);
+            let (name, friction, motion) = (b.name.as_ref(), b.friction, b.motion.as_ref());
             let (center, turn) = (b.center, b.turn);
             add(self, ("box", index), Parts { name, shape, center, turn, friction, motion });
         }
@@ -97,22 +101,28 @@ impl Reader<'_> {
                 half_height: 0.5 * c.height * unit,
                 edge_radius: c.edge_radius * unit,
             };
-            let (name, friction, motion) = (c.name.as_ref(), c.friction, &c.motion);
+            let (name, friction, motion) = (c.name.as_ref(), c.friction, c.motion.as_ref());
             let (center, turn) = (c.center, c.turn);
             add(self, ("cylinder", index), Parts { name, shape, center, turn, friction, motion });
         }
         for (index, p) in colliders.plane.iter().enumerate() {
             let (name, shape, friction) = (p.name.as_ref(), Shape::Plane, p.friction);
-            let (center, turn, motion) = (p.center, p.turn, &p.motion);
+            let (center, turn, motion) = (p.center, p.turn, p.motion.as_ref());
             add(self, ("plane", index), Parts { name, shape, center, turn, friction, motion });
         }
         for (index, m) in colliders.mesh.iter().enumerate() {
+            if m.frames.is_some() || m.point_cache().is_some() {
+                continue;
+            }
             match Mesh::load(folder.join(&m.file), m.scale.unwrap_or(unit)) {
                 Ok(mesh) => {
                     self.size(index, &mesh);
                     let (name, shape) = (m.name.as_ref(), Shape::Mesh(mesh));
                     let (center, turn, friction) = (m.center, m.turn, m.friction);
-                    let motion = &m.motion;
+                    let motion = match &m.motion {
+                        Some(MeshMotionFile::Keys(motion)) => Some(motion),
+                        _ => None,
+                    };
                     add(
                         self,
                         ("mesh", index),
@@ -125,6 +135,93 @@ impl Reader<'_> {
                 }
             }
         }
+        for index in 0..colliders.mesh.len() {
+            bodies.extend(self.changing(file, (index, folder), unit));
+        }
         bodies
+    }
+
+    /// A body that changes its shape, if the mesh of this number is one.
+    fn changing(
+        &mut self,
+        file: &SceneFile,
+        (index, folder): (usize, &Path),
+        unit: f64,
+    ) -> Option<Moving> {
+        let m = &file.collider.mesh[index];
+        let key = match (&m.frames, m.point_cache()) {
+            (Some(_), _) => "frames",
+            (None, Some(_)) => "motion",
+            (None, None) => return None,
+        };
+        let key = format!("collider.mesh[{index}].{key}");
+        let Some(rate) = m.rate else {
+            let help = "add rate = 24, or how many frames a second has";
+            self.fail(&key, "the motion has no rate".to_owned(), help);
+            return None;
+        };
+        let help = "frames per second; 24 is usual";
+        let sound = self.within(&format!("collider.mesh[{index}].rate"), rate, (1e-3, 1e5), help);
+        let start = m.start.unwrap_or(0.0);
+        let help = "when the first frame is left, in s";
+        let key_of_start = format!("collider.mesh[{index}].start");
+        if !self.within(&key_of_start, start, (0.0, 1e6), help) || !sound {
+            return None;
+        }
+        if !file.contact.surfaces.unwrap_or(false) {
+            let help = "add contact.surfaces = true";
+            let message = "only surfaces meet a body that changes its shape".to_owned();
+            self.fail(&key, message, help);
+            return None;
+        }
+        let scale = m.scale.unwrap_or(unit);
+        let place = |point: [f64; 3]| {
+            let arm = turned(point.map(|x| scale * x), m.turn);
+            [0, 1, 2].map(|axis| m.center[axis] * unit + arm[axis])
+        };
+        match Shapes::read(m, folder, (rate, start), place) {
+            Ok((mesh, shapes)) => {
+                self.size(index, &mesh);
+                let name = m.name.clone().unwrap_or_else(|| format!("mesh {}", index + 1));
+                let body = Body::new(name, Shape::Mesh(mesh), Pose::default());
+                let course = Some(Course::Shapes(shapes));
+                Some(Moving { body, friction: m.friction, course })
+            }
+            Err(ShapesError::File(error)) => {
+                self.mistakes.push(self.document.at(&key, error.to_string()));
+                None
+            }
+            Err(ShapesError::Fit(message)) => {
+                let help = "export the body and its motion anew, with the same vertices";
+                self.fail(&key, message, help);
+                None
+            }
+        }
+    }
+
+    /// No body may pass the particles by in one step: the cloth could not follow it.
+    pub(crate) fn speeds(&mut self, bodies: &[Moving], (step, spacing): (f64, f64)) {
+        for Moving { body, course, .. } in bodies {
+            // The far corners of a floor are no bodies.
+            let (Some(course), false) = (course, matches!(body.shape, Shape::Plane)) else {
+                continue;
+            };
+            let Ok(outline) = body.triangulate() else { continue };
+            let speed = course.speed_max(&outline.vertices);
+            if !(speed * step <= spacing) {
+                let message = format!(
+                    "the body \"{}\" moves at {speed:.3} m/s, {:.2} mm in a step, and particles are {:.2} mm apart",
+                    body.name,
+                    1e3 * speed * step,
+                    1e3 * spacing
+                );
+                let longest = spacing / speed;
+                let help = format!(
+                    "cloth follows a body by a spacing in a step at most: give time.step = {longest:.1e} or less, or slow \
+                     the body"
+                );
+                self.fail("time.step", message, &help);
+            }
+        }
     }
 }

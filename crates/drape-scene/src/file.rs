@@ -1,8 +1,11 @@
 //! The TOML form of a scene. `SceneFile` mirrors the text; nothing here is checked beyond its type.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
-use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -153,7 +156,7 @@ pub(crate) struct ColliderFile {
     #[serde(default)]
     pub(crate) plane: Vec<PlaneFile>,
     #[serde(default)]
-    pub(crate) mesh: Vec<MeshFile>,
+    pub(crate) mesh: Vec<MeshBodyFile>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -213,7 +216,7 @@ pub(crate) struct PlaneFile {
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct MeshFile {
+pub(crate) struct MeshBodyFile {
     pub(crate) name: Option<String>,
     pub(crate) file: String,
     /// Unit of the file's coordinates, in m.
@@ -223,7 +226,53 @@ pub(crate) struct MeshFile {
     #[serde(default)]
     pub(crate) turn: [f64; 3],
     pub(crate) friction: Option<f64>,
-    pub(crate) motion: Option<MotionFile>,
+    pub(crate) motion: Option<MeshMotionFile>,
+    /// Mesh files, with a * for the number of the frame.
+    pub(crate) frames: Option<String>,
+    /// Frames per second.
+    pub(crate) rate: Option<f64>,
+    /// When the first frame is left, in s.
+    pub(crate) start: Option<f64>,
+}
+
+impl MeshBodyFile {
+    /// The point cache that it moves by, if it does.
+    pub(crate) fn point_cache(&self) -> Option<&str> {
+        match &self.motion {
+            Some(MeshMotionFile::PointCache(file)) => Some(file),
+            _ => None,
+        }
+    }
+}
+
+/// How a mesh moves: along keys, or as a file says.
+#[derive(Debug)]
+pub(crate) enum MeshMotionFile {
+    Keys(MotionFile),
+    PointCache(String),
+}
+
+impl<'de> Deserialize<'de> for MeshMotionFile {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Either;
+        impl<'de> Visitor<'de> for Either {
+            type Value = MeshMotionFile;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table of keys, or the name of a point cache")
+            }
+
+            fn visit_str<E>(self, file: &str) -> Result<Self::Value, E> {
+                Ok(MeshMotionFile::PointCache(file.to_owned()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+                let keys = MotionFile::deserialize(MapAccessDeserializer::new(map));
+                keys.map(MeshMotionFile::Keys)
+            }
+        }
+        deserializer.deserialize_any(Either)
+    }
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -1,13 +1,14 @@
 use std::path::{Path, PathBuf};
 
 use drape_cloth::{Breen, Cloth, Lattice};
-use drape_collide::{Contact, SurfaceSettings};
+use drape_collide::{Body, Contact, Shape, SurfaceSettings};
 use drape_fabric::Fabric;
 use drape_input::{Diagnostic, Diagnostics, Document};
 
 use crate::SceneError;
 use crate::clock::Clock;
 use crate::collider::Moving;
+use crate::course::Course;
 use crate::file::SceneFile;
 use crate::material::Material;
 use crate::model::Model;
@@ -18,7 +19,6 @@ use crate::scheme::Scheme;
 use crate::settle::Settle;
 use crate::surfaces::{Parts, Surfaces};
 use crate::tangle::{Overlap, Tangle, overlaps};
-use crate::track::Track;
 
 /// Density of air at 20 °C and sea level, in kg/m³.
 const AIR_DENSITY: f64 = 1.2;
@@ -57,7 +57,7 @@ pub struct Scene {
     /// The surfaces of cloth and bodies, if they are kept apart; `contact` then has the bodies for pictures only.
     pub surfaces: Option<Surfaces>,
     /// The ways of the bodies, of those that move.
-    pub tracks: Vec<Option<Track>>,
+    pub courses: Vec<Option<Course>>,
     /// Acceleration of gravity, in m/s².
     pub gravity: [f64; 3],
     /// Half the air's density times the drag coefficient, in kg/m³.
@@ -117,6 +117,9 @@ impl Reader<'_> {
             self.fail("gravity", format!("{gravity:?} is not finite"), "in m/s², [0, -9.81, 0]");
         }
         let bodies = self.bodies(&file, &folder, unit);
+        if file.contact.surfaces.unwrap_or(false) {
+            self.speeds(&bodies, (clock.step, spacing));
+        }
         let contact_settings = self.contact_settings(&file, unit);
         let stick = file.contact.stick.map_or(SurfaceSettings::STICK, |stick| stick * unit);
         self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
@@ -156,10 +159,10 @@ impl Reader<'_> {
             velocities[3 * particle..3 * particle + 3].fill(0.0);
         }
         let fallback = materials.iter().map(|m| m.fabric.surface_friction).fold(0.0, f64::max);
-        let (bodies, tracks): (Vec<_>, Vec<_>) = bodies
+        let (bodies, courses): (Vec<_>, Vec<_>) = bodies
             .into_iter()
-            .map(|Moving { body, friction, track }| {
-                (body.with_friction(friction.unwrap_or(fallback)), track)
+            .map(|Moving { body, friction, course }| {
+                (body.with_friction(friction.unwrap_or(fallback)), course)
             })
             .unzip();
         let surfaces = file.contact.surfaces.unwrap_or(false).then(|| {
@@ -168,7 +171,7 @@ impl Reader<'_> {
                 materials: &materials,
                 cloth: &cloth,
                 bodies: &bodies,
-                tracks: &tracks,
+                courses: &courses,
                 held: &held,
                 offset: contact_settings.offset,
                 stiffness: contact_settings.stiffness,
@@ -202,7 +205,7 @@ impl Reader<'_> {
         Ok(Scene {
             name: file.name.unwrap_or_else(|| "unnamed".into()),
             file: self.document.path().to_owned(),
-            hash: hash(self.document, &materials),
+            hash: hash(self.document, &materials, (contact.bodies(), &courses)),
             materials,
             panels,
             cloth,
@@ -213,7 +216,7 @@ impl Reader<'_> {
             pins,
             contact,
             surfaces,
-            tracks,
+            courses,
             gravity,
             air,
             clock,
@@ -319,11 +322,25 @@ fn without_friction(panels: &[(&Lattice, &Fabric)]) -> Cloth {
     Cloth::new(&lattices.zip(&fabrics).collect::<Vec<_>>())
 }
 
-fn hash(document: &Document, materials: &[Material]) -> String {
+fn hash(
+    document: &Document,
+    materials: &[Material],
+    (bodies, courses): (&[Body], &[Option<Course>]),
+) -> String {
     let mut hasher = blake3::Hasher::new();
     hasher.update(document.text().as_bytes());
     for material in materials {
         hasher.update(material.fabric.to_toml().as_bytes());
+    }
+    let mut number = |value: f64| _ = hasher.update(&value.to_le_bytes());
+    for (body, course) in bodies.iter().zip(courses) {
+        if let Shape::Mesh(mesh) = &body.shape {
+            mesh.vertices().iter().flatten().for_each(|&x| number(x));
+            mesh.triangles().iter().flatten().for_each(|&corner| number(f64::from(corner)));
+        }
+        if let Some(Course::Shapes(shapes)) = course {
+            shapes.numbers().for_each(&mut number);
+        }
     }
     hasher.finalize().to_hex().to_string()
 }

@@ -6,9 +6,9 @@ use drape_collide::{
 };
 use drape_implicit::Way;
 
+use crate::course::Course;
 use crate::material::Material;
 use crate::panel::Panel;
-use crate::track::Track;
 
 /// Part of a fabric's thickness that its surfaces keep between them under any load: half of the thickness under the
 /// largest pressure of a KES compression test, which is 0.6 to 0.8 of that under the least.
@@ -21,7 +21,7 @@ pub struct Surfaces {
     /// Where the bodies' vertices were at the start of the simulation, in m.
     start: Vec<f64>,
     /// Which of them move, and how.
-    moving: Vec<(Range<usize>, Track)>,
+    moving: Vec<(Range<usize>, Course)>,
     /// Crossings that were found, whose steps were taken back.
     pub(crate) crossings: usize,
     held: Vec<usize>,
@@ -33,7 +33,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) materials: &'a [Material],
     pub(crate) cloth: &'a Cloth,
     pub(crate) bodies: &'a [Body],
-    pub(crate) tracks: &'a [Option<Track>],
+    pub(crate) courses: &'a [Option<Course>],
     pub(crate) held: &'a [bool],
     /// Distance of the middle of the cloth from a body at which contact begins, in m.
     pub(crate) offset: f64,
@@ -45,7 +45,7 @@ pub(crate) struct Parts<'a> {
 
 impl Surfaces {
     pub(crate) fn new(parts: &Parts<'_>) -> Result<Self, CollideError> {
-        let Parts { panels, materials, cloth, bodies, tracks, .. } = parts;
+        let Parts { panels, materials, cloth, bodies, courses, .. } = parts;
         let thickness = |panel: &Panel| materials[panel.material].fabric.thickness;
         let thinnest = panels.iter().map(thickness).fold(f64::INFINITY, f64::min);
         let mut surface = SurfaceParts {
@@ -68,7 +68,7 @@ impl Surfaces {
         }
         let mut start = Vec::new();
         let mut moving = Vec::new();
-        for (body, track) in bodies.iter().zip(*tracks) {
+        for (body, course) in bodies.iter().zip(*courses) {
             let outline = body.triangulate()?;
             let first = surface.group.len();
             let count = outline.vertices.len();
@@ -83,8 +83,8 @@ impl Surfaces {
             let reach = (parts.offset - half).max(half);
             surface.skins.push(Skin { reach, separation: CRUSHED * half });
             frictions.push(Ok(body.friction));
-            if let Some(track) = track {
-                moving.push((own, track.clone()));
+            if let Some(course) = course {
+                moving.push((own, course.clone()));
             }
         }
         surface.rest.extend(&start);
@@ -107,13 +107,9 @@ impl Surfaces {
     /// Opens a step that ends at a time, in s.
     pub(crate) fn begin(&mut self, end_time: f64, positions: &[f64]) {
         let mut ends = self.start.clone();
-        for (own, track) in &self.moving {
-            let place = track.points(end_time);
-            for vertex in own.clone() {
-                let own = 3 * vertex..3 * vertex + 3;
-                let start = [0, 1, 2].map(|axis| self.start[3 * vertex + axis]);
-                ends[own].copy_from_slice(&place(start));
-            }
+        for (own, course) in &self.moving {
+            let own = 3 * own.start..3 * own.end;
+            course.place(end_time, &self.start[own.clone()], &mut ends[own]);
         }
         self.contact.begin(positions, &ends);
     }

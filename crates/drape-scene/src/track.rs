@@ -41,6 +41,22 @@ impl Track {
         Pose { position: self.points(time)(start.position), ..turned }
     }
 
+    /// The greatest speed of one of the points that start at these places, in m/s, from a thousandth of the time between
+    /// each two keys: in between a point turns at a steady rate.
+    pub(crate) fn speed_max(&self, start: &[[f64; 3]]) -> f64 {
+        let mut most = 0.0_f64;
+        for pair in self.keys.windows(2) {
+            let [from, time] = [pair[0].time, 1e-3 * (pair[1].time - pair[0].time)];
+            let (before, after) = (self.points(from), self.points(from + time));
+            for &place in start {
+                let (a, b) = (before(place), after(place));
+                let square: f64 = a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum();
+                most = most.max(square.sqrt() / time);
+            }
+        }
+        most
+    }
+
     fn at(&self, time: f64) -> Key {
         let next = self.keys.partition_point(|key| key.time <= time);
         let [Some(before), Some(after)] = [next.wrapping_sub(1), next].map(|k| self.keys.get(k))

@@ -3,6 +3,7 @@ use drape_collide::{Contact, Pose};
 use drape_implicit::{BlockMatrix, Pattern, Stiffness, System, Way};
 
 use crate::bonds::Bonds;
+use crate::course::Course;
 use crate::ledger::{Entry, Ledger};
 use crate::pin::{Pin, PinLoad};
 use crate::scene::Scene;
@@ -59,14 +60,17 @@ impl World {
             pins,
             contact,
             surfaces,
-            tracks,
+            courses,
             gravity,
             air,
             ..
         } = scene;
         let poses = contact.bodies().iter().map(|body| body.pose).enumerate();
-        let moving =
-            poses.zip(tracks).filter_map(|((body, pose), track)| Some((body, pose, track?)));
+        let moving = poses.zip(courses).filter_map(|((body, pose), course)| match course {
+            Some(Course::Rigid(track)) => Some((body, pose, track)),
+            // Its vertices move among the surfaces.
+            Some(Course::Shapes(_)) | None => None,
+        });
         let moving = moving.collect();
         let creeps = scene.settle.is_some_and(|settle| !settle.inertia);
         let mut state = cloth.state(positions).expect("a scene places every particle");

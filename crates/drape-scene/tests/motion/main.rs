@@ -7,5 +7,6 @@ mod energy;
 mod explicit;
 mod rest;
 mod robust;
+mod shapes;
 mod sheet;
 mod surfaces;

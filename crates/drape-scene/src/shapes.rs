@@ -1,0 +1,214 @@
+use std::path::{Path, PathBuf};
+
+use drape_collide::{CollideError, Mesh, MeshFile, PointCache};
+
+use crate::file::MeshBodyFile;
+
+/// Farthest that vertices which are one in the first frame may part in another, in m: some digits of a 32-bit float.
+const PARTED: f64 = 1e-6;
+
+/// Square of the sine of the sharpest triangle of a frame, about: what the mesh of a body may have too.
+const FLAT: f64 = 1e-12;
+
+/// The way of a body that changes its shape: all its vertices at times, between which they go straight; at rest before
+/// the first and after the last.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shapes {
+    /// In s, rising; at least one.
+    times: Vec<f64>,
+    /// Three coordinates per vertex for each time, in m.
+    places: Vec<Vec<f64>>,
+}
+
+/// Why a motion cannot be read.
+#[derive(Debug)]
+pub(crate) enum ShapesError {
+    /// A file is not one.
+    File(CollideError),
+    /// Something does not fit together.
+    Fit(String),
+}
+
+impl From<CollideError> for ShapesError {
+    fn from(error: CollideError) -> Self {
+        Self::File(error)
+    }
+}
+
+/// The frames of a motion as they are in files.
+struct Frames {
+    /// Frames from one sample to the next.
+    stride: f64,
+    /// The file of each.
+    paths: Vec<PathBuf>,
+    samples: Vec<Vec<[f64; 3]>>,
+}
+
+impl Shapes {
+    /// Reads the mesh of a body and its frames. `place` brings a point of the files to its place in the world, in m.
+    pub(crate) fn read(
+        file: &MeshBodyFile,
+        folder: &Path,
+        (rate, start): (f64, f64),
+        place: impl Fn([f64; 3]) -> [f64; 3],
+    ) -> Result<(Mesh, Shapes), ShapesError> {
+        let of_mesh = MeshFile::read(folder.join(&file.file))?;
+        let frames = match (file.point_cache(), &file.frames) {
+            (Some(cache), None) => {
+                let path = folder.join(cache);
+                let cache = PointCache::read(&path)?;
+                let paths = vec![path; cache.samples.len()];
+                Frames { stride: cache.frames_per_sample, paths, samples: cache.samples }
+            }
+            (None, Some(pattern)) => sequence(folder, pattern, &of_mesh)?,
+            _ => {
+                let message = "give either motion = \"….pc2\" or frames = \"…_*.obj\"".to_owned();
+                return Err(ShapesError::Fit(message));
+            }
+        };
+        for (path, sample) in frames.paths.iter().zip(&frames.samples) {
+            let (found, needed) = (sample.len(), of_mesh.vertices.len());
+            if found != needed {
+                return Err(ShapesError::Fit(format!(
+                    "{} has {found} vertices, and {} has {needed}",
+                    path.display(),
+                    file.file
+                )));
+            }
+        }
+        let samples = frames.samples.iter();
+        let samples = samples.map(|sample| sample.iter().map(|&x| place(x)).collect());
+        let samples: Vec<Vec<[f64; 3]>> = samples.collect();
+        let Some(first) = samples.first() else {
+            return Err(ShapesError::Fit("the motion has no frames".to_owned()));
+        };
+        let mesh = Mesh::new(first, &of_mesh.triangles)?;
+        let twins = twins(first, &of_mesh.triangles);
+        for (number, (path, sample)) in frames.paths.iter().zip(&samples).enumerate() {
+            sound(sample, &twins, &of_mesh.triangles).map_err(|fault| {
+                ShapesError::Fit(format!("frame {number} of {}: {fault}", path.display()))
+            })?;
+        }
+        let kept = |sample: &Vec<[f64; 3]>| {
+            mesh.origins().iter().flat_map(|&origin| sample[origin as usize]).collect()
+        };
+        let places: Vec<Vec<f64>> = samples.iter().map(kept).collect();
+        let times = (0..places.len()).map(|k| start + k as f64 * frames.stride / rate).collect();
+        Ok((mesh, Shapes { times, places }))
+    }
+
+    /// Puts the vertices to where they are at a time.
+    pub(crate) fn place(&self, time: f64, places: &mut [f64]) {
+        let next = self.times.partition_point(|t| *t <= time);
+        let before = next.saturating_sub(1);
+        let (from, to) = (&self.places[before], &self.places[next.min(self.places.len() - 1)]);
+        if next == 0 || next == self.times.len() {
+            return places.copy_from_slice(&self.places[before]);
+        }
+        let part = (time - self.times[before]) / (self.times[next] - self.times[before]);
+        for ((place, from), to) in places.iter_mut().zip(from).zip(to) {
+            *place = from + part * (to - from);
+        }
+    }
+
+    /// All times and places.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
+        self.times.iter().chain(self.places.iter().flatten()).copied()
+    }
+
+    /// The greatest speed of a vertex, in m/s.
+    pub(crate) fn speed_max(&self) -> f64 {
+        let mut most = 0.0_f64;
+        for (places, times) in self.places.windows(2).zip(self.times.windows(2)) {
+            let [from, to] = [places[0].as_chunks::<3>().0, places[1].as_chunks::<3>().0];
+            let way = |(a, b): (&[f64; 3], &[f64; 3])| {
+                a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum::<f64>()
+            };
+            let way = from.iter().zip(to).map(way).fold(0.0, f64::max).sqrt();
+            most = most.max(way / (times[1] - times[0]));
+        }
+        most
+    }
+}
+
+/// The meshes of a sequence of files, `*` in whose name stands for their numbers.
+fn sequence(folder: &Path, pattern: &str, of_mesh: &MeshFile) -> Result<Frames, ShapesError> {
+    let pattern = folder.join(pattern);
+    let name = pattern.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let Some((before, after)) = name.split_once('*') else {
+        let message = format!("\"{name}\" has no * for the number of the frame");
+        return Err(ShapesError::Fit(message));
+    };
+    let parent = pattern.parent().unwrap_or(Path::new(""));
+    let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
+    let entries = std::fs::read_dir(parent).map_err(|error| {
+        let reason = error.to_string();
+        CollideError::Unreadable { path: parent.to_path_buf(), reason }
+    })?;
+    let mut numbered: Vec<(u64, PathBuf)> = Vec::new();
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let number = name.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
+        if let Some(number) = number.and_then(|number| number.parse().ok()) {
+            numbered.push((number, path));
+        }
+    }
+    numbered.sort();
+    let (Some((first, _)), Some((last, _))) = (numbered.first(), numbered.last()) else {
+        return Err(ShapesError::Fit(format!("there is no file {}", pattern.display())));
+    };
+    if (last - first) as usize != numbered.len() - 1 {
+        let missing = (*first..).zip(&numbered).find(|(number, (own, _))| number != own);
+        let (number, _) = missing.unwrap_or((*first, &numbered[0]));
+        let message = format!("of {} there is no or a second number {number}", pattern.display());
+        return Err(ShapesError::Fit(message));
+    }
+    let mut samples = Vec::new();
+    for (_, path) in &numbered {
+        let frame = MeshFile::read(path)?;
+        if frame.vertices.len() == of_mesh.vertices.len() && frame.triangles != of_mesh.triangles {
+            let message = format!("{} has other triangles than the body", path.display());
+            return Err(ShapesError::Fit(message));
+        }
+        samples.push(frame.vertices);
+    }
+    let paths = numbered.into_iter().map(|(_, path)| path).collect();
+    Ok(Frames { stride: 1.0, paths, samples })
+}
+
+/// Pairs of vertices that triangles use and that are at the very same place.
+fn twins(places: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
+    let bits = |vertex: &u32| places[*vertex as usize].map(|value| (value + 0.0).to_bits());
+    used.sort_by_key(|vertex| (bits(vertex), *vertex));
+    used.dedup();
+    let same = used.windows(2).filter(|pair| bits(&pair[0]) == bits(&pair[1]));
+    same.map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// What is wrong with a frame, if anything.
+fn sound(sample: &[[f64; 3]], twins: &[[u32; 2]], triangles: &[[u32; 3]]) -> Result<(), String> {
+    let at = |vertex: u32| sample[vertex as usize];
+    let minus = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|k| a[k] - b[k]);
+    let square = |a: [f64; 3]| a.iter().map(|x| x * x).sum::<f64>();
+    // Written so that NaN fails.
+    let far = |place: &[f64; 3]| !place.iter().all(|x| x.abs() <= 1e6);
+    if let Some(vertex) = sample.iter().position(far) {
+        return Err(format!("vertex {vertex} is at {:?} m", sample[vertex]));
+    }
+    for &[a, b] in twins {
+        if square(minus(at(a), at(b))) > PARTED * PARTED {
+            return Err(format!("the vertices {a} and {b} part, which are one in the first frame"));
+        }
+    }
+    for (number, &[a, b, c]) in triangles.iter().enumerate() {
+        let (e, f) = (minus(at(b), at(a)), minus(at(c), at(a)));
+        let longest = square(e).max(square(f)).max(square(minus(f, e)));
+        let dot: f64 = e.iter().zip(f).map(|(e, f)| e * f).sum();
+        let area = square(e) * square(f) - dot * dot;
+        if !(area > FLAT * longest * longest) && longest > 0.0 {
+            return Err(format!("triangle {number} has no area"));
+        }
+    }
+    Ok(())
+}
