@@ -42,6 +42,7 @@ fn fabric() -> Fabric {
         source: String::new(),
         density: 0.2,
         thickness: 3e-4,
+        pressed_thickness: None,
         surface_friction: SURFACE_FRICTION,
         warp: direction(1.0e-5),
         weft: direction(1.2e-5),

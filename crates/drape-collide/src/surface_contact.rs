@@ -1,5 +1,6 @@
 use rayon::prelude::*;
 
+use crate::barrier::Barrier;
 use crate::course::Course;
 use crate::crossing::{Crossing, crossings};
 use crate::detector::Detector;
@@ -40,6 +41,17 @@ pub struct SurfaceSettings {
 impl SurfaceSettings {
     /// Default of [`stick`](SurfaceSettings::stick), in m.
     pub const STICK: f64 = 5e-6;
+
+    /// Stiffness in N/m³ at which two sheets alike, whose contact begins at a reach and which always keep a separation,
+    /// are so far apart as they are under a pressure in Pa; all lengths in m. Infinite where that is the reach.
+    ///
+    /// Each of the two counts the area of contact once: by its vertices over the other's triangles, and by the edges
+    /// that cross.
+    #[must_use]
+    pub fn stiffness_under(pressure: f64, distance: f64, [reach, separation]: [f64; 2]) -> f64 {
+        let slope = Barrier::strict(reach - separation).slope(distance - separation);
+        pressure / (-2.0 * slope)
+    }
 }
 
 /// Contact of a surface with itself and with bodies: barrier and friction, their forces and derivatives, and a guard

@@ -20,8 +20,10 @@ pub struct Fabric {
     pub source: String,
     /// Mass per area, in kg/m².
     pub density: f64,
-    /// Thickness, in m.
+    /// Thickness under 49 Pa (0.5 gf/cm²), in m.
     pub thickness: f64,
+    /// Thickness under 4.9 kPa (50 gf/cm²), in m, if it was measured (KES-FB3).
+    pub pressed_thickness: Option<f64>,
     /// Coefficient of friction of the surface, a ratio.
     pub surface_friction: f64,
     /// Laws along the warp yarns.
@@ -86,6 +88,16 @@ impl Fabric {
         fabric
     }
 
+    /// Pressure under which the thickness is [`under_pressure`](Self::under_pressure), in Pa: 50 gf/cm².
+    pub const PRESSURE: f64 = 4903.325;
+
+    /// Thickness under [`PRESSURE`](Self::PRESSURE), in m. Where it was not measured, 0.7 of the thickness: that of
+    /// apparel weaves is 0.6 to 0.8.
+    #[must_use]
+    pub fn under_pressure(&self) -> f64 {
+        self.pressed_thickness.unwrap_or(0.7 * self.thickness)
+    }
+
     /// Everything about the numbers that cannot be: empty for a usable fabric.
     #[must_use]
     pub fn problems(&self) -> Vec<Problem> {
@@ -97,6 +109,10 @@ impl Fabric {
             "mass per area in kg/m²; a fabric of 120 g/m² has 0.12",
         );
         check.within("thickness", self.thickness, (1e-6, 0.02), "in m; 0.3 mm is 0.0003");
+        if let Some(pressed) = self.pressed_thickness {
+            let help = "in m, under 4.9 kPa: no more than the thickness";
+            check.within("pressed_thickness", pressed, (1e-6, self.thickness), help);
+        }
         check.within("surface_friction", self.surface_friction, (0.0, 5.0), "a ratio such as 0.2");
         for (name, direction) in [("warp", &self.warp), ("weft", &self.weft)] {
             check.traction(&format!("{name}.traction"), &direction.traction);

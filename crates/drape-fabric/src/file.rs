@@ -19,6 +19,8 @@ struct FabricFile {
     source: String,
     density: f64,
     thickness: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pressed_thickness: Option<f64>,
     #[serde(default = "surface_friction")]
     surface_friction: f64,
     warp: DirectionFile,
@@ -171,6 +173,7 @@ impl FabricFile {
             source: self.source,
             density: self.density,
             thickness: self.thickness,
+            pressed_thickness: self.pressed_thickness,
             surface_friction: self.surface_friction,
             warp,
             weft,
@@ -293,6 +296,7 @@ impl From<&Fabric> for FabricFile {
             source: fabric.source.clone(),
             density: fabric.density,
             thickness: fabric.thickness,
+            pressed_thickness: fabric.pressed_thickness,
             surface_friction: fabric.surface_friction,
             warp: (&fabric.warp).into(),
             weft: (&fabric.weft).into(),

@@ -110,7 +110,14 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         notes.push(format!("thickness: not measured, {} m taken", assumed::THICKNESS));
         assumed::THICKNESS
     });
-    notes.push(format!("surface_friction: not measured, {SURFACE_FRICTION} taken"));
+    let pressed_thickness = sheet.pressed_thickness();
+    if pressed_thickness.is_none() {
+        notes.push("pressed_thickness: not measured, 0.7 of the thickness taken".into());
+    }
+    let surface_friction = sheet.miu.unwrap_or_else(|| {
+        notes.push(format!("surface_friction: not measured, {SURFACE_FRICTION} taken"));
+        SURFACE_FRICTION
+    });
     let [warp, weft] = both(
         "traction",
         [Direction::Warp, Direction::Weft].map(|direction| measured.traction(direction)),
@@ -141,7 +148,8 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         source: sheet.source.trim().to_owned(),
         density,
         thickness,
-        surface_friction: SURFACE_FRICTION,
+        pressed_thickness,
+        surface_friction,
         warp: fabric::Direction { traction: warp, bending: warp_bending },
         weft: fabric::Direction { traction: weft, bending: weft_bending },
         shear,

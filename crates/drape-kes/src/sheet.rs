@@ -14,7 +14,8 @@ use crate::{Curve, Direction, Error, Model, Symbol, Test, Values};
 /// Name of the file looked for when a folder is given.
 const SHEET_FILE: &str = "sheet.toml";
 
-const SHEET_KEYS: [&str; 9] = ["name", "source", "model", "W", "T", "FM", "warp", "weft", "curve"];
+const SHEET_KEYS: [&str; 11] =
+    ["name", "source", "model", "W", "T", "TM", "MIU", "FM", "warp", "weft", "curve"];
 const VALUE_KEYS: [&str; 9] = ["B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM"];
 
 /// FM of the standard tensile test, in gf/cm; the "high sensitivity" test stops at 50.
@@ -35,6 +36,10 @@ pub struct Sheet {
     pub w: Option<f64>,
     /// T, thickness, in mm.
     pub t: Option<f64>,
+    /// TM, thickness under 50 gf/cm² in the compression test, in mm.
+    pub tm: Option<f64>,
+    /// MIU, coefficient of friction of the surface test, a ratio.
+    pub miu: Option<f64>,
     /// FM, maximum load of the tensile test, in gf/cm; 500 in the standard test when not given.
     pub fm: Option<f64>,
     /// Values along the warp.
@@ -76,6 +81,9 @@ impl Sheet {
         let model = root.choice(("model", &Model::ALL), Model::name, findings);
         let w = positive(root, "W", Quantity::MassPerArea, findings);
         let t = positive(root, "T", Quantity::Length, findings);
+        let tm = pressed_thickness(root, t.as_ref(), findings);
+        let help = "MIU is a ratio, about 0.1 to 0.3; is this a percentage?";
+        let miu = pure(root, ("MIU", 2.0, help), findings);
         let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
         if let Some(w) = &w {
             plausible::density(w, findings);
@@ -94,6 +102,8 @@ impl Sheet {
             model,
             w: laboratory(w),
             t: laboratory(t),
+            tm: laboratory(tm),
+            miu,
             fm: laboratory(fm),
             warp,
             weft,
@@ -110,6 +120,11 @@ impl Sheet {
     /// T: thickness, in metres.
     pub fn thickness(&self) -> Option<f64> {
         self.t.map(|t| t * Quantity::Length.laboratory().factor)
+    }
+
+    /// TM: thickness under 50 gf/cm², which is 4.9 kPa, in metres.
+    pub fn pressed_thickness(&self) -> Option<f64> {
+        self.tm.map(|tm| tm * Quantity::Length.laboratory().factor)
     }
 
     /// FM: the maximum load of the tensile test, given or standard, in N/m.
@@ -151,6 +166,12 @@ impl Sheet {
             number(curve.load().len() as f64);
             curve.deformation().iter().chain(curve.load()).for_each(|&value| number(value));
         }
+        // Only where they are given, so that sheets from before there were these keep their digests.
+        for (place, value) in [self.pressed_thickness(), self.miu].into_iter().enumerate() {
+            value
+                .into_iter()
+                .for_each(|value| [place as f64, value].into_iter().for_each(&mut number));
+        }
         hasher.finalize().to_hex().to_string()
     }
 
@@ -191,19 +212,40 @@ fn values(
     Values { b: laboratory(b), two_hb, g, two_hg, two_hg5, lt, wt, rt, em }
 }
 
-/// LT is a pure number, not a percentage: its bare unit is one.
+/// LT is a pure number: the work under a curve of constant sign cannot exceed the box around it, twice the triangle.
 fn linearity(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
-    let lt = positive(section, "LT", Quantity::Ratio, findings)?;
-    // A bare LT was read as a percentage, the laboratory's unit of every other ratio.
-    let ratio = if lt.written.parse::<f64>().is_ok() { lt.number } else { lt.si };
-    // The work under a curve of constant sign cannot exceed the box around it, twice the triangle.
-    if ratio < 2.0 {
+    let help = "LT is a ratio, about 0.5 to 1; is this another value, or a percentage?";
+    pure(section, ("LT", 2.0, help), findings)
+}
+
+/// A number from 0 to a limit that is not a percentage: its bare unit is one.
+fn pure(
+    section: &Section<'_>,
+    (key, limit, help): (&str, f64, &str),
+    findings: &mut Findings<'_>,
+) -> Option<f64> {
+    let value = positive(section, key, Quantity::Ratio, findings)?;
+    // A bare number was read as a percentage, the laboratory's unit of every other ratio.
+    let ratio = if value.written.parse::<f64>().is_ok() { value.number } else { value.si };
+    if ratio < limit {
         return Some(ratio);
     }
+    findings.error(&value.key, format!("{} is not between 0 and {limit}", value.written), help);
+    None
+}
+
+/// TM, which is not above T.
+fn pressed_thickness(
+    root: &Section<'_>,
+    t: Option<&Measured>,
+    findings: &mut Findings<'_>,
+) -> Option<Measured> {
+    let tm = positive(root, "TM", Quantity::Length, findings)?;
+    let Some(t) = t.filter(|t| tm.si > t.si) else { return Some(tm) };
     findings.error(
-        &lt.key,
-        format!("{} is not between 0 and 2", lt.written),
-        "LT is a ratio, about 0.5 to 1; is this another value, or a percentage?",
+        &tm.key,
+        format!("{} is more than T, {}", tm.written, t.written),
+        "TM is the thickness under 50 gf/cm², T that under 0.5 gf/cm²",
     );
     None
 }

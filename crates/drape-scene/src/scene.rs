@@ -174,7 +174,7 @@ impl Reader<'_> {
                 courses: &courses,
                 held: &held,
                 offset: contact_settings.offset,
-                stiffness: contact_settings.stiffness,
+                stiffness: file.contact.stiffness,
                 stick,
             })
         });

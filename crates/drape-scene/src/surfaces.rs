@@ -4,15 +4,19 @@ use drape_cloth::Cloth;
 use drape_collide::{
     Body, CollideError, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
 };
+use drape_fabric::Fabric;
 use drape_implicit::Way;
 
 use crate::course::Course;
 use crate::material::Material;
 use crate::panel::Panel;
 
-/// Part of a fabric's thickness that its surfaces keep between them under any load: half of the thickness under the
-/// largest pressure of a KES compression test, which is 0.6 to 0.8 of that under the least.
-const CRUSHED: f64 = 0.35;
+/// Part of a fabric's thickness under pressure that its surfaces keep between them under any load.
+const CRUSHED: f64 = 0.5;
+
+/// Largest part of its thickness that a fabric has under pressure, for its contact: one that is not compressed at all
+/// would have contact without end.
+const PRESSED: f64 = 0.95;
 
 /// The surfaces of panels and bodies, which never pass through each other.
 #[derive(Debug)]
@@ -37,8 +41,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) held: &'a [bool],
     /// Distance of the middle of the cloth from a body at which contact begins, in m.
     pub(crate) offset: f64,
-    /// In N/m³.
-    pub(crate) stiffness: f64,
+    /// In N/m³; what the fabrics' thickness under pressure asks for if there is none.
+    pub(crate) stiffness: Option<f64>,
     /// In m.
     pub(crate) stick: f64,
 }
@@ -46,8 +50,14 @@ pub(crate) struct Parts<'a> {
 impl Surfaces {
     pub(crate) fn new(parts: &Parts<'_>) -> Result<Self, CollideError> {
         let Parts { panels, materials, cloth, bodies, courses, .. } = parts;
-        let thickness = |panel: &Panel| materials[panel.material].fabric.thickness;
-        let thinnest = panels.iter().map(thickness).fold(f64::INFINITY, f64::min);
+        let fabric = |panel: &Panel| &materials[panel.material].fabric;
+        let skin = |fabric: &Fabric| Skin {
+            reach: 0.5 * fabric.thickness,
+            separation: 0.5 * CRUSHED * fabric.under_pressure(),
+        };
+        let skins = panels.iter().map(|panel| skin(fabric(panel)));
+        let thinnest = skins.min_by(|a, b| a.reach.total_cmp(&b.reach));
+        let thinnest = thinnest.unwrap_or(Skin { reach: 0.0, separation: 0.0 });
         let mut surface = SurfaceParts {
             rest: cloth.coordinates().iter().flat_map(|[u, v]| [*u, *v, 0.0]).collect(),
             triangles: cloth.triangles().to_vec(),
@@ -62,8 +72,7 @@ impl Surfaces {
             surface
                 .group
                 .extend(std::iter::repeat_n(index as u32, panel.lattice.coordinates.len()));
-            let half = 0.5 * thickness(panel);
-            surface.skins.push(Skin { reach: half, separation: CRUSHED * half });
+            surface.skins.push(skin(fabric(panel)));
             frictions.push(Err(materials[panel.material].fabric.surface_friction));
         }
         let mut start = Vec::new();
@@ -79,9 +88,8 @@ impl Surfaces {
             surface.areas.extend(std::iter::repeat_n(0.0, count));
             surface.group.extend(std::iter::repeat_n(surface.skins.len() as u32, count));
             // Half of the cloth's thickness is its own.
-            let half = 0.5 * thinnest;
-            let reach = (parts.offset - half).max(half);
-            surface.skins.push(Skin { reach, separation: CRUSHED * half });
+            let reach = (parts.offset - thinnest.reach).max(thinnest.reach);
+            surface.skins.push(Skin { reach, ..thinnest });
             frictions.push(Ok(body.friction));
             if let Some(course) = course {
                 moving.push((own, course.clone()));
@@ -95,7 +103,9 @@ impl Surfaces {
         };
         let friction = frictions.iter().flat_map(|a| frictions.iter().map(move |b| pair(a, b)));
         let settings = SurfaceSettings {
-            stiffness: parts.stiffness,
+            stiffness: parts.stiffness.unwrap_or_else(|| {
+                panels.iter().map(|panel| stiffness(fabric(panel))).fold(0.0, f64::max)
+            }),
             stick: parts.stick,
             friction: friction.collect(),
         };
@@ -129,4 +139,12 @@ impl Surfaces {
             Err(_) => false,
         }
     }
+}
+
+/// Stiffness of contact that presses two layers of a fabric as its compression test does, in N/m³.
+fn stiffness(fabric: &Fabric) -> f64 {
+    let pressed = fabric.under_pressure();
+    let distance = pressed.min(PRESSED * fabric.thickness);
+    let ends = [fabric.thickness, CRUSHED * pressed];
+    SurfaceSettings::stiffness_under(Fabric::PRESSURE, distance, ends)
 }

@@ -2,7 +2,7 @@
 
 use crate::sheets::{sheets, surface};
 use crate::support::{Dice, derivative};
-use drape_collide::{Detector, Gap, Kind, Pair, Skin};
+use drape_collide::{Detector, Gap, Kind, Pair, Skin, SurfaceSettings};
 
 const STIFFNESS: f64 = 1e6;
 
@@ -206,32 +206,8 @@ fn the_definite_part_is_what_stays_on_a_straight_approach() {
 
 #[test]
 fn the_pressure_between_sheets_does_not_depend_on_the_mesh() {
-    // Two sheets of a quarter of a square metre, 0.4 mm apart and off by some of a cell, so that
-    // each point of either stands for the same area.
     let pressure = |sides: [usize; 2], body: bool| {
-        let mut parts = sheets(1, sides[0], 0.5 / (sides[0] - 1) as f64);
-        let other = sheets(1, sides[1], 0.5 / (sides[1] - 1) as f64);
-        let first = parts.areas.len();
-        parts.rest.extend(&other.rest);
-        let lifted = |t: &[u32; 3]| t.map(|v| v + first as u32);
-        parts.triangles.extend(other.triangles.iter().map(lifted));
-        parts.areas.extend(&other.areas);
-        parts.group.extend(vec![1; other.areas.len()]);
-        parts.skins = vec![Skin { reach: 3e-4, separation: 1e-4 }; 2];
-        parts.free = if body { first } else { parts.areas.len() };
-        let mut positions = parts.rest.clone();
-        for place in positions[3 * first..].chunks_mut(3) {
-            place[2] = 4e-4;
-            (place[0], place[1]) = (place[0] + 1.7e-3, place[1] + 2.9e-3);
-        }
-        let surface = surface(&parts);
-        let mut detector = Detector::default();
-        let pairs = detector.detect(&surface, &positions, 1e-4).unwrap();
-        let force = |pair: &Pair| {
-            let gap = Gap::new(pair, &positions);
-            gap.normal_force(STIFFNESS) * gap.normal()[2].abs()
-        };
-        pairs.as_slice().iter().map(force).sum::<f64>() / 0.25
+        pressure((sides, body), (4e-4, Skin { reach: 3e-4, separation: 1e-4 }), STIFFNESS)
     };
     for body in [false, true] {
         let even = pressure([21, 21], body);
@@ -243,4 +219,48 @@ fn the_pressure_between_sheets_does_not_depend_on_the_mesh() {
             assert!(uneven > 0.3 * even && uneven < even, "{uneven} and {even} Pa");
         }
     }
+}
+
+#[test]
+fn a_pressed_pile_is_as_thick_as_the_stiffness_was_asked_for() {
+    for (thickness, pressed) in [(5e-4, 3.5e-4), (5e-4, 4.5e-4), (1e-3, 3e-4)] {
+        let skin = Skin { reach: 0.5 * thickness, separation: 0.25 * pressed };
+        let ends = [2.0 * skin.reach, 2.0 * skin.separation];
+        let stiffness = SurfaceSettings::stiffness_under(4900.0, pressed, ends);
+        let found = pressure(([61, 61], false), (pressed, skin), stiffness);
+        // What of the sheets does not lie over the other is a fiftieth of them.
+        assert!((found / 4900.0 - 1.0).abs() < 0.05, "{found} Pa");
+    }
+}
+
+/// Mean pressure, in Pa, between two sheets of a quarter of a square metre and so many vertices along their sides, of
+/// which the second may be a body; off by some of a cell, so that each point of either stands for the same area.
+fn pressure(
+    (sides, body): ([usize; 2], bool),
+    (distance, skin): (f64, Skin),
+    stiffness: f64,
+) -> f64 {
+    let mut parts = sheets(1, sides[0], 0.5 / (sides[0] - 1) as f64);
+    let other = sheets(1, sides[1], 0.5 / (sides[1] - 1) as f64);
+    let first = parts.areas.len();
+    parts.rest.extend(&other.rest);
+    let lifted = |t: &[u32; 3]| t.map(|v| v + first as u32);
+    parts.triangles.extend(other.triangles.iter().map(lifted));
+    parts.areas.extend(&other.areas);
+    parts.group.extend(vec![1; other.areas.len()]);
+    parts.skins = vec![skin; 2];
+    parts.free = if body { first } else { parts.areas.len() };
+    let mut positions = parts.rest.clone();
+    for place in positions[3 * first..].chunks_mut(3) {
+        place[2] = distance;
+        (place[0], place[1]) = (place[0] + 1.7e-3, place[1] + 2.9e-3);
+    }
+    let surface = surface(&parts);
+    let mut detector = Detector::default();
+    let pairs = detector.detect(&surface, &positions, 1e-4).unwrap();
+    let force = |pair: &Pair| {
+        let gap = Gap::new(pair, &positions);
+        gap.normal_force(stiffness) * gap.normal()[2].abs()
+    };
+    pairs.as_slice().iter().map(force).sum::<f64>() / 0.25
 }
