@@ -152,7 +152,16 @@ impl Reader<'_> {
         let key = match (&m.frames, m.point_cache()) {
             (Some(_), _) => "frames",
             (None, Some(_)) => "motion",
-            (None, None) => return None,
+            (None, None) => {
+                for (key, given) in [("rate", m.rate), ("start", m.start)] {
+                    if given.is_some() {
+                        let help = "it belongs to motion = \"….pc2\" or frames = \"…_*.obj\"";
+                        let message = "the body has no frames".to_owned();
+                        self.fail(&format!("collider.mesh[{index}].{key}"), message, help);
+                    }
+                }
+                return None;
+            }
         };
         let key = format!("collider.mesh[{index}].{key}");
         let Some(rate) = m.rate else {

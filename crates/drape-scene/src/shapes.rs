@@ -10,6 +10,9 @@ const PARTED: f64 = 1e-6;
 /// Square of the sine of the sharpest triangle of a frame, about: what the mesh of a body may have too.
 const FLAT: f64 = 1e-12;
 
+/// Vertices that all frames of a sequence may have together: 400 MB of places.
+const VERTICES_MAX: usize = 1 << 24;
+
 /// The way of a body that changes its shape: all its vertices at times, between which they go straight; at rest before
 /// the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
@@ -161,6 +164,12 @@ fn sequence(folder: &Path, pattern: &str, of_mesh: &MeshFile) -> Result<Frames, 
         let missing = (*first..).zip(&numbered).find(|(number, (own, _))| number != own);
         let (number, _) = missing.unwrap_or((*first, &numbered[0]));
         let message = format!("of {} there is no or a second number {number}", pattern.display());
+        return Err(ShapesError::Fit(message));
+    }
+    let total = of_mesh.vertices.len().saturating_mul(numbered.len());
+    if total > VERTICES_MAX {
+        let message =
+            format!("the frames have {total} vertices, and at most {VERTICES_MAX} are read");
         return Err(ShapesError::Fit(message));
     }
     let mut samples = Vec::new();

@@ -166,6 +166,7 @@ fn motions_that_do_not_fit_are_refused_with_their_file() {
             ["other_1.obj", "other triangles"],
         ),
         (format!("frames = {}\nrate = -1", path("walk_*.obj")), ["rate", "-1"]),
+        ("rate = 24".to_owned(), ["no frames", "rate"]),
         ("motion = 3\nrate = 24".to_owned(), ["table of keys", "3"]),
     ];
     for (motion, words) in cases {
