@@ -58,8 +58,8 @@ fn sheets_fall_on_each_other_and_stay_apart_with_any_number_of_threads() {
 fn a_belt_carries_a_sheet_without_creeping() {
     let belt = |friction: f64| {
         let scene = format!(
-            "air.density = 0.0\n[contact]\nsurfaces = true\n[[collider.box]]\nsize = [1, 0.02, 1]\n\
-             center = [0, -0.01, 0]\nfriction = {friction}\n[collider.box.motion]\n\
+            "air.density = 0.0\n[contact]\nsurfaces = true\nstiffness = 2e6\n[[collider.box]]\n\
+             size = [1, 0.02, 1]\ncenter = [0, -0.01, 0]\nfriction = {friction}\n[collider.box.motion]\n\
              times = [0, 0.5]\nshift = [[0, 0, 0], [0.05, 0, 0]]\n[time]\nstep = 0.002\nend = 0.7\n"
         );
         // A pressure of 2 Pa is borne by a quarter of the stiffness, 4 µm inside the reach.
