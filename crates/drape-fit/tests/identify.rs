@@ -143,6 +143,23 @@ fn everything_that_is_missing_is_named_and_a_whole_sheet_leaves_little() {
 }
 
 #[test]
+fn compression_and_friction_of_the_surface_are_those_of_the_sheet() {
+    let mut sheet = sheet(WARP, WARP);
+    (sheet.t, sheet.tm, sheet.miu) = (Some(0.5), Some(0.3), Some(0.18));
+    let fit = identify(&sheet).expect("identified");
+    assert_eq!(fit.fabric.surface_friction, 0.18);
+    assert!((fit.fabric.under_pressure() - 3e-4).abs() < 1e-18);
+    assert!(
+        !fit.assumed.iter().any(|note| note.contains("friction: not") || note.contains("pressed"))
+    );
+    let kept = drape_fabric::Fabric::from_toml(&fit.fabric.to_toml()).expect("a fabric");
+    assert_eq!(kept.pressed_thickness, fit.fabric.pressed_thickness);
+    sheet.tm = None;
+    let fit = identify(&sheet).expect("identified");
+    assert!((fit.fabric.under_pressure() - 3.5e-4).abs() < 1e-18);
+}
+
+#[test]
 fn a_missing_direction_is_taken_from_the_other() {
     let fit = identify(&sheet(WARP, Values::default())).expect("identified");
     assert_eq!(fit.fabric.weft.bending, fit.fabric.warp.bending);

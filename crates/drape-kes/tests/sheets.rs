@@ -49,7 +49,7 @@ const GOOD_CURVE: &str = "strain,force\n0,0\n1,50\n2,200\n";
 #[test]
 fn a_whole_sheet_is_read_into_laboratory_values_and_si_curves() {
     let text = format!(
-        "name = \"poplin\"\nsource = \"us\"\nW = 12.38\nT = 0.497\n[warp]\nB = 0.118\n2HB = 0.124\nLT = 0.7\n\
+        "name = \"poplin\"\nsource = \"us\"\nW = 12.38\nT = 0.497\nTM = 0.3\nMIU = 0.18\n[warp]\nB = 0.118\n2HB = 0.124\nLT = 0.7\n\
          EM = 4\n[weft]\nB = \"1.2e-5 N.m\"\n{CURVE}"
     );
     let sheet = read(&text, GOOD_CURVE).unwrap();
@@ -57,6 +57,11 @@ fn a_whole_sheet_is_read_into_laboratory_values_and_si_curves() {
     let close = |a: Option<f64>, b: f64| (a.unwrap() / b - 1.0).abs() < 1e-12;
     assert!(close(sheet.density(), 0.1238));
     assert!(close(sheet.thickness(), 0.497e-3));
+    assert!(close(sheet.pressed_thickness(), 0.3e-3));
+    assert_eq!(sheet.miu, Some(0.18));
+    let mut unpressed = sheet.clone();
+    unpressed.tm = None;
+    assert_ne!(sheet.digest(), unpressed.digest());
     assert!(close(Some(sheet.maximum_tension()), 490.3325));
     assert!(close(sheet.warp.bending_rigidity(), 0.118 * 9.80665e-5));
     assert!(close(sheet.warp.bending_loop_width(), 0.124 * 9.80665e-3));
@@ -68,6 +73,15 @@ fn a_whole_sheet_is_read_into_laboratory_values_and_si_curves() {
     assert_eq!(curve.deformation(), [0.0, 0.01, 0.02]);
     assert!((curve.load()[2] / (200.0 * 0.980665) - 1.0).abs() < 1e-12);
     assert_eq!(sheet.warnings(), []);
+}
+
+#[test]
+fn a_surface_and_a_compression_that_cannot_be_are_refused() {
+    let thick = finding("name = \"a\"\nT = 0.3\nTM = 0.4\n", GOOD_CURVE);
+    assert_eq!(thick.message, "0.4 is more than T, 0.3");
+    assert!(help(&thick).contains("50 gf/cm²"));
+    let percent = finding("name = \"a\"\nMIU = 18\n", GOOD_CURVE);
+    assert_eq!(percent.message, "18 is not between 0 and 2");
 }
 
 #[test]
