@@ -1,6 +1,8 @@
 //! The shipped scenes of contact: no surface ever passes through another, from several starts and for any number of
 //! threads, and what was written says so to a program that shares no code with the run.
 
+#![allow(clippy::print_stdout, reason = "studies print their figures")]
+
 use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;

@@ -15,7 +15,7 @@ pub(crate) const CHUNK: usize = 2048;
 /// Two such ways take less than the margin off the distance of a pair that was not listed, so it
 /// stays above its reach by a tenth of the margin. More moves farther on one detection and leaves
 /// less for rounding.
-const BUDGET: f64 = 0.45;
+pub(crate) const BUDGET: f64 = 0.45;
 
 /// Share of a pair's opening that one filtered step may close.
 ///

@@ -1,7 +1,5 @@
 use rayon::prelude::*;
 
-use crate::barrier::Barrier;
-use crate::course::Course;
 use crate::crossing::{Crossing, crossings};
 use crate::detector::Detector;
 use crate::error::{CollideError, check};
@@ -10,49 +8,11 @@ use crate::gap::{Gap, Gradient, Hessian};
 use crate::pair::Pair;
 use crate::slip::{Anchor, Slip};
 use crate::surface::Surface;
+use crate::surface_settings::SurfaceSettings;
+use crate::way::longest_ways;
 
 /// Pairs that are looked at as one, whatever the number of threads.
 const CHUNK: usize = 256;
-
-/// Share of the margin that a vertex may move by before the pairs are detected anew: what [`Filter`] allows.
-const BUDGET: f64 = 0.45;
-
-/// Longest way of a step over the length of an edge, of all vertices alike and of each by itself: the list of pairs that
-/// can meet on longer ones costs more than to go twice.
-const LONGEST: [f64; 2] = [4.0, 0.5];
-
-/// Share of a step below which it is shortened vertex by vertex and not as a whole. What is one step for all keeps
-/// going downhill, but one near pair then stops everything.
-const LOCKED: f64 = 0.2;
-
-/// How stiff the contact of surfaces is, and when it slides.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SurfaceSettings {
-    /// Stiffness `$k$` per area, in N/m³.
-    pub stiffness: f64,
-    /// Way `$\delta$` that two surfaces which stick give way before they slide, in m.
-    ///
-    /// A load below Coulomb's limit moves them by less than this, once. Shorter holds stiffer and is harder to solve.
-    pub stick: f64,
-    /// Coefficient of friction of each two groups, row by row.
-    pub friction: Vec<f64>,
-}
-
-impl SurfaceSettings {
-    /// Default of [`stick`](SurfaceSettings::stick), in m.
-    pub const STICK: f64 = 5e-6;
-
-    /// Stiffness in N/m³ at which two sheets alike, whose contact begins at a reach and which always keep a separation,
-    /// are so far apart as they are under a pressure in Pa; all lengths in m. Infinite where that is the reach.
-    ///
-    /// Each of the two counts the area of contact once: by its vertices over the other's triangles, and by the edges
-    /// that cross.
-    #[must_use]
-    pub fn stiffness_under(pressure: f64, distance: f64, [reach, separation]: [f64; 2]) -> f64 {
-        let slope = Barrier::strict(reach - separation).slope(distance - separation);
-        pressure / (-2.0 * slope)
-    }
-}
 
 /// Contact of a surface with itself and with bodies: barrier and friction, their forces and derivatives, and a guard
 /// of the ways on which it moves.
@@ -61,12 +21,12 @@ impl SurfaceSettings {
 /// start of a step to where [`begin`](SurfaceContact::begin) says that they end.
 #[derive(Debug)]
 pub struct SurfaceContact {
-    surface: Surface,
+    pub(crate) surface: Surface,
     settings: SurfaceSettings,
-    detector: Detector,
-    filter: Filter,
+    pub(crate) detector: Detector,
+    pub(crate) filter: Filter,
     /// Where the bodies' vertices are at the start and at the end of the step, in m.
-    bodies: [Vec<f64>; 2],
+    pub(crate) bodies: [Vec<f64>; 2],
     progress: f64,
     /// Places of all vertices at which `touching` holds, in m.
     places: Vec<f64>,
@@ -75,13 +35,13 @@ pub struct SurfaceContact {
     slips: Vec<Slip>,
     anchors: Vec<Anchor>,
     /// What kept the last detection from being made.
-    failure: Option<CollideError>,
+    pub(crate) failure: Option<CollideError>,
     /// What of a step leads off the course of the pairs, in m.
-    astray: Vec<f64>,
+    pub(crate) astray: Vec<f64>,
     /// Margin of a detection, in m.
-    margin: f64,
+    pub(crate) margin: f64,
     /// Longest ways of a step, in m.
-    longest: [f64; 2],
+    pub(crate) longest: [f64; 2],
 }
 
 /// A pair within its reach.
@@ -136,7 +96,7 @@ impl SurfaceContact {
             check("a coefficient of friction", coefficient, "0 or more", coefficient >= 0.0)?;
         }
         let margin = surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max);
-        let longest = LONGEST.map(|edges| (edges * surface.median_edge()).max(margin));
+        let longest = longest_ways(surface.median_edge(), margin);
         Ok(SurfaceContact {
             surface,
             settings,
@@ -323,98 +283,6 @@ impl SurfaceContact {
         }
     }
 
-    /// Shortens a step of the free vertices, and of the bodies that go so much of their way along, to what keeps every
-    /// pair apart; says whether it is still the whole one.
-    ///
-    /// The step is shortened for all vertices alike or, where that would leave little of it, vertex by vertex. The
-    /// bodies and the free vertices that are held go a common share of their way.
-    pub fn allow(
-        &mut self,
-        (from, step): (&[f64], &mut [f64]),
-        held: &[usize],
-        (progress, advance): (f64, &mut f64),
-    ) -> bool {
-        let places = self.all(from, progress);
-        let [start, end] = &self.bodies;
-        let mut moves = step.to_vec();
-        moves.extend(start.iter().zip(end).map(|(start, end)| *advance * (end - start)));
-        let shared = self.shorten(&places, &mut moves, held);
-        let Ok(share) = shared.map_err(|failure| self.failure = Some(failure)) else {
-            // Nothing is known to be safe.
-            step.fill(0.0);
-            *advance = 0.0;
-            return false;
-        };
-        if share.is_some() {
-            step.copy_from_slice(&moves[..step.len()]);
-        }
-        *advance *= share.unwrap_or(1.0);
-        share.is_none()
-    }
-
-    /// Shortens the ways of all vertices. Returns the share of theirs that bodies and held vertices go, none if all go
-    /// the whole way.
-    fn shorten(
-        &mut self,
-        places: &[f64],
-        moves: &mut [f64],
-        held: &[usize],
-    ) -> Result<Option<f64>, CollideError> {
-        let whole = moves.to_vec();
-        let shared = self.cover(places, moves, true)?;
-        let fraction = self.filter.scalar(self.detector.pairs(), places, moves)?.value;
-        if fraction >= 1.0 {
-            return Ok((shared < 1.0).then_some(shared));
-        }
-        if fraction >= LOCKED {
-            moves.iter_mut().for_each(|way| *way *= fraction);
-            return Ok(Some(shared * fraction));
-        }
-        moves.copy_from_slice(&whole);
-        self.cover(places, moves, false)?;
-        self.filter.truncate(self.detector.pairs(), places, moves)?;
-        let free = 3 * self.surface.free();
-        let went = |vertex: usize| {
-            let own = 3 * vertex..3 * vertex + 3;
-            let [after, before] = [length(&moves[own.clone()]), length(&whole[own])];
-            if before > 0.0 { after / before } else { 1.0 }
-        };
-        let bodies = self.surface.free()..moves.len() / 3;
-        let share = held.iter().copied().chain(bodies).map(went).fold(1.0, f64::min);
-        // Less of a safe way is safe too.
-        let prescribed = held.iter().flat_map(|vertex| 3 * vertex..3 * vertex + 3);
-        for k in prescribed.chain(free..moves.len()) {
-            moves[k] = share * whole[k];
-        }
-        Ok(Some(share))
-    }
-
-    /// Detects the pairs that can meet on the ways of all vertices, if those at hand do not do. Shortens ways that are
-    /// too long for that, together or each by itself; returns the share that is left of the longest.
-    fn cover(
-        &mut self,
-        places: &[f64],
-        moves: &mut [f64],
-        together: bool,
-    ) -> Result<f64, CollideError> {
-        let longest = moves.chunks_exact(3).map(length).fold(0.0, f64::max);
-        let most = self.longest[usize::from(!together)];
-        let share = if longest > most { most / longest } else { 1.0 };
-        for way in moves.chunks_exact_mut(3) {
-            let share = if together { share } else { (most / length(way)).min(1.0) };
-            way.iter_mut().for_each(|component| *component *= share);
-        }
-        self.detector.follow(places);
-        self.detector.pairs().astray(moves, together, &mut self.astray);
-        let farthest = self.astray.chunks_exact(3).map(length).fold(0.0, f64::max);
-        // Written so that NaN detects anew.
-        if !(self.strayed(places) + farthest <= BUDGET * self.detector.pairs().margin()) {
-            let course = if together { Course::Together(moves) } else { Course::Each(moves) };
-            self.detector.detect_along(&self.surface, (places, course), self.margin)?;
-        }
-        Ok(share)
-    }
-
     /// Every crossing of the surface with itself and the bodies at the free vertices' positions in the open step;
     /// exact.
     ///
@@ -454,7 +322,7 @@ impl SurfaceContact {
     }
 
     /// Places of all vertices for the free ones' positions, with the bodies at a part of their way.
-    fn all(&self, positions: &[f64], progress: f64) -> Vec<f64> {
+    pub(crate) fn all(&self, positions: &[f64], progress: f64) -> Vec<f64> {
         let [start, end] = &self.bodies;
         let way = start.iter().zip(end).map(|(start, end)| {
             // Exact at both ends.
@@ -497,7 +365,7 @@ impl SurfaceContact {
     }
 
     /// The farthest that a vertex is from where it was detected, in m.
-    fn strayed(&self, places: &[f64]) -> f64 {
+    pub(crate) fn strayed(&self, places: &[f64]) -> f64 {
         let detected = self.detector.pairs().positions();
         if detected.len() != places.len() {
             return f64::INFINITY;
@@ -509,10 +377,6 @@ impl SurfaceContact {
         // A maximum that keeps NaN.
         squares.fold(0.0, |most: f64, square| if square <= most { most } else { square }).sqrt()
     }
-}
-
-fn length(way: &[f64]) -> f64 {
-    way.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn gauss_newton(gap: &Gap, stiffness: f64) -> Hessian {
