@@ -62,8 +62,9 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
             summary.simulated_seconds
         ))),
         Status::SolverFailed => Err(Failure::Solver(format!(
-            "the step after {} s could not be solved; the last good state was written",
-            summary.simulated_seconds
+            "the step after {} s could not be solved; the last good state was written: {}",
+            summary.simulated_seconds,
+            summary.reason.unwrap_or_default()
         ))),
     }
 }

@@ -315,6 +315,13 @@ impl SurfaceContact {
         nearness
     }
 
+    /// The pair that is nearest to what it keeps at the places looked at last, with its distance, in m.
+    pub fn tightest(&self) -> Option<(&Pair, f64)> {
+        let ratio = |touching: &&Touching| touching.gap.distance() / touching.pair.separation;
+        let least = self.touching.iter().min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
+        least.map(|touching| (&touching.pair, touching.gap.distance()))
+    }
+
     /// The pairs that are nearer than they keep at the places looked at last, each with its distance, in m.
     pub fn too_near(&self) -> impl Iterator<Item = (&Pair, f64)> {
         let near = self.touching.iter().map(|touching| (&touching.pair, touching.gap.distance()));

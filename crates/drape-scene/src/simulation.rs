@@ -2,7 +2,7 @@ mod outcome;
 
 use std::ops::Range;
 
-use drape_implicit::{Error, ErrorEstimate, Integrator, Method, Motion, Report, Settings, Stop};
+use drape_implicit::{Error, ErrorEstimate, Integrator, Method, Motion, Report, Settings};
 
 use crate::SceneError;
 use crate::clock::Clock;
@@ -61,6 +61,7 @@ pub struct Simulation {
     pub(crate) panels: Vec<(String, Range<usize>)>,
     frames: usize,
     status: Status,
+    reason: Option<String>,
     solver: Solver,
     iterations: usize,
     pairs_max: usize,
@@ -144,6 +145,7 @@ impl Simulation {
             panels,
             frames: 0,
             status: Status::Ok,
+            reason: None,
             solver: Solver::default(),
             iterations: 0,
             pairs_max: 0,
@@ -352,12 +354,7 @@ impl Simulation {
             let step = match self.step() {
                 Ok(step) => step,
                 Err(error) => {
-                    let certificate =
-                        matches!(error, Error::NotConverged { stop: Stop::Certificate, .. });
-                    self.status = match certificate {
-                        true => Status::CertificateFailed,
-                        false => Status::SolverFailed,
-                    };
+                    self.fail(&error);
                     break;
                 }
             };

@@ -5,6 +5,9 @@ use serde::Serialize;
 pub struct Summary {
     /// `ok`, or why the run ended.
     pub status: Status,
+    /// What the solver said of the step that ended the run, and where surfaces were then nearest to each other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
     /// Version of the program.
     pub version: String,
     /// Hash of the scene and its fabrics.

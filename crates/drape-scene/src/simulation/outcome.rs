@@ -1,5 +1,7 @@
+use drape_implicit::{Error, Stop};
+
 use super::Simulation;
-use crate::summary::{Contacts, Solver, Strain, Summary};
+use crate::summary::{Contacts, Solver, Status, Strain, Summary};
 use crate::world::World;
 
 impl Simulation {
@@ -10,6 +12,7 @@ impl Simulation {
         let strains = cloth.strains(state);
         Summary {
             status: self.status.clone(),
+            reason: self.reason.clone(),
             version: env!("CARGO_PKG_VERSION").into(),
             scene_hash: self.scene_hash.clone(),
             particles: cloth.particles(),
@@ -37,6 +40,35 @@ impl Simulation {
             state_hash: self.state_hash(),
             measures: serde_json::Map::new(),
         }
+    }
+
+    /// Takes note of why a step could not be made.
+    pub(super) fn fail(&mut self, error: &Error) {
+        self.status = match error {
+            Error::NotConverged { stop: Stop::Certificate, .. } => Status::CertificateFailed,
+            _ => Status::SolverFailed,
+        };
+        let tight = self.tightest().map(|place| format!("; {place}")).unwrap_or_default();
+        self.reason = Some(format!("{error}{tight}"));
+    }
+
+    /// Where surfaces are nearest to what they keep, for people.
+    fn tightest(&self) -> Option<String> {
+        let contact = &self.world.surfaces.as_ref()?.contact;
+        let (pair, distance) = contact.tightest()?;
+        let panels = self.panels.iter().map(|(name, _)| name.as_str());
+        let bodies = self.contact().bodies().iter().map(|body| body.name.as_str());
+        let names: Vec<&str> = panels.chain(bodies).collect();
+        let of = |vertex: u32| names.get(contact.surface().group(vertex) as usize).copied();
+        let [one, other] = [pair.vertices[0], pair.vertices[3]].map(|v| of(v).unwrap_or_default());
+        let first = 3 * pair.vertices.into_iter().min()? as usize;
+        let [x, y, z] = self.world.state.positions.get(first..first + 3)?.try_into().ok()?;
+        Some(format!(
+            "surfaces are nearest to what they keep between \"{one}\" and \"{other}\" near ({x:.4}, {y:.4}, {z:.4}) m, \
+             {:.4} of {:.4} mm",
+            1e3 * distance,
+            1e3 * pair.separation
+        ))
     }
 
     fn contacts(&self) -> Contacts {
