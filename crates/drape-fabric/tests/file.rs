@@ -27,7 +27,9 @@ fn read(text: &str) -> Result<Fabric, Diagnostics> {
 
 #[test]
 fn a_fabric_survives_its_file_to_the_last_bit() {
-    let fabric = read(LINEN).expect("the file is right");
+    let text = LINEN.replacen("0.0004\n", "0.0004\npressed_thickness = 0.0003\n", 1);
+    let fabric = read(&text).expect("the file is right");
+    assert_eq!(fabric.pressed_thickness, Some(3e-4));
     let again = read(&fabric.to_toml()).expect("what was written is right");
     assert_eq!(fabric, again);
 }

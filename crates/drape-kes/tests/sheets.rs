@@ -78,10 +78,10 @@ fn a_whole_sheet_is_read_into_laboratory_values_and_si_curves() {
 #[test]
 fn a_surface_and_a_compression_that_cannot_be_are_refused() {
     let thick = finding("name = \"a\"\nT = 0.3\nTM = 0.4\n", GOOD_CURVE);
-    assert_eq!(thick.message, "0.4 is more than T, 0.3");
+    assert_eq!(thick.message, "TM: 0.4 is more than T, 0.3");
     assert!(help(&thick).contains("50 gf/cm²"));
     let percent = finding("name = \"a\"\nMIU = 18\n", GOOD_CURVE);
-    assert_eq!(percent.message, "18 is not between 0 and 2");
+    assert_eq!(percent.message, "MIU: 18 is not between 0 and 2");
 }
 
 #[test]
