@@ -7,17 +7,7 @@ use std::process::Output;
 use assert_cmd::Command;
 use tempfile::TempDir;
 
-const FABRIC: &str = r#"name = "plain weave"
-density = 0.12
-thickness = 0.0004
-shear = { stiffness = 35.0, friction = [{ plateau = 0.5, length = 0.004 }] }
-[warp]
-traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4 }] }
-[weft]
-traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
-bending = { rigidity = 0.8e-5, friction = [{ plateau = 4e-4, length = 4 }] }
-"#;
+const FABRIC: &str = include_str!("plain-weave.toml");
 
 /// An upright sheet, another level at HEIGHT that it stands in, and a ball far below.
 const SCENE: &str = r#"spacing = 0.02

@@ -9,6 +9,7 @@ use crate::pair::Pair;
 use crate::slip::{Anchor, Slip};
 use crate::surface::Surface;
 use crate::surface_settings::SurfaceSettings;
+use crate::vector::{at, norm, subtract};
 use crate::way::longest_ways;
 
 /// Pairs that are looked at as one, whatever the number of threads.
@@ -377,12 +378,9 @@ impl SurfaceContact {
         if detected.len() != places.len() {
             return f64::INFINITY;
         }
-        let square = |(now, then): (&[f64], &[f64])| -> f64 {
-            now.iter().zip(then).map(|(now, then)| (now - then) * (now - then)).sum()
-        };
-        let squares = places.chunks_exact(3).zip(detected.chunks_exact(3)).map(square);
+        let way = |vertex| norm(subtract(at(places, vertex), at(detected, vertex)));
         // A maximum that keeps NaN.
-        squares.fold(0.0, |most: f64, square| if square <= most { most } else { square }).sqrt()
+        (0..places.len() / 3).map(way).fold(0.0, |most, way| if way <= most { most } else { way })
     }
 }
 

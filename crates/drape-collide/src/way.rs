@@ -4,6 +4,7 @@ use crate::course::Course;
 use crate::error::CollideError;
 use crate::filter::BUDGET;
 use crate::surface_contact::SurfaceContact;
+use crate::vector::{at, norm, scale};
 
 /// Longest way of a step over the length of an edge, of all vertices alike and of each by itself: the list of pairs that
 /// can meet on longer ones costs more than to go twice.
@@ -71,8 +72,7 @@ impl SurfaceContact {
         self.filter.truncate(self.detector.pairs(), places, moves)?;
         let free = 3 * self.surface.free();
         let went = |vertex: usize| {
-            let own = 3 * vertex..3 * vertex + 3;
-            let [after, before] = [length(&moves[own.clone()]), length(&whole[own])];
+            let [after, before] = [norm(at(moves, vertex)), norm(at(&whole, vertex))];
             if before > 0.0 { after / before } else { 1.0 }
         };
         let bodies = self.surface.free()..moves.len() / 3;
@@ -93,16 +93,16 @@ impl SurfaceContact {
         moves: &mut [f64],
         together: bool,
     ) -> Result<f64, CollideError> {
-        let longest = moves.chunks_exact(3).map(length).fold(0.0, f64::max);
+        let farthest = longest(moves);
         let most = self.longest[usize::from(!together)];
-        let share = if longest > most { most / longest } else { 1.0 };
-        for way in moves.chunks_exact_mut(3) {
-            let share = if together { share } else { (most / length(way)).min(1.0) };
-            way.iter_mut().for_each(|component| *component *= share);
+        let share = if farthest > most { most / farthest } else { 1.0 };
+        for way in moves.as_chunks_mut::<3>().0 {
+            let share = if together { share } else { (most / norm(*way)).min(1.0) };
+            *way = scale(*way, share);
         }
         self.detector.follow(places);
         self.detector.pairs().astray(moves, together, &mut self.astray);
-        let farthest = self.astray.chunks_exact(3).map(length).fold(0.0, f64::max);
+        let farthest = longest(&self.astray);
         // Written so that NaN detects anew.
         if !(self.strayed(places) + farthest <= BUDGET * self.detector.pairs().margin()) {
             let course = if together { Course::Together(moves) } else { Course::Each(moves) };
@@ -112,6 +112,7 @@ impl SurfaceContact {
     }
 }
 
-fn length(way: &[f64]) -> f64 {
-    way.iter().map(|x| x * x).sum::<f64>().sqrt()
+/// The longest of some flat ways.
+fn longest(ways: &[f64]) -> f64 {
+    ways.as_chunks::<3>().0.iter().map(|way| norm(*way)).fold(0.0, f64::max)
 }

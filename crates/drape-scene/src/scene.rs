@@ -182,10 +182,7 @@ impl Reader<'_> {
         let surfaces =
             surfaces.map_err(|error| self.document.at("contact.surfaces", error.to_string()));
         let mut surfaces = surfaces.map_err(Diagnostics::from)?;
-        let parts = panels.iter().map(|panel| panel.name.clone());
-        let parts: Vec<String> = parts.chain(bodies.iter().map(|body| body.name.clone())).collect();
-        let tangle =
-            surfaces.as_mut().and_then(|surfaces| self.tangle(surfaces, &positions, &parts));
+        let tangle = surfaces.as_mut().and_then(|surfaces| self.tangle(surfaces, &positions));
         let contact = Contact::new(bodies, contact_settings, cloth.areas().to_vec());
         let contact = contact.map_err(|error| self.document.at("collider", error.to_string()));
         let contact = contact.map_err(Diagnostics::from)?;
@@ -270,7 +267,6 @@ impl Reader<'_> {
         &mut self,
         surfaces: &mut Surfaces,
         positions: &[f64],
-        parts: &[String],
     ) -> Option<(Vec<Overlap>, usize)> {
         let contact = &mut surfaces.contact;
         let crossings = contact.crossings(positions).map(|found| found.len());
@@ -287,7 +283,7 @@ impl Reader<'_> {
             }
             (Ok(_), Ok(_)) => return None,
         };
-        let (overlaps, total) = overlaps(contact, positions, parts);
+        let (overlaps, total) = overlaps(contact, positions, &surfaces.names);
         let told = overlaps.iter().take(OVERLAPS_TOLD).map(|overlap| {
             let ([a, b], [x, y, z]) = (&overlap.parts, overlap.place);
             format!("\"{a}\" and \"{b}\" near ({x:.4}, {y:.4}, {z:.4}) m")

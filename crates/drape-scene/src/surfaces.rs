@@ -22,6 +22,8 @@ const PRESSED: f64 = 0.95;
 #[derive(Debug)]
 pub struct Surfaces {
     pub(crate) contact: SurfaceContact,
+    /// Names of the panels and, behind them, of the bodies: of the groups of the surface.
+    pub(crate) names: Vec<String>,
     /// Where the bodies' vertices were at the start of the simulation, in m.
     start: Vec<f64>,
     /// Which of them move, and how.
@@ -111,7 +113,9 @@ impl Surfaces {
         };
         let contact = SurfaceContact::new(Surface::new(surface)?, settings, start.clone())?;
         let held = (0..parts.held.len()).filter(|&particle| parts.held[particle]).collect();
-        Ok(Self { contact, start, moving, crossings: 0, held })
+        let names = panels.iter().map(|panel| &panel.name);
+        let names = names.chain(bodies.iter().map(|body| &body.name)).cloned().collect();
+        Ok(Self { contact, names, start, moving, crossings: 0, held })
     }
 
     /// Opens a step that ends at a time, in s.

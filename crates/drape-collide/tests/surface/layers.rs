@@ -117,9 +117,8 @@ fn sheets_never_cross_on_courses() {
     assert!(gone / size > 0.01 && nearest < 1.1, "{} m, {nearest}", gone / size);
 }
 
-/// Takes two minutes of one core.
 #[test]
-#[ignore]
+#[ignore = "takes two minutes of one core"]
 fn five_sheets_never_cross() {
     shake(5, 50, 60);
 }

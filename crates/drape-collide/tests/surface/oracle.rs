@@ -232,9 +232,8 @@ fn filtered_motions_never_come_too_near() {
     assert!(dangerous > 400 && shortened > 800 && moving > 700 && proved > 40_000, "{tally:?}");
 }
 
-/// Takes some minutes.
 #[test]
-#[ignore]
+#[ignore = "takes some minutes"]
 fn many_filtered_motions_never_come_too_near() {
     let tally = run(20_000, 42);
     assert!(tally.dangerous > 8_000 && tally.proved > 800_000, "{tally:?}");

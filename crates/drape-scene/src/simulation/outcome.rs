@@ -2,6 +2,7 @@ use drape_implicit::{Error, Stop};
 
 use super::Simulation;
 use crate::summary::{Contacts, Solver, Status, Strain, Summary};
+use crate::surfaces::Surfaces;
 use crate::world::World;
 
 impl Simulation {
@@ -54,13 +55,10 @@ impl Simulation {
 
     /// Where surfaces are nearest to what they keep, for people.
     fn tightest(&self) -> Option<String> {
-        let contact = &self.world.surfaces.as_ref()?.contact;
+        let Surfaces { contact, names, .. } = self.world.surfaces.as_ref()?;
         let (pair, distance) = contact.tightest()?;
-        let panels = self.panels.iter().map(|(name, _)| name.as_str());
-        let bodies = self.contact().bodies().iter().map(|body| body.name.as_str());
-        let names: Vec<&str> = panels.chain(bodies).collect();
-        let of = |vertex: u32| names.get(contact.surface().group(vertex) as usize).copied();
-        let [one, other] = [pair.vertices[0], pair.vertices[3]].map(|v| of(v).unwrap_or_default());
+        let of = |vertex: u32| &names[contact.surface().group(vertex) as usize];
+        let [one, other] = [pair.vertices[0], pair.vertices[3]].map(of);
         let first = 3 * pair.vertices.into_iter().min()? as usize;
         let [x, y, z] = self.world.state.positions.get(first..first + 3)?.try_into().ok()?;
         Some(format!(
