@@ -19,61 +19,69 @@ const CONVERGENCE: f64 = 2.0;
 /// The finer spacing, over the one that the fabric asks for.
 const FINER: f64 = 0.7;
 
-/// The fabrics, with their drape coefficients on the FRL meter in % and their nodes, as measured.
-const MEASURED: [(&str, f64, f64); 2] = [(COTTON, 82.9, 2.0), (WOOL, 49.8, 5.0)];
+/// A fabric, with its drape coefficient on the FRL meter in % and its nodes, as measured.
+type Measured = (&'static str, f64, f64);
+const MEASURED: [Measured; 2] = [(COTTON, 82.9, 2.0), (WOOL, 49.8, 5.0)];
 
 fn spacing(fabric: &Fabric) -> f64 {
     spacing_bound(fabric).min(0.005)
 }
 
-/// Two fabrics with measured drape coefficients on the FRL meter, over what their sheets leave open.
-pub fn drapemeter() -> Result<Findings, ValidationError> {
+/// The cotton on the FRL meter, over what its sheet leaves open.
+pub fn cotton() -> Result<Findings, ValidationError> {
+    drapemeter(MEASURED[0])
+}
+
+/// The wool on the FRL meter, over what its sheet leaves open.
+pub fn wool() -> Result<Findings, ValidationError> {
+    drapemeter(MEASURED[1])
+}
+
+fn drapemeter((text, measured, nodes): Measured) -> Result<Findings, ValidationError> {
     let mut checks = Vec::new();
     let mut graphs = Vec::new();
     let meter = Drapemeter::frl();
     let turned = Drapemeter { protocol: Protocol { turn: 45.0, ..meter.protocol }, ..meter };
-    for (text, measured, nodes) in MEASURED {
-        let fabric = fabric(text)?;
-        let what = |what: &str| format!("{}: {what}", fabric.name);
-        let points = |study: &Study| 100.0 * study.mean();
-        let spacing = spacing(&fabric);
-        let found = Prediction::of(&meter, &fabric, (spacing, STARTS), &|| ())?;
-        let [low, high] = found.interval().map(|part| 100.0 * part);
-        checks.extend([
-            Check::told(what("measured drape coefficient, %"), measured),
-            Check::told(what("with the shear assumed in the fit, %"), points(&found.fitted)),
-            Check::at_most(what("lower end of the prediction, %"), low, measured),
-            Check::at_least(what("upper end of the prediction, %"), high, measured),
-            Check::at_most(what("half of its width, points"), 0.5 * (high - low), HALF_WIDTH),
-        ]);
-        graphs.push(shadows(&fabric.name, &meter, &found));
-        let elastic = meter.study(&fabric.elastic(), (spacing, STARTS), &|| ())?;
-        checks.push(Check::told(what("without friction, %"), points(&elastic)));
-        checks.push(Check::told(what("nodes as measured"), nodes));
-        for (count, times) in found.fitted.nodes() {
-            let what = what(&format!("starts of {STARTS} with {count} nodes"));
-            checks.push(Check::told(what, times as f64));
-        }
-        let deviation = what("standard deviation over the starts, points");
-        checks.push(Check::at_most(deviation, 100.0 * found.fitted.deviation(), DEVIATION));
-        for (parameter, [low, high]) in &found.ends {
-            let what = |what: &str| format!("{}, {}: {what}", fabric.name, parameter.name());
-            checks.push(Check::told(what("drape coefficient at the limp end, %"), points(low)));
-            checks.push(Check::told(what("at the stiff end, %"), points(high)));
-        }
-        for (other, what) in [
-            (
-                meter.study(&fabric, (FINER * spacing, STARTS), &|| ())?,
-                what("change at 0.7 of the spacing, points"),
-            ),
-            (
-                turned.study(&fabric, (spacing, STARTS), &|| ())?,
-                what("change with the grid turned by 45°, points"),
-            ),
-        ] {
-            let change = (points(&other) - points(&found.fitted)).abs();
-            checks.push(Check::at_most(what, change, CONVERGENCE));
-        }
+    let fabric = fabric(text)?;
+    let what = |what: &str| format!("{}: {what}", fabric.name);
+    let points = |study: &Study| 100.0 * study.mean();
+    let spacing = spacing(&fabric);
+    let found = Prediction::of(&meter, &fabric, (spacing, STARTS), &|| ())?;
+    let [low, high] = found.interval().map(|part| 100.0 * part);
+    checks.extend([
+        Check::told(what("measured drape coefficient, %"), measured),
+        Check::told(what("with the shear assumed in the fit, %"), points(&found.fitted)),
+        Check::at_most(what("lower end of the prediction, %"), low, measured),
+        Check::at_least(what("upper end of the prediction, %"), high, measured),
+        Check::at_most(what("half of its width, points"), 0.5 * (high - low), HALF_WIDTH),
+    ]);
+    graphs.push(shadows(&fabric.name, &meter, &found));
+    let elastic = meter.study(&fabric.elastic(), (spacing, STARTS), &|| ())?;
+    checks.push(Check::told(what("without friction, %"), points(&elastic)));
+    checks.push(Check::told(what("nodes as measured"), nodes));
+    for (count, times) in found.fitted.nodes() {
+        let what = what(&format!("starts of {STARTS} with {count} nodes"));
+        checks.push(Check::told(what, times as f64));
+    }
+    let deviation = what("standard deviation over the starts, points");
+    checks.push(Check::at_most(deviation, 100.0 * found.fitted.deviation(), DEVIATION));
+    for (parameter, [low, high]) in &found.ends {
+        let what = |what: &str| format!("{}, {}: {what}", fabric.name, parameter.name());
+        checks.push(Check::told(what("drape coefficient at the limp end, %"), points(low)));
+        checks.push(Check::told(what("at the stiff end, %"), points(high)));
+    }
+    for (other, what) in [
+        (
+            meter.study(&fabric, (FINER * spacing, STARTS), &|| ())?,
+            what("change at 0.7 of the spacing, points"),
+        ),
+        (
+            turned.study(&fabric, (spacing, STARTS), &|| ())?,
+            what("change with the grid turned by 45°, points"),
+        ),
+    ] {
+        let change = (points(&other) - points(&found.fitted)).abs();
+        checks.push(Check::at_most(what, change, CONVERGENCE));
     }
     Ok(Findings { checks, graphs, ..Findings::default() })
 }

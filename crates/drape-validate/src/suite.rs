@@ -156,10 +156,16 @@ pub const CASES: &[Case] = &[
         run: breen::cloths,
     },
     Case {
-        name: "drapemeter",
-        title: "Drape coefficients of two fabrics (Matsudaira et al. 2015)",
+        name: "drapemeter-cotton",
+        title: "Drape coefficient of a stiff cotton (Matsudaira et al. 2015)",
         long: true,
-        run: drapes::drapemeter,
+        run: drapes::cotton,
+    },
+    Case {
+        name: "drapemeter-wool",
+        title: "Drape coefficient of a limp wool (Matsudaira et al. 2015)",
+        long: true,
+        run: drapes::wool,
     },
     Case {
         name: "drape-sensitivity",
