@@ -95,7 +95,11 @@ impl BlockMatrix {
         self.couplings.push(Coupling { row: i as u32, column: j as u32, block: *value });
     }
 
-    /// What was coupled beyond the pattern.
+    /// What was coupled beyond the pattern: rows, columns and their blocks, in the order in which they came.
+    pub fn beyond(&self) -> impl Iterator<Item = (usize, usize, &[f64; 9])> {
+        self.couplings.iter().map(|c| (c.row as usize, c.column as usize, &c.block))
+    }
+
     pub(crate) fn couplings(&self) -> &[Coupling] {
         &self.couplings
     }

@@ -11,6 +11,8 @@ pub(crate) struct Bonds {
     coupling: Coupling,
     /// How often that has changed.
     version: u64,
+    /// Where the coupling has room for more: a matrix of the connectors alone, and where its blocks go.
+    spread: Option<(Vec<f64>, Vec<usize>)>,
 }
 
 /// The coupling of a cloth's connectors and of some more pairs.
@@ -25,13 +27,27 @@ fn coupling(pattern: &Pattern, more: &[[u32; 2]]) -> Coupling {
 }
 
 impl Bonds {
-    pub(crate) fn new(cloth: &Cloth, breen: Option<Breen>, positions: &[f64]) -> Self {
+    /// The bonds of a cloth, in Breen's model if there is one, with room for threads between pairs of its particles.
+    pub(crate) fn new(
+        cloth: &Cloth,
+        breen: Option<Breen>,
+        (threads, positions): (&[[u32; 2]], &[f64]),
+    ) -> Self {
         let mut bonds = Self {
             workspace: cloth.workspace(),
             breen,
-            coupling: coupling(cloth.pattern(), &[]),
+            coupling: coupling(cloth.pattern(), threads),
             version: 0,
+            spread: None,
         };
+        if !threads.is_empty() {
+            let Pattern { offsets, columns } = cloth.pattern();
+            let rows = (0..offsets.len() - 1).flat_map(|row| {
+                columns[offsets[row]..offsets[row + 1]].iter().map(move |&column| (row, column))
+            });
+            let slots = rows.filter_map(|(row, column)| bonds.coupling.slot(row, column)).collect();
+            bonds.spread = Some((vec![0.0; 9 * columns.len()], slots));
+        }
         bonds.couple(cloth, positions);
         bonds
     }
@@ -42,6 +58,13 @@ impl Bonds {
 
     pub(crate) fn version(&self) -> u64 {
         self.version
+    }
+
+    /// Gives up the room for threads.
+    pub(crate) fn untie(&mut self, cloth: &Cloth) {
+        self.coupling = coupling(cloth.pattern(), &[]);
+        self.spread = None;
+        self.version += 1;
     }
 
     /// Takes the pairs that have come near each other into the coupling. Those that have left stay until then.
@@ -86,7 +109,15 @@ impl Bonds {
     ) {
         let Some(breen) = &mut self.breen else {
             let kind = (positions, definite);
-            self.workspace.add_stiffness(cloth, state, kind, matrix.values_mut());
+            let Some((values, slots)) = &mut self.spread else {
+                self.workspace.add_stiffness(cloth, state, kind, matrix.values_mut());
+                return;
+            };
+            values.fill(0.0);
+            self.workspace.add_stiffness(cloth, state, kind, values);
+            for (block, &slot) in values.as_chunks::<9>().0.iter().zip(&*slots) {
+                matrix.add_block(slot, block);
+            }
             return;
         };
         breen.stiffness(positions, definite, &mut |[a, b], block| {
@@ -154,7 +185,7 @@ bending.rigidity = 0.8e-5
             sheet(0.0).chain(sheet(gap)).collect()
         };
         let state = cloth.state(place(0.05)).expect("it fits");
-        let mut bonds = Bonds::new(&cloth, Some(Breen::new(&panels)), &state.positions);
+        let mut bonds = Bonds::new(&cloth, Some(Breen::new(&panels)), (&[], &state.positions));
         let fill = |bonds: &mut Bonds| {
             let mut matrix = BlockMatrix::zeros(bonds.coupling().clone());
             bonds.add_stiffness(&cloth, &state, (&place(0.008), true), &mut matrix);

@@ -25,6 +25,10 @@ pub(crate) struct SceneFile {
     #[serde(default)]
     pub(crate) panel: Vec<PanelFile>,
     #[serde(default)]
+    pub(crate) garment: Vec<GarmentFile>,
+    #[serde(default)]
+    pub(crate) sew: SewFile,
+    #[serde(default)]
     pub(crate) pin: Vec<PinFile>,
     #[serde(default)]
     pub(crate) collider: ColliderFile,
@@ -84,6 +88,39 @@ pub(crate) struct PanelFile {
     pub(crate) stack: Option<StackFile>,
 }
 
+/// A pattern that is cut, placed and sewn.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GarmentFile {
+    pub(crate) pattern: String,
+    /// The fabric of the panels that name none.
+    pub(crate) fabric: String,
+    pub(crate) spacing: Option<f64>,
+    /// Shift of all panels.
+    #[serde(default)]
+    pub(crate) center: [f64; 3],
+    /// What is said of single panels.
+    #[serde(default)]
+    pub(crate) panel: BTreeMap<String, GarmentPanelFile>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GarmentPanelFile {
+    pub(crate) fabric: Option<String>,
+    /// Where the origin of the panel's frame is, and its turns about x, y and z in degrees; those of the pattern if both
+    /// are missing.
+    pub(crate) center: Option<[f64; 3]>,
+    pub(crate) turn: Option<[f64; 3]>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SewFile {
+    /// How long the sides of the seams are drawn together.
+    pub(crate) seconds: Option<f64>,
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StackFile {
@@ -120,12 +157,14 @@ pub(crate) struct PinFile {
     pub(crate) points: Vec<[f64; 2]>,
     /// How far from the places particles are held; without it, the nearest to each.
     pub(crate) radius: Option<f64>,
-    /// `top`, `bottom`, `left` or `right`.
+    /// `top`, `bottom`, `left` or `right`; of a panel of a garment, one of its edges.
     pub(crate) edge: Option<String>,
     /// Rows that an edge holds: all within so many spacings less a half.
     pub(crate) rows: Option<usize>,
     /// When it lets go, in s; never if missing.
     pub(crate) release: Option<f64>,
+    /// `sewn`: it lets go when the garment is sewn.
+    pub(crate) until: Option<String>,
     /// How what it holds moves; it stays where it is if missing.
     pub(crate) motion: Option<MotionFile>,
 }

@@ -7,7 +7,7 @@ use crate::placement::Placement;
 use crate::reader::Reader;
 
 /// Distance between particles when the scene gives none, in m.
-const SPACING: f64 = 0.01;
+pub(crate) const SPACING: f64 = 0.01;
 
 /// Most particles of a stack of panels.
 const PARTICLES_MAX: usize = 4_000_000;
@@ -23,6 +23,16 @@ pub struct Panel {
     pub lattice: Lattice,
     /// Number of its first particle.
     pub first: usize,
+    /// The named edges of a panel of a garment, with the numbers of their particles in the panel.
+    pub edges: Vec<(String, Vec<u32>)>,
+}
+
+/// A panel at its place.
+pub(crate) struct Laid {
+    pub(crate) panel: Panel,
+    /// Three numbers per particle, in m and m/s.
+    pub(crate) positions: Vec<f64>,
+    pub(crate) velocities: Vec<f64>,
 }
 
 impl Reader<'_> {
@@ -31,13 +41,13 @@ impl Reader<'_> {
         file: &SceneFile,
         materials: &[Option<Material>],
         unit: f64,
-    ) -> Vec<(Panel, Placement)> {
-        if file.panel.is_empty() {
-            let help = "add [[panel]] with name, fabric and rectangle or disc";
+    ) -> Vec<Laid> {
+        if file.panel.is_empty() && file.garment.is_empty() {
+            let help = "add [[panel]] with name, fabric and rectangle or disc, or [[garment]] with a pattern";
             self.mistakes
                 .push(Diagnostic::new(self.document.path(), "the scene has no panel").help(help));
         }
-        let mut panels: Vec<(Panel, Placement)> = Vec::new();
+        let mut panels: Vec<Laid> = Vec::new();
         let mut first = 0;
         for (index, entry) in file.panel.iter().enumerate() {
             let key = format!("panel[{index}]");
@@ -45,16 +55,7 @@ impl Reader<'_> {
                 let message = format!("there are two panels \"{}\"", entry.name);
                 self.fail(&format!("{key}.name"), message, "give each its own name");
             }
-            let names: Vec<&str> = file.fabric.keys().map(String::as_str).collect();
-            let material = names.iter().position(|name| *name == entry.fabric);
-            if material.is_none() {
-                let message = format!("there is no fabric \"{}\"", entry.fabric);
-                let help = match closest(&entry.fabric, names.iter().copied()) {
-                    Some(name) => format!("did you mean \"{name}\"?"),
-                    None => format!("the fabrics of this scene are: {}", names.join(", ")),
-                };
-                self.fail(&format!("{key}.fabric"), message, &help);
-            }
+            let material = self.material_of(&format!("{key}.fabric"), &entry.fabric, file);
             let lattice = self.lattice(&key, entry, file.spacing, unit);
             let placement = Placement::new(entry, unit);
             let bad = entry.center.iter().chain(&entry.turn).any(|x| !x.is_finite());
@@ -77,12 +78,29 @@ impl Reader<'_> {
                     };
                     let lattice = lattice.clone();
                     let placement = placement.copied(copy, (entry.stack.as_ref(), unit));
-                    panels.push((Panel { name, material, lattice, first }, placement));
+                    let positions = placement.positions(&lattice);
+                    let velocities = placement.velocities(&positions);
+                    let panel = Panel { name, material, lattice, first, edges: Vec::new() };
+                    panels.push(Laid { panel, positions, velocities });
                     first += particles;
                 }
             }
         }
         panels
+    }
+
+    /// The number of the fabric of a name.
+    pub(crate) fn material_of(&mut self, key: &str, name: &str, file: &SceneFile) -> Option<usize> {
+        let names: Vec<&str> = file.fabric.keys().map(String::as_str).collect();
+        let material = names.iter().position(|known| *known == name);
+        if material.is_none() {
+            let help = match closest(name, names.iter().copied()) {
+                Some(name) => format!("did you mean \"{name}\"?"),
+                None => format!("the fabrics of this scene are: {}", names.join(", ")),
+            };
+            self.fail(key, format!("there is no fabric \"{name}\""), &help);
+        }
+        material
     }
 
     /// How many panels an entry stands for.
@@ -164,7 +182,7 @@ impl Reader<'_> {
     }
 
     /// The particles must be farther apart than the cloth is thick.
-    fn thick_enough(&mut self, key: &str, lattice: &Lattice, material: &Material) {
+    pub(crate) fn thick_enough(&mut self, key: &str, lattice: &Lattice, material: &Material) {
         let spacing = lattice.spacing[0].min(lattice.spacing[1]);
         let thickness = material.fabric.thickness;
         if spacing < thickness {

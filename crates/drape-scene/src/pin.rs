@@ -11,6 +11,8 @@ pub struct Pin {
     pub(crate) track: Option<Track>,
     /// When it lets go, in s; infinite if it never does.
     pub(crate) release: f64,
+    /// Whether it lets go when the garment is sewn.
+    pub(crate) until_sewn: bool,
 }
 
 /// What a pin bears: the pull of the cloth and the weight that hangs on it.
@@ -26,6 +28,13 @@ impl Pin {
     /// Whether it holds its particles in a step that ends at a time, in s.
     pub(crate) fn holds(&self, end_time: f64) -> bool {
         end_time <= self.release
+    }
+
+    /// Lets go, at a time in s, if it is to hold until the garment is sewn.
+    pub(crate) fn sewn(&mut self, time: f64) {
+        if self.until_sewn {
+            self.release = time;
+        }
     }
 
     /// The load from the forces on all particles.

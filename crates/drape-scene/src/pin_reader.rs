@@ -1,3 +1,5 @@
+use drape_input::closest;
+
 use crate::file::PinFile;
 use crate::panel::Panel;
 use crate::pin::Pin;
@@ -25,7 +27,11 @@ impl Reader<'_> {
         };
         let mut particles = self.points(&key, pin, panel, unit);
         if let Some(edge) = pin.edge.as_deref() {
-            particles.extend(self.edge(&key, edge, (panel, pin.rows.unwrap_or(1))));
+            if panel.edges.is_empty() {
+                particles.extend(self.edge(&key, edge, (panel, pin.rows.unwrap_or(1))));
+            } else {
+                particles.extend(self.named_edge(&key, edge, panel));
+            }
         }
         if pin.points.is_empty() && pin.edge.is_none() {
             let help = "give points = [[u, v], …] or edge = \"top\"";
@@ -51,7 +57,27 @@ impl Reader<'_> {
         if pin.release.is_some() {
             self.within(&format!("{key}.release"), release, (0.0, 1e5), "when it lets go, in s");
         }
-        Some(Pin { particles, start, track, release })
+        let until_sewn = self.choice(
+            &format!("{key}.until"),
+            Some(pin.until.as_deref().unwrap_or("end")),
+            &[("end", false), ("sewn", true)],
+        );
+        Some(Pin { particles, start, track, release, until_sewn })
+    }
+
+    /// The particles of an edge of a garment's panel.
+    fn named_edge(&mut self, key: &str, edge: &str, panel: &Panel) -> Vec<usize> {
+        if let Some((_, nodes)) = panel.edges.iter().find(|(name, _)| name == edge) {
+            return nodes.iter().map(|&node| panel.first + node as usize).collect();
+        }
+        let names: Vec<&str> = panel.edges.iter().map(|(name, _)| name.as_str()).collect();
+        let help = match closest(edge, names.iter().copied()) {
+            Some(near) => format!("did you mean \"{near}\"? its edges are: {}", names.join(", ")),
+            None => format!("its edges are: {}", names.join(", ")),
+        };
+        let message = format!("panel \"{}\" has no edge \"{edge}\"", panel.name);
+        self.fail(&format!("{key}.edge"), message, &help);
+        Vec::new()
     }
 
     /// The particles nearest to the places that a pin names, or all within its radius of them.

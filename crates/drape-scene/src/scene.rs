@@ -12,11 +12,12 @@ use crate::course::Course;
 use crate::file::SceneFile;
 use crate::material::Material;
 use crate::model::Model;
-use crate::panel::Panel;
+use crate::panel::{Laid, Panel};
 use crate::pin::Pin;
 use crate::reader::Reader;
 use crate::scheme::Scheme;
 use crate::settle::Settle;
+use crate::sewing::Sewing;
 use crate::surfaces::{Parts, Surfaces};
 use crate::tangle::{Overlap, Tangle, overlaps};
 
@@ -68,6 +69,10 @@ pub struct Scene {
     pub settle: Option<Settle>,
     /// How the steps are made.
     pub scheme: Scheme,
+    /// How the seams are sewn, if there are some.
+    pub sewing: Option<Sewing>,
+    /// What the user should know about the patterns.
+    pub notes: Vec<String>,
     /// Whether the energies are accounted for.
     pub energy: bool,
     /// Folder for the results that the scene asks for.
@@ -105,12 +110,22 @@ impl Reader<'_> {
         let folder = self.document.path().parent().unwrap_or(Path::new("")).to_owned();
         let model = self.model(&file);
         let materials = self.materials(&file, &folder, model);
-        let panels = self.panels(&file, &materials, unit);
+        let mut laid = self.panels(&file, &materials, unit);
+        let count = laid.iter().map(|laid| laid.positions.len() / 3).sum();
+        let garments = self.garments((&file, &folder), &materials, (count, unit));
+        let (mut seams, mut notes) = (Vec::new(), Vec::new());
+        for garment in garments {
+            laid.extend(garment.panels);
+            seams.extend(garment.seams);
+            notes.extend(garment.notes);
+        }
+        self.names_differ(&laid);
         let clock = self.clock(&file, unit);
-        let spacings = panels.iter().flat_map(|(panel, _)| panel.lattice.spacing);
+        let spacings = laid.iter().flat_map(|laid| laid.panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
         let settle = self.settle(&file, (spacing.min(1.0), unit));
         let scheme = self.scheme(&file);
+        let sewing = self.sewing(&file, seams);
         let air = self.air(&file);
         let gravity = file.gravity.unwrap_or([0.0, -9.81, 0.0]);
         if gravity.iter().any(|g| !g.is_finite()) {
@@ -126,9 +141,9 @@ impl Reader<'_> {
         // What follows needs sound panels.
         Diagnostics::check(std::mem::take(&mut self.mistakes))?;
 
-        let pairs: Vec<_> = panels
+        let pairs: Vec<_> = laid
             .iter()
-            .map(|(panel, _)| {
+            .map(|Laid { panel, .. }| {
                 let material = materials[panel.material].as_ref();
                 (&panel.lattice, &material.expect("mistakes were reported").fabric)
             })
@@ -139,16 +154,10 @@ impl Reader<'_> {
             Model::Breen1994 => without_friction(&pairs),
         };
         let materials: Vec<Material> = materials.into_iter().flatten().collect();
-        let positions: Vec<f64> =
-            panels.iter().flat_map(|(panel, place)| place.positions(&panel.lattice)).collect();
-        let mut velocities: Vec<f64> = panels
-            .iter()
-            .flat_map(|(panel, place)| {
-                let own = 3 * panel.first..3 * (panel.first + panel.lattice.coordinates.len());
-                place.velocities(&positions[own])
-            })
-            .collect();
-        let panels: Vec<Panel> = panels.into_iter().map(|(panel, _)| panel).collect();
+        let positions: Vec<f64> = laid.iter().flat_map(|laid| &laid.positions).copied().collect();
+        let mut velocities: Vec<f64> =
+            laid.iter().flat_map(|laid| &laid.velocities).copied().collect();
+        let panels: Vec<Panel> = laid.into_iter().map(|laid| laid.panel).collect();
         let pins = file.pin.iter().enumerate();
         let pins: Vec<Pin> = pins
             .filter_map(|(index, pin)| self.pin(index, pin, (&panels, unit), &positions))
@@ -173,6 +182,7 @@ impl Reader<'_> {
                 bodies: &bodies,
                 courses: &courses,
                 held: &held,
+                sewn: sewing.as_ref().map_or(&[][..], |sewing| &sewing.pairs),
                 offset: contact_settings.offset,
                 stiffness: file.contact.stiffness,
                 stick,
@@ -202,7 +212,7 @@ impl Reader<'_> {
         Ok(Scene {
             name: file.name.unwrap_or_else(|| "unnamed".into()),
             file: self.document.path().to_owned(),
-            hash: hash(self.document, &materials, (contact.bodies(), &courses)),
+            hash: hash(self.document, (&materials, &positions), (contact.bodies(), &courses)),
             materials,
             panels,
             cloth,
@@ -219,6 +229,8 @@ impl Reader<'_> {
             clock,
             settle,
             scheme,
+            sewing,
+            notes,
             energy: file.output.energy.unwrap_or(true),
             folder: results,
             view: [file.output.azimuth, file.output.elevation],
@@ -320,7 +332,7 @@ fn without_friction(panels: &[(&Lattice, &Fabric)]) -> Cloth {
 
 fn hash(
     document: &Document,
-    materials: &[Material],
+    (materials, positions): (&[Material], &[f64]),
     (bodies, courses): (&[Body], &[Option<Course>]),
 ) -> String {
     let mut hasher = blake3::Hasher::new();
@@ -329,6 +341,7 @@ fn hash(
         hasher.update(material.fabric.to_toml().as_bytes());
     }
     let mut number = |value: f64| _ = hasher.update(&value.to_le_bytes());
+    positions.iter().for_each(|&x| number(x));
     for (body, course) in bodies.iter().zip(courses) {
         if let Shape::Mesh(mesh) = &body.shape {
             mesh.vertices().iter().flatten().for_each(|&x| number(x));

@@ -1,4 +1,5 @@
 mod outcome;
+mod seams;
 
 use std::ops::Range;
 
@@ -15,6 +16,7 @@ use crate::scheme::{Integration, Scheme};
 use crate::settle::Settle;
 use crate::stopwatch::Stopwatch;
 use crate::summary::{Energy, Solver, Status, Summary};
+use crate::weld::Weld;
 use crate::world::World;
 
 /// Time for which the cloth must stay slow to be at rest, in s.
@@ -44,6 +46,10 @@ pub struct Simulation {
     motion: Motion,
     scheme: Scheme,
     integration: Integration,
+    /// What makes sewn nodes one, once they are sewn.
+    weld: Option<Weld>,
+    /// The nodes of the seams, in pairs.
+    pub(crate) sewn: Vec<[u32; 2]>,
     /// Tolerance of the steps now.
     tolerance: f64,
     estimate: ErrorEstimate,
@@ -112,16 +118,12 @@ impl Simulation {
         let particles = |panel: &Panel| panel.first..panel.first + panel.lattice.coordinates.len();
         let panels = scene.panels.iter().map(|panel| (panel.name.clone(), particles(panel)));
         let panels = panels.collect();
+        let sewn = scene.sewing.as_ref().map_or_else(Vec::new, |sewing| sewing.pairs.clone());
         let world = World::new(scene);
-        let (integration, tolerance) = match &scheme {
-            Scheme::Implicit(settings) if world.creeps => {
-                let tolerance = settings.tolerance.max(CREEP_TOLERANCE_MAX);
-                (creeping(settings, tolerance).start(&world)?, tolerance)
-            }
-            Scheme::Implicit(settings) => (scheme.start(&world)?, settings.tolerance),
-            Scheme::Explicit => (scheme.start(&world)?, 0.0),
-        };
+        let (now, tolerance) = scheme.on_the_way(world.creeps);
+        let integration = now.start(&world)?;
         let order = if integrator(&scheme) == Integrator::Bdf2 { 2.0 } else { 1.0 };
+        let strides = if sewn.is_empty() { settle } else { Some(seams::strides(spacing)) };
         Ok(Self {
             motion: Motion {
                 velocities: world.state.velocities.clone(),
@@ -131,8 +133,10 @@ impl Simulation {
             world,
             scheme,
             integration,
+            weld: None,
+            sewn,
             tolerance,
-            pace: Pace::new(clock, settle, order),
+            pace: Pace::new(clock, strides, order),
             clock,
             settle,
             scene_hash,
@@ -233,14 +237,19 @@ impl Simulation {
         self.speed_max = squares.fold(0.0, f64::max).sqrt();
         self.imbalance = self.acceleration(dt) / GRAVITY;
         self.pace.follow(ticks, self.speed_max * dt);
-        self.judge_rest(ticks)?;
+        match self.world.stitches() {
+            Some(_) => self.judge_seams()?,
+            None => self.judge_rest(ticks)?,
+        }
         Ok(Step {
             time: self.time(),
             dt,
             speed_max: self.speed_max,
             imbalance: self.imbalance,
             report,
-            finished: self.settled() || self.ticks >= self.ticks_to_do(),
+            finished: self.settled()
+                || self.status != Status::Ok
+                || self.ticks >= self.ticks_to_do(),
         })
     }
 
@@ -253,14 +262,14 @@ impl Simulation {
             let ticks = self.pace.next(self.ticks);
             let dt = ticks as f64 * self.clock.tick();
             if self.clock.error.is_none() {
-                let report = self.integration.advance(&mut self.world, &mut self.motion, dt)?;
+                let report = self.integrate(dt)?;
                 self.enter(&report);
                 return Ok((ticks, report));
             }
             let start = (self.motion.clone(), self.world.state.clone(), self.world.ledger.clone());
             let memory = self.world.surfaces.as_ref().map(|surfaces| surfaces.contact.memory());
             self.estimate.predict(&self.motion, integrator(&self.scheme), dt);
-            let report = self.integration.advance(&mut self.world, &mut self.motion, dt)?;
+            let report = self.integrate(dt)?;
             let error = self.estimate.estimate(&self.motion);
             if self.pace.judge((self.ticks, ticks), error) {
                 self.solver.error_max = Some(self.solver.error_max.unwrap_or(0.0).max(error));
@@ -273,6 +282,14 @@ impl Simulation {
             }
             self.solver.inexact_steps += 1;
             self.count(&report);
+        }
+    }
+
+    fn integrate(&mut self, dt: f64) -> Result<Report, Error> {
+        let Self { integration, world, motion, .. } = self;
+        match &mut self.weld {
+            Some(weld) => weld.advance((world, integration), motion, dt),
+            None => integration.advance(world, motion, dt),
         }
     }
 
@@ -333,11 +350,11 @@ impl Simulation {
             exact = self.tolerance <= settings.tolerance.max(CREEP_TOLERANCE * settle.residual);
             if wanted < 0.5 * self.tolerance {
                 self.tolerance = wanted;
-                self.integration = creeping(settings, wanted).start(&self.world)?;
+                self.integration = self.start(&creeping(settings, wanted))?;
             }
         }
         let slow = self.speed_max <= settle.speed && self.imbalance <= settle.residual;
-        let busy = self.clock.ramp.max(self.world.last_release());
+        let busy = self.world.last_change();
         let quiet = slow && exact && self.time() >= busy;
         self.quiet_ticks = if quiet { self.quiet_ticks + ticks } else { 0 };
         Ok(())
@@ -364,7 +381,7 @@ impl Simulation {
                 progress.frame(&self.frame())?;
             }
             if step.finished {
-                if self.settle.is_some() && !self.settled() {
+                if self.status == Status::Ok && self.settle.is_some() && !self.settled() {
                     self.status = Status::DidNotSettle;
                 }
                 break;
@@ -378,14 +395,30 @@ impl Simulation {
     }
 }
 
-/// Settings of creeping steps. A tangent kept for a second iteration is worth nothing in long ones.
+impl Scheme {
+    /// The scheme for steps that creep or do not, and the tolerance that they begin with.
+    fn on_the_way(&self, creeps: bool) -> (Self, f64) {
+        match self {
+            Self::Implicit(settings) if creeps => {
+                let tolerance = settings.tolerance.max(CREEP_TOLERANCE_MAX);
+                (creeping(settings, tolerance), tolerance)
+            }
+            Self::Implicit(settings) => (self.clone(), settings.tolerance),
+            Self::Explicit => (Self::Explicit, 0.0),
+        }
+    }
+}
+
+/// Settings of creeping steps, by the formula without a past. A tangent kept for a second iteration is worth nothing in
+/// long ones.
 fn creeping(settings: &Settings, tolerance: f64) -> Scheme {
     let method = match settings.method {
         Method::Broyden => Method::Newton,
         chosen => chosen,
     };
     let newton_forcing = CREEP_FORCING;
-    Scheme::Implicit(Settings { method, tolerance, newton_forcing, ..settings.clone() })
+    let integrator = Integrator::BackwardEuler;
+    Scheme::Implicit(Settings { method, tolerance, newton_forcing, integrator, ..settings.clone() })
 }
 
 fn integrator(scheme: &Scheme) -> Integrator {

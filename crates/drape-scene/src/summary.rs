@@ -55,6 +55,9 @@ pub enum Status {
     /// The end came before the rest that the scene asks for.
     #[serde(rename = "did not settle")]
     DidNotSettle,
+    /// The sides of a seam could not be drawn together.
+    #[serde(rename = "seams open")]
+    SeamsOpen,
     /// Surfaces crossed in a step, however short.
     #[serde(rename = "certificate failed")]
     CertificateFailed,

@@ -41,6 +41,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) bodies: &'a [Body],
     pub(crate) courses: &'a [Option<Course>],
     pub(crate) held: &'a [bool],
+    /// Pairs of particles that are sewn together.
+    pub(crate) sewn: &'a [[u32; 2]],
     /// Distance of the middle of the cloth from a body at which contact begins, in m.
     pub(crate) offset: f64,
     /// In N/m³; what the fabrics' thickness under pressure asks for if there is none.
@@ -67,7 +69,7 @@ impl Surfaces {
             group: Vec::new(),
             skins: Vec::new(),
             free: cloth.particles(),
-            twins: Vec::new(),
+            twins: parts.sewn.iter().copied().filter(|[a, b]| a != b).collect(),
         };
         let mut frictions = Vec::new();
         for (index, panel) in panels.iter().enumerate() {

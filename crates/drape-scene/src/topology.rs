@@ -16,6 +16,9 @@ pub struct Topology {
     pub panels: Vec<Part>,
     /// The bodies, in the order of their vertices.
     pub bodies: Vec<Part>,
+    /// Pairs of the cloth's vertices that are sewn together.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub twins: Vec<[u32; 2]>,
     /// Material coordinates of the particles, in m.
     #[serde(skip)]
     pub coordinates: Vec<[f64; 2]>,
@@ -73,6 +76,7 @@ impl Simulation {
             guarded: self.world.surfaces.is_some(),
             panels,
             bodies,
+            twins: self.sewn.iter().copied().filter(|[a, b]| a != b).collect(),
             coordinates: cloth.coordinates().to_vec(),
             triangles: cloth.triangles().to_vec(),
             body_triangles,

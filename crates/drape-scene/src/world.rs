@@ -7,6 +7,7 @@ use crate::course::Course;
 use crate::ledger::{Entry, Ledger};
 use crate::pin::{Pin, PinLoad};
 use crate::scene::Scene;
+use crate::stitches::Stitches;
 use crate::surfaces::Surfaces;
 use crate::track::Track;
 
@@ -29,8 +30,12 @@ pub(crate) struct World {
     full_gravity: [f64; 3],
     /// The one at the end of the step.
     gravity: [f64; 3],
+    /// When it begins to grow, in s: when the garment is sewn.
+    grows_from: f64,
     /// How long it takes to grow, in s.
     ramp: f64,
+    /// What draws the sides of the seams together, until they are one.
+    stitches: Option<Stitches>,
     /// Whether the cloth goes to rest without inertia.
     pub(crate) creeps: bool,
     /// What takes a creeping cloth's momentum from it in the course of a step, in N.
@@ -41,7 +46,7 @@ pub(crate) struct World {
     pub(crate) pins: Vec<Pin>,
     /// The bodies that move: which, where it started, its way.
     moving: Vec<(usize, Pose, Track)>,
-    /// Half the air's density times the drag coefficient, in kg/m³.
+    /// Half the air's density times the drag coefficient, in kg/m³; nothing slows a cloth that creeps.
     air: f64,
     /// Drag of each particle over the length of the step, in N/m along its normal.
     drag: Vec<f64>,
@@ -63,6 +68,7 @@ impl World {
             courses,
             gravity,
             air,
+            sewing,
             ..
         } = scene;
         let poses = contact.bodies().iter().map(|body| body.pose).enumerate();
@@ -72,13 +78,15 @@ impl World {
             Some(Course::Shapes(_)) | None => None,
         });
         let moving = moving.collect();
-        let creeps = scene.settle.is_some_and(|settle| !settle.inertia);
+        let stitches = sewing.map(|s| Stitches::new(&s.pairs, &positions, s.seconds));
         let mut state = cloth.state(positions).expect("a scene places every particle");
         state.velocities = velocities;
-        let mut bonds = Bonds::new(&cloth, breen, &state.positions);
+        let threads = stitches.as_ref().map_or(&[][..], Stitches::pairs);
+        let mut bonds = Bonds::new(&cloth, breen, (threads, &state.positions));
         let drag = vec![0.0; cloth.particles()];
         let stored = bonds.stored(&cloth, &state);
         let ledger = scene.energy.then(|| Ledger::new(stored, cloth.particles()));
+        let sewing = stitches.is_some();
         let mut world = Self {
             bonds,
             cloth,
@@ -87,21 +95,52 @@ impl World {
             surfaces,
             full_gravity: gravity,
             gravity,
+            grows_from: 0.0,
             ramp: scene.clock.ramp,
-            brake: vec![0.0; if creeps { 3 * drag.len() } else { 0 }],
-            creeps,
+            stitches,
+            brake: Vec::new(),
+            creeps: false,
             held,
             pins,
             moving,
-            air: if creeps { 0.0 } else { air },
+            air,
             drag,
             ledger,
         };
+        world.creep(sewing || scene.settle.is_some_and(|settle| !settle.inertia));
         let kinetic = world.kinetic();
         if let Some(ledger) = &mut world.ledger {
             ledger.start = kinetic;
         }
         world
+    }
+
+    /// Whether the steps are to start from rest.
+    pub(crate) fn creep(&mut self, creeps: bool) {
+        self.creeps = creeps;
+        self.brake.clear();
+        self.brake.resize(if creeps { 3 * self.cloth.particles() } else { 0 }, 0.0);
+    }
+
+    /// What draws the sides of the seams together, while they are not one.
+    pub(crate) fn stitches(&self) -> Option<&Stitches> {
+        self.stitches.as_ref()
+    }
+
+    /// Ends the sewing at a time, in s: from now on the nodes of seams are where they have been moved to, and stay together.
+    pub(crate) fn sewn(&mut self, time: f64, positions: &[f64]) {
+        self.stitches = None;
+        self.grows_from = time;
+        self.bonds.untie(&self.cloth);
+        self.state.positions.copy_from_slice(positions);
+        self.state.velocities.fill(0.0);
+        for pin in &mut self.pins {
+            pin.sewn(time);
+        }
+        if self.ledger.is_some() {
+            let stored = self.bonds.stored(&self.cloth, &self.state);
+            self.ledger = Some(Ledger::new(stored, self.cloth.particles()));
+        }
     }
 
     /// Calls with the particle's way along its normal since the start of the step, for every
@@ -204,10 +243,11 @@ impl World {
         }
     }
 
-    /// When the last of the pins that let go does so, in s.
-    pub(crate) fn last_release(&self) -> f64 {
+    /// When gravity has grown, and the last of the pins that let go has done so, in s.
+    pub(crate) fn last_change(&self) -> f64 {
         let releases = self.pins.iter().map(|pin| pin.release);
-        releases.filter(|release| release.is_finite()).fold(0.0, f64::max)
+        let grown = self.grows_from + self.ramp;
+        releases.filter(|release| release.is_finite()).fold(grown, f64::max)
     }
 
     /// What each pin bears at a time, in s, without the inertia of the particles it holds.
@@ -254,8 +294,13 @@ impl System for World {
         self.hold(end_time);
         let holding = self.pins.iter().filter(|pin| pin.holds(end_time));
         holding.for_each(|pin| pin.place(end_time, target));
-        let grown = if end_time < self.ramp { end_time / self.ramp } else { 1.0 };
+        let since = end_time - self.grows_from;
+        let grown = if since < self.ramp { (since / self.ramp).max(0.0) } else { 1.0 };
         self.gravity = self.full_gravity.map(|g| grown * g);
+        if let Some(stitches) = &mut self.stitches {
+            stitches.begin(end_time);
+            self.gravity = [0.0; 3];
+        }
         if let Some(surfaces) = &mut self.surfaces {
             surfaces.begin(end_time, start);
             if let Some(ledger) = &mut self.ledger {
@@ -279,7 +324,8 @@ impl System for World {
             // Quadratic drag with the speed of the step's start: linear in the step, and a
             // potential exists.
             let speed: f64 = normal.iter().zip(velocity).map(|(n, v)| n * v).sum();
-            self.drag[particle] = self.air * areas[particle] * speed.abs() / dt;
+            let air = if self.creeps { 0.0 } else { self.air };
+            self.drag[particle] = air * areas[particle] * speed.abs() / dt;
         }
     }
 
@@ -289,6 +335,9 @@ impl System for World {
         }
         forces.iter_mut().zip(&self.brake).for_each(|(force, brake)| *force += brake);
         self.bonds.add_forces(&self.cloth, &self.state, positions, forces);
+        if let Some(stitches) = &self.stitches {
+            stitches.add_forces(positions, forces);
+        }
         self.each_drag(positions, |particle, way, normal| {
             let pull = self.drag[particle] * way;
             for axis in 0..3 {
@@ -313,12 +362,16 @@ impl System for World {
             Some(surfaces) => surfaces.contact.potential(positions),
             None => self.contact.potential(positions),
         };
-        cloth + self.weight_energy(positions) + brake + drag + contact
+        let threads = self.stitches.as_ref().map_or(0.0, |threads| threads.potential(positions));
+        cloth + self.weight_energy(positions) + brake + drag + contact + threads
     }
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
         let definite = kind == Stiffness::Definite;
         self.bonds.add_stiffness(&self.cloth, &self.state, (positions, definite), matrix);
+        if let Some(stitches) = &self.stitches {
+            stitches.add_stiffness(matrix);
+        }
         self.each_drag(positions, |particle, _, normal| {
             let drag = self.drag[particle];
             let block: [f64; 9] = std::array::from_fn(|k| drag * normal[k / 3] * normal[k % 3]);

@@ -7,7 +7,7 @@ use drape_input::Document;
 use crate::scene::Scene;
 use crate::world::World;
 
-const FABRIC: &str = r#"name = "plain"
+pub(crate) const FABRIC: &str = r#"name = "plain"
 density = 0.15
 thickness = 0.0003
 shear = { stiffness = 35.0, growth = 4.0, friction = [{ plateau = 0.5, length = 0.004 }] }

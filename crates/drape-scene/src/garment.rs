@@ -1,0 +1,234 @@
+use std::path::Path;
+
+use drape_cloth::{ClothError, Grain, Lattice, Mesh};
+use drape_input::{Diagnostic, closest};
+use drape_pattern::{Cut, Cutter, Error, NodeId, Pattern, Placement};
+
+use crate::file::{GarmentFile, GarmentPanelFile, SceneFile};
+use crate::material::Material;
+use crate::panel::{Laid, Panel, SPACING};
+use crate::reader::Reader;
+
+/// A line along which two edges are sewn together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seam {
+    /// Its name in the pattern.
+    pub name: String,
+    /// The particles of both sides, in the order in which it runs; both are one at the tip of a dart.
+    pub pairs: Vec<[u32; 2]>,
+}
+
+/// A garment as its panels and how they are sewn.
+pub(crate) struct Garment {
+    pub(crate) panels: Vec<Laid>,
+    pub(crate) seams: Vec<Seam>,
+    /// What the user should know about its pattern.
+    pub(crate) notes: Vec<String>,
+}
+
+impl Reader<'_> {
+    /// The garments of a scene, whose particles are numbered from `first` on.
+    pub(crate) fn garments(
+        &mut self,
+        (file, folder): (&SceneFile, &Path),
+        materials: &[Option<Material>],
+        (first, unit): (usize, f64),
+    ) -> Vec<Garment> {
+        let mut first = first;
+        let mut garments = Vec::new();
+        for (index, entry) in file.garment.iter().enumerate() {
+            let key = format!("garment[{index}]");
+            let Some(pattern) = self.pattern(&key, &folder.join(&entry.pattern)) else { continue };
+            let spacing = entry.spacing.or(file.spacing).map_or(SPACING, |s| s * unit);
+            let Some(parts) = self.cut(&key, (file, entry), (&pattern, spacing), (first, unit))
+            else {
+                continue;
+            };
+            for laid in &parts.panels {
+                if let Some(Some(material)) = materials.get(laid.panel.material) {
+                    self.thick_enough(&key, &laid.panel.lattice, material);
+                }
+            }
+            first += parts.panels.iter().map(|laid| laid.positions.len() / 3).sum::<usize>();
+            garments.push(parts);
+        }
+        garments
+    }
+
+    fn pattern(&mut self, key: &str, path: &Path) -> Option<Pattern> {
+        let given = self.fabrics.iter().find(|given| given.path() == path);
+        if given.is_none() && !path.exists() {
+            let message = format!("there is no file {}", path.display());
+            self.fail(
+                &format!("{key}.pattern"),
+                message,
+                "the path is relative to the scene's folder",
+            );
+            return None;
+        }
+        let read = match given {
+            Some(document) => Pattern::parse(document).map_err(Error::from),
+            None => Pattern::read(path),
+        };
+        match read {
+            Ok(pattern) => Some(pattern),
+            Err(Error::Input(mistakes)) => {
+                self.mistakes.extend(mistakes.0);
+                None
+            }
+            Err(error) => {
+                self.mistakes.push(Diagnostic::new(path, error.to_string()));
+                None
+            }
+        }
+    }
+
+    /// A pattern cut at a spacing, in m, with each panel at its place.
+    fn cut(
+        &mut self,
+        key: &str,
+        (file, entry): (&SceneFile, &GarmentFile),
+        (pattern, spacing): (&Pattern, f64),
+        (first, unit): (usize, f64),
+    ) -> Option<Garment> {
+        let names: Vec<&str> = pattern.panels().iter().map(drape_pattern::Panel::name).collect();
+        for name in entry.panel.keys().filter(|name| !names.contains(&name.as_str())) {
+            let help = match closest(name, names.iter().copied()) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!("the panels of the pattern are: {}", names.join(", ")),
+            };
+            let message = format!("the pattern has no panel \"{name}\"");
+            self.fail(&format!("{key}.panel.{name}"), message, &help);
+        }
+        let cut = match Cutter::new(spacing).cut(pattern) {
+            Ok(cut) => cut,
+            Err(Error::Pattern(mistakes)) => {
+                for mistake in mistakes {
+                    self.fail(&format!("{key}.pattern"), mistake.to_string(), &mistake.help());
+                }
+                return None;
+            }
+            Err(error) => {
+                self.fail(&format!("{key}.pattern"), error.to_string(), "correct the pattern");
+                return None;
+            }
+        };
+        let mut panels = Vec::new();
+        let mut numbers = Vec::new();
+        let mut next = first;
+        for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
+            let own = entry.panel.get(panel.name());
+            let number = numbering(cut);
+            let placement = self.place((key, panel.name()), (entry, own), panel.placement(), unit);
+            let fabric = own.and_then(|own| own.fabric.as_ref()).unwrap_or(&entry.fabric);
+            let fabric_key = match own.and_then(|own| own.fabric.as_ref()) {
+                Some(_) => format!("{key}.panel.{}.fabric", panel.name()),
+                None => format!("{key}.fabric"),
+            };
+            let material = self.material_of(&fabric_key, fabric, file);
+            let lattice = lattice(cut, (panel.grain(), &number));
+            let lattice = lattice.map_err(|error| {
+                let help = "choose another spacing, and report the pattern";
+                self.fail(
+                    &format!("{key}.pattern"),
+                    format!("panel \"{}\": {error}", panel.name()),
+                    help,
+                );
+            });
+            if let (Some(placement), Some(material), Ok(lattice)) = (placement, material, lattice) {
+                let mut positions = vec![0.0; 3 * cut.positions.len()];
+                for (&node, &place) in number.iter().zip(&cut.positions) {
+                    positions[3 * node as usize..][..3].copy_from_slice(&placement.point(place));
+                }
+                let edges = panel.outline().iter().zip(&cut.edges);
+                let edges = edges.map(|(edge, nodes)| {
+                    (edge.name.clone(), nodes.iter().map(|&node| number[node as usize]).collect())
+                });
+                let panel = Panel {
+                    name: panel.name().to_owned(),
+                    material,
+                    lattice,
+                    first: next,
+                    edges: edges.collect(),
+                };
+                let velocities = vec![0.0; positions.len()];
+                panels.push(Laid { panel, positions, velocities });
+            }
+            numbers.push((next, number));
+            next += cut.positions.len();
+        }
+        let node = |id: NodeId| {
+            let (first, number) = &numbers[id.panel];
+            *first as u32 + number[id.node as usize]
+        };
+        let seams = pattern.stitches().iter().zip(&cut.seams).map(|(stitch, pairs)| Seam {
+            name: stitch.name.clone(),
+            pairs: pairs.iter().map(|pair| pair.map(node)).collect(),
+        });
+        let notes = pattern.notes().iter().chain(&cut.notes).map(ToString::to_string).collect();
+        (panels.len() == names.len()).then(|| Garment { panels, seams: seams.collect(), notes })
+    }
+
+    /// Where a panel begins: where the scene says, or else the pattern; shifted with the garment.
+    fn place(
+        &mut self,
+        (key, name): (&str, &str),
+        (entry, own): (&GarmentFile, Option<&GarmentPanelFile>),
+        given: Option<&Placement>,
+        unit: f64,
+    ) -> Option<Placement> {
+        let written = own.filter(|own| own.center.is_some() || own.turn.is_some());
+        let mut placement = match (written, given) {
+            (Some(own), _) => {
+                let center = own.center.unwrap_or_default().map(|x| x * unit);
+                Placement::new(own.turn.unwrap_or_default().map(f64::to_radians), center)
+            }
+            (None, Some(given)) => *given,
+            (None, None) => {
+                let help = format!(
+                    "add center = [x, y, z] and turn = [x, y, z] to [{}], or origin and turn to the pattern",
+                    format_args!("garment.panel.{name}")
+                );
+                let message = format!("panel \"{name}\" has no place in space");
+                self.fail(key, message, &help);
+                return None;
+            }
+        };
+        let numbers = placement.rotation.iter().flatten().chain(&placement.translation);
+        if numbers.chain(&entry.center).any(|x| !x.is_finite()) {
+            self.fail(&format!("{key}.center"), "is not finite".into(), "in the file's unit");
+        }
+        (0..3).for_each(|axis| placement.translation[axis] += entry.center[axis] * unit);
+        Some(placement)
+    }
+}
+
+/// The number of each node of a cut in its lattice: those of the grid come first, row by row, then those of the outline.
+fn numbering(cut: &Cut) -> Vec<u32> {
+    let inner = cut.lattice.iter().flatten().count() as u32;
+    let (mut grid, mut outline) = (0..inner, inner..);
+    let number = |place: &Option<[u32; 2]>| match place {
+        Some(_) => grid.next(),
+        None => outline.next(),
+    };
+    cut.lattice.iter().map(number).map(Option::unwrap_or_default).collect()
+}
+
+/// A cut as the cloth knows it.
+fn lattice(cut: &Cut, (grain, number): (f64, &[u32])) -> Result<Lattice, ClothError> {
+    let mut coordinates = vec![[0.0; 2]; number.len()];
+    let mut places = vec![None; number.len()];
+    for (node, &own) in number.iter().enumerate() {
+        coordinates[own as usize] = cut.yarns[node];
+        places[own as usize] = cut.lattice[node];
+    }
+    let places: Vec<[u32; 2]> = places.into_iter().flatten().collect();
+    let mesh = Mesh {
+        spacing: cut.spacing,
+        coordinates,
+        places,
+        cells: cut.quads.iter().map(|quad| quad.map(|node| number[node as usize])).collect(),
+        triangles: cut.triangles.iter().map(|t| t.map(|node| number[node as usize])).collect(),
+    };
+    Lattice::with_rim(mesh, Grain::from_degrees(grain.to_degrees()))
+}

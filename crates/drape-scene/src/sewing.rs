@@ -1,0 +1,58 @@
+use drape_input::Diagnostic;
+
+use crate::file::SceneFile;
+use crate::garment::Seam;
+use crate::panel::Laid;
+use crate::reader::Reader;
+
+/// How long the sides of the seams are drawn together when the scene does not say, in s.
+const SECONDS: f64 = 1.0;
+
+/// How a garment is sewn before it hangs: the sides of all seams are drawn together, without gravity and without inertia,
+/// and then become one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sewing {
+    /// The seams.
+    pub seams: Vec<Seam>,
+    /// The particles of all of them, in pairs.
+    pub pairs: Vec<[u32; 2]>,
+    /// How long it takes, in s.
+    pub seconds: f64,
+}
+
+impl Reader<'_> {
+    pub(crate) fn sewing(&mut self, file: &SceneFile, seams: Vec<Seam>) -> Option<Sewing> {
+        let seconds = file.sew.seconds.unwrap_or(SECONDS);
+        self.within("sew.seconds", seconds, (1e-3, 1e3), "in s; 1 is usual");
+        if seams.is_empty() {
+            if file.sew.seconds.is_some() {
+                let help = "seams are in the pattern of a [[garment]]";
+                self.fail("sew.seconds", "nothing is sewn".into(), help);
+            }
+            return None;
+        }
+        let explicit = file.solver.integrator.as_deref() == Some("explicit");
+        for (wrong, key, word) in [
+            (explicit, "solver.integrator", "explicit"),
+            (file.model.as_deref() == Some("breen-1994"), "model", "breen-1994"),
+        ] {
+            if wrong {
+                let message = format!("\"{word}\" cannot sew");
+                self.fail(key, message, "leave it out in a scene with seams");
+            }
+        }
+        let pairs = seams.iter().flat_map(|seam| &seam.pairs).copied().collect();
+        Some(Sewing { seams, pairs, seconds })
+    }
+
+    /// Panels are told apart by their names.
+    pub(crate) fn names_differ(&mut self, laid: &[Laid]) {
+        for (index, Laid { panel, .. }) in laid.iter().enumerate() {
+            if laid[..index].iter().any(|other| other.panel.name == panel.name) {
+                let message = format!("there are two panels \"{}\"", panel.name);
+                let help = "give each its own name";
+                self.mistakes.push(Diagnostic::new(self.document.path(), message).help(help));
+            }
+        }
+    }
+}

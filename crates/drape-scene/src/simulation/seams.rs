@@ -1,0 +1,78 @@
+use drape_implicit::{Error, Integrator, Motion};
+
+use super::{Simulation, integrator};
+use crate::pace::Pace;
+use crate::scheme::{Integration, Scheme};
+use crate::settle::Settle;
+use crate::summary::Status;
+use crate::weld::Weld;
+
+/// Widest gap at which the two sides of a seam become one, in m. What the pull of a stitch leaves is a tenth of it.
+const CLOSED: f64 = 1e-4;
+
+/// How much longer than it should the drawing together of the seams may take.
+const PATIENCE: f64 = 2.0;
+
+/// Part of the spacing that a particle may move in one step while the garment is sewn.
+const STRIDE: f64 = 0.5;
+
+/// How far steps go while a garment is sewn, of particles that are so far apart, in m.
+pub(super) fn strides(spacing: f64) -> Settle {
+    Settle { speed: 0.0, residual: 0.0, stride: STRIDE * spacing, inertia: false }
+}
+
+impl Simulation {
+    /// Sets up a scheme for the system that is solved now.
+    pub(super) fn start(&mut self, scheme: &Scheme) -> Result<Integration, Error> {
+        match &mut self.weld {
+            Some(weld) => weld.start(&mut self.world, scheme),
+            None => scheme.start(&self.world),
+        }
+    }
+
+    /// Ends the sewing when the seams are closed, or when they do not close.
+    pub(super) fn judge_seams(&mut self) -> Result<(), Error> {
+        let Some(stitches) = self.world.stitches() else { return Ok(()) };
+        let (end, (gap, [a, b])) = (stitches.end(), stitches.widest(&self.motion.positions));
+        if self.time() < end {
+            return Ok(());
+        }
+        if gap <= CLOSED {
+            return self.sew();
+        }
+        if self.time() >= PATIENCE * end {
+            let [x, y, z] = [0, 1, 2].map(|axis| self.motion.positions[3 * a as usize + axis]);
+            let [one, other] = [a, b].map(|node| self.panel_of(node as usize));
+            let reason = format!(
+                "the seam between \"{one}\" and \"{other}\" is still open by {:.2} mm near ({x:.4}, {y:.4}, {z:.4}) m",
+                1e3 * gap
+            );
+            self.reason = Some(reason);
+            self.status = Status::SeamsOpen;
+        }
+        Ok(())
+    }
+
+    /// The two sides of every seam become one, and the garment begins to hang.
+    fn sew(&mut self) -> Result<(), Error> {
+        let weld = Weld::new(&self.world, &self.sewn)?;
+        let mut positions = self.motion.positions.clone();
+        weld.join(self.world.cloth.masses(), &mut positions);
+        self.world.sewn(self.time(), &positions);
+        self.motion = Motion { time: self.motion.time, ..Motion::at_rest(positions) };
+        self.world.creep(self.settle.is_some_and(|settle| !settle.inertia));
+        // The system without threads has a pattern of its own.
+        self.weld = Some(Weld::new(&self.world, &self.sewn)?);
+        let (scheme, tolerance) = self.scheme.on_the_way(self.world.creeps);
+        self.integration = self.start(&scheme)?;
+        self.tolerance = tolerance;
+        let order = if integrator(&self.scheme) == Integrator::Bdf2 { 2.0 } else { 1.0 };
+        self.pace = Pace::new(self.clock, self.settle, order);
+        Ok(())
+    }
+
+    /// Name of the panel that a node is of.
+    fn panel_of(&self, node: usize) -> &str {
+        self.panels.iter().find(|(_, own)| own.contains(&node)).map_or("", |(name, _)| name)
+    }
+}

@@ -1,0 +1,136 @@
+//! Panels that are sewn: their system's forces against its potential, and their weight at the pin.
+
+use drape_implicit::{System, check_system};
+use drape_input::Document;
+
+use crate::garment::Seam;
+use crate::scene::Scene;
+use crate::sewing::Sewing;
+use crate::simulation::{Progress, Step};
+use crate::weld::{Sewn, Weld};
+use crate::world::World;
+use crate::world_check::FABRIC;
+use crate::{Frame, SceneError, Simulation, Status};
+
+/// Sheets of 7 × 7 particles, one below the other with gaps of 8 mm, sewn at their edges and held at the top.
+fn scene() -> Scene {
+    let text = r#"spacing = 0.01
+fabric.plain.file = "plain.toml"
+[[panel]]
+name = "upper"
+fabric = "plain"
+rectangle = [0.06, 0.06]
+center = [0, 0.1, 0]
+noise = { amplitude = 5e-4, seed = 3 }
+[[panel]]
+name = "lower"
+fabric = "plain"
+rectangle = [0.06, 0.06]
+center = [0.004, 0.032, 0.003]
+noise = { amplitude = 5e-4, seed = 4 }
+[[pin]]
+panel = "upper"
+edge = "top"
+[time]
+step = 0.005
+end = 60
+[settle]
+residual = 1e-4
+"#;
+    let fabric = Document::new("plain.toml", FABRIC);
+    let mut scene =
+        Scene::from_documents(&Document::new("scene.toml", text), &[fabric]).expect("right");
+    let pairs: Vec<[u32; 2]> = (0..7).map(|k| [k, 49 + 42 + k]).collect();
+    let seams = vec![Seam { name: "seam".into(), pairs: pairs.clone() }];
+    scene.sewing = Some(Sewing { seams, pairs, seconds: 0.5 });
+    scene
+}
+
+struct Silent;
+
+impl Progress for Silent {
+    fn step(&mut self, _: &Step, _: usize) {}
+
+    fn frame(&mut self, _: &Frame) -> Result<(), SceneError> {
+        Ok(())
+    }
+}
+
+#[test]
+fn the_forces_on_sewn_particles_agree_with_their_potential() {
+    let mut world = World::new(scene());
+    let pairs: Vec<[u32; 2]> = (0..7).map(|k| [k, 49 + 42 + k]).collect();
+    let mut positions = world.state.positions.clone();
+    // With their threads, each node by itself.
+    let trial = |positions: &[f64]| -> Vec<f64> {
+        let shake = |(k, x): (usize, &f64)| x + 2e-4 * (1.7 * k as f64).sin();
+        positions.iter().enumerate().map(shake).collect()
+    };
+    let away = trial(&positions);
+    let check = check_system(&mut world, &positions, &away, 0.2).expect("sound");
+    assert!(check.force_error < 1e-6 && check.stiffness_error < 1e-5, "{check:?}");
+
+    let weld = Weld::new(&world, &pairs).expect("pairs of its nodes");
+    weld.join(world.cloth.masses(), &mut positions);
+    world.sewn(0.5, &positions);
+    let mut weld = Weld::new(&world, &pairs).expect("pairs of its nodes");
+    let own = weld.narrow(&positions);
+    let mut sewn = Sewn { world: &mut world, weld: &mut weld };
+    assert_eq!(sewn.particles(), 2 * 49 - 7);
+    let mass: f64 = sewn.masses().iter().sum();
+    assert!((mass / (2.0 * 0.06 * 0.06 * 0.15) - 1.0).abs() < 1e-12);
+    let away = trial(&own);
+    let check = check_system(&mut sewn, &own, &away, 0.005).expect("sound");
+    assert!(check.force_error < 1e-6 && check.stiffness_error < 1e-5, "{check:?}");
+    assert!(check.definite_shift <= 1e-10, "{check:?}");
+}
+
+#[test]
+fn sewn_sheets_hang_from_their_pin_with_all_their_weight() {
+    let mut simulation = Simulation::new(scene()).expect("it starts");
+    let summary = simulation.run(&mut Silent).expect("it runs");
+    assert_eq!(summary.status, Status::Ok, "{:?}", summary.reason);
+    let positions = simulation.frame().positions;
+    for k in 0..21 {
+        assert_eq!(positions[k], positions[3 * (49 + 42) + k], "what is sewn is in one place");
+    }
+    let weight = 2.0 * 0.06 * 0.06 * 0.15 * 9.81;
+    let [load] = simulation.pin_loads()[..] else { panic!("one pin") };
+    assert!((load.force[1] / -weight - 1.0).abs() < 1e-3, "{load:?} and {weight}");
+    let remainder = summary.energy.map(|energy| energy.remainder);
+    assert!(remainder.is_some_and(|r| r.abs() < 1e-9), "{remainder:?}");
+}
+
+#[test]
+fn seams_that_are_held_apart_end_the_run() {
+    let mut scene = scene();
+    // Both sides of the seam are held.
+    let pin = scene.pins[0].clone();
+    let particles: Vec<usize> = (0..7).chain(49 + 42..49 + 49).collect();
+    let place = |&p: &usize| std::array::from_fn(|axis| scene.positions[3 * p + axis]);
+    let start = particles.iter().map(place).collect();
+    particles.iter().for_each(|&particle| scene.held[particle] = true);
+    scene.pins.push(crate::Pin { particles, start, ..pin });
+    let mut simulation = Simulation::new(scene).expect("it starts");
+    let summary = simulation.run(&mut Silent).expect("it runs");
+    assert_eq!(summary.status, Status::SeamsOpen);
+    let reason = summary.reason.expect("it says why");
+    assert!(
+        reason.contains("\"upper\" and \"lower\"") && reason.contains("open by 9."),
+        "{reason}"
+    );
+}
+
+#[test]
+fn a_motion_of_sewn_nodes_is_that_of_their_particles() {
+    let world = World::new(scene());
+    let weld = Weld::new(&world, &[[3, 60]]).expect("nodes");
+    let mut values: Vec<f64> = (0..3 * 98).map(f64::from).collect();
+    weld.join(world.cloth.masses(), &mut values);
+    let [m, n] = [3, 60].map(|node| world.cloth.masses()[node]);
+    let mean = (m * 9.0 + n * 180.0) / (m + n);
+    assert!((values[9] - mean).abs() < 1e-12 && values[9] == values[180]);
+    let mut wide = vec![f64::NAN; values.len()];
+    weld.widen(&weld.narrow(&values), &mut wide);
+    assert_eq!(wide, values);
+}
