@@ -6,11 +6,27 @@ use crate::failure::Failure;
 /// Distance between the yarn lines that are drawn, in m, for a cloth of a metre.
 const LINE_SPACING: f64 = 0.05;
 
-/// How far below the lowest point of the cloth its floor is, in m.
+/// How far below the lowest point of cloth and bodies the floor is, in m.
 const FLOOR: f64 = 0.01;
+
+/// From where a garment is seen: from the front, the side and the back, in degrees around the vertical.
+const SIDES: [f64; 3] = [0.0, 90.0, 180.0];
+
+/// How high the eye is that sees a garment, in degrees.
+const EYE: f64 = 6.0;
+
+/// Pixels of each picture of a garment.
+const UPRIGHT: [u32; 2] = [600, 1000];
 
 /// Pixels of a picture that stands alone.
 pub(crate) const SIZE: [u32; 2] = [1200, 900];
+
+/// Draws a garment from the front, the side and the back.
+pub(crate) fn draw_round(snapshot: &Snapshot) -> Result<Picture, Failure> {
+    let side = |azimuth: &f64| draw(snapshot, [Some(*azimuth), Some(EYE)], UPRIGHT);
+    let pictures: Result<Vec<Picture>, Failure> = SIDES.iter().map(side).collect();
+    Ok(Picture::sheet(&pictures?, SIDES.len()))
+}
 
 /// Draws a scene as it was, seen from an azimuth and an elevation in degrees, in so many pixels.
 pub(crate) fn draw(
@@ -20,7 +36,9 @@ pub(crate) fn draw(
 ) -> Result<Picture, Failure> {
     let Snapshot { positions, coordinates, triangles, bodies, spacing } = snapshot;
     let coordinates: Vec<f64> = coordinates.iter().flatten().copied().collect();
-    let lowest = positions.chunks_exact(3).map(|p| p[1]).fold(f64::INFINITY, f64::min);
+    let bodies_too = bodies.iter().flat_map(|body| &body.positions[..]);
+    let all = positions.iter().chain(bodies_too).skip(1).step_by(3);
+    let lowest = all.copied().fold(f64::INFINITY, f64::min);
     let size = coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
     let cloth = Surface::cloth(positions, triangles);
     let scene = Scene {

@@ -26,7 +26,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     }
     let folder = folder(arguments, scene.folder.as_ref());
     let output = prepare_folder(&folder, arguments.force || arguments.output.is_none())?;
-    let view = scene.view;
+    let (view, garment) = (scene.view, scene.sewing.is_some());
+    scene.notes.iter().for_each(|note| eprintln!("note: {note}"));
     let mut simulation = Simulation::new(scene)?;
     let recorder = output.record(simulation.topology())?;
     let mut screen = Screen::new(simulation.ticks_to_do(), recorder);
@@ -36,7 +37,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     output.summary(&summary)?;
     if let Some(frame) = &screen.last {
         let shown = Snapshot { positions: frame.positions.clone(), ..simulation.snapshot() };
-        let picture = picture::draw(&shown, view, picture::SIZE)?;
+        let picture = match (garment, view) {
+            (true, [None, None]) => picture::draw_round(&shown)?,
+            _ => picture::draw(&shown, view, picture::SIZE)?,
+        };
         let stored = picture.save(output.path("picture.png"));
         stored.map_err(|error| Failure::Output(error.to_string()))?;
     }
@@ -56,6 +60,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
             summary.simulated_seconds,
             1e3 * summary.speed_max,
             summary.imbalance
+        ))),
+        Status::SeamsOpen => Err(Failure::Solver(format!(
+            "{}; something holds its sides apart, or sew.seconds is short; the last state was written",
+            summary.reason.unwrap_or_default()
         ))),
         Status::CertificateFailed => Err(Failure::Certificate(format!(
             "surfaces crossed in the step after {} s, however short it was made; the last good state was written",

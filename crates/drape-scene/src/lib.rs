@@ -10,6 +10,7 @@ mod frame;
 mod garment;
 mod ledger;
 mod material;
+mod measures;
 mod model;
 mod output;
 mod pace;

@@ -8,6 +8,7 @@ use drape_implicit::{Error, ErrorEstimate, Integrator, Method, Motion, Report, S
 use crate::SceneError;
 use crate::clock::Clock;
 use crate::frame::Frame;
+use crate::measures::FreeEdge;
 use crate::pace::Pace;
 use crate::panel::Panel;
 use crate::pin::PinLoad;
@@ -50,6 +51,10 @@ pub struct Simulation {
     weld: Option<Weld>,
     /// The nodes of the seams, in pairs.
     pub(crate) sewn: Vec<[u32; 2]>,
+    /// The edges of panels that are not sewn.
+    pub(crate) free_edges: Vec<FreeEdge>,
+    /// What was measured at the end of the run.
+    measures: serde_json::Map<String, serde_json::Value>,
     /// Tolerance of the steps now.
     tolerance: f64,
     estimate: ErrorEstimate,
@@ -118,6 +123,7 @@ impl Simulation {
         let particles = |panel: &Panel| panel.first..panel.first + panel.lattice.coordinates.len();
         let panels = scene.panels.iter().map(|panel| (panel.name.clone(), particles(panel)));
         let panels = panels.collect();
+        let free_edges = scene.free_edges();
         let sewn = scene.sewing.as_ref().map_or_else(Vec::new, |sewing| sewing.pairs.clone());
         let world = World::new(scene);
         let (now, tolerance) = scheme.on_the_way(world.creeps);
@@ -135,6 +141,8 @@ impl Simulation {
             integration,
             weld: None,
             sewn,
+            free_edges,
+            measures: serde_json::Map::new(),
             tolerance,
             pace: Pace::new(clock, strides, order),
             clock,
@@ -387,6 +395,7 @@ impl Simulation {
                 break;
             }
         }
+        self.measures = self.measure();
         Ok(self.summary())
     }
 

@@ -39,7 +39,7 @@ impl Simulation {
             speed_max: self.speed_max,
             imbalance: self.imbalance,
             state_hash: self.state_hash(),
-            measures: serde_json::Map::new(),
+            measures: self.measures.clone(),
         }
     }
 
