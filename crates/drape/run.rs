@@ -125,7 +125,7 @@ fn describe(summary: &Summary) -> String {
         "{} particles, {} steps, {:.3} s simulated in {:.1} s{cpu}\n\
          {rest}, fastest particle {:.2} mm/s\n\
          strain: largest {:.2} %, 99 of 100 below {:.2} %; shear up to {:.1}°; 99 of 100 curvatures below {:.0} 1/m\n\
-         bodies: nearest particle {nearest}, {} inside{}",
+         contact: nearest {nearest}, {} inside or through{}",
         summary.particles,
         summary.steps,
         summary.simulated_seconds,

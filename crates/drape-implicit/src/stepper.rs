@@ -26,6 +26,8 @@ pub struct Stepper {
     pub(crate) base: Vec<f64>,
     /// Velocities at the end of the sub-step.
     pub(crate) velocities: Vec<f64>,
+    /// What the last call of [`Self::advance`] took.
+    report: Report,
 }
 
 impl Stepper {
@@ -49,12 +51,18 @@ impl Stepper {
             momentum: zeros(),
             base: zeros(),
             velocities: zeros(),
+            report: Report::default(),
         })
     }
 
     /// The settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// What the last call of [`Self::advance`] took; of one that failed, what was made before.
+    pub fn report(&self) -> &Report {
+        &self.report
     }
 
     /// Advances the motion by exactly `dt`, in s, in one step or, where that fails, in halves, quarters …
@@ -69,8 +77,19 @@ impl Stepper {
         motion: &mut Motion,
         dt: f64,
     ) -> Result<Report, Error> {
-        self.check(system, motion, dt)?;
         let mut report = Report::default();
+        let advanced = self.advance_by_parts((system, motion), dt, &mut report);
+        self.report.clone_from(&report);
+        advanced.map(|()| report)
+    }
+
+    fn advance_by_parts(
+        &mut self,
+        (system, motion): (&mut dyn System, &mut Motion),
+        dt: f64,
+        report: &mut Report,
+    ) -> Result<(), Error> {
+        self.check(system, motion, dt)?;
         let origin = motion.time;
         let finest = self.settings.max_halvings;
         let whole = 1_u64 << finest;
@@ -85,7 +104,7 @@ impl Stepper {
                 origin + dt * (next as f64 / whole as f64)
             };
             let span = Span { start: motion.time, end, dt: dt / (1_u64 << halvings) as f64 };
-            match self.attempt(system, motion, span, &mut report) {
+            match self.attempt(system, motion, span, report) {
                 Ok(()) => {
                     report.sub_steps += 1;
                     at = next;
@@ -103,7 +122,7 @@ impl Stepper {
                 }
             }
         }
-        Ok(report)
+        Ok(())
     }
 
     fn check(&mut self, system: &dyn System, motion: &Motion, dt: f64) -> Result<(), Error> {

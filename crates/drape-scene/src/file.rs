@@ -36,6 +36,7 @@ pub(crate) struct SceneFile {
     pub(crate) contact: ContactFile,
     pub(crate) time: TimeFile,
     pub(crate) settle: Option<SettleFile>,
+    pub(crate) motion: Option<MotionPhaseFile>,
     #[serde(default)]
     pub(crate) solver: SolverFile,
     #[serde(default)]
@@ -353,6 +354,14 @@ pub(crate) struct SettleFile {
     /// How far a particle may move in one step.
     pub(crate) stride: Option<f64>,
     pub(crate) inertia: Option<bool>,
+}
+
+/// What follows when the cloth has come to rest.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MotionPhaseFile {
+    /// How long bodies and pins then move, from the times 0 of their motions.
+    pub(crate) seconds: f64,
 }
 
 #[derive(Debug, Default, Deserialize)]

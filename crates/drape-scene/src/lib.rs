@@ -6,6 +6,7 @@ mod collider;
 mod course;
 mod error;
 mod file;
+mod fitting;
 mod frame;
 mod garment;
 mod ledger;

@@ -58,7 +58,8 @@ impl Simulation {
         let mut forces = vec![0.0; positions.len()];
         surfaces.contact.add_forces(positions, &mut forces);
         let areas = self.world.cloth.areas();
-        let forces = forces.chunks_exact(3).map(|force| distance([force[0], force[1], force[2]], [0.0; 3]));
+        let forces =
+            forces.chunks_exact(3).map(|force| distance([force[0], force[1], force[2]], [0.0; 3]));
         let mut touched: Vec<(f64, f64)> =
             forces.zip(areas).map(|(force, &area)| (force / area, area)).collect();
         touched.retain(|(pressure, _)| *pressure > TOUCH);

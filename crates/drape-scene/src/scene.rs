@@ -67,6 +67,8 @@ pub struct Scene {
     pub clock: Clock,
     /// Where the simulation is to come to rest: how it gets there, and when it is.
     pub settle: Option<Settle>,
+    /// How long bodies and pins move when the cloth has come to rest, in s; they move from the start if there is none.
+    pub motion_seconds: Option<f64>,
     /// How the steps are made.
     pub scheme: Scheme,
     /// How the seams are sewn, if there are some.
@@ -114,6 +116,7 @@ impl Reader<'_> {
         let count = laid.iter().map(|laid| laid.positions.len() / 3).sum();
         let garments = self.garments((&file, &folder), &materials, (count, unit));
         let (mut seams, mut notes) = (Vec::new(), Vec::new());
+        let plain = laid.len();
         for garment in garments {
             laid.extend(garment.panels);
             seams.extend(garment.seams);
@@ -124,6 +127,7 @@ impl Reader<'_> {
         let spacings = laid.iter().flat_map(|laid| laid.panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
         let settle = self.settle(&file, (spacing.min(1.0), unit));
+        let motion_seconds = self.motion_phase(&file);
         let scheme = self.scheme(&file);
         let sewing = self.sewing(&file, seams);
         let air = self.air(&file);
@@ -132,6 +136,7 @@ impl Reader<'_> {
             self.fail("gravity", format!("{gravity:?} is not finite"), "in m/s², [0, -9.81, 0]");
         }
         let bodies = self.bodies(&file, &folder, unit);
+        self.near_a_body(&laid[plain..], &bodies);
         if file.contact.surfaces.unwrap_or(false) {
             self.speeds(&bodies, (clock.step, spacing));
         }
@@ -228,6 +233,7 @@ impl Reader<'_> {
             air,
             clock,
             settle,
+            motion_seconds,
             scheme,
             sewing,
             notes,

@@ -47,6 +47,16 @@ impl Integration {
     }
 }
 
+impl Integration {
+    /// What was made of a step that failed.
+    pub(crate) fn unfinished(&self) -> Option<&Report> {
+        match self {
+            Self::Implicit(stepper) => Some(stepper.report()),
+            Self::Explicit(_) => None,
+        }
+    }
+}
+
 impl Reader<'_> {
     pub(crate) fn scheme(&mut self, file: &SceneFile) -> Scheme {
         let solver = &file.solver;
@@ -84,10 +94,6 @@ impl Reader<'_> {
             return Scheme::Explicit;
         };
         settings.integrator = integrator;
-        // Creeping needs the formula without a past.
-        if file.settle.as_ref().is_some_and(|settle| !settle.inertia.unwrap_or(false)) {
-            settings.integrator = Integrator::BackwardEuler;
-        }
         Scheme::Implicit(settings)
     }
 }

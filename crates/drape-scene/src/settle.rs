@@ -47,4 +47,15 @@ impl Reader<'_> {
         let inertia = settle.inertia.unwrap_or(false);
         Some(Settle { speed, residual, stride, inertia })
     }
+
+    /// How long things move when the cloth has come to rest, in s.
+    pub(crate) fn motion_phase(&mut self, file: &SceneFile) -> Option<f64> {
+        let seconds = file.motion.as_ref()?.seconds;
+        self.within("motion.seconds", seconds, (file.time.step, 1e5), "in s, at least one step");
+        if file.settle.is_none() {
+            let help = "add [settle], or leave [motion] out: bodies then move from the start";
+            self.fail("motion", "the cloth is not asked to come to rest".into(), help);
+        }
+        Some(seconds)
+    }
 }

@@ -73,7 +73,8 @@ impl Scene {
         });
         let inner = |edge: &FreeEdge| {
             let count = edge.particles.len();
-            count > 2 && edge.particles[1..count - 1].iter().all(|&particle| !sewn[particle as usize])
+            count > 2
+                && edge.particles[1..count - 1].iter().all(|&particle| !sewn[particle as usize])
         };
         edges.filter(inner).collect()
     }

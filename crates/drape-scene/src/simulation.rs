@@ -1,9 +1,10 @@
 mod outcome;
-mod seams;
+mod phases;
+mod rest;
 
 use std::ops::Range;
 
-use drape_implicit::{Error, ErrorEstimate, Integrator, Method, Motion, Report, Settings};
+use drape_implicit::{Error, ErrorEstimate, Motion, Report};
 
 use crate::SceneError;
 use crate::clock::Clock;
@@ -20,25 +21,8 @@ use crate::summary::{Energy, Solver, Status, Summary};
 use crate::weld::Weld;
 use crate::world::World;
 
-/// Time for which the cloth must stay slow to be at rest, in s.
-///
-/// A swing stops for a moment at each end of its way; a tenth of a second is longer than that for
-/// everything but a cloth of many metres, and short against the seconds a drape takes.
-const REST_TIME: f64 = 0.1;
-
 /// Acceleration that residuals are relative to, in m/s².
 const GRAVITY: f64 = 9.81;
-
-/// Part of the imbalance of a creeping cloth to which its next step is solved: the forces that drive
-/// the cloth are then known to some per cent. Steps solved better cost more and lead to the same rest.
-const CREEP_TOLERANCE: f64 = 0.1;
-
-/// The loosest tolerance of a creeping step. Looser ones saved no time on a cloth on a cube.
-const CREEP_TOLERANCE_MAX: f64 = 1e-2;
-
-/// Linear residual relative to the nonlinear one at which the linear solver of a creeping step stops:
-/// with so loose a tolerance a better direction is wasted. From 0.003 to 0.03 the time fell by a third.
-const CREEP_FORCING: f64 = 0.03;
 
 /// A scene in motion.
 #[derive(Debug)]
@@ -57,6 +41,10 @@ pub struct Simulation {
     measures: serde_json::Map<String, serde_json::Value>,
     /// Tolerance of the steps now.
     tolerance: f64,
+    /// How long it goes on with motion when it has come to rest, in s, until it has.
+    motion_seconds: Option<f64>,
+    /// Whether it came to rest before it was set in motion.
+    rested: bool,
     estimate: ErrorEstimate,
     clock: Clock,
     pace: Pace,
@@ -117,7 +105,7 @@ impl Simulation {
     /// When the solver cannot be set up.
     pub fn new(scene: Scene) -> Result<Self, SceneError> {
         let (clock, settle, scene_hash) = (scene.clock, scene.settle, scene.hash.clone());
-        let scheme = scene.scheme.clone();
+        let (scheme, scene_motion) = (scene.scheme.clone(), scene.motion_seconds);
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
         let particles = |panel: &Panel| panel.first..panel.first + panel.lattice.coordinates.len();
@@ -128,8 +116,8 @@ impl Simulation {
         let world = World::new(scene);
         let (now, tolerance) = scheme.on_the_way(world.creeps);
         let integration = now.start(&world)?;
-        let order = if integrator(&scheme) == Integrator::Bdf2 { 2.0 } else { 1.0 };
-        let strides = if sewn.is_empty() { settle } else { Some(seams::strides(spacing)) };
+        let order = phases::order(&scheme);
+        let strides = if sewn.is_empty() { settle } else { Some(phases::strides(spacing)) };
         Ok(Self {
             motion: Motion {
                 velocities: world.state.velocities.clone(),
@@ -144,6 +132,8 @@ impl Simulation {
             free_edges,
             measures: serde_json::Map::new(),
             tolerance,
+            motion_seconds: scene_motion,
+            rested: false,
             pace: Pace::new(clock, strides, order),
             clock,
             settle,
@@ -249,13 +239,16 @@ impl Simulation {
             Some(_) => self.judge_seams()?,
             None => self.judge_rest(ticks)?,
         }
+        if let (true, Some(seconds)) = (self.at_rest(), self.motion_seconds) {
+            self.set_in_motion(seconds)?;
+        }
         Ok(Step {
             time: self.time(),
             dt,
             speed_max: self.speed_max,
             imbalance: self.imbalance,
             report,
-            finished: self.settled()
+            finished: self.at_rest()
                 || self.status != Status::Ok
                 || self.ticks >= self.ticks_to_do(),
         })
@@ -276,7 +269,7 @@ impl Simulation {
             }
             let start = (self.motion.clone(), self.world.state.clone(), self.world.ledger.clone());
             let memory = self.world.surfaces.as_ref().map(|surfaces| surfaces.contact.memory());
-            self.estimate.predict(&self.motion, integrator(&self.scheme), dt);
+            self.estimate.predict(&self.motion, self.integrator(), dt);
             let report = self.integrate(dt)?;
             let error = self.estimate.estimate(&self.motion);
             if self.pace.judge((self.ticks, ticks), error) {
@@ -295,10 +288,16 @@ impl Simulation {
 
     fn integrate(&mut self, dt: f64) -> Result<Report, Error> {
         let Self { integration, world, motion, .. } = self;
-        match &mut self.weld {
+        let report = match &mut self.weld {
             Some(weld) => weld.advance((world, integration), motion, dt),
             None => integration.advance(world, motion, dt),
+        };
+        if let (Err(_), Some(ledger), Some(made)) =
+            (&report, &mut self.world.ledger, self.integration.unfinished())
+        {
+            ledger.report(made);
         }
+        report
     }
 
     fn enter(&mut self, report: &Report) {
@@ -327,45 +326,6 @@ impl Simulation {
         solver.tangents += report.tangents;
         solver.potential_evaluations += report.potential_evaluations;
         self.iterations += report.iterations;
-    }
-
-    /// Root-mean-square acceleration of the free particles in the last step, in m/s². A creeping cloth
-    /// began it at rest.
-    fn acceleration(&self, dt: f64) -> f64 {
-        let Motion { velocities, previous, .. } = &self.motion;
-        let Some(previous) = previous else { return 0.0 };
-        // The step may have been made in parts; the last one is as long as it says.
-        let dt = if previous.dt < dt { previous.dt } else { dt };
-        let kept = if self.world.creeps { 0.0 } else { 1.0 };
-        let changes = velocities.chunks_exact(3).zip(previous.velocities.chunks_exact(3));
-        let (mut squares, mut free) = (0.0, 0_usize);
-        for ((now, before), _) in changes.zip(&self.world.held).filter(|(_, held)| !**held) {
-            let change = now.iter().zip(before).map(|(now, before)| now - kept * before);
-            squares += change.map(|change| change * change).sum::<f64>();
-            free += 1;
-        }
-        (squares / free.max(1) as f64).sqrt() / dt
-    }
-
-    /// Whether the cloth is at rest after a step of so many ticks. A creeping cloth is solved the
-    /// better the nearer it is.
-    fn judge_rest(&mut self, ticks: usize) -> Result<(), Error> {
-        let Some(settle) = self.settle else { return Ok(()) };
-        let mut exact = true;
-        if let (true, Scheme::Implicit(settings)) = (self.world.creeps, &self.scheme) {
-            let wanted = 10.0_f64.powf((CREEP_TOLERANCE * self.imbalance).log10().floor());
-            let wanted = wanted.max(settings.tolerance);
-            exact = self.tolerance <= settings.tolerance.max(CREEP_TOLERANCE * settle.residual);
-            if wanted < 0.5 * self.tolerance {
-                self.tolerance = wanted;
-                self.integration = self.start(&creeping(settings, wanted))?;
-            }
-        }
-        let slow = self.speed_max <= settle.speed && self.imbalance <= settle.residual;
-        let busy = self.world.last_change();
-        let quiet = slow && exact && self.time() >= busy;
-        self.quiet_ticks = if quiet { self.quiet_ticks + ticks } else { 0 };
-        Ok(())
     }
 
     /// Runs to the end, to rest, or to a step that cannot be solved; how it ended is in the summary.
@@ -397,42 +357,5 @@ impl Simulation {
         }
         self.measures = self.measure();
         Ok(self.summary())
-    }
-
-    fn settled(&self) -> bool {
-        self.settle.is_some() && self.quiet_ticks as f64 * self.clock.tick() >= REST_TIME
-    }
-}
-
-impl Scheme {
-    /// The scheme for steps that creep or do not, and the tolerance that they begin with.
-    fn on_the_way(&self, creeps: bool) -> (Self, f64) {
-        match self {
-            Self::Implicit(settings) if creeps => {
-                let tolerance = settings.tolerance.max(CREEP_TOLERANCE_MAX);
-                (creeping(settings, tolerance), tolerance)
-            }
-            Self::Implicit(settings) => (self.clone(), settings.tolerance),
-            Self::Explicit => (Self::Explicit, 0.0),
-        }
-    }
-}
-
-/// Settings of creeping steps, by the formula without a past. A tangent kept for a second iteration is worth nothing in
-/// long ones.
-fn creeping(settings: &Settings, tolerance: f64) -> Scheme {
-    let method = match settings.method {
-        Method::Broyden => Method::Newton,
-        chosen => chosen,
-    };
-    let newton_forcing = CREEP_FORCING;
-    let integrator = Integrator::BackwardEuler;
-    Scheme::Implicit(Settings { method, tolerance, newton_forcing, integrator, ..settings.clone() })
-}
-
-fn integrator(scheme: &Scheme) -> Integrator {
-    match scheme {
-        Scheme::Implicit(settings) => settings.integrator,
-        Scheme::Explicit => Integrator::BackwardEuler,
     }
 }

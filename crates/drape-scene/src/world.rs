@@ -1,6 +1,8 @@
+mod system;
+
 use drape_cloth::{Cloth, State};
 use drape_collide::{Contact, Pose};
-use drape_implicit::{BlockMatrix, Pattern, Stiffness, System, Way};
+use drape_implicit::System;
 
 use crate::bonds::Bonds;
 use crate::course::Course;
@@ -46,6 +48,8 @@ pub(crate) struct World {
     pub(crate) pins: Vec<Pin>,
     /// The bodies that move: which, where it started, its way.
     moving: Vec<(usize, Pose, Track)>,
+    /// When bodies and pins begin to move, in s: the time on which they lag.
+    moves_from: f64,
     /// Half the air's density times the drag coefficient, in kg/m³; nothing slows a cloth that creeps.
     air: f64,
     /// Drag of each particle over the length of the step, in N/m along its normal.
@@ -103,6 +107,7 @@ impl World {
             held,
             pins,
             moving,
+            moves_from: if scene.motion_seconds.is_some() { f64::INFINITY } else { 0.0 },
             air,
             drag,
             ledger,
@@ -120,6 +125,18 @@ impl World {
         self.creeps = creeps;
         self.brake.clear();
         self.brake.resize(if creeps { 3 * self.cloth.particles() } else { 0 }, 0.0);
+    }
+
+    /// Lets bodies and pins begin their ways at a time, in s, and the cloth keep its momentum.
+    pub(crate) fn set_in_motion(&mut self, time: f64) {
+        self.moves_from = time;
+        self.state.velocities.fill(0.0);
+        self.creep(false);
+    }
+
+    /// The time on the clock of bodies and pins.
+    fn time_of_motion(&self, time: f64) -> f64 {
+        (time - self.moves_from).max(0.0)
     }
 
     /// What draws the sides of the seams together, while they are not one.
@@ -226,6 +243,7 @@ impl World {
     }
 
     fn place_bodies(&mut self, time: f64) {
+        let time = self.time_of_motion(time);
         for (body, start, track) in &self.moving {
             let pose = track.pose(time, *start);
             self.contact.place(*body, pose).expect("a rigid motion turns a pose into a pose");
@@ -274,156 +292,5 @@ impl World {
         let height = |x: &[f64]| -> f64 { x.iter().zip(self.gravity).map(|(x, g)| -x * g).sum() };
         let heights = positions.chunks_exact(3).map(height);
         self.cloth.masses().iter().zip(heights).map(|(mass, height)| mass * height).sum()
-    }
-}
-
-impl System for World {
-    fn particles(&self) -> usize {
-        self.cloth.particles()
-    }
-
-    fn masses(&self) -> &[f64] {
-        self.cloth.masses()
-    }
-
-    fn held(&self) -> &[bool] {
-        &self.held
-    }
-
-    fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]) {
-        self.hold(end_time);
-        let holding = self.pins.iter().filter(|pin| pin.holds(end_time));
-        holding.for_each(|pin| pin.place(end_time, target));
-        let since = end_time - self.grows_from;
-        let grown = if since < self.ramp { (since / self.ramp).max(0.0) } else { 1.0 };
-        self.gravity = self.full_gravity.map(|g| grown * g);
-        if let Some(stitches) = &mut self.stitches {
-            stitches.begin(end_time);
-            self.gravity = [0.0; 3];
-        }
-        if let Some(surfaces) = &mut self.surfaces {
-            surfaces.begin(end_time, start);
-            if let Some(ledger) = &mut self.ledger {
-                (ledger.slip, ledger.push) = (0.0, 0.0);
-                ledger.barrier = surfaces.contact.potential(start);
-                ledger.connectors = None;
-            }
-        } else {
-            self.begin_contact(start, (end_time, dt));
-        }
-        let momenta = self.brake.chunks_exact_mut(3).zip(self.state.velocities.chunks_exact(3));
-        for ((brake, velocity), mass) in momenta.zip(self.cloth.masses()) {
-            for (brake, v) in brake.iter_mut().zip(velocity) {
-                *brake = -mass * v / dt;
-            }
-        }
-        let normals = self.state.normals().chunks_exact(3);
-        let velocities = self.state.velocities.chunks_exact(3);
-        let areas = self.cloth.areas();
-        for (particle, (normal, velocity)) in normals.zip(velocities).enumerate() {
-            // Quadratic drag with the speed of the step's start: linear in the step, and a
-            // potential exists.
-            let speed: f64 = normal.iter().zip(velocity).map(|(n, v)| n * v).sum();
-            let air = if self.creeps { 0.0 } else { self.air };
-            self.drag[particle] = air * areas[particle] * speed.abs() / dt;
-        }
-    }
-
-    fn forces(&mut self, positions: &[f64], forces: &mut [f64]) {
-        for (force, mass) in forces.chunks_exact_mut(3).zip(self.cloth.masses()) {
-            force.iter_mut().zip(self.gravity).for_each(|(f, g)| *f = mass * g);
-        }
-        forces.iter_mut().zip(&self.brake).for_each(|(force, brake)| *force += brake);
-        self.bonds.add_forces(&self.cloth, &self.state, positions, forces);
-        if let Some(stitches) = &self.stitches {
-            stitches.add_forces(positions, forces);
-        }
-        self.each_drag(positions, |particle, way, normal| {
-            let pull = self.drag[particle] * way;
-            for axis in 0..3 {
-                forces[3 * particle + axis] -= pull * normal[axis];
-            }
-        });
-        match &mut self.surfaces {
-            Some(surfaces) => surfaces.contact.add_forces(positions, forces),
-            None => self.contact.add_forces(positions, forces),
-        }
-    }
-
-    fn potential(&mut self, positions: &[f64]) -> f64 {
-        let mut drag = 0.0;
-        self.each_drag(positions, |particle, way, _| drag += 0.5 * self.drag[particle] * way * way);
-        let cloth = self.bonds.potential(&self.cloth, &self.state, positions);
-        let brake: f64 = self.brake.iter().zip(positions).map(|(brake, x)| -brake * x).sum();
-        if let Some(ledger) = &mut self.ledger {
-            ledger.saw(cloth);
-        }
-        let contact = match &mut self.surfaces {
-            Some(surfaces) => surfaces.contact.potential(positions),
-            None => self.contact.potential(positions),
-        };
-        let threads = self.stitches.as_ref().map_or(0.0, |threads| threads.potential(positions));
-        cloth + self.weight_energy(positions) + brake + drag + contact + threads
-    }
-
-    fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
-        let definite = kind == Stiffness::Definite;
-        self.bonds.add_stiffness(&self.cloth, &self.state, (positions, definite), matrix);
-        if let Some(stitches) = &self.stitches {
-            stitches.add_stiffness(matrix);
-        }
-        self.each_drag(positions, |particle, _, normal| {
-            let drag = self.drag[particle];
-            let block: [f64; 9] = std::array::from_fn(|k| drag * normal[k / 3] * normal[k % 3]);
-            matrix.add_block(matrix.pattern().row(particle).start, &block);
-        });
-        match &mut self.surfaces {
-            Some(surfaces) => {
-                surfaces.contact.add_stiffness(positions, &mut |[i, j], block| {
-                    matrix.couple(i, j, block);
-                });
-            }
-            None => self.contact.add_stiffness(positions, definite, &mut |particle, block| {
-                matrix.add_block(matrix.pattern().row(particle).start, &block);
-            }),
-        }
-    }
-
-    fn pattern(&self) -> Pattern {
-        self.bonds.coupling().clone()
-    }
-
-    fn pattern_version(&self) -> u64 {
-        self.bonds.version()
-    }
-
-    fn guards(&self) -> bool {
-        self.surfaces.is_some()
-    }
-
-    fn allow(&mut self, way: Way<'_>) -> bool {
-        self.surfaces.as_mut().is_none_or(|surfaces| surfaces.allow(way))
-    }
-
-    fn arrive(&mut self, progress: f64) {
-        if let Some(surfaces) = &mut self.surfaces {
-            surfaces.contact.arrive(progress);
-        }
-    }
-
-    fn certify(&mut self, positions: &[f64]) -> bool {
-        self.surfaces.as_mut().is_none_or(|surfaces| surfaces.certify(positions))
-    }
-
-    fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {
-        let entry = self.ledger.is_some().then(|| self.entry(positions, dt));
-        if let Some(surfaces) = &mut self.surfaces {
-            surfaces.contact.commit(positions);
-        }
-        let committed = self.bonds.commit(&self.cloth, &mut self.state, (positions, velocities));
-        if let (Some(ledger), Some(entry)) = (&mut self.ledger, entry) {
-            let stored = self.bonds.stored(&self.cloth, &self.state);
-            ledger.enter(&Entry { friction: committed.dissipated, stored, ..entry });
-        }
     }
 }

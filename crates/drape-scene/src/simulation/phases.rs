@@ -1,6 +1,6 @@
 use drape_implicit::{Error, Integrator, Motion};
 
-use super::{Simulation, integrator};
+use super::Simulation;
 use crate::pace::Pace;
 use crate::scheme::{Integration, Scheme};
 use crate::settle::Settle;
@@ -19,6 +19,14 @@ const STRIDE: f64 = 0.5;
 /// How far steps go while a garment is sewn, of particles that are so far apart, in m.
 pub(super) fn strides(spacing: f64) -> Settle {
     Settle { speed: 0.0, residual: 0.0, stride: STRIDE * spacing, inertia: false }
+}
+
+/// Order of the formula that a scheme asks for.
+pub(super) fn order(scheme: &Scheme) -> f64 {
+    match scheme {
+        Scheme::Implicit(settings) if settings.integrator == Integrator::Bdf2 => 2.0,
+        _ => 1.0,
+    }
 }
 
 impl Simulation {
@@ -66,9 +74,31 @@ impl Simulation {
         let (scheme, tolerance) = self.scheme.on_the_way(self.world.creeps);
         self.integration = self.start(&scheme)?;
         self.tolerance = tolerance;
-        let order = if integrator(&self.scheme) == Integrator::Bdf2 { 2.0 } else { 1.0 };
-        self.pace = Pace::new(self.clock, self.settle, order);
+        self.pace = Pace::new(self.clock, self.settle, order(&self.scheme));
         Ok(())
+    }
+
+    /// The bodies and pins begin to move, and the cloth at rest has inertia from now on, for so many seconds.
+    pub(super) fn set_in_motion(&mut self, seconds: f64) -> Result<(), Error> {
+        (self.rested, self.settle, self.motion_seconds) = (true, None, None);
+        self.world.set_in_motion(self.time());
+        self.motion =
+            Motion { time: self.motion.time, ..Motion::at_rest(self.motion.positions.clone()) };
+        let (scheme, tolerance) = self.scheme.on_the_way(false);
+        self.integration = self.start(&scheme)?;
+        self.tolerance = tolerance;
+        self.clock.end = self.time() + seconds;
+        self.clock.ticks_max = self.clock.ticks_per_step;
+        self.pace = Pace::new(self.clock, None, order(&self.scheme));
+        Ok(())
+    }
+
+    /// The formula of the steps that are made now.
+    pub(super) fn integrator(&self) -> Integrator {
+        match &self.scheme {
+            Scheme::Implicit(settings) if !self.world.creeps => settings.integrator,
+            _ => Integrator::BackwardEuler,
+        }
     }
 
     /// Name of the panel that a node is of.
