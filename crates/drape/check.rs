@@ -8,6 +8,8 @@ use drape::scene::{Scene, SceneError};
 
 use crate::command::CheckArguments;
 use crate::failure::Failure;
+use crate::file;
+use crate::pattern::CutOut;
 use crate::say::say;
 use crate::verify;
 
@@ -19,9 +21,15 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         let message = format!("--json is for folders of runs, and {} is none", file.display());
         return Err(Failure::Usage(message));
     }
+    if let (Some(figure), [pattern]) = (&arguments.figure, &files[..]) {
+        let cut = CutOut::read(pattern, 1e-3 * arguments.spacing)?;
+        file::write(figure, cut.figure())?;
+    } else if arguments.figure.is_some() {
+        return Err(Failure::Usage("--figure is for one pattern at a time".into()));
+    }
     let mut mistakes = Vec::new();
     for file in files {
-        match describe(file) {
+        match describe(file, 1e-3 * arguments.spacing) {
             Ok(description) => say(format_args!("{}: {}", file.display(), description.trim_end()))?,
             Err(found) => mistakes.extend(found.0),
         }
@@ -30,15 +38,22 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     verify::verify(&runs, arguments.json)
 }
 
-/// What a file holds, in SI.
-fn describe(file: &Path) -> Result<String, Diagnostics> {
+/// What a file holds, in SI; a pattern as it is cut at a spacing.
+fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics> {
     if file.is_dir() {
         return sheet(file);
+    }
+    if file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
+        return Ok(CutOut::read(file, spacing)?.describe());
     }
     let document = Document::read(file)?;
     let table: toml::Table = document.decode()?;
     let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
-    if has(&["panel", "time", "collider"]) {
+    // The panels of a pattern have names, those of a scene are in a row.
+    if matches!(table.get("panel"), Some(toml::Value::Table(_))) {
+        return Ok(CutOut::read(file, spacing)?.describe());
+    }
+    if has(&["panel", "garment", "time", "collider"]) {
         let read = Scene::read(file).map_err(|error| match error {
             SceneError::Input(mistakes) => mistakes,
             SceneError::Tangled(tangle) => tangle.mistakes,
@@ -76,6 +91,26 @@ fn scene(scene: &Scene) -> String {
             material.file.display()
         );
     }
+    if let Some(sewing) = &scene.sewing {
+        for seam in &sewing.seams {
+            let gap = |&[a, b]: &[u32; 2]| {
+                let place = |p: u32| &scene.positions[3 * p as usize..3 * p as usize + 3];
+                place(a).iter().zip(place(b)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+            };
+            let gaps: Vec<f64> = seam.pairs.iter().map(gap).collect();
+            let _ = writeln!(
+                text,
+                "  seam \"{}\": {} pairs, open by {:.1} mm, {:.1} mm at most",
+                seam.name,
+                gaps.len(),
+                1e3 * gaps.iter().sum::<f64>() / gaps.len().max(1) as f64,
+                1e3 * gaps.iter().fold(0.0, |a: f64, b| a.max(*b))
+            );
+        }
+    }
+    scene.notes.iter().for_each(|note| {
+        let _ = writeln!(text, "  note: {note}");
+    });
     scene.materials.iter().for_each(|material| text += &indent(&fabric(&material.fabric)));
     text
 }

@@ -232,9 +232,15 @@ pub(crate) enum ShakeName {
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {
-    /// Scenes, fabrics, sheets, or folders of runs.
+    /// Scenes, fabrics, sheets, patterns, or folders of runs.
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
+    /// Draws the cut panels of a pattern, with seams in pairs of one colour, as an SVG file.
+    #[arg(long, value_name = "SVG")]
+    pub(crate) figure: Option<PathBuf>,
+    /// Distance between the particles of a cut pattern, in mm.
+    #[arg(long, value_name = "MM", default_value_t = 10.0)]
+    pub(crate) spacing: f64,
     /// Prints what was found in folders of runs as JSON.
     #[arg(long)]
     pub(crate) json: bool,

@@ -16,6 +16,7 @@ mod file;
 mod fit;
 mod fit_page;
 mod kes_value;
+mod pattern;
 mod picture;
 mod progress;
 mod quantity;
