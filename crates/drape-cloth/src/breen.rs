@@ -6,12 +6,12 @@ mod well;
 
 use drape_fabric::{BreenWork, Fabric};
 
-use crate::Lattice;
 use crate::breen::hinge::Hinge;
 use crate::breen::near::Near;
 use crate::breen::well::Well;
 use crate::connectors::{segments, triples};
 use crate::field::{Vector, scale, subtract};
+use crate::{ClothError, Lattice};
 
 /// Block of a pair of particles: second derivatives of the energy, in N/m, row by row.
 pub type Block = [f64; 9];
@@ -59,20 +59,20 @@ impl Breen {
     pub const WELL_STRAIN: f64 = 0.01;
 
     /// The particles of a [`Cloth`](crate::Cloth) of the same panels, with the same numbers.
-    #[must_use]
-    pub fn new(panels: &[(&Lattice, &Fabric)]) -> Self {
+    ///
+    /// # Errors
+    /// When a panel has a rim of triangles.
+    pub fn new(panels: &[(&Lattice, &Fabric)]) -> Result<Self, ClothError> {
+        if panels.iter().any(|(lattice, _)| !lattice.rim.is_empty()) {
+            return Err(ClothError::Rim);
+        }
         let (mut edges, mut hinges, mut works) = (Vec::new(), Vec::new(), Vec::new());
         let mut wells = Vec::new();
         let mut tied = Vec::new();
         for (lattice, fabric) in panels {
             let first = wells.len() as u32;
             let depth = Well::depth(fabric.density, Self::WELL_STRAIN);
-            let mut areas = vec![0.0; lattice.coordinates.len()];
-            for cell in &lattice.cells {
-                for (corner, area) in cell.corners.into_iter().zip(cell.quadrants) {
-                    areas[corner as usize] += area;
-                }
-            }
+            let areas = lattice.areas();
             let [across, along] = lattice.spacing;
             let spacing = across.min(along);
             wells.extend(areas.iter().map(|area| Well { spacing, energy: depth * area }));
@@ -106,7 +106,7 @@ impl Breen {
             }
         }
         let near = Near::new(&wells, tied);
-        Self { edges, hinges, works, wells, near }
+        Ok(Self { edges, hinges, works, wells, near })
     }
 
     /// Pairs of particles that are near each other in space and not tied by a yarn, the first less than the second: those

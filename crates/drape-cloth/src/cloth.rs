@@ -1,7 +1,9 @@
 use drape_fabric::{Fabric, Memories};
 
-use crate::field::dot;
+use crate::connectors::Bending;
+use crate::field::{Vector, dot};
 use crate::panel::{Panel, Strip};
+use crate::rim::{Near, Rim};
 use crate::state::{History, State};
 use crate::tangent::{Tangent, tangents};
 use crate::{ClothError, Lattice, Pattern, Workspace};
@@ -27,6 +29,7 @@ pub struct Cloth {
     tangents: Vec<[Tangent; 2]>,
     pub(crate) panels: Vec<Panel>,
     pub(crate) strips: Vec<Strip>,
+    pub(crate) rims: Vec<Rim>,
     pattern: Pattern,
 }
 
@@ -73,30 +76,35 @@ impl Cloth {
             tangents: Vec::new(),
             panels: Vec::new(),
             strips: Vec::new(),
+            rims: Vec::new(),
             pattern: Pattern::default(),
         };
         panels.iter().for_each(|(lattice, fabric)| cloth.add_panel(lattice, fabric));
         let pairs = cloth.panels.iter().flat_map(Panel::pairs);
+        let pairs = pairs.chain(cloth.rims.iter().flat_map(Rim::pairs));
         cloth.pattern = Pattern::new(cloth.particles(), pairs);
         for (index, panel) in cloth.panels.iter_mut().enumerate() {
             panel.connect(&cloth.pattern);
             panel.cut(index, &cloth.pattern, &mut cloth.strips);
         }
+        cloth.rims.iter_mut().for_each(|rim| rim.connect(&cloth.pattern));
         cloth
     }
 
     fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric) {
         let first = self.particles() as u32;
-        let mut areas = vec![0.0; lattice.coordinates.len()];
-        for cell in &lattice.cells {
-            for (corner, area) in cell.corners.into_iter().zip(cell.quadrants) {
-                areas[corner as usize] += area;
-            }
+        let areas = lattice.areas();
+        let near = Near::of(lattice);
+        let bending = Bending::of(lattice, &areas, near.as_ref());
+        if let Some(near) = &near {
+            let ends = self.rims.last().map_or([0; 2], Rim::end);
+            let rim = Rim::new((lattice, first), &bending, near, ends);
+            self.rims.push(Rim { index: self.rims.len(), panel: self.panels.len(), ..rim });
         }
         let tangents = tangents(&lattice.yarns(), first, areas.len());
         self.tangents.extend(tangents);
         let base = self.panels.iter().map(Panel::length).sum();
-        let panel = Panel::new(lattice, fabric, (first, base), &areas);
+        let panel = Panel::new(lattice, fabric, (first, base), &bending);
         self.panels.push(panel);
         self.masses.extend(areas.iter().map(|area| area * fabric.density));
         self.coordinates.extend(&lattice.coordinates);
@@ -148,10 +156,13 @@ impl Cloth {
         };
         let traction = |d| sum(|panel, d| &panel.yarns[d].segment_areas, d);
         let bending = |d| sum(|panel, d| &panel.yarns[d].triple_areas, d);
+        let triangles: f64 = self.rims.iter().flat_map(|rim| &rim.triangles.areas).sum();
+        let stencils =
+            |d: usize| -> f64 { self.rims.iter().flat_map(|rim| &rim.stencils.areas[d]).sum() };
         Areas {
-            traction: [0, 1].map(traction),
-            shear: (0..4).map(|c| sum(|panel, c| &panel.corners[c], c)).sum(),
-            bending: [0, 1].map(bending),
+            traction: [0, 1].map(|d| traction(d) + triangles),
+            shear: (0..4).map(|c| sum(|panel, c| &panel.corners[c], c)).sum::<f64>() + triangles,
+            bending: [0, 1].map(|d| bending(d) + stencils(d)),
         }
     }
 
@@ -167,7 +178,7 @@ impl Cloth {
         let mut state = State {
             velocities: vec![0.0; positions.len()],
             normals: vec![0.0; positions.len()],
-            history: History::new(&self.panels),
+            history: History::new(&self.panels, &self.rims),
             positions,
         };
         self.turn_normals(&mut state);
@@ -219,7 +230,7 @@ impl Cloth {
     #[must_use]
     pub fn strains(&self, state: &State) -> Strains {
         let (mut traction, mut shear, mut curvature) = (Vec::new(), Vec::new(), Vec::new());
-        let History { traction: strains, shear: sines, bending: bends, .. } = &state.history;
+        let History { traction: strains, shear: sines, bending: bends, rim, .. } = &state.history;
         for panel in &self.panels {
             let at = |memories: &Memories, places: &[usize], map: fn(f64) -> f64| -> Vec<f64> {
                 let positions = &memories.positions()[panel.base..];
@@ -232,6 +243,18 @@ impl Cloth {
             for memories in sines {
                 shear.extend(at(memories, &panel.cells, f64::abs));
             }
+        }
+        for Rim { triangles, stencils, .. } in &self.rims {
+            for direction in 0..2 {
+                let positions = &rim.traction[direction].positions()[triangles.base..];
+                traction.extend(&positions[..triangles.count]);
+                let bends = rim.bending[direction].positions()[stencils.base..].iter();
+                let areas = &stencils.areas[direction];
+                let bends = bends.zip(areas).filter(|(_, area)| **area > 0.0);
+                curvature.extend(bends.map(|(bend, _)| bend.abs()));
+            }
+            let sines = &rim.shear.positions()[triangles.base..][..triangles.count];
+            shear.extend(sines.iter().map(|sine| sine.abs()));
         }
         let [traction, shear, curvature] = [traction, shear, curvature].map(|mut values| {
             values.sort_by(f64::total_cmp);
@@ -251,12 +274,11 @@ impl Cloth {
         let positions = &state.positions;
         let normals = state.normals.chunks_exact_mut(3);
         for (normal, [warp, weft]) in normals.zip(&self.tangents) {
-            let (u, v) = (weft.at(positions), warp.at(positions));
-            let across =
-                [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-            let length = dot(across, across).sqrt();
-            let unit = if length > 0.0 { across.map(|c| c / length) } else { [0.0, 1.0, 0.0] };
-            normal.copy_from_slice(&unit);
+            normal.copy_from_slice(&normal_of([warp.at(positions), weft.at(positions)]));
+        }
+        for slopes in self.rims.iter().flat_map(|rim| &rim.slopes) {
+            let normal = normal_of(slopes.at(positions));
+            state.normals[3 * slopes.particle as usize..][..3].copy_from_slice(&normal);
         }
         for panel in &self.panels {
             for (point, _) in panel.occupied.iter().enumerate().filter(|(_, o)| **o) {
@@ -267,4 +289,11 @@ impl Cloth {
             }
         }
     }
+}
+
+/// Unit normal of a surface with tangents along warp and weft.
+fn normal_of([v, u]: [Vector; 2]) -> Vector {
+    let across = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    let length = dot(across, across).sqrt();
+    if length > 0.0 { across.map(|c| c / length) } else { [0.0, 1.0, 0.0] }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::Lattice;
+use crate::rim::Near;
 
 /// Segments of the yarns with their area: half of each cell beside them.
 pub(crate) fn segments(
@@ -29,6 +30,46 @@ pub(crate) fn segments(
         halves.get(&ends).map(|&area| (ends, area))
     };
     pairs.filter_map(segment).collect()
+}
+
+/// Bending connectors along one direction, and the area that each stands for.
+#[derive(Debug, Clone)]
+pub(crate) struct Bending {
+    pub(crate) triples: Vec<([u32; 3], f64)>,
+    /// Area of the stencil about each particle, nought where there is none.
+    pub(crate) at_nodes: Vec<f64>,
+    /// Whether a particle is in the middle of a triple.
+    pub(crate) is_middle: Vec<bool>,
+}
+
+impl Bending {
+    /// Bending along the warp and along the weft, of a panel whose particles have the given areas.
+    ///
+    /// In a panel with a rim, a particle that is in the middle of no triple has a stencil. If those on the outline, which
+    /// see their surroundings from one side, gave their area to a neighbour inside, as the ends of a yarn do on a grid,
+    /// the outline would be limp: the lowest frequencies of a disc of ten cells fell to a half.
+    pub(crate) fn of(lattice: &Lattice, areas: &[f64], near: Option<&Near<'_>>) -> [Self; 2] {
+        lattice.yarns().map(|yarns| match near {
+            None => Self::of_grid(triples(lattice, &yarns, areas), areas.len()),
+            Some(_) => Self::of_rim(&yarns, areas),
+        })
+    }
+
+    fn of_grid(triples: Vec<([u32; 3], f64)>, particles: usize) -> Self {
+        let mut is_middle = vec![false; particles];
+        triples.iter().for_each(|([_, middle, _], _)| is_middle[*middle as usize] = true);
+        Self { triples, at_nodes: vec![0.0; particles], is_middle }
+    }
+
+    fn of_rim(yarns: &[Vec<u32>], areas: &[f64]) -> Self {
+        let windows = yarns.iter().flat_map(|yarn| yarn.windows(3));
+        let triple = |three: &[u32]| ([three[0], three[1], three[2]], areas[three[1] as usize]);
+        let mut bending = Self::of_grid(windows.map(triple).collect(), areas.len());
+        let rest = bending.is_middle.iter().zip(areas);
+        bending.at_nodes =
+            rest.map(|(is_middle, area)| if *is_middle { 0.0 } else { *area }).collect();
+        bending
+    }
 }
 
 /// Triples of the yarns with their area: that of the middle particle, and of particles that are in

@@ -1,9 +1,8 @@
 #![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
-use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes};
+use drape_fabric::{BatchLaw, LANES, Lanes};
 
-use crate::angle::Angle;
-use crate::field::{Field, dot, lanes, scale, subtract};
+use crate::field::{Field, lanes};
 use crate::panel::{Panel, Strip};
 use crate::scratch::{Scratch, Trial};
 use crate::state::{History, Moving};
@@ -24,9 +23,9 @@ pub(crate) fn potential(scratch: &mut Scratch, trial: &Trial<'_>) -> f64 {
             weigh(&mut sums, &works, (&yarns.segment_areas, strip, start));
 
             let memory = history.bending[direction].from(place);
-            let along = scratch.bends(yarns, &history.normals, (start, strip)).curvature;
-            let mut works = bent(scratch, trial, direction, start);
-            yarns.bending.slide_work(&memory, &along, &mut works);
+            let bend = scratch.bend(yarns, &history.normals, (start, strip));
+            let mut works = bend.energies();
+            yarns.bending.slide_work(&memory, &bend.bends().curvature, &mut works);
             weigh(&mut sums, &works, (&yarns.triple_areas, strip, start));
         }
         for (corner, areas) in panel.corners.iter().enumerate() {
@@ -59,7 +58,7 @@ pub(crate) fn commit(
             let lost = yarns.traction.commit(memories, place, &strains);
             weigh(&mut sums, &lost, (&yarns.segment_areas, strip, start));
 
-            let along = scratch.bends(yarns, normals, (start, strip)).curvature;
+            let along = scratch.bend(yarns, normals, (start, strip)).bends().curvature;
             let memories = &mut moving.bending[direction];
             let lost = yarns.bending.commit(memories, place, &along);
             weigh(&mut sums, &lost, (&yarns.triple_areas, strip, start));
@@ -87,7 +86,7 @@ pub(crate) fn start(
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let strains = scratch.strains(yarns, direction, (start, strip));
             history.traction[direction].start(&yarns.traction, place, &strains);
-            let along = scratch.bends(yarns, &history.normals, (start, strip)).curvature;
+            let along = scratch.bend(yarns, &history.normals, (start, strip)).bends().curvature;
             history.bending[direction].start(&yarns.bending, place, &along);
         }
         for (corner, memories) in history.shear.iter_mut().enumerate() {
@@ -110,7 +109,7 @@ pub(crate) fn stored(scratch: &mut Scratch, trial: &Trial<'_>) -> f64 {
             yarns.traction.stored(&memory, &mut energies);
             weigh(&mut sums, &energies, (&yarns.segment_areas, strip, start));
 
-            let mut energies = bent(scratch, trial, direction, start);
+            let mut energies = scratch.bend(yarns, &history.normals, (start, strip)).energies();
             let memory = history.bending[direction].from(place);
             yarns.bending.slide_stored(&memory, &mut energies);
             weigh(&mut sums, &energies, (&yarns.triple_areas, strip, start));
@@ -137,32 +136,4 @@ fn weigh(sums: &mut Lanes, energies: &Lanes, (areas, strip, start): (&[f64], &St
     for lane in 0..LANES {
         sums[lane] += energies[lane] * areas[lane];
     }
-}
-
-/// Elastic energies of bending per area, in J/m².
-#[inline(always)]
-fn bent(scratch: &Scratch, trial: &Trial<'_>, direction: usize, start: usize) -> Lanes {
-    let yarns = &trial.panel.yarns[direction];
-    let rest = yarns.rest_bow;
-    let bows = scratch.bows(yarns, start);
-    let normals = trial.history.normals.from(trial.strip.offset + start);
-    let square = |lane| {
-        let excess = subtract(bows.at(lane), scale(normals.at(lane), rest));
-        let square = dot(excess, excess);
-        square * Angle::of(square, yarns.length).square
-    };
-    let mut energies = [0.0; LANES];
-    match yarns.bending.law().backbone {
-        BendingBackbone::Linear { rigidity } => {
-            for lane in 0..LANES {
-                energies[lane] = 0.5 * rigidity * square(lane);
-            }
-        }
-        BendingBackbone::Piecewise(piecewise) => {
-            for lane in 0..LANES {
-                energies[lane] = piecewise.energy(square(lane).sqrt());
-            }
-        }
-    }
-    energies
 }

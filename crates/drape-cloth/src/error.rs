@@ -31,6 +31,21 @@ pub enum ClothError {
         /// Largest number of particles.
         limit: f64,
     },
+    /// The parts of a panel that was cut elsewhere do not fit together.
+    #[error("{part} {index} of the panel {what}")]
+    Mesh {
+        /// What kind of part: node, cell or triangle.
+        part: &'static str,
+        /// Which of them, counted from 0.
+        index: usize,
+        /// What is wrong with it.
+        what: &'static str,
+    },
+    /// The model knows no panels with a rim of triangles.
+    #[error(
+        "the model of Breen, House & Wozny knows no rims: cut the panel as a rectangle or a disc"
+    )]
+    Rim,
     /// The positions given do not fit the cloth.
     #[error("{found} numbers were given for the positions of {particles} particles; give 3 each")]
     Positions {

@@ -1,8 +1,7 @@
 #![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
-use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes, Responses};
+use drape_fabric::{BatchLaw, LANES, Lanes, Responses};
 
-use crate::angle::Angle;
 use crate::field::{add, dot, lanes, put, scale, set, subtract};
 use crate::scratch::{Edges, Scratch, Trial};
 
@@ -66,48 +65,14 @@ fn corners(scratch: &mut Scratch, trial: &Trial<'_>, corner: usize) {
 
 #[inline(always)]
 fn moments(scratch: &mut Scratch, trial: &Trial<'_>, direction: usize) {
-    match trial.panel.yarns[direction].bending.law().backbone {
-        BendingBackbone::Linear { rigidity } => {
-            moments_of(scratch, trial, direction, |_| rigidity);
-        }
-        BendingBackbone::Piecewise(piecewise) => {
-            moments_of(scratch, trial, direction, |square| piecewise.secant(square.sqrt()));
-        }
-    }
-}
-
-/// Moments with the given secant stiffness of a squared curvature.
-#[inline(always)]
-fn moments_of(
-    scratch: &mut Scratch,
-    trial: &Trial<'_>,
-    direction: usize,
-    secant: impl Fn(f64) -> f64,
-) {
     let Trial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
-    let rest = yarns.rest_bow;
     let inverse_square = 1.0 / (yarns.length * yarns.length);
     let places = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
     for start in places.step_by(LANES) {
-        let bows = scratch.bows(yarns, start);
-        let normals = trial.history.normals.from(strip.offset + start);
         let memory = trial.history.bending[direction].from(strip.offset + start);
-        let bends = scratch.bends(yarns, &trial.history.normals, (start, strip));
-        let mut friction = Responses::default();
-        yarns.bending.slide::<false>(&memory, &bends.curvature, &mut friction);
-        let areas = lanes(&yarns.triple_areas, strip.points.start + start);
-        let mut moments = [[0.0; LANES]; 3];
-        for lane in 0..LANES {
-            let normal = normals.at(lane);
-            let excess = subtract(bows.at(lane), scale(normal, rest));
-            let square = dot(excess, excess);
-            let angle = Angle::of(square, yarns.length);
-            let elastic = scale(excess, secant(square * angle.square) * angle.slope);
-            let rub = friction.load[lane] * bends.slope[lane];
-            let moment = add(elastic, scale(normal, rub));
-            set(&mut moments, lane, scale(moment, areas[lane] * inverse_square));
-        }
+        let bend = scratch.bend(yarns, &trial.history.normals, (start, strip));
+        let moments = bend.moments(&memory, inverse_square);
         scratch.moments[direction].put(start, &moments);
     }
 }

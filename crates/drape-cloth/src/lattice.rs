@@ -2,7 +2,7 @@ use crate::clip::area_within;
 use crate::{ClothError, Grain};
 
 /// Most particles of one panel; beyond it a spacing in the wrong unit is far more likely.
-const PARTICLES_MAX: f64 = 4e6;
+pub(crate) const PARTICLES_MAX: f64 = 4e6;
 
 /// Least part of a cell that must lie inside the outline for the cell to be kept.
 ///
@@ -30,12 +30,15 @@ pub struct Lattice {
     pub coordinates: Vec<[f64; 2]>,
     /// How the yarns lie in the panel's own frame.
     pub grain: Grain,
-    /// The middle of the panel in its own frame, in m: [0, 0] for a disc.
+    /// The middle of the panel in its own frame, in m: [0, 0] for a disc, that of the box around it for a panel that
+    /// was cut elsewhere.
     pub middle: [f64; 2],
     /// Width and height of a rectangle, in m.
-    size: Option<[f64; 2]>,
+    pub(crate) size: Option<[f64; 2]>,
     /// Cells kept, row by row along the warp.
     pub cells: Vec<Cell>,
+    /// Triangles between the cells and the outline, anticlockwise; none in panels that are all grid.
+    pub rim: Vec<[u32; 3]>,
     /// Particle at each grid point, `columns` to a row.
     pub(crate) grid: Vec<Option<u32>>,
     pub(crate) columns: usize,
@@ -228,19 +231,28 @@ impl Lattice {
                 even: (column + row) % 2 == 0,
             })
             .collect();
-        let grain = Grain::default();
-        Ok(Self { spacing, coordinates, grain, middle: [0.0; 2], size: None, cells, grid, columns })
+        Ok(Self {
+            spacing,
+            coordinates,
+            grain: Grain::default(),
+            middle: [0.0; 2],
+            size: None,
+            cells,
+            rim: Vec::new(),
+            grid,
+            columns,
+        })
     }
 
     /// Places of the particles in the panel's own frame, in m: from the lower left corner of a rectangle, from the
-    /// middle of a disc.
+    /// middle of a disc, as it was given for a panel that was cut elsewhere.
     #[must_use]
     pub fn places(&self) -> Vec<[f64; 2]> {
         self.coordinates.iter().map(|&coordinates| self.grain.place(coordinates)).collect()
     }
 
     /// How far each particle is inside a side of the panel, in spacings: 0 on it, negative beyond it. The side is that
-    /// at the low (−1) or the high end (1) of an axis of the panel's own frame; a disc has its outermost particles there.
+    /// at the low (−1) or the high end (1) of an axis of the panel's own frame; other panels have their outermost particles there.
     #[must_use]
     pub fn depths(&self, axis: usize, end: f64) -> Vec<f64> {
         let places = self.places();
@@ -254,18 +266,18 @@ impl Lattice {
     /// Area of the panel, in m².
     #[must_use]
     pub fn area(&self) -> f64 {
-        self.cells.iter().flat_map(|cell| cell.quadrants).sum()
+        self.cells.iter().flat_map(|cell| cell.quadrants).chain(self.rim_areas()).sum()
     }
 
     /// Triangles for pictures and contact: every cell halved, the diagonal alternating like the
-    /// fields of a chessboard.
+    /// fields of a chessboard, and then the rim.
     #[must_use]
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         let halves = |cell: &Cell| {
             let [a, b, c, d] = cell.corners;
             if cell.even { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
         };
-        self.cells.iter().flat_map(halves).collect()
+        self.cells.iter().flat_map(halves).chain(self.rim.iter().copied()).collect()
     }
 
     /// Runs of consecutive particles along the yarns: of the warp, then of the weft.

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod angle;
+mod bend;
 mod breen;
 mod clip;
 mod cloth;
@@ -11,9 +12,11 @@ mod field;
 mod force;
 mod grain;
 mod lattice;
+mod mesh;
 mod panel;
 mod pattern;
 mod reference;
+mod rim;
 mod scratch;
 mod share;
 mod state;
@@ -26,6 +29,7 @@ pub use cloth::{Areas, Cloth, Committed, Strains};
 pub use error::ClothError;
 pub use grain::Grain;
 pub use lattice::Lattice;
+pub use mesh::Mesh;
 pub use pattern::Pattern;
 pub use reference::Reference;
 pub use state::State;

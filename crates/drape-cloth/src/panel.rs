@@ -3,7 +3,7 @@ use std::ops::Range;
 use drape_fabric::{BendingBatch, Fabric, LANES, ShearBatch, TractionBatch};
 
 use crate::angle::bow_of;
-use crate::connectors::{segments, triples};
+use crate::connectors::{Bending, segments};
 use crate::{Lattice, Pattern};
 
 /// Particles of a strip, about: fewer cost more seams between strips, more leave the cache.
@@ -32,6 +32,8 @@ pub(crate) struct Panel {
     pub(crate) stride: usize,
     /// Place of the first point in a column.
     pub(crate) margin: usize,
+    /// Number of its first particle.
+    pub(crate) first: usize,
     /// Column of the particles.
     pub(crate) particles: Vec<u32>,
     /// Whether a particle is at the point, without margins.
@@ -81,20 +83,19 @@ pub(crate) struct Strip {
     pub(crate) offset: usize,
     /// Points, starting at a multiple of [`LANES`].
     pub(crate) points: Range<usize>,
-    /// Particles at the points, counted over the cloth.
+    /// Particles at the points, counted over the cloth. Those of an outline follow the last strip's.
     pub(crate) particles: Range<usize>,
     /// Blocks in the rows of the particles.
     pub(crate) blocks: Range<usize>,
 }
 
 impl Panel {
-    /// A panel whose particles are numbered from `first` on and whose columns begin at `base`; `areas`
-    /// are those of its particles.
+    /// A panel whose particles are numbered from `first` on and whose columns begin at `base`.
     pub(crate) fn new(
         lattice: &Lattice,
         fabric: &Fabric,
         (first, base): (u32, usize),
-        areas: &[f64],
+        bending: &[Bending; 2],
     ) -> Self {
         let stride = lattice.columns;
         let points = lattice.grid.len();
@@ -138,10 +139,10 @@ impl Panel {
                 yarns.segments.push(place);
                 yarns.segment_areas[place] = area;
             }
-            for ([_, middle, _], area) in triples(lattice, &lines[direction], areas) {
-                let place = place_of[middle as usize];
+            for ([_, middle, _], area) in &bending[direction].triples {
+                let place = place_of[*middle as usize];
                 yarns.triples.push(place);
-                yarns.triple_areas[place] = area;
+                yarns.triple_areas[place] = *area;
             }
             yarns
         });
@@ -150,6 +151,7 @@ impl Panel {
             points,
             stride,
             margin,
+            first: first as usize,
             particles,
             occupied,
             yarns,
@@ -223,7 +225,9 @@ impl Panel {
         let cells = cells.flat_map(move |&place| sides.map(|side| pair(place, side)));
         let ends = self.yarns.iter().flat_map(move |yarns| {
             let places = yarns.triples.iter().map(|place| place - yarns.step);
-            places.map(move |place| pair(place, (0, 2 * yarns.step)))
+            // Between triangles of a rim, neighbours on a yarn share no cell.
+            let sides = [(0, yarns.step), (yarns.step, 2 * yarns.step), (0, 2 * yarns.step)];
+            places.flat_map(move |place| sides.map(|side| pair(place, side)))
         });
         cells.chain(ends)
     }
@@ -238,7 +242,7 @@ impl Panel {
         let wanted = STRIP_POINTS.max(STRIP_ROWS * self.stride);
         let count = (self.points as f64 / wanted as f64).round().max(1.0) as usize;
         let length = self.points.div_ceil(count).next_multiple_of(LANES);
-        let mut first = strips.last().map_or(0, |strip| strip.particles.end);
+        let mut first = self.first;
         for start in (0..self.points).step_by(length) {
             let points = start..(start + length).min(self.points);
             let occupied = self.occupied[points.clone()].iter().filter(|o| **o);

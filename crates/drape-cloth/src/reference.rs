@@ -1,19 +1,29 @@
+mod bend;
+mod block;
+mod rim;
+
 use drape_fabric::{BendingLaw, Fabric, Law, Memory, ShearLaw, TractionLaw};
 
-use crate::angle::{Angle, bow_of};
-use crate::connectors::{segments, triples};
+use crate::connectors::{Bending, segments};
 use crate::field::{Vector, add, dot, scale, subtract};
+use crate::reference::bend::{bend, curvature};
+use crate::reference::block::{Block, one, outer, sum, transposed};
+use crate::reference::rim::{Fitted, Membrane};
+use crate::rim::Near;
 use crate::{Lattice, Pattern};
 
 /// The connectors of a cloth one by one through the scalar laws, by the textbook.
 ///
 /// It is what [`Cloth`](crate::Cloth) is tested and measured against: the same numbers up to
-/// rounding, from code that shares with it which particles a connector joins, and nothing else.
+/// rounding, from code that shares with it which particles a connector joins, the weights of the fits at a rim, and
+/// nothing else.
 #[derive(Debug, Clone)]
 pub struct Reference {
     segments: Vec<Connector<TractionLaw, 2>>,
     corners: Vec<Connector<ShearLaw, 3>>,
     triples: Vec<Connector<BendingLaw, 3>>,
+    membranes: Vec<Membrane>,
+    fitted: Vec<Fitted>,
     pattern: Pattern,
     /// Unit normals at the particles.
     normals: Vec<f64>,
@@ -34,32 +44,6 @@ struct Connector<L, const N: usize> {
 
 /// Places in [`Connector::particles`] of the pairs in [`Connector::blocks`].
 const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (0, 1), (2, 2), (0, 2), (1, 2)];
-
-/// A 3 × 3 block, row by row.
-type Block = [Vector; 3];
-
-fn outer(a: Vector, b: Vector) -> Block {
-    a.map(|a| b.map(|b| a * b))
-}
-
-fn one() -> Block {
-    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
-}
-
-/// Sum of blocks, each with a factor.
-fn sum<const N: usize>(parts: [(f64, Block); N]) -> Block {
-    let mut sum = [[0.0; 3]; 3];
-    for (factor, block) in parts {
-        for (row, part) in sum.iter_mut().zip(block) {
-            *row = add(*row, scale(part, factor));
-        }
-    }
-    sum
-}
-
-fn transposed(block: Block) -> Block {
-    [0, 1, 2].map(|row| [block[0][row], block[1][row], block[2][row]])
-}
 
 fn at(flat: &[f64], particle: u32) -> Vector {
     let start = 3 * particle as usize;
@@ -173,46 +157,24 @@ impl<L> Connector<L, 3> {
 
     /// Curvature about the normal.
     fn curvature(&self, positions: &[f64], normal: Vector) -> f64 {
-        let bow = dot(self.bow(positions), normal);
-        Angle::of(bow * bow, self.measure).curvature(bow)
+        curvature(self.bow(positions), normal, self.measure)
     }
 }
 
 impl Connector<BendingLaw, 3> {
     /// Derivatives of the energy at the trial with respect to the bow, and the energy.
     fn bend(&self, positions: &[f64], normals: &[f64], definite: bool) -> (Vector, Block, f64) {
-        let normal = at(normals, self.particles[1]);
-        let bow = self.bow(positions);
-        let rest = bow_of(self.law.rest_curvature, self.measure);
-        let excess = subtract(bow, scale(normal, rest));
-        let length = dot(excess, excess).sqrt();
-        let angle = Angle::of(length * length, self.measure);
-        let size = angle.curvature(length);
-        let elastic = self.law.backbone.respond(size);
-        let (first, second) = angle.derivatives(length);
-        let (load, tangent) =
-            (elastic.load * first, elastic.tangent * first * first + elastic.load * second);
-        let along = dot(bow, normal);
-        let slip = self.curvature(positions, normal) - self.memory.position;
-        let loads = self.memory.friction;
-        let (friction, slope) = self.law.friction.respond(loads, slip);
-        let (first, second) = Angle::of(along * along, self.measure).derivatives(along);
-        let (friction, slope) = (friction * first, slope * first * first + friction * second);
-        let slope = if definite { slope.max(0.0) } else { slope };
-        let (secant, unit) = if length > 0.0 {
-            (load / length, scale(excess, 1.0 / length))
-        } else {
-            (tangent, excess)
-        };
-        let moment = add(scale(excess, secant), scale(normal, friction));
-        let block = sum([
-            (slope, outer(normal, normal)),
-            (secant, one()),
-            (tangent - secant, outer(unit, unit)),
-        ]);
-        let energy = self.law.backbone.energy(size) + self.law.friction.work(loads, slip);
-        (moment, block, energy)
+        let bow = (self.bow(positions), at(normals, self.particles[1]));
+        bend((&self.law, &self.memory), bow, self.measure, definite)
     }
+}
+
+/// Moves a memory on; returns the energy lost per area, in J/m².
+fn move_on(law: &impl Law, memory: &mut Memory, to: f64) -> f64 {
+    let after = law.commit(memory, to);
+    let lost = law.work(memory, to) - (law.stored(&after) - law.stored(memory));
+    *memory = after;
+    lost
 }
 
 impl Reference {
@@ -228,6 +190,8 @@ impl Reference {
             segments: Vec::new(),
             corners: Vec::new(),
             triples: Vec::new(),
+            membranes: Vec::new(),
+            fitted: Vec::new(),
             pattern: pattern.clone(),
             normals: normals.to_vec(),
         };
@@ -250,22 +214,28 @@ impl Reference {
             triple.memory.position = triple.curvature(positions, normal);
             triple.memory.peak = triple.memory.position.abs();
         }
+        all.membranes.iter_mut().for_each(|membrane| membrane.start(positions));
+        all.fitted.iter_mut().for_each(|fitted| fitted.start(positions, normals));
         all
     }
 
     fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric, first: u32) {
         let Self { pattern, .. } = self;
-        let mut areas = vec![0.0; lattice.coordinates.len()];
         for cell in &lattice.cells {
             let [a, b, c, d] = cell.corners;
             // Corner, neighbour along the warp (v), neighbour along the weft (u), sign.
             let around = [(a, d, b, 1.0), (b, c, a, -1.0), (c, b, d, 1.0), (d, a, c, -1.0)];
             for ((corner, warp, weft, sign), area) in around.into_iter().zip(cell.quadrants) {
-                areas[corner as usize] += area;
                 let particles = [corner, warp, weft].map(|p| first + p);
                 let corner = Connector::new(fabric.shear, particles, (sign, area), pattern);
                 self.corners.push(corner);
             }
+        }
+        let near = Near::of(lattice);
+        let bending = Bending::of(lattice, &lattice.areas(), near.as_ref());
+        if let Some(near) = &near {
+            self.membranes.extend(Membrane::of(lattice, fabric, first));
+            self.fitted.extend(Fitted::of((lattice, near, &bending), fabric, first));
         }
         let [across, along] = lattice.spacing;
         let sides = [(&fabric.warp, along), (&fabric.weft, across)];
@@ -275,8 +245,8 @@ impl Reference {
                 let (ends, size) = (ends.map(|p| first + p), (measure, area));
                 self.segments.push(Connector::new(laws.traction, ends, size, pattern));
             }
-            for (triple, area) in triples(lattice, yarns, &areas) {
-                let (triple, size) = (triple.map(|p| first + p), (measure, area));
+            for (triple, area) in &bending[direction].triples {
+                let (triple, size) = (triple.map(|p| first + p), (measure, *area));
                 self.triples.push(Connector::new(laws.bending, triple, size, pattern));
             }
         }
@@ -308,6 +278,10 @@ impl Reference {
                 push(forces, particle, scale(pull, weight));
             }
         }
+        self.membranes.iter().for_each(|membrane| membrane.add_forces(trial, forces));
+        for fitted in &self.fitted {
+            fitted.add_forces(trial, &self.normals, forces);
+        }
     }
 
     /// As [`Cloth::potential`](crate::Cloth::potential), but another constant.
@@ -326,7 +300,9 @@ impl Reference {
             .triples
             .iter()
             .map(|triple| triple.area * triple.bend(trial, &self.normals, false).2);
-        segments.chain(corners).chain(triples).sum()
+        let membranes = self.membranes.iter().map(|membrane| membrane.potential(trial));
+        let fitted = self.fitted.iter().map(|fitted| fitted.potential(trial, &self.normals));
+        segments.chain(corners).chain(triples).chain(membranes).chain(fitted).sum()
     }
 
     /// As [`Cloth::add_stiffness`](crate::Cloth::add_stiffness).
@@ -363,34 +339,44 @@ impl Reference {
                 triple.put(pair, sum([(weight * size, block)]), values);
             }
         }
+        let mut put = |[row, column]: [u32; 2], block: Block| {
+            let slot = self.pattern.block(row, column).unwrap_or(usize::MAX);
+            let values = &mut values[9 * slot..][..9];
+            for (value, entry) in values.iter_mut().zip(block.as_flattened()) {
+                *value += entry;
+            }
+        };
+        for membrane in &self.membranes {
+            membrane.add_stiffness(trial, definite, &mut put);
+        }
+        for fitted in &self.fitted {
+            fitted.add_stiffness((trial, &self.normals), definite, &mut put);
+        }
     }
 
     /// As [`Cloth::commit`](crate::Cloth::commit), with the normals of the state after it; returns
     /// the energy lost on the way, in J.
     pub fn commit(&mut self, positions: &[f64], normals: &[f64]) -> f64 {
-        fn move_on<L: Law, const N: usize>(connector: &mut Connector<L, N>, to: f64) -> f64 {
-            let after = connector.law.commit(&connector.memory, to);
-            let gained = connector.law.stored(&after) - connector.law.stored(&connector.memory);
-            let lost = connector.law.work(&connector.memory, to) - gained;
-            connector.memory = after;
-            connector.area * lost
-        }
         self.normals.copy_from_slice(normals);
         let mut lost = 0.0;
         for segment in &mut self.segments {
             let (length, _) = way(positions, segment.particles[0], segment.particles[1]);
             let strain = length / segment.measure - 1.0;
-            lost += move_on(segment, strain);
+            lost += segment.area * move_on(&segment.law, &mut segment.memory, strain);
         }
         for corner in &mut self.corners {
             let sine = corner.corner(positions).sine;
-            lost += move_on(corner, sine);
+            lost += corner.area * move_on(&corner.law, &mut corner.memory, sine);
         }
         for triple in &mut self.triples {
             let normal = at(normals, triple.particles[1]);
             let curvature = triple.curvature(positions, normal);
-            lost += move_on(triple, curvature);
+            lost += triple.area * move_on(&triple.law, &mut triple.memory, curvature);
         }
+        let membranes = self.membranes.iter_mut();
+        lost += membranes.map(|membrane| membrane.commit(positions)).sum::<f64>();
+        let fitted = self.fitted.iter_mut();
+        lost += fitted.map(|fitted| fitted.commit(positions, normals)).sum::<f64>();
         lost
     }
 }

@@ -4,15 +4,15 @@ use std::ops::Range;
 
 use drape_fabric::{LANES, Lanes};
 
-use crate::angle::Angle;
-use crate::field::{Columns, Field, Vector, add, dot, lanes, put, scale, set, subtract};
+use crate::bend::{Bend, Bows};
+use crate::field::{Columns, Field, add, dot, lanes, put, scale, set, subtract};
 use crate::panel::{Panel, Strip, Yarns};
 use crate::state::History;
 use crate::{Cloth, State};
 
 /// Length below which an edge counts as this long, in m: it has no direction, its forces are huge
 /// but finite, and so are their derivatives.
-const EDGE_MIN: f64 = 1e-100;
+pub(crate) const EDGE_MIN: f64 = 1e-100;
 
 /// What the evaluation of a strip computes on the way, at its points and a margin around them.
 ///
@@ -154,7 +154,7 @@ impl Scratch {
 
     /// Bows `$(x_a - 2x_c + x_b)/h^2$` at the points from a place on.
     #[inline(always)]
-    pub(crate) fn bows(&self, yarns: &Yarns, start: usize) -> Bows {
+    fn bows(&self, yarns: &Yarns, start: usize) -> Bows {
         let [before, here, after] =
             [start - yarns.step, start, start + yarns.step].map(|place| self.positions.from(place));
         let inverse_square = 1.0 / (yarns.length * yarns.length);
@@ -167,27 +167,20 @@ impl Scratch {
         Bows(bows)
     }
 
-    /// Curvatures about the normals from a place on, and how they follow from the bows; of triples that do not exist,
-    /// zero.
+    /// The triples at the points from a place on.
     #[inline(always)]
-    pub(crate) fn bends(
+    pub(crate) fn bend<'a>(
         &self,
-        yarns: &Yarns,
-        normals: &Field,
+        yarns: &'a Yarns,
+        normals: &'a Field,
         (start, strip): (usize, &Strip),
-    ) -> Bends {
-        let bows = self.bows(yarns, start);
-        let normals = normals.from(strip.offset + start);
-        let areas = lanes(&yarns.triple_areas, strip.points.start + start);
-        let mut bends = Bends::default();
-        for lane in 0..LANES {
-            let bow = dot(bows.at(lane), normals.at(lane));
-            let angle = Angle::of(bow * bow, yarns.length);
-            let bend = angle.curvature(bow);
-            bends.curvature[lane] = if areas[lane] == 0.0 { 0.0 } else { bend };
-            (bends.slope[lane], bends.slope_change[lane]) = angle.derivatives(bow);
+    ) -> Bend<'a> {
+        Bend {
+            yarns,
+            bows: self.bows(yarns, start),
+            normals: normals.from(strip.offset + start),
+            areas: lanes(&yarns.triple_areas, strip.points.start + start),
         }
-        bends
     }
 
     /// Sines at one of the four corners of the cells from a place on; of those that do not exist,
@@ -209,23 +202,5 @@ impl Scratch {
             sines[lane] = if areas[lane] == 0.0 { 0.0 } else { sine };
         }
         sines
-    }
-}
-
-/// Curvatures of a batch about the normals, in m⁻¹, and their first and second derivatives with respect to the bow.
-#[derive(Default)]
-pub(crate) struct Bends {
-    pub(crate) curvature: Lanes,
-    pub(crate) slope: Lanes,
-    pub(crate) slope_change: Lanes,
-}
-
-/// Bows of a batch.
-pub(crate) struct Bows([Lanes; 3]);
-
-impl Bows {
-    #[inline(always)]
-    pub(crate) fn at(&self, lane: usize) -> Vector {
-        [self.0[0][lane], self.0[1][lane], self.0[2][lane]]
     }
 }

@@ -1,16 +1,15 @@
-use crate::panel::Strip;
 use crate::scratch::Scratch;
 
-/// Works through the strips, on as many threads as there are scratches, each strip on its own part of
-/// the output: `split` cuts the output that begins with one strip where another begins.
+/// Works through strips or rims, on as many threads as there are scratches, each on its own part of the output: `split`
+/// cuts the output that begins with one of them where another begins.
 ///
 /// What a strip writes depends on nothing but the strip, so neither the number of threads nor their
 /// pace can change a number.
-pub(crate) fn share<O: Send>(
-    (strips, scratches): (&[Strip], &mut [Scratch]),
+pub(crate) fn share<P: Sync, O: Send>(
+    (strips, scratches): (&[P], &mut [Scratch]),
     output: O,
-    split: &(impl Fn(O, &Strip, &Strip) -> (O, O) + Sync),
-    work: &(impl Fn(&Strip, &mut Scratch, O) + Sync),
+    split: &(impl Fn(O, &P, &P) -> (O, O) + Sync),
+    work: &(impl Fn(&P, &mut Scratch, O) + Sync),
 ) {
     let [.., last] = strips else { return };
     if scratches.len() < 2 || strips.len() < 2 {

@@ -2,6 +2,7 @@ use drape_fabric::{Memories, Memory};
 
 use crate::field::Field;
 use crate::panel::Panel;
+use crate::rim::{Course, Rim};
 
 /// Where a cloth is and what its yarns remember: everything that changes in time.
 ///
@@ -31,6 +32,18 @@ pub(crate) struct History {
     pub(crate) bending: [Memories; 2],
     /// Unit normals, as in [`State::normals`].
     pub(crate) normals: Field,
+    pub(crate) rim: RimHistory,
+}
+
+/// Memories of the rims' connectors, rim after rim, each filled up to a whole number of batches.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct RimHistory {
+    /// Of the triangles along the warp and the weft.
+    pub(crate) traction: [Memories; 2],
+    /// Of the triangles.
+    pub(crate) shear: Memories,
+    /// Of the stencils along the warp and the weft.
+    pub(crate) bending: [Memories; 2],
 }
 
 /// The memories of some strips, to be moved on.
@@ -42,12 +55,13 @@ pub(crate) struct Moving<'a> {
 
 impl History {
     /// Memories of virgin panels.
-    pub(crate) fn new(panels: &[Panel]) -> Self {
+    pub(crate) fn new(panels: &[Panel], rims: &[Rim]) -> Self {
         let mut history = Self {
             traction: Default::default(),
             shear: Default::default(),
             bending: Default::default(),
             normals: Field::new(panels.iter().map(Panel::length).sum()),
+            rim: RimHistory::default(),
         };
         for panel in panels {
             let length = panel.length();
@@ -58,6 +72,15 @@ impl History {
             for memories in &mut history.shear {
                 memories.extend(&panel.shear, length);
             }
+        }
+        for rim in rims {
+            let panel = &panels[rim.panel];
+            let (triangles, stencils) = (rim.triangles.areas.len(), rim.stencils.middles.len());
+            for (direction, yarns) in panel.yarns.iter().enumerate() {
+                history.rim.traction[direction].extend(&yarns.traction, triangles);
+                history.rim.bending[direction].extend(&yarns.bending, stencils);
+            }
+            history.rim.shear.extend(&panel.shear, triangles);
         }
         history
     }
@@ -70,6 +93,17 @@ impl History {
             bending: self.bending.each_mut().map(|m| m.moving(start)),
         };
         (moving, &self.normals)
+    }
+}
+
+impl RimHistory {
+    /// All memories, to be moved on.
+    pub(crate) fn course(&mut self) -> Course<'_> {
+        Course {
+            traction: self.traction.each_mut().map(|m| m.moving(0)),
+            shear: self.shear.moving(0),
+            bending: self.bending.each_mut().map(|m| m.moving(0)),
+        }
     }
 }
 
@@ -91,11 +125,12 @@ impl State {
         &self.normals
     }
 
-    /// All memories, for hashing and comparing, in a fixed order. Where there is no connector, as at
+    /// All memories, for hashing and comparing, in a fixed order; those of rims come last. Where there is no connector, as at
     /// the end of a row, the memory is that of a virgin one.
     pub fn memories(&self) -> impl Iterator<Item = Memory> {
-        let History { traction, shear, bending, .. } = &self.history;
+        let History { traction, shear, bending, rim, .. } = &self.history;
         let sets = traction.iter().chain(shear).chain(bending);
+        let sets = sets.chain(&rim.traction).chain([&rim.shear]).chain(&rim.bending);
         sets.flat_map(Memories::iter)
     }
 }

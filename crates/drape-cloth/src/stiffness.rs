@@ -1,14 +1,11 @@
 #![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
-use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes, Responses};
+use drape_fabric::{BatchLaw, LANES, Lanes, Responses};
 
-use crate::angle::Angle;
-use crate::field::{dot, lanes, put, scale, subtract};
+use crate::bend::HALF;
+use crate::field::{dot, lanes, put};
 use crate::panel::{BLOCKS, NO_BLOCK};
 use crate::scratch::{Scratch, Trial};
-
-/// Upper half of a symmetric block: xx, xy, xz, yy, yz, zz.
-const HALF: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 
 /// Place of a full block's entry, row by row, in the upper half.
 const IN_HALF: [usize; 9] = [0, 1, 2, 1, 3, 4, 2, 4, 5];
@@ -98,65 +95,14 @@ fn turns(scratch: &mut Scratch, trial: &Trial<'_>, (corner, definite): (usize, b
 
 #[inline(always)]
 fn rigidities(scratch: &mut Scratch, trial: &Trial<'_>, (direction, definite): (usize, bool)) {
-    match trial.panel.yarns[direction].bending.law().backbone {
-        BendingBackbone::Linear { rigidity } => {
-            rigidities_of(scratch, trial, (direction, definite), |_| (rigidity, 0.0));
-        }
-        BendingBackbone::Piecewise(piecewise) => {
-            rigidities_of(scratch, trial, (direction, definite), |square| {
-                let size = square.sqrt();
-                let secant = piecewise.secant(size);
-                let more = (piecewise.tangent(size) - secant) / square;
-                (secant, if square > 0.0 { more } else { 0.0 })
-            });
-        }
-    }
-}
-
-/// Blocks of the triples, with the secant stiffness of a squared curvature and what the tangent is
-/// larger by, over that square.
-#[inline(always)]
-fn rigidities_of(
-    scratch: &mut Scratch,
-    trial: &Trial<'_>,
-    (direction, definite): (usize, bool),
-    stiffness: impl Fn(f64) -> (f64, f64),
-) {
     let Trial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
-    let rest = yarns.rest_bow;
     let inverse_square = 1.0 / (yarns.length * yarns.length);
     let places = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
     for start in places.step_by(LANES) {
-        let bows = scratch.bows(yarns, start);
-        let normals = trial.history.normals.from(strip.offset + start);
         let memory = trial.history.bending[direction].from(strip.offset + start);
-        let bends = scratch.bends(yarns, &trial.history.normals, (start, strip));
-        let mut friction = Responses::default();
-        yarns.bending.slide::<true>(&memory, &bends.curvature, &mut friction);
-        let areas = lanes(&yarns.triple_areas, strip.points.start + start);
-        let mut blocks = [[0.0; LANES]; 6];
-        for lane in 0..LANES {
-            let normal = normals.at(lane);
-            let excess = subtract(bows.at(lane), scale(normal, rest));
-            let square = dot(excess, excess);
-            let angle = Angle::of(square, yarns.length);
-            let (secant, more) = stiffness(square * angle.square);
-            let more = more * angle.slope * angle.slope + 2.0 * secant * angle.bend;
-            let secant = secant * angle.slope;
-            let first = bends.slope[lane];
-            let tangent = friction.tangent[lane] * first * first
-                + friction.load[lane] * bends.slope_change[lane];
-            let slope = if definite && tangent < 0.0 { 0.0 } else { tangent };
-            let size = areas[lane] * inverse_square * inverse_square;
-            let (secant, more, slope) = (secant * size, more * size, slope * size);
-            for (block, (row, column)) in blocks.iter_mut().zip(HALF) {
-                let one = if row == column { secant } else { 0.0 };
-                block[lane] = slope * (normal[row] * normal[column])
-                    + more * (excess[row] * excess[column])
-                    + one;
-            }
-        }
+        let bend = scratch.bend(yarns, &trial.history.normals, (start, strip));
+        let blocks = bend.blocks(&memory, inverse_square, definite);
         scratch.rigidities[direction].put(start, &blocks);
     }
 }

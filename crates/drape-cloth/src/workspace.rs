@@ -3,9 +3,10 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::cloth::Committed;
 use crate::field::Field;
 use crate::panel::{Panel, Strip};
+use crate::rim::{Course, Rim, RimTrial};
 use crate::scratch::{Scratch, Trial};
 use crate::state::Moving;
-use crate::{Cloth, State, energy, force, share::share, stiffness};
+use crate::{Cloth, State, energy, force, rim, share::share, stiffness};
 
 /// Room for evaluating one cloth again and again: after it has been made, nothing allocates.
 ///
@@ -17,7 +18,7 @@ use crate::{Cloth, State, energy, force, share::share, stiffness};
 pub struct Workspace {
     /// One for each thread that can be of use.
     scratches: Vec<Scratch>,
-    /// What each strip has summed up.
+    /// What each strip and then each rim has summed up.
     sums: Vec<f64>,
     arch: Arch,
 }
@@ -30,7 +31,7 @@ impl Workspace {
         let threads = rayon::current_num_threads().min(cloth.strips.len());
         Self {
             scratches: vec![scratch; threads.max(1)],
-            sums: vec![0.0; cloth.strips.len()],
+            sums: vec![0.0; cloth.strips.len() + cloth.rims.len()],
             arch: Arch::new(),
         }
     }
@@ -40,7 +41,7 @@ impl Workspace {
         let arch = self.arch;
         share(
             (&cloth.strips, &mut self.scratches),
-            forces,
+            &mut *forces,
             &|forces, from, to| {
                 forces.split_at_mut(3 * (to.particles.start - from.particles.start))
             },
@@ -49,19 +50,39 @@ impl Workspace {
                 arch.dispatch(AddForces(scratch, trial, forces));
             },
         );
+        let Some(first) = cloth.rims.first() else { return };
+        share(
+            (&cloth.rims, &mut self.scratches),
+            &mut forces[3 * first.particles.start..],
+            &|forces, from, to| {
+                forces.split_at_mut(3 * (to.particles.start - from.particles.start))
+            },
+            &|rim, _, forces| {
+                arch.dispatch(AddRimForces(RimTrial::new(cloth, state, (rim, trial)), forces));
+            },
+        );
     }
 
     /// See [`Cloth::potential`].
     #[must_use]
     pub fn potential(&mut self, cloth: &Cloth, state: &State, trial: &[f64]) -> f64 {
         let arch = self.arch;
+        let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
         share(
             (&cloth.strips, &mut self.scratches),
-            self.sums.as_mut_slice(),
+            sums,
             &|sums, from, to| sums.split_at_mut(to.index - from.index),
             &|strip, scratch, sums| {
                 let trial = Trial::new(cloth, state, (strip, trial));
                 sums[0] = arch.dispatch(Potential(scratch, trial));
+            },
+        );
+        share(
+            (&cloth.rims, &mut self.scratches),
+            rim_sums,
+            &|sums, from, to| sums.split_at_mut(to.index - from.index),
+            &|rim, _, sums| {
+                sums[0] = arch.dispatch(RimPotential(RimTrial::new(cloth, state, (rim, trial))));
             },
         );
         self.sums.iter().sum()
@@ -78,11 +99,21 @@ impl Workspace {
         let arch = self.arch;
         share(
             (&cloth.strips, &mut self.scratches),
-            values,
+            &mut *values,
             &|values, from, to| values.split_at_mut(9 * (to.blocks.start - from.blocks.start)),
             &|strip, scratch, values| {
                 let trial = Trial::new(cloth, state, (strip, trial));
                 arch.dispatch(AddStiffness(scratch, trial, definite, values));
+            },
+        );
+        let Some(first) = cloth.rims.first() else { return };
+        share(
+            (&cloth.rims, &mut self.scratches),
+            &mut values[9 * first.blocks.start..],
+            &|values, from, to| values.split_at_mut(9 * (to.blocks.start - from.blocks.start)),
+            &|rim, _, values| {
+                let trial = RimTrial::new(cloth, state, (rim, trial));
+                arch.dispatch(AddRimStiffness(trial, definite, values));
             },
         );
     }
@@ -100,9 +131,10 @@ impl Workspace {
         let place = |strip: &Strip| strip.offset + cloth.panels[strip.panel].margin;
         let (moving, normals) = state.history.moving(place(&cloth.strips[0]));
         let arch = self.arch;
+        let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
         share(
             (&cloth.strips, &mut self.scratches),
-            (moving, self.sums.as_mut_slice()),
+            (moving, sums),
             &|(moving, sums), from, to| {
                 let (moving, others) = moving.split(place(to) - place(from));
                 let (sums, more) = sums.split_at_mut(to.index - from.index);
@@ -114,6 +146,20 @@ impl Workspace {
                 sums[0] = arch.dispatch(Commit(scratch, (panel, strip), moving, shape));
             },
         );
+        share(
+            (&cloth.rims, &mut self.scratches),
+            (state.history.rim.course(), rim_sums),
+            &|(course, sums), from, to| {
+                let (course, others) = course.split(from, to);
+                let (sums, more) = sums.split_at_mut(to.index - from.index);
+                ((course, sums), (others, more))
+            },
+            &|rim, _, (course, sums)| {
+                let shape = (positions, state.normals.as_slice());
+                let own = (rim, &cloth.panels[rim.panel]);
+                sums[0] = arch.dispatch(CommitRim(own, course, shape));
+            },
+        );
         Committed { dissipated: self.sums.iter().sum() }
     }
 
@@ -123,7 +169,10 @@ impl Workspace {
         let trial = |strip| Trial::new(cloth, state, (strip, &state.positions));
         let scratch = &mut self.scratches[0];
         let strips = cloth.strips.iter();
-        strips.map(|strip| energy::stored(scratch, &trial(strip))).sum()
+        let strips: f64 = strips.map(|strip| energy::stored(scratch, &trial(strip))).sum();
+        let rims = cloth.rims.iter();
+        let trial = |rim| RimTrial::new(cloth, state, (rim, &state.positions));
+        strips + rims.map(|rim| rim::stored(&trial(rim))).sum::<f64>()
     }
 
     /// Memories of a cloth that starts in the shape of the state without friction.
@@ -132,6 +181,10 @@ impl Workspace {
             let own = (&cloth.panels[strip.panel], strip);
             let scratch = &mut self.scratches[0];
             energy::start(scratch, own, &mut state.history, &state.positions);
+        }
+        for rim in &cloth.rims {
+            let shape = (state.positions.as_slice(), state.normals.as_slice());
+            rim::start((rim, &cloth.panels[rim.panel]), &mut state.history.rim, shape);
         }
     }
 }
@@ -179,6 +232,50 @@ impl WithSimd for Commit<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> f64 {
         energy::commit(self.0, self.1, self.2, self.3)
+    }
+}
+
+struct AddRimForces<'a>(RimTrial<'a>, &'a mut [f64]);
+
+impl WithSimd for AddRimForces<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        rim::add_forces(&self.0, self.1);
+    }
+}
+
+struct RimPotential<'a>(RimTrial<'a>);
+
+impl WithSimd for RimPotential<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        rim::potential(&self.0)
+    }
+}
+
+struct AddRimStiffness<'a>(RimTrial<'a>, bool, &'a mut [f64]);
+
+impl WithSimd for AddRimStiffness<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        rim::add_stiffness(&self.0, self.1, self.2);
+    }
+}
+
+struct CommitRim<'a>((&'a Rim, &'a Panel), Course<'a>, (&'a [f64], &'a [f64]));
+
+impl WithSimd for CommitRim<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        rim::commit(self.0, self.1, self.2)
     }
 }
 

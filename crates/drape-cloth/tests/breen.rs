@@ -101,7 +101,7 @@ fn forces(breen: &mut Breen, positions: &[f64]) -> Vec<f64> {
 #[test]
 fn forces_are_the_fall_of_the_energy() {
     let (lattice, fabric) = (Lattice::rectangle(0.12, 0.1, 0.01).expect("a sheet"), fabric());
-    let mut breen = Breen::new(&[(&lattice, &fabric)]);
+    let mut breen = Breen::new(&[(&lattice, &fabric)]).expect("no rim");
     let crumpled = crumpled(&lattice);
     // The sheet lies on itself.
     let far = |&&[a, b]: &&[u32; 2]| {
@@ -131,7 +131,7 @@ fn forces_are_the_fall_of_the_energy() {
 #[test]
 fn the_stiffness_is_the_fall_of_the_forces() {
     let (lattice, fabric) = (Lattice::rectangle(0.12, 0.1, 0.01).expect("a sheet"), fabric());
-    let mut breen = Breen::new(&[(&lattice, &fabric)]);
+    let mut breen = Breen::new(&[(&lattice, &fabric)]).expect("no rim");
     for (positions, seed) in
         (0..8).map(|seed| (if seed % 2 == 0 { crumpled(&lattice) } else { rolled(&lattice) }, seed))
     {
@@ -179,7 +179,7 @@ fn definite(mut matrix: Vec<Vec<f64>>) -> bool {
 #[test]
 fn the_definite_stiffness_is_definite_and_the_exact_one_need_not_be() {
     let (lattice, fabric) = (Lattice::rectangle(0.12, 0.1, 0.01).expect("a sheet"), fabric());
-    let mut breen = Breen::new(&[(&lattice, &fabric)]);
+    let mut breen = Breen::new(&[(&lattice, &fabric)]).expect("no rim");
     for positions in [crumpled(&lattice), rolled(&lattice)] {
         assert!(definite(dense(&mut breen, &positions, true)));
         assert!(!definite(dense(&mut breen, &positions, false)));
@@ -190,7 +190,7 @@ fn the_definite_stiffness_is_definite_and_the_exact_one_need_not_be() {
 fn a_straight_sheet_has_one_stiffness_of_both_kinds() {
     // Without loads and without bends nothing is left out of the definite one.
     let (lattice, fabric) = (Lattice::rectangle(0.12, 0.1, 0.01).expect("a sheet"), fabric());
-    let mut breen = Breen::new(&[(&lattice, &fabric)]);
+    let mut breen = Breen::new(&[(&lattice, &fabric)]).expect("no rim");
     let flat = placed(&lattice, |u, v| [u, v, 0.0]);
     let [exact, definite] = [false, true].map(|kind| dense(&mut breen, &flat, kind));
     let size = exact.iter().flatten().fold(0.0, |size: f64, x| size.max(x.abs()));
@@ -203,7 +203,7 @@ fn a_straight_sheet_has_one_stiffness_of_both_kinds() {
 fn forces_and_moments_cancel() {
     let lattice = Lattice::disc(0.06, 0.008).expect("a disc");
     let fabric = fabric();
-    let mut breen = Breen::new(&[(&lattice, &fabric)]);
+    let mut breen = Breen::new(&[(&lattice, &fabric)]).expect("no rim");
     let mut positions = placed(&lattice, |u, v| [u + 0.4 * v, 1.02 * v, 0.01 * (60.0 * u).sin()]);
     let noise = random(positions.len());
     positions.iter_mut().zip(noise).for_each(|(x, noise)| *x += 5e-4 * noise);
@@ -227,7 +227,7 @@ fn forces_and_moments_cancel() {
 #[test]
 fn a_flat_sheet_is_at_rest() {
     let (lattice, fabric) = (Lattice::rectangle(0.3, 0.2, 0.013).expect("a sheet"), fabric());
-    let mut breen = Breen::new(&[(&lattice, &fabric)]);
+    let mut breen = Breen::new(&[(&lattice, &fabric)]).expect("no rim");
     let flat = placed(&lattice, |u, v| [u, v, 0.0]);
     let largest = forces(&mut breen, &flat).iter().fold(0.0, |size: f64, f| size.max(f.abs()));
     assert!(breen.energy(&flat) < 1e-15 && largest < 1e-12, "{largest:e} N");
@@ -237,7 +237,7 @@ fn a_flat_sheet_is_at_rest() {
 fn a_cylinder_has_the_work_of_its_curvature() {
     // Particles on a circle have chords between them that are a spacing long.
     let (lattice, fabric) = (Lattice::rectangle(0.2, 0.3, 0.01).expect("a sheet"), fabric());
-    let mut breen = Breen::new(&[(&lattice, &fabric)]);
+    let mut breen = Breen::new(&[(&lattice, &fabric)]).expect("no rim");
     let (spacing, curvature) = (0.01, 15.0);
     let turn = 2.0 * f64::asin(0.5 * curvature * spacing);
     let [warp, weft] = laws(&fabric);
@@ -258,7 +258,7 @@ fn a_cylinder_has_the_work_of_its_curvature() {
 #[test]
 fn an_even_shear_has_the_work_of_its_angle_until_the_diagonals_repel_each_other() {
     let (lattice, fabric) = (Lattice::rectangle(0.2, 0.3, 0.01).expect("a sheet"), fabric());
-    let mut breen = Breen::new(&[(&lattice, &fabric)]);
+    let mut breen = Breen::new(&[(&lattice, &fabric)]).expect("no rim");
     let [_, weft] = laws(&fabric);
     let mut energy = |angle: f64| {
         let sheared = placed(&lattice, |u, v| [u + v * angle.sin(), v * angle.cos(), 0.0]);
@@ -277,7 +277,7 @@ fn an_even_shear_has_the_work_of_its_angle_until_the_diagonals_repel_each_other(
 fn two_sheets_repel_each_other_where_they_are_near() {
     let (lattice, fabric) = (Lattice::rectangle(0.06, 0.06, 0.01).expect("a sheet"), fabric());
     let pair = [(&lattice, &fabric), (&lattice, &fabric)];
-    let mut breen = Breen::new(&pair);
+    let mut breen = Breen::new(&pair).expect("no rim");
     let count = Cloth::new(&pair).particles();
     let mut at = |gap: f64| {
         let lower = placed(&lattice, |u, v| [u, v, 0.0]);
@@ -296,9 +296,9 @@ fn where_pairs_were_looked_for_before_changes_no_bit() {
     let positions = crumpled(&lattice);
     let near: Vec<f64> =
         positions.iter().zip(random(positions.len())).map(|(x, r)| x + 1e-3 * r).collect();
-    let mut breen = Breen::new(&[(&lattice, &fabric)]);
+    let mut breen = Breen::new(&[(&lattice, &fabric)]).expect("no rim");
     let fresh = (breen.energy(&positions), forces(&mut breen, &positions));
-    let mut other = Breen::new(&[(&lattice, &fabric)]);
+    let mut other = Breen::new(&[(&lattice, &fabric)]).expect("no rim");
     let _ = other.energy(&near);
     assert!(fresh == (other.energy(&positions), forces(&mut other, &positions)));
 }

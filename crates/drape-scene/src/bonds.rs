@@ -185,7 +185,11 @@ bending.rigidity = 0.8e-5
             sheet(0.0).chain(sheet(gap)).collect()
         };
         let state = cloth.state(place(0.05)).expect("it fits");
-        let mut bonds = Bonds::new(&cloth, Some(Breen::new(&panels)), (&[], &state.positions));
+        let mut bonds = Bonds::new(
+            &cloth,
+            Some(Breen::new(&panels).expect("no rims")),
+            (&[], &state.positions),
+        );
         let fill = |bonds: &mut Bonds| {
             let mut matrix = BlockMatrix::zeros(bonds.coupling().clone());
             bonds.add_stiffness(&cloth, &state, (&place(0.008), true), &mut matrix);

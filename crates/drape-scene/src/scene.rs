@@ -153,7 +153,11 @@ impl Reader<'_> {
                 (&panel.lattice, &material.expect("mistakes were reported").fabric)
             })
             .collect();
-        let breen = (model == Model::Breen1994).then(|| Breen::new(&pairs));
+        let breen = (model == Model::Breen1994).then(|| Breen::new(&pairs)).transpose();
+        if let Err(error) = &breen {
+            Diagnostics::check(vec![self.document.at("model", error.to_string())])?;
+        }
+        let breen = breen.ok().flatten();
         let cloth = match model {
             Model::Kes => Cloth::new(&pairs),
             Model::Breen1994 => without_friction(&pairs),

@@ -1,0 +1,46 @@
+use drape_fabric::{BendingLaw, Memory};
+
+use super::block::{Block, one, outer, sum};
+use crate::angle::{Angle, bow_of};
+use crate::field::{Vector, add, dot, scale, subtract};
+
+/// Derivatives of the energy with respect to a bow at a normal, and the energy; `spacing` is the length of a
+/// yarn's segments.
+pub(super) fn bend(
+    (law, memory): (&BendingLaw, &Memory),
+    (bow, normal): (Vector, Vector),
+    spacing: f64,
+    definite: bool,
+) -> (Vector, Block, f64) {
+    let rest = bow_of(law.rest_curvature, spacing);
+    let excess = subtract(bow, scale(normal, rest));
+    let length = dot(excess, excess).sqrt();
+    let angle = Angle::of(length * length, spacing);
+    let size = angle.curvature(length);
+    let elastic = law.backbone.respond(size);
+    let (first, second) = angle.derivatives(length);
+    let (load, tangent) =
+        (elastic.load * first, elastic.tangent * first * first + elastic.load * second);
+    let along = dot(bow, normal);
+    let slip = curvature(bow, normal, spacing) - memory.position;
+    let (friction, slope) = law.friction.respond(memory.friction, slip);
+    let (first, second) = Angle::of(along * along, spacing).derivatives(along);
+    let (friction, slope) = (friction * first, slope * first * first + friction * second);
+    let slope = if definite { slope.max(0.0) } else { slope };
+    let (secant, unit) =
+        if length > 0.0 { (load / length, scale(excess, 1.0 / length)) } else { (tangent, excess) };
+    let moment = add(scale(excess, secant), scale(normal, friction));
+    let block = sum([
+        (slope, outer(normal, normal)),
+        (secant, one()),
+        (tangent - secant, outer(unit, unit)),
+    ]);
+    let energy = law.backbone.energy(size) + law.friction.work(memory.friction, slip);
+    (moment, block, energy)
+}
+
+/// Curvature of a bow about a normal.
+pub(super) fn curvature(bow: Vector, normal: Vector, length: f64) -> f64 {
+    let bow = dot(bow, normal);
+    Angle::of(bow * bow, length).curvature(bow)
+}

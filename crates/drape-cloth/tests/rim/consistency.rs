@@ -1,0 +1,349 @@
+//! Forces and tangents against differences, conservation, the connectors one by one, and bits.
+
+use drape_cloth::{Breen, Cloth, ClothError, Grain, Lattice, Mesh, Reference, State};
+use drape_fabric::Fabric;
+
+use crate::panels::{RICH, Random, fabric, rectangle, shape};
+
+/// Rounding of a few hundred operations on numbers of the size that is compared with.
+const TOLERANCE: f64 = 1e-12;
+
+/// A dart, a side along the grain, a round side, and a sharp corner.
+const DARTED: &str = "M0 0 L35 0 L45 -45 L55 0 L100 0 C110 -30 100 -60 80 -90 L0 -80 Z";
+
+pub fn panels() -> Vec<(&'static str, Lattice)> {
+    vec![
+        ("dart", shape(DARTED, 0.0, 0.011)),
+        ("dart on the bias", shape(DARTED, 33.0, 0.011)),
+        ("strip without cells", rectangle([0.012, 0.11], 20.0, 0.01)),
+        ("triangle", shape("M0 0 L30 0 L0 -30 Z", 45.0, 0.015)),
+    ]
+}
+
+/// A cylinder about an axis at 30° to the weft, stretched and shaken.
+fn bent(lattice: &Lattice, radius: f64, shake: f64, random: &mut Random) -> Vec<f64> {
+    let (sin, cos) = 0.5_f64.sin_cos();
+    let place = |[u, v]: [f64; 2]| {
+        let (along, across) = (cos * u + sin * v, cos * v - sin * u);
+        let angle = across / radius;
+        [1.02 * along, 1.01 * radius * (1.0 - angle.cos()), 1.01 * radius * angle.sin()]
+    };
+    let shaken = |x: f64| x + shake * random.next();
+    lattice.coordinates.iter().flat_map(|&c| place(c)).map(shaken).collect()
+}
+
+/// A cloth with history: committed twice on the way to a shaken shape, and a trial at the radius.
+fn tried(
+    lattice: &Lattice,
+    fabric: &Fabric,
+    (shake, radius): (f64, f64),
+) -> (Cloth, State, Vec<f64>) {
+    let mut random = Random(7);
+    let cloth = Cloth::new(&[(lattice, fabric)]);
+    let mut state = cloth.state(bent(lattice, 0.4, 0.0, &mut random)).expect("fits");
+    let rest = vec![0.0; 3 * cloth.particles()];
+    for way in [0.1, 0.06] {
+        let positions = bent(lattice, way, shake, &mut random);
+        cloth.commit(&mut state, &positions, &rest);
+    }
+    let trial = bent(lattice, radius, shake, &mut random);
+    (cloth, state, trial)
+}
+
+#[test]
+fn forces_are_the_derivative_of_the_potential() {
+    for (name, lattice) in panels() {
+        let (cloth, state, trial) = tried(&lattice, &fabric(RICH), (1e-3, 0.07));
+        let mut forces = vec![0.0; trial.len()];
+        cloth.add_forces(&state, &trial, &mut forces);
+        let scale = forces.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
+        let d = 2e-7;
+        let mut worst = 0.0_f64;
+        for dof in 0..trial.len() {
+            let at = |k: f64| {
+                let mut moved = trial.clone();
+                moved[dof] += k * d;
+                cloth.potential(&state, &moved)
+            };
+            let slope = (at(-2.0) - 8.0 * at(-1.0) + 8.0 * at(1.0) - at(2.0)) / (12.0 * d);
+            worst = worst.max((forces[dof] + slope).abs() / scale);
+        }
+        println!("{name}: force against potential {worst:.1e}");
+        assert!(worst < 1e-7, "{name}: relative error {worst:e}");
+    }
+}
+
+/// Multiplies the symmetric block matrix with a vector.
+pub fn multiply(cloth: &Cloth, values: &[f64], vector: &[f64]) -> Vec<f64> {
+    let pattern = cloth.pattern();
+    let mut product = vec![0.0; vector.len()];
+    for row in 0..cloth.particles() {
+        for slot in pattern.offsets[row]..pattern.offsets[row + 1] {
+            let column = pattern.columns[slot];
+            for i in 0..3 {
+                for j in 0..3 {
+                    let value = values[9 * slot + 3 * i + j];
+                    product[3 * row + i] += value * vector[3 * column + j];
+                    if row != column {
+                        product[3 * column + j] += value * vector[3 * row + i];
+                    }
+                }
+            }
+        }
+    }
+    product
+}
+
+#[test]
+fn the_stiffness_is_the_derivative_of_the_forces() {
+    for (name, lattice) in panels() {
+        let (cloth, state, trial) = tried(&lattice, &fabric(RICH), (1e-3, 0.07));
+        let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
+        cloth.add_stiffness(&state, &trial, false, &mut values);
+        let mut random = Random(11);
+        let mut worst = 0.0_f64;
+        for _ in 0..20 {
+            let direction: Vec<f64> = trial.iter().map(|_| random.next()).collect();
+            let product = multiply(&cloth, &values, &direction);
+            // Of the size at which truncation and rounding balance, away from the laws' corners.
+            let d = 2e-8;
+            let at = |k: f64| {
+                let moved: Vec<f64> =
+                    trial.iter().zip(&direction).map(|(x, v)| x + k * d * v).collect();
+                let mut forces = vec![0.0; trial.len()];
+                cloth.add_forces(&state, &moved, &mut forces);
+                forces
+            };
+            let (m2, m1, p1, p2) = (at(-2.0), at(-1.0), at(1.0), at(2.0));
+            let scale = product.iter().fold(0.0, |m: f64, p| m.max(p.abs()));
+            for dof in 0..trial.len() {
+                let slope = (m2[dof] - 8.0 * m1[dof] + 8.0 * p1[dof] - p2[dof]) / (12.0 * d);
+                worst = worst.max((product[dof] + slope).abs() / scale);
+            }
+        }
+        println!("{name}: stiffness against forces {worst:.1e}");
+        assert!(worst < 1e-6, "{name}: relative error {worst:e}");
+    }
+}
+
+#[test]
+fn the_definite_stiffness_has_no_negative_direction() {
+    for (name, lattice) in panels() {
+        let (cloth, state, trial) = tried(&lattice, &fabric(RICH), (3e-3, 0.07));
+        let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
+        cloth.add_stiffness(&state, &trial, true, &mut values);
+        let mut random = Random(5);
+        for _ in 0..300 {
+            let direction: Vec<f64> = trial.iter().map(|_| random.next()).collect();
+            let product = multiply(&cloth, &values, &direction);
+            let curvature: f64 = direction.iter().zip(&product).map(|(a, b)| a * b).sum();
+            assert!(curvature > 0.0, "{name}: {curvature}");
+        }
+    }
+}
+
+/// Sums of the internal forces and torques over the sums of their magnitudes.
+fn balance(cloth: &Cloth, state: &State, trial: &[f64]) -> (f64, f64) {
+    let mut forces = vec![0.0; trial.len()];
+    cloth.add_forces(state, trial, &mut forces);
+    let (mut force, mut torque, mut size, mut lever) = ([0.0; 3], [0.0; 3], 0.0, 0.0);
+    for (x, f) in trial.chunks(3).zip(forces.chunks(3)) {
+        let cross =
+            [x[1] * f[2] - x[2] * f[1], x[2] * f[0] - x[0] * f[2], x[0] * f[1] - x[1] * f[0]];
+        for axis in 0..3 {
+            force[axis] += f[axis];
+            torque[axis] += cross[axis];
+        }
+        let norm = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        size += norm(f);
+        lever += norm(&cross);
+    }
+    let norm = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+    (norm(force) / size, norm(torque) / lever)
+}
+
+#[test]
+fn internal_forces_and_torques_cancel() {
+    let elastic: String =
+        RICH.lines().filter(|l| !l.starts_with("friction")).collect::<Vec<_>>().join("\n");
+    let elastic = elastic.replace("rest_curvature = 3.0", "");
+    for (name, lattice) in panels() {
+        // Without friction and rest curvature nothing depends on the frozen normal.
+        let (cloth, state, trial) = tried(&lattice, &fabric(&elastic), (1e-3, 0.07));
+        let (force, torque) = balance(&cloth, &state, &trial);
+        println!("{name}: elastic, net force {force:.1e}, net torque {torque:.1e}");
+        assert!(force < 1e-12 && torque < 1e-12, "{name}: {force:e} {torque:e}");
+        let (cloth, state, trial) = tried(&lattice, &fabric(RICH), (1e-5, 0.0602));
+        let (force, torque) = balance(&cloth, &state, &trial);
+        println!("{name}: with friction, net force {force:.1e}, net torque {torque:.1e}");
+        assert!(force < 1e-12, "{name}: net force {force:e}");
+        // The frozen normals' share; those of four nodes are coarse.
+        let limit = if name == "triangle" { 2e-5 } else { 1e-6 };
+        assert!(torque < limit, "{name}: net torque {torque:e}");
+    }
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+fn distance(found: &[f64], exact: &[f64]) -> f64 {
+    let gap: Vec<f64> = found.iter().zip(exact).map(|(a, b)| a - b).collect();
+    norm(&gap) / norm(exact)
+}
+
+/// A cloth of several panels, with and without a rim.
+fn mixed() -> Vec<Lattice> {
+    let mut all: Vec<Lattice> = panels().into_iter().map(|(_, lattice)| lattice).collect();
+    all.insert(1, Lattice::rectangle(0.1, 0.08, 0.012).expect("a rectangle"));
+    all.push(Lattice::disc(0.05, 0.011).expect("a disc"));
+    all
+}
+
+/// Waves that come and go.
+fn wave(cloth: &Cloth, time: f64) -> Vec<f64> {
+    let place = |&[u, v]: &[f64; 2]| {
+        let height = 0.02 * (1.0 + 0.5 * time) * (20.0 * u + 13.0 * v + time).sin();
+        [u * (1.0 + 0.01 * time), v + 0.05 * time * u, height]
+    };
+    cloth.coordinates().iter().flat_map(place).collect()
+}
+
+#[test]
+fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
+    let (lattices, rich) = (mixed(), fabric(RICH));
+    let panels: Vec<_> = lattices.iter().map(|lattice| (lattice, &rich)).collect();
+    let cloth = Cloth::new(&panels);
+    let mut state = cloth.state(wave(&cloth, 0.0)).expect("it fits");
+    let start = (state.positions.as_slice(), state.normals());
+    let mut reference = Reference::new(&panels, cloth.pattern(), start);
+    let rest = vec![0.0; 3 * cloth.particles()];
+    let mut random = Random(3);
+    for step in 0..6 {
+        let time = f64::from(step % 4) * 0.3;
+        let mut place = |time: f64| -> Vec<f64> {
+            wave(&cloth, time).into_iter().map(|x| x + 4e-4 * random.next()).collect()
+        };
+        let positions = place(time);
+        let before = reference.potential(&state.positions);
+        let work = cloth.potential(&state, &positions) - cloth.potential(&state, &state.positions);
+        let exact = reference.potential(&positions) - before;
+        assert!((work - exact).abs() < TOLERANCE * exact.abs(), "{step}: work {work}, {exact}");
+        let lost = cloth.commit(&mut state, &positions, &rest).dissipated;
+        let exact = reference.commit(&positions, state.normals());
+        assert!((lost - exact).abs() < TOLERANCE * exact.abs(), "{step}: lost {lost}, {exact}");
+        let trial = place(time + 0.1);
+        let (mut found, mut exact) = (rest.clone(), rest.clone());
+        cloth.add_forces(&state, &trial, &mut found);
+        reference.add_forces(&trial, &mut exact);
+        let error = distance(&found, &exact);
+        assert!(error < TOLERANCE, "{step}: forces {error:e}");
+        for definite in [false, true] {
+            let mut found = vec![0.0; 9 * cloth.pattern().blocks()];
+            let mut exact = found.clone();
+            cloth.add_stiffness(&state, &trial, definite, &mut found);
+            reference.add_stiffness(&trial, definite, &mut exact);
+            let error = distance(&found, &exact);
+            assert!(error < TOLERANCE, "{step}, definite {definite}: stiffness {error:e}");
+        }
+    }
+}
+
+/// Everything that an evaluation gives.
+fn numbers(cloth: &Cloth) -> (State, Vec<f64>, Vec<f64>, Vec<f64>) {
+    let mut state = cloth.state(wave(cloth, 0.0)).expect("it fits");
+    let mut sums = Vec::new();
+    let mut forces = vec![0.0; 3 * cloth.particles()];
+    let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
+    for step in 1..5 {
+        let trial = wave(cloth, 0.2 * f64::from(step));
+        cloth.add_forces(&state, &trial, &mut forces);
+        cloth.add_stiffness(&state, &trial, step % 2 == 0, &mut values);
+        sums.push(cloth.potential(&state, &trial));
+        sums.push(cloth.commit(&mut state, &trial, &vec![0.0; trial.len()]).dissipated);
+        sums.push(cloth.stored(&state));
+    }
+    (state, forces, values, sums)
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let (lattices, rich) = (mixed(), fabric(RICH));
+    let panels: Vec<_> = lattices.iter().map(|lattice| (lattice, &rich)).collect();
+    let cloth = Cloth::new(&panels);
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads start").install(|| numbers(&cloth))
+    };
+    let alone = run(1);
+    assert!(alone.1.iter().all(|force| force.is_finite()));
+    for threads in [2, 3, 5] {
+        assert!(run(threads) == alone, "with {threads} threads");
+    }
+}
+
+/// The mesh of a rectangle that is all grid.
+fn grid(columns: u32, rows: u32, spacing: f64) -> Mesh {
+    let places: Vec<[u32; 2]> =
+        (0..=rows).flat_map(|row| (0..=columns).map(move |column| [column, row])).collect();
+    let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+    let corners = |(column, row): (u32, u32)| {
+        let first = row * (columns + 1) + column;
+        [first, first + 1, first + columns + 2, first + columns + 1]
+    };
+    Mesh {
+        spacing: [spacing; 2],
+        coordinates: places.iter().map(|place| place.map(|k| f64::from(k) * spacing)).collect(),
+        places,
+        cells: cells.map(corners).collect(),
+        triangles: Vec::new(),
+    }
+}
+
+#[test]
+fn a_panel_that_is_all_grid_is_a_rectangle_to_the_bit() {
+    let rich = fabric(RICH);
+    let rectangle = Lattice::rectangle(0.25, 0.5, 0.015625).expect("a rectangle");
+    let cut = Lattice::with_rim(grid(16, 32, 0.015625), Grain::default()).expect("a panel");
+    assert_eq!((&cut.cells, &cut.coordinates), (&rectangle.cells, &rectangle.coordinates));
+    assert_eq!((cut.middle, cut.places()), (rectangle.middle, rectangle.places()));
+    let [one, other] = [&rectangle, &cut].map(|lattice| Cloth::new(&[(lattice, &rich)]));
+    assert_eq!(one.pattern(), other.pattern());
+    assert!(numbers(&one) == numbers(&other));
+}
+
+#[test]
+fn what_is_no_panel_is_refused() {
+    let mesh = grid(3, 2, 0.01);
+    let refused = |change: &dyn Fn(&mut Mesh)| {
+        let mut mesh = mesh.clone();
+        change(&mut mesh);
+        Lattice::with_rim(mesh, Grain::default()).expect_err("it is wrong")
+    };
+    let part = |error: ClothError| match error {
+        ClothError::Mesh { part, index, .. } => (part, index),
+        other => panic!("{other}"),
+    };
+    assert!(matches!(refused(&|mesh| mesh.spacing[1] = 0.0), ClothError::Length { .. }));
+    assert_eq!(
+        part(refused(&|mesh| *mesh = Mesh { spacing: [1.0; 2], ..Mesh::default() })),
+        ("panel", 0)
+    );
+    assert_eq!(part(refused(&|mesh| mesh.cells[2].swap(0, 1))), ("cell", 2));
+    assert_eq!(part(refused(&|mesh| mesh.cells[1][3] = 99)), ("cell", 1));
+    assert_eq!(part(refused(&|mesh| mesh.places.swap(4, 5))), ("node", 5));
+    assert_eq!(part(refused(&|mesh| mesh.coordinates[3][0] += 1e-3)), ("node", 3));
+    assert_eq!(part(refused(&|mesh| mesh.coordinates[3][0] = f64::NAN)), ("node", 3));
+    assert_eq!(part(refused(&|mesh| mesh.coordinates.push([0.1, 0.1]))), ("node", 12));
+    assert_eq!(part(refused(&|mesh| mesh.triangles.push([0, 4, 1]))), ("triangle", 0));
+    assert_eq!(part(refused(&|mesh| mesh.triangles.push([0, 1, 77]))), ("triangle", 0));
+    let far = |mesh: &mut Mesh| mesh.places[11] = [u32::MAX, u32::MAX];
+    assert!(matches!(refused(&far), ClothError::TooMany { .. }));
+}
+
+#[test]
+fn breens_particles_are_on_grids_alone() {
+    let (_, lattice) = panels().remove(0);
+    let breen = Breen::new(&[(&lattice, &fabric(RICH))]);
+    assert_eq!(breen.err(), Some(ClothError::Rim));
+}

@@ -1,0 +1,79 @@
+//! Cylinders.
+
+use drape_cloth::{Cloth, Lattice};
+
+use crate::consistency::panels;
+use crate::panels::{LINEAR, fabric, garments, rectangle};
+
+/// Positions on a cylinder whose axis is at an angle to the weft.
+fn rolled(lattice: &Lattice, radius: f64, angle: f64) -> Vec<f64> {
+    let (sin, cos) = angle.sin_cos();
+    let place = |&[u, v]: &[f64; 2]| {
+        let (along, across) = (cos * u + sin * v, cos * v - sin * u);
+        let turn = across / radius;
+        [along, radius * turn.sin(), radius * (1.0 - turn.cos())]
+    };
+    lattice.coordinates.iter().flat_map(place).collect()
+}
+
+/// Bending energy of a rolled panel over that of the laws.
+fn energy(lattice: &Lattice, radius: f64, angle: f64) -> f64 {
+    // What twice the rigidity stores more: chords shorter than arcs are compressed in both.
+    let stiff = LINEAR.replace("1.2e-5", "2.4e-5").replace("0.7e-5", "1.4e-5");
+    let [soft, stiff] = [LINEAR, &stiff].map(|text| {
+        let fabric = fabric(text);
+        let cloth = Cloth::new(&[(lattice, &fabric)]);
+        let state = cloth.state(rolled(lattice, radius, angle)).expect("it fits");
+        cloth.stored(&state)
+    });
+    let (sin, cos) = angle.sin_cos();
+    let [warp, weft] = [cos * cos / radius, sin * sin / radius];
+    let exact = 0.5 * lattice.area() * (1.2e-5 * warp * warp + 0.7e-5 * weft * weft);
+    (stiff - soft) / exact
+}
+
+#[test]
+fn a_cylinder_has_the_energy_of_the_laws_about_any_axis() {
+    let mut worst = 0.0_f64;
+    for degrees in [0.0, 15.0, 30.0, 45.0, 60.0, 90.0, 130.0] {
+        let angle = f64::to_radians(degrees);
+        for grain in [0.0, 17.0, 45.0] {
+            let lattice = rectangle([0.1, 0.14], grain, 0.01);
+            let part = energy(&lattice, 0.1, angle);
+            assert!((part - 1.0).abs() < 0.01, "grain {grain}°, axis {degrees}°: {part}");
+            worst = worst.max((part - 1.0).abs());
+        }
+    }
+    for (name, lattice) in garments(0.01) {
+        for degrees in [0.0, 30.0, 45.0, 90.0] {
+            let part = energy(&lattice, 0.1, f64::to_radians(degrees));
+            worst = worst.max((part - 1.0).abs());
+            assert!((part - 1.0).abs() < 0.01, "{name}, axis {degrees}°: {part}");
+        }
+    }
+    println!("energy of cylinders: off by {worst:.5} at most");
+}
+
+#[test]
+fn normals_are_exact_on_planes_and_of_second_order_on_cylinders() {
+    let fabric = fabric(LINEAR);
+    let (sin, cos) = 0.7_f64.sin_cos();
+    let error = |lattice: &Lattice, radius: f64| {
+        let cloth = Cloth::new(&[(lattice, &fabric)]);
+        let state = cloth.state(rolled(lattice, radius, 0.7)).expect("it fits");
+        let normals = state.normals().chunks_exact(3).zip(&lattice.coordinates);
+        let off = normals.map(|(normal, [u, v])| {
+            let turn = (cos * v - sin * u) / radius;
+            let exact = [0.0, -turn.sin(), turn.cos()];
+            (0..3).map(|k| (normal[k] - exact[k]).powi(2)).sum::<f64>().sqrt()
+        });
+        off.fold(0.0, f64::max)
+    };
+    for (name, lattice) in panels() {
+        let plane = error(&lattice, 1e12);
+        assert!(plane < 1e-12, "{name}: {plane:e}");
+    }
+    let [coarse, fine] = [0.02, 0.01].map(|h| error(&rectangle([0.2, 0.3], 33.0, h), 0.1));
+    println!("normals on a cylinder: off by {coarse:.2e} and {fine:.2e}");
+    assert!((coarse / fine).log2() > 1.6, "{coarse:e} {fine:e}");
+}
