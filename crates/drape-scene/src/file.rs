@@ -113,6 +113,8 @@ pub(crate) struct GarmentPanelFile {
     /// are missing.
     pub(crate) center: Option<[f64; 3]>,
     pub(crate) turn: Option<[f64; 3]>,
+    /// Radius of the cylinder that it is bent to; that of the pattern if missing.
+    pub(crate) wrap: Option<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]
