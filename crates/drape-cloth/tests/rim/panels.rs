@@ -1,5 +1,7 @@
 //! Panels cut by the cutter of garments, and the fabric of the tests.
 
+use std::sync::LazyLock;
+
 use drape_cloth::{Grain, Lattice, Mesh};
 use drape_fabric::Fabric;
 use drape_input::Document;
@@ -83,8 +85,10 @@ pub fn rectangle([width, height]: [f64; 2], degrees: f64, spacing: f64) -> Latti
     shape(&format!("M0 0 L{w} 0 L{w} -{h} L0 -{h} Z"), degrees, spacing)
 }
 
-/// All panels of the patterns in the repository, as they lie and with the grain turned by 45°.
-pub fn garments(spacing: f64) -> Vec<(String, Lattice)> {
+/// All panels of the patterns in the repository at 10 mm, as they lie and with the grain turned by 45°.
+pub static GARMENTS: LazyLock<Vec<(String, Lattice)>> = LazyLock::new(garments);
+
+fn garments() -> Vec<(String, Lattice)> {
     let mut all = Vec::new();
     for file in ["pencil-skirt.toml", "shirt.json", "skirt.json", "teagan.json", "trousers.json"] {
         let path = format!("{}/../drape-pattern/patterns/{file}", env!("CARGO_MANIFEST_DIR"));
@@ -96,7 +100,7 @@ pub fn garments(spacing: f64) -> Vec<(String, Lattice)> {
             };
             let panels = pattern.panels().iter().map(turned).collect();
             let pattern = Pattern::new(panels, pattern.stitches().to_vec()).expect("as before");
-            let cut = Cutter::new(spacing).cut(&pattern).expect("it can be cut");
+            let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
             for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
                 let name = format!("{file} {} {turn}°", panel.name());
                 all.push((name, lattice(cut, panel.grain().to_degrees())));
