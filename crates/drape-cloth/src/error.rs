@@ -41,6 +41,16 @@ pub enum ClothError {
         /// What is wrong with it.
         what: &'static str,
     },
+    /// A seam does not fit the panels.
+    #[error("seam {seam}, pair {pair}: {what}")]
+    Seam {
+        /// Which seam, counted from 0.
+        seam: usize,
+        /// Which of its pairs, counted from 0.
+        pair: usize,
+        /// What is wrong with it.
+        what: &'static str,
+    },
     /// The model knows no panels with a rim of triangles.
     #[error(
         "the model of Breen, House & Wozny knows no rims: cut the panel as a rectangle or a disc"

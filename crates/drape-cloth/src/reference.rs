@@ -1,5 +1,5 @@
-mod bend;
-mod block;
+pub(crate) mod bend;
+pub(crate) mod block;
 mod rim;
 
 use drape_fabric::{BendingLaw, Fabric, Law, Memory, ShearLaw, TractionLaw};

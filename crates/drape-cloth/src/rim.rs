@@ -21,13 +21,9 @@ use crate::state::History;
 use crate::{Cloth, Lattice, Pattern, State};
 
 pub(crate) use energy::{Course, commit, potential, start, stored};
-pub(crate) use fit::NODES;
 pub(crate) use force::add_forces;
 pub(crate) use near::Near;
 pub(crate) use stiffness::add_stiffness;
-
-/// Pairs of the nodes of a stencil, each with itself and those after it.
-const PAIRS: usize = NODES * (NODES + 1) / 2;
 
 /// The rim of a panel: traction and shear of its triangles, and bending where no triple of the lattice has its middle.
 ///
@@ -70,14 +66,14 @@ pub(crate) struct Triangles {
 pub(crate) struct Stencils {
     /// Particle whose neighbourhood it is.
     pub(crate) middles: Vec<u32>,
-    /// Particles in rising order, the last repeated without weight.
-    pub(crate) nodes: Vec<[u32; NODES]>,
-    /// Weights along the warp and along the weft, in 1/m².
-    pub(crate) weights: [Vec<[f64; NODES]>; 2],
+    /// Their parts, one stencil after the other, and where those of each begin.
+    parts: Vec<Part>,
+    offsets: Vec<usize>,
     /// Areas along the warp and along the weft.
     pub(crate) areas: [Vec<f64>; 2],
-    /// Blocks of the nodes 00, 01, …, 11, 12, …
-    slots: Vec<[u32; PAIRS]>,
+    /// Blocks of the parts 00, 01, …, 11, 12, … of one stencil after the other, and where those of each begin.
+    slots: Vec<u32>,
+    slot_offsets: Vec<usize>,
     /// How many there are.
     pub(crate) count: usize,
     /// Place of the first.
@@ -92,13 +88,20 @@ pub(crate) struct Slopes {
     weights: [Vec<f64>; 2],
 }
 
-/// The curvatures of a fit, as a connector has them.
+/// A node of a fit.
 #[derive(Debug, Clone, Copy)]
+pub(crate) struct Part {
+    pub(crate) node: u32,
+    /// Weights in the second derivatives along the warp and along the weft, in 1/m².
+    pub(crate) weights: [f64; 2],
+}
+
+/// The curvatures of a fit, as connectors have them.
+#[derive(Debug, Clone)]
 pub(crate) struct Stencil {
     pub(crate) middle: u32,
-    pub(crate) nodes: [u32; NODES],
-    /// Along the warp and along the weft, in 1/m².
-    pub(crate) weights: [[f64; NODES]; 2],
+    /// In rising order of the nodes.
+    pub(crate) parts: Vec<Part>,
     /// Along the warp and along the weft, in m².
     pub(crate) areas: [f64; 2],
 }
@@ -122,20 +125,13 @@ pub(crate) fn fits(
         nodes.truncate(fit.slopes[0].len());
         let areas = [0, 1].map(|direction| bending[direction].at_nodes[at]);
         if areas.iter().any(|&area| area > 0.0) {
-            let mut order: Vec<usize> = (0..nodes.len()).collect();
-            order.sort_by_key(|&k| nodes[k]);
-            let mut stencil = Stencil {
-                middle,
-                nodes: [nodes[order[nodes.len() - 1]]; NODES],
-                weights: [[0.0; NODES]; 2],
-                areas,
-            };
-            for (place, &k) in order.iter().enumerate() {
-                stencil.nodes[place] = nodes[k];
-                let [weft, warp] = &fit.bends;
-                (stencil.weights[0][place], stencil.weights[1][place]) = (warp[k], weft[k]);
-            }
-            stencils.push(stencil);
+            let [weft, warp] = &fit.bends;
+            let weights = warp.iter().zip(weft).map(|(&warp, &weft)| [warp, weft]);
+            let parts = nodes.iter().zip(weights);
+            let mut parts: Vec<Part> =
+                parts.map(|(&node, weights)| Part { node, weights }).collect();
+            parts.sort_by_key(|part| part.node);
+            stencils.push(Stencil { middle, parts, areas });
         }
         let [weft, warp] = fit.slopes;
         slopes.push(Slopes { particle: middle, nodes, weights: [warp, weft] });
@@ -185,32 +181,31 @@ impl Rim {
             [(a, a), (a, b), (a, c), (b, b), (b, c), (c, c)].map(|(row, column)| slot(row, column))
         };
         self.triangles.slots = self.triangles.corners.iter().map(three).collect();
-        let all = |nodes: &[u32; NODES]| {
-            let mut slots = [NO_BLOCK; PAIRS];
-            for (place, (i, j)) in pairs().enumerate() {
-                // Beyond the nodes there are there is only the last, repeated.
-                if j == 0 || nodes[j - 1] < nodes[j] {
-                    slots[place] = slot(nodes[i], nodes[j]);
-                }
-            }
-            slots
-        };
-        self.stencils.slots = self.stencils.nodes.iter().map(all).collect();
+        let mut slots = Vec::new();
+        self.stencils.slot_offsets = vec![0];
+        for place in 0..self.stencils.count {
+            slots.extend(pairs(self.stencils.parts(place)).map(|(row, column)| slot(row, column)));
+            self.stencils.slot_offsets.push(slots.len());
+        }
+        self.stencils.slots = slots;
     }
 
     /// Pairs of particles that a connector joins, the first of each less than the second.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> {
         let sides = |&[a, b, c]: &[u32; 3]| [(a, b), (a, c), (b, c)];
         let triangles = self.triangles.corners.iter().flat_map(sides);
-        let nodes = self.stencils.nodes.iter();
-        let ends = nodes.flat_map(|nodes| pairs().map(|(i, j)| (nodes[i], nodes[j])));
-        triangles.chain(ends).filter(|(row, column)| row < column)
+        let stencils = (0..self.stencils.count).map(|place| self.stencils.parts(place));
+        triangles.chain(stencils.flat_map(pairs)).filter(|(row, column)| row < column)
     }
 }
 
-/// Places of the pairs of a stencil's nodes, row by row.
-fn pairs() -> impl Iterator<Item = (usize, usize)> {
-    (0..NODES).flat_map(|i| (i..NODES).map(move |j| (i, j)))
+/// Pairs of a stencil's nodes, each with itself and those after it.
+fn pairs(parts: &[Part]) -> impl Iterator<Item = (u32, u32)> {
+    let with = |(k, part): (usize, &Part)| {
+        let row = part.node;
+        parts[k..].iter().map(move |other| (row, other.node))
+    };
+    parts.iter().enumerate().flat_map(with)
 }
 
 impl Triangles {
@@ -238,24 +233,27 @@ impl Stencils {
     fn new(fits: &[Stencil], first: u32, base: usize) -> Self {
         let count = fits.len();
         let length = count.next_multiple_of(LANES);
-        let padding = fits.last().map(|last| Stencil { areas: [0.0; 2], ..*last });
-        let padded = || fits.iter().chain(padding.iter().cycle().take(length - count));
-        let direction = |k: usize| {
-            (
-                padded().map(|fit| fit.weights[k]).collect(),
-                padded().map(|fit| fit.areas[k]).collect(),
-            )
-        };
-        let [(warp, warp_areas), (weft, weft_areas)] = [0, 1].map(direction);
-        Self {
-            middles: padded().map(|fit| first + fit.middle).collect(),
-            nodes: padded().map(|fit| fit.nodes.map(|node| first + node)).collect(),
-            weights: [warp, weft],
-            areas: [warp_areas, weft_areas],
-            slots: Vec::new(),
-            count,
-            base,
+        let mut middles: Vec<u32> = fits.iter().map(|fit| first + fit.middle).collect();
+        middles.resize(length, first);
+        let (mut parts, mut offsets) = (Vec::new(), vec![0]);
+        for fit in fits {
+            parts.extend(fit.parts.iter().map(|part| Part { node: first + part.node, ..*part }));
+            offsets.push(parts.len());
         }
+        offsets.resize(length + 1, parts.len());
+        let areas = [0, 1].map(|direction| {
+            let mut areas: Vec<f64> = fits.iter().map(|fit| fit.areas[direction]).collect();
+            areas.resize(length, 0.0);
+            areas
+        });
+        let (slots, slot_offsets) = (Vec::new(), Vec::new());
+        Self { middles, parts, offsets, areas, slots, slot_offsets, count, base }
+    }
+
+    /// The parts of a stencil.
+    #[inline(always)]
+    pub(crate) fn parts(&self, place: usize) -> &[Part] {
+        &self.parts[self.offsets[place]..self.offsets[place + 1]]
     }
 }
 

@@ -6,7 +6,7 @@ use crate::field::{Vector, add, dot, scale, subtract};
 
 /// Derivatives of the energy with respect to a bow at a normal, and the energy; `spacing` is the length of a
 /// yarn's segments.
-pub(super) fn bend(
+pub(crate) fn bend(
     (law, memory): (&BendingLaw, &Memory),
     (bow, normal): (Vector, Vector),
     spacing: f64,
@@ -40,7 +40,7 @@ pub(super) fn bend(
 }
 
 /// Curvature of a bow about a normal.
-pub(super) fn curvature(bow: Vector, normal: Vector, length: f64) -> f64 {
+pub(crate) fn curvature(bow: Vector, normal: Vector, length: f64) -> f64 {
     let bow = dot(bow, normal);
     Angle::of(bow * bow, length).curvature(bow)
 }

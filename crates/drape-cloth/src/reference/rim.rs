@@ -185,10 +185,9 @@ impl Fitted {
         let mut all = Vec::new();
         for stencil in fits(lattice, near, bending).0 {
             for (direction, (law, length)) in sides.into_iter().enumerate() {
-                let parts = stencil.nodes.iter().zip(stencil.weights[direction]);
-                let mut parts: Vec<_> =
-                    parts.map(|(&node, weight)| (first + node, weight)).collect();
-                parts.dedup_by_key(|part| part.0);
+                let parts = stencil.parts.iter();
+                let parts =
+                    parts.map(|part| (first + part.node, part.weights[direction])).collect();
                 all.push(Self {
                     law,
                     middle: first + stencil.middle,

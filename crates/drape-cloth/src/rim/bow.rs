@@ -22,13 +22,11 @@ impl Bowed {
         let mut bowed = Self { bows: [[[0.0; LANES]; 3]; 2], normals: [[0.0; LANES]; 3] };
         for lane in 0..LANES {
             let place = start + lane;
-            let (warp, weft) = (&stencils.weights[0][place], &stencils.weights[1][place]);
             let mut sums = [[0.0; 3]; 2];
-            for ((&node, warp), weft) in stencils.nodes[place].iter().zip(warp).zip(weft) {
-                let position = &positions[3 * node as usize..][..3];
-                for axis in 0..3 {
-                    sums[0][axis] += warp * position[axis];
-                    sums[1][axis] += weft * position[axis];
+            for part in stencils.parts(place) {
+                let position = &positions[3 * part.node as usize..][..3];
+                for (sum, weight) in sums.iter_mut().zip(part.weights) {
+                    sum.iter_mut().zip(position).for_each(|(sum, x)| *sum += weight * x);
                 }
             }
             for (bows, sum) in bowed.bows.iter_mut().zip(sums) {

@@ -40,10 +40,9 @@ pub(crate) fn add_forces(trial: &RimTrial<'_>, forces: &mut [f64]) {
         });
         for lane in 0..LANES.min(stencils.count - start) {
             let [warp, weft] = [0, 1].map(|direction| at(&moments[direction], lane));
-            let place = start + lane;
-            for (k, &node) in stencils.nodes[place].iter().enumerate() {
-                let [v, u] = [0, 1].map(|direction| -stencils.weights[direction][place][k]);
-                pull(node, add(scale(warp, v), scale(weft, u)));
+            for part in stencils.parts(start + lane) {
+                let [v, u] = part.weights;
+                pull(part.node, add(scale(warp, -v), scale(weft, -u)));
             }
         }
     }

@@ -4,10 +4,9 @@ use drape_fabric::{BatchLaw, LANES, Lanes, Responses};
 
 use crate::bend::HALF;
 use crate::field::lanes;
-use crate::panel::NO_BLOCK;
+use crate::rim::RimTrial;
 use crate::rim::bow::Bowed;
 use crate::rim::strain::Strain;
-use crate::rim::{NODES, RimTrial};
 
 /// Place of a full block's entry, row by row, in the upper half.
 const IN_HALF: [usize; 9] = [0, 1, 2, 1, 3, 4, 2, 4, 5];
@@ -41,15 +40,15 @@ pub(crate) fn add_stiffness(trial: &RimTrial<'_>, definite: bool, values: &mut [
             let place = start + lane;
             let [warp, weft] =
                 halves.each_ref().map(|halves| IN_HALF.map(|entry| halves[entry][lane]));
-            let [v, u] = stencils.weights.each_ref().map(|weights| &weights[place]);
-            let mut slots = stencils.slots[place].iter();
-            for i in 0..NODES {
-                for (j, &slot) in (i..NODES).zip(slots.by_ref()) {
-                    if slot == NO_BLOCK {
-                        continue;
-                    }
-                    let (v, u) = (v[i] * v[j], u[i] * u[j]);
-                    put(slot, &std::array::from_fn(|k| v * warp[k] + u * weft[k]));
+            let parts = stencils.parts(place);
+            let mut slots = stencils.slots[stencils.slot_offsets[place]..].iter();
+            for (k, part) in parts.iter().enumerate() {
+                let [v, u] = part.weights;
+                let row: [f64; 9] = std::array::from_fn(|k| v * warp[k]);
+                let other: [f64; 9] = std::array::from_fn(|k| u * weft[k]);
+                for (part, &slot) in parts[k..].iter().zip(slots.by_ref()) {
+                    let [v, u] = part.weights;
+                    put(slot, &std::array::from_fn(|k| v * row[k] + u * other[k]));
                 }
             }
         }

@@ -8,12 +8,12 @@ use crate::panels::{LINEAR, fabric, rectangle};
 /// Sides of a strip, in m.
 const STRIP: [f64; 2] = [0.05, 0.2];
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Solves with a symmetric operator that has no negative direction, by conjugate gradients.
-fn solve(apply: impl Fn(&[f64]) -> Vec<f64>, right: &[f64], tolerance: f64) -> Vec<f64> {
+pub fn solve(apply: impl Fn(&[f64]) -> Vec<f64>, right: &[f64], tolerance: f64) -> Vec<f64> {
     let mut solution = vec![0.0; right.len()];
     let mut rest = right.to_vec();
     let mut way = rest.clone();

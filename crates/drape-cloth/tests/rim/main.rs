@@ -5,3 +5,4 @@ mod consistency;
 mod panels;
 mod patch;
 mod roll;
+mod seams;

@@ -1,9 +1,11 @@
 //! Panels cut by the cutter of garments, and the fabric of the tests.
 
-use drape_cloth::{Grain, Lattice, Mesh};
+use std::sync::LazyLock;
+
+use drape_cloth::{Grain, Lattice, Mesh, Seam};
 use drape_fabric::Fabric;
 use drape_input::Document;
-use drape_pattern::{Cut, Cutter, Panel, Pattern};
+use drape_pattern::{Cut, Cutter, NodeId, Panel, Pattern};
 
 /// Every feature on: toes with memory, two friction elements, growth, locking, a crease.
 pub const RICH: &str = r#"
@@ -47,8 +49,8 @@ pub fn fabric(text: &str) -> Fabric {
     Fabric::from_document(&Document::new("fabric.toml", text)).expect("the fabric is right")
 }
 
-/// The mesh of a cut, its outline last.
-pub fn mesh(cut: &Cut) -> Mesh {
+/// The mesh of a cut, its outline last, and the number of each node in it.
+pub fn mesh(cut: &Cut) -> (Mesh, Vec<u32>) {
     let nodes = 0..cut.yarns.len();
     let (inner, outer): (Vec<usize>, Vec<usize>) = nodes.partition(|&k| cut.lattice[k].is_some());
     let order: Vec<usize> = inner.into_iter().chain(outer).collect();
@@ -56,17 +58,34 @@ pub fn mesh(cut: &Cut) -> Mesh {
     for (k, &node) in order.iter().enumerate() {
         number[node] = k as u32;
     }
-    Mesh {
+    let mesh = Mesh {
         spacing: cut.spacing,
         coordinates: order.iter().map(|&k| cut.yarns[k]).collect(),
         places: order.iter().filter_map(|&k| cut.lattice[k]).collect(),
         cells: cut.quads.iter().map(|quad| quad.map(|k| number[k as usize])).collect(),
         triangles: cut.triangles.iter().map(|three| three.map(|k| number[k as usize])).collect(),
+    };
+    (mesh, number)
+}
+
+/// The panels of a pattern at 10 mm and its seams.
+pub fn garment(file: &str) -> (Vec<Lattice>, Vec<Seam>) {
+    let path = format!("{}/../drape-pattern/patterns/{file}", env!("CARGO_MANIFEST_DIR"));
+    let pattern = Pattern::read(path).expect("it is read");
+    let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
+    let (mut panels, mut numbers, mut first) = (Vec::new(), Vec::new(), 0);
+    for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
+        panels.push(lattice(cut, panel.grain().to_degrees()));
+        numbers.push(mesh(cut).1.into_iter().map(|node| first + node).collect::<Vec<u32>>());
+        first += cut.yarns.len() as u32;
     }
+    let number = |id: NodeId| numbers[id.panel][id.node as usize];
+    let seam = |pairs: &Vec<[NodeId; 2]>| Seam::new(pairs.iter().map(|p| p.map(number)).collect());
+    (panels, cut.seams.iter().map(seam).collect())
 }
 
 pub fn lattice(cut: &Cut, degrees: f64) -> Lattice {
-    Lattice::with_rim(mesh(cut), Grain::from_degrees(degrees)).expect("a panel")
+    Lattice::with_rim(mesh(cut).0, Grain::from_degrees(degrees)).expect("a panel")
 }
 
 /// A panel of one outline in millimetres, its warp at an angle in degrees from its height.
@@ -83,8 +102,10 @@ pub fn rectangle([width, height]: [f64; 2], degrees: f64, spacing: f64) -> Latti
     shape(&format!("M0 0 L{w} 0 L{w} -{h} L0 -{h} Z"), degrees, spacing)
 }
 
-/// All panels of the patterns in the repository, as they lie and with the grain turned by 45°.
-pub fn garments(spacing: f64) -> Vec<(String, Lattice)> {
+/// All panels of the patterns in the repository at 10 mm, as they lie and with the grain turned by 45°.
+pub static GARMENTS: LazyLock<Vec<(String, Lattice)>> = LazyLock::new(garments);
+
+fn garments() -> Vec<(String, Lattice)> {
     let mut all = Vec::new();
     for file in ["pencil-skirt.toml", "shirt.json", "skirt.json", "teagan.json", "trousers.json"] {
         let path = format!("{}/../drape-pattern/patterns/{file}", env!("CARGO_MANIFEST_DIR"));
@@ -96,7 +117,7 @@ pub fn garments(spacing: f64) -> Vec<(String, Lattice)> {
             };
             let panels = pattern.panels().iter().map(turned).collect();
             let pattern = Pattern::new(panels, pattern.stitches().to_vec()).expect("as before");
-            let cut = Cutter::new(spacing).cut(&pattern).expect("it can be cut");
+            let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
             for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
                 let name = format!("{file} {} {turn}°", panel.name());
                 all.push((name, lattice(cut, panel.grain().to_degrees())));
