@@ -87,9 +87,12 @@ impl Joints {
         }
         let sewn = same.clone();
         for (number, panel) in pattern.panels().iter().enumerate() {
-            if let Some([a, b, c, d]) = self.rectangle(panel, number) {
-                unite(&mut same, a, c);
-                unite(&mut same, b, d);
+            let Some([a, b, c, d]) = self.rectangle(panel, number) else { continue };
+            for [one, opposite] in [[a, c], [b, d]] {
+                // The other side of a gather keeps the spacing, and the rectangle gets a rim.
+                if !self.gathered(one) && !self.gathered(opposite) {
+                    unite(&mut same, one, opposite);
+                }
             }
         }
         let counts = self.largest_of(&same, spacing);
@@ -104,7 +107,7 @@ impl Joints {
     fn largest_of(&self, same: &[usize], spacing: f64) -> Vec<u32> {
         let mut most = vec![1; same.len()];
         for joint in (0..same.len()).filter(|&j| !self.joints[j].removed) {
-            let own = (self.length_after(joint) / spacing).round().max(1.0) as u32;
+            let own = (self.counted_after(joint) / spacing).round().max(1.0) as u32;
             let root = root(same, joint);
             most[root] = own.max(most[root]);
         }

@@ -25,8 +25,9 @@ use serde::Deserialize;
 use crate::edge::{Curve, Edge};
 use crate::mistake::{Mistake, Subject};
 use crate::note::Note;
-use crate::panel::{Panel, Placement};
+use crate::panel::Panel;
 use crate::pattern::{EdgeId, Pattern, Stitch};
+use crate::placement::Placement;
 use crate::read::unit_slip;
 
 /// Ratio of the lengths of a seam's sides that is allowed where the file says nothing.
@@ -53,6 +54,7 @@ struct PanelFile {
     grain: Option<f64>,
     origin: Option<[f64; 3]>,
     turn: Option<[f64; 3]>,
+    wrap: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -160,17 +162,25 @@ impl Reader<'_> {
                 return None;
             }
         };
-        if file.origin.is_none() && file.turn.is_none() {
+        if file.origin.is_none() && file.turn.is_none() && file.wrap.is_none() {
             return Some(panel);
         }
         let angles = file.turn.unwrap_or_default().map(f64::to_radians);
         let origin = file.origin.unwrap_or_default().map(|x| x * self.metres);
-        let placed = panel.with_placement(Placement::new(angles, origin));
-        if placed.is_err() {
-            let help = "origin is three lengths, turn three angles in degrees about x, y and z";
-            self.fail(&key, "its place is not finite", help);
+        let wrap = file.wrap.map(|radius| radius * self.metres);
+        match panel.with_placement(Placement::new(angles, origin).with_wrap(wrap)) {
+            Ok(panel) => Some(panel),
+            Err(mistake @ Mistake::Wrap { .. }) => {
+                self.fail(&format!("{key}.wrap"), mistake.to_string(), mistake.help());
+                None
+            }
+            Err(_) => {
+                let help = "origin is three lengths, turn three angles in degrees about x, y and z, \
+                            wrap a radius";
+                self.fail(&key, "its place is not finite", help);
+                None
+            }
         }
-        placed.ok()
     }
 
     fn edges(&mut self, name: &str, file: &PanelFile) -> Option<Vec<Edge>> {

@@ -12,8 +12,9 @@ use serde_json::Value;
 
 use crate::edge::{Curve, Edge};
 use crate::note::Note;
-use crate::panel::{Panel, Placement};
+use crate::panel::Panel;
 use crate::pattern::{EdgeId, MAX_EASE, Pattern, Stitch};
+use crate::placement::Placement;
 use crate::read::{diagnostic, unit_slip};
 
 #[derive(Deserialize)]

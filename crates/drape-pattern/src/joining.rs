@@ -30,14 +30,14 @@ impl Joints {
             let mut short: Vec<(f64, usize)> = self
                 .pieces_by_first()
                 .into_iter()
-                .map(|joint| (self.longest_after(joint), joint))
+                .map(|joint| (self.counted_after(joint), joint))
                 .filter(|(length, _)| *length < shortest)
                 .collect();
             short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             let mut changed = false;
             for &(length, joint) in &short {
                 // An earlier one of this pass may have joined it already.
-                if self.joints[joint].removed || self.longest_after(joint) != length {
+                if self.joints[joint].removed || self.counted_after(joint) != length {
                     continue;
                 }
                 let ends = [joint, self.joints[joint].around[1]];
@@ -62,7 +62,7 @@ impl Joints {
     /// Removes the smooth joints inside runs of short pieces, which digitised outlines are made of.
     fn dissolve_runs(&mut self, pattern: &Pattern, (shortest, spacing): (f64, f64)) -> Vec<Note> {
         let short: Vec<bool> =
-            (0..self.joints.len()).map(|joint| self.longest_after(joint) < shortest).collect();
+            (0..self.joints.len()).map(|joint| self.counted_after(joint) < shortest).collect();
         let inside: Vec<usize> = (0..self.joints.len())
             .filter(|&joint| short[joint] && short[self.joints[joint].around[0]])
             .collect();
@@ -95,13 +95,6 @@ impl Joints {
             !each.removed && !other_side
         };
         (0..self.joints.len()).filter(first).collect()
-    }
-
-    /// Length of the piece after a joint, or of the longer piece that it is sewn to, in m.
-    fn longest_after(&self, joint: usize) -> f64 {
-        let Some(link) = self.joints[joint].links[1] else { return self.length_after(joint) };
-        let sides = [0, 1].map(|side| self.length_after(Self::foremost(&self.links[link], side)));
-        sides[0].max(sides[1])
     }
 
     fn class(&self, class: usize) -> impl Iterator<Item = usize> + '_ {

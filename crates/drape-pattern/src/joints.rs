@@ -7,6 +7,11 @@ use crate::pattern::{EdgeId, Pattern, Stitch};
 /// Shares of the way along a stitch that differ by less are the same: rounding.
 const SAME: f64 = 1e-9;
 
+/// Ratio of the lengths of two pieces that are sewn together above which they are a gather: counted on the
+/// longer one, the arcs of the shorter one would be under two thirds of the spacing. The digits of a file
+/// make no gather of a ratio of 1.5.
+const GATHER: f64 = 1.5 + 1e-6;
+
 /// A point of an outline between which arcs are sampled.
 #[derive(Debug, Clone)]
 pub(crate) struct Joint {
@@ -113,6 +118,27 @@ impl Joints {
         // Joints at the same place lie in the order of their numbers.
         let onward = here.total_cmp(&there).then(joint.cmp(&next)).is_lt();
         if onward { there - here } else { there - here + self.whole(self.joints[joint].panel) }
+    }
+
+    /// Length that the arcs of the piece after a joint are counted on, in m: its own, or that of the longer
+    /// of two pieces that are sewn together, or, in a gather, the geometric mean of both, from which both
+    /// sides' arcs differ alike.
+    pub fn counted_after(&self, joint: usize) -> f64 {
+        let Some(lengths) = self.sewn_lengths(joint) else { return self.length_after(joint) };
+        let [short, long] = lengths;
+        if long > GATHER * short { (short * long).sqrt() } else { long }
+    }
+
+    /// Whether the piece after a joint is a side of a gather.
+    pub fn gathered(&self, joint: usize) -> bool {
+        self.sewn_lengths(joint).is_some_and(|[short, long]| long > GATHER * short)
+    }
+
+    /// Lengths of the piece after a joint and of that it is sewn to, the shorter first, in m.
+    fn sewn_lengths(&self, joint: usize) -> Option<[f64; 2]> {
+        let link = &self.links[self.joints[joint].links[1]?];
+        let [a, b] = [0, 1].map(|side| self.length_after(Self::foremost(link, side)));
+        Some([a.min(b), a.max(b)])
     }
 
     /// The joint from which a side of a link goes on along the outline.

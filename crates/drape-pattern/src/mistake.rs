@@ -140,6 +140,19 @@ pub enum Mistake {
         /// What of it.
         value: &'static str,
     },
+    /// A panel that is wrapped would meet itself: wrap it to a larger radius.
+    #[error(
+        "panel {panel} is {} wide and meets itself when wrapped to a radius of {}",
+        Millimetres(*width), Millimetres(*wrap)
+    )]
+    Wrap {
+        /// The panel.
+        panel: String,
+        /// The radius, in m.
+        wrap: f64,
+        /// Its width, in m.
+        width: f64,
+    },
     /// A stitch names an edge that there is not: name another.
     #[error("stitch {stitch} names edge {edge} of panel {panel}, which there is not")]
     NoEdge {
@@ -280,6 +293,10 @@ impl Mistake {
             Self::PathSyntax { .. } => "a path is SVG's: M, L, H, V, C, S, Q, T, A and Z".into(),
             Self::PathParts { .. } => "begin with M, end with Z, and draw one outline".into(),
             Self::SamePanel { .. } => "give each panel its own name".into(),
+            Self::Wrap { width, .. } => {
+                let least = Millimetres(width / std::f64::consts::TAU);
+                format!("wrap it to more than {least}, or leave wrap out for a flat panel")
+            }
             Self::NoEdge { .. } => "name panels and edges that there are".into(),
             Self::EmptySide { .. } => "name one edge or more on each side".into(),
             Self::SewnTwice { .. } => "split the edge, or join both in one chain".into(),
@@ -326,6 +343,7 @@ impl Mistake {
             | Self::PathSyntax { panel, .. }
             | Self::PathParts { panel, .. }
             | Self::Placed { panel, .. }
+            | Self::Wrap { panel, .. }
             | Self::ShortEdge { panel, .. }
             | Self::Narrow { panel, .. }
             | Self::TooMany { panel, .. }

@@ -3,6 +3,7 @@ use std::collections::BTreeSet;
 use crate::crossing::crossing;
 use crate::edge::{Edge, difference, distance};
 use crate::mistake::Mistake;
+use crate::placement::Placement;
 
 /// Farthest that a point may lie from the origin, in m: beyond it is a slip of the unit, and the
 /// arithmetic of the cutter need not be proved.
@@ -13,49 +14,6 @@ const GAP: f64 = 1e-5;
 
 /// Shortest edge of an outline, in m, and the side of the least square that is a panel.
 const SHORTEST: f64 = 1e-6;
-
-/// Where a panel lies in space before it is sewn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placement {
-    /// Rows of the rotation from the panel's frame, whose z is its right side, to space.
-    pub rotation: [[f64; 3]; 3],
-    /// Where the origin of the panel's frame lies, in m.
-    pub translation: [f64; 3],
-}
-
-impl Placement {
-    /// A rotation about x, then y, then z, by angles in rad, and a translation in m.
-    #[must_use]
-    pub fn new(angles: [f64; 3], translation: [f64; 3]) -> Self {
-        let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(f64::sin_cos);
-        let rotation = [
-            [cy * cz, sx * sy * cz - cx * sz, cx * sy * cz + sx * sz],
-            [cy * sz, sx * sy * sz + cx * cz, cx * sy * sz - sx * cz],
-            [-sy, sx * cy, cx * cy],
-        ];
-        Self { rotation, translation }
-    }
-
-    /// Where a point of the panel lies, in m.
-    #[must_use]
-    pub fn point(&self, [x, y]: [f64; 2]) -> [f64; 3] {
-        let row = |k: usize| self.rotation[k][0] * x + self.rotation[k][1] * y;
-        [0, 1, 2].map(|k| row(k) + self.translation[k])
-    }
-
-    /// The same place of a panel that is mirrored in its y axis: half a turn about that axis.
-    fn turned_over(mut self) -> Self {
-        for row in &mut self.rotation {
-            row[0] = -row[0];
-            row[2] = -row[2];
-        }
-        self
-    }
-
-    fn is_finite(&self) -> bool {
-        self.rotation.iter().flatten().chain(&self.translation).all(|x| x.is_finite())
-    }
-}
 
 /// A piece of cloth with a checked outline: closed, without crossings, anticlockwise.
 #[derive(Debug, Clone, PartialEq)]
@@ -114,10 +72,16 @@ impl Panel {
     /// The panel at a place in space.
     ///
     /// # Errors
-    /// When the place is not finite.
+    /// When the place is not finite, or the panel, bent by it, would meet itself.
     pub fn with_placement(mut self, placement: Placement) -> Result<Self, Mistake> {
         if !placement.is_finite() {
             return Err(Mistake::Placed { panel: self.name, value: "place" });
+        }
+        let width = self.extent(0);
+        if let Some(wrap) = placement.wrap
+            && !(std::f64::consts::TAU * wrap.abs() > width)
+        {
+            return Err(Mistake::Wrap { panel: self.name, wrap, width });
         }
         self.placement = Some(placement);
         Ok(self)
@@ -174,12 +138,15 @@ impl Panel {
 
     /// The larger side of the smallest upright rectangle round its outline, in m.
     pub(crate) fn size(&self) -> f64 {
-        let points: Vec<[f64; 2]> = self.outline.iter().flat_map(Edge::polyline).collect();
-        let side = |k: usize| {
-            let all = points.iter().map(|p| p[k]);
-            all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
-        };
-        side(0).max(side(1))
+        self.extent(0).max(self.extent(1))
+    }
+
+    /// How far it extends along x (0) or y (1), in m.
+    fn extent(&self, axis: usize) -> f64 {
+        let points = self.outline.iter().flat_map(Edge::polyline);
+        let [low, high] = points
+            .fold([f64::MAX, f64::MIN], |[low, high], p| [low.min(p[axis]), high.max(p[axis])]);
+        high - low
     }
 }
 

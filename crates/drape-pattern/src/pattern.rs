@@ -4,8 +4,9 @@ use crate::note::Note;
 use crate::panel::Panel;
 
 /// Largest ratio of the lengths of a stitch's sides that can be cut: both sides get the same number of
-/// nodes, and arcs shorter than the spacing by more than this would stiffen the shorter side.
-pub const MAX_EASE: f64 = 1.5;
+/// nodes, and arcs that differ more from the spacing would stiffen the shorter side and leave the longer
+/// one too few folds.
+pub const MAX_EASE: f64 = 2.5;
 
 /// An edge of a pattern, by the numbers of panel and edge, from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

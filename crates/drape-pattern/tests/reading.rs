@@ -123,6 +123,15 @@ fn mistakes_of_the_own_format_have_line_value_and_remedy() {
     toml(&[("rectangle = [30, 30]", "path = \"M0 0 L1 x\"")], &["a.toml:15:", "command 2"]);
     toml(&[("rectangle = [30, 30]", "rectangle = [30, nan]")], &["not finite"]);
     toml(&[("rectangle = [30, 30]", "rectangle = [30, 30]\nturn = [0, inf, 0]")], &["place"]);
+    toml(
+        &[("rectangle = [30, 30]", "rectangle = [30, 30]\nwrap = -4.7")],
+        &["a.toml:16:", "panel back is 300 mm wide", "a radius of -47.0 mm", "more than 47.7 mm"],
+    );
+    toml(
+        &[("rectangle = [30, 30]", "rectangle = [30, 30]\nwrap = 0")],
+        &["0.000 mm", "leave wrap"],
+    );
+    toml(&[("rectangle = [30, 30]", "rectangle = [30, 30]\nwrap = nan")], &["wrap a radius"]);
     // One of each kind, all at once, in the order of the text.
     let said = mistakes(
         "a.toml",
@@ -169,12 +178,30 @@ fn mistakes_of_outlines_and_seams_are_named() {
     );
     toml(
         &[("rectangle = [30, 30]", "rectangle = [30, 60]")],
-        &["ratio 2.000", "above 1.5 are not cut"],
+        &["ratio 2.000 is above max_ease 1.1", "raise max_ease if the fullness is meant"],
+    );
+    toml(
+        &[("rectangle = [30, 30]", "rectangle = [30, 78]")],
+        &["ratio 2.600", "above 2.5 are not cut"],
     );
     toml(
         &[("[\"back.left\"]]", "[\"back.left\"]]\nmax_ease = 3")],
-        &["max_ease is 3", "from 1 to 1.5"],
+        &["max_ease is 3", "from 1 to 2.5"],
     );
+}
+
+#[test]
+fn places_are_read_in_the_unit_of_the_file() {
+    let place = "rectangle = [30, 30]\norigin = [1, 2, 3]\nturn = [0, 90, 0]\nwrap = 20";
+    let text = squares(&[("rectangle = [30, 30]", place)]);
+    let pattern = Pattern::parse(&Document::new("a.toml", text)).expect("it is sound");
+    let [back, front] = pattern.panels() else { panic!("two panels") };
+    assert_eq!(front.placement(), None);
+    // A quarter of the way round, the axis is at x = 1 − 20 cm, and the panel ends behind it.
+    let placement = back.placement().expect("it has a place");
+    let corner = placement.point([0.1 * std::f64::consts::PI, 0.3]);
+    let error = [-0.19, 0.32, -0.17].iter().zip(corner).map(|(a, b)| (a - b).abs());
+    assert!(error.fold(0.0, f64::max) < 1e-12, "{corner:?}");
 }
 
 #[test]

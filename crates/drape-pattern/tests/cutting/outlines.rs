@@ -1,5 +1,5 @@
 use drape_pattern::{
-    Curve, Cutter, Edge, EdgeId, Error, Mistake, Note, Panel, Pattern, Quality, Stitch,
+    Curve, Cutter, Edge, EdgeId, Error, MAX_EASE, Mistake, Note, Panel, Pattern, Quality, Stitch,
 };
 use proptest::prelude::*;
 
@@ -179,7 +179,7 @@ proptest! {
         let along: Vec<EdgeId> =
             (0..edges.1.min(others.len())).map(|edge| EdgeId { panel: 1, edge }).collect();
         let second = if reversed { along } else { along.into_iter().rev().collect() };
-        let stitch = Stitch { name: "s".into(), sides: [first, second], reversed, max_ease: 1.5 };
+        let stitch = Stitch { name: "s".into(), sides: [first, second], reversed, max_ease: MAX_EASE };
         cut(panels, vec![stitch], 1.0 / across);
     }
 
@@ -190,7 +190,7 @@ proptest! {
         parts in (prop::collection::vec(0.01..1.0_f64, 4..30), prop::collection::vec(0.01..1.0_f64, 4..30)),
         cuts in prop::array::uniform4(0.1..0.9_f64),
         reversed in any::<bool>(),
-        ease in 0.8..1.25_f64,
+        ease in 0.5..2.0_f64,
         across in 4.0..60.0_f64,
     ) {
         let disc = |name: &str, parts: &[f64], radius: f64| {
@@ -225,7 +225,7 @@ proptest! {
             let ids = |panel, edges: std::ops::Range<usize>| edges.map(move |edge| EdgeId { panel, edge });
             let along: Vec<EdgeId> = ids(1, second).collect();
             let second = if reversed { along } else { along.into_iter().rev().collect() };
-            Stitch { name: name.into(), sides: [ids(0, first).collect(), second], reversed, max_ease: 1.5 }
+            Stitch { name: name.into(), sides: [ids(0, first).collect(), second], reversed, max_ease: MAX_EASE }
         };
         // Against the outline of the second disc the second stitch does not go on where the first ends.
         let stitches = vec![stitch("first", 0..a, 0..c), stitch("second", a..b, c..d)];

@@ -1,4 +1,4 @@
-use drape_pattern::{Cutter, Edge, EdgeId, Panel, Pattern, Stitch};
+use drape_pattern::{Cutter, Edge, EdgeId, MAX_EASE, Panel, Pattern, Quality, Stitch};
 
 use crate::invariants;
 
@@ -55,4 +55,34 @@ fn rectangles_sewn_with_fullness_stay_lattices_with_equal_counts() {
     let [top, bottom] = cut.seams[0][0];
     assert_eq!(cut.panels[0].positions[top.node as usize], [0.3, 0.2]);
     assert_eq!(cut.panels[1].positions[bottom.node as usize], [0.36, 0.0]);
+}
+
+#[test]
+fn both_sides_of_a_gather_have_the_nodes_of_their_geometric_mean() {
+    let long = [0.42, 0.45, 0.46, 0.6, 0.75];
+    // Up to a ratio of 1.5 the longer side is counted: 42 and 45 arcs. Then √(30 · 46) = 37.1, 42.4, 47.4.
+    for (long, arcs) in long.into_iter().zip([42, 45, 37, 42, 47]) {
+        let panels = vec![rectangle("band", [0.3, 0.1], 0.0), rectangle("full", [long, 0.2], 0.0)];
+        let edge = |panel, edge| vec![EdgeId { panel, edge }];
+        let (sides, name) = ([edge(0, 0), edge(1, 2)], "gather".into());
+        let stitch = Stitch { name, sides, reversed: false, max_ease: MAX_EASE };
+        let pattern = Pattern::new(panels, vec![stitch]).expect("it is sound");
+        let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
+        invariants::check(&pattern, &cut);
+        assert_eq!(cut.seams[0].len(), arcs + 1, "{long}");
+        assert_eq!(cut.notes, []);
+        let gather = long > 0.45;
+        for (panel, (cut, width)) in pattern.panels().iter().zip(cut.panels.iter().zip([0.3, long]))
+        {
+            // The free side of a gather keeps the spacing, and the lattice with it.
+            let free = cut.edges[if panel.name() == "band" { 2 } else { 0 }].len() - 1;
+            let expected = if gather { (width / 0.01_f64).round() as usize } else { arcs };
+            assert_eq!(free, expected, "{long}: {}", panel.name());
+            assert_eq!(cut.triangles.is_empty(), !gather, "{long}: {}", panel.name());
+            let quality = Quality::new(panel, cut, 0.01);
+            assert!(quality.shortest >= 0.6 && quality.longest < 2.0, "{long}: {quality:?}");
+            assert!(quality.sharpest.to_degrees() >= 22.0, "{long}: {quality:?}");
+            println!("{long}: {} {quality:?}", panel.name());
+        }
+    }
 }
