@@ -1,4 +1,4 @@
-use drape_cloth::{Breen, Cloth, Committed, Pattern, State, Workspace};
+use drape_cloth::{Breen, Cloth, Committed, Pattern, SeamBending, SeamState, State, Workspace};
 use drape_implicit::{BlockMatrix, Pattern as Coupling};
 
 /// What holds the particles of a cloth together.
@@ -7,6 +7,8 @@ pub(crate) struct Bonds {
     /// The connectors of the cloth. In Breen's model they keep the account of strains alone.
     workspace: Workspace,
     breen: Option<Breen>,
+    /// How the seams bend, once they are sewn.
+    seams: Option<(SeamBending, SeamState)>,
     /// Which particles act on each other.
     coupling: Coupling,
     /// How often that has changed.
@@ -36,18 +38,12 @@ impl Bonds {
         let mut bonds = Self {
             workspace: cloth.workspace(),
             breen,
-            coupling: coupling(cloth.pattern(), threads),
+            seams: None,
+            coupling: coupling(cloth.pattern(), &[]),
             version: 0,
             spread: None,
         };
-        if !threads.is_empty() {
-            let Pattern { offsets, columns } = cloth.pattern();
-            let rows = (0..offsets.len() - 1).flat_map(|row| {
-                columns[offsets[row]..offsets[row + 1]].iter().map(move |&column| (row, column))
-            });
-            let slots = rows.filter_map(|(row, column)| bonds.coupling.slot(row, column)).collect();
-            bonds.spread = Some((vec![0.0; 9 * columns.len()], slots));
-        }
+        bonds.make_room(cloth, threads);
         bonds.couple(cloth, positions);
         bonds
     }
@@ -60,11 +56,38 @@ impl Bonds {
         self.version
     }
 
-    /// Gives up the room for threads.
-    pub(crate) fn untie(&mut self, cloth: &Cloth) {
-        self.coupling = coupling(cloth.pattern(), &[]);
-        self.spread = None;
+    /// Couples pairs of particles besides those that connectors join.
+    fn make_room(&mut self, cloth: &Cloth, pairs: &[[u32; 2]]) {
+        self.coupling = coupling(cloth.pattern(), pairs);
         self.version += 1;
+        self.spread = (!pairs.is_empty()).then(|| {
+            let Pattern { offsets, columns } = cloth.pattern();
+            let rows = (0..offsets.len() - 1).flat_map(|row| {
+                columns[offsets[row]..offsets[row + 1]].iter().map(move |&column| (row, column))
+            });
+            let slots = rows.filter_map(|(row, column)| self.coupling.slot(row, column)).collect();
+            (vec![0.0; 9 * columns.len()], slots)
+        });
+    }
+
+    /// The seams bend from now on, and threads need no room any more.
+    pub(crate) fn sew(&mut self, cloth: &Cloth, bending: SeamBending, positions: &[f64]) {
+        let pairs: Vec<[u32; 2]> = bending.pairs().collect();
+        self.make_room(cloth, &pairs);
+        let state = bending.state(positions).expect("a place for every particle");
+        self.seams = Some((bending, state));
+    }
+
+    /// What the seams remember.
+    pub(crate) fn seams(&self) -> Option<&SeamState> {
+        self.seams.as_ref().map(|(_, state)| state)
+    }
+
+    /// Takes back what the seams have learnt since.
+    pub(crate) fn restore(&mut self, state: Option<SeamState>) {
+        if let (Some((_, own)), Some(state)) = (&mut self.seams, state) {
+            *own = state;
+        }
     }
 
     /// Takes the pairs that have come near each other into the coupling. Those that have left stay until then.
@@ -89,13 +112,19 @@ impl Bonds {
             Some(breen) => breen.add_forces(positions, forces),
             None => self.workspace.add_forces(cloth, state, positions, forces),
         }
+        if let Some((seams, state)) = &self.seams {
+            seams.add_forces(state, positions, forces);
+        }
     }
 
     pub(crate) fn potential(&mut self, cloth: &Cloth, state: &State, positions: &[f64]) -> f64 {
-        match &mut self.breen {
-            Some(breen) => breen.energy(positions),
-            None => self.workspace.potential(cloth, state, positions),
-        }
+        let seams = self.seams.as_ref();
+        let seams = seams.map_or(0.0, |(seams, state)| seams.potential(state, positions));
+        seams
+            + match &mut self.breen {
+                Some(breen) => breen.energy(positions),
+                None => self.workspace.potential(cloth, state, positions),
+            }
     }
 
     /// Adds the stiffness. A pair that has come near since the matrix was laid out has no block in it; its particles then
@@ -118,6 +147,11 @@ impl Bonds {
             for (block, &slot) in values.as_chunks::<9>().0.iter().zip(&*slots) {
                 matrix.add_block(slot, block);
             }
+            if let Some((seams, state)) = &self.seams {
+                seams.add_stiffness(state, (positions, definite), |row, column, block| {
+                    matrix.add(row as usize, column as usize, &block);
+                });
+            }
             return;
         };
         breen.stiffness(positions, definite, &mut |[a, b], block| {
@@ -139,17 +173,23 @@ impl Bonds {
         state: &mut State,
         (positions, velocities): (&[f64], &[f64]),
     ) -> Committed {
-        let committed = self.workspace.commit(cloth, state, (positions, velocities));
+        let mut committed = self.workspace.commit(cloth, state, (positions, velocities));
+        if let Some((seams, state)) = &mut self.seams {
+            committed.dissipated += seams.commit(state, positions).dissipated;
+        }
         self.couple(cloth, positions);
         if self.breen.is_some() { Committed::default() } else { committed }
     }
 
     /// Energy that can be had back, in J.
     pub(crate) fn stored(&mut self, cloth: &Cloth, state: &State) -> f64 {
-        match &mut self.breen {
-            Some(breen) => breen.energy(&state.positions),
-            None => self.workspace.stored(cloth, state),
-        }
+        let seams = self.seams.as_ref();
+        let seams = seams.map_or(0.0, |(seams, own)| seams.stored(own, &state.positions));
+        seams
+            + match &mut self.breen {
+                Some(breen) => breen.energy(&state.positions),
+                None => self.workspace.stored(cloth, state),
+            }
     }
 }
 

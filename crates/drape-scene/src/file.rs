@@ -122,6 +122,8 @@ pub(crate) struct GarmentPanelFile {
 pub(crate) struct SewFile {
     /// How long the sides of the seams are drawn together.
     pub(crate) seconds: Option<f64>,
+    /// How many times as stiff as the fabric a seam is.
+    pub(crate) stiffness: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -197,7 +197,12 @@ impl Reader<'_> {
         if let Some(radius) = own.and_then(|own| own.wrap) {
             placement.wrap = Some(radius * unit);
         }
-        let numbers = placement.rotation.iter().flatten().chain(&placement.translation).chain(&placement.wrap);
+        let numbers = placement
+            .rotation
+            .iter()
+            .flatten()
+            .chain(&placement.translation)
+            .chain(&placement.wrap);
         if numbers.chain(&entry.center).any(|x| !x.is_finite()) {
             self.fail(&format!("{key}.center"), "is not finite".into(), "in the file's unit");
         }

@@ -129,7 +129,6 @@ impl Reader<'_> {
         let settle = self.settle(&file, (spacing.min(1.0), unit));
         let motion_seconds = self.motion_phase(&file);
         let scheme = self.scheme(&file);
-        let sewing = self.sewing(&file, seams);
         let air = self.air(&file);
         let gravity = file.gravity.unwrap_or([0.0, -9.81, 0.0]);
         if gravity.iter().any(|g| !g.is_finite()) {
@@ -153,6 +152,7 @@ impl Reader<'_> {
                 (&panel.lattice, &material.expect("mistakes were reported").fabric)
             })
             .collect();
+        let sewing = self.sewing(&file, seams, &pairs);
         let breen = (model == Model::Breen1994).then(|| Breen::new(&pairs)).transpose();
         if let Err(error) = &breen {
             Diagnostics::check(vec![self.document.at("model", error.to_string())])?;

@@ -1,3 +1,5 @@
+use drape_cloth::{Lattice, SeamBending};
+use drape_fabric::Fabric;
 use drape_input::Diagnostic;
 
 use crate::file::SceneFile;
@@ -12,7 +14,7 @@ const SECONDS: f64 = 1.0;
 
 /// How a garment is sewn before it hangs: the sides of all seams are drawn together, without gravity and without inertia,
 /// and then become one.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Sewing {
     /// The seams.
     pub seams: Vec<Seam>,
@@ -20,16 +22,23 @@ pub struct Sewing {
     pub pairs: Vec<[u32; 2]>,
     /// How long it takes, in s.
     pub seconds: f64,
+    /// How they bend when they are sewn.
+    pub(crate) bending: SeamBending,
 }
 
 impl Reader<'_> {
-    pub(crate) fn sewing(&mut self, file: &SceneFile, seams: Vec<Seam>) -> Option<Sewing> {
+    pub(crate) fn sewing(
+        &mut self,
+        file: &SceneFile,
+        seams: Vec<Seam>,
+        panels: &[(&Lattice, &Fabric)],
+    ) -> Option<Sewing> {
         let seconds = file.sew.seconds.unwrap_or(SECONDS);
         self.within("sew.seconds", seconds, (1e-3, 1e3), "in s; 1 is usual");
         if seams.is_empty() {
-            if file.sew.seconds.is_some() {
+            if file.sew.seconds.is_some() || file.sew.stiffness.is_some() {
                 let help = "seams are in the pattern of a [[garment]]";
-                self.fail("sew.seconds", "nothing is sewn".into(), help);
+                self.fail("sew", "nothing is sewn".into(), help);
             }
             return None;
         }
@@ -43,8 +52,23 @@ impl Reader<'_> {
                 self.fail(key, message, "leave it out in a scene with seams");
             }
         }
+        let stiffness = file.sew.stiffness.unwrap_or(drape_cloth::Seam::STIFFNESS);
+        let help = "how many times as stiff as the fabric a seam is; 3 is usual";
+        self.within("sew.stiffness", stiffness, (0.0, 1e3), help);
+        let bending = |seam: &Seam| drape_cloth::Seam {
+            stiffness,
+            ..drape_cloth::Seam::new(seam.pairs.clone())
+        };
+        let bending: Vec<drape_cloth::Seam> = seams.iter().map(bending).collect();
+        let bending = SeamBending::new(panels, &bending).map_err(|error| {
+            self.fail(
+                "garment",
+                error.to_string(),
+                "choose another spacing, and report the pattern",
+            );
+        });
         let pairs = seams.iter().flat_map(|seam| &seam.pairs).copied().collect();
-        Some(Sewing { seams, pairs, seconds })
+        Some(Sewing { seams, pairs, seconds, bending: bending.ok()? })
     }
 
     /// Panels are told apart by their names.

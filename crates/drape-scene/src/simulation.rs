@@ -114,7 +114,11 @@ impl Simulation {
         let free_edges = scene.free_edges();
         let sewn = scene.sewing.as_ref().map_or_else(Vec::new, |sewing| sewing.pairs.clone());
         let world = World::new(scene);
-        let (now, tolerance) = scheme.on_the_way(world.creeps);
+        let creeps = match &sewn[..] {
+            [] => world.creeps.then_some(rest::CREEP_TOLERANCE_MAX),
+            _ => Some(phases::TOLERANCE),
+        };
+        let (now, tolerance) = scheme.on_the_way(creeps);
         let integration = now.start(&world)?;
         let order = phases::order(&scheme);
         let strides = if sewn.is_empty() { settle } else { Some(phases::strides(spacing)) };
@@ -269,6 +273,7 @@ impl Simulation {
             }
             let start = (self.motion.clone(), self.world.state.clone(), self.world.ledger.clone());
             let memory = self.world.surfaces.as_ref().map(|surfaces| surfaces.contact.memory());
+            let seams = self.world.bonds.seams().cloned();
             self.estimate.predict(&self.motion, self.integrator(), dt);
             let report = self.integrate(dt)?;
             let error = self.estimate.estimate(&self.motion);
@@ -278,6 +283,7 @@ impl Simulation {
                 return Ok((ticks, report));
             }
             (self.motion, self.world.state, self.world.ledger) = start;
+            self.world.bonds.restore(seams);
             if let (Some(surfaces), Some(memory)) = (&mut self.world.surfaces, memory) {
                 surfaces.contact.restore(memory);
             }

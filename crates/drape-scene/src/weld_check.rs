@@ -1,5 +1,6 @@
 //! Panels that are sewn: their system's forces against its potential, and their weight at the pin.
 
+use drape_cloth::SeamBending;
 use drape_implicit::{System, check_system};
 use drape_input::Document;
 
@@ -42,7 +43,11 @@ residual = 1e-4
         Scene::from_documents(&Document::new("scene.toml", text), &[fabric]).expect("right");
     let pairs: Vec<[u32; 2]> = (0..7).map(|k| [k, 49 + 42 + k]).collect();
     let seams = vec![Seam { name: "seam".into(), pairs: pairs.clone() }];
-    scene.sewing = Some(Sewing { seams, pairs, seconds: 0.5 });
+    let lattices = scene.panels.iter().map(|panel| (&panel.lattice, &scene.materials[0].fabric));
+    let bending =
+        SeamBending::new(&lattices.collect::<Vec<_>>(), &[drape_cloth::Seam::new(pairs.clone())]);
+    let bending = bending.expect("a seam of two edges");
+    scene.sewing = Some(Sewing { seams, pairs, seconds: 0.5, bending });
     scene
 }
 

@@ -1,6 +1,6 @@
 mod system;
 
-use drape_cloth::{Cloth, State};
+use drape_cloth::{Cloth, SeamBending, State};
 use drape_collide::{Contact, Pose};
 use drape_implicit::System;
 
@@ -23,7 +23,7 @@ const CREEP_TIME: f64 = 0.01;
 #[derive(Debug)]
 pub(crate) struct World {
     pub(crate) cloth: Cloth,
-    bonds: Bonds,
+    pub(crate) bonds: Bonds,
     pub(crate) state: State,
     pub(crate) contact: Contact,
     /// The surfaces, if they are kept apart: the bodies are then among them and not in the contact of the particles.
@@ -40,6 +40,8 @@ pub(crate) struct World {
     stitches: Option<Stitches>,
     /// Whether the cloth goes to rest without inertia.
     pub(crate) creeps: bool,
+    /// How the seams bend when they are one.
+    seam_bending: Option<SeamBending>,
     /// What takes a creeping cloth's momentum from it in the course of a step, in N.
     ///
     /// Its steps are to start from rest, but the velocity that it came with makes a good first guess.
@@ -82,7 +84,8 @@ impl World {
             Some(Course::Shapes(_)) | None => None,
         });
         let moving = moving.collect();
-        let stitches = sewing.map(|s| Stitches::new(&s.pairs, &positions, s.seconds));
+        let stitches = sewing.as_ref().map(|s| Stitches::new(&s.pairs, &positions, s.seconds));
+        let seam_bending = sewing.map(|sewing| sewing.bending);
         let mut state = cloth.state(positions).expect("a scene places every particle");
         state.velocities = velocities;
         let threads = stitches.as_ref().map_or(&[][..], Stitches::pairs);
@@ -102,6 +105,7 @@ impl World {
             grows_from: 0.0,
             ramp: scene.clock.ramp,
             stitches,
+            seam_bending,
             brake: Vec::new(),
             creeps: false,
             held,
@@ -148,7 +152,9 @@ impl World {
     pub(crate) fn sewn(&mut self, time: f64, positions: &[f64]) {
         self.stitches = None;
         self.grows_from = time;
-        self.bonds.untie(&self.cloth);
+        if let Some(bending) = self.seam_bending.take() {
+            self.bonds.sew(&self.cloth, bending, positions);
+        }
         self.state.positions.copy_from_slice(positions);
         self.state.velocities.fill(0.0);
         for pin in &mut self.pins {

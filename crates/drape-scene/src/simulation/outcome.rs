@@ -1,3 +1,4 @@
+use drape_cloth::SeamState;
 use drape_implicit::{Error, Stop};
 
 use super::Simulation;
@@ -98,7 +99,8 @@ impl Simulation {
         for value in state.positions.iter().chain(&state.velocities) {
             hasher.update(&value.to_le_bytes());
         }
-        for memory in state.memories() {
+        let seams = self.world.bonds.seams().into_iter().flat_map(SeamState::memories);
+        for memory in state.memories().chain(seams) {
             let [first, second] = memory.friction;
             for value in [memory.position, first, second, memory.peak] {
                 hasher.update(&value.to_le_bytes());

@@ -1,6 +1,7 @@
 use drape_implicit::{Error, Integrator, Motion};
 
 use super::Simulation;
+use super::rest::CREEP_TOLERANCE_MAX;
 use crate::pace::Pace;
 use crate::scheme::{Integration, Scheme};
 use crate::settle::Settle;
@@ -15,6 +16,10 @@ const PATIENCE: f64 = 2.0;
 
 /// Part of the spacing that a particle may move in one step while the garment is sewn.
 const STRIDE: f64 = 0.5;
+
+/// Tolerance of the steps while a garment is sewn, over g: where a step of a fiftieth of a second ends is then known to
+/// some tenths of a millimetre, and what matters of the way is that it ends closed and untangled.
+pub(super) const TOLERANCE: f64 = 0.1;
 
 /// How far steps go while a garment is sewn, of particles that are so far apart, in m.
 pub(super) fn strides(spacing: f64) -> Settle {
@@ -71,7 +76,8 @@ impl Simulation {
         self.world.creep(self.settle.is_some_and(|settle| !settle.inertia));
         // The system without threads has a pattern of its own.
         self.weld = Some(Weld::new(&self.world, &self.sewn)?);
-        let (scheme, tolerance) = self.scheme.on_the_way(self.world.creeps);
+        let (scheme, tolerance) =
+            self.scheme.on_the_way(self.world.creeps.then_some(CREEP_TOLERANCE_MAX));
         self.integration = self.start(&scheme)?;
         self.tolerance = tolerance;
         self.pace = Pace::new(self.clock, self.settle, order(&self.scheme));
@@ -84,7 +90,7 @@ impl Simulation {
         self.world.set_in_motion(self.time());
         self.motion =
             Motion { time: self.motion.time, ..Motion::at_rest(self.motion.positions.clone()) };
-        let (scheme, tolerance) = self.scheme.on_the_way(false);
+        let (scheme, tolerance) = self.scheme.on_the_way(None);
         self.integration = self.start(&scheme)?;
         self.tolerance = tolerance;
         self.clock.end = self.time() + seconds;
