@@ -100,6 +100,8 @@ pub(crate) struct GarmentFile {
     /// Shift of all panels.
     #[serde(default)]
     pub(crate) center: [f64; 3],
+    /// Random heights over the panels.
+    pub(crate) noise: Option<NoiseFile>,
     /// What is said of single panels.
     #[serde(default)]
     pub(crate) panel: BTreeMap<String, GarmentPanelFile>,

@@ -7,6 +7,7 @@ use drape_pattern::{Cut, Cutter, Error, NodeId, Pattern, Placement};
 use crate::file::{GarmentFile, GarmentPanelFile, SceneFile};
 use crate::material::Material;
 use crate::panel::{Laid, Panel, SPACING};
+use crate::placement::Random;
 use crate::reader::Reader;
 
 /// A line along which two edges are sewn together.
@@ -113,6 +114,8 @@ impl Reader<'_> {
                 return None;
             }
         };
+        let noise = entry.noise.as_ref().map_or(0.0, |noise| noise.amplitude * unit);
+        let mut random = Random(entry.noise.as_ref().map_or(0, |noise| noise.seed));
         let mut panels = Vec::new();
         let mut numbers = Vec::new();
         let mut next = first;
@@ -138,7 +141,12 @@ impl Reader<'_> {
             if let (Some(placement), Some(material), Ok(lattice)) = (placement, material, lattice) {
                 let mut positions = vec![0.0; 3 * cut.positions.len()];
                 for (&node, &place) in number.iter().zip(&cut.positions) {
-                    positions[3 * node as usize..][..3].copy_from_slice(&placement.point(place));
+                    let height = noise * random.next();
+                    let point = placement.point(place);
+                    for axis in 0..3 {
+                        positions[3 * node as usize + axis] =
+                            point[axis] + height * placement.rotation[axis][2];
+                    }
                 }
                 let edges = panel.outline().iter().zip(&cut.edges);
                 let edges = edges.map(|(edge, nodes)| {

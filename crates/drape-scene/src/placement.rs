@@ -90,10 +90,10 @@ pub(crate) fn turned(point: [f64; 3], degrees: [f64; 3]) -> [f64; 3] {
 }
 
 /// SplitMix64: the same numbers on every machine, between −1 and 1.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
