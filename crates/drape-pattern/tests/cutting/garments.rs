@@ -109,3 +109,76 @@ fn clockwise_panels_lie_where_the_file_puts_them_and_face_outwards() {
         assert_eq!(twisted, 0, "{name}");
     }
 }
+
+/// A pattern of the scenes.
+fn of_the_scenes(name: &str) -> Pattern {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/patterns/");
+    Pattern::read(format!("{folder}{name}.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn the_garments_of_the_scenes_are_cut_without_a_note() {
+    for (name, spacings) in [
+        ("skirt", &[0.005, 0.01, 0.02][..]),
+        ("tshirt", &[0.005, 0.01, 0.02]),
+        ("trousers", &[0.005, 0.01, 0.02]),
+        ("gather", &[0.005, 0.01, 0.02]),
+        ("seam-strip", &[0.005, 0.01]),
+    ] {
+        let pattern = of_the_scenes(name);
+        assert_eq!(pattern.notes(), [], "{name}");
+        for &spacing in spacings {
+            let (particles, cut) = cut(&pattern, spacing);
+            assert_eq!(cut.notes, [], "{name} at {spacing}");
+            println!("{name} at {spacing}: {particles} particles");
+        }
+    }
+}
+
+#[test]
+fn what_is_sewn_in_the_scenes_starts_near_and_apart() {
+    for (name, farthest) in [("skirt", 0.1), ("tshirt", 0.24), ("trousers", 0.13)] {
+        let pattern = of_the_scenes(name);
+        let (_, cut) = cut(&pattern, 0.01);
+        let place = |id: drape_pattern::NodeId| {
+            let placement = pattern.panels()[id.panel].placement().expect("it has a place");
+            placement.point(cut.panels[id.panel].positions[id.node as usize])
+        };
+        let gap = |pair: &[drape_pattern::NodeId; 2]| {
+            let [p, q] = pair.map(place);
+            (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt()
+        };
+        let gaps: Vec<f64> = cut.seams.iter().flatten().map(gap).collect();
+        let [least, most] =
+            gaps.iter().fold([f64::MAX, 0.0_f64], |[a, b], g| [a.min(*g), b.max(*g)]);
+        assert!(least > 0.01 && most < farthest, "{name}: {least} to {most} m");
+    }
+}
+
+#[test]
+fn left_and_right_of_the_scenes_are_mirror_images() {
+    for (name, pairs) in [("skirt", 2), ("tshirt", 1), ("trousers", 2)] {
+        let pattern = of_the_scenes(name);
+        let find = |name: &str| pattern.panels().iter().find(|p| p.name() == name);
+        let mut found = 0;
+        for left in pattern.panels() {
+            let Some(stem) = left.name().strip_suffix("_l") else { continue };
+            let right = find(&format!("{stem}_r")).expect("it has a right one");
+            assert_eq!(left.outline().len(), right.outline().len());
+            for edge in left.outline() {
+                let other =
+                    right.outline().iter().find(|e| e.name == edge.name).expect("it is there");
+                for share in [0.0, 0.25, 0.5, 0.9] {
+                    let [p, q] = [
+                        left.placement().expect("a place").point(edge.at(share)),
+                        right.placement().expect("a place").point(other.at(1.0 - share)),
+                    ];
+                    let error = (p[0] + q[0]).hypot(p[1] - q[1]).hypot(p[2] - q[2]);
+                    assert!(error < 1e-8, "{name}: {} {}: {p:?} {q:?}", left.name(), edge.name);
+                }
+            }
+            found += 1;
+        }
+        assert_eq!(found, pairs, "{name}");
+    }
+}
