@@ -74,7 +74,7 @@ fn unsewn(folder: &Path) -> f64 {
 }
 
 #[test]
-fn a_sewn_strip_hangs_a_little_higher_than_one_that_is_not_and_alike_on_two_threads() {
+fn a_sewn_strip_hangs_like_one_that_is_not_and_alike_on_two_threads() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = changed("seam-strip", &[], folder.path());
     let [one, two] = [1, 2].map(|threads| run(&scene, threads));
@@ -83,9 +83,9 @@ fn a_sewn_strip_hangs_a_little_higher_than_one_that_is_not_and_alike_on_two_thre
     assert_eq!(number(&one["measures"]["seam_gap_max"]), 0.0);
     assert_eq!(one["contact"]["intersections"], 0);
     let (sewn, whole) = (number(&one["measures"]["lowest"]), unsewn(folder.path()));
-    // The allowances stiffen a strip of some 8 mm threefold, where a little more than half of its length hangs from it.
+    // The allowances stiffen some 8 mm threefold, beyond where the strip bends most.
     let ratio = sewn / whole;
-    assert!((0.9..1.0).contains(&ratio), "{sewn} m against {whole} m");
+    assert!((0.97..1.03).contains(&ratio), "{sewn} m against {whole} m");
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn what_is_wrong_with_a_garment_is_said_with_its_place_and_a_remedy() {
     );
     refused("coat.toml", "lost.toml", &["\"right\" has no place", "origin and turn"]);
     refused("coat.toml", "torn.toml", &["torn.toml", "sleeve", "side"]);
-    refused("\"plain\"\n", "\"plane\"\n", &["no fabric \"plane\"", "did you mean \"plain\"?"]);
+    refused("\"plain\"\n", "\"plane\"\n", &["no fabric \"plane\"", "are: plain"]);
     refused(
         "\"plain\"\n",
         "\"plain\"\npanel.lift.wrap = 0.1\n",
@@ -132,7 +132,7 @@ fn what_is_wrong_with_a_garment_is_said_with_its_place_and_a_remedy() {
         "\"plain\"\ncenter = [0, 4.1, 0]\n",
         &["no panel is within", "another body"],
     );
-    refused("\"plain\"\n", "\"plain\"\nspacing = 0.04\n", &["spacing"]);
+    refused("\"plain\"\n", "\"plain\"\nspacing = 0.3\n", &["spacing"]);
     let again = "\"plain\"\n[[garment]]\npattern = \"coat.toml\"\nfabric = \"plain\"\n";
     refused("\"plain\"\n", again, &["two panels \"left\"", "its own name"]);
     let pin = "[settle]\n[[pin]]\npanel = \"left\"\nedge = \"hen\"\n";
@@ -140,7 +140,7 @@ fn what_is_wrong_with_a_garment_is_said_with_its_place_and_a_remedy() {
     let pin = "[settle]\n[[pin]]\npanel = \"left\"\nedge = \"hem\"\nuntil = \"sown\"\n";
     refused("[settle]\n", pin, &["no \"sown\"", "sewn"]);
     refused("[settle]\n", "[settle]\n[sew]\nseconds = -1\n", &["sew.seconds"]);
-    refused("[settle]\n", "[settle]\n[solver]\nintegrator = \"explicit\"\n", &["cannot sew"]);
+    refused("[settle]\n", "[solver]\nintegrator = \"explicit\"\n", &["cannot sew"]);
     refused("[settle]\n", "[motion]\nseconds = 1\n", &["not asked to come to rest"]);
 }
 
