@@ -144,6 +144,29 @@ fn what_is_wrong_with_a_garment_is_said_with_its_place_and_a_remedy() {
     refused("[settle]\n", "[motion]\nseconds = 1\n", &["not asked to come to rest"]);
 }
 
+#[test]
+fn the_first_garment_of_the_documentation_is_sound() {
+    let text = std::fs::read_to_string(root().join("scenes/README.md")).expect("the page");
+    let blocks: Vec<String> = text
+        .split("   ```toml\n")
+        .skip(1)
+        .map(|block| block.split("   ```").next().unwrap_or_default().to_owned())
+        .collect();
+    let [pattern, scene] = &blocks[..] else { panic!("{} blocks", blocks.len()) };
+    let folder = tempfile::tempdir().expect("a folder");
+    let fabrics = format!("\"{}/", root().join("fabrics").display());
+    let scene = scene.replace("\"fabrics/", &fabrics);
+    for (name, text) in [("tube.toml", pattern), ("my-skirt.toml", &scene)] {
+        std::fs::write(folder.path().join(name), text).expect("written");
+        drape().arg("check").arg(folder.path().join(name)).assert().success();
+    }
+    let figure = folder.path().join("tube.svg");
+    let mut command = drape();
+    command.arg("check").arg(folder.path().join("tube.toml")).arg("--figure").arg(&figure);
+    command.assert().success();
+    assert!(std::fs::read_to_string(figure).expect("a figure").starts_with("<svg"));
+}
+
 /// A garment at a spacing in mm: it must be worn.
 fn worn(name: &str, spacing: u32) {
     let folder = tempfile::tempdir().expect("a folder");

@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let folder = folder(arguments, scene.folder.as_ref());
     let output = prepare_folder(&folder, arguments.force || arguments.output.is_none())?;
     let (view, garment) = (scene.view, scene.sewing.is_some());
-    scene.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    notes(&scene);
     let mut simulation = Simulation::new(scene)?;
     let recorder = output.record(simulation.topology())?;
     let mut screen = Screen::new(simulation.ticks_to_do(), recorder);
@@ -75,6 +75,12 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
             summary.reason.unwrap_or_default()
         ))),
     }
+}
+
+/// What the user should know about the patterns of a scene.
+#[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
+fn notes(scene: &Scene) {
+    scene.notes.iter().for_each(|note| eprintln!("note: {note}"));
 }
 
 /// Where the results go.

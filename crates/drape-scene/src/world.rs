@@ -56,8 +56,10 @@ pub(crate) struct World {
     air: f64,
     /// Drag of each particle over the length of the step, in N/m along its normal.
     drag: Vec<f64>,
-    /// Where the energy goes, if that is asked for.
+    /// Where the energy goes, if that is asked for; not while a garment is sewn.
     pub(crate) ledger: Option<Ledger>,
+    /// Whether it is asked for.
+    balances: bool,
 }
 
 impl World {
@@ -92,7 +94,9 @@ impl World {
         let mut bonds = Bonds::new(&cloth, breen, (threads, &state.positions));
         let drag = vec![0.0; cloth.particles()];
         let stored = bonds.stored(&cloth, &state);
-        let ledger = scene.energy.then(|| Ledger::new(stored, cloth.particles()));
+        // The balance begins when the garment is sewn.
+        let balanced = scene.energy && stitches.is_none();
+        let ledger = balanced.then(|| Ledger::new(stored, cloth.particles()));
         let sewing = stitches.is_some();
         let mut world = Self {
             bonds,
@@ -115,6 +119,7 @@ impl World {
             air,
             drag,
             ledger,
+            balances: scene.energy,
         };
         world.creep(sewing || scene.settle.is_some_and(|settle| !settle.inertia));
         let kinetic = world.kinetic();
@@ -160,7 +165,7 @@ impl World {
         for pin in &mut self.pins {
             pin.sewn(time);
         }
-        if self.ledger.is_some() {
+        if self.balances {
             let stored = self.bonds.stored(&self.cloth, &self.state);
             self.ledger = Some(Ledger::new(stored, self.cloth.particles()));
         }
