@@ -3,8 +3,8 @@
 use drape_cloth::{Cloth, ClothError, Lattice, Seam, SeamBending, SeamState};
 
 use crate::bias::{dot, outline, solve};
-use crate::consistency::multiply;
-use crate::panels::{LINEAR, RICH, Random, fabric, garment, rectangle, shape};
+use crate::panels::{LINEAR, RICH, fabric, garment, rectangle, shape};
+use crate::shaken::{Random, multiply};
 
 /// Two panels side by side, and the places of all nodes in a common plane in which the seam is closed.
 struct Sewn {

@@ -2,8 +2,8 @@
 
 use drape_cloth::{Cloth, Grain, Lattice, State};
 
-use crate::consistency::multiply;
 use crate::panels::{LINEAR, fabric, rectangle};
+use crate::shaken::multiply;
 
 /// Sides of a strip, in m.
 const STRIP: [f64; 2] = [0.05, 0.2];

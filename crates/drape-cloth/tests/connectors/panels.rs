@@ -31,6 +31,29 @@ friction = [{ plateau = 2.0, length = 0.002 }]
 piecewise = { slope = 2e-5, intercept = 4e-4, knot = 40.0 }
 "#;
 
+/// Linen with every feature on: toe with memory, second-order bending, nested shear friction.
+pub const LINEN: &str = r#"
+name = "linen"
+density = 0.18
+thickness = 0.0004
+[shear]
+stiffness = 40.0
+growth = 6.0
+friction = [{ plateau = 0.6, length = 0.006 }, { plateau = 0.2, length = 0.05 }]
+locking = { onset = 0.139, limit = 0.867 }
+[warp.traction]
+friction = [{ plateau = 4.0, length = 0.001 }]
+primed = { stiffness = 9000.0, toe_ratio = 0.6, toe_strain = 0.02, toe_strain_after = 0.03 }
+[warp.bending]
+rigidity = 2.5e-5
+rest_curvature = 3.0
+friction = [{ plateau = 9e-4, length = 3.0 }, { plateau = -2e-4, length = 20.0 }]
+[weft.traction]
+polynomial = { quadratic = 8.4e4, quartic = 1.2e7 }
+[weft.bending]
+piecewise = { slope = 2e-5, intercept = 4e-4, knot = 40.0 }
+"#;
+
 /// Linear in everything, without memory.
 pub const LINEAR: &str = r#"
 name = "linear"
@@ -125,13 +148,4 @@ fn garments() -> Vec<(String, Lattice)> {
         }
     }
     all
-}
-
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-    }
 }

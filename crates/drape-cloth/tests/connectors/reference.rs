@@ -2,34 +2,12 @@
 
 use drape_cloth::{Cloth, Grain, Lattice, Reference};
 use drape_fabric::Fabric;
-use drape_input::Document;
+
+use crate::panels::{RICH, fabric};
+use crate::shaken::{Random, distance};
 
 /// Rounding of a few hundred operations on numbers of the size that is compared with.
 const TOLERANCE: f64 = 1e-12;
-
-/// Every feature on: toes with memory, two friction elements, growth, locking, a crease.
-const RICH: &str = r#"
-name = "rich"
-density = 0.18
-thickness = 0.0004
-[shear]
-stiffness = 40.0
-growth = 6.0
-friction = [{ plateau = 0.6, length = 0.006 }, { plateau = 0.2, length = 0.05 }]
-locking = { onset = 0.139, limit = 0.867 }
-[warp.traction]
-friction = [{ plateau = 4.0, length = 0.001 }]
-primed = { stiffness = 9000.0, toe_ratio = 0.6, toe_strain = 0.02, toe_strain_after = 0.03 }
-[warp.bending]
-rigidity = 2.5e-5
-rest_curvature = 3.0
-friction = [{ plateau = 9e-4, length = 3.0 }, { plateau = -2e-4, length = 20.0 }]
-[weft.traction]
-polynomial = { quadratic = 8.4e4, quartic = 1.2e7 }
-friction = [{ plateau = 2.0, length = 0.002 }]
-[weft.bending]
-piecewise = { slope = 2e-5, intercept = 4e-4, knot = 40.0 }
-"#;
 
 /// One element each, as most fitted fabrics have, and no friction in bending.
 const PLAIN: &str = r#"
@@ -44,28 +22,6 @@ bending.rigidity = 1.2e-5
 traction.primed = { stiffness = 4000, toe_ratio = 1.0, toe_strain = 0.02, toe_strain_after = 0.02 }
 bending = { rigidity = 0.8e-5, friction = [{ plateau = 4e-4, length = 4 }] }
 "#;
-
-fn fabric(text: &str) -> Fabric {
-    Fabric::from_document(&Document::new("fabric.toml", text)).expect("the fabric is right")
-}
-
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-    }
-}
-
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|v| v * v).sum::<f64>().sqrt()
-}
-
-fn distance(found: &[f64], exact: &[f64]) -> f64 {
-    let gap: Vec<f64> = found.iter().zip(exact).map(|(a, b)| a - b).collect();
-    norm(&gap) / norm(exact)
-}
 
 #[test]
 fn the_grid_gives_the_numbers_of_the_connectors_one_by_one() {

@@ -3,7 +3,8 @@
 use drape_cloth::{Breen, Cloth, ClothError, Grain, Lattice, Mesh, Reference, State};
 use drape_fabric::Fabric;
 
-use crate::panels::{RICH, Random, fabric, rectangle, shape};
+use crate::panels::{LINEN, RICH, fabric, rectangle, shape};
+use crate::shaken::{Random, balance, distance, multiply, tried};
 
 /// Rounding of a few hundred operations on numbers of the size that is compared with.
 const TOLERANCE: f64 = 1e-12;
@@ -11,6 +12,20 @@ const TOLERANCE: f64 = 1e-12;
 /// A dart, a side along the grain, a round side, and a sharp corner.
 const DARTED: &str = "M0 0 L35 0 L45 -45 L55 0 L100 0 C110 -30 100 -60 80 -90 L0 -80 Z";
 
+/// Panels that are all grid.
+pub fn grids() -> Vec<(&'static str, Lattice)> {
+    vec![
+        ("rectangle", Lattice::rectangle(0.10, 0.08, 0.012).expect("a rectangle")),
+        ("disc", Lattice::disc(0.05, 0.011).expect("a disc")),
+        (
+            "bias",
+            Lattice::rectangle_at(Grain::from_degrees(33.0), [0.0; 2], [0.10, 0.08], 0.012)
+                .expect("a rectangle"),
+        ),
+    ]
+}
+
+/// Panels with a rim.
 pub fn panels() -> Vec<(&'static str, Lattice)> {
     vec![
         ("dart", shape(DARTED, 0.0, 0.011)),
@@ -20,40 +35,19 @@ pub fn panels() -> Vec<(&'static str, Lattice)> {
     ]
 }
 
-/// A cylinder about an axis at 30° to the weft, stretched and shaken.
-fn bent(lattice: &Lattice, radius: f64, shake: f64, random: &mut Random) -> Vec<f64> {
-    let (sin, cos) = 0.5_f64.sin_cos();
-    let place = |[u, v]: [f64; 2]| {
-        let (along, across) = (cos * u + sin * v, cos * v - sin * u);
-        let angle = across / radius;
-        [1.02 * along, 1.01 * radius * (1.0 - angle.cos()), 1.01 * radius * angle.sin()]
+/// All of them, each with the fabric that it is tried in.
+fn cases() -> Vec<(&'static str, Lattice, Fabric)> {
+    let of = |panels: Vec<(&'static str, Lattice)>, text: &str| {
+        let fabric = fabric(text);
+        panels.into_iter().map(move |(name, lattice)| (name, lattice, fabric.clone()))
     };
-    let shaken = |x: f64| x + shake * random.next();
-    lattice.coordinates.iter().flat_map(|&c| place(c)).map(shaken).collect()
-}
-
-/// A cloth with history: committed twice on the way to a shaken shape, and a trial at the radius.
-fn tried(
-    lattice: &Lattice,
-    fabric: &Fabric,
-    (shake, radius): (f64, f64),
-) -> (Cloth, State, Vec<f64>) {
-    let mut random = Random(7);
-    let cloth = Cloth::new(&[(lattice, fabric)]);
-    let mut state = cloth.state(bent(lattice, 0.4, 0.0, &mut random)).expect("fits");
-    let rest = vec![0.0; 3 * cloth.particles()];
-    for way in [0.1, 0.06] {
-        let positions = bent(lattice, way, shake, &mut random);
-        cloth.commit(&mut state, &positions, &rest);
-    }
-    let trial = bent(lattice, radius, shake, &mut random);
-    (cloth, state, trial)
+    of(grids(), LINEN).chain(of(panels(), RICH)).collect()
 }
 
 #[test]
 fn forces_are_the_derivative_of_the_potential() {
-    for (name, lattice) in panels() {
-        let (cloth, state, trial) = tried(&lattice, &fabric(RICH), (1e-3, 0.07));
+    for (name, lattice, fabric) in cases() {
+        let (cloth, state, trial) = tried(&lattice, &fabric, (1e-3, 0.07));
         let mut forces = vec![0.0; trial.len()];
         cloth.add_forces(&state, &trial, &mut forces);
         let scale = forces.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
@@ -73,31 +67,10 @@ fn forces_are_the_derivative_of_the_potential() {
     }
 }
 
-/// Multiplies the symmetric block matrix with a vector.
-pub fn multiply(cloth: &Cloth, values: &[f64], vector: &[f64]) -> Vec<f64> {
-    let pattern = cloth.pattern();
-    let mut product = vec![0.0; vector.len()];
-    for row in 0..cloth.particles() {
-        for slot in pattern.offsets[row]..pattern.offsets[row + 1] {
-            let column = pattern.columns[slot];
-            for i in 0..3 {
-                for j in 0..3 {
-                    let value = values[9 * slot + 3 * i + j];
-                    product[3 * row + i] += value * vector[3 * column + j];
-                    if row != column {
-                        product[3 * column + j] += value * vector[3 * row + i];
-                    }
-                }
-            }
-        }
-    }
-    product
-}
-
 #[test]
 fn the_stiffness_is_the_derivative_of_the_forces() {
-    for (name, lattice) in panels() {
-        let (cloth, state, trial) = tried(&lattice, &fabric(RICH), (1e-3, 0.07));
+    for (name, lattice, fabric) in cases() {
+        let (cloth, state, trial) = tried(&lattice, &fabric, (1e-3, 0.07));
         let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
         cloth.add_stiffness(&state, &trial, false, &mut values);
         let mut random = Random(11);
@@ -128,8 +101,8 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
 
 #[test]
 fn the_definite_stiffness_has_no_negative_direction() {
-    for (name, lattice) in panels() {
-        let (cloth, state, trial) = tried(&lattice, &fabric(RICH), (3e-3, 0.07));
+    for (name, lattice, fabric) in cases() {
+        let (cloth, state, trial) = tried(&lattice, &fabric, (3e-3, 0.07));
         let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
         cloth.add_stiffness(&state, &trial, true, &mut values);
         let mut random = Random(5);
@@ -140,26 +113,6 @@ fn the_definite_stiffness_has_no_negative_direction() {
             assert!(curvature > 0.0, "{name}: {curvature}");
         }
     }
-}
-
-/// Sums of the internal forces and torques over the sums of their magnitudes.
-fn balance(cloth: &Cloth, state: &State, trial: &[f64]) -> (f64, f64) {
-    let mut forces = vec![0.0; trial.len()];
-    cloth.add_forces(state, trial, &mut forces);
-    let (mut force, mut torque, mut size, mut lever) = ([0.0; 3], [0.0; 3], 0.0, 0.0);
-    for (x, f) in trial.chunks(3).zip(forces.chunks(3)) {
-        let cross =
-            [x[1] * f[2] - x[2] * f[1], x[2] * f[0] - x[0] * f[2], x[0] * f[1] - x[1] * f[0]];
-        for axis in 0..3 {
-            force[axis] += f[axis];
-            torque[axis] += cross[axis];
-        }
-        let norm = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
-        size += norm(f);
-        lever += norm(&cross);
-    }
-    let norm = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
-    (norm(force) / size, norm(torque) / lever)
 }
 
 #[test]
@@ -181,15 +134,6 @@ fn internal_forces_and_torques_cancel() {
         let limit = if name == "triangle" { 2e-5 } else { 1e-6 };
         assert!(torque < limit, "{name}: net torque {torque:e}");
     }
-}
-
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|v| v * v).sum::<f64>().sqrt()
-}
-
-fn distance(found: &[f64], exact: &[f64]) -> f64 {
-    let gap: Vec<f64> = found.iter().zip(exact).map(|(a, b)| a - b).collect();
-    norm(&gap) / norm(exact)
 }
 
 /// A cloth of several panels, with and without a rim.
