@@ -21,17 +21,28 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         let message = format!("--json is for folders of runs, and {} is none", file.display());
         return Err(Failure::Usage(message));
     }
-    if let (Some(figure), [pattern]) = (&arguments.figure, &files[..]) {
-        let cut = CutOut::read(pattern, 1e-3 * arguments.spacing)?;
-        file::write(figure, cut.figure())?;
-    } else if arguments.figure.is_some() {
-        return Err(Failure::Usage("--figure is for one pattern at a time".into()));
-    }
+    let spacing = 1e-3 * arguments.spacing;
     let mut mistakes = Vec::new();
-    for file in files {
-        match describe(file, 1e-3 * arguments.spacing) {
-            Ok(description) => say(format_args!("{}: {}", file.display(), description.trim_end()))?,
-            Err(found) => mistakes.extend(found.0),
+    let mut told = |file: &Path, found: Result<String, Diagnostics>| match found {
+        Ok(text) => say(format_args!("{}: {}", file.display(), text.trim_end())),
+        Err(found) => {
+            mistakes.extend(found.0);
+            Ok(())
+        }
+    };
+    match (&arguments.figure, &files[..]) {
+        (Some(figure), [pattern]) => {
+            let cut = CutOut::read(pattern, spacing)?;
+            file::write(figure, cut.figure())?;
+            told(pattern, Ok(cut.describe()))?;
+        }
+        (Some(_), _) => {
+            return Err(Failure::Usage("--figure is for one pattern at a time".into()));
+        }
+        (None, files) => {
+            for file in files {
+                told(file, describe(file, spacing))?;
+            }
         }
     }
     Diagnostics::check(mistakes)?;
@@ -93,11 +104,7 @@ fn scene(scene: &Scene) -> String {
     }
     if let Some(sewing) = &scene.sewing {
         for seam in &sewing.seams {
-            let gap = |&[a, b]: &[u32; 2]| {
-                let place = |p: u32| &scene.positions[3 * p as usize..3 * p as usize + 3];
-                place(a).iter().zip(place(b)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
-            };
-            let gaps: Vec<f64> = seam.pairs.iter().map(gap).collect();
+            let gaps = seam.gaps(&scene.positions);
             let _ = writeln!(
                 text,
                 "  seam \"{}\": {} pairs, open by {:.1} mm, {:.1} mm at most",

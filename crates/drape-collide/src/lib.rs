@@ -59,5 +59,6 @@ pub use surface::{Skin, Surface, SurfaceParts};
 pub use surface_contact::{Nearness, SurfaceContact, SurfaceMemory};
 pub use surface_settings::SurfaceSettings;
 pub use survey::Survey;
+pub use topology::classes;
 pub use triangulate::Outline;
 pub use truncate::Truncation;

@@ -91,7 +91,11 @@ pub(crate) fn middle(rest: &[f64], vertices: &[u32]) -> Vector {
 }
 
 /// The smallest vertex of those that twins join, directly or through others, for each vertex.
-pub(crate) fn classes(vertices: usize, twins: &[[u32; 2]]) -> Vec<u32> {
+///
+/// # Panics
+/// If a twin is not among the vertices.
+#[must_use]
+pub fn classes(vertices: usize, twins: &[[u32; 2]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..vertices as u32).collect();
     let root = |parent: &[u32], mut vertex: u32| {
         while parent[vertex as usize] != vertex {

@@ -17,15 +17,26 @@ pub(crate) struct Bonds {
     spread: Option<(Vec<f64>, Vec<usize>)>,
 }
 
-/// The coupling of a cloth's connectors and of some more pairs.
-fn coupling(pattern: &Pattern, more: &[[u32; 2]]) -> Coupling {
-    let rows = (0..pattern.offsets.len() - 1).flat_map(|row| {
+/// Row and column of each block of a cloth's connectors.
+fn blocks(pattern: &Pattern) -> impl Iterator<Item = (usize, usize)> {
+    (0..pattern.offsets.len() - 1).flat_map(|row| {
         let columns = &pattern.columns[pattern.offsets[row]..pattern.offsets[row + 1]];
         columns.iter().map(move |&column| (row, column))
-    });
+    })
+}
+
+/// The coupling of a cloth's connectors and of some more pairs.
+fn coupling(pattern: &Pattern, more: &[[u32; 2]]) -> Coupling {
     let more = more.iter().map(|&[a, b]| (a as usize, b as usize));
     let particles = pattern.offsets.len() - 1;
-    Coupling::from_pairs(particles, rows.chain(more)).expect("pairs are of the cloth's particles")
+    let pairs = blocks(pattern).chain(more);
+    Coupling::from_pairs(particles, pairs).expect("pairs are of the cloth's particles")
+}
+
+/// Room for a matrix of the connectors alone, and where its blocks go in a coupling that has more.
+fn spread(pattern: &Pattern, coupling: &Coupling) -> (Vec<f64>, Vec<usize>) {
+    let slots = blocks(pattern).filter_map(|(row, column)| coupling.slot(row, column));
+    (vec![0.0; 9 * pattern.blocks()], slots.collect())
 }
 
 impl Bonds {
@@ -35,15 +46,15 @@ impl Bonds {
         breen: Option<Breen>,
         (threads, positions): (&[[u32; 2]], &[f64]),
     ) -> Self {
+        let coupling = coupling(cloth.pattern(), threads);
         let mut bonds = Self {
             workspace: cloth.workspace(),
             breen,
             seams: None,
-            coupling: coupling(cloth.pattern(), &[]),
+            spread: (!threads.is_empty()).then(|| spread(cloth.pattern(), &coupling)),
+            coupling,
             version: 0,
-            spread: None,
         };
-        bonds.make_room(cloth, threads);
         bonds.couple(cloth, positions);
         bonds
     }
@@ -56,24 +67,12 @@ impl Bonds {
         self.version
     }
 
-    /// Couples pairs of particles besides those that connectors join.
-    fn make_room(&mut self, cloth: &Cloth, pairs: &[[u32; 2]]) {
-        self.coupling = coupling(cloth.pattern(), pairs);
-        self.version += 1;
-        self.spread = (!pairs.is_empty()).then(|| {
-            let Pattern { offsets, columns } = cloth.pattern();
-            let rows = (0..offsets.len() - 1).flat_map(|row| {
-                columns[offsets[row]..offsets[row + 1]].iter().map(move |&column| (row, column))
-            });
-            let slots = rows.filter_map(|(row, column)| self.coupling.slot(row, column)).collect();
-            (vec![0.0; 9 * columns.len()], slots)
-        });
-    }
-
     /// The seams bend from now on, and threads need no room any more.
     pub(crate) fn sew(&mut self, cloth: &Cloth, bending: SeamBending, positions: &[f64]) {
         let pairs: Vec<[u32; 2]> = bending.pairs().collect();
-        self.make_room(cloth, &pairs);
+        self.coupling = coupling(cloth.pattern(), &pairs);
+        self.spread = Some(spread(cloth.pattern(), &self.coupling));
+        self.version += 1;
         let state = bending.state(positions).expect("a place for every particle");
         self.seams = Some((bending, state));
     }

@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use drape_cloth::{ClothError, Grain, Lattice, Mesh};
-use drape_input::{Diagnostic, closest};
+use drape_input::Diagnostic;
 use drape_pattern::{Cut, Cutter, Error, NodeId, Pattern, Placement};
 
 use crate::file::{GarmentFile, GarmentPanelFile, SceneFile};
@@ -9,6 +9,7 @@ use crate::material::Material;
 use crate::panel::{Laid, Panel, SPACING};
 use crate::placement::Random;
 use crate::reader::Reader;
+use crate::stitches::width;
 
 /// A line along which two edges are sewn together.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +18,14 @@ pub struct Seam {
     pub name: String,
     /// The particles of both sides, in the order in which it runs; both are one at the tip of a dart.
     pub pairs: Vec<[u32; 2]>,
+}
+
+impl Seam {
+    /// How far its sides are apart at positions of the particles, pair by pair, in m.
+    #[must_use]
+    pub fn gaps(&self, positions: &[f64]) -> Vec<f64> {
+        self.pairs.iter().map(|&pair| width(positions, pair)).collect()
+    }
 }
 
 /// A garment as its panels and how they are sewn.
@@ -94,12 +103,9 @@ impl Reader<'_> {
     ) -> Option<Garment> {
         let names: Vec<&str> = pattern.panels().iter().map(drape_pattern::Panel::name).collect();
         for name in entry.panel.keys().filter(|name| !names.contains(&name.as_str())) {
-            let help = match closest(name, names.iter().copied()) {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!("the panels of the pattern are: {}", names.join(", ")),
-            };
             let message = format!("the pattern has no panel \"{name}\"");
-            self.fail(&format!("{key}.panel.{name}"), message, &help);
+            let key = format!("{key}.panel.{name}");
+            self.unknown(&key, message, (name, &names), "panels of the pattern");
         }
         let cut = match Cutter::new(spacing).cut(pattern) {
             Ok(cut) => cut,

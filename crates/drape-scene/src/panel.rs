@@ -1,5 +1,5 @@
 use drape_cloth::{ClothError, Grain, Lattice};
-use drape_input::{Diagnostic, closest};
+use drape_input::Diagnostic;
 
 use crate::file::{PanelFile, SceneFile};
 use crate::material::Material;
@@ -94,11 +94,8 @@ impl Reader<'_> {
         let names: Vec<&str> = file.fabric.keys().map(String::as_str).collect();
         let material = names.iter().position(|known| *known == name);
         if material.is_none() {
-            let help = match closest(name, names.iter().copied()) {
-                Some(name) => format!("did you mean \"{name}\"?"),
-                None => format!("the fabrics of this scene are: {}", names.join(", ")),
-            };
-            self.fail(key, format!("there is no fabric \"{name}\""), &help);
+            let message = format!("there is no fabric \"{name}\"");
+            self.unknown(key, message, (name, &names), "fabrics of this scene");
         }
         material
     }

@@ -1,4 +1,4 @@
-use drape_input::{Diagnostic, Document};
+use drape_input::{Diagnostic, Document, closest};
 
 /// Turns a file into a scene, collecting mistakes. Each part of a scene has its methods in the file
 /// named after it.
@@ -16,6 +16,21 @@ impl<'a> Reader<'a> {
 
     pub(crate) fn fail(&mut self, key: &str, message: String, help: &str) {
         self.mistakes.push(self.document.at(key, message).help(help));
+    }
+
+    /// Reports a name that is not among those that there are, with the nearest of them or else all.
+    pub(crate) fn unknown(
+        &mut self,
+        key: &str,
+        message: String,
+        (name, known): (&str, &[&str]),
+        what: &str,
+    ) {
+        let help = match closest(name, known.iter().copied()) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None => format!("the {what} are: {}", known.join(", ")),
+        };
+        self.fail(key, message, &help);
     }
 
     /// Whether a number is within its inclusive bounds; if not, that is reported.

@@ -122,7 +122,7 @@ impl Reader<'_> {
             seams.extend(garment.seams);
             notes.extend(garment.notes);
         }
-        self.names_differ(&laid);
+        self.names_differ(&file, &laid);
         let clock = self.clock(&file, unit);
         let spacings = laid.iter().flat_map(|laid| laid.panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);

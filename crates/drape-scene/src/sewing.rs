@@ -18,7 +18,7 @@ const SECONDS: f64 = 1.0;
 pub struct Sewing {
     /// The seams.
     pub seams: Vec<Seam>,
-    /// The particles of all of them, in pairs.
+    /// The particles of all of them that become one, in pairs.
     pub pairs: Vec<[u32; 2]>,
     /// How long it takes, in s.
     pub seconds: f64,
@@ -67,12 +67,15 @@ impl Reader<'_> {
                 "choose another spacing, and report the pattern",
             );
         });
-        let pairs = seams.iter().flat_map(|seam| &seam.pairs).copied().collect();
+        let pairs = seams.iter().flat_map(|seam| &seam.pairs).filter(|[a, b]| a != b);
+        let pairs = pairs.copied().collect();
         Some(Sewing { seams, pairs, seconds, bending: bending.ok()? })
     }
 
-    /// Panels are told apart by their names.
-    pub(crate) fn names_differ(&mut self, laid: &[Laid]) {
+    /// Panels are told apart by their names. Those that the scene itself names twice have been reported.
+    pub(crate) fn names_differ(&mut self, file: &SceneFile, laid: &[Laid]) {
+        let twice = |name: &str| file.panel.iter().filter(|panel| panel.name == name).count() > 1;
+        let laid: Vec<&Laid> = laid.iter().filter(|laid| !twice(&laid.panel.name)).collect();
         for (index, Laid { panel, .. }) in laid.iter().enumerate() {
             if laid[..index].iter().any(|other| other.panel.name == panel.name) {
                 let message = format!("there are two panels \"{}\"", panel.name);

@@ -22,9 +22,8 @@ pub(crate) struct Stitches {
 impl Stitches {
     /// Stitches between pairs of nodes at their places at the start; seconds tells how long drawing together takes.
     pub(crate) fn new(pairs: &[[u32; 2]], positions: &[f64], seconds: f64) -> Self {
-        let pairs: Vec<[u32; 2]> = pairs.iter().copied().filter(|[a, b]| a != b).collect();
         let gaps = pairs.iter().map(|&pair| gap(positions, pair)).collect();
-        Self { pairs, gaps, seconds, left: 1.0 }
+        Self { pairs: pairs.to_vec(), gaps, seconds, left: 1.0 }
     }
 
     /// The pairs of nodes.
@@ -44,10 +43,7 @@ impl Stitches {
 
     /// The widest gap, in m, and the pair that it is between.
     pub(crate) fn widest(&self, positions: &[f64]) -> (f64, [u32; 2]) {
-        let widths = self.pairs.iter().map(|&pair| {
-            let gap = gap(positions, pair);
-            (gap.iter().map(|x| x * x).sum::<f64>().sqrt(), pair)
-        });
+        let widths = self.pairs.iter().map(|&pair| (width(positions, pair), pair));
         widths.fold((0.0, [0; 2]), |widest, width| if width.0 > widest.0 { width } else { widest })
     }
 
@@ -86,6 +82,11 @@ impl Stitches {
             [0, 1, 2].map(|axis| now[axis] - self.left * start[axis])
         })
     }
+}
+
+/// Distance of the nodes of a pair, in m.
+pub(crate) fn width(positions: &[f64], pair: [u32; 2]) -> f64 {
+    gap(positions, pair).iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn gap(positions: &[f64], pair: [u32; 2]) -> [f64; 3] {

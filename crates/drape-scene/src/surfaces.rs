@@ -69,7 +69,7 @@ impl Surfaces {
             group: Vec::new(),
             skins: Vec::new(),
             free: cloth.particles(),
-            twins: parts.sewn.iter().copied().filter(|[a, b]| a != b).collect(),
+            twins: parts.sewn.to_vec(),
         };
         let mut frictions = Vec::new();
         for (index, panel) in panels.iter().enumerate() {

@@ -76,7 +76,7 @@ impl Simulation {
             guarded: self.world.surfaces.is_some(),
             panels,
             bodies,
-            twins: self.sewn.iter().copied().filter(|[a, b]| a != b).collect(),
+            twins: self.sewn.clone(),
             coordinates: cloth.coordinates().to_vec(),
             triangles: cloth.triangles().to_vec(),
             body_triangles,

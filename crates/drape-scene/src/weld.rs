@@ -1,3 +1,4 @@
+use drape_collide::classes;
 use drape_implicit::{BlockMatrix, Error, Motion, Pattern, Report, Stiffness, System, Way};
 
 use crate::scheme::{Integration, Scheme};
@@ -46,11 +47,8 @@ impl Weld {
     /// A pair of nodes that are not there.
     pub(crate) fn new(world: &World, pairs: &[[u32; 2]]) -> Result<Self, Error> {
         let particle = particles(world.particles(), pairs);
-        let count = particle.iter().max().map_or(0, |last| *last as usize + 1);
-        let mut masses = vec![0.0; count];
-        for (&particle, mass) in particle.iter().zip(world.masses()) {
-            masses[particle as usize] += mass;
-        }
+        let masses = masses_of(&particle, world.masses());
+        let count = masses.len();
         let nodes = world.pattern();
         let blocks = (0..nodes.particles()).flat_map(|row| {
             let columns = &nodes.columns()[nodes.row(row)];
@@ -90,20 +88,6 @@ impl Weld {
         scheme: &Scheme,
     ) -> Result<Integration, Error> {
         scheme.start(&Sewn { world, weld: self })
-    }
-
-    /// Moves every node to the middle of those it is sewn to, weighed with their masses.
-    pub(crate) fn join(&self, masses: &[f64], values: &mut [f64]) {
-        let mut means = vec![[0.0; 3]; self.masses.len()];
-        for ((&particle, mass), value) in
-            self.particle.iter().zip(masses).zip(values.chunks_exact(3))
-        {
-            let part = mass / self.masses[particle as usize];
-            (0..3).for_each(|axis| means[particle as usize][axis] += part * value[axis]);
-        }
-        for (&particle, value) in self.particle.iter().zip(values.chunks_exact_mut(3)) {
-            value.copy_from_slice(&means[particle as usize]);
-        }
     }
 
     /// Advances the motion of all nodes by a step, in s.
@@ -289,24 +273,37 @@ impl System for Sewn<'_> {
     }
 }
 
+/// Moves the nodes of pairs to the middle of all that they are sewn to, weighed with the masses of the nodes.
+pub(crate) fn join(pairs: &[[u32; 2]], masses: &[f64], values: &mut [f64]) {
+    let particle = particles(masses.len(), pairs);
+    let whole = masses_of(&particle, masses);
+    let mut means = vec![[0.0; 3]; whole.len()];
+    for ((&particle, mass), value) in particle.iter().zip(masses).zip(values.chunks_exact(3)) {
+        let part = mass / whole[particle as usize];
+        (0..3).for_each(|axis| means[particle as usize][axis] += part * value[axis]);
+    }
+    for (&particle, value) in particle.iter().zip(values.chunks_exact_mut(3)) {
+        value.copy_from_slice(&means[particle as usize]);
+    }
+}
+
+/// Masses of the particles from those of their nodes.
+fn masses_of(particle: &[u32], nodes: &[f64]) -> Vec<f64> {
+    let count = particle.iter().max().map_or(0, |last| *last as usize + 1);
+    let mut masses = vec![0.0; count];
+    for (&particle, mass) in particle.iter().zip(nodes) {
+        masses[particle as usize] += mass;
+    }
+    masses
+}
+
 /// A particle for each node, numbered in the order of their first nodes; those of a pair have the same.
 fn particles(nodes: usize, pairs: &[[u32; 2]]) -> Vec<u32> {
-    let mut first: Vec<u32> = (0..nodes as u32).collect();
-    let root = |first: &[u32], mut node: u32| {
-        while first[node as usize] != node {
-            node = first[node as usize];
-        }
-        node
-    };
-    for &[a, b] in pairs {
-        let (a, b) = (root(&first, a), root(&first, b));
-        first[a.max(b) as usize] = a.min(b);
-    }
+    let first = classes(nodes, pairs);
     let mut count = 0;
     let mut particle = vec![0; nodes];
     for node in 0..nodes {
-        // The first of its nodes comes before it.
-        let own = root(&first, node as u32) as usize;
+        let own = first[node] as usize;
         if own == node {
             particle[node] = count;
             count += 1;

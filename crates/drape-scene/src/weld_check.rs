@@ -8,7 +8,7 @@ use crate::garment::Seam;
 use crate::scene::Scene;
 use crate::sewing::Sewing;
 use crate::simulation::{Progress, Step};
-use crate::weld::{Sewn, Weld};
+use crate::weld::{Sewn, Weld, join};
 use crate::world::World;
 use crate::world_check::FABRIC;
 use crate::{Frame, SceneError, Simulation, Status};
@@ -75,8 +75,7 @@ fn the_forces_on_sewn_particles_agree_with_their_potential() {
     let check = check_system(&mut world, &positions, &away, 0.2).expect("sound");
     assert!(check.force_error < 1e-6 && check.stiffness_error < 1e-5, "{check:?}");
 
-    let weld = Weld::new(&world, &pairs).expect("pairs of its nodes");
-    weld.join(world.cloth.masses(), &mut positions);
+    join(&pairs, world.cloth.masses(), &mut positions);
     world.sewn(0.5, &positions);
     let mut weld = Weld::new(&world, &pairs).expect("pairs of its nodes");
     let own = weld.narrow(&positions);
@@ -131,7 +130,7 @@ fn a_motion_of_sewn_nodes_is_that_of_their_particles() {
     let world = World::new(scene());
     let weld = Weld::new(&world, &[[3, 60]]).expect("nodes");
     let mut values: Vec<f64> = (0..3 * 98).map(f64::from).collect();
-    weld.join(world.cloth.masses(), &mut values);
+    join(&[[3, 60]], world.cloth.masses(), &mut values);
     let [m, n] = [3, 60].map(|node| world.cloth.masses()[node]);
     let mean = (m * 9.0 + n * 180.0) / (m + n);
     assert!((values[9] - mean).abs() < 1e-12 && values[9] == values[180]);

@@ -6,7 +6,7 @@ use crate::pace::Pace;
 use crate::scheme::{Integration, Scheme};
 use crate::settle::Settle;
 use crate::summary::Status;
-use crate::weld::Weld;
+use crate::weld::{Weld, join};
 
 /// Widest gap at which the two sides of a seam become one, in m. What the pull of a stitch leaves is a tenth of it.
 const CLOSED: f64 = 1e-4;
@@ -68,34 +68,31 @@ impl Simulation {
 
     /// The two sides of every seam become one, and the garment begins to hang.
     fn sew(&mut self) -> Result<(), Error> {
-        let weld = Weld::new(&self.world, &self.sewn)?;
         let mut positions = self.motion.positions.clone();
-        weld.join(self.world.cloth.masses(), &mut positions);
+        join(&self.sewn, self.world.cloth.masses(), &mut positions);
         self.world.sewn(self.time(), &positions);
-        self.motion = Motion { time: self.motion.time, ..Motion::at_rest(positions) };
         self.world.creep(self.settle.is_some_and(|settle| !settle.inertia));
-        // The system without threads has a pattern of its own.
         self.weld = Some(Weld::new(&self.world, &self.sewn)?);
-        let (scheme, tolerance) =
-            self.scheme.on_the_way(self.world.creeps.then_some(CREEP_TOLERANCE_MAX));
-        self.integration = self.start(&scheme)?;
-        self.tolerance = tolerance;
-        self.pace = Pace::new(self.clock, self.settle, order(&self.scheme));
-        Ok(())
+        self.go_on(positions)
     }
 
     /// The bodies and pins begin to move, and the cloth at rest has inertia from now on, for so many seconds.
     pub(super) fn set_in_motion(&mut self, seconds: f64) -> Result<(), Error> {
         (self.rested, self.settle, self.motion_seconds) = (true, None, None);
         self.world.set_in_motion(self.time());
-        self.motion =
-            Motion { time: self.motion.time, ..Motion::at_rest(self.motion.positions.clone()) };
-        let (scheme, tolerance) = self.scheme.on_the_way(None);
-        self.integration = self.start(&scheme)?;
-        self.tolerance = tolerance;
         self.clock.end = self.time() + seconds;
         self.clock.ticks_max = self.clock.ticks_per_step;
-        self.pace = Pace::new(self.clock, None, order(&self.scheme));
+        self.go_on(self.motion.positions.clone())
+    }
+
+    /// Goes on from rest as the world now moves.
+    fn go_on(&mut self, positions: Vec<f64>) -> Result<(), Error> {
+        self.motion = Motion { time: self.motion.time, ..Motion::at_rest(positions) };
+        let creeps = self.world.creeps.then_some(CREEP_TOLERANCE_MAX);
+        let (scheme, tolerance) = self.scheme.on_the_way(creeps);
+        self.integration = self.start(&scheme)?;
+        self.tolerance = tolerance;
+        self.pace = Pace::new(self.clock, self.settle, order(&self.scheme));
         Ok(())
     }
 
