@@ -127,5 +127,11 @@ fn standard_errors_stand_under_the_keys_of_their_numbers() {
             let (number, error) = (number.as_float(), error.as_float());
             assert!(number.is_some() && error > Some(0.0), "{name} {path}: {number:?} ± {error:?}");
         }
+        let reach = file["provenance"]["reach"].as_table().expect("how far it was measured");
+        let of = |law: &str| reach.get(law).and_then(toml::Value::as_float);
+        let stretched = of("warp.traction").expect("it was stretched");
+        assert!((0.005..=0.2).contains(&stretched), "{name}: {stretched}");
+        // The cupro was bent in loops, whose curvature is no measure of the test.
+        assert_eq!(of("warp.bending").is_some(), name == "tagawa-2003", "{name}");
     }
 }

@@ -94,13 +94,9 @@ fn what_is_wrong_with_a_garment_is_said_with_its_place_and_a_remedy() {
     let write =
         |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
     write("plain.toml", FABRIC);
-    let pattern = "length = \"mm\"\n[panel.left]\ngrain = 0\nrectangle = [100, 60]\norigin = [-110, 0, 0]\n\
-                   edges = [\"hem\", \"side\", \"top\", \"fold\"]\n\
-                   [panel.right]\ngrain = 0\nrectangle = [100, 60]\norigin = [10, 0, 0]\n\
-                   [seam.middle]\nsides = [[\"left.side\"], [\"right.left\"]]\n";
-    write("coat.toml", pattern);
-    write("lost.toml", &pattern.replace("origin = [10, 0, 0]\n", ""));
-    write("torn.toml", &pattern.replace("left.side", "left.sleeve"));
+    write("coat.toml", COAT);
+    write("lost.toml", &COAT.replace("origin = [10, 0, 0]\n", ""));
+    write("torn.toml", &COAT.replace("left.side", "left.sleeve"));
     let scene = "spacing = 0.01\nfabric.plain.file = \"plain.toml\"\n\
                  [[garment]]\npattern = \"coat.toml\"\nfabric = \"plain\"\n\
                  [[collider.sphere]]\nradius = 0.05\ncenter = [0, -0.2, 0]\n\
@@ -133,6 +129,15 @@ fn what_is_wrong_with_a_garment_is_said_with_its_place_and_a_remedy() {
         &["no panel is within", "another body"],
     );
     refused("\"plain\"\n", "\"plain\"\nspacing = 0.3\n", &["spacing"]);
+    let small = format!(
+        "mesh]]\nname = \"figure\"\nfile = \"{}\"\nscale = 0.01",
+        root().join("scenes/bodies/body.obj").display()
+    );
+    refused(
+        "sphere]]\nradius = 0.05\ncenter = [0, -0.2, 0]",
+        &small,
+        &["\"figure\" measures 0.01", "scale"],
+    );
     let again = "\"plain\"\n[[garment]]\npattern = \"coat.toml\"\nfabric = \"plain\"\n";
     refused("\"plain\"\n", again, &["two panels \"left\"", "its own name"]);
     let pin = "[settle]\n[[pin]]\npanel = \"left\"\nedge = \"hen\"\n";
@@ -165,6 +170,40 @@ fn the_first_garment_of_the_documentation_is_sound() {
     command.arg("check").arg(folder.path().join("tube.toml")).arg("--figure").arg(&figure);
     command.assert().success();
     assert!(std::fs::read_to_string(figure).expect("a figure").starts_with("<svg"));
+}
+
+/// Two panels side by side, sewn where they meet.
+const COAT: &str = "length = \"mm\"\n[panel.left]\ngrain = 0\nrectangle = [100, 60]\norigin = [-110, 0, 0]\n\
+                    edges = [\"hem\", \"side\", \"top\", \"fold\"]\n\
+                    [panel.right]\ngrain = 0\nrectangle = [100, 60]\norigin = [10, 0, 0]\n\
+                    [seam.middle]\nsides = [[\"left.side\"], [\"right.left\"]]\n";
+
+#[test]
+fn a_garment_that_nothing_holds_is_not_let_fall_for_ever() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write =
+        |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
+    write("plain.toml", FABRIC);
+    write("coat.toml", COAT);
+    let scene = "spacing = 0.01\nfabric.plain.file = \"plain.toml\"\n\
+                 [[garment]]\npattern = \"coat.toml\"\nfabric = \"plain\"\ncenter = [0.3, 0, 0]\n\
+                 [[collider.sphere]]\nradius = 0.05\ncenter = [0, -0.1, 0]\n\
+                 [time]\nstep = 0.005\nend = 60\n[settle]\n";
+    write("scene.toml", scene);
+    let output = folder.path().join("out");
+    let mut command = drape();
+    command.arg("run").arg(folder.path().join("scene.toml")).arg("-o").arg(&output);
+    let result = command.output().expect("it runs");
+    let said = String::from_utf8_lossy(&result.stderr);
+    assert_eq!(result.status.code(), Some(5), "{said}");
+    assert!(said.contains("\"coat\" fell off") && said.contains("friction"), "{said}");
+    let text = std::fs::read_to_string(output.join("summary.json")).expect("a summary");
+    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(summary["status"], "fell off");
+    let phases = summary["phases"].as_array().expect("phases");
+    let names: Vec<&Value> = phases.iter().map(|phase| &phase["name"]).collect();
+    assert_eq!(names, ["sew", "relax"]);
+    assert!(number(&phases[1]["start"]) >= 1.0 && phases[1]["frame"].as_u64() > Some(0));
 }
 
 /// A garment at a spacing in mm: it must be worn.

@@ -49,6 +49,9 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         say(json.expect("a summary always has a JSON form"))?;
     } else {
         say(describe(&summary))?;
+        for warning in &summary.warnings {
+            say(format_args!("warning: {warning}"))?;
+        }
         say(format_args!("results in {}", folder.display()))?;
     }
     match summary.status {
@@ -63,6 +66,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         ))),
         Status::SeamsOpen => Err(Failure::Solver(format!(
             "{}; something holds its sides apart, or sew.seconds is short; the last state was written",
+            summary.reason.unwrap_or_default()
+        ))),
+        Status::FellOff => Err(Failure::Solver(format!(
+            "{}; pin it, take it in, or raise the friction of the body; the last state was written",
             summary.reason.unwrap_or_default()
         ))),
         Status::CertificateFailed => Err(Failure::Certificate(format!(

@@ -23,6 +23,7 @@ mod share;
 mod state;
 mod stiffness;
 mod tangent;
+mod triangle_strain;
 mod workspace;
 
 pub use breen::{Block, Breen};
@@ -35,4 +36,5 @@ pub use pattern::Pattern;
 pub use reference::Reference;
 pub use seam::{Seam, SeamBending, SeamState};
 pub use state::State;
+pub use triangle_strain::TriangleStrain;
 pub use workspace::Workspace;

@@ -62,6 +62,10 @@ pub struct Provenance {
     /// Standard errors of the fitted numbers, in their units, by key path as in `warp.bending.rigidity`.
     #[serde(default)]
     pub standard_errors: BTreeMap<String, f64>,
+    /// Largest deformation at which each law was measured, by key path as in `warp.traction`: a strain, a curvature in
+    /// 1/m, the sine of a shear angle.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub reach: BTreeMap<String, f64>,
 }
 
 /// A value that no fabric has.

@@ -8,8 +8,8 @@ use crate::Settings;
 /// Points of each branch of a simulated pull, whose areas are trapezoids: they err by 1e-6 of the work.
 const PULL_POINTS: usize = 1000;
 /// Reach of the bending test, in 1/m, and of the shear test, in rad.
-const BENDING_REACH: f64 = 250.0;
-const SHEAR_REACH: f64 = 8.0 * std::f64::consts::PI / 180.0;
+pub(crate) const BENDING_REACH: f64 = 250.0;
+pub(crate) const SHEAR_REACH: f64 = 8.0 * std::f64::consts::PI / 180.0;
 /// Strain up to which a law may reach the largest load of the tensile test, a ratio.
 const LARGEST_EXTENSION: f64 = 10.0;
 /// Halvings when looking for the strain at a load: as many as a double has bits to give.

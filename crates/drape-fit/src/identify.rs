@@ -6,6 +6,7 @@ use drape_kes::{BendingPoints, Direction, Model, Reading, ShearPoints, Sheet};
 use crate::fabric_keys::standard_errors;
 use crate::from_values::bending_from_values;
 use crate::measured::{Found, Measured};
+use crate::reach::reach;
 use crate::{
     CurveFit, Error, FrictionOrder, LoopModel, Plateau, Toe, TractionModel, Weighting, assumed,
 };
@@ -159,6 +160,7 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
             fitted_by: concat!("drape-fit ", env!("CARGO_PKG_VERSION")).to_owned(),
             assumed: notes.clone(),
             standard_errors: standard_errors(&fits),
+            reach: reach(sheet),
         }),
     };
     if let Some(problem) = fabric.problems().into_iter().next() {

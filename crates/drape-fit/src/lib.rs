@@ -22,6 +22,7 @@ mod loop_model;
 mod measured;
 mod prediction;
 mod pull;
+mod reach;
 mod search;
 mod shear;
 mod shear_from_values;

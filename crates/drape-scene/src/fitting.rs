@@ -8,9 +8,37 @@ use crate::reader::Reader;
 /// frame, is metres off.
 const FAR: f64 = 0.5;
 
+/// Sizes of the figures that wear garments, from a doll's to a statue's, in m.
+const FIGURES: [f64; 2] = [0.1, 5.0];
+
 impl Reader<'_> {
+    /// A figure from a file in another unit is a hundred times too large, or as much too small.
+    fn body_sizes(&mut self, bodies: &[Moving]) {
+        for Moving { body, .. } in bodies {
+            let Shape::Mesh(mesh) = &body.shape else { continue };
+            let vertices = mesh.vertices();
+            let size = |axis: usize| {
+                let [low, high] = ends(axis, &mut vertices.iter());
+                high - low
+            };
+            let size = size(0).max(size(1)).max(size(2));
+            if !(FIGURES[0]..=FIGURES[1]).contains(&size) {
+                let [low, high] = FIGURES;
+                let message = format!(
+                    "\"{}\" measures {size:.4} m; what wears a garment measures {low} to {high} m",
+                    body.name
+                );
+                let help = "set scale to the metres that a unit of its file stands for: 0.01 for centimetres";
+                self.fail("collider.mesh", message, help);
+            }
+        }
+    }
+
     /// A garment that starts far from all bodies would be sewn beside them and fall.
     pub(crate) fn near_a_body(&mut self, garments: &[Laid], bodies: &[Moving]) {
+        if !garments.is_empty() {
+            self.body_sizes(bodies);
+        }
         let solid = bodies.iter().filter(|moving| !matches!(moving.body.shape, Shape::Plane));
         let outlines = solid.filter_map(|moving| moving.body.triangulate().ok());
         let vertices: Vec<[f64; 3]> = outlines.flat_map(|outline| outline.vertices).collect();
@@ -18,11 +46,6 @@ impl Reader<'_> {
             return;
         }
         let places = garments.iter().flat_map(|laid| laid.positions.as_chunks::<3>().0);
-        let ends = |axis: usize, points: &mut dyn Iterator<Item = &[f64; 3]>| {
-            points.fold([f64::MAX, f64::MIN], |[low, high], point| {
-                [low.min(point[axis]), high.max(point[axis])]
-            })
-        };
         let gap = |axis: usize| {
             let [low, high] = ends(axis, &mut places.clone());
             let [bottom, top] = ends(axis, &mut vertices.iter());
@@ -39,4 +62,11 @@ impl Reader<'_> {
             self.fail("garment", message, help);
         }
     }
+}
+
+/// The least and the largest of a coordinate.
+fn ends(axis: usize, points: &mut dyn Iterator<Item = &[f64; 3]>) -> [f64; 2] {
+    points.fold([f64::MAX, f64::MIN], |[low, high], point| {
+        [low.min(point[axis]), high.max(point[axis])]
+    })
 }

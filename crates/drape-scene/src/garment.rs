@@ -1,3 +1,4 @@
+use std::ops::Range;
 use std::path::Path;
 
 use drape_cloth::{ClothError, Grain, Lattice, Mesh};
@@ -30,10 +31,20 @@ impl Seam {
 
 /// A garment as its panels and how they are sewn.
 pub(crate) struct Garment {
+    /// After its pattern.
+    pub(crate) name: String,
     pub(crate) panels: Vec<Laid>,
     pub(crate) seams: Vec<Seam>,
     /// What the user should know about its pattern.
     pub(crate) notes: Vec<String>,
+}
+
+impl Garment {
+    /// Which particles of the scene are its own, if it has some.
+    pub(crate) fn particles(&self) -> Option<Range<usize>> {
+        let [first, last] = [self.panels.first()?, self.panels.last()?];
+        Some(first.panel.first..last.panel.first + last.positions.len() / 3)
+    }
 }
 
 impl Reader<'_> {
@@ -180,7 +191,10 @@ impl Reader<'_> {
             pairs: pairs.iter().map(|pair| pair.map(node)).collect(),
         });
         let notes = pattern.notes().iter().chain(&cut.notes).map(ToString::to_string).collect();
-        (panels.len() == names.len()).then(|| Garment { panels, seams: seams.collect(), notes })
+        let name = Path::new(&entry.pattern).file_stem().unwrap_or_default();
+        let name = name.to_string_lossy().into_owned();
+        let whole = panels.len() == names.len();
+        whole.then(|| Garment { name, panels, seams: seams.collect(), notes })
     }
 
     /// Where a panel begins: where the scene says, or else the pattern; shifted with the garment.

@@ -47,6 +47,8 @@ impl Simulation {
             })
             .collect();
         measures.insert("free_edges".into(), json!(edges));
+        measures.insert("openings".into(), self.opening_measures(&positions));
+        measures.insert("strain".into(), self.strain_measures());
         if let Some(pressures) = self.pressures(&positions) {
             measures.insert("pressure".into(), pressures);
         }
@@ -77,6 +79,6 @@ impl Simulation {
     }
 }
 
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(crate) fn distance<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }

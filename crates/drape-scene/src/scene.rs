@@ -1,3 +1,4 @@
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use drape_cloth::{Breen, Cloth, Lattice};
@@ -8,6 +9,7 @@ use drape_input::{Diagnostic, Diagnostics, Document};
 use crate::SceneError;
 use crate::clock::Clock;
 use crate::collider::Moving;
+use crate::cost::cost;
 use crate::course::Course;
 use crate::file::SceneFile;
 use crate::material::Material;
@@ -71,6 +73,8 @@ pub struct Scene {
     pub motion_seconds: Option<f64>,
     /// How the steps are made.
     pub scheme: Scheme,
+    /// Names of the garments, after their patterns, and which particles are theirs.
+    pub garments: Vec<(String, Range<usize>)>,
     /// How the seams are sewn, if there are some.
     pub sewing: Option<Sewing>,
     /// What the user should know about the patterns.
@@ -117,7 +121,9 @@ impl Reader<'_> {
         let garments = self.garments((&file, &folder), &materials, (count, unit));
         let (mut seams, mut notes) = (Vec::new(), Vec::new());
         let plain = laid.len();
+        let mut worn = Vec::new();
         for garment in garments {
+            worn.extend(garment.particles().map(|own| (garment.name, own)));
             laid.extend(garment.panels);
             seams.extend(garment.seams);
             notes.extend(garment.notes);
@@ -206,6 +212,9 @@ impl Reader<'_> {
         let contact = contact.map_err(|error| self.document.at("collider", error.to_string()));
         let contact = contact.map_err(Diagnostics::from)?;
         self.start_is_free(&contact, &positions);
+        if !worn.is_empty() && settle.is_some() {
+            notes.extend(cost(cloth.particles(), spacing));
+        }
         let results = file.output.folder.map(|f| folder.join(f));
         if let Err(mistakes) = Diagnostics::check(self.mistakes) {
             return Err(match tangle {
@@ -239,6 +248,7 @@ impl Reader<'_> {
             settle,
             motion_seconds,
             scheme,
+            garments: worn,
             sewing,
             notes,
             energy: file.output.energy.unwrap_or(true),

@@ -2,6 +2,7 @@ mod outcome;
 mod phases;
 mod rest;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use drape_implicit::{Error, ErrorEstimate, Motion, Report};
@@ -17,9 +18,11 @@ use crate::scene::Scene;
 use crate::scheme::{Integration, Scheme};
 use crate::settle::Settle;
 use crate::stopwatch::Stopwatch;
-use crate::summary::{Energy, Solver, Status, Summary};
+use crate::stretch::reaches;
+use crate::summary::{Energy, Phase, PhaseName, Solver, Status, Summary};
 use crate::weld::Weld;
 use crate::world::World;
+use crate::worn::{Worn, lowest};
 
 /// Acceleration that residuals are relative to, in m/s².
 const GRAVITY: f64 = 9.81;
@@ -56,8 +59,14 @@ pub struct Simulation {
     speed_max: f64,
     imbalance: f64,
     spacing: f64,
-    /// Names of the panels, and which particles are theirs.
-    pub(crate) panels: Vec<(String, Range<usize>)>,
+    pub(crate) panels: Vec<PanelSpan>,
+    pub(crate) worn: Vec<Worn>,
+    /// The lowest point of the bodies, in m, if a garment that is below it falls for ever.
+    pub(crate) ground: Option<f64>,
+    /// How far each fabric was measured, by its name and the keys of its laws.
+    pub(crate) reaches: BTreeMap<String, BTreeMap<String, f64>>,
+    phases: Vec<Phase>,
+    warnings: Vec<String>,
     frames: usize,
     status: Status,
     reason: Option<String>,
@@ -67,6 +76,15 @@ pub struct Simulation {
     /// The smallest distance of two surfaces after any step, in m.
     distance_min: f64,
     stopwatch: Stopwatch,
+}
+
+/// Which particles are a panel's.
+#[derive(Debug, Clone)]
+pub(crate) struct PanelSpan {
+    pub(crate) name: String,
+    /// Name of its fabric in the scene.
+    pub(crate) fabric: String,
+    pub(crate) particles: Range<usize>,
 }
 
 /// What one step did.
@@ -108,9 +126,16 @@ impl Simulation {
         let (scheme, scene_motion) = (scene.scheme.clone(), scene.motion_seconds);
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
-        let particles = |panel: &Panel| panel.first..panel.first + panel.lattice.coordinates.len();
-        let panels = scene.panels.iter().map(|panel| (panel.name.clone(), particles(panel)));
-        let panels = panels.collect();
+        let span = |panel: &Panel| PanelSpan {
+            name: panel.name.clone(),
+            fabric: scene.materials[panel.material].name.clone(),
+            particles: panel.first..panel.first + panel.lattice.coordinates.len(),
+        };
+        let panels = scene.panels.iter().map(span).collect();
+        let worn = scene.garments.iter().cloned();
+        let worn: Vec<Worn> = worn.map(|own| Worn::new(own, &scene.positions)).collect();
+        let ground = if worn.is_empty() { None } else { lowest(scene.contact.bodies()) };
+        let reaches = reaches(&scene.materials);
         let free_edges = scene.free_edges();
         let sewn = scene.sewing.as_ref().map_or_else(Vec::new, |sewing| sewing.pairs.clone());
         let world = World::new(scene);
@@ -121,6 +146,11 @@ impl Simulation {
         let (now, tolerance) = scheme.on_the_way(creeps);
         let integration = now.start(&world)?;
         let order = phases::order(&scheme);
+        let name = match (&sewn[..], settle) {
+            ([_, ..], _) => PhaseName::Sew,
+            ([], Some(_)) => PhaseName::Relax,
+            ([], None) => PhaseName::Simulate,
+        };
         let strides = if sewn.is_empty() { settle } else { Some(phases::strides(spacing)) };
         Ok(Self {
             motion: Motion {
@@ -149,6 +179,11 @@ impl Simulation {
             imbalance: f64::NAN,
             spacing,
             panels,
+            worn,
+            ground,
+            reaches,
+            phases: vec![Phase { name, start: 0.0, frame: 0 }],
+            warnings: Vec::new(),
             frames: 0,
             status: Status::Ok,
             reason: None,
@@ -241,7 +276,10 @@ impl Simulation {
         self.pace.follow(ticks, self.speed_max * dt);
         match self.world.stitches() {
             Some(_) => self.judge_seams()?,
-            None => self.judge_rest(ticks)?,
+            None => {
+                self.judge_rest(ticks)?;
+                self.judge_fall();
+            }
         }
         if let (true, Some(seconds)) = (self.at_rest(), self.motion_seconds) {
             self.set_in_motion(seconds)?;
@@ -342,6 +380,7 @@ impl Simulation {
         progress.frame(&self.frame())?;
         loop {
             let before = self.ticks / self.clock.ticks_per_frame;
+            let phases = self.phases.len();
             let step = match self.step() {
                 Ok(step) => step,
                 Err(error) => {
@@ -350,7 +389,8 @@ impl Simulation {
                 }
             };
             progress.step(&step, self.ticks);
-            if step.finished || self.ticks / self.clock.ticks_per_frame > before {
+            let due = self.ticks / self.clock.ticks_per_frame > before;
+            if step.finished || due || self.phases.len() > phases {
                 self.frames += 1;
                 progress.frame(&self.frame())?;
             }
@@ -362,6 +402,7 @@ impl Simulation {
             }
         }
         self.measures = self.measure();
+        self.warnings = [self.sunk(), self.extrapolated()].concat();
         Ok(self.summary())
     }
 }

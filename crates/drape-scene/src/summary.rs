@@ -14,6 +14,8 @@ pub struct Summary {
     pub scene_hash: String,
     /// Number of particles.
     pub particles: usize,
+    /// What was done one after the other.
+    pub phases: Vec<Phase>,
     /// Steps made.
     pub steps: usize,
     /// Frames of the run, the first at its start.
@@ -42,8 +44,33 @@ pub struct Summary {
     pub imbalance: f64,
     /// Hash of the final positions, velocities and memories.
     pub state_hash: String,
+    /// What the user should know about the result.
+    pub warnings: Vec<String>,
     /// What the scene asks to be measured.
     pub measures: serde_json::Map<String, serde_json::Value>,
+}
+
+/// A part of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Phase {
+    /// What is done in it.
+    pub name: PhaseName,
+    /// When it begins, in s.
+    pub start: f64,
+    /// Number of its first frame.
+    pub frame: usize,
+}
+
+/// What is done in a phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PhaseName {
+    /// Seams are drawn together, without gravity.
+    Sew,
+    /// The cloth goes to rest.
+    Relax,
+    /// It moves in time.
+    Simulate,
 }
 
 /// Why a run ended.
@@ -58,6 +85,9 @@ pub enum Status {
     /// The sides of a seam could not be drawn together.
     #[serde(rename = "seams open")]
     SeamsOpen,
+    /// A garment fell off its body.
+    #[serde(rename = "fell off")]
+    FellOff,
     /// Surfaces crossed in a step, however short.
     #[serde(rename = "certificate failed")]
     CertificateFailed,

@@ -1,6 +1,7 @@
 use serde::Serialize;
 
 use crate::Simulation;
+use crate::simulation::PanelSpan;
 
 /// Format of a folder of frames, which `drape-verify` describes.
 const FORMAT: u64 = 1;
@@ -58,7 +59,7 @@ impl Simulation {
             let [reach, separation] = skin.map_or([0.0; 2], |skin| [skin.reach, skin.separation]);
             Part { name: name.to_owned(), vertices, triangles, reach, separation }
         };
-        let panels = self.panels.iter().map(|(name, own)| {
+        let panels = self.panels.iter().map(|PanelSpan { name, particles: own, .. }| {
             let its = |triangle: &&[u32; 3]| own.contains(&(triangle[0] as usize));
             part(name, [own.len(), cloth.triangles().iter().filter(its).count()])
         });

@@ -57,6 +57,12 @@ fn an_even_strain_leaves_no_force_inside_and_has_the_energy_of_the_laws() {
         };
         inside = inside.max(size(false) / size(true));
         assert!(size(false) < 1e-12 * size(true), "{name}: {:e} of {:e}", size(false), size(true));
+        for strain in cloth.triangle_strains(&strained) {
+            let off = [strain.warp - 0.03, strain.weft - 0.02, strain.shear.sin() - sine];
+            assert!(off.iter().all(|off| off.abs() < 1e-10), "{name}: {strain:?}");
+        }
+        let areas = cloth.triangle_strains(&strained).iter().map(|strain| strain.area).sum::<f64>();
+        assert!((areas / lattice.area() - 1.0).abs() < 1e-10, "{name}: {areas} m²");
         let work = |law: &dyn Fn() -> f64| law() * lattice.area();
         let exact = work(&|| fabric.warp.traction.work(&fabric.warp.traction.virgin(), 0.03))
             + work(&|| fabric.weft.traction.work(&fabric.weft.traction.virgin(), 0.02))

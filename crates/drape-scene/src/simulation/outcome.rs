@@ -18,6 +18,7 @@ impl Simulation {
             version: env!("CARGO_PKG_VERSION").into(),
             scene_hash: self.scene_hash.clone(),
             particles: cloth.particles(),
+            phases: self.phases.clone(),
             steps: self.steps,
             frames: self.frames + 1,
             simulated_seconds: self.time(),
@@ -40,6 +41,7 @@ impl Simulation {
             speed_max: self.speed_max,
             imbalance: self.imbalance,
             state_hash: self.state_hash(),
+            warnings: self.warnings.clone(),
             measures: self.measures.clone(),
         }
     }

@@ -5,7 +5,7 @@ use super::rest::CREEP_TOLERANCE_MAX;
 use crate::pace::Pace;
 use crate::scheme::{Integration, Scheme};
 use crate::settle::Settle;
-use crate::summary::Status;
+use crate::summary::{Phase, PhaseName, Status};
 use crate::weld::{Weld, join};
 
 /// Widest gap at which the two sides of a seam become one, in m. What the pull of a stitch leaves is a tenth of it.
@@ -70,9 +70,11 @@ impl Simulation {
     fn sew(&mut self) -> Result<(), Error> {
         let mut positions = self.motion.positions.clone();
         join(&self.sewn, self.world.cloth.masses(), &mut positions);
+        self.worn.iter_mut().for_each(|worn| worn.hang(&positions));
         self.world.sewn(self.time(), &positions);
         self.world.creep(self.settle.is_some_and(|settle| !settle.inertia));
         self.weld = Some(Weld::new(&self.world, &self.sewn)?);
+        self.begin(if self.settle.is_some() { PhaseName::Relax } else { PhaseName::Simulate });
         self.go_on(positions)
     }
 
@@ -82,7 +84,22 @@ impl Simulation {
         self.world.set_in_motion(self.time());
         self.clock.end = self.time() + seconds;
         self.clock.ticks_max = self.clock.ticks_per_step;
+        self.begin(PhaseName::Simulate);
         self.go_on(self.motion.positions.clone())
+    }
+
+    /// A phase begins; the next frame is its first.
+    fn begin(&mut self, name: PhaseName) {
+        self.phases.push(Phase { name, start: self.time(), frame: self.frames + 1 });
+    }
+
+    /// Ends a run in which a garment fell off.
+    pub(super) fn judge_fall(&mut self) {
+        if self.settle.is_some()
+            && let Some(reason) = self.fallen()
+        {
+            (self.status, self.reason) = (Status::FellOff, Some(reason));
+        }
     }
 
     /// Goes on from rest as the world now moves.
@@ -106,6 +123,7 @@ impl Simulation {
 
     /// Name of the panel that a node is of.
     fn panel_of(&self, node: usize) -> &str {
-        self.panels.iter().find(|(_, own)| own.contains(&node)).map_or("", |(name, _)| name)
+        let mut panels = self.panels.iter();
+        panels.find(|panel| panel.particles.contains(&node)).map_or("", |panel| &panel.name)
     }
 }

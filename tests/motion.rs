@@ -1,0 +1,91 @@
+//! Cloth that has come to rest and is then set in motion; cloth that is stretched more than its fabric was measured.
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+const FABRIC: &str = include_str!("plain-weave.toml");
+
+/// Runs a scene in a folder; what its summary says, and the positions in its first and last frame.
+fn run(folder: &Path, scene: &str, fabric: &str) -> (Value, [Vec<[f64; 3]>; 2]) {
+    for (name, text) in [("scene.toml", scene), ("plain.toml", fabric)] {
+        std::fs::write(folder.join(name), text).expect("written");
+    }
+    let output = folder.join("out");
+    let mut command = Command::cargo_bin("drape").expect("the binary is built");
+    command.arg("run").arg(folder.join("scene.toml")).arg("-o").arg(&output).arg("--json");
+    let result = command.output().expect("it runs");
+    assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+    let files =
+        std::fs::read_dir(&output).expect("frames").map(|file| file.expect("a file").path());
+    let mut frames: Vec<_> = files
+        .filter(|path| {
+            path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("frame-"))
+        })
+        .collect();
+    frames.sort();
+    let read = |path: &Path| {
+        let text = std::fs::read_to_string(path).expect("a frame");
+        let place = |line: &str| {
+            let numbers: Vec<f64> =
+                line.strip_prefix("v ")?.split(' ').map(|x| x.parse().expect("a number")).collect();
+            numbers.try_into().ok()
+        };
+        text.lines().filter_map(place).collect()
+    };
+    let summary = serde_json::from_slice(&result.stdout).expect("a summary");
+    (summary, [&frames[0], &frames[frames.len() - 1]].map(|path| read(path)))
+}
+
+#[test]
+fn cloth_at_rest_on_a_table_turns_with_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\n\
+                 [[panel]]\nname = \"sheet\"\nfabric = \"plain\"\nrectangle = [0.2, 0.1]\n\
+                 center = [0.05, 0.0012, 0]\nturn = [-90, 0, 0]\n\
+                 [[collider.cylinder]]\nname = \"table\"\nradius = 0.3\nheight = 0.1\ncenter = [0, -0.05, 0]\n\
+                 friction = 0.5\n\
+                 [collider.cylinder.motion]\ntimes = [0, 0.2, 0.8, 1]\n\
+                 turn = [[0, 0, 0], [0, 10, 0], [0, 80, 0], [0, 90, 0]]\n\
+                 [contact]\nsurfaces = true\n[time]\nstep = 0.005\nend = 20\n[settle]\n[motion]\nseconds = 1.2\n";
+    let (summary, [start, end]) = run(folder.path(), scene, FABRIC);
+    assert_eq!((&summary["status"], &summary["settled"]), (&"ok".into(), &true.into()));
+    let phases = summary["phases"].as_array().expect("phases");
+    assert_eq!([&phases[0]["name"], &phases[1]["name"]], ["relax", "simulate"]);
+    let rest = phases[1]["start"].as_f64().expect("a time");
+    let whole = summary["simulated_seconds"].as_f64().expect("a time");
+    // The table begins to turn when the cloth rests, and not before.
+    assert!((whole - rest - 1.2).abs() < 0.006, "{rest} s of {whole} s");
+    // A quarter of a turn about y takes x to -z. The tangential pull of some m/s² is below what friction holds.
+    let off = start.iter().zip(&end).map(|([x, _, z], now)| (now[0] - z).hypot(now[2] + x));
+    let off = off.fold(0.0, f64::max);
+    assert!(off < 5e-4, "off by {} mm", 1e3 * off);
+    assert!(summary["warnings"].as_array().expect("a list").is_empty(), "{}", summary["warnings"]);
+}
+
+#[test]
+fn cloth_that_is_stretched_beyond_what_was_measured_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = "spacing = 0.01\ngravity = [0, 0, 0]\nfabric.plain.file = \"plain.toml\"\n\
+                 [[panel]]\nname = \"strip\"\nfabric = \"plain\"\nrectangle = [0.05, 0.1]\n\
+                 [[pin]]\npanel = \"strip\"\nedge = \"bottom\"\n\
+                 [[pin]]\npanel = \"strip\"\nedge = \"top\"\n\
+                 [pin.motion]\ntimes = [0, 0.5]\nshift = [[0, 0, 0], [0, 0.002, 0]]\n\
+                 [time]\nstep = 0.01\nend = 0.6\n";
+    for (reach, told) in [(0.015, true), (0.025, false)] {
+        let fabric = format!(
+            "{FABRIC}\n[provenance]\nsheet = \"plain\"\nfitted_by = \"hand\"\n\
+             reach = {{ \"warp.traction\" = {reach}, shear = 0.9 }}\n"
+        );
+        let out = folder.path().join("out");
+        if out.exists() {
+            std::fs::remove_dir_all(&out).expect("removed");
+        }
+        let (summary, _) = run(folder.path(), scene, &fabric);
+        let warnings = summary["warnings"].to_string();
+        assert_eq!(warnings.contains("stretch along the warp reaches 2."), told, "{warnings}");
+        assert_eq!(warnings.contains("measured up to 1.5 %"), told, "{warnings}");
+        assert!(!warnings.contains("shear"), "{warnings}");
+    }
+}
