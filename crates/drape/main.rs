@@ -22,6 +22,7 @@ mod progress;
 mod quantity;
 mod run;
 mod say;
+mod strain_picture;
 mod test;
 mod validate;
 mod validation_page;

@@ -1,4 +1,4 @@
-use drape::report::{Picture, Scene, Surface, View, render};
+use drape::report::{Colour, Picture, Scene, Surface, View, render};
 use drape::scene::Snapshot;
 
 use crate::failure::Failure;
@@ -23,26 +23,52 @@ pub(crate) const SIZE: [u32; 2] = [1200, 900];
 
 /// Draws a garment from the front, the side and the back.
 pub(crate) fn draw_round(snapshot: &Snapshot) -> Result<Picture, Failure> {
-    let side = |azimuth: &f64| draw(snapshot, [Some(*azimuth), Some(EYE)], UPRIGHT);
-    let pictures: Result<Vec<Picture>, Failure> = SIDES.iter().map(side).collect();
-    Ok(Picture::sheet(&pictures?, SIDES.len()))
+    draw_from(snapshot, &SIDES, None)
+}
+
+/// Draws a garment from some sides, in degrees around the vertical; in a colour per particle instead of with its yarns.
+pub(crate) fn draw_from(
+    snapshot: &Snapshot,
+    sides: &[f64],
+    tints: Option<&[Colour]>,
+) -> Result<Picture, Failure> {
+    let side = |azimuth: &f64| {
+        let cloth = Surface::cloth(&snapshot.positions, &snapshot.triangles);
+        let view = [Some(*azimuth), Some(EYE)];
+        match tints {
+            Some(tints) => draw_cloth(snapshot, cloth.with_tints(tints), (view, UPRIGHT)),
+            None => draw(snapshot, view, UPRIGHT),
+        }
+    };
+    let pictures: Result<Vec<Picture>, Failure> = sides.iter().map(side).collect();
+    Ok(Picture::sheet(&pictures?, sides.len()))
 }
 
 /// Draws a scene as it was, seen from an azimuth and an elevation in degrees, in so many pixels.
 pub(crate) fn draw(
     snapshot: &Snapshot,
-    [azimuth, elevation]: [Option<f64>; 2],
-    [width, height]: [u32; 2],
+    view: [Option<f64>; 2],
+    size: [u32; 2],
 ) -> Result<Picture, Failure> {
-    let Snapshot { positions, coordinates, triangles, bodies, spacing } = snapshot;
+    let Snapshot { positions, coordinates, triangles, .. } = snapshot;
     let coordinates: Vec<f64> = coordinates.iter().flatten().copied().collect();
+    let reach = coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
+    let cloth = Surface::cloth(positions, triangles);
+    let cloth = cloth.with_lines(&coordinates, LINE_SPACING * reach.max(0.1));
+    draw_cloth(snapshot, cloth, (view, size))
+}
+
+fn draw_cloth(
+    snapshot: &Snapshot,
+    cloth: Surface<'_>,
+    ([azimuth, elevation], [width, height]): ([Option<f64>; 2], [u32; 2]),
+) -> Result<Picture, Failure> {
+    let Snapshot { positions, bodies, spacing, .. } = snapshot;
     let bodies_too = bodies.iter().flat_map(|body| &body.positions[..]);
     let all = positions.iter().chain(bodies_too).skip(1).step_by(3);
     let lowest = all.copied().fold(f64::INFINITY, f64::min);
-    let size = coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
-    let cloth = Surface::cloth(positions, triangles);
     let scene = Scene {
-        cloths: vec![cloth.with_lines(&coordinates, LINE_SPACING * size.max(0.1))],
+        cloths: vec![cloth],
         bodies: bodies.iter().map(|body| Surface::body(&body.positions, &body.triangles)).collect(),
         floor: Some(lowest - FLOOR),
     };

@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::picture;
 use crate::progress::Screen;
 use crate::say::say;
+use crate::strain_picture::draw_strains;
 
 /// `drape run`.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -43,6 +44,9 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         };
         let stored = picture.save(output.path("picture.png"));
         stored.map_err(|error| Failure::Output(error.to_string()))?;
+        if garment {
+            crate::file::write(&output.path("strain.svg"), draw_strains(&shown)?)?;
+        }
     }
     if arguments.json {
         let json = serde_json::to_string_pretty(&summary);

@@ -1,4 +1,5 @@
 use crate::scene::{Scene, Surface};
+use crate::shade::decode;
 use crate::vector::{Vector, add, at, cross, dot, norm, scale, subtract, surround, unit};
 use std::collections::BTreeMap;
 
@@ -32,6 +33,8 @@ pub(crate) struct Corner {
     pub(crate) normal: Vector,
     /// Material coordinates, in m.
     pub(crate) coordinates: [f64; 2],
+    /// Linear light of its colour, where the surface has one per vertex.
+    pub(crate) tint: Vector,
     /// Whether it lies on a hem of the cloth.
     pub(crate) on_hem: bool,
 }
@@ -130,6 +133,7 @@ fn add_surface(facets: &mut Vec<Facet>, surface: &Surface, (part, longest): (Par
                 position: at(surface.positions, index),
                 normal: if norm(smooth) > 0.0 { unit(smooth) } else { own },
                 coordinates,
+                tint: surface.tints.map_or([0.0; 3], |tints| tints[index].map(decode)),
                 on_hem: on_hem[index],
             }
         });
@@ -164,6 +168,7 @@ fn split(facets: &mut Vec<Facet>, facet: Facet, longest: f64) {
         position: scale(add(one.position, other.position), 0.5),
         normal: unit(add(one.normal, other.normal)),
         coordinates: [0, 1].map(|i| 0.5 * (one.coordinates[i] + other.coordinates[i])),
+        tint: scale(add(one.tint, other.tint), 0.5),
         on_hem: facet.hems[k],
     };
     for (replaced, cut) in [(c, b), (b, c)] {
@@ -182,6 +187,7 @@ fn add_floor(facets: &mut Vec<Facet>, center: Vector, reach: f64, height: f64) {
             position: [center[0] + place(i), height, center[2] + place(j)],
             normal: [0.0, 1.0, 0.0],
             coordinates: [0.0; 2],
+            tint: [0.0; 3],
             on_hem: false,
         }
     };

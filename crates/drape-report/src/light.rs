@@ -159,6 +159,7 @@ mod tests {
                 position: [radius * sine, height, radius * cosine],
                 normal: [0.0, 1.0, 0.0],
                 coordinates: [0.0; 2],
+                tint: [0.0; 3],
                 on_hem: false,
             }
         };

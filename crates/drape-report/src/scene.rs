@@ -29,6 +29,8 @@ pub struct Surface<'a> {
     pub coordinates: Option<&'a [f64]>,
     /// Distance between the warp lines and between the weft lines, in m.
     pub line_spacing: f64,
+    /// A colour per vertex, instead of the two colours of the sides.
+    pub tints: Option<&'a [Colour]>,
     /// Colour of the side from which the triangles run counter-clockwise.
     pub front: Colour,
     /// Colour of the other side.
@@ -42,6 +44,7 @@ impl<'a> Surface<'a> {
             positions,
             triangles,
             coordinates: None,
+            tints: None,
             line_spacing: 0.05,
             front: FRONT,
             back: BACK,
@@ -56,6 +59,11 @@ impl<'a> Surface<'a> {
     /// The same surface with warp and weft lines a spacing in m apart.
     pub fn with_lines(self, coordinates: &'a [f64], line_spacing: f64) -> Surface<'a> {
         Surface { coordinates: Some(coordinates), line_spacing, ..self }
+    }
+
+    /// The same surface in a colour per vertex.
+    pub fn with_tints(self, tints: &'a [Colour]) -> Surface<'a> {
+        Surface { tints: Some(tints), ..self }
     }
 
     pub(crate) fn points(&self) -> impl Iterator<Item = Vector> {
@@ -83,6 +91,12 @@ impl<'a> Surface<'a> {
             check_numbers(coordinates, 2, "the material coordinates", &surface)?;
             let what = "the spacing of the warp and weft lines (m)";
             check_range(what, self.line_spacing, "above 0", self.line_spacing > 0.0)?;
+        }
+        if let Some(tints) = self.tints
+            && tints.len() != vertices
+        {
+            let expected = format!("one for each of {vertices} vertices");
+            return Err(bad_length("tints", tints.len(), expected));
         }
         for (triangle, indices) in self.triangles.iter().enumerate() {
             if let Some(&index) = indices.iter().find(|index| **index as usize >= vertices) {

@@ -130,7 +130,10 @@ impl<'a> Shader<'a> {
             Part::Body(k) => (&self.scene.bodies[k], self.tints[self.scene.cloths.len() + k]),
             Part::Floor => return [1.0; 3],
         };
-        let base = tints[usize::from(!front)];
+        let base = match surface.tints {
+            Some(_) => mix(facet.corners.map(|corner| corner.tint)),
+            None => tints[usize::from(!front)],
+        };
         let ink = self.ink(item, surface, [x, y]);
         let own = self.inks.iter().zip(ink).fold(base, |below, (ink, cover)| {
             std::array::from_fn(|k| below[k] + cover * (ink[k] - below[k]))
@@ -191,7 +194,7 @@ fn shares(item: &Projected, x: f64, y: f64) -> [f64; 3] {
 }
 
 /// Linear light of an sRGB value (IEC 61966-2-1).
-fn decode(value: u8) -> f64 {
+pub(crate) fn decode(value: u8) -> f64 {
     let value = f64::from(value) / 255.0;
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }

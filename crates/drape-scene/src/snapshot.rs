@@ -1,3 +1,4 @@
+use drape_cloth::TriangleStrain;
 use drape_collide::{Outline, Shape};
 
 use crate::Simulation;
@@ -11,6 +12,8 @@ pub struct Snapshot {
     pub coordinates: Vec<[f64; 2]>,
     /// Triangles of the cloth.
     pub triangles: Vec<[u32; 3]>,
+    /// How each of them is stretched and sheared.
+    pub strains: Vec<TriangleStrain>,
     /// The bodies but planes, which have no end.
     pub bodies: Vec<Body>,
     /// Smallest distance of particles before deformation, in m.
@@ -36,6 +39,7 @@ impl Simulation {
             positions: self.frame().positions,
             coordinates: self.coordinates().to_vec(),
             triangles: self.triangles().to_vec(),
+            strains: self.strains(),
             bodies: bodies
                 .map(|(_, outline)| Body {
                     positions: outline.vertices.concat(),

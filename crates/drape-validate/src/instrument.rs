@@ -118,6 +118,15 @@ pub fn on_the_bias_in_cells(fabric: &Fabric, spacing: f64, largest: f64, points:
     curve(Test::Bending, Direction::Warp, path, load).expect("a checked fabric has finite loads")
 }
 
+/// Moments per width, in N, of a specimen cut at 45° to the yarns along curvatures that it comes to from rest, as
+/// [`on_the_bias`].
+pub(crate) fn on_the_bias_along(fabric: &Fabric, curvatures: &[f64]) -> Vec<f64> {
+    let halves = curvatures.iter().map(|curvature| 0.5 * curvature);
+    let halves: Vec<f64> = std::iter::once(0.0).chain(halves).collect();
+    let [warp, weft] = bent(fabric, &halves);
+    warp[1..].iter().zip(&weft[1..]).map(|(warp, weft)| 0.5 * (warp + weft)).collect()
+}
+
 /// Moments per width of warp and weft along a path of curvatures.
 fn bent(fabric: &Fabric, path: &[f64]) -> [Vec<f64>; 2] {
     [fabric.warp.bending, fabric.weft.bending].map(|law| drive(&law, law.virgin(), path))

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod bias;
+mod bias_rim;
 mod breen;
 mod check;
 mod crease;

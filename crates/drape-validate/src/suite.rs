@@ -1,8 +1,8 @@
 use serde::Serialize;
 
 use crate::{
-    Check, Findings, Graph, Still, ValidationError, bias, breen, crease, decrement, drapes,
-    dynamics, loops, statics, vacuum,
+    Check, Findings, Graph, Still, ValidationError, bias, bias_rim, breen, crease, decrement,
+    drapes, dynamics, loops, statics, vacuum,
 };
 
 /// A case of the suite.
@@ -40,6 +40,12 @@ pub const CASES: &[Case] = &[
         title: "Bending specimens cut on the bias, with both yarns' loops (closed form)",
         long: false,
         run: loops::bias_bending,
+    },
+    Case {
+        name: "bias-rim",
+        title: "Bending specimens cut on the bias, with a rim of triangles (closed form)",
+        long: false,
+        run: bias_rim::bias_rim,
     },
     Case {
         name: "hysteresis",
