@@ -177,8 +177,8 @@ impl Reader<'_> {
         if !self.within(&key_of_start, start, (0.0, 1e6), help) || !sound {
             return None;
         }
-        if !file.contact.surfaces.unwrap_or(false) {
-            let help = "add contact.surfaces = true";
+        if !file.keeps_apart() {
+            let help = "it needs contact.surfaces = true, which is the default";
             let message = "only surfaces meet a body that changes its shape".to_owned();
             self.fail(&key, message, help);
             return None;
@@ -226,8 +226,8 @@ impl Reader<'_> {
                 );
                 let longest = spacing / speed;
                 let help = format!(
-                    "cloth follows a body by a spacing in a step at most: give time.step = {longest:.1e} or less, or slow \
-                     the body"
+                    "cloth follows a body by a spacing in a step at most: give time.step = {longest:.1e} or less, slow the \
+                     body, or let only particles meet it with contact.surfaces = false"
                 );
                 self.fail("time.step", message, &help);
             }

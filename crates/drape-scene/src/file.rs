@@ -330,7 +330,8 @@ pub(crate) struct ContactFile {
     pub(crate) stiffness: Option<f64>,
     /// In m/s.
     pub(crate) slip_speed: Option<f64>,
-    /// Whether surfaces are kept from passing through each other, and not particles out of bodies only.
+    /// Whether surfaces are kept from passing through each other, and not particles out of bodies only; if missing,
+    /// wherever that can be.
     pub(crate) surfaces: Option<bool>,
     /// How far surfaces that stick give way before they slide.
     pub(crate) stick: Option<f64>,

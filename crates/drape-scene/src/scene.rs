@@ -136,7 +136,7 @@ impl Reader<'_> {
         }
         let bodies = self.bodies(&file, &folder, unit);
         self.near_a_body(&laid[plain..], &bodies);
-        if file.contact.surfaces.unwrap_or(false) {
+        if file.keeps_apart() {
             self.speeds(&bodies, (clock.step, spacing));
         }
         let contact_settings = self.contact_settings(&file, unit);
@@ -183,7 +183,7 @@ impl Reader<'_> {
                 (body.with_friction(friction.unwrap_or(fallback)), course)
             })
             .unzip();
-        let surfaces = file.contact.surfaces.unwrap_or(false).then(|| {
+        let surfaces = file.keeps_apart().then(|| {
             Surfaces::new(&Parts {
                 panels: &panels,
                 materials: &materials,

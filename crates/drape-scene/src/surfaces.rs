@@ -8,6 +8,7 @@ use drape_fabric::Fabric;
 use drape_implicit::Way;
 
 use crate::course::Course;
+use crate::file::SceneFile;
 use crate::material::Material;
 use crate::panel::Panel;
 
@@ -49,6 +50,16 @@ pub(crate) struct Parts<'a> {
     pub(crate) stiffness: Option<f64>,
     /// In m.
     pub(crate) stick: f64,
+}
+
+impl SceneFile {
+    /// Whether surfaces are kept apart: if the scene does not say, wherever the solver's ways can be cut. Explicit steps
+    /// are never cut, and the particles of Breen's model repel each other at a spacing.
+    pub(crate) fn keeps_apart(&self) -> bool {
+        let is = |key: &Option<String>, word: &str| key.as_deref() == Some(word);
+        let cannot = is(&self.solver.integrator, "explicit") || is(&self.model, "breen-1994");
+        self.contact.surfaces.unwrap_or(!cannot)
+    }
 }
 
 impl Surfaces {

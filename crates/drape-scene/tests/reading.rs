@@ -66,6 +66,16 @@ fn what_is_not_said_has_its_default() {
 }
 
 #[test]
+fn surfaces_are_kept_apart_wherever_that_can_be() {
+    let kept = |more: &str| read(&format!("{more}\n{LEAST}")).unwrap().surfaces.is_some();
+    assert!(kept(""));
+    assert!(!kept("contact.surfaces = false"));
+    assert!(!kept("solver.integrator = \"explicit\""));
+    assert!(!kept("model = \"breen-1994\""));
+    assert!(kept("model = \"breen-1994\"\ncontact.surfaces = true"));
+}
+
+#[test]
 fn every_key_is_heard() {
     let text = r#"name = "all"
 length = "cm"
