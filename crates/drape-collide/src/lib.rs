@@ -48,6 +48,8 @@ pub use detector::Detector;
 pub use error::CollideError;
 pub use filter::{Filter, Fraction, Limit};
 pub use gap::{Gap, Gradient, Hessian};
+#[doc(hidden)]
+pub use guards::Guards;
 pub use mesh::Mesh;
 pub use mesh_file::MeshFile;
 pub use pair::{Kind, Pair};

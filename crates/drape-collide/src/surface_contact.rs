@@ -5,6 +5,7 @@ use crate::detector::Detector;
 use crate::error::{CollideError, check};
 use crate::filter::Filter;
 use crate::gap::{Gap, Gradient, Hessian};
+use crate::guards::Guards;
 use crate::pair::Pair;
 use crate::slip::{Anchor, Slip};
 use crate::surface::Surface;
@@ -114,6 +115,12 @@ impl SurfaceContact {
             margin,
             longest,
         })
+    }
+
+    /// What keeps the surfaces apart, for tests to take away.
+    #[doc(hidden)]
+    pub fn guards(&mut self) -> &mut Guards {
+        &mut self.filter.guards
     }
 
     /// The surface.
@@ -290,7 +297,8 @@ impl SurfaceContact {
     /// # Errors
     /// Positions that are none.
     pub fn crossings(&self, positions: &[f64]) -> Result<Vec<Crossing>, CollideError> {
-        crossings(&self.surface, &self.all(positions, self.progress))
+        let look = || crossings(&self.surface, &self.all(positions, self.progress));
+        if self.filter.guards.exact { look() } else { Ok(Vec::new()) }
     }
 
     /// How near the surfaces are to each other at the free vertices' positions.
@@ -360,8 +368,9 @@ impl SurfaceContact {
             strayed = 0.0;
         }
         let places = &self.places;
+        let barrier = self.filter.guards.barrier;
         let near = |pair: &Pair| {
-            if pair.distance - 2.0 * strayed >= pair.reach {
+            if pair.distance - 2.0 * strayed >= pair.reach || !barrier {
                 return None;
             }
             let gap = Gap::new(pair, places);

@@ -9,6 +9,8 @@ mod file;
 mod fitting;
 mod frame;
 mod garment;
+#[cfg(test)]
+mod guards_check;
 mod ledger;
 mod material;
 mod measures;
