@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use drape_cloth::Cloth;
 use drape_collide::{
-    Body, CollideError, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
+    Body, CollideError, Shape, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
 };
 use drape_fabric::Fabric;
 use drape_implicit::Way;
@@ -14,6 +14,10 @@ use crate::panel::Panel;
 
 /// Part of a fabric's thickness under pressure that its surfaces keep between them under any load.
 const CRUSHED: f64 = 0.5;
+
+/// Part of the distance that surfaces keep by which a body's vertex may stray from its straight way within a step; what
+/// turns more is given more steps.
+const BOW: f64 = 0.05;
 
 /// Largest part of its thickness that a fabric has under pressure, for its contact: one that is not compressed at all
 /// would have contact without end.
@@ -27,11 +31,22 @@ pub struct Surfaces {
     pub(crate) names: Vec<String>,
     /// Where the bodies' vertices were at the start of the simulation, in m.
     start: Vec<f64>,
-    /// Which of them move, and how.
-    moving: Vec<(Range<usize>, Course)>,
+    moving: Vec<Mover>,
+    /// How far a vertex of a body may stray from a straight way within a step, in m.
+    bow: f64,
     /// Crossings that were found, whose steps were taken back.
     pub(crate) crossings: usize,
     held: Vec<usize>,
+}
+
+/// A body that moves.
+#[derive(Debug)]
+struct Mover {
+    /// Its vertices among those of all bodies.
+    own: Range<usize>,
+    course: Course,
+    /// Whether it is a floor, whose corners are too far out for their ways to matter.
+    endless: bool,
 }
 
 /// What the surfaces of a scene are made of.
@@ -107,7 +122,8 @@ impl Surfaces {
             surface.skins.push(Skin { reach, ..thinnest });
             frictions.push(Ok(body.friction));
             if let Some(course) = course {
-                moving.push((own, course.clone()));
+                let endless = matches!(body.shape, Shape::Plane);
+                moving.push(Mover { own, course: course.clone(), endless });
             }
         }
         surface.rest.extend(&start);
@@ -128,13 +144,23 @@ impl Surfaces {
         let held = (0..parts.held.len()).filter(|&particle| parts.held[particle]).collect();
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|body| &body.name)).cloned().collect();
-        Ok(Self { contact, names, start, moving, crossings: 0, held })
+        let bow = 2.0 * BOW * thinnest.separation;
+        Ok(Self { contact, names, start, moving, bow, crossings: 0, held })
+    }
+
+    /// Whether all bodies go nearly straight between two times, in s, as they do within a step.
+    pub(crate) fn go_straight(&self, times: [f64; 2]) -> bool {
+        let places = self.start.as_chunks::<3>().0;
+        self.moving
+            .iter()
+            .filter(|mover| !mover.endless)
+            .all(|Mover { own, course, .. }| course.bow(times, &places[own.clone()]) <= self.bow)
     }
 
     /// Opens a step that ends at a time, in s.
     pub(crate) fn begin(&mut self, end_time: f64, positions: &[f64]) {
         let mut ends = self.start.clone();
-        for (own, course) in &self.moving {
+        for Mover { own, course, .. } in &self.moving {
             let own = 3 * own.start..3 * own.end;
             course.place(end_time, &self.start[own.clone()], &mut ends[own]);
         }

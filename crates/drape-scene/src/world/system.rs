@@ -16,6 +16,11 @@ impl System for World {
         &self.held
     }
 
+    fn is_straight(&self, start: f64, end: f64) -> bool {
+        let times = [start, end].map(|time| self.time_of_motion(time));
+        self.surfaces.as_ref().is_none_or(|surfaces| surfaces.go_straight(times))
+    }
+
     fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]) {
         self.hold(end_time);
         let time = self.time_of_motion(end_time);
