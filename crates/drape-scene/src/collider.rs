@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use drape_collide::{Body, Mesh, Pose, Settings, Shape};
+use drape_collide::{Body, Mesh, Pinch, Pose, Settings, Shape};
 
 use crate::course::Course;
 use crate::file::{MeshMotionFile, MotionFile, SceneFile};
@@ -66,6 +66,18 @@ impl Reader<'_> {
             self.within("contact.slip_speed", speed, (1e-9, 1.0), "in m/s; 0.001 is usual");
         }
         settings
+    }
+
+    /// What becomes of cloth that bodies close on.
+    pub(crate) fn pinch(&mut self, file: &SceneFile) -> Pinch {
+        let policies =
+            [("error", Pinch::Error), ("thin", Pinch::Thin), ("release", Pinch::Release)];
+        let word = file.contact.pinch.as_deref();
+        if word.is_some() && !file.keeps_apart() {
+            let message = "nothing is kept apart here".to_owned();
+            self.fail("contact.pinch", message, "it needs contact.surfaces = true");
+        }
+        self.choice("contact.pinch", word, &policies)
     }
 
     /// The bodies, with the friction and the way of each where the file gives them.

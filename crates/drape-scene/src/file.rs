@@ -335,6 +335,8 @@ pub(crate) struct ContactFile {
     pub(crate) surfaces: Option<bool>,
     /// How far surfaces that stick give way before they slide.
     pub(crate) stick: Option<f64>,
+    /// `error`, `thin` or `release`: what becomes of cloth that bodies close on.
+    pub(crate) pinch: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]

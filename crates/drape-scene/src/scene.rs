@@ -142,6 +142,7 @@ impl Reader<'_> {
         let contact_settings = self.contact_settings(&file, unit);
         let stick = file.contact.stick.map_or(SurfaceSettings::STICK, |stick| stick * unit);
         self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
+        let pinch = self.pinch(&file);
         // What follows needs sound panels.
         Diagnostics::check(std::mem::take(&mut self.mistakes))?;
 
@@ -195,6 +196,7 @@ impl Reader<'_> {
                 offset: contact_settings.offset,
                 stiffness: file.contact.stiffness,
                 stick,
+                pinch,
             })
         });
         let surfaces = surfaces.transpose();

@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use drape_cloth::Cloth;
 use drape_collide::{
-    Body, CollideError, Shape, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
+    Body, CollideError, Pinch, Shape, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
 };
 use drape_fabric::Fabric;
 use drape_implicit::Way;
@@ -65,6 +65,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) stiffness: Option<f64>,
     /// In m.
     pub(crate) stick: f64,
+    /// What becomes of cloth that bodies close on.
+    pub(crate) pinch: Pinch,
 }
 
 impl SceneFile {
@@ -139,6 +141,7 @@ impl Surfaces {
             }),
             stick: parts.stick,
             friction: friction.collect(),
+            pinch: parts.pinch,
         };
         let contact = SurfaceContact::new(Surface::new(surface)?, settings, start.clone())?;
         let held = (0..parts.held.len()).filter(|&particle| parts.held[particle]).collect();

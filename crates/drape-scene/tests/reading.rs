@@ -227,6 +227,8 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
         ("", "[solver]\nintegrator = \"leapfrog\"", "leapfrog", 10),
         ("", "[solver]\ntolerance = 2", "2", 10),
         ("", "[contact]\nslip_speed = 9", "9", 10),
+        ("", "[contact]\npinch = \"squash\"", "squash", 10),
+        ("", "[contact]\nsurfaces = false\npinch = \"thin\"", "kept apart", 11),
         ("", "[output]\nevery = 0", "0", 10),
         ("", "[[pin]]\npanel = \"towl\"\nedge = \"top\"", "towl", 10),
         ("", "[[pin]]\npanel = \"towel\"\npoints = [[1, 1]]", "[1.0, 1.0]", 11),
