@@ -1,6 +1,7 @@
 use std::f64::consts::PI;
 
 use crate::surface::Surface;
+use crate::surface_contact::SurfaceContact;
 use crate::vector::{Vector, at, cross, dot, norm, subtract};
 
 impl Surface {
@@ -12,6 +13,18 @@ impl Surface {
         let from = |vertex: u32| subtract(at(places, vertex as usize), place);
         let angle: f64 = own.map(|corners| solid_angle(corners.map(from))).sum();
         angle > PI
+    }
+}
+
+impl SurfaceContact {
+    /// Whether a free vertex is in a body, for the free vertices' positions, in m.
+    #[must_use]
+    pub fn is_inside(&self, vertex: usize, positions: &[f64]) -> bool {
+        let places = self.all(positions, self.progress);
+        let bodies = self.surface.free()..self.surface.vertices();
+        let mut groups: Vec<u32> = bodies.map(|v| self.surface.group(v as u32)).collect();
+        groups.dedup();
+        groups.iter().any(|&group| self.surface.encloses(group, at(&places, vertex), &places))
     }
 }
 

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use drape_collide::{Body, Mesh, Pinch, Pose, Settings, Shape};
+use drape_collide::{Body, Mesh, Pose, Shape};
 
 use crate::course::Course;
 use crate::file::{MeshMotionFile, MotionFile, SceneFile};
@@ -48,36 +48,6 @@ impl Reader<'_> {
                         metres; bodies are 2 mm to 100 m long";
             self.fail(&format!("collider.mesh[{index}].scale"), message, help);
         }
-    }
-
-    pub(crate) fn contact_settings(&mut self, file: &SceneFile, unit: f64) -> Settings {
-        let mut settings = Settings::default();
-        if let Some(offset) = file.contact.offset {
-            settings.offset = offset * unit;
-            let help = "the distance at which contact begins; 1 mm is usual";
-            self.within("contact.offset", settings.offset, (1e-5, 0.1), help);
-        }
-        if let Some(stiffness) = file.contact.stiffness {
-            settings.stiffness = stiffness;
-            self.within("contact.stiffness", stiffness, (1.0, 1e12), "in N/m³");
-        }
-        if let Some(speed) = file.contact.slip_speed {
-            settings.slip_speed = speed;
-            self.within("contact.slip_speed", speed, (1e-9, 1.0), "in m/s; 0.001 is usual");
-        }
-        settings
-    }
-
-    /// What becomes of cloth that bodies close on.
-    pub(crate) fn pinch(&mut self, file: &SceneFile) -> Pinch {
-        let policies =
-            [("error", Pinch::Error), ("thin", Pinch::Thin), ("release", Pinch::Release)];
-        let word = file.contact.pinch.as_deref();
-        if word.is_some() && !file.keeps_apart() {
-            let message = "nothing is kept apart here".to_owned();
-            self.fail("contact.pinch", message, "it needs contact.surfaces = true");
-        }
-        self.choice("contact.pinch", word, &policies)
     }
 
     /// The bodies, with the friction and the way of each where the file gives them.

@@ -7,6 +7,8 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use crate::contact::ContactFile;
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneFile {
@@ -319,24 +321,6 @@ impl<'de> Deserialize<'de> for MeshMotionFile {
         }
         deserializer.deserialize_any(Either)
     }
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ContactFile {
-    /// Distance at which contact begins.
-    pub(crate) offset: Option<f64>,
-    /// In N/m³.
-    pub(crate) stiffness: Option<f64>,
-    /// In m/s.
-    pub(crate) slip_speed: Option<f64>,
-    /// Whether surfaces are kept from passing through each other, and not particles out of bodies only; if missing,
-    /// wherever that can be.
-    pub(crate) surfaces: Option<bool>,
-    /// How far surfaces that stick give way before they slide.
-    pub(crate) stick: Option<f64>,
-    /// `error`, `thin` or `release`: what becomes of cloth that bodies close on.
-    pub(crate) pinch: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -3,6 +3,7 @@
 mod bonds;
 mod clock;
 mod collider;
+mod contact;
 mod course;
 mod error;
 mod file;
@@ -11,6 +12,7 @@ mod frame;
 mod garment;
 #[cfg(test)]
 mod guards_check;
+mod inflation;
 mod ledger;
 mod material;
 mod measures;

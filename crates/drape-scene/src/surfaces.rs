@@ -8,7 +8,7 @@ use drape_fabric::Fabric;
 use drape_implicit::Way;
 
 use crate::course::Course;
-use crate::file::SceneFile;
+use crate::inflation::Inflation;
 use crate::material::Material;
 use crate::panel::Panel;
 
@@ -29,8 +29,10 @@ pub struct Surfaces {
     pub(crate) contact: SurfaceContact,
     /// Names of the panels and, behind them, of the bodies: of the groups of the surface.
     pub(crate) names: Vec<String>,
-    /// Where the bodies' vertices were at the start of the simulation, in m.
+    /// Where the bodies' vertices belong at the start of the simulation, in m.
     start: Vec<f64>,
+    /// How bodies grow, and how far inside of there each vertex then starts, in m.
+    inflation: Option<(Inflation, Vec<f64>)>,
     moving: Vec<Mover>,
     /// How far a vertex of a body may stray from a straight way within a step, in m.
     bow: f64,
@@ -67,16 +69,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) stick: f64,
     /// What becomes of cloth that bodies close on.
     pub(crate) pinch: Pinch,
-}
-
-impl SceneFile {
-    /// Whether surfaces are kept apart: if the scene does not say, wherever the solver's ways can be cut. Explicit steps
-    /// are never cut, and the particles of Breen's model repel each other at a spacing.
-    pub(crate) fn keeps_apart(&self) -> bool {
-        let is = |key: &Option<String>, word: &str| key.as_deref() == Some(word);
-        let cannot = is(&self.solver.integrator, "explicit") || is(&self.model, "breen-1994");
-        self.contact.surfaces.unwrap_or(!cannot)
-    }
+    /// How bodies grow at the start.
+    pub(crate) inflation: Option<Inflation>,
 }
 
 impl Surfaces {
@@ -107,7 +101,7 @@ impl Surfaces {
             surface.skins.push(skin(fabric(panel)));
             frictions.push(Err(materials[panel.material].fabric.surface_friction));
         }
-        let mut start = Vec::new();
+        let (mut start, mut inward) = (Vec::new(), Vec::new());
         let mut moving = Vec::new();
         for (body, course) in bodies.iter().zip(*courses) {
             let outline = body.triangulate()?;
@@ -115,6 +109,11 @@ impl Surfaces {
             let count = outline.vertices.len();
             let own = start.len() / 3..start.len() / 3 + count;
             start.extend(outline.vertices.iter().flatten());
+            // What goes from frame to frame has its size from there.
+            let grows = !matches!(course, Some(Course::Shapes(_)));
+            let depth =
+                parts.inflation.map_or(0.0, |inflation| if grows { inflation.depth } else { 0.0 });
+            inward.extend(outline.normals().iter().flatten().map(|n| -depth * n));
             let corners = |t: &[u32; 3]| t.map(|corner| corner + first as u32);
             surface.triangles.extend(outline.triangles.iter().map(corners));
             surface.areas.extend(std::iter::repeat_n(0.0, count));
@@ -143,12 +142,14 @@ impl Surfaces {
             friction: friction.collect(),
             pinch: parts.pinch,
         };
-        let contact = SurfaceContact::new(Surface::new(surface)?, settings, start.clone())?;
+        let inflation = parts.inflation.map(|inflation| (inflation, inward));
+        let bodies_at_start = shrunk(&start, &inflation, 0.0);
+        let contact = SurfaceContact::new(Surface::new(surface)?, settings, bodies_at_start)?;
         let held = (0..parts.held.len()).filter(|&particle| parts.held[particle]).collect();
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|body| &body.name)).cloned().collect();
         let bow = 2.0 * BOW * thinnest.separation;
-        Ok(Self { contact, names, start, moving, bow, crossings: 0, held })
+        Ok(Self { contact, names, start, inflation, moving, bow, crossings: 0, held })
     }
 
     /// Whether all bodies go nearly straight between two times, in s, as they do within a step.
@@ -160,12 +161,18 @@ impl Surfaces {
             .all(|Mover { own, course, .. }| course.bow(times, &places[own.clone()]) <= self.bow)
     }
 
-    /// Opens a step that ends at a time, in s.
-    pub(crate) fn begin(&mut self, end_time: f64, positions: &[f64]) {
-        let mut ends = self.start.clone();
+    /// When all bodies have their size, in s.
+    pub(crate) fn grown_at(&self) -> f64 {
+        self.inflation.as_ref().map_or(0.0, |(inflation, _)| inflation.seconds)
+    }
+
+    /// Opens a step that ends at a time since the start, and at one on the clock of what moves, in s.
+    pub(crate) fn begin(&mut self, [since, end_time]: [f64; 2], positions: &[f64]) {
+        let start = shrunk(&self.start, &self.inflation, since);
+        let mut ends = start.clone();
         for Mover { own, course, .. } in &self.moving {
             let own = 3 * own.start..3 * own.end;
-            course.place(end_time, &self.start[own.clone()], &mut ends[own]);
+            course.place(end_time, &start[own.clone()], &mut ends[own]);
         }
         self.contact.begin(positions, &ends);
     }
@@ -184,6 +191,17 @@ impl Surfaces {
             }
             Err(_) => false,
         }
+    }
+}
+
+/// Where the vertices of bodies that have not moved are at a time since the start, in s.
+fn shrunk(start: &[f64], inflation: &Option<(Inflation, Vec<f64>)>, time: f64) -> Vec<f64> {
+    match inflation {
+        Some((inflation, inward)) if inflation.left(time) > 0.0 => {
+            let left = inflation.left(time);
+            start.iter().zip(inward).map(|(place, way)| place + left * way).collect()
+        }
+        _ => start.to_vec(),
     }
 }
 

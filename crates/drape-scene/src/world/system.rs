@@ -34,7 +34,7 @@ impl System for World {
             self.gravity = [0.0; 3];
         }
         if let Some(surfaces) = &mut self.surfaces {
-            surfaces.begin(time, start);
+            surfaces.begin([end_time, time], start);
             if let Some(ledger) = &mut self.ledger {
                 (ledger.slip, ledger.push) = (0.0, 0.0);
                 ledger.barrier = surfaces.contact.potential(start);

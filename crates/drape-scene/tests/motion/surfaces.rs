@@ -168,3 +168,34 @@ fn a_ball_that_turns_takes_more_and_shorter_steps() {
     assert!(turned.steps == 20 && turned.solver.sub_steps >= 4 * 20, "{:?}", turned.solver);
     assert!(turned.contact.min_distance.unwrap() >= 0.35 * 0.4e-3);
 }
+
+#[test]
+fn a_body_that_grows_takes_the_cloth_that_starts_in_it_along() {
+    // The top of the ball is 6 mm above the sheet.
+    let scene = |inflate: &str| {
+        let scene = format!(
+            "[[collider.sphere]]\nradius = 0.05\ncenter = [0, -0.044, 0]\nfriction = 0.3\n\
+             [contact]\n{inflate}\n[time]\nstep = 0.005\nend = 0.4\n"
+        );
+        Sheet { side: 0.2, particles: 15, scene, panel: FLAT.into(), ..Sheet::default() }
+    };
+    let message = scene("").try_scene().unwrap_err().to_string();
+    assert!(message.contains("surfaces cross") && message.contains("contact.inflate"), "{message}");
+    let message = scene("inflate.depth = 0.004").try_scene().unwrap_err().to_string();
+    assert!(message.contains("surfaces cross"), "{message}");
+    let simulation = run(&scene("inflate = { depth = 0.01, seconds = 0.3 }"));
+    sound(&simulation.summary());
+    // The ball has its size, and the sheet lies on it.
+    let frame = simulation.frame();
+    let highest = |x: &[f64]| x.chunks_exact(3).map(|x| x[1]).fold(f64::MIN, f64::max);
+    assert!((highest(&frame.bodies) - 0.006).abs() < 1e-12, "{}", highest(&frame.bodies));
+    assert!((0.006..0.008).contains(&highest(&frame.positions)), "{}", highest(&frame.positions));
+    let energy = simulation.energy().unwrap();
+    assert!(energy.work_in > 0.0 && energy.remainder.abs() < 1e-9 * energy.work_in, "{energy:?}");
+    // What is wholly inside would stay there.
+    let mut small = scene("inflate = { depth = 0.01, seconds = 0.3 }");
+    small.side = 0.02;
+    small.panel = format!("{FLAT}center = [0, -0.03, 0]\n");
+    let message = small.try_scene().unwrap_err().to_string();
+    assert!(message.contains("all of \"sheet\" starts inside a body"), "{message}");
+}
