@@ -69,6 +69,7 @@ fn sheet(side: usize, step: f64, settings: &Settings) -> Simulation {
         fabric.main.file = "fabric.toml"
         time = {{ step = {step}, end = 1.0 }}
         output.every = 0.5
+        contact.surfaces = false
         [[panel]]
         name = "cloth"
         fabric = "main"

@@ -105,6 +105,69 @@ fn cloth_between_balls_and_on_needles_is_kept_apart() {
     keeps_apart("pinch", 1, (1.0, 2));
 }
 
+/// How `pinch.toml` goes where the balls come nearer by so much, in m, with what the scene says of that: the exit code,
+/// the summary, and whether its frames hold.
+fn pinched(policy: &str, shift: &str, threads: usize) -> (Option<i32>, Value, bool) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = jittered("pinch", 1, folder.path());
+    let text = std::fs::read_to_string(&path).expect("a scene").replace("0.0197", shift);
+    assert!(text.contains(shift), "{text}");
+    let mut scene: toml::Table = toml::from_str(&text).expect("TOML");
+    scene.insert("contact".into(), toml::toml! { pinch = policy }.into());
+    std::fs::write(&path, toml::to_string(&scene).expect("a table")).expect("it can be written");
+    let output = folder.path().join("out");
+    let mut command = drape();
+    command.arg("run").arg(&path).arg("-o").arg(&output).arg("--json");
+    let result = command.args(["--threads", &threads.to_string()]).output().expect("it runs");
+    let summary = serde_json::from_slice(&result.stdout).expect("a summary");
+    let checked = drape().arg("check").arg(&output).output().expect("it runs");
+    (result.status.code(), summary, checked.status.success())
+}
+
+#[test]
+fn cloth_that_bodies_close_on_ends_the_run_or_is_thinned_or_released() {
+    // The balls leave 0.2 mm and what their triangles lack to the full round; cloth keeps 0.17 mm from each.
+    let (code, summary, holds) = pinched("error", "0.0199", 2);
+    assert_eq!((code, holds), (Some(5), true), "{summary}");
+    assert_eq!(summary["status"], "solver failed");
+    let counts = |summary: &Value| {
+        let count = |key: &str| summary["contact"][key].as_u64().expect("a count");
+        ["thinned_max", "released_max", "intersections", "crossings_found"].map(count)
+    };
+    assert_eq!(counts(&summary), [0; 4]);
+
+    let ends = [1, 2].map(|threads| pinched("thin", "0.0199", threads));
+    let [(code, summary, holds), (_, other, _)] = &ends;
+    assert_eq!((*code, *holds), (Some(0), true), "{summary}");
+    let [thinned, rest @ ..] = counts(summary);
+    assert!((1..50).contains(&thinned) && rest == [0; 3], "{summary}");
+    let nearest = summary["contact"]["min_distance"].as_f64().expect("a distance");
+    assert!(
+        nearest > 1.7e-5 && nearest < 1.7e-4,
+        "{nearest} m, less than elsewhere and more than a tenth"
+    );
+    assert_eq!(summary["state_hash"], other["state_hash"]);
+
+    // Through each other the balls leave no room at all.
+    assert_eq!(pinched("thin", "0.0203", 2).0, Some(5));
+    let ends = [1, 2].map(|threads| pinched("release", "0.0203", threads));
+    let [(code, summary, holds), (_, other, _)] = &ends;
+    // Some frames have cloth in a ball, and say so; at the end it has slid out, and is kept apart again.
+    assert_eq!((*code, *holds), (Some(0), false), "{summary}");
+    let [thinned, released, rest @ ..] = counts(summary);
+    assert!(thinned == 0 && (1..50).contains(&released) && rest == [0; 2], "{summary}");
+    assert_eq!(summary["state_hash"], other["state_hash"]);
+}
+
+/// Three minutes of a processor.
+#[test]
+#[ignore = "takes minutes"]
+fn twenty_and_fifty_sheets_are_kept_apart() {
+    for name in ["stack-20", "stack-50"] {
+        keeps_apart(name, 1, (0.1, 2));
+    }
+}
+
 /// A test for each scene, with how long it is looked at in s; all together they take half an hour of two cores.
 macro_rules! scenes {
     ($($test:ident $name:literal $until:literal)*) => {

@@ -159,7 +159,7 @@ fn the_smallest_step_through_is_seen() {
 #[test]
 fn files_that_are_not_as_they_were_written_are_named() {
     type Change = fn(String) -> String;
-    let cases: [(&str, Change, &[&str]); 12] = [
+    let cases: [(&str, Change, &[&str]); 13] = [
         ("frame-00001.obj", |t| t[..t.len() - 1].into(), &["frame-00001.obj", "cut off"]),
         ("frame-00001.obj", |t| t[..t.len() / 2].into(), &["frame-00001.obj", "line"]),
         ("frame-00001.obj", |t| moved(&t, 7, [f64::NAN, 0.0, 0.0]), &["line 10", "NaN"]),
@@ -175,6 +175,11 @@ fn files_that_are_not_as_they_were_written_are_named() {
             "surfaces.json",
             |t| t.replace("242", "-1").replace("121", "-1"),
             &["surfaces.json, line"],
+        ),
+        (
+            "surfaces.json",
+            |t| t.replacen("\"format\"", "\"thinned\": 2, \"format\"", 1),
+            &["2 is no part of a distance"],
         ),
     ];
     let folder = results();

@@ -112,7 +112,8 @@ fn run(
 ) -> Result<Summary, Failure> {
     let spacing = 1.0 / (size as f64 - 1.0);
     let text = format!(
-        "name = \"bench\"\nspacing = {spacing}\nair.density = 0.0\nfabric.bench.file = \"bench.toml\"\n\
+        "name = \"bench\"\nspacing = {spacing}\nair.density = 0.0\n\
+         contact.surfaces = false\nfabric.bench.file = \"bench.toml\"\n\
          [[panel]]\nname = \"sheet\"\nfabric = \"bench\"\nrectangle = [1.0, 1.0]\n{start}\n\
          [[pin]]\npanel = \"sheet\"\npoints = [[0, 1], [1, 1]]\n\
          [time]\nstep = {step:?}\nend = {until:?}\n[output]\nevery = {until:?}\nenergy = false\n"

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use drape::scene::{
-    Energy, Scene, SceneError, Simulation, Snapshot, Status, Summary, prepare_folder,
+    Contacts, Energy, Scene, SceneError, Simulation, Snapshot, Status, Summary, prepare_folder,
 };
 
 use crate::command::RunArguments;
@@ -142,7 +142,7 @@ fn describe(summary: &Summary) -> String {
         "{} particles, {} steps, {:.3} s simulated in {:.1} s{cpu}\n\
          {rest}, fastest particle {:.2} mm/s\n\
          strain: largest {:.2} %, 99 of 100 below {:.2} %; shear up to {:.1}°; 99 of 100 curvatures below {:.0} 1/m\n\
-         contact: nearest {nearest}, {} inside or through{}",
+         contact: nearest {nearest}, {} inside or through{}{}",
         summary.particles,
         summary.steps,
         summary.simulated_seconds,
@@ -153,8 +153,26 @@ fn describe(summary: &Summary) -> String {
         strain.shear_max.to_degrees(),
         strain.curvature_p99,
         contact.intersections,
+        pinched(contact),
         energy.as_ref().map_or(String::new(), balance),
     )
+}
+
+/// What was not kept as far from bodies as the rest, for people.
+fn pinched(contact: &Contacts) -> String {
+    let thinned = match contact.thinned_max {
+        0 => String::new(),
+        count => format!(
+            "; up to {count} particles were pinched, and kept a tenth of their distance from bodies"
+        ),
+    };
+    match contact.released_max {
+        0 => thinned,
+        count => format!(
+            "{thinned}; up to {count} particles were pinched, and let a body through: that cloth and bodies do not \
+             intersect is not promised there"
+        ),
+    }
 }
 
 fn balance(energy: &Energy) -> String {

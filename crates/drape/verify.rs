@@ -60,9 +60,7 @@ fn headline(folder: &Path, recording: &Recording) -> String {
     let manifest = recording.manifest();
     let promise = match manifest.guarded {
         true => "surfaces were kept apart",
-        false => {
-            "only particles met bodies, so surfaces may meet (contact.surfaces = true keeps them apart)"
-        }
+        false => "only particles met bodies, so surfaces may meet (contact.surfaces = false)",
     };
     let end = if recording.ended() { "" } else { "; the run has not ended" };
     format!(

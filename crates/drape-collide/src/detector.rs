@@ -120,6 +120,11 @@ impl Detector {
         self.pairs.follow(positions);
     }
 
+    /// Drops the pairs, for their distances are no longer those to keep.
+    pub(crate) fn forget(&mut self) {
+        self.pairs = Pairs::default();
+    }
+
     /// Leaves what the query asks for in the chunks.
     fn scan(&mut self, query: &Query<'_>) -> Result<(), CollideError> {
         let surface = query.surface;
@@ -258,6 +263,7 @@ impl Query<'_> {
                 }
             }
         }
+        skin.separation *= surface.share(&vertices)?;
         let [a, b] = features.map(|feature| feature as usize);
         let (area, parallel) = match kind {
             Kind::VertexFace => (surface.vertex_face_area(a, b), 0.0),

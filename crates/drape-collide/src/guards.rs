@@ -1,15 +1,24 @@
-/// Parts of the filter's proof that its tests take away, to see that each is needed.
+/// What keeps surfaces apart, part by part. Tests take parts away, to see that each is needed; nothing else does.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Guards {
+pub struct Guards {
     /// Vertices of a pair with too little room do not approach.
-    pub(crate) freeze: bool,
+    pub freeze: bool,
     /// No vertex goes farther than the pairs that were detected allow.
-    pub(crate) budget: bool,
+    pub budget: bool,
+    /// Pairs are detected along a way that those at hand do not cover.
+    pub cover: bool,
+    /// Ways are shortened.
+    pub filter: bool,
+    /// Crossings are looked for.
+    pub exact: bool,
+    /// Surfaces push each other.
+    pub barrier: bool,
 }
 
 impl Default for Guards {
     fn default() -> Guards {
-        Guards { freeze: true, budget: true }
+        Guards { freeze: true, budget: true, cover: true, filter: true, exact: true, barrier: true }
     }
 }
 

@@ -1,6 +1,7 @@
 use crate::detector::{Close, close_at_rest};
 use crate::error::{CollideError, check, check_places};
 use crate::order::{Entry, Order, Run};
+use crate::pinch::Grip;
 use crate::topology::{self, Topology};
 use crate::vector::{at, dot, subtract};
 
@@ -64,6 +65,8 @@ pub struct Surface {
     pub(crate) vertex_runs: Vec<Run>,
     pub(crate) edge_runs: Vec<Run>,
     pub(crate) close: Vec<Close>,
+    /// How each free vertex meets bodies; empty if all do as usual.
+    pub(crate) grips: Vec<Grip>,
 }
 
 impl Surface {
@@ -124,6 +127,7 @@ impl Surface {
             skins,
             free,
             close: Vec::new(),
+            grips: Vec::new(),
         };
         surface.close = close_at_rest(&surface, &rest)?;
         Ok(surface)

@@ -1,11 +1,12 @@
 use rayon::prelude::*;
 
-use crate::crossing::{Crossing, crossings};
 use crate::detector::Detector;
 use crate::error::{CollideError, check};
 use crate::filter::Filter;
 use crate::gap::{Gap, Gradient, Hessian};
+use crate::guards::Guards;
 use crate::pair::Pair;
+use crate::pinch::Grip;
 use crate::slip::{Anchor, Slip};
 use crate::surface::Surface;
 use crate::surface_settings::SurfaceSettings;
@@ -23,16 +24,18 @@ const CHUNK: usize = 256;
 #[derive(Debug)]
 pub struct SurfaceContact {
     pub(crate) surface: Surface,
-    settings: SurfaceSettings,
+    pub(crate) settings: SurfaceSettings,
     pub(crate) detector: Detector,
     pub(crate) filter: Filter,
     /// Where the bodies' vertices are at the start and at the end of the step, in m.
     pub(crate) bodies: [Vec<f64>; 2],
-    progress: f64,
+    pub(crate) progress: f64,
     /// Places of all vertices at which `touching` holds, in m.
-    places: Vec<f64>,
+    pub(crate) places: Vec<f64>,
     /// The pairs within their reach.
-    touching: Vec<Touching>,
+    pub(crate) touching: Vec<Touching>,
+    /// How the free vertices met bodies when the last step was closed; empty if all did as usual.
+    pub(crate) grips: Vec<Grip>,
     slips: Vec<Slip>,
     anchors: Vec<Anchor>,
     /// What kept the last detection from being made.
@@ -47,27 +50,18 @@ pub struct SurfaceContact {
 
 /// A pair within its reach.
 #[derive(Debug, Clone)]
-struct Touching {
-    pair: Pair,
-    gap: Gap,
+pub(crate) struct Touching {
+    pub(crate) pair: Pair,
+    pub(crate) gap: Gap,
 }
 
-/// What a [`SurfaceContact`] remembers between two steps: the stretches of friction, and where the bodies are.
+/// What a [`SurfaceContact`] remembers between two steps: the stretches of friction, where the bodies are, and which
+/// cloth they pinch.
 #[derive(Debug, Clone)]
 pub struct SurfaceMemory {
     anchors: Vec<Anchor>,
     bodies: Vec<f64>,
-}
-
-/// How the surfaces lie to each other.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearness {
-    /// Pairs within their reach.
-    pub touching: usize,
-    /// Smallest distance of a pair; infinite if none is near, in m.
-    pub min_distance: f64,
-    /// Smallest distance over the separation that its pair keeps.
-    pub min_ratio: f64,
+    grips: Vec<Grip>,
 }
 
 impl SurfaceContact {
@@ -107,6 +101,7 @@ impl SurfaceContact {
             progress: 1.0,
             places: Vec::new(),
             touching: Vec::new(),
+            grips: Vec::new(),
             slips: Vec::new(),
             anchors: Vec::new(),
             failure: None,
@@ -114,6 +109,12 @@ impl SurfaceContact {
             margin,
             longest,
         })
+    }
+
+    /// What keeps the surfaces apart, for tests to take away.
+    #[doc(hidden)]
+    pub fn guards(&mut self) -> &mut Guards {
+        &mut self.filter.guards
     }
 
     /// The surface.
@@ -139,6 +140,7 @@ impl SurfaceContact {
         self.bodies[1].copy_from_slice(bodies);
         self.progress = 0.0;
         self.slips.clear();
+        self.grip(start);
         self.look(start);
         let groups = self.surface.skins().len();
         let mut slips = std::mem::take(&mut self.slips);
@@ -168,17 +170,23 @@ impl SurfaceContact {
         self.anchors.extend(self.slips.iter().map(|slip| slip.kept(&self.places, stick)));
         let [start, end] = &mut self.bodies;
         start.copy_from_slice(end);
+        self.grips.clone_from(&self.surface.grips);
     }
 
     /// What the contact remembers between two steps.
     pub fn memory(&self) -> SurfaceMemory {
-        SurfaceMemory { anchors: self.anchors.clone(), bodies: self.bodies[0].clone() }
+        SurfaceMemory {
+            anchors: self.anchors.clone(),
+            bodies: self.bodies[0].clone(),
+            grips: self.grips.clone(),
+        }
     }
 
     /// Goes back to what it remembered, as if the steps since had not been closed.
     pub fn restore(&mut self, memory: SurfaceMemory) {
-        let SurfaceMemory { anchors, bodies } = memory;
-        self.anchors = anchors;
+        let SurfaceMemory { anchors, bodies, grips } = memory;
+        (self.anchors, self.grips) = (anchors, grips.clone());
+        self.hold(grips);
         self.bodies = [bodies.clone(), bodies];
         self.progress = 1.0;
     }
@@ -284,51 +292,6 @@ impl SurfaceContact {
         }
     }
 
-    /// Every crossing of the surface with itself and the bodies at the free vertices' positions in the open step;
-    /// exact.
-    ///
-    /// # Errors
-    /// Positions that are none.
-    pub fn crossings(&self, positions: &[f64]) -> Result<Vec<Crossing>, CollideError> {
-        crossings(&self.surface, &self.all(positions, self.progress))
-    }
-
-    /// How near the surfaces are to each other at the free vertices' positions.
-    ///
-    /// # Errors
-    /// Positions that are none, or too many pairs.
-    pub fn survey(&mut self, positions: &[f64]) -> Result<Nearness, CollideError> {
-        self.look(positions);
-        self.failure.clone().map_or_else(|| Ok(self.nearness()), Err)
-    }
-
-    /// How near the surfaces are to each other at the places looked at last.
-    pub fn nearness(&self) -> Nearness {
-        let mut nearness = Nearness {
-            touching: self.touching.len(),
-            min_distance: f64::INFINITY,
-            min_ratio: f64::INFINITY,
-        };
-        for Touching { pair, gap } in &self.touching {
-            nearness.min_distance = nearness.min_distance.min(gap.distance());
-            nearness.min_ratio = nearness.min_ratio.min(gap.distance() / pair.separation);
-        }
-        nearness
-    }
-
-    /// The pair that is nearest to what it keeps at the places looked at last, with its distance, in m.
-    pub fn tightest(&self) -> Option<(&Pair, f64)> {
-        let ratio = |touching: &&Touching| touching.gap.distance() / touching.pair.separation;
-        let least = self.touching.iter().min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
-        least.map(|touching| (&touching.pair, touching.gap.distance()))
-    }
-
-    /// The pairs that are nearer than they keep at the places looked at last, each with its distance, in m.
-    pub fn too_near(&self) -> impl Iterator<Item = (&Pair, f64)> {
-        let near = self.touching.iter().map(|touching| (&touching.pair, touching.gap.distance()));
-        near.filter(|(pair, distance)| !(*distance >= pair.separation))
-    }
-
     /// Places of all vertices for the free ones' positions, with the bodies at a part of their way.
     pub(crate) fn all(&self, positions: &[f64], progress: f64) -> Vec<f64> {
         let [start, end] = &self.bodies;
@@ -360,8 +323,9 @@ impl SurfaceContact {
             strayed = 0.0;
         }
         let places = &self.places;
+        let barrier = self.filter.guards.barrier;
         let near = |pair: &Pair| {
-            if pair.distance - 2.0 * strayed >= pair.reach {
+            if pair.distance - 2.0 * strayed >= pair.reach || !barrier {
                 return None;
             }
             let gap = Gap::new(pair, places);

@@ -1,4 +1,5 @@
 use crate::barrier::Barrier;
+use crate::pinch::Pinch;
 
 /// How stiff the contact of surfaces is, and when it slides.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,6 +12,8 @@ pub struct SurfaceSettings {
     pub stick: f64,
     /// Coefficient of friction of each two groups, row by row.
     pub friction: Vec<f64>,
+    /// What becomes of cloth that bodies close on.
+    pub pinch: Pinch,
 }
 
 impl SurfaceSettings {

@@ -1,8 +1,25 @@
 use crate::body::{Body, Shape};
 use crate::error::CollideError;
 use crate::mesh::{Surface, weld};
-use crate::vector::Vector;
+use crate::vector::{Vector, add, cross, norm, scale, subtract};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
+
+impl Outline {
+    /// Unit normals of the vertices, outward: of each the mean of those of its triangles, by their area.
+    #[must_use]
+    pub fn normals(&self) -> Vec<[f64; 3]> {
+        let mut sums = vec![[0.0; 3]; self.vertices.len()];
+        for corners in &self.triangles {
+            let [a, b, c] = corners.map(|corner| self.vertices[corner as usize]);
+            let doubled = cross(subtract(b, a), subtract(c, a));
+            for &corner in corners {
+                sums[corner as usize] = add(sums[corner as usize], doubled);
+            }
+        }
+        let unit = |sum: Vector| if norm(sum) > 0.0 { scale(sum, 1.0 / norm(sum)) } else { sum };
+        sums.into_iter().map(unit).collect()
+    }
+}
 
 /// Pieces of a quarter turn of a ball or a rounded edge; a quarter of a ball then has faces of 6°.
 const QUARTER: usize = 16;
@@ -81,7 +98,7 @@ fn cuboid(core: Vector, edge_radius: f64) -> Result<Surface, CollideError> {
                     let mut lean = [0.0; 3];
                     [center[axis], center[u], center[v]] = [sign * core[axis], at_u, at_v];
                     [lean[axis], lean[u], lean[v]] = [sign, lean_u, lean_v];
-                    let length = crate::vector::norm(lean);
+                    let length = norm(lean);
                     vertices
                         .push(std::array::from_fn(|k| center[k] + edge_radius * lean[k] / length));
                 }

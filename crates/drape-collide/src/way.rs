@@ -31,6 +31,9 @@ impl SurfaceContact {
         held: &[usize],
         (progress, advance): (f64, &mut f64),
     ) -> bool {
+        if !self.filter.guards.filter {
+            return true;
+        }
         let places = self.all(from, progress);
         let [start, end] = &self.bodies;
         let mut moves = step.to_vec();
@@ -104,7 +107,8 @@ impl SurfaceContact {
         self.detector.pairs().astray(moves, together, &mut self.astray);
         let farthest = longest(&self.astray);
         // Written so that NaN detects anew.
-        if !(self.strayed(places) + farthest <= BUDGET * self.detector.pairs().margin()) {
+        let near = self.strayed(places) + farthest <= BUDGET * self.detector.pairs().margin();
+        if !near && self.filter.guards.cover {
             let course = if together { Course::Together(moves) } else { Course::Each(moves) };
             self.detector.detect_along(&self.surface, (places, course), self.margin)?;
         }

@@ -97,12 +97,14 @@ impl Stepper {
         // The position within the step in units of the finest sub-step: exact.
         let mut at = 0;
         while at < whole {
-            let next = at + (whole >> halvings);
-            let end = if next == whole {
-                origin + dt
-            } else {
-                origin + dt * (next as f64 / whole as f64)
+            let end_of = |next: u64| {
+                if next == whole { origin + dt } else { origin + dt * (next as f64 / whole as f64) }
             };
+            let goes =
+                |halvings: u32| system.is_straight(motion.time, end_of(at + (whole >> halvings)));
+            halvings = (halvings..finest).find(|&halvings| goes(halvings)).unwrap_or(finest);
+            let next = at + (whole >> halvings);
+            let end = end_of(next);
             let span = Span { start: motion.time, end, dt: dt / (1_u64 << halvings) as f64 };
             match self.attempt(system, motion, span, report) {
                 Ok(()) => {

@@ -31,6 +31,12 @@ pub trait System {
     /// Which particles move by prescription; asked after each [`begin`](Self::begin).
     fn held(&self) -> &[bool];
 
+    /// Whether what moves by prescription goes nearly straight from one time to another, in s. A (sub)step in which it
+    /// does not is halved before it is tried.
+    fn is_straight(&self, _start: f64, _end: f64) -> bool {
+        true
+    }
+
     /// Opens an attempted (sub)step that ends at `end_time` and lasts `dt`, both in s, from the positions
     /// `start`. Writes the end positions of held particles into `target`, which comes filled with `start`;
     /// what it says of free particles is ignored.

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use drape_collide::{Body, Mesh, Pose, Settings, Shape};
+use drape_collide::{Body, Mesh, Pose, Shape};
 
 use crate::course::Course;
 use crate::file::{MeshMotionFile, MotionFile, SceneFile};
@@ -48,24 +48,6 @@ impl Reader<'_> {
                         metres; bodies are 2 mm to 100 m long";
             self.fail(&format!("collider.mesh[{index}].scale"), message, help);
         }
-    }
-
-    pub(crate) fn contact_settings(&mut self, file: &SceneFile, unit: f64) -> Settings {
-        let mut settings = Settings::default();
-        if let Some(offset) = file.contact.offset {
-            settings.offset = offset * unit;
-            let help = "the distance at which contact begins; 1 mm is usual";
-            self.within("contact.offset", settings.offset, (1e-5, 0.1), help);
-        }
-        if let Some(stiffness) = file.contact.stiffness {
-            settings.stiffness = stiffness;
-            self.within("contact.stiffness", stiffness, (1.0, 1e12), "in N/m³");
-        }
-        if let Some(speed) = file.contact.slip_speed {
-            settings.slip_speed = speed;
-            self.within("contact.slip_speed", speed, (1e-9, 1.0), "in m/s; 0.001 is usual");
-        }
-        settings
     }
 
     /// The bodies, with the friction and the way of each where the file gives them.
@@ -177,8 +159,8 @@ impl Reader<'_> {
         if !self.within(&key_of_start, start, (0.0, 1e6), help) || !sound {
             return None;
         }
-        if !file.contact.surfaces.unwrap_or(false) {
-            let help = "add contact.surfaces = true";
+        if !file.keeps_apart() {
+            let help = "it needs contact.surfaces = true, which is the default";
             let message = "only surfaces meet a body that changes its shape".to_owned();
             self.fail(&key, message, help);
             return None;
@@ -226,8 +208,8 @@ impl Reader<'_> {
                 );
                 let longest = spacing / speed;
                 let help = format!(
-                    "cloth follows a body by a spacing in a step at most: give time.step = {longest:.1e} or less, or slow \
-                     the body"
+                    "cloth follows a body by a spacing in a step at most: give time.step = {longest:.1e} or less, slow the \
+                     body, or let only particles meet it with contact.surfaces = false"
                 );
                 self.fail("time.step", message, &help);
             }

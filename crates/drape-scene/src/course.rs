@@ -25,6 +25,15 @@ impl Course {
         }
     }
 
+    /// How far vertices that start at these places stray from straight ways between two times, in m. From frame to frame
+    /// they go straight.
+    pub(crate) fn bow(&self, times: [f64; 2], start: &[[f64; 3]]) -> f64 {
+        match self {
+            Self::Rigid(track) => track.bow(times, start),
+            Self::Shapes(_) => 0.0,
+        }
+    }
+
     /// The greatest speed of a vertex that starts at one of these places, in m/s.
     pub(crate) fn speed_max(&self, start: &[[f64; 3]]) -> f64 {
         match self {

@@ -7,6 +7,8 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use crate::contact::ContactFile;
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneFile {
@@ -319,21 +321,6 @@ impl<'de> Deserialize<'de> for MeshMotionFile {
         }
         deserializer.deserialize_any(Either)
     }
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ContactFile {
-    /// Distance at which contact begins.
-    pub(crate) offset: Option<f64>,
-    /// In N/m³.
-    pub(crate) stiffness: Option<f64>,
-    /// In m/s.
-    pub(crate) slip_speed: Option<f64>,
-    /// Whether surfaces are kept from passing through each other, and not particles out of bodies only.
-    pub(crate) surfaces: Option<bool>,
-    /// How far surfaces that stick give way before they slide.
-    pub(crate) stick: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -3,6 +3,7 @@
 mod bonds;
 mod clock;
 mod collider;
+mod contact;
 mod cost;
 mod course;
 mod error;
@@ -11,6 +12,9 @@ mod fitting;
 mod frame;
 mod garment;
 mod girth;
+#[cfg(test)]
+mod guards_check;
+mod inflation;
 mod ledger;
 mod material;
 mod measures;

@@ -142,12 +142,14 @@ impl Reader<'_> {
         }
         let bodies = self.bodies(&file, &folder, unit);
         self.near_a_body(&laid[plain..], &bodies);
-        if file.contact.surfaces.unwrap_or(false) {
+        if file.keeps_apart() {
             self.speeds(&bodies, (clock.step, spacing));
         }
         let contact_settings = self.contact_settings(&file, unit);
         let stick = file.contact.stick.map_or(SurfaceSettings::STICK, |stick| stick * unit);
         self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
+        let pinch = self.pinch(&file);
+        let inflation = self.inflation(&file, unit, (clock.step, spacing));
         // What follows needs sound panels.
         Diagnostics::check(std::mem::take(&mut self.mistakes))?;
 
@@ -189,7 +191,7 @@ impl Reader<'_> {
                 (body.with_friction(friction.unwrap_or(fallback)), course)
             })
             .unzip();
-        let surfaces = file.contact.surfaces.unwrap_or(false).then(|| {
+        let surfaces = file.keeps_apart().then(|| {
             Surfaces::new(&Parts {
                 panels: &panels,
                 materials: &materials,
@@ -201,6 +203,8 @@ impl Reader<'_> {
                 offset: contact_settings.offset,
                 stiffness: file.contact.stiffness,
                 stick,
+                pinch,
+                inflation,
             })
         });
         let surfaces = surfaces.transpose();
@@ -211,7 +215,10 @@ impl Reader<'_> {
         let contact = Contact::new(bodies, contact_settings, cloth.areas().to_vec());
         let contact = contact.map_err(|error| self.document.at("collider", error.to_string()));
         let contact = contact.map_err(Diagnostics::from)?;
-        self.start_is_free(&contact, &positions);
+        match (&surfaces, inflation) {
+            (Some(surfaces), Some(_)) => self.start_is_outside(surfaces, &panels, &positions),
+            _ => self.start_is_free(&contact, &positions),
+        }
         if !worn.is_empty() && settle.is_some() {
             notes.extend(cost(cloth.particles(), spacing));
         }
@@ -338,7 +345,18 @@ impl Reader<'_> {
                 "{} particles start inside a body (deepest {:.4} m, in {body})",
                 survey.inside, -survey.min_distance
             );
-            self.fail("panel", message, "move or turn the panel so that it starts outside");
+            let help = "move or turn the panel so that it starts outside, or let bodies grow with contact.inflate";
+            self.fail("panel", message, help);
+        }
+    }
+
+    /// Of panels that cross no body, one particle tells whether they are in it.
+    fn start_is_outside(&mut self, surfaces: &Surfaces, panels: &[Panel], positions: &[f64]) {
+        for panel in panels {
+            if surfaces.contact.is_inside(panel.first, positions) {
+                let message = format!("all of \"{}\" starts inside a body", panel.name);
+                self.fail("panel", message, "move or turn the panel so that it starts outside");
+            }
         }
     }
 }

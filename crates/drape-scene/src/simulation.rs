@@ -73,6 +73,8 @@ pub struct Simulation {
     solver: Solver,
     iterations: usize,
     pairs_max: usize,
+    /// Most particles that were thinned, and that were released, after any step.
+    pinched_max: [usize; 2],
     /// The smallest distance of two surfaces after any step, in m.
     distance_min: f64,
     stopwatch: Stopwatch,
@@ -190,6 +192,7 @@ impl Simulation {
             solver: Solver::default(),
             iterations: 0,
             pairs_max: 0,
+            pinched_max: [0; 2],
             distance_min: f64::INFINITY,
             stopwatch: Stopwatch::start(),
         })
@@ -352,6 +355,8 @@ impl Simulation {
             Some(surfaces) => {
                 let nearness = surfaces.contact.nearness();
                 self.distance_min = self.distance_min.min(nearness.min_distance);
+                let pinched = surfaces.contact.pinched();
+                self.pinched_max = [0, 1].map(|k| self.pinched_max[k].max(pinched[k]));
                 nearness.touching
             }
             None => self.world.contact.survey(&self.motion.positions).touching,

@@ -174,8 +174,14 @@ pub struct Contacts {
     /// Smallest distance of two surfaces after any step, or of a particle from a body at the end, in m; none where
     /// nothing was near.
     pub min_distance: Option<f64>,
-    /// Crossings of surfaces at the end, found by exact arithmetic, or particles inside a body.
+    /// Crossings of surfaces at the end, found by exact arithmetic, those of cloth that let a body through among them; or
+    /// particles inside a body.
     pub intersections: usize,
     /// Crossings of surfaces that were found after steps, which were then taken back.
     pub crossings_found: usize,
+    /// Largest number of particles that bodies pinched after a step, and that kept less of their distance from them.
+    pub thinned_max: usize,
+    /// Largest number of particles that had let a body through after a step: it is not promised that cloth and bodies do
+    /// not intersect there.
+    pub released_max: usize,
 }

@@ -2,17 +2,22 @@ use std::ops::Range;
 
 use drape_cloth::Cloth;
 use drape_collide::{
-    Body, CollideError, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
+    Body, CollideError, Pinch, Shape, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
 };
 use drape_fabric::Fabric;
 use drape_implicit::Way;
 
 use crate::course::Course;
+use crate::inflation::Inflation;
 use crate::material::Material;
 use crate::panel::Panel;
 
 /// Part of a fabric's thickness under pressure that its surfaces keep between them under any load.
 const CRUSHED: f64 = 0.5;
+
+/// Part of the distance that surfaces keep by which a body's vertex may stray from its straight way within a step; what
+/// turns more is given more steps.
+const BOW: f64 = 0.05;
 
 /// Largest part of its thickness that a fabric has under pressure, for its contact: one that is not compressed at all
 /// would have contact without end.
@@ -24,13 +29,26 @@ pub struct Surfaces {
     pub(crate) contact: SurfaceContact,
     /// Names of the panels and, behind them, of the bodies: of the groups of the surface.
     pub(crate) names: Vec<String>,
-    /// Where the bodies' vertices were at the start of the simulation, in m.
+    /// Where the bodies' vertices belong at the start of the simulation, in m.
     start: Vec<f64>,
-    /// Which of them move, and how.
-    moving: Vec<(Range<usize>, Course)>,
+    /// How bodies grow, and how far inside of there each vertex then starts, in m.
+    inflation: Option<(Inflation, Vec<f64>)>,
+    moving: Vec<Mover>,
+    /// How far a vertex of a body may stray from a straight way within a step, in m.
+    bow: f64,
     /// Crossings that were found, whose steps were taken back.
     pub(crate) crossings: usize,
     held: Vec<usize>,
+}
+
+/// A body that moves.
+#[derive(Debug)]
+struct Mover {
+    /// Its vertices among those of all bodies.
+    own: Range<usize>,
+    course: Course,
+    /// Whether it is a floor, whose corners are too far out for their ways to matter.
+    endless: bool,
 }
 
 /// What the surfaces of a scene are made of.
@@ -49,6 +67,10 @@ pub(crate) struct Parts<'a> {
     pub(crate) stiffness: Option<f64>,
     /// In m.
     pub(crate) stick: f64,
+    /// What becomes of cloth that bodies close on.
+    pub(crate) pinch: Pinch,
+    /// How bodies grow at the start.
+    pub(crate) inflation: Option<Inflation>,
 }
 
 impl Surfaces {
@@ -79,7 +101,7 @@ impl Surfaces {
             surface.skins.push(skin(fabric(panel)));
             frictions.push(Err(materials[panel.material].fabric.surface_friction));
         }
-        let mut start = Vec::new();
+        let (mut start, mut inward) = (Vec::new(), Vec::new());
         let mut moving = Vec::new();
         for (body, course) in bodies.iter().zip(*courses) {
             let outline = body.triangulate()?;
@@ -87,6 +109,11 @@ impl Surfaces {
             let count = outline.vertices.len();
             let own = start.len() / 3..start.len() / 3 + count;
             start.extend(outline.vertices.iter().flatten());
+            // What goes from frame to frame has its size from there.
+            let grows = !matches!(course, Some(Course::Shapes(_)));
+            let depth =
+                parts.inflation.map_or(0.0, |inflation| if grows { inflation.depth } else { 0.0 });
+            inward.extend(outline.normals().iter().flatten().map(|n| -depth * n));
             let corners = |t: &[u32; 3]| t.map(|corner| corner + first as u32);
             surface.triangles.extend(outline.triangles.iter().map(corners));
             surface.areas.extend(std::iter::repeat_n(0.0, count));
@@ -96,7 +123,8 @@ impl Surfaces {
             surface.skins.push(Skin { reach, ..thinnest });
             frictions.push(Ok(body.friction));
             if let Some(course) = course {
-                moving.push((own, course.clone()));
+                let endless = matches!(body.shape, Shape::Plane);
+                moving.push(Mover { own, course: course.clone(), endless });
             }
         }
         surface.rest.extend(&start);
@@ -112,20 +140,39 @@ impl Surfaces {
             }),
             stick: parts.stick,
             friction: friction.collect(),
+            pinch: parts.pinch,
         };
-        let contact = SurfaceContact::new(Surface::new(surface)?, settings, start.clone())?;
+        let inflation = parts.inflation.map(|inflation| (inflation, inward));
+        let bodies_at_start = shrunk(&start, &inflation, 0.0);
+        let contact = SurfaceContact::new(Surface::new(surface)?, settings, bodies_at_start)?;
         let held = (0..parts.held.len()).filter(|&particle| parts.held[particle]).collect();
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|body| &body.name)).cloned().collect();
-        Ok(Self { contact, names, start, moving, crossings: 0, held })
+        let bow = 2.0 * BOW * thinnest.separation;
+        Ok(Self { contact, names, start, inflation, moving, bow, crossings: 0, held })
     }
 
-    /// Opens a step that ends at a time, in s.
-    pub(crate) fn begin(&mut self, end_time: f64, positions: &[f64]) {
-        let mut ends = self.start.clone();
-        for (own, course) in &self.moving {
+    /// Whether all bodies go nearly straight between two times, in s, as they do within a step.
+    pub(crate) fn go_straight(&self, times: [f64; 2]) -> bool {
+        let places = self.start.as_chunks::<3>().0;
+        self.moving
+            .iter()
+            .filter(|mover| !mover.endless)
+            .all(|Mover { own, course, .. }| course.bow(times, &places[own.clone()]) <= self.bow)
+    }
+
+    /// When all bodies have their size, in s.
+    pub(crate) fn grown_at(&self) -> f64 {
+        self.inflation.as_ref().map_or(0.0, |(inflation, _)| inflation.seconds)
+    }
+
+    /// Opens a step that ends at a time since the start, and at one on the clock of what moves, in s.
+    pub(crate) fn begin(&mut self, [since, end_time]: [f64; 2], positions: &[f64]) {
+        let start = shrunk(&self.start, &self.inflation, since);
+        let mut ends = start.clone();
+        for Mover { own, course, .. } in &self.moving {
             let own = 3 * own.start..3 * own.end;
-            course.place(end_time, &self.start[own.clone()], &mut ends[own]);
+            course.place(end_time, &start[own.clone()], &mut ends[own]);
         }
         self.contact.begin(positions, &ends);
     }
@@ -144,6 +191,17 @@ impl Surfaces {
             }
             Err(_) => false,
         }
+    }
+}
+
+/// Where the vertices of bodies that have not moved are at a time since the start, in s.
+fn shrunk(start: &[f64], inflation: &Option<(Inflation, Vec<f64>)>, time: f64) -> Vec<f64> {
+    match inflation {
+        Some((inflation, inward)) if inflation.left(time) > 0.0 => {
+            let left = inflation.left(time);
+            start.iter().zip(inward).map(|(place, way)| place + left * way).collect()
+        }
+        _ => start.to_vec(),
     }
 }
 

@@ -17,6 +17,9 @@ pub struct Topology {
     pub panels: Vec<Part>,
     /// The bodies, in the order of their vertices.
     pub bodies: Vec<Part>,
+    /// Part of the distance between cloth and bodies that is kept wherever bodies pinch the cloth.
+    #[serde(skip_serializing_if = "is_whole")]
+    thinned: f64,
     /// Pairs of the cloth's vertices that are sewn together.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub twins: Vec<[u32; 2]>,
@@ -44,6 +47,11 @@ pub struct Part {
     pub reach: f64,
     /// Half of the distance that it and another part keep, in m; likewise.
     pub separation: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it so")]
+fn is_whole(part: &f64) -> bool {
+    *part == 1.0
 }
 
 impl Simulation {
@@ -77,6 +85,7 @@ impl Simulation {
             guarded: self.world.surfaces.is_some(),
             panels,
             bodies,
+            thinned: self.world.surfaces.as_ref().map_or(1.0, |s| s.contact.thinned()),
             twins: self.sewn.clone(),
             coordinates: cloth.coordinates().to_vec(),
             triangles: cloth.triangles().to_vec(),

@@ -4,6 +4,9 @@ use crate::file::MotionFile;
 use crate::placement::turned;
 use crate::reader::Reader;
 
+/// Angle, in degrees, that nothing turns by on a way that counts as straight, however small it is.
+const TURN_MAX: f64 = 90.0;
+
 /// Where something that moves is at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Key {
@@ -55,6 +58,31 @@ impl Track {
             }
         }
         most
+    }
+
+    /// How far the points that start at these places stray from straight ways between two times, in m: what turning
+    /// bends their ways by. Corners at keys do not count.
+    pub(crate) fn bow(&self, [from, to]: [f64; 2], start: &[[f64; 3]]) -> f64 {
+        let inside = self.keys.iter().map(|key| key.time).filter(|time| from < *time && *time < to);
+        let ends: Vec<f64> = std::iter::once(from).chain(inside).chain([to]).collect();
+        let mut most = 0.0_f64;
+        for pair in ends.windows(2) {
+            let turns = [pair[0], pair[1]].map(|time| self.at(time).turn);
+            let angle = (0..3).map(|k| (turns[1][k] - turns[0][k]).abs()).fold(0.0, f64::max);
+            if angle > TURN_MAX {
+                return f64::INFINITY;
+            }
+            if angle == 0.0 {
+                continue;
+            }
+            let at = [pair[0], 0.5 * (pair[0] + pair[1]), pair[1]].map(|time| self.points(time));
+            for &place in start {
+                let [a, b, c] = [at[0](place), at[1](place), at[2](place)];
+                let square = |k: usize| (b[k] - 0.5 * (a[k] + c[k])).powi(2);
+                most = most.max((0..3).map(square).sum());
+            }
+        }
+        most.sqrt()
     }
 
     fn at(&self, time: f64) -> Key {
@@ -138,6 +166,20 @@ mod tests {
             let place = track().points(time)([2.0, 1.0, 0.0]);
             assert!(near(place, expected), "{place:?} at {time}");
         }
+    }
+
+    #[test]
+    fn turning_bends_ways_by_the_sagitta_of_their_arcs() {
+        let key = |time: f64, turn: f64| Key { time, shift: [0.0; 3], turn: [0.0, 0.0, turn] };
+        let turned = Track { center: [1.0, 1.0, 0.0], keys: vec![key(1.0, 0.0), key(2.0, 60.0)] };
+        // The farther of the two is 1 m from the axis.
+        let bow = |times: [f64; 2]| turned.bow(times, &[[2.0, 1.0, 0.0], [1.0, 1.5, 0.0]]);
+        let sagitta = 1.0 - 15_f64.to_radians().cos();
+        assert!((bow([1.0, 1.5]) - sagitta).abs() < 1e-15, "{}", bow([1.0, 1.5]));
+        // At rest before, and the corner between is none of its bow.
+        assert_eq!(bow([0.0, 1.0]), 0.0);
+        assert!((bow([0.5, 1.5]) - sagitta).abs() < 1e-15);
+        assert_eq!(track().bow([1.0, 2.0], &[[2.0, 1.0, 0.0]]), f64::INFINITY);
     }
 
     #[test]

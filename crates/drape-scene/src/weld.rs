@@ -232,6 +232,10 @@ impl System for Sewn<'_> {
         self.weld.pattern.clone()
     }
 
+    fn is_straight(&self, start: f64, end: f64) -> bool {
+        self.world.is_straight(start, end)
+    }
+
     fn guards(&self) -> bool {
         self.world.guards()
     }

@@ -16,6 +16,7 @@ use crate::{Frame, SceneError, Simulation, Status};
 /// Sheets of 7 × 7 particles, one below the other with gaps of 8 mm, sewn at their edges and held at the top.
 fn scene() -> Scene {
     let text = r#"spacing = 0.01
+contact.surfaces = false
 fabric.plain.file = "plain.toml"
 [[panel]]
 name = "upper"

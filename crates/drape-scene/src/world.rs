@@ -272,10 +272,11 @@ impl World {
         }
     }
 
-    /// When gravity has grown, and the last of the pins that let go has done so, in s.
+    /// When gravity and bodies have grown, and the last of the pins that let go has done so, in s.
     pub(crate) fn last_change(&self) -> f64 {
         let releases = self.pins.iter().map(|pin| pin.release);
         let grown = self.grows_from + self.ramp;
+        let grown = self.surfaces.as_ref().map_or(grown, |surfaces| grown.max(surfaces.grown_at()));
         releases.filter(|release| release.is_finite()).fold(grown, f64::max)
     }
 

@@ -66,6 +66,16 @@ fn what_is_not_said_has_its_default() {
 }
 
 #[test]
+fn surfaces_are_kept_apart_wherever_that_can_be() {
+    let kept = |more: &str| read(&format!("{more}\n{LEAST}")).unwrap().surfaces.is_some();
+    assert!(kept(""));
+    assert!(!kept("contact.surfaces = false"));
+    assert!(!kept("solver.integrator = \"explicit\""));
+    assert!(!kept("model = \"breen-1994\""));
+    assert!(kept("model = \"breen-1994\"\ncontact.surfaces = true"));
+}
+
+#[test]
 fn every_key_is_heard() {
     let text = r#"name = "all"
 length = "cm"
@@ -217,6 +227,8 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
         ("", "[solver]\nintegrator = \"leapfrog\"", "leapfrog", 10),
         ("", "[solver]\ntolerance = 2", "2", 10),
         ("", "[contact]\nslip_speed = 9", "9", 10),
+        ("", "[contact]\npinch = \"squash\"", "squash", 10),
+        ("", "[contact]\nsurfaces = false\npinch = \"thin\"", "kept apart", 11),
         ("", "[output]\nevery = 0", "0", 10),
         ("", "[[pin]]\npanel = \"towl\"\nedge = \"top\"", "towl", 10),
         ("", "[[pin]]\npanel = \"towel\"\npoints = [[1, 1]]", "[1.0, 1.0]", 11),

@@ -10,7 +10,7 @@ use nalgebra::{SMatrix, SVector};
 use drape_scene::Simulation;
 
 use crate::reference::bias_stiffness;
-use crate::stage::scene;
+use crate::stage::{ALONE, scene};
 use crate::{Check, Findings, ValidationError, finish};
 
 /// Width of a strip, in m, and its length, in widths.
@@ -48,7 +48,7 @@ fn stiffness(angle: f64, cells: usize) -> Result<f64, ValidationError> {
         yarns[0], yarns[1]
     );
     let text = format!(
-        "spacing = {:e}\nair.density = 0\ngravity = [0, -{GRAVITY}, 0]\n\
+        "{ALONE}spacing = {:e}\nair.density = 0\ngravity = [0, -{GRAVITY}, 0]\n\
          fabric.strip.file = \"fabric.toml\"\n[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
          rectangle = [{WIDTH}, {}]\ngrain = {angle}\n[[pin]]\npanel = \"strip\"\nedge = \"top\"\n\
          [time]\nstep = 0.002\nend = 10000\n[settle]\nresidual = 1e-6\nspeed = 1e-5\n\

@@ -14,7 +14,7 @@ use drape_scene::{Scene, Simulation};
 use crate::instrument::{LARGEST_CURVATURE, laws};
 use crate::loops::root;
 use crate::shipped::{COTTON, CUPRO, fabric};
-use crate::stage::scene;
+use crate::stage::{ALONE, scene};
 use crate::tester::{arm, bent, moment};
 use crate::{Check, Findings, ValidationError, finish};
 
@@ -62,7 +62,7 @@ impl Arc {
         let list = |values: Vec<String>| values.join(", ");
         let times: Vec<f64> = (0..path.len()).map(|k| k as f64 * STEP).collect();
         let text = format!(
-            "spacing = {spacing:e}\ngravity = [0, 0, 0]\nair.density = 0\n\
+            "{ALONE}spacing = {spacing:e}\ngravity = [0, 0, 0]\nair.density = 0\n\
              fabric.specimen.file = \"fabric.toml\"\n[[panel]]\nname = \"specimen\"\n\
              fabric = \"specimen\"\nrectangle = [{:e}, {:e}]\ngrain = {grain}\n\
              center = [{:e}, 0, 0]\nturn = [-90, 0, 0]\n\

@@ -85,7 +85,7 @@ impl Draped {
              [[panel]]\nname = \"cloth\"\nfabric = \"cloth\"\nrectangle = [1, 1]\ncenter = [0, 0.505, 0]\n\
              turn = [-90, 0, 0]\nnoise = {{ amplitude = 1e-4, seed = {seed} }}\n\
              [[collider.box]]\nname = \"cube\"\nsize = [0.5, 0.5, 0.5]\ncenter = [0, {HALF}, 0]\nfriction = 0.3\n\
-             [contact]\noffset = 0.002\n[time]\nstep = 0.005\nend = 100\n[settle]\n",
+             [contact]\nsurfaces = false\noffset = 0.002\n[time]\nstep = 0.005\nend = 100\n[settle]\n",
             model.key()
         );
         let mut simulation = simulation(text, fabric.to_toml())?;

@@ -215,7 +215,7 @@ impl Drapemeter {
              edge_radius = 0.0005\ncenter = [0, {:e}, 0]\nmotion = {keys}\n\
              [[collider.plane]]\nname = \"platform\"\ncenter = [0, {:e}, 0]\n\
              [collider.plane.motion]\ntimes = [0, {down:e}]\nshift = [[0, 0, 0], [0, {:e}, 0]]\n\
-             [contact]\noffset = {GAP:e}\n[time]\nstep = {step:e}\nend = {:e}\n\
+             [contact]\nsurfaces = false\noffset = {GAP:e}\n[time]\nstep = {step:e}\nend = {:e}\n\
              [output]\nenergy = false\n",
             2.0 * specimen,
             disc + CLAMP_REACH * spacing,

@@ -3,6 +3,10 @@ use drape_scene::{Scene, Simulation};
 
 use crate::ValidationError;
 
+/// A line before the tables of a scene in which one piece of cloth touches nothing: what it is held against has no
+/// thickness, and to prove that it keeps clear of itself would take three times as long.
+pub(crate) const ALONE: &str = "contact.surfaces = false\n";
+
 /// A scene in memory, whose fabric is `fabric.toml`.
 ///
 /// # Errors

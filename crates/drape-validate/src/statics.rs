@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use crate::reference;
 use crate::shipped::{CUPRO, fabric};
-use crate::stage::scene;
+use crate::stage::{ALONE, scene};
 use crate::strip::{GRAVITY, Hold, Strip, finish};
 use crate::{Axis, Check, Findings, Graph, Layout, Source, ValidationError};
 
@@ -195,7 +195,7 @@ fn energy(
 ) -> Result<f64, ValidationError> {
     let fabric = fabric(CUPRO)?.elastic();
     let text = format!(
-        "spacing = {spacing:e}\nfabric.sheet.file = \"fabric.toml\"\n[[panel]]\nname = \"sheet\"\n\
+        "{ALONE}spacing = {spacing:e}\nfabric.sheet.file = \"fabric.toml\"\n[[panel]]\nname = \"sheet\"\n\
          fabric = \"sheet\"\nrectangle = [{SIDE}, {SIDE}]\ngrain = {grain}\n\
          [time]\nstep = 0.01\nend = 1\n"
     );

@@ -1,7 +1,7 @@
 use drape_scene::{Scene, Simulation, Step};
 
 use crate::ValidationError;
-use crate::stage::scene;
+use crate::stage::{ALONE, scene};
 
 /// Acceleration of gravity in all scenes here, in m/s².
 pub const GRAVITY: f64 = 9.81;
@@ -129,7 +129,7 @@ impl Strip {
         let (sin, cos) = angle.to_radians().sin_cos();
         let (x, y) = (middle * cos, middle * sin);
         let text = format!(
-            "name = \"strip\"\nspacing = {spacing:e}\nair = {{ density = 0 }}\n\
+            "{ALONE}name = \"strip\"\nspacing = {spacing:e}\nair = {{ density = 0 }}\n\
              fabric.strip.file = \"fabric.toml\"\n{}[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
              rectangle = [{panel:e}, {width:e}]\ncenter = [{x:e}, {y:e}, 0]\nturn = [-90, 0, {angle:e}]\n\
              spin = [0, 0, {spin:e}]\n{pin}{}",

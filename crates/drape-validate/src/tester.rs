@@ -13,7 +13,7 @@ use crate::ValidationError;
 use crate::instrument::{
     LARGEST_TENSION, SHEAR_TENSION, curve, cycle, extension, ideal, laws, on_the_bias,
 };
-use crate::stage::scene;
+use crate::stage::{ALONE, scene};
 
 /// Width of a specimen: 20 cm.
 const WIDTH: f64 = 0.2;
@@ -147,7 +147,7 @@ impl Specimen {
         let shifts = list(&|place| format!("{:?}", place.shift));
         let turns = list(&|place| format!("[0, 0, {:e}]", place.turn.to_degrees()));
         let text = format!(
-            "name = \"specimen\"\nspacing = {spacing:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n\
+            "{ALONE}name = \"specimen\"\nspacing = {spacing:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n\
              fabric.specimen.file = \"fabric.toml\"\n[[panel]]\nname = \"specimen\"\n\
              fabric = \"specimen\"\nrectangle = {size:?}\ncenter = [{middle:e}, 0, 0]\nturn = {turn:?}\n{grain}\
              [[pin]]\npanel = \"specimen\"\nedge = \"{}\"\nrows = {still}\n\

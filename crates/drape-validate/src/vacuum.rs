@@ -9,7 +9,7 @@ use drape_fabric::Fabric;
 use drape_scene::Simulation;
 
 use crate::shipped::{TAGAWA, fabric};
-use crate::stage::simulation;
+use crate::stage::{ALONE, simulation};
 use crate::strip::GRAVITY;
 use crate::{Axis, Check, Findings, Graph, Layout, Source, Still, ValidationError};
 
@@ -48,7 +48,7 @@ fn strip(
     let times: Vec<f64> = keys.iter().map(|key| key.0).collect();
     let turns: Vec<[f64; 3]> = keys.iter().map(|key| [key.1, 0.0, 0.0]).collect();
     let text = format!(
-        "name = \"strip\"\nspacing = {spacing:e}\nair = {{ density = 0 }}\n\
+        "{ALONE}name = \"strip\"\nspacing = {spacing:e}\nair = {{ density = 0 }}\n\
          fabric.strip.file = \"fabric.toml\"\n[[panel]]\nname = \"strip\"\nfabric = \"strip\"\n\
          rectangle = [{WIDTH}, {height:e}]\ncenter = [0, {:e}, {:e}]\nturn = [{angle:e}, 0, 0]\n\
          [[pin]]\npanel = \"strip\"\nedge = \"top\"\nrows = 3\n[pin.motion]\ncenter = [0, 0, 0]\n\

@@ -21,6 +21,9 @@ pub struct Manifest {
     pub panels: Vec<Part>,
     /// The bodies, in the order of the vertices in a file of bodies.
     pub bodies: Vec<Part>,
+    /// Part of the distance between cloth and bodies that the run keeps wherever bodies pinch the cloth.
+    #[serde(default = "whole")]
+    pub thinned: f64,
     /// Pairs of cloth vertices that are sewn together and count as one.
     #[serde(default)]
     pub twins: Vec<[u32; 2]>,
@@ -43,6 +46,11 @@ pub struct Part {
     pub separation: f64,
 }
 
+/// Of a run that keeps the same distance everywhere.
+fn whole() -> f64 {
+    1.0
+}
+
 impl Manifest {
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Manifest, VerifyError> {
         let malformed =
@@ -61,6 +69,9 @@ impl Manifest {
             if !sound(part.reach) || !sound(part.separation) {
                 return Err(malformed(1, format!("\"{}\" has no distances", part.name)));
             }
+        }
+        if !(manifest.thinned > 0.0 && manifest.thinned <= 1.0) {
+            return Err(malformed(1, format!("{} is no part of a distance", manifest.thinned)));
         }
         if total > COUNT_MAX {
             return Err(malformed(1, format!("{total} vertices and triangles are too many")));

@@ -21,6 +21,8 @@ pub struct Mesh {
     first: Vec<usize>,
     pub(crate) parts: Vec<Part>,
     panels: usize,
+    /// Part of its distance from bodies that cloth keeps wherever they pinch it.
+    pub(crate) thinned: f64,
     /// The smallest of the vertices that are sewn to each vertex.
     class: Vec<u32>,
     /// Material coordinates of the cloth's vertices, in m: its shape at rest.
@@ -44,7 +46,8 @@ impl Mesh {
         let vertices = parts.iter().map(|part| part.vertices).sum();
         let class = classes(vertices, &manifest.twins);
         let panels = manifest.panels.len();
-        Mesh { triangles, part, first, parts, panels, class, material }
+        let thinned = manifest.thinned;
+        Mesh { triangles, part, first, parts, panels, thinned, class, material }
     }
 
     /// Number of triangles.

@@ -175,6 +175,9 @@ impl Shape<'_> {
         let parts = pair.map(|triangle| self.mesh.part[triangle] as usize);
         let [a, b] = parts.map(|part| &self.mesh.parts()[part]);
         let (mut reach, mut kept) = (a.reach + b.reach, a.separation + b.separation);
+        if pair.iter().any(|&triangle| self.mesh.is_body(triangle)) {
+            kept *= self.mesh.thinned;
+        }
         if !(distance < reach) {
             return;
         }

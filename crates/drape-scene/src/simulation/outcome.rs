@@ -76,7 +76,7 @@ impl Simulation {
         let World { contact, surfaces, state, .. } = &self.world;
         let (min_distance, intersections, crossings_found) = match surfaces {
             Some(surfaces) => {
-                let found = surfaces.contact.crossings(&state.positions);
+                let found = surfaces.contact.intersections(&state.positions);
                 let crossings = found.map_or(usize::MAX, |found| found.len());
                 (self.distance_min, crossings, surfaces.crossings)
             }
@@ -90,6 +90,8 @@ impl Simulation {
             min_distance: Some(min_distance).filter(|distance| distance.is_finite()),
             intersections,
             crossings_found,
+            thinned_max: self.pinched_max[0],
+            released_max: self.pinched_max[1],
         }
     }
 

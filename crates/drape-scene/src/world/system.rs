@@ -16,6 +16,11 @@ impl System for World {
         &self.held
     }
 
+    fn is_straight(&self, start: f64, end: f64) -> bool {
+        let times = [start, end].map(|time| self.time_of_motion(time));
+        self.surfaces.as_ref().is_none_or(|surfaces| surfaces.go_straight(times))
+    }
+
     fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]) {
         self.hold(end_time);
         let time = self.time_of_motion(end_time);
@@ -29,7 +34,7 @@ impl System for World {
             self.gravity = [0.0; 3];
         }
         if let Some(surfaces) = &mut self.surfaces {
-            surfaces.begin(time, start);
+            surfaces.begin([end_time, time], start);
             if let Some(ledger) = &mut self.ledger {
                 (ledger.slip, ledger.push) = (0.0, 0.0);
                 ledger.barrier = surfaces.contact.potential(start);

@@ -178,7 +178,7 @@ fn motions_that_do_not_fit_are_refused_with_their_file() {
         assert!(message.contains("sheet.toml:"), "{message}");
     }
     let particles = scene(folder.path(), &format!("motion = {}\nrate = 24", path("short.pc2")));
-    let particles = particles.replace("contact.surfaces = true\n", "");
+    let particles = particles.replace("contact.surfaces = true", "contact.surfaces = false");
     let message = sheet(particles).try_scene().unwrap_err().to_string();
     assert!(message.contains("contact.surfaces = true"), "{message}");
 }

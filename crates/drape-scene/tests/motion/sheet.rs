@@ -17,7 +17,7 @@ pub struct Sheet {
     pub friction: bool,
     /// Whether bending has friction, if anything has.
     pub bending_friction: bool,
-    /// More tables of the scene.
+    /// More tables of the scene. Only particles meet bodies where they say nothing of contact.
     pub scene: String,
     /// Keys of the panel.
     pub panel: String,
@@ -56,8 +56,9 @@ impl Sheet {
     pub fn try_scene(&self) -> Result<Scene, SceneError> {
         let Self { particles, side, panel, scene, .. } = self;
         let spacing = side / (*particles as f64 - 1.0);
+        let contact = if scene.contains("contact") { "" } else { "contact.surfaces = false\n" };
         let text = format!(
-            "spacing = {spacing}\nfabric.plain.file = \"plain.toml\"\n{scene}\n[[panel]]\n\
+            "spacing = {spacing}\n{contact}fabric.plain.file = \"plain.toml\"\n{scene}\n[[panel]]\n\
              name = \"sheet\"\nfabric = \"plain\"\nrectangle = [SIDE, SIDE]\n{panel}"
         );
         let text = text.replace("SIDE", &format!("{side:?}"));

@@ -1,0 +1,67 @@
+use drape_collide::{Pinch, Settings};
+use serde::Deserialize;
+
+use crate::file::SceneFile;
+use crate::inflation::InflateFile;
+use crate::reader::Reader;
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ContactFile {
+    /// Distance at which contact begins.
+    pub(crate) offset: Option<f64>,
+    /// In N/m³.
+    pub(crate) stiffness: Option<f64>,
+    /// In m/s.
+    pub(crate) slip_speed: Option<f64>,
+    /// Whether surfaces are kept apart, and not particles out of bodies only; wherever that can be if missing.
+    pub(crate) surfaces: Option<bool>,
+    /// How far surfaces that stick give way before they slide.
+    pub(crate) stick: Option<f64>,
+    /// `error`, `thin` or `release`: what becomes of cloth that bodies close on.
+    pub(crate) pinch: Option<String>,
+    /// Room for cloth that starts in a body.
+    pub(crate) inflate: Option<InflateFile>,
+}
+
+impl SceneFile {
+    /// Whether surfaces are kept apart: if the scene does not say, wherever the solver's ways can be cut. Explicit steps
+    /// are never cut, and the particles of Breen's model repel each other at a spacing.
+    pub(crate) fn keeps_apart(&self) -> bool {
+        let is = |key: &Option<String>, word: &str| key.as_deref() == Some(word);
+        let cannot = is(&self.solver.integrator, "explicit") || is(&self.model, "breen-1994");
+        self.contact.surfaces.unwrap_or(!cannot)
+    }
+}
+
+impl Reader<'_> {
+    pub(crate) fn contact_settings(&mut self, file: &SceneFile, unit: f64) -> Settings {
+        let mut settings = Settings::default();
+        if let Some(offset) = file.contact.offset {
+            settings.offset = offset * unit;
+            let help = "the distance at which contact begins; 1 mm is usual";
+            self.within("contact.offset", settings.offset, (1e-5, 0.1), help);
+        }
+        if let Some(stiffness) = file.contact.stiffness {
+            settings.stiffness = stiffness;
+            self.within("contact.stiffness", stiffness, (1.0, 1e12), "in N/m³");
+        }
+        if let Some(speed) = file.contact.slip_speed {
+            settings.slip_speed = speed;
+            self.within("contact.slip_speed", speed, (1e-9, 1.0), "in m/s; 0.001 is usual");
+        }
+        settings
+    }
+
+    /// What becomes of cloth that bodies close on.
+    pub(crate) fn pinch(&mut self, file: &SceneFile) -> Pinch {
+        let policies =
+            [("error", Pinch::Error), ("thin", Pinch::Thin), ("release", Pinch::Release)];
+        let word = file.contact.pinch.as_deref();
+        if word.is_some() && !file.keeps_apart() {
+            let message = "nothing is kept apart here".to_owned();
+            self.fail("contact.pinch", message, "it needs contact.surfaces = true");
+        }
+        self.choice("contact.pinch", word, &policies)
+    }
+}
