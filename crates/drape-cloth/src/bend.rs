@@ -4,6 +4,7 @@ use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes, Remembered, Response
 
 use crate::angle::Angle;
 use crate::field::{Batch, Vector, add, dot, scale, set, subtract};
+use crate::fold::Crease;
 use crate::panel::Yarns;
 
 /// Upper half of a symmetric block: xx, xy, xz, yy, yz, zz.
@@ -34,6 +35,8 @@ pub(crate) struct Bend<'a> {
     pub(crate) bows: Bows,
     pub(crate) normals: Batch<'a, 3>,
     pub(crate) areas: &'a Lanes,
+    /// What folds add to their rest curvatures, in 1/m, if there are some.
+    pub(crate) folds: Option<&'a Lanes>,
 }
 
 impl Bend<'_> {
@@ -49,6 +52,17 @@ impl Bend<'_> {
             (bends.slope[lane], bends.slope_change[lane]) = angle.derivatives(bow);
         }
         bends
+    }
+
+    /// The lanes of connectors at folds.
+    #[inline(always)]
+    fn creases(&self) -> impl Iterator<Item = (usize, Crease)> {
+        let folded = self.folds.into_iter().flatten().enumerate().filter(|(_, fold)| **fold != 0.0);
+        folded.map(|(lane, fold)| {
+            let rest = self.yarns.bending.law().rest_curvature + fold;
+            let bow = (self.bows.at(lane), self.normals.at(lane));
+            (lane, Crease::new(bow, self.yarns.length, rest))
+        })
     }
 
     /// Derivatives of the potential with respect to the bows, times a factor.
@@ -84,6 +98,10 @@ impl Bend<'_> {
             let elastic = scale(excess, secant(square * angle.square) * angle.slope);
             let rub = friction.load[lane] * bends.slope[lane];
             let moment = add(elastic, scale(normal, rub));
+            set(&mut moments, lane, scale(moment, self.areas[lane] * factor));
+        }
+        for (lane, crease) in self.creases() {
+            let moment = crease.moment(&yarns.bending.law().backbone, friction.load[lane]);
             set(&mut moments, lane, scale(moment, self.areas[lane] * factor));
         }
         moments
@@ -147,6 +165,13 @@ impl Bend<'_> {
                     + one;
             }
         }
+        for (lane, crease) in self.creases() {
+            let rub = [friction.load[lane], friction.tangent[lane]];
+            let half = crease.block(&yarns.bending.law().backbone, rub, definite);
+            for (block, entry) in blocks.iter_mut().zip(half) {
+                block[lane] = self.areas[lane] * factor * factor * entry;
+            }
+        }
         blocks
     }
 
@@ -172,6 +197,9 @@ impl Bend<'_> {
                     energies[lane] = piecewise.energy(square(lane).sqrt());
                 }
             }
+        }
+        for (lane, crease) in self.creases() {
+            energies[lane] = crease.energy(&yarns.bending.law().backbone);
         }
         energies
     }

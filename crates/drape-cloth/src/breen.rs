@@ -61,10 +61,14 @@ impl Breen {
     /// The particles of a [`Cloth`](crate::Cloth) of the same panels, with the same numbers.
     ///
     /// # Errors
-    /// When a panel has a rim of triangles.
+    /// When a panel has a rim of triangles, or folds.
     pub fn new(panels: &[(&Lattice, &Fabric)]) -> Result<Self, ClothError> {
         if panels.iter().any(|(lattice, _)| !lattice.rim.is_empty()) {
             return Err(ClothError::Rim);
+        }
+        if panels.iter().any(|(lattice, _)| !lattice.folds().is_empty()) {
+            let what = "is unknown to the model of Breen, House & Wozny";
+            return Err(ClothError::Fold { fold: 0, what });
         }
         let (mut edges, mut hinges, mut works) = (Vec::new(), Vec::new(), Vec::new());
         let mut wells = Vec::new();

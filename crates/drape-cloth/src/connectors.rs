@@ -40,6 +40,8 @@ pub(crate) struct Bending {
     pub(crate) at_nodes: Vec<f64>,
     /// Whether a particle is in the middle of a triple.
     pub(crate) is_middle: Vec<bool>,
+    /// What folds add to the rest curvature of the triple about each particle, in 1/m; none without folds.
+    pub(crate) folded: Vec<f64>,
 }
 
 impl Bending {
@@ -49,16 +51,23 @@ impl Bending {
     /// see their surroundings from one side, gave their area to a neighbour inside, as the ends of a yarn do on a grid,
     /// the outline would be limp: the lowest frequencies of a disc of ten cells fell to a half.
     pub(crate) fn of(lattice: &Lattice, areas: &[f64], near: Option<&Near<'_>>) -> [Self; 2] {
-        lattice.yarns().map(|yarns| match near {
-            None => Self::of_grid(triples(lattice, &yarns, areas), areas.len()),
-            Some(_) => Self::of_rim(&yarns, areas),
-        })
+        let mut all = lattice.yarns().map(|yarns| {
+            let bending = match near {
+                None => Self::of_grid(triples(lattice, &yarns, areas), areas.len()),
+                Some(_) => Self::of_rim(&yarns, areas),
+            };
+            (yarns, bending)
+        });
+        for (direction, (yarns, bending)) in all.iter_mut().enumerate() {
+            bending.folded = lattice.folded((yarns, direction));
+        }
+        all.map(|(_, bending)| bending)
     }
 
     fn of_grid(triples: Vec<([u32; 3], f64)>, particles: usize) -> Self {
         let mut is_middle = vec![false; particles];
         triples.iter().for_each(|([_, middle, _], _)| is_middle[*middle as usize] = true);
-        Self { triples, at_nodes: vec![0.0; particles], is_middle }
+        Self { triples, at_nodes: vec![0.0; particles], is_middle, folded: Vec::new() }
     }
 
     fn of_rim(yarns: &[Vec<u32>], areas: &[f64]) -> Self {

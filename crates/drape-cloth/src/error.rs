@@ -51,6 +51,14 @@ pub enum ClothError {
         /// What is wrong with it.
         what: &'static str,
     },
+    /// A fold does not fit its panel.
+    #[error("fold {fold} {what}")]
+    Fold {
+        /// Which fold of the panel, counted from 0.
+        fold: usize,
+        /// What is wrong with it.
+        what: &'static str,
+    },
     /// The model knows no panels with a rim of triangles.
     #[error(
         "the model of Breen, House & Wozny knows no rims: cut the panel as a rectangle or a disc"

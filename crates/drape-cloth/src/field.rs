@@ -27,6 +27,12 @@ pub(crate) fn lanes(column: &[f64], start: usize) -> &Lanes {
         .expect("columns end a batch after the last place that is asked for")
 }
 
+/// The numbers of a column from `start` on, if there are any.
+#[inline(always)]
+pub(crate) fn some_lanes(column: &[f64], start: usize) -> Option<&Lanes> {
+    (!column.is_empty()).then(|| lanes(column, start))
+}
+
 /// Writes numbers into a column from `start` on.
 #[inline(always)]
 pub(crate) fn put(column: &mut [f64], start: usize, values: &Lanes) {

@@ -1,5 +1,5 @@
 use crate::clip::area_within;
-use crate::{ClothError, Grain};
+use crate::{ClothError, Fold, Grain};
 
 /// Most particles of one panel; beyond it a spacing in the wrong unit is far more likely.
 pub(crate) const PARTICLES_MAX: f64 = 4e6;
@@ -39,6 +39,8 @@ pub struct Lattice {
     pub cells: Vec<Cell>,
     /// Triangles between the cells and the outline, anticlockwise; none in panels that are all grid.
     pub rim: Vec<[u32; 3]>,
+    /// Lines along which it is folded at rest.
+    pub(crate) folds: Vec<Fold>,
     /// Particle at each grid point, `columns` to a row.
     pub(crate) grid: Vec<Option<u32>>,
     pub(crate) columns: usize,
@@ -239,6 +241,7 @@ impl Lattice {
             size: None,
             cells,
             rim: Vec::new(),
+            folds: Vec::new(),
             grid,
             columns,
         })

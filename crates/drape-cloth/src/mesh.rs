@@ -144,6 +144,7 @@ impl Lattice {
             size: None,
             cells: cells.into_iter().map(cell).collect(),
             rim: mesh.triangles,
+            folds: Vec::new(),
             grid,
             columns,
         })

@@ -66,6 +66,8 @@ pub(crate) struct Yarns {
     pub(crate) segment_areas: Vec<f64>,
     /// Column of the areas of the triples, kept at their middle point.
     pub(crate) triple_areas: Vec<f64>,
+    /// Column of what folds add to the rest curvature of the triples, kept at their middle point; none without folds.
+    pub(crate) folds: Vec<f64>,
     /// Places of the segments in a column.
     pub(crate) segments: Vec<usize>,
     /// Places of the triples in a column.
@@ -111,10 +113,10 @@ impl Panel {
         }
         let mut corners = [(); 4].map(|()| vec![0.0; length]);
         let mut cells = Vec::new();
-        for cell in &lattice.cells {
+        for (cell, areas) in lattice.cells.iter().zip(lattice.sheared()) {
             let place = place_of[cell.corners[0] as usize];
             cells.push(place);
-            for (column, area) in corners.iter_mut().zip(cell.quadrants) {
+            for (column, area) in corners.iter_mut().zip(areas) {
                 column[place] = area;
             }
         }
@@ -131,6 +133,7 @@ impl Panel {
                 rest_bow: bow_of(laws.bending.rest_curvature, rest),
                 segment_areas: vec![0.0; length],
                 triple_areas: vec![0.0; length],
+                folds: vec![0.0; if lattice.folds.is_empty() { 0 } else { length }],
                 segments: Vec::new(),
                 triples: Vec::new(),
             };
@@ -143,6 +146,9 @@ impl Panel {
                 let place = place_of[*middle as usize];
                 yarns.triples.push(place);
                 yarns.triple_areas[place] = *area;
+            }
+            for (node, curvature) in bending[direction].folded.iter().enumerate() {
+                yarns.folds[place_of[node]] += curvature;
             }
             yarns
         });

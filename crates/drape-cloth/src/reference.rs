@@ -6,7 +6,7 @@ use drape_fabric::{BendingLaw, Fabric, Law, Memory, ShearLaw, TractionLaw};
 
 use crate::connectors::{Bending, segments};
 use crate::field::{Vector, add, dot, scale, subtract};
-use crate::reference::bend::{bend, curvature};
+use crate::reference::bend::{bend, curvature, folded};
 use crate::reference::block::{Block, one, outer, sum, transposed};
 use crate::reference::rim::{Fitted, Membrane};
 use crate::rim::Near;
@@ -37,6 +37,8 @@ struct Connector<L, const N: usize> {
     /// Rest length of a segment; sign of a corner.
     measure: f64,
     area: f64,
+    /// What a fold adds to the rest curvature of a triple, in 1/m.
+    fold: f64,
     memory: Memory,
     /// Blocks of the pairs 00, 11, 01 and, with three particles, 22, 02, 12.
     blocks: [usize; 6],
@@ -129,6 +131,7 @@ impl<L, const N: usize> Connector<L, N> {
             particles,
             measure,
             area,
+            fold: 0.0,
             memory: Memory::default(),
             // A segment has the first three.
             blocks: PAIRS.map(|pair| block(pair).unwrap_or(usize::MAX)),
@@ -165,7 +168,11 @@ impl Connector<BendingLaw, 3> {
     /// Derivatives of the energy at the trial with respect to the bow, and the energy.
     fn bend(&self, positions: &[f64], normals: &[f64], definite: bool) -> (Vector, Block, f64) {
         let bow = (self.bow(positions), at(normals, self.particles[1]));
-        bend((&self.law, &self.memory), bow, self.measure, definite)
+        let law = (&self.law, &self.memory);
+        if self.fold != 0.0 {
+            return folded(law, bow, (self.measure, self.fold), definite);
+        }
+        bend(law, bow, self.measure, definite)
     }
 }
 
@@ -221,11 +228,11 @@ impl Reference {
 
     fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric, first: u32) {
         let Self { pattern, .. } = self;
-        for cell in &lattice.cells {
+        for (cell, areas) in lattice.cells.iter().zip(lattice.sheared()) {
             let [a, b, c, d] = cell.corners;
             // Corner, neighbour along the warp (v), neighbour along the weft (u), sign.
             let around = [(a, d, b, 1.0), (b, c, a, -1.0), (c, b, d, 1.0), (d, a, c, -1.0)];
-            for ((corner, warp, weft, sign), area) in around.into_iter().zip(cell.quadrants) {
+            for ((corner, warp, weft, sign), area) in around.into_iter().zip(areas) {
                 let particles = [corner, warp, weft].map(|p| first + p);
                 let corner = Connector::new(fabric.shear, particles, (sign, area), pattern);
                 self.corners.push(corner);
@@ -246,8 +253,10 @@ impl Reference {
                 self.segments.push(Connector::new(laws.traction, ends, size, pattern));
             }
             for (triple, area) in &bending[direction].triples {
+                let fold = bending[direction].folded.get(triple[1] as usize);
                 let (triple, size) = (triple.map(|p| first + p), (measure, *area));
-                self.triples.push(Connector::new(laws.bending, triple, size, pattern));
+                let connector = Connector::new(laws.bending, triple, size, pattern);
+                self.triples.push(Connector { fold: fold.copied().unwrap_or(0.0), ..connector });
             }
         }
     }

@@ -71,6 +71,8 @@ pub(crate) struct Stencils {
     offsets: Vec<usize>,
     /// Areas along the warp and along the weft.
     pub(crate) areas: [Vec<f64>; 2],
+    /// What folds add to the rest curvatures along the warp and along the weft, in 1/m; none without folds.
+    pub(crate) folds: [Vec<f64>; 2],
     /// Blocks of the parts 00, 01, …, 11, 12, … of one stencil after the other, and where those of each begin.
     slots: Vec<u32>,
     slot_offsets: Vec<usize>,
@@ -104,6 +106,8 @@ pub(crate) struct Stencil {
     pub(crate) parts: Vec<Part>,
     /// Along the warp and along the weft, in m².
     pub(crate) areas: [f64; 2],
+    /// What folds add to the rest curvatures, likewise, in 1/m.
+    pub(crate) folds: [f64; 2],
 }
 
 /// The fits of a panel, its particles numbered from nought: stencils with an area, and slopes.
@@ -131,7 +135,15 @@ pub(crate) fn fits(
             let mut parts: Vec<Part> =
                 parts.map(|(&node, weights)| Part { node, weights }).collect();
             parts.sort_by_key(|part| part.node);
-            stencils.push(Stencil { middle, parts, areas });
+            let folds = [0, 1].map(|direction| {
+                let weights = parts
+                    .iter()
+                    .map(|part| (lattice.coordinates[part.node as usize], part.weights[direction]));
+                let along = (direction, lattice.spacing);
+                let folds = lattice.folds.iter();
+                folds.map(|fold| fold.curvature(weights.clone(), places[0], along)).sum()
+            });
+            stencils.push(Stencil { middle, parts, areas, folds });
         }
         let [weft, warp] = fit.slopes;
         slopes.push(Slopes { particle: middle, nodes, weights: [warp, weft] });
@@ -246,8 +258,15 @@ impl Stencils {
             areas.resize(length, 0.0);
             areas
         });
+        let is_folded = fits.iter().any(|fit| fit.folds != [0.0; 2]);
+        let folds = [0, 1].map(|direction| {
+            let folds = fits.iter().map(|fit| fit.folds[direction]);
+            let mut folds: Vec<f64> = folds.filter(|_| is_folded).collect();
+            folds.resize(if is_folded { length } else { 0 }, 0.0);
+            folds
+        });
         let (slots, slot_offsets) = (Vec::new(), Vec::new());
-        Self { middles, parts, offsets, areas, slots, slot_offsets, count, base }
+        Self { middles, parts, offsets, areas, folds, slots, slot_offsets, count, base }
     }
 
     /// The parts of a stencil.

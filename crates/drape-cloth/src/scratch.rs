@@ -5,7 +5,7 @@ use std::ops::Range;
 use drape_fabric::{LANES, Lanes};
 
 use crate::bend::{Bend, Bows};
-use crate::field::{Columns, Field, add, dot, lanes, put, scale, set, subtract};
+use crate::field::{Columns, Field, add, dot, lanes, put, scale, set, some_lanes, subtract};
 use crate::panel::{Panel, Strip, Yarns};
 use crate::state::History;
 use crate::{Cloth, State};
@@ -180,6 +180,7 @@ impl Scratch {
             bows: self.bows(yarns, start),
             normals: normals.from(strip.offset + start),
             areas: lanes(&yarns.triple_areas, strip.points.start + start),
+            folds: some_lanes(&yarns.folds, strip.points.start + start),
         }
     }
 

@@ -25,10 +25,13 @@ use serde::Deserialize;
 use crate::edge::{Curve, Edge};
 use crate::mistake::{Mistake, Subject};
 use crate::note::Note;
-use crate::panel::Panel;
+use crate::panel::{Fold, Panel};
 use crate::pattern::{EdgeId, Pattern, Stitch};
 use crate::placement::Placement;
 use crate::read::unit_slip;
+
+/// Largest angle of a fold or a seam, in degrees: beyond it the bending of yarns is not exact.
+const ANGLE_MAX: f64 = 140.0;
 
 /// Ratio of the lengths of a seam's sides that is allowed where the file says nothing.
 const EASE: f64 = 1.1;
@@ -55,6 +58,16 @@ struct PanelFile {
     origin: Option<[f64; 3]>,
     turn: Option<[f64; 3]>,
     wrap: Option<f64>,
+    #[serde(default)]
+    fold: Vec<FoldFile>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FoldFile {
+    from: [f64; 2],
+    to: [f64; 2],
+    angle: f64,
 }
 
 #[derive(Deserialize)]
@@ -76,6 +89,8 @@ struct SeamFile {
     #[serde(default)]
     reversed: bool,
     max_ease: Option<f64>,
+    #[serde(default)]
+    angle: f64,
 }
 
 struct Reader<'a> {
@@ -162,6 +177,7 @@ impl Reader<'_> {
                 return None;
             }
         };
+        let panel = self.folded(panel, &file.fold)?;
         if file.origin.is_none() && file.turn.is_none() && file.wrap.is_none() {
             return Some(panel);
         }
@@ -180,6 +196,30 @@ impl Reader<'_> {
                 self.fail(&key, "its place is not finite", help);
                 None
             }
+        }
+    }
+
+    fn folded(&mut self, panel: Panel, folds: &[FoldFile]) -> Option<Panel> {
+        let key = format!("panel.{}.fold", panel.name());
+        for (index, fold) in folds.iter().enumerate() {
+            self.angle(&format!("{key}[{index}].angle"), fold.angle);
+        }
+        let scaled = |p: [f64; 2]| p.map(|x| x * self.metres);
+        let fold = |fold: &FoldFile| Fold {
+            ends: [scaled(fold.from), scaled(fold.to)],
+            angle: fold.angle.to_radians(),
+        };
+        let folds = folds.iter().map(fold).collect();
+        let folded = panel.with_folds(folds);
+        let help = "from and to are the ends of a line, such as [0, 10] and [40, 10]";
+        folded.map_err(|_| self.fail(&key, "a fold has no length, or is not finite", help)).ok()
+    }
+
+    /// An angle of a fold or a seam, in degrees.
+    fn angle(&mut self, key: &str, angle: f64) {
+        if !(angle.abs() <= ANGLE_MAX) {
+            let help = "degrees towards the right side of the cloth, from -140 to 140; 0 is flat";
+            self.fail(key, format!("is {angle}"), help);
         }
     }
 
@@ -275,8 +315,14 @@ impl Reader<'_> {
                 let edge = |word: &String| self.sewn(&key, word, (&names, &panels));
                 seam.sides[side].iter().filter_map(edge).collect::<Vec<EdgeId>>()
             });
-            let max_ease = seam.max_ease.unwrap_or(EASE);
-            stitches.push(Stitch { name: name.clone(), sides, reversed: seam.reversed, max_ease });
+            self.angle(&format!("seam.{name}.angle"), seam.angle);
+            stitches.push(Stitch {
+                name: name.clone(),
+                sides,
+                reversed: seam.reversed,
+                max_ease: seam.max_ease.unwrap_or(EASE),
+                angle: seam.angle.to_radians(),
+            });
         }
         let made = match self.mistakes.is_empty() {
             true => Pattern::new(panels.into_iter().flatten().collect(), stitches),

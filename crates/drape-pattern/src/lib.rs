@@ -30,7 +30,7 @@ pub use edge::{Curve, Edge};
 pub use figure::figure;
 pub use mistake::{Error, Mistake, Subject};
 pub use note::Note;
-pub use panel::Panel;
+pub use panel::{Fold, Panel};
 pub use pattern::{EdgeId, MAX_EASE, Pattern, Stitch};
 pub use placement::Placement;
 pub use quality::Quality;

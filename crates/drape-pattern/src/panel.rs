@@ -23,6 +23,16 @@ pub struct Panel {
     grain: f64,
     placement: Option<Placement>,
     clockwise: bool,
+    folds: Vec<Fold>,
+}
+
+/// A straight line along which a panel is folded at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fold {
+    /// Its ends in the panel's frame, in m. They may lie outside the outline.
+    pub ends: [[f64; 2]; 2],
+    /// Angle by which the panel is turned towards its right side, in rad.
+    pub angle: f64,
 }
 
 impl Panel {
@@ -54,7 +64,7 @@ impl Panel {
         if clockwise {
             outline = outline.iter().rev().map(Edge::reversed).collect();
         }
-        Ok(Self { name, outline, grain: 0.0, placement: None, clockwise })
+        Ok(Self { name, outline, grain: 0.0, placement: None, clockwise, folds: Vec::new() })
     }
 
     /// The panel with its warp at an angle to its y axis, anticlockwise, in rad.
@@ -66,6 +76,22 @@ impl Panel {
             return Err(Mistake::Placed { panel: self.name, value: "grain" });
         }
         self.grain = angle;
+        Ok(self)
+    }
+
+    /// The panel with folds.
+    ///
+    /// # Errors
+    /// When a number of a fold is not finite, or it has no length.
+    pub fn with_folds(mut self, folds: Vec<Fold>) -> Result<Self, Mistake> {
+        let bad = |fold: &Fold| {
+            let [from, to] = fold.ends;
+            !(distance(from, to) > SHORTEST && distance(from, to) + fold.angle.abs() < FARTHEST)
+        };
+        if folds.iter().any(bad) {
+            return Err(Mistake::Placed { panel: self.name, value: "fold" });
+        }
+        self.folds = folds;
         Ok(self)
     }
 
@@ -95,6 +121,10 @@ impl Panel {
         self.outline = self.outline.iter().rev().map(mirror).collect();
         self.grain = 0.0 - self.grain;
         self.placement = self.placement.map(Placement::turned_over);
+        for Fold { ends, angle } in &mut self.folds {
+            *ends = ends.map(|[x, y]| [-x, y]);
+            *angle = -*angle;
+        }
         self
     }
 
@@ -114,6 +144,12 @@ impl Panel {
     #[must_use]
     pub fn grain(&self) -> f64 {
         self.grain
+    }
+
+    /// The lines along which it is folded at rest.
+    #[must_use]
+    pub fn folds(&self) -> &[Fold] {
+        &self.folds
     }
 
     /// Where it lies in space, where that is known.

@@ -29,6 +29,8 @@ pub struct Stitch {
     pub reversed: bool,
     /// Largest ratio of the lengths of the sides that is meant, from 1 to [`MAX_EASE`].
     pub max_ease: f64,
+    /// Angle by which the sides are turned towards their right sides when it is sewn, in rad: 0 if it is pressed open.
+    pub angle: f64,
 }
 
 /// Checked panels and how they are sewn.

@@ -96,6 +96,22 @@ fn the_example_of_the_readme_lacks_nothing_but_its_back() {
 }
 
 #[test]
+fn folds_and_angles_of_seams_are_read() {
+    let fold = "\n[[panel.back.fold]]\nfrom = [0, 10]\nto = [30, 12]\nangle = -60\n";
+    let text = squares(&[]) + "angle = 30\n" + fold;
+    let pattern = Pattern::parse(&Document::new("p.toml", text.clone())).expect("it is right");
+    assert!((pattern.stitches()[0].angle.to_degrees() - 30.0).abs() < 1e-12);
+    assert!(pattern.panels()[1].folds().is_empty());
+    let [fold] = pattern.panels()[0].folds() else { panic!("one fold") };
+    assert!(
+        fold.ends == [[0.0, 0.1], [0.3, 0.12]] && (fold.angle.to_degrees() + 60.0).abs() < 1e-12
+    );
+    says("p.toml", &text.replace("= 30\n", "= 150\n"), &["seam", "is 150", "-140 to 140"]);
+    says("p.toml", &text.replace("-60", "nan"), &["fold", "is NaN", "-140 to 140"]);
+    says("p.toml", &text.replace("[30, 12]", "[0, 10]"), &["fold", "no length"]);
+}
+
+#[test]
 fn mistakes_of_the_own_format_have_line_value_and_remedy() {
     let toml =
         |exchanges: &[(&str, &str)], words: &[&str]| says("a.toml", &squares(exchanges), words);

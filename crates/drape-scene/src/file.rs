@@ -1,5 +1,7 @@
 //! The TOML form of a scene. `SceneFile` mirrors the text; nothing here is checked beyond its type.
 
+mod garment;
+
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -8,6 +10,8 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use crate::contact::ContactFile;
+
+pub(crate) use garment::{GarmentFile, GarmentPanelFile, SewFile};
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -89,45 +93,19 @@ pub(crate) struct PanelFile {
     pub(crate) noise: Option<NoiseFile>,
     /// Further panels like this one.
     pub(crate) stack: Option<StackFile>,
-}
-
-/// A pattern that is cut, placed and sewn.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct GarmentFile {
-    pub(crate) pattern: String,
-    /// The fabric of the panels that name none.
-    pub(crate) fabric: String,
-    pub(crate) spacing: Option<f64>,
-    /// Shift of all panels.
+    /// Lines along which it is folded at rest.
     #[serde(default)]
-    pub(crate) center: [f64; 3],
-    /// Random heights over the panels.
-    pub(crate) noise: Option<NoiseFile>,
-    /// What is said of single panels.
-    #[serde(default)]
-    pub(crate) panel: BTreeMap<String, GarmentPanelFile>,
+    pub(crate) fold: Vec<FoldFile>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct GarmentPanelFile {
-    pub(crate) fabric: Option<String>,
-    /// Where the origin of the panel's frame is, and its turns about x, y and z in degrees; those of the pattern if both
-    /// are missing.
-    pub(crate) center: Option<[f64; 3]>,
-    pub(crate) turn: Option<[f64; 3]>,
-    /// Radius of the cylinder that it is bent to; that of the pattern if missing.
-    pub(crate) wrap: Option<f64>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SewFile {
-    /// How long the sides of the seams are drawn together.
-    pub(crate) seconds: Option<f64>,
-    /// How many times as stiff as the fabric a seam is.
-    pub(crate) stiffness: Option<f64>,
+pub(crate) struct FoldFile {
+    /// Its ends, places on the panel as for a pin.
+    pub(crate) from: [f64; 2],
+    pub(crate) to: [f64; 2],
+    /// Angle by which the panel is turned towards its right side, in degrees.
+    pub(crate) angle: f64,
 }
 
 #[derive(Debug, Deserialize)]

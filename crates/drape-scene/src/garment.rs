@@ -19,6 +19,8 @@ pub struct Seam {
     pub name: String,
     /// The particles of both sides, in the order in which it runs; both are one at the tip of a dart.
     pub pairs: Vec<[u32; 2]>,
+    /// Angle by which its sides are turned towards their right sides at rest, in rad.
+    pub angle: f64,
 }
 
 impl Seam {
@@ -155,7 +157,11 @@ impl Reader<'_> {
                     help,
                 );
             });
-            if let (Some(placement), Some(material), Ok(lattice)) = (placement, material, lattice) {
+            let folds = panel.folds().iter().map(|fold| (fold.ends, fold.angle));
+            let folded = lattice.map(|lattice| self.folded((key, panel.name()), lattice, folds));
+            if let (Some(placement), Some(material), Ok(Some(lattice))) =
+                (placement, material, folded)
+            {
                 let mut positions = vec![0.0; 3 * cut.positions.len()];
                 for (&node, &place) in number.iter().zip(&cut.positions) {
                     let height = noise * random.next();
@@ -188,6 +194,7 @@ impl Reader<'_> {
         };
         let seams = pattern.stitches().iter().zip(&cut.seams).map(|(stitch, pairs)| Seam {
             name: stitch.name.clone(),
+            angle: stitch.angle,
             pairs: pairs.iter().map(|pair| pair.map(node)).collect(),
         });
         let notes = pattern.notes().iter().chain(&cut.notes).map(ToString::to_string).collect();

@@ -9,6 +9,7 @@ mod course;
 mod error;
 mod file;
 mod fitting;
+mod fold;
 mod frame;
 mod garment;
 mod girth;

@@ -1,7 +1,7 @@
 use drape_cloth::{ClothError, Grain, Lattice};
 use drape_input::Diagnostic;
 
-use crate::file::{PanelFile, SceneFile};
+use crate::file::{FoldFile, PanelFile, SceneFile};
 use crate::material::Material;
 use crate::placement::Placement;
 use crate::reader::Reader;
@@ -57,6 +57,11 @@ impl Reader<'_> {
             }
             let material = self.material_of(&format!("{key}.fabric"), &entry.fabric, file);
             let lattice = self.lattice(&key, entry, file.spacing, unit);
+            let lattice = lattice.and_then(|lattice| {
+                let ends = |fold: &FoldFile| [fold.from, fold.to].map(|end| end.map(|x| x * unit));
+                let folds = entry.fold.iter().map(|fold| (ends(fold), fold.angle.to_radians()));
+                self.folded((&format!("{key}.fold"), &entry.name), lattice, folds)
+            });
             let placement = Placement::new(entry, unit);
             let bad = entry.center.iter().chain(&entry.turn).any(|x| !x.is_finite());
             if entry.velocity.iter().chain(&entry.spin).any(|x| !x.is_finite()) {

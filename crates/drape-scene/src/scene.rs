@@ -237,7 +237,12 @@ impl Reader<'_> {
         Ok(Scene {
             name: file.name.unwrap_or_else(|| "unnamed".into()),
             file: self.document.path().to_owned(),
-            hash: hash(self.document, (&materials, &positions), (contact.bodies(), &courses)),
+            hash: hash(
+                self.document,
+                (&materials, &positions),
+                (contact.bodies(), &courses),
+                (&panels, sewing.as_ref()),
+            ),
             materials,
             panels,
             cloth,
@@ -372,6 +377,7 @@ fn hash(
     document: &Document,
     (materials, positions): (&[Material], &[f64]),
     (bodies, courses): (&[Body], &[Option<Course>]),
+    (panels, sewing): (&[Panel], Option<&Sewing>),
 ) -> String {
     let mut hasher = blake3::Hasher::new();
     hasher.update(document.text().as_bytes());
@@ -389,5 +395,10 @@ fn hash(
             shapes.numbers().for_each(&mut number);
         }
     }
+    for fold in panels.iter().flat_map(|panel| panel.lattice.folds()) {
+        fold.ends.iter().flatten().chain([&fold.angle]).for_each(|&x| number(x));
+    }
+    let seams = sewing.iter().flat_map(|sewing| &sewing.seams);
+    seams.filter(|seam| seam.angle != 0.0).for_each(|seam| number(seam.angle));
     hasher.finalize().to_hex().to_string()
 }

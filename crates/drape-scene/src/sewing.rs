@@ -57,6 +57,7 @@ impl Reader<'_> {
         self.within("sew.stiffness", stiffness, (0.0, 1e3), help);
         let bending = |seam: &Seam| drape_cloth::Seam {
             stiffness,
+            rest_angle: seam.angle,
             ..drape_cloth::Seam::new(seam.pairs.clone())
         };
         let bending: Vec<drape_cloth::Seam> = seams.iter().map(bending).collect();

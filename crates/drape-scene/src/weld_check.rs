@@ -43,7 +43,7 @@ residual = 1e-4
     let mut scene =
         Scene::from_documents(&Document::new("scene.toml", text), &[fabric]).expect("right");
     let pairs: Vec<[u32; 2]> = (0..7).map(|k| [k, 49 + 42 + k]).collect();
-    let seams = vec![Seam { name: "seam".into(), pairs: pairs.clone() }];
+    let seams = vec![Seam { name: "seam".into(), pairs: pairs.clone(), angle: 0.0 }];
     let lattices = scene.panels.iter().map(|panel| (&panel.lattice, &scene.materials[0].fabric));
     let bending =
         SeamBending::new(&lattices.collect::<Vec<_>>(), &[drape_cloth::Seam::new(pairs.clone())]);

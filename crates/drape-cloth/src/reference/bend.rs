@@ -1,4 +1,4 @@
-use drape_fabric::{BendingLaw, Memory};
+use drape_fabric::{BendingLaw, Law, Memory};
 
 use super::block::{Block, one, outer, sum};
 use crate::angle::{Angle, bow_of};
@@ -37,6 +37,40 @@ pub(crate) fn bend(
     ]);
     let energy = law.backbone.energy(size) + law.friction.work(memory.friction, slip);
     (moment, block, energy)
+}
+
+/// The same at a fold, which adds to the rest curvature, in 1/m: the curvature is counted about the normal, and what the yarn
+/// bows within the surface apart from it.
+pub(crate) fn folded(
+    (law, memory): (&BendingLaw, &Memory),
+    (bow, normal): (Vector, Vector),
+    (spacing, fold): (f64, f64),
+    definite: bool,
+) -> (Vector, Block, f64) {
+    let along = dot(bow, normal);
+    let to = curvature(bow, normal, spacing);
+    let law = BendingLaw { rest_curvature: law.rest_curvature + fold, ..*law };
+    let response = law.respond(memory, to);
+    let (first, second) = Angle::of(along * along, spacing).derivatives(along);
+    let slope = response.tangent * first * first + response.load * second;
+    let slope = if definite { slope.max(0.0) } else { slope };
+    let within = subtract(bow, scale(normal, along));
+    let size = dot(within, within).sqrt();
+    let inner = law.backbone.respond(size);
+    let (secant, unit) = if size > 0.0 {
+        (inner.load / size, scale(within, 1.0 / size))
+    } else {
+        (inner.tangent, within)
+    };
+    let moment = add(scale(normal, response.load * first), scale(within, secant));
+    let block = sum([
+        (slope, outer(normal, normal)),
+        (secant, sum([(1.0, one()), (-1.0, outer(normal, normal))])),
+        (inner.tangent - secant, outer(unit, unit)),
+    ]);
+    let friction = law.friction.work(memory.friction, to - memory.position);
+    let energy = law.backbone.energy(to - law.rest_curvature) + friction;
+    (moment, block, energy + law.backbone.energy(size))
 }
 
 /// Curvature of a bow about a normal.

@@ -2,7 +2,7 @@
 
 use drape_fabric::{BendingLaw, Fabric, Law, Memory, ShearLaw, TractionLaw};
 
-use super::bend::{bend, curvature};
+use super::bend::{bend, curvature, folded};
 use super::block::{Block, one, outer, sum, transposed};
 use super::{at, move_on, push};
 use crate::Lattice;
@@ -171,6 +171,8 @@ pub(super) struct Fitted {
     parts: Vec<(u32, f64)>,
     length: f64,
     area: f64,
+    /// What folds add to the rest curvature, in 1/m.
+    fold: f64,
     memory: Memory,
 }
 
@@ -194,6 +196,7 @@ impl Fitted {
                     parts,
                     length,
                     area: stencil.areas[direction],
+                    fold: stencil.folds[direction],
                     memory: Memory::default(),
                 });
             }
@@ -209,7 +212,11 @@ impl Fitted {
 
     fn bend(&self, (positions, normals): (&[f64], &[f64]), definite: bool) -> (Vector, Block, f64) {
         let bow = (self.bow(positions), at(normals, self.middle));
-        bend((&self.law, &self.memory), bow, self.length, definite)
+        let law = (&self.law, &self.memory);
+        if self.fold != 0.0 {
+            return folded(law, bow, (self.length, self.fold), definite);
+        }
+        bend(law, bow, self.length, definite)
     }
 
     fn curvature(&self, positions: &[f64], normals: &[f64]) -> f64 {

@@ -1,7 +1,7 @@
 use drape_fabric::{LANES, Lanes};
 
 use crate::bend::{Bend, Bows};
-use crate::field::{Batch, lanes, set};
+use crate::field::{Batch, lanes, set, some_lanes};
 use crate::panel::Yarns;
 use crate::rim::Stencils;
 
@@ -50,6 +50,7 @@ impl Bowed {
             bows: Bows(self.bows[direction]),
             normals: Batch(self.normals.each_ref()),
             areas: lanes(&stencils.areas[direction], start),
+            folds: some_lanes(&stencils.folds[direction], start),
         }
     }
 }

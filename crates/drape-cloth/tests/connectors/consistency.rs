@@ -1,6 +1,6 @@
 //! Forces and tangents against differences, conservation, the connectors one by one, and bits.
 
-use drape_cloth::{Breen, Cloth, ClothError, Grain, Lattice, Mesh, Reference, State};
+use drape_cloth::{Breen, Cloth, ClothError, Fold, Grain, Lattice, Mesh, Reference, State};
 use drape_fabric::Fabric;
 
 use crate::panels::{LINEN, RICH, fabric, rectangle, shape};
@@ -35,13 +35,28 @@ pub fn panels() -> Vec<(&'static str, Lattice)> {
     ]
 }
 
+/// A panel of about 100 mm with two folds that cross each other, at no angle in particular.
+fn folded((name, lattice): (&'static str, Lattice)) -> (&'static str, Lattice) {
+    let [low, high] = [f64::min, f64::max].map(|of: fn(f64, f64) -> f64| {
+        [0, 1].map(|k| lattice.coordinates.iter().map(|c| c[k]).reduce(of).expect("a node"))
+    });
+    let at = |u: f64, v: f64| [low[0] + u * (high[0] - low[0]), low[1] + v * (high[1] - low[1])];
+    let folds = [
+        Fold { ends: [at(0.3, -0.1), at(0.6, 1.1)], angle: 1.3 },
+        Fold { ends: [at(-0.1, 0.55), at(0.8, 0.52)], angle: -0.7 },
+    ];
+    (name, lattice.with_folds(&folds).expect("folds that cross it"))
+}
+
 /// All of them, each with the fabric that it is tried in.
 fn cases() -> Vec<(&'static str, Lattice, Fabric)> {
     let of = |panels: Vec<(&'static str, Lattice)>, text: &str| {
         let fabric = fabric(text);
         panels.into_iter().map(move |(name, lattice)| (name, lattice, fabric.clone()))
     };
-    of(grids(), LINEN).chain(of(panels(), RICH)).collect()
+    let creased = grids().into_iter().map(folded).collect();
+    let creased = of(creased, LINEN).chain(of(panels().into_iter().map(folded).collect(), RICH));
+    of(grids(), LINEN).chain(of(panels(), RICH)).chain(creased).collect()
 }
 
 #[test]
@@ -141,6 +156,8 @@ fn mixed() -> Vec<Lattice> {
     let mut all: Vec<Lattice> = panels().into_iter().map(|(_, lattice)| lattice).collect();
     all.insert(1, Lattice::rectangle(0.1, 0.08, 0.012).expect("a rectangle"));
     all.push(Lattice::disc(0.05, 0.011).expect("a disc"));
+    let creased: Vec<Lattice> = all.iter().map(|l| folded(("creased", l.clone())).1).collect();
+    all.extend(creased);
     all
 }
 

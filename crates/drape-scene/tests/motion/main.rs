@@ -5,6 +5,7 @@ mod adaptive;
 mod bodies;
 mod energy;
 mod explicit;
+mod folds;
 mod rest;
 mod robust;
 mod shapes;

@@ -2,7 +2,7 @@ use drape_scene::{Progress, Status, Step, Summary};
 
 use crate::sheet::{CORNERS, FLAT, Sheet};
 
-struct Silent;
+pub struct Silent;
 
 impl Progress for Silent {
     fn step(&mut self, _: &Step, _: usize) {}
