@@ -67,8 +67,9 @@ impl Bonds {
         self.version
     }
 
-    /// The seams bend from now on, and threads need no room any more.
+    /// The seams of a finished cloth bend from now on, and threads need no room any more.
     pub(crate) fn sew(&mut self, cloth: &Cloth, bending: SeamBending, positions: &[f64]) {
+        self.workspace = cloth.workspace();
         let pairs: Vec<[u32; 2]> = bending.pairs().collect();
         self.coupling = coupling(cloth.pattern(), &pairs);
         self.spread = Some(spread(cloth.pattern(), &self.coupling));

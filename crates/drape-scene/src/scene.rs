@@ -367,7 +367,7 @@ impl Reader<'_> {
 }
 
 /// A cloth that keeps the account of its strains and of nothing else.
-fn without_friction(panels: &[(&Lattice, &Fabric)]) -> Cloth {
+pub(crate) fn without_friction(panels: &[(&Lattice, &Fabric)]) -> Cloth {
     let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.elastic()).collect();
     let lattices = panels.iter().map(|(lattice, _)| *lattice);
     Cloth::new(&lattices.zip(&fabrics).collect::<Vec<_>>())

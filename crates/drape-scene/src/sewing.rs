@@ -1,4 +1,4 @@
-use drape_cloth::{Lattice, SeamBending};
+use drape_cloth::{Cloth, Lattice, SeamBending};
 use drape_fabric::Fabric;
 use drape_input::Diagnostic;
 
@@ -7,7 +7,7 @@ use crate::garment::Seam;
 use crate::measures::FreeEdge;
 use crate::panel::Laid;
 use crate::reader::Reader;
-use crate::scene::Scene;
+use crate::scene::{Scene, without_friction};
 
 /// How long the sides of the seams are drawn together when the scene does not say, in s.
 const SECONDS: f64 = 1.0;
@@ -20,6 +20,8 @@ pub struct Sewing {
     pub seams: Vec<Seam>,
     /// The particles of all of them that become one, in pairs.
     pub pairs: Vec<[u32; 2]>,
+    /// The cloth as it is sewn: its laws have no friction, so that how the sides are drawn together is no history.
+    pub cloth: Cloth,
     /// How long it takes, in s.
     pub seconds: f64,
     /// How they bend when they are sewn.
@@ -70,7 +72,8 @@ impl Reader<'_> {
         });
         let pairs = seams.iter().flat_map(|seam| &seam.pairs).filter(|[a, b]| a != b);
         let pairs = pairs.copied().collect();
-        Some(Sewing { seams, pairs, seconds, bending: bending.ok()? })
+        let cloth = without_friction(panels);
+        Some(Sewing { seams, pairs, cloth, seconds, bending: bending.ok()? })
     }
 
     /// Panels are told apart by their names. Those that the scene itself names twice have been reported.

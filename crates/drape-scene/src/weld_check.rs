@@ -5,7 +5,7 @@ use drape_implicit::{System, check_system};
 use drape_input::Document;
 
 use crate::garment::Seam;
-use crate::scene::Scene;
+use crate::scene::{Scene, without_friction};
 use crate::sewing::Sewing;
 use crate::simulation::{Progress, Step};
 use crate::weld::{Sewn, Weld, join};
@@ -45,10 +45,11 @@ residual = 1e-4
     let pairs: Vec<[u32; 2]> = (0..7).map(|k| [k, 49 + 42 + k]).collect();
     let seams = vec![Seam { name: "seam".into(), pairs: pairs.clone(), angle: 0.0 }];
     let lattices = scene.panels.iter().map(|panel| (&panel.lattice, &scene.materials[0].fabric));
-    let bending =
-        SeamBending::new(&lattices.collect::<Vec<_>>(), &[drape_cloth::Seam::new(pairs.clone())]);
+    let lattices: Vec<_> = lattices.collect();
+    let cloth = without_friction(&lattices);
+    let bending = SeamBending::new(&lattices, &[drape_cloth::Seam::new(pairs.clone())]);
     let bending = bending.expect("a seam of two edges");
-    scene.sewing = Some(Sewing { seams, pairs, seconds: 0.5, bending });
+    scene.sewing = Some(Sewing { seams, pairs, cloth, seconds: 0.5, bending });
     scene
 }
 

@@ -42,6 +42,8 @@ pub(crate) struct World {
     pub(crate) creeps: bool,
     /// How the seams bend when they are one.
     seam_bending: Option<SeamBending>,
+    /// The cloth as it hangs then, with the friction of its fabrics.
+    finished: Option<Cloth>,
     /// What takes a creeping cloth's momentum from it in the course of a step, in N.
     ///
     /// Its steps are to start from rest, but the velocity that it came with makes a good first guess.
@@ -65,7 +67,7 @@ pub(crate) struct World {
 impl World {
     pub(crate) fn new(scene: Scene) -> Self {
         let Scene {
-            cloth,
+            mut cloth,
             breen,
             positions,
             velocities,
@@ -87,7 +89,11 @@ impl World {
         });
         let moving = moving.collect();
         let stitches = sewing.as_ref().map(|s| Stitches::new(&s.pairs, &positions, s.seconds));
-        let seam_bending = sewing.map(|sewing| sewing.bending);
+        let (mut seam_bending, mut finished) = (None, None);
+        if let Some(sewing) = sewing {
+            seam_bending = Some(sewing.bending);
+            finished = Some(std::mem::replace(&mut cloth, sewing.cloth));
+        }
         let mut state = cloth.state(positions).expect("a scene places every particle");
         state.velocities = velocities;
         let threads = stitches.as_ref().map_or(&[][..], Stitches::pairs);
@@ -110,6 +116,7 @@ impl World {
             ramp: scene.clock.ramp,
             stitches,
             seam_bending,
+            finished,
             brake: Vec::new(),
             creeps: false,
             held,
@@ -157,11 +164,14 @@ impl World {
     pub(crate) fn sewn(&mut self, time: f64, positions: &[f64]) {
         self.stitches = None;
         self.grows_from = time;
+        if let Some(cloth) = self.finished.take() {
+            self.cloth = cloth;
+        }
         if let Some(bending) = self.seam_bending.take() {
             self.bonds.sew(&self.cloth, bending, positions);
         }
-        self.state.positions.copy_from_slice(positions);
-        self.state.velocities.fill(0.0);
+        let state = self.cloth.state(positions.to_vec());
+        self.state = state.expect("a place for every particle");
         for pin in &mut self.pins {
             pin.sewn(time);
         }
