@@ -1,7 +1,8 @@
 use std::path::PathBuf;
 
 use drape::scene::{
-    Contacts, Energy, Scene, SceneError, Simulation, Snapshot, Status, Summary, prepare_folder,
+    Contacts, Energy, PhaseName, Scene, SceneError, Simulation, Snapshot, Status, Summary,
+    prepare_folder,
 };
 
 use crate::command::RunArguments;
@@ -135,7 +136,12 @@ fn refuse(error: SceneError, arguments: &RunArguments) -> Failure {
 
 fn describe(summary: &Summary) -> String {
     let Summary { energy, strain, contact, .. } = summary;
-    let rest = if summary.settled { "at rest" } else { "moving" };
+    let relaxes = summary.phases.last().is_some_and(|phase| phase.name == PhaseName::Relax);
+    let rest = match (summary.settled, relaxes) {
+        (true, true) => "at rest",
+        (true, false) => "moving again after it was at rest",
+        (false, _) => "moving",
+    };
     let cpu = summary.cpu_seconds.map_or(String::new(), |cpu| format!(", {cpu:.1} s of processor"));
     let nearest = contact.min_distance.map_or("none near".into(), |d| format!("{:.3} mm", 1e3 * d));
     format!(
