@@ -106,7 +106,8 @@ impl Cloth {
         let base = self.panels.iter().map(Panel::length).sum();
         let panel = Panel::new(lattice, fabric, (first, base), &bending);
         self.panels.push(panel);
-        self.masses.extend(areas.iter().map(|area| area * fabric.density));
+        let weighed = lattice.weighed(&areas);
+        self.masses.extend(weighed.iter().map(|area| area * fabric.density));
         self.coordinates.extend(&lattice.coordinates);
         self.triangles.extend(lattice.triangles().iter().map(|t| t.map(|p| first + p)));
         self.areas.extend(areas);
@@ -118,7 +119,7 @@ impl Cloth {
         self.masses.len()
     }
 
-    /// Masses of the particles, in kg.
+    /// Masses of the particles, in kg: of the areas that they stand for, and of allowances.
     #[must_use]
     pub fn masses(&self) -> &[f64] {
         &self.masses

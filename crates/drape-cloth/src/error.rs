@@ -51,6 +51,12 @@ pub enum ClothError {
         /// What is wrong with it.
         what: &'static str,
     },
+    /// An allowance has no width.
+    #[error("an allowance is {width} m wide; give 0 or more")]
+    Width {
+        /// The width, in m.
+        width: f64,
+    },
     /// A fold does not fit its panel.
     #[error("fold {fold} {what}")]
     Fold {

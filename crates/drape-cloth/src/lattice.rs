@@ -41,6 +41,8 @@ pub struct Lattice {
     pub rim: Vec<[u32; 3]>,
     /// Lines along which it is folded at rest.
     pub(crate) folds: Vec<Fold>,
+    /// Area of cloth that lies along the outline at each particle, in m²; empty without.
+    pub(crate) allowances: Vec<f64>,
     /// Particle at each grid point, `columns` to a row.
     pub(crate) grid: Vec<Option<u32>>,
     pub(crate) columns: usize,
@@ -242,6 +244,7 @@ impl Lattice {
             cells,
             rim: Vec::new(),
             folds: Vec::new(),
+            allowances: Vec::new(),
             grid,
             columns,
         })

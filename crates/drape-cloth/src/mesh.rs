@@ -145,6 +145,7 @@ impl Lattice {
             cells: cells.into_iter().map(cell).collect(),
             rim: mesh.triangles,
             folds: Vec::new(),
+            allowances: Vec::new(),
             grid,
             columns,
         })

@@ -32,6 +32,8 @@ pub struct Edge {
     pub end: [f64; 2],
     /// How it goes.
     pub curve: Curve,
+    /// Width of the hem along it, in m; 0 without.
+    pub hem: f64,
 }
 
 /// The circle that an edge follows.
@@ -44,13 +46,20 @@ struct Circle {
 impl Edge {
     /// A straight edge.
     pub fn line(name: impl Into<String>, start: [f64; 2], end: [f64; 2]) -> Self {
-        Self { name: name.into(), start, end, curve: Curve::Line }
+        Self { name: name.into(), start, end, curve: Curve::Line, hem: 0.0 }
     }
 
     /// The same edge as another curve.
     #[must_use]
     pub fn curved(mut self, curve: Curve) -> Self {
         self.curve = curve;
+        self
+    }
+
+    /// The same edge with a hem, whose width is in m.
+    #[must_use]
+    pub fn hemmed(mut self, width: f64) -> Self {
+        self.hem = width;
         self
     }
 
@@ -94,7 +103,7 @@ impl Edge {
             Curve::Arc { sweep } => Curve::Arc { sweep: -sweep },
             curve => curve,
         };
-        Self { name: self.name.clone(), start: self.end, end: self.start, curve }
+        Self { name: self.name.clone(), start: self.end, end: self.start, curve, hem: self.hem }
     }
 
     /// The edge with its points moved by a map that keeps angles, or turns them round if `mirrors`.
@@ -105,7 +114,8 @@ impl Edge {
             Curve::Cubic(controls) => Curve::Cubic(controls.map(&map)),
             Curve::Arc { sweep } => Curve::Arc { sweep: if mirrors { -sweep } else { sweep } },
         };
-        Self { name: self.name.clone(), start: map(self.start), end: map(self.end), curve }
+        let (start, end) = (map(self.start), map(self.end));
+        Self { name: self.name.clone(), start, end, curve, hem: self.hem }
     }
 
     fn circle(&self, sweep: f64) -> Circle {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use crate::cut::{Cut, CutPattern};
 use crate::edge::difference;
-use crate::panel::Panel;
+use crate::panel::{Fold, Panel};
 use crate::pattern::Pattern;
 
 /// Width of the picture over its height, about.
@@ -18,7 +18,7 @@ const HUE_STEP: f64 = 137.508;
 /// Draws the panels of a cut side by side, in mm.
 ///
 /// Grey are cells and rim, black the outline; both sides of a seam have the same colour. An arrow along
-/// the warp shows the grain, and small letters name the edges.
+/// the warp shows the grain, and small letters name the edges. Dashed lines are folds, with their angles in degrees.
 #[must_use]
 pub fn figure(pattern: &Pattern, cut: &CutPattern) -> String {
     let sheet = Sheet::new(cut);
@@ -37,6 +37,7 @@ pub fn figure(pattern: &Pattern, cut: &CutPattern) -> String {
         let drawing = Drawing { sheet: &sheet, cut: &cut.panels[number], number };
         drawing.mesh(&mut svg);
         drawing.seams(cut, &mut svg);
+        drawing.folds(panel, &mut svg);
         drawing.words(panel, &mut svg);
     }
     svg.push_str("</svg>\n");
@@ -200,6 +201,38 @@ impl Drawing<'_> {
         }
     }
 
+    /// What of the lines of folds lies inside the outline, each with its angle beside its longest piece.
+    fn folds(&self, panel: &Panel, svg: &mut String) {
+        let outline: Vec<[f64; 2]> =
+            self.cut.outline.iter().map(|&n| self.cut.positions[n as usize]).collect();
+        let letter = self.sheet.letter;
+        for Fold { ends: [from, to], angle } in panel.folds() {
+            let way = difference(*to, *from);
+            let at = |share: f64| [from[0] + share * way[0], from[1] + share * way[1]];
+            let pieces = inside(&outline, [*from, *to]);
+            let mut path = String::new();
+            for piece in &pieces {
+                let [a, b] = piece.map(|share| self.point(at(share)));
+                let _ = write!(path, "M{:.1} {:.1}L{:.1} {:.1}", a[0], a[1], b[0], b[1]);
+            }
+            let length = |[start, end]: &[f64; 2]| end - start;
+            let longest = pieces.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
+            let Some([start, end]) = longest else { continue };
+            let _ = writeln!(
+                svg,
+                "<path d=\"{path}\" stroke=\"#222222\" stroke-width=\"{:.2}\" \
+                 stroke-dasharray=\"{:.1} {:.1}\"/>",
+                0.15 * letter,
+                0.9 * letter,
+                0.6 * letter,
+            );
+            // A third along it: the panel's name may be in the middle.
+            let place = self.point(at(start + (end - start) / 3.0));
+            let angle = format!("{}°", (10.0 * angle.to_degrees()).round() / 10.0);
+            self.beside(&angle, (place, difference(self.point(*to), self.point(*from))), svg);
+        }
+    }
+
     fn words(&self, panel: &Panel, svg: &mut String) {
         let letter = self.sheet.letter;
         let middle = self.middle();
@@ -234,17 +267,23 @@ impl Drawing<'_> {
             // Beside the middle of the edge, inside.
             let half = nodes.len() / 2;
             let (from, to) = (self.node(nodes[half.saturating_sub(1)]), self.node(nodes[half]));
-            let [x, y] = difference(to, from);
-            let length = x.hypot(y).max(f64::MIN_POSITIVE);
-            let inward = [y / length, -x / length];
-            let at = [0, 1].map(|k| 0.5 * (from[k] + to[k]) + 0.9 * letter * inward[k]);
-            let anchor = match inward[0] {
-                0.5.. => "start",
-                ..-0.5 => "end",
-                _ => "middle",
-            };
-            word(svg, (&edge.name, anchor), (at, 0.75 * letter));
+            let middle = [0, 1].map(|k| 0.5 * (from[k] + to[k]));
+            self.beside(&edge.name, (middle, difference(to, from)), svg);
         }
+    }
+
+    /// A small word at a place on a line, on the side that is inside where the line is the outline.
+    fn beside(&self, text: &str, (at, [x, y]): ([f64; 2], [f64; 2]), svg: &mut String) {
+        let letter = self.sheet.letter;
+        let length = x.hypot(y).max(f64::MIN_POSITIVE);
+        let inward = [y / length, -x / length];
+        let anchor = match inward[0] {
+            0.5.. => "start",
+            ..-0.5 => "end",
+            _ => "middle",
+        };
+        let at = [0, 1].map(|k| at[k] + 0.9 * letter * inward[k]);
+        word(svg, (text, anchor), (at, 0.75 * letter));
     }
 
     /// The middle of the cell that is farthest from the outline, or of the panel's box without cells.
@@ -266,6 +305,26 @@ impl Drawing<'_> {
             self.point([0, 1].map(|k| 0.0005 * (low[k] + high[k])))
         })
     }
+}
+
+/// The pieces of a line inside a polygon, as parts of its length from its start.
+fn inside(polygon: &[[f64; 2]], [from, to]: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
+    let way = difference(to, from);
+    let sides = || polygon.iter().copied().zip(polygon.iter().copied().cycle().skip(1));
+    let left = |p: [f64; 2]| way[0] * (p[1] - from[1]) - way[1] * (p[0] - from[0]);
+    let along = |p: [f64; 2]| {
+        (way[0] * (p[0] - from[0]) + way[1] * (p[1] - from[1])) / (way[0].powi(2) + way[1].powi(2))
+    };
+    // One of a corner's two sides has it, so that the line is in and out by turns.
+    let crossed = sides().filter_map(|(a, b)| {
+        let (here, there) = (left(a), left(b));
+        let share = here / (here - there);
+        ((here > 0.0) != (there > 0.0)).then(|| along(a) + share * (along(b) - along(a)))
+    });
+    let mut shares: Vec<f64> = crossed.collect();
+    shares.sort_by(f64::total_cmp);
+    let pieces = shares.chunks_exact(2).map(|piece| [piece[0].max(0.0), piece[1].min(1.0)]);
+    pieces.filter(|[start, end]| end > start).collect()
 }
 
 fn polygon(points: impl Iterator<Item = [f64; 2]>) -> String {

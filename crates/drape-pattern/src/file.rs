@@ -33,6 +33,9 @@ use crate::read::unit_slip;
 /// Largest angle of a fold or a seam, in degrees: beyond it the bending of yarns is not exact.
 const ANGLE_MAX: f64 = 140.0;
 
+/// Widest allowance or hem, in m: beyond it a length in the wrong unit is far more likely.
+const WIDTH_MAX: f64 = 0.3;
+
 /// Ratio of the lengths of a seam's sides that is allowed where the file says nothing.
 const EASE: f64 = 1.1;
 
@@ -80,6 +83,8 @@ struct EdgeFile {
     radius: Option<f64>,
     #[serde(default)]
     large: bool,
+    #[serde(default)]
+    hem: f64,
 }
 
 #[derive(Deserialize)]
@@ -91,6 +96,8 @@ struct SeamFile {
     max_ease: Option<f64>,
     #[serde(default)]
     angle: f64,
+    #[serde(default)]
+    allowance: f64,
 }
 
 struct Reader<'a> {
@@ -223,6 +230,15 @@ impl Reader<'_> {
         }
     }
 
+    /// The width of an allowance or a hem, in m.
+    fn width(&mut self, key: &str, width: f64) -> f64 {
+        let metres = width * self.metres;
+        if !(0.0..=WIDTH_MAX).contains(&metres) {
+            self.fail(key, format!("is {width}"), "a length from 0 to 300 mm; 0 is none");
+        }
+        metres
+    }
+
     fn edges(&mut self, name: &str, file: &PanelFile) -> Option<Vec<Edge>> {
         let key = format!("panel.{name}");
         let mut edges = match (&file.outline, file.rectangle, &file.path) {
@@ -287,11 +303,12 @@ impl Reader<'_> {
                 _ => None,
             };
             let place = format!("{key}.outline[{index}]");
+            let hem = self.width(&format!("{place}.hem"), file.hem);
             if file.large && file.radius.is_none() {
                 self.fail(&place, "large belongs to a radius", "remove it, or add radius");
             }
             match curve {
-                Some(curve) => edges.push(line.curved(curve)),
+                Some(curve) => edges.push(line.curved(curve).hemmed(hem)),
                 None => {
                     let help = "give at most one of quadratic, cubic and radius";
                     self.fail(&place, "the edge has no single curve", help);
@@ -322,6 +339,7 @@ impl Reader<'_> {
                 reversed: seam.reversed,
                 max_ease: seam.max_ease.unwrap_or(EASE),
                 angle: seam.angle.to_radians(),
+                allowance: self.width(&format!("seam.{name}.allowance"), seam.allowance),
             });
         }
         let made = match self.mistakes.is_empty() {

@@ -152,7 +152,7 @@ fn edges(path: &Path, points: &BTreeMap<String, [f64; 2]>) -> Result<Vec<Edge>, 
                 0 => {}
                 n => name = format!("{name} {}", n + 1),
             }
-            edges.push(Edge { name, start, end, curve });
+            edges.push(Edge::line(name, start, end).curved(curve));
         }
     };
     for (index, operation) in path.ops.iter().enumerate() {

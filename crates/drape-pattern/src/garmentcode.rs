@@ -260,7 +260,7 @@ impl Reader<'_> {
         let [Some(first), Some(second)] = sides else { return None };
         let (name, sides) = (index.to_string(), [vec![first], vec![second]]);
         // The format has gathers, and no word for how much of one is meant.
-        Some(Stitch { name, sides, reversed, max_ease: MAX_EASE, angle: 0.0 })
+        Some(Stitch { name, sides, reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 })
     }
 
     fn side(

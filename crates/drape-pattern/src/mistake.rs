@@ -181,6 +181,16 @@ pub enum Mistake {
         /// The other.
         second: String,
     },
+    /// An edge is hemmed and sewn: leave out the hem.
+    #[error("edge {edge} of panel {panel} has a hem, and is sewn in stitch {stitch}")]
+    SewnHem {
+        /// The panel.
+        panel: String,
+        /// The edge.
+        edge: String,
+        /// The stitch.
+        stitch: String,
+    },
     /// The ease of a stitch is none that can be cut: choose another.
     #[error("stitch {stitch}: max_ease is {max_ease}")]
     MaxEase {
@@ -300,6 +310,7 @@ impl Mistake {
             Self::NoEdge { .. } => "name panels and edges that there are".into(),
             Self::EmptySide { .. } => "name one edge or more on each side".into(),
             Self::SewnTwice { .. } => "split the edge, or join both in one chain".into(),
+            Self::SewnHem { .. } => "leave out the hem, and give the seam an allowance".into(),
             Self::MaxEase { .. } => {
                 format!("from 1 to {}: gathers beyond are not cut", crate::MAX_EASE)
             }
@@ -350,6 +361,7 @@ impl Mistake {
             | Self::Rim { panel, .. } => Subject::Panel(panel),
             Self::NoEdge { stitch, .. }
             | Self::EmptySide { stitch }
+            | Self::SewnHem { stitch, .. }
             | Self::MaxEase { stitch, .. }
             | Self::Ease { stitch, .. }
             | Self::SewnTwice { second: stitch, .. } => Subject::Stitch(stitch),

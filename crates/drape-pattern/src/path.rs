@@ -38,7 +38,7 @@ impl Pen {
         // SVG drops arcs that go nowhere, and drawing programs write lines that do.
         if end != self.at {
             let name = (self.edges.len() + 1).to_string();
-            self.edges.push(Edge { name, start: self.at, end, curve });
+            self.edges.push(Edge::line(name, self.at, end).curved(curve));
         }
         self.at = end;
     }

@@ -31,6 +31,8 @@ pub struct Stitch {
     pub max_ease: f64,
     /// Angle by which the sides are turned towards their right sides when it is sewn, in rad: 0 if it is pressed open.
     pub angle: f64,
+    /// Width of the cloth beyond the seam on each side, in m.
+    pub allowance: f64,
 }
 
 /// Checked panels and how they are sewn.
@@ -125,6 +127,13 @@ impl Pattern {
                     edge: self.edge(id).name.clone(),
                     first: (*first).into(),
                     second: name(),
+                });
+            }
+            if self.edge(id).hem > 0.0 {
+                mistakes.push(Mistake::SewnHem {
+                    panel: self.panels[id.panel].name().into(),
+                    edge: self.edge(id).name.clone(),
+                    stitch: name(),
                 });
             }
             before.push((id, &stitch.name));

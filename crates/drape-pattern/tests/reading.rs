@@ -112,6 +112,36 @@ fn folds_and_angles_of_seams_are_read() {
 }
 
 #[test]
+fn allowances_and_hems_are_read() {
+    let text = squares(&[("to = [30, 0]", "to = [30, 0], hem = 2.5")]) + "allowance = 1\n";
+    let pattern = Pattern::parse(&Document::new("p.toml", text.clone())).expect("it is right");
+    assert!((pattern.stitches()[0].allowance - 0.01).abs() < 1e-15);
+    let hems = |panel: usize| pattern.panels()[panel].outline().iter().map(|edge| edge.hem);
+    assert_eq!(hems(0).collect::<Vec<_>>(), [0.0; 4]);
+    assert_eq!(hems(1).collect::<Vec<_>>(), [0.025, 0.0, 0.0, 0.0]);
+    // An outline that runs clockwise is reversed with its hems.
+    let clockwise = squares(&[
+        ("{ name = \"hem\", to = [30, 0] },\n    ", ""),
+        ("{ name = \"side_l\", to = [30, 30] },\n    ", ""),
+        (
+            "{ name = \"waist\", to = [0, 30] }",
+            "{ name = \"waist\", to = [0, 30], hem = 2 },\n    \
+          { name = \"top\", to = [30, 30] },\n    { name = \"side_l\", to = [30, 0] }",
+        ),
+    ]);
+    let pattern = Pattern::parse(&Document::new("p.toml", clockwise)).expect("it is right");
+    let hemmed = pattern.panels()[1].outline().iter().filter(|edge| edge.hem > 0.0);
+    let hemmed: Vec<_> = hemmed.map(|edge| (edge.name.as_str(), edge.hem)).collect();
+    assert_eq!(hemmed, [("waist", 0.02)]);
+    let wrong =
+        |from: &str, to: &str, words: &[&str]| says("p.toml", &text.replace(from, to), words);
+    wrong("allowance = 1", "allowance = -1", &["p.toml:19:", "is -1", "0 to 300 mm"]);
+    wrong("allowance = 1", "allowance = nan", &["is NaN", "0 to 300 mm"]);
+    wrong("hem = 2.5", "hem = 31", &["p.toml:7:", "is 31", "0 to 300 mm"]);
+    wrong("to = [30, 30]", "to = [30, 30], hem = 2", &["side_l", "has a hem", "an allowance"]);
+}
+
+#[test]
 fn mistakes_of_the_own_format_have_line_value_and_remedy() {
     let toml =
         |exchanges: &[(&str, &str)], words: &[&str]| says("a.toml", &squares(exchanges), words);

@@ -5,6 +5,7 @@ use drape_cloth::{ClothError, Grain, Lattice, Mesh};
 use drape_input::Diagnostic;
 use drape_pattern::{Cut, Cutter, Error, NodeId, Pattern, Placement};
 
+use crate::allowance::allowances;
 use crate::file::{GarmentFile, GarmentPanelFile, SceneFile};
 use crate::material::Material;
 use crate::panel::{Laid, Panel, SPACING};
@@ -138,7 +139,9 @@ impl Reader<'_> {
         let mut panels = Vec::new();
         let mut numbers = Vec::new();
         let mut next = first;
-        for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
+        for (index, panel) in pattern.panels().iter().enumerate() {
+            let parts = allowances((pattern, &cut), index);
+            let cut = &cut.panels[index];
             let own = entry.panel.get(panel.name());
             let number = numbering(cut);
             let placement = self.place((key, panel.name()), (entry, own), panel.placement(), unit);
@@ -148,7 +151,7 @@ impl Reader<'_> {
                 None => format!("{key}.fabric"),
             };
             let material = self.material_of(&fabric_key, fabric, file);
-            let lattice = lattice(cut, (panel.grain(), &number));
+            let lattice = lattice(cut, (panel.grain(), &number), &parts);
             let lattice = lattice.map_err(|error| {
                 let help = "choose another spacing, and report the pattern";
                 self.fail(
@@ -258,7 +261,11 @@ fn numbering(cut: &Cut) -> Vec<u32> {
 }
 
 /// A cut as the cloth knows it.
-fn lattice(cut: &Cut, (grain, number): (f64, &[u32])) -> Result<Lattice, ClothError> {
+fn lattice(
+    cut: &Cut,
+    (grain, number): (f64, &[u32]),
+    allowances: &[(Vec<u32>, f64)],
+) -> Result<Lattice, ClothError> {
     let mut coordinates = vec![[0.0; 2]; number.len()];
     let mut places = vec![None; number.len()];
     for (node, &own) in number.iter().enumerate() {
@@ -273,5 +280,9 @@ fn lattice(cut: &Cut, (grain, number): (f64, &[u32])) -> Result<Lattice, ClothEr
         cells: cut.quads.iter().map(|quad| quad.map(|node| number[node as usize])).collect(),
         triangles: cut.triangles.iter().map(|t| t.map(|node| number[node as usize])).collect(),
     };
-    Lattice::with_rim(mesh, Grain::from_degrees(grain.to_degrees()))
+    let own = |(line, width): &(Vec<u32>, f64)| {
+        (line.iter().map(|&node| number[node as usize]).collect(), *width)
+    };
+    let allowances: Vec<(Vec<u32>, f64)> = allowances.iter().map(own).collect();
+    Lattice::with_rim(mesh, Grain::from_degrees(grain.to_degrees()))?.with_allowances(&allowances)
 }

@@ -12,6 +12,7 @@ mod drapes;
 pub mod dynamics;
 mod error;
 mod findings;
+mod fold;
 mod graph;
 pub mod instrument;
 mod loops;

@@ -2,7 +2,7 @@ use serde::Serialize;
 
 use crate::{
     Check, Findings, Graph, Still, ValidationError, bias, bias_rim, breen, crease, decrement,
-    drapes, dynamics, loops, statics, vacuum,
+    drapes, dynamics, fold, loops, statics, vacuum,
 };
 
 /// A case of the suite.
@@ -70,6 +70,12 @@ pub const CASES: &[Case] = &[
         title: "A strip that was folded and let go recovers (Dahl friction, closed form)",
         long: false,
         run: crease::recovery,
+    },
+    Case {
+        name: "fold",
+        title: "A strip that is folded at rest comes to the angle of its fold",
+        long: false,
+        run: fold::fold,
     },
     Case {
         name: "heavy-cantilever",

@@ -179,7 +179,7 @@ proptest! {
         let along: Vec<EdgeId> =
             (0..edges.1.min(others.len())).map(|edge| EdgeId { panel: 1, edge }).collect();
         let second = if reversed { along } else { along.into_iter().rev().collect() };
-        let stitch = Stitch { name: "s".into(), sides: [first, second], reversed, max_ease: MAX_EASE, angle: 0.0 };
+        let stitch = Stitch { name: "s".into(), sides: [first, second], reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 };
         cut(panels, vec![stitch], 1.0 / across);
     }
 
@@ -225,7 +225,7 @@ proptest! {
             let ids = |panel, edges: std::ops::Range<usize>| edges.map(move |edge| EdgeId { panel, edge });
             let along: Vec<EdgeId> = ids(1, second).collect();
             let second = if reversed { along } else { along.into_iter().rev().collect() };
-            Stitch { name: name.into(), sides: [ids(0, first).collect(), second], reversed, max_ease: MAX_EASE, angle: 0.0 }
+            Stitch { name: name.into(), sides: [ids(0, first).collect(), second], reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 }
         };
         // Against the outline of the second disc the second stitch does not go on where the first ends.
         let stitches = vec![stitch("first", 0..a, 0..c), stitch("second", a..b, c..d)];

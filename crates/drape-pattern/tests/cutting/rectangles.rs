@@ -45,7 +45,14 @@ fn rectangles_sewn_with_fullness_stay_lattices_with_equal_counts() {
     let panels = vec![rectangle("a", [0.3, 0.2], 0.0), rectangle("b", [0.36, 0.1], 0.0)];
     let edge = |panel, edge| vec![EdgeId { panel, edge }];
     let sides = [edge(0, 2), edge(1, 0)];
-    let stitch = Stitch { name: "seam".into(), sides, reversed: false, max_ease: 1.2, angle: 0.0 };
+    let stitch = Stitch {
+        name: "seam".into(),
+        sides,
+        reversed: false,
+        max_ease: 1.2,
+        angle: 0.0,
+        allowance: 0.0,
+    };
     let pattern = Pattern::new(panels, vec![stitch]).expect("it is sound");
     let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
     invariants::check(&pattern, &cut);
@@ -65,7 +72,8 @@ fn both_sides_of_a_gather_have_the_nodes_of_their_geometric_mean() {
         let panels = vec![rectangle("band", [0.3, 0.1], 0.0), rectangle("full", [long, 0.2], 0.0)];
         let edge = |panel, edge| vec![EdgeId { panel, edge }];
         let (sides, name) = ([edge(0, 0), edge(1, 2)], "gather".into());
-        let stitch = Stitch { name, sides, reversed: false, max_ease: MAX_EASE, angle: 0.0 };
+        let stitch =
+            Stitch { name, sides, reversed: false, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 };
         let pattern = Pattern::new(panels, vec![stitch]).expect("it is sound");
         let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
         invariants::check(&pattern, &cut);
