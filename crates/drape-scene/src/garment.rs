@@ -3,7 +3,7 @@ use std::path::Path;
 
 use drape_cloth::{ClothError, Grain, Lattice, Mesh};
 use drape_input::Diagnostic;
-use drape_pattern::{Cut, Cutter, Error, NodeId, Pattern, Placement};
+use drape_pattern::{Cut, CutPattern, Cutter, Error, NodeId, Pattern, Placement};
 
 use crate::allowance::allowances;
 use crate::file::{GarmentFile, GarmentPanelFile, SceneFile};
@@ -40,6 +40,18 @@ pub(crate) struct Garment {
     pub(crate) seams: Vec<Seam>,
     /// What the user should know about its pattern.
     pub(crate) notes: Vec<String>,
+}
+
+/// A panel of a cut pattern.
+struct Piece<'a> {
+    pattern: &'a Pattern,
+    cut: &'a CutPattern,
+    /// Which of its panels it is.
+    index: usize,
+    /// The number of each of its nodes in its lattice.
+    number: &'a [u32],
+    /// The number of its first particle in the scene.
+    first: usize,
 }
 
 impl Garment {
@@ -121,75 +133,15 @@ impl Reader<'_> {
             let key = format!("{key}.panel.{name}");
             self.unknown(&key, message, (name, &names), "panels of the pattern");
         }
-        let cut = match Cutter::new(spacing).cut(pattern) {
-            Ok(cut) => cut,
-            Err(Error::Pattern(mistakes)) => {
-                for mistake in mistakes {
-                    self.fail(&format!("{key}.pattern"), mistake.to_string(), &mistake.help());
-                }
-                return None;
-            }
-            Err(error) => {
-                self.fail(&format!("{key}.pattern"), error.to_string(), "correct the pattern");
-                return None;
-            }
-        };
-        let noise = entry.noise.as_ref().map_or(0.0, |noise| noise.amplitude * unit);
+        let cut = self.pieces(key, Cutter::new(spacing).cut(pattern))?;
         let mut random = Random(entry.noise.as_ref().map_or(0, |noise| noise.seed));
-        let mut panels = Vec::new();
-        let mut numbers = Vec::new();
-        let mut next = first;
-        for (index, panel) in pattern.panels().iter().enumerate() {
-            let parts = allowances((pattern, &cut), index);
-            let cut = &cut.panels[index];
-            let own = entry.panel.get(panel.name());
-            let number = numbering(cut);
-            let placement = self.place((key, panel.name()), (entry, own), panel.placement(), unit);
-            let fabric = own.and_then(|own| own.fabric.as_ref()).unwrap_or(&entry.fabric);
-            let fabric_key = match own.and_then(|own| own.fabric.as_ref()) {
-                Some(_) => format!("{key}.panel.{}.fabric", panel.name()),
-                None => format!("{key}.fabric"),
-            };
-            let material = self.material_of(&fabric_key, fabric, file);
-            let lattice = lattice(cut, (panel.grain(), &number), &parts);
-            let lattice = lattice.map_err(|error| {
-                let help = "choose another spacing, and report the pattern";
-                self.fail(
-                    &format!("{key}.pattern"),
-                    format!("panel \"{}\": {error}", panel.name()),
-                    help,
-                );
-            });
-            let folds = panel.folds().iter().map(|fold| (fold.ends, fold.angle));
-            let folded = lattice.map(|lattice| self.folded((key, panel.name()), lattice, folds));
-            if let (Some(placement), Some(material), Ok(Some(lattice))) =
-                (placement, material, folded)
-            {
-                let mut positions = vec![0.0; 3 * cut.positions.len()];
-                for (&node, &place) in number.iter().zip(&cut.positions) {
-                    let height = noise * random.next();
-                    let point = placement.point(place);
-                    for axis in 0..3 {
-                        positions[3 * node as usize + axis] =
-                            point[axis] + height * placement.rotation[axis][2];
-                    }
-                }
-                let edges = panel.outline().iter().zip(&cut.edges);
-                let edges = edges.map(|(edge, nodes)| {
-                    (edge.name.clone(), nodes.iter().map(|&node| number[node as usize]).collect())
-                });
-                let panel = Panel {
-                    name: panel.name().to_owned(),
-                    material,
-                    lattice,
-                    first: next,
-                    edges: edges.collect(),
-                };
-                let velocities = vec![0.0; positions.len()];
-                panels.push(Laid { panel, positions, velocities });
-            }
+        let (mut panels, mut numbers, mut next) = (Vec::new(), Vec::new(), first);
+        for (index, own) in cut.panels.iter().enumerate() {
+            let number = numbering(own);
+            let piece = Piece { pattern, cut: &cut, index, number: &number, first: next };
+            panels.extend(self.lay((key, file, entry), &piece, (&mut random, unit)));
             numbers.push((next, number));
-            next += cut.positions.len();
+            next += own.positions.len();
         }
         let node = |id: NodeId| {
             let (first, number) = &numbers[id.panel];
@@ -205,6 +157,67 @@ impl Reader<'_> {
         let name = name.to_string_lossy().into_owned();
         let whole = panels.len() == names.len();
         whole.then(|| Garment { name, panels, seams: seams.collect(), notes })
+    }
+
+    /// The cut of a pattern, if it could be made.
+    fn pieces(&mut self, key: &str, cut: Result<CutPattern, Error>) -> Option<CutPattern> {
+        let key = format!("{key}.pattern");
+        match cut {
+            Ok(cut) => return Some(cut),
+            Err(Error::Pattern(mistakes)) => {
+                for mistake in mistakes {
+                    self.fail(&key, mistake.to_string(), &mistake.help());
+                }
+            }
+            Err(error) => self.fail(&key, error.to_string(), "correct the pattern"),
+        }
+        None
+    }
+
+    /// A panel of a cut pattern at its place.
+    fn lay(
+        &mut self,
+        (key, file, entry): (&str, &SceneFile, &GarmentFile),
+        piece: &Piece<'_>,
+        (random, unit): (&mut Random, f64),
+    ) -> Option<Laid> {
+        let &Piece { pattern, cut, index, number, first } = piece;
+        let panel = &pattern.panels()[index];
+        let parts = allowances((pattern, cut), index);
+        let cut = &cut.panels[index];
+        let own = entry.panel.get(panel.name());
+        let placement = self.place((key, panel.name()), (entry, own), panel.placement(), unit);
+        let (fabric_key, fabric) = match own.and_then(|own| own.fabric.as_ref()) {
+            Some(fabric) => (format!("{key}.panel.{}.fabric", panel.name()), fabric),
+            None => (format!("{key}.fabric"), &entry.fabric),
+        };
+        let material = self.material_of(&fabric_key, fabric, file);
+        let lattice = lattice(cut, (panel.grain(), number), &parts);
+        let lattice = lattice.map_err(|error| {
+            let message = format!("panel \"{}\": {error}", panel.name());
+            let help = "choose another spacing, and report the pattern";
+            self.fail(&format!("{key}.pattern"), message, help);
+        });
+        let folds = panel.folds().iter().map(|fold| (fold.ends, fold.angle));
+        let lattice = self.folded((key, panel.name()), lattice.ok()?, folds)?;
+        let (placement, material) = (placement?, material?);
+        let noise = entry.noise.as_ref().map_or(0.0, |noise| noise.amplitude * unit);
+        let mut positions = vec![0.0; 3 * cut.positions.len()];
+        for (&node, &place) in number.iter().zip(&cut.positions) {
+            let height = noise * random.next();
+            let point = placement.point(place);
+            for axis in 0..3 {
+                positions[3 * node as usize + axis] =
+                    point[axis] + height * placement.rotation[axis][2];
+            }
+        }
+        let edges = panel.outline().iter().zip(&cut.edges).map(|(edge, nodes)| {
+            (edge.name.clone(), nodes.iter().map(|&node| number[node as usize]).collect())
+        });
+        let edges = edges.collect();
+        let panel = Panel { name: panel.name().to_owned(), material, lattice, first, edges };
+        let velocities = vec![0.0; positions.len()];
+        Some(Laid { panel, positions, velocities })
     }
 
     /// Where a panel begins: where the scene says, or else the pattern; shifted with the garment.
