@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::ops::Range;
 
 use drape_cloth::Cloth;
@@ -144,7 +145,8 @@ impl Surfaces {
         };
         let inflation = parts.inflation.map(|inflation| (inflation, inward));
         let bodies_at_start = shrunk(&start, &inflation, 0.0);
-        let contact = SurfaceContact::new(Surface::new(surface)?, settings, bodies_at_start)?;
+        let contact =
+            SurfaceContact::new(Surface::new(surface)?, settings, bodies_at_start.into_owned())?;
         let held = (0..parts.held.len()).filter(|&particle| parts.held[particle]).collect();
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|body| &body.name)).cloned().collect();
@@ -169,7 +171,7 @@ impl Surfaces {
     /// Opens a step that ends at a time since the start, and at one on the clock of what moves, in s.
     pub(crate) fn begin(&mut self, [since, end_time]: [f64; 2], positions: &[f64]) {
         let start = shrunk(&self.start, &self.inflation, since);
-        let mut ends = start.clone();
+        let mut ends = start.to_vec();
         for Mover { own, course, .. } in &self.moving {
             let own = 3 * own.start..3 * own.end;
             course.place(end_time, &start[own.clone()], &mut ends[own]);
@@ -195,13 +197,17 @@ impl Surfaces {
 }
 
 /// Where the vertices of bodies that have not moved are at a time since the start, in s.
-fn shrunk(start: &[f64], inflation: &Option<(Inflation, Vec<f64>)>, time: f64) -> Vec<f64> {
+fn shrunk<'a>(
+    start: &'a [f64],
+    inflation: &Option<(Inflation, Vec<f64>)>,
+    time: f64,
+) -> Cow<'a, [f64]> {
     match inflation {
         Some((inflation, inward)) if inflation.left(time) > 0.0 => {
             let left = inflation.left(time);
             start.iter().zip(inward).map(|(place, way)| place + left * way).collect()
         }
-        _ => start.to_vec(),
+        _ => Cow::Borrowed(start),
     }
 }
 

@@ -40,10 +40,8 @@ pub(crate) struct World {
     stitches: Option<Stitches>,
     /// Whether the cloth goes to rest without inertia.
     pub(crate) creeps: bool,
-    /// How the seams bend when they are one.
-    seam_bending: Option<SeamBending>,
-    /// The cloth as it hangs then, with the friction of its fabrics.
-    finished: Option<Cloth>,
+    /// The cloth as it hangs when its seams are one, with the friction of its fabrics, and how they bend then.
+    finished: Option<(Cloth, SeamBending)>,
     /// What takes a creeping cloth's momentum from it in the course of a step, in N.
     ///
     /// Its steps are to start from rest, but the velocity that it came with makes a good first guess.
@@ -89,11 +87,8 @@ impl World {
         });
         let moving = moving.collect();
         let stitches = sewing.as_ref().map(|s| Stitches::new(&s.pairs, &positions, s.seconds));
-        let (mut seam_bending, mut finished) = (None, None);
-        if let Some(sewing) = sewing {
-            seam_bending = Some(sewing.bending);
-            finished = Some(std::mem::replace(&mut cloth, sewing.cloth));
-        }
+        let finished =
+            sewing.map(|sewing| (std::mem::replace(&mut cloth, sewing.cloth), sewing.bending));
         let mut state = cloth.state(positions).expect("a scene places every particle");
         state.velocities = velocities;
         let threads = stitches.as_ref().map_or(&[][..], Stitches::pairs);
@@ -115,7 +110,6 @@ impl World {
             grows_from: 0.0,
             ramp: scene.clock.ramp,
             stitches,
-            seam_bending,
             finished,
             brake: Vec::new(),
             creeps: false,
@@ -164,10 +158,8 @@ impl World {
     pub(crate) fn sewn(&mut self, time: f64, positions: &[f64]) {
         self.stitches = None;
         self.grows_from = time;
-        if let Some(cloth) = self.finished.take() {
+        if let Some((cloth, bending)) = self.finished.take() {
             self.cloth = cloth;
-        }
-        if let Some(bending) = self.seam_bending.take() {
             self.bonds.sew(&self.cloth, bending, positions);
         }
         let state = self.cloth.state(positions.to_vec());

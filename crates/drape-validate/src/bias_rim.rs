@@ -6,6 +6,7 @@ use drape_scene::{Scene, Simulation};
 
 use crate::instrument::on_the_bias_along;
 use crate::shipped::{COTTON, CUPRO, fabric};
+use crate::stage::ALONE;
 use crate::{Check, Findings, ValidationError};
 
 /// Width of a specimen, its length between the clamps and in each of them, in m.
@@ -72,7 +73,7 @@ fn specimen(making: Making, fabric: &Fabric) -> Result<Scene, ValidationError> {
         0.5 * WIDTH
     );
     let scene = format!(
-        "name = \"specimen\"\nspacing = {SPACING:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n\
+        "name = \"specimen\"\nspacing = {SPACING:e}\ngravity = [0, 0, 0]\nair = {{ density = 0 }}\n{ALONE}\
          fabric.specimen.file = \"fabric.toml\"\n{panel}\
          [[pin]]\npanel = \"specimen\"\nradius = {REACH:e}\npoints = [{}]\n\
          [[pin]]\npanel = \"specimen\"\nradius = {REACH:e}\npoints = [{}]\n\
