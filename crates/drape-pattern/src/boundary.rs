@@ -34,12 +34,53 @@ pub struct NodeId {
     pub node: u32,
 }
 
+/// The nodes of the seam of a stitch.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SeamNodes {
+    /// Those that become one, in the order in which the seam runs. Both are the same node at the tip of a dart.
+    pub pairs: Vec<[NodeId; 2]>,
+    /// Those of the longer side of a gather between them, in the same order.
+    pub ties: Vec<Tie>,
+}
+
+/// A node of the longer side of a gather that is sewn to a place between two nodes of the shorter one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tie {
+    /// The pair that it comes after. On the other side it lies between that and the next.
+    pub after: usize,
+    /// Its own side.
+    pub side: usize,
+    /// The node.
+    pub node: NodeId,
+    /// Part of the way from the pair to the next at which it lies.
+    pub share: f64,
+}
+
+impl SeamNodes {
+    /// All nodes of a side, in the order in which the seam runs.
+    pub fn side(&self, side: usize) -> impl Iterator<Item = NodeId> {
+        let mut ties = self.ties.iter().filter(move |tie| tie.side == side).peekable();
+        self.pairs.iter().enumerate().flat_map(move |(index, pair)| {
+            let mut nodes = vec![pair[side]];
+            while let Some(tie) = ties.next_if(|tie| tie.after == index) {
+                nodes.push(tie.node);
+            }
+            nodes
+        })
+    }
+
+    pub(crate) fn nodes_mut(&mut self) -> impl Iterator<Item = &mut NodeId> {
+        let ties = self.ties.iter_mut().map(|tie| &mut tie.node);
+        self.pairs.iter_mut().flatten().chain(ties)
+    }
+}
+
 /// All outlines of a pattern, sampled.
 #[derive(Debug)]
 pub(crate) struct Sampled {
     pub boundaries: Vec<Boundary>,
-    /// For each stitch the nodes that are sewn to each other, in the order of the seam.
-    pub seams: Vec<Vec<[NodeId; 2]>>,
+    /// For each stitch what is sewn to each other.
+    pub seams: Vec<SeamNodes>,
     pub notes: Vec<Note>,
 }
 
@@ -89,8 +130,8 @@ impl Joints {
         for (number, panel) in pattern.panels().iter().enumerate() {
             let Some([a, b, c, d]) = self.rectangle(panel, number) else { continue };
             for [one, opposite] in [[a, c], [b, d]] {
-                // The other side of a gather keeps the spacing, and the rectangle gets a rim.
-                if !self.gathered(one) && !self.gathered(opposite) {
+                // The other side of a gather keeps the spacing; if that gives another number, there is a rim.
+                if [one, opposite].iter().all(|&joint| self.fullness(joint) == 1) {
                     unite(&mut same, one, opposite);
                 }
             }
@@ -104,6 +145,8 @@ impl Joints {
         if crowded { self.largest_of(&sewn, spacing) } else { counts }
     }
 
+    /// For each joint the largest number of arcs of those that are to have the same, the longer pieces of gathers
+    /// apart: they have that of the shorter ones as often as their fullness tells.
     fn largest_of(&self, same: &[usize], spacing: f64) -> Vec<u32> {
         let mut most = vec![1; same.len()];
         for joint in (0..same.len()).filter(|&j| !self.joints[j].removed) {
@@ -111,7 +154,8 @@ impl Joints {
             let root = root(same, joint);
             most[root] = own.max(most[root]);
         }
-        (0..same.len()).map(|joint| most[root(same, joint)]).collect()
+        let times = |joint| if self.gathered(joint) { self.fullness(joint) } else { 1 };
+        (0..same.len()).map(|joint| most[root(same, joint)] * times(joint)).collect()
     }
 
     /// The four joints of a rectangle whose sides follow the yarns.
@@ -167,10 +211,13 @@ impl Joints {
         pattern: &Pattern,
         (counts, first_node): (&[u32], &[usize]),
         boundaries: &[Boundary],
-    ) -> Vec<Vec<[NodeId; 2]>> {
-        let mut seams = vec![Vec::new(); pattern.stitches().len()];
+    ) -> Vec<SeamNodes> {
+        let mut seams = vec![SeamNodes::default(); pattern.stitches().len()];
         for link in self.links.iter().filter(|l| !l.removed) {
-            let count = counts[Self::foremost(link, 0)] as usize;
+            let own = [0, 1].map(|side| counts[Self::foremost(link, side)] as usize);
+            let count = own[0].min(own[1]);
+            // How many arcs of each side there are between two pairs.
+            let arcs = own.map(|own| own / count);
             let node = |side: usize, k: usize| {
                 let start = link.ends[side][0];
                 let panel = self.joints[start].panel;
@@ -178,12 +225,20 @@ impl Joints {
                 let steps = if link.forward[side] { k } else { nodes - k % nodes };
                 NodeId { panel, node: ((first_node[start] + steps) % nodes) as u32 }
             };
-            let seam: &mut Vec<[NodeId; 2]> = &mut seams[link.stitch];
+            let SeamNodes { pairs, ties } = &mut seams[link.stitch];
             for k in 0..=count {
-                let pair = [node(0, k), node(1, k)];
+                let pair = [0, 1].map(|side| node(side, k * arcs[side]));
                 // A link begins where the one before it ended.
-                if seam.last() != Some(&pair) {
-                    seam.push(pair);
+                if pairs.last() != Some(&pair) {
+                    pairs.push(pair);
+                }
+                for side in (0..2).filter(|_| k < count) {
+                    ties.extend((1..arcs[side]).map(|step| Tie {
+                        after: pairs.len() - 1,
+                        side,
+                        node: node(side, k * arcs[side] + step),
+                        share: step as f64 / arcs[side] as f64,
+                    }));
                 }
             }
         }

@@ -1,4 +1,4 @@
-use crate::boundary::{Boundary, NodeId};
+use crate::boundary::{Boundary, SeamNodes};
 use crate::note::Note;
 use crate::rim::Rim;
 
@@ -39,9 +39,8 @@ pub struct CutPattern {
     pub spacing: f64,
     /// The cuts of the panels, in their order.
     pub panels: Vec<Cut>,
-    /// For each stitch the nodes that are sewn to each other, in the order in which the seam runs. Both are
-    /// the same node at the tip of a dart.
-    pub seams: Vec<Vec<[NodeId; 2]>>,
+    /// For each stitch the nodes that are sewn to each other.
+    pub seams: Vec<SeamNodes>,
     /// What the user should know about the cut.
     pub notes: Vec<Note>,
 }

@@ -1,4 +1,4 @@
-use crate::boundary::{Boundary, Sampled};
+use crate::boundary::{Boundary, Sampled, SeamNodes};
 use crate::crossing::crossing;
 use crate::cut::{Cut, CutPattern, Turn};
 use crate::edge::difference;
@@ -58,8 +58,8 @@ impl Cutter {
         for (number, boundary) in sampled.boundaries.into_iter().enumerate() {
             match self.cut_panel(&pattern.panels()[number], boundary) {
                 Ok(cut) => {
-                    let ends = seams.iter_mut().flatten().flatten();
-                    for id in ends.filter(|id| id.panel == number) {
+                    let nodes = seams.iter_mut().flat_map(SeamNodes::nodes_mut);
+                    for id in nodes.filter(|id| id.panel == number) {
                         id.node = cut.outline[id.node as usize];
                     }
                     notes.extend(cut.thin(spacing));

@@ -181,7 +181,7 @@ impl Drawing<'_> {
         for (stitch, seam) in cut.seams.iter().enumerate() {
             let mut path = String::new();
             for side in 0..2 {
-                let here = seam.iter().map(|pair| pair[side]).filter(|id| id.panel == self.number);
+                let here = seam.side(side).filter(|id| id.panel == self.number);
                 let mut last = None;
                 for node in here.map(|id| id.node) {
                     let [x, y] = self.node(node);

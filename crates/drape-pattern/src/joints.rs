@@ -7,9 +7,9 @@ use crate::pattern::{EdgeId, Pattern, Stitch};
 /// Shares of the way along a stitch that differ by less are the same: rounding.
 const SAME: f64 = 1e-9;
 
-/// Ratio of the lengths of two pieces that are sewn together above which they are a gather: counted on the
-/// longer one, the arcs of the shorter one would be under two thirds of the spacing. The digits of a file
-/// make no gather of a ratio of 1.5.
+/// Ratio of the lengths of two pieces that are sewn together above which they are a gather: with as many arcs on
+/// both, those of the shorter one would be under two thirds of the spacing. The digits of a file make no gather
+/// of a ratio of 1.5.
 const GATHER: f64 = 1.5 + 1e-6;
 
 /// A point of an outline between which arcs are sampled.
@@ -120,18 +120,27 @@ impl Joints {
         if onward { there - here } else { there - here + self.whole(self.joints[joint].panel) }
     }
 
-    /// Length that the arcs of the piece after a joint are counted on, in m: its own, or that of the longer
-    /// of two pieces that are sewn together, or, in a gather, the geometric mean of both, from which both
-    /// sides' arcs differ alike.
+    /// Length that the arcs of the piece after a joint are counted on, in m: its own, or that of the longer of two
+    /// pieces that are sewn together. In a gather it is the geometric mean of the shorter one and of the part of
+    /// the longer one that has as many arcs, so that the arcs of both differ alike from the spacing.
     pub fn counted_after(&self, joint: usize) -> f64 {
-        let Some(lengths) = self.sewn_lengths(joint) else { return self.length_after(joint) };
-        let [short, long] = lengths;
-        if long > GATHER * short { (short * long).sqrt() } else { long }
+        let Some([short, long]) = self.sewn_lengths(joint) else { return self.length_after(joint) };
+        match fullness([short, long]) {
+            1 => long,
+            fullness => (short * long / f64::from(fullness)).sqrt(),
+        }
     }
 
-    /// Whether the piece after a joint is a side of a gather.
+    /// How many arcs the longer piece of a gather has for each of the shorter one, at the piece after a joint; 1 if
+    /// that is in no gather.
+    pub fn fullness(&self, joint: usize) -> u32 {
+        self.sewn_lengths(joint).map_or(1, fullness)
+    }
+
+    /// Whether the piece after a joint is the longer one of a gather.
     pub fn gathered(&self, joint: usize) -> bool {
-        self.sewn_lengths(joint).is_some_and(|[short, long]| long > GATHER * short)
+        let own = self.length_after(joint);
+        self.fullness(joint) > 1 && self.sewn_lengths(joint).is_some_and(|[short, _]| own > short)
     }
 
     /// Lengths of the piece after a joint and of that it is sewn to, the shorter first, in m.
@@ -292,6 +301,12 @@ impl Joints {
             self.joints[end].links[usize::from(!forward[side])] = Some(link);
         }
     }
+}
+
+/// How many arcs the longer of two pieces that are sewn together has for each of the shorter one.
+fn fullness([short, long]: [f64; 2]) -> u32 {
+    // No more than a pattern may have.
+    if long > GATHER * short { (long / short).round().min(100.0) as u32 } else { 1 }
 }
 
 /// Pairs of ends of pieces of both sides that are sewn to each other, as the numbers of the pieces after them;

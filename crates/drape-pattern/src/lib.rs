@@ -23,7 +23,7 @@ mod quality;
 mod read;
 mod rim;
 
-pub use boundary::NodeId;
+pub use boundary::{NodeId, SeamNodes, Tie};
 pub use cut::{Cut, CutPattern};
 pub use cutter::Cutter;
 pub use edge::{Curve, Edge};

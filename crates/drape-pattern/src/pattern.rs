@@ -3,10 +3,9 @@ use crate::mistake::Mistake;
 use crate::note::Note;
 use crate::panel::Panel;
 
-/// Largest ratio of the lengths of a stitch's sides that can be cut: both sides get the same number of
-/// nodes, and arcs that differ more from the spacing would stiffen the shorter side and leave the longer
-/// one too few folds.
-pub const MAX_EASE: f64 = 2.5;
+/// Largest ratio of the lengths of a stitch's sides that can be cut. The fullest gathers of clothes have about
+/// four; what is squeezed into one arc must not be nearer to each other than cloth is thick.
+pub const MAX_EASE: f64 = 5.0;
 
 /// An edge of a pattern, by the numbers of panel and edge, from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

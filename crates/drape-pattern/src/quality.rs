@@ -67,7 +67,8 @@ impl Quality {
 }
 
 impl CutPattern {
-    /// Number of particles when all seams are closed and the nodes that are sewn to each other are one.
+    /// Number of particles when all seams are closed and the nodes that are sewn to each other are one; those that are tied have
+    /// no place of their own.
     #[must_use]
     pub fn particles(&self) -> usize {
         let mut first = Vec::new();
@@ -83,11 +84,12 @@ impl CutPattern {
             }
             of
         };
-        for pair in self.seams.iter().flatten() {
+        for pair in self.seams.iter().flat_map(|seam| &seam.pairs) {
             let [a, b] = pair.map(|id| root(&same, first[id.panel] + id.node as usize));
             same[a.max(b)] = a.min(b);
         }
-        same.iter().enumerate().filter(|(k, of)| k == *of).count()
+        let tied = self.seams.iter().map(|seam| seam.ties.len()).sum::<usize>();
+        same.iter().enumerate().filter(|(k, of)| k == *of).count() - tied
     }
 }
 

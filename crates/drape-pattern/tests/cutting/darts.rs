@@ -11,7 +11,7 @@ fn darts_are_open_notches_whose_legs_are_sewn_to_one_tip() {
             if !stitch.name.contains("dart") {
                 continue;
             }
-            let [mouth, tip] = [seam[0], seam[seam.len() - 1]];
+            let [mouth, tip] = [seam.pairs[0], seam.pairs[seam.pairs.len() - 1]];
             let panel = &cut.panels[tip[0].panel];
             let place = |node: u32| panel.positions[node as usize];
             assert_eq!(tip[0], tip[1], "{}: both legs end in one node", stitch.name);
@@ -48,7 +48,7 @@ fn a_waistband_is_sewn_over_the_mouths_of_darts_and_over_the_side_seam() {
     let seam = &cut.seams[stitch];
     // Where the chain leaves a piece of the waist, one node of the band has two partners: at the mouths of four
     // darts and at one side seam.
-    let twice: Vec<_> = seam.windows(2).filter(|two| two[0][0] == two[1][0]).collect();
+    let twice: Vec<_> = seam.pairs.windows(2).filter(|two| two[0][0] == two[1][0]).collect();
     assert_eq!(twice.len(), 5);
     let sewn: Vec<u32> = twice.iter().map(|two| two[0][0].node).collect();
     assert!(sewn.iter().all(|&node| cut.panels[band].hard[node as usize]), "{sewn:?}");
@@ -59,5 +59,5 @@ fn a_waistband_is_sewn_over_the_mouths_of_darts_and_over_the_side_seam() {
     let place = |id: drape_pattern::NodeId| cut.panels[id.panel].positions[id.node as usize];
     assert_eq!(twice[0].iter().map(|pair| place(pair[1])[0]).collect::<Vec<_>>(), [0.1075, 0.1325]);
     let band = &cut.panels[band];
-    assert_eq!(band.edges[0].len() - 1, seam.len() - 1 - twice.len(), "all of its nodes are sewn");
+    assert_eq!(band.edges[0].len() - 1, seam.pairs.len() - 1 - twice.len(), "all of its nodes are sewn");
 }

@@ -148,7 +148,7 @@ fn what_is_sewn_in_the_scenes_starts_near_and_apart() {
             let [p, q] = pair.map(place);
             (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt()
         };
-        let gaps: Vec<f64> = cut.seams.iter().flatten().map(gap).collect();
+        let gaps: Vec<f64> = cut.seams.iter().flat_map(|seam| &seam.pairs).map(gap).collect();
         let [least, most] =
             gaps.iter().fold([f64::MAX, 0.0_f64], |[a, b], g| [a.min(*g), b.max(*g)]);
         assert!(least > 0.01 && most < farthest, "{name}: {least} to {most} m");

@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use drape_pattern::{Cut, CutPattern, Pattern};
+use drape_pattern::{Cut, CutPattern, NodeId, Pattern};
 
 /// Twice the area of a polygon, from its first corner.
 fn twice_area(points: &[[f64; 2]]) -> f64 {
@@ -121,17 +121,21 @@ fn seams(pattern: &Pattern, cut: &CutPattern) {
                 .collect()
         };
         let allowed = [on_side(0), on_side(1)];
-        for pair in seam {
-            for side in 0..2 {
-                let node = (pair[side].panel, pair[side].node);
+        for tie in &seam.ties {
+            assert!(tie.share > 0.0 && tie.share < 1.0 && tie.after + 1 < seam.pairs.len());
+            let [from, to] = [tie.after, tie.after + 1].map(|k| seam.pairs[k][1 - tie.side]);
+            assert!(from.panel == to.panel && from != to, "{}: {tie:?}", stitch.name);
+        }
+        for side in 0..2 {
+            let nodes: Vec<NodeId> = seam.side(side).collect();
+            for &NodeId { panel, node } in &nodes {
                 // An edge that was joined with a neighbour lends its nodes to another stitch.
                 let joined = cut.notes.iter().any(|n| n.to_string().contains("half the spacing"));
-                assert!(joined || allowed[side].contains(&node), "{} {node:?}", stitch.name);
+                let own = joined || allowed[side].contains(&(panel, node));
+                assert!(own, "{}: node {node} of {panel}", stitch.name);
             }
-        }
-        for two in seam.windows(2) {
-            for side in 0..2 {
-                let [from, to] = [two[0][side], two[1][side]];
+            for two in nodes.windows(2) {
+                let [from, to] = [two[0], two[1]];
                 let outline = &cut.panels[from.panel].outline;
                 let place = |n: u32| outline.iter().position(|k| *k == n).expect("on the outline");
                 if from.panel == to.panel {

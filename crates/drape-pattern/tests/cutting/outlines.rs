@@ -234,13 +234,13 @@ proptest! {
         {
             invariants::check(&pattern, &cut);
             for seam in &cut.seams {
-                for two in seam.windows(2) {
-                    let step = |side: usize, forward: bool| {
-                        let n = cut.panels[side].outline.len();
-                        let [from, to] = [two[0][side].node, two[1][side].node].map(|n| n as usize);
-                        if forward { (to + n - from) % n } else { (from + n - to) % n }
-                    };
-                    prop_assert_eq!([step(0, true), step(1, reversed)], [1, 1]);
+                for (side, forward) in [(0, true), (1, reversed)] {
+                    let n = cut.panels[side].outline.len();
+                    let nodes: Vec<usize> = seam.side(side).map(|id| id.node as usize).collect();
+                    for two in nodes.windows(2) {
+                        let [from, to] = if forward { [two[0], two[1]] } else { [two[1], two[0]] };
+                        prop_assert_eq!((to + n - from) % n, 1);
+                    }
                 }
             }
         }
