@@ -40,6 +40,7 @@ impl Sheet {
             skins: vec![SKIN; 2],
             free: vertices,
             twins: Vec::new(),
+            ties: Vec::new(),
         };
         let mut positions = parts.rest.clone();
         if draped {

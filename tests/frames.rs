@@ -237,6 +237,7 @@ fn two_tests_that_share_no_code_find_the_same_pairs() {
         skins: vec![Skin { reach: 1e-3, separation: 1e-4 }; 4],
         free: 4 * 576,
         twins: Vec::new(),
+        ties: Vec::new(),
     };
     let mut places = Vec::new();
     let mut text = String::new();

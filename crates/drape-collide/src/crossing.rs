@@ -21,8 +21,8 @@ pub struct Crossing {
 
 /// All edges that meet a triangle at flat positions, sorted: exact, and touching counts.
 ///
-/// Left out are edges that share a vertex with the triangle, directly or through twins, and pairs
-/// without a free vertex. Two triangles without a common vertex that meet always have such a
+/// Left out are edges that share a vertex with the triangle, directly or through what is sewn, and
+/// pairs without a free vertex. Two triangles without a common vertex that meet always have such a
 /// crossing. The answer is exact for the positions as they are rounded (Shewchuk 1997, "Adaptive
 /// Precision Floating-Point Arithmetic", through the crate `robust`), unless coordinates differ
 /// from each other by less than 1e-60 m but not at all.
@@ -48,13 +48,13 @@ pub fn crossings(surface: &Surface, positions: &[f64]) -> Result<Vec<Crossing>, 
                 only_free: !surface.is_free(&ends(0)),
                 after: None,
             };
-            let classes = array(run.count, [0; 2], |k| ends(k).map(|end| surface.class(end)));
+            let classes = array(run.count, [0; 2], |k| ends(k).map(|end| surface.sewn.class(end)));
             let first = found.len();
             tree.visit(order, &probe, |k, slot| {
                 let triangle = order.items[slot];
                 let corners = surface.triangles()[triangle as usize].map(place);
-                let shared = |class| surface.triangle_classes[slot].contains(class);
-                if !classes[k].iter().any(shared) && segment_meets_triangle(segment(k), corners) {
+                let joined = surface.sewn.joins(&classes[k], &surface.triangle_classes[slot]);
+                if !joined && segment_meets_triangle(segment(k), corners) {
                     found.push(Crossing { edge: run.first + k as u32, triangle });
                 }
             });

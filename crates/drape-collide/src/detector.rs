@@ -73,7 +73,7 @@ impl Detector {
 
     /// Finds every pair whose distance is below its reach plus a margin in m, at flat positions.
     ///
-    /// Left out are pairs that share a vertex, directly or through twins, and pairs without a free
+    /// Left out are pairs that share a vertex, directly or through what is sewn, and pairs without a free
     /// vertex. On an error the pairs of the detection before stay.
     ///
     /// # Errors
@@ -296,11 +296,11 @@ impl Chunk {
             only_free: !surface.is_free(&[run.first]),
             after: None,
         };
-        let class = array(run.count, 0, |k| surface.class(vertex(k)));
+        let class = array(run.count, 0, |k| surface.sewn.class(vertex(k)));
         self.near.iter_mut().for_each(Vec::clear);
         let order = &surface.triangle_order;
         tree.visit(order, &probe, |k, slot| {
-            if !surface.triangle_classes[slot].contains(&class[k]) {
+            if !surface.sewn.joins(&[class[k]], &surface.triangle_classes[slot]) {
                 self.near[k].push(order.items[slot]);
             }
         });
@@ -323,12 +323,12 @@ impl Chunk {
             only_free: !surface.is_free(&ends(0)),
             after: Some(run.first),
         };
-        let classes = array(run.count, [0; 2], |k| ends(k).map(|end| surface.class(end)));
+        let classes = array(run.count, [0; 2], |k| ends(k).map(|end| surface.sewn.class(end)));
         self.near.iter_mut().for_each(Vec::clear);
         let order = &surface.edge_order;
         tree.visit(order, &probe, |k, slot| {
-            let (other, [c, d]) = (order.items[slot], surface.edge_classes[slot]);
-            if other > edge(k) && !classes[k].contains(&c) && !classes[k].contains(&d) {
+            let other = order.items[slot];
+            if other > edge(k) && !surface.sewn.joins(&classes[k], &surface.edge_classes[slot]) {
                 self.near[k].push(other);
             }
         });

@@ -44,6 +44,7 @@ mod tests {
             skins: vec![SKIN; 2],
             free: 6,
             twins: Vec::new(),
+            ties: Vec::new(),
         });
         (surface.unwrap(), positions)
     }

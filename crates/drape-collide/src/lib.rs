@@ -29,6 +29,7 @@ mod pose;
 mod predicate;
 mod primitive;
 mod proximity;
+mod sewn;
 mod slip;
 mod stl;
 mod surface;

@@ -2,6 +2,7 @@ use crate::detector::{Close, close_at_rest};
 use crate::error::{CollideError, check, check_places};
 use crate::order::{Entry, Order, Run};
 use crate::pinch::Grip;
+use crate::sewn::Sewn;
 use crate::topology::{self, Topology};
 use crate::vector::{at, dot, subtract};
 
@@ -38,6 +39,9 @@ pub struct SurfaceParts {
     /// Pairs of vertices that are sewn together: primitives that share a vertex through them do
     /// not touch.
     pub twins: Vec<[u32; 2]>,
+    /// Vertices that are sewn to a place between two others, and these: such a vertex does not touch primitives with
+    /// both.
+    pub ties: Vec<[u32; 3]>,
 }
 
 /// The surface of all cloth and all bodies: everything about contact that never changes.
@@ -55,8 +59,7 @@ pub struct Surface {
     edge_areas: Vec<f64>,
     triangle_areas: Vec<f64>,
     edge_lengths_squared: Vec<f64>,
-    /// The smallest of the vertices that are sewn to each vertex.
-    class: Vec<u32>,
+    pub(crate) sewn: Sewn,
     pub(crate) edge_order: Order,
     pub(crate) triangle_order: Order,
     /// The classes of the vertices of the edge or the triangle in each slot of its order.
@@ -80,7 +83,7 @@ impl Surface {
     /// of one group that share no vertex touch at rest.
     pub fn new(parts: SurfaceParts) -> Result<Surface, CollideError> {
         check_parts(&parts)?;
-        let SurfaceParts { rest, triangles, areas, group, skins, free, twins } = parts;
+        let SurfaceParts { rest, triangles, areas, group, skins, free, twins, ties } = parts;
         let topology = Topology::new(&triangles);
         let triangle_areas = topology::areas_of_triangles(&rest, &triangles);
         // A body's vertices stand for the area of their triangles.
@@ -106,19 +109,19 @@ impl Surface {
         let faces: Vec<Entry> = triangles.iter().map(|triangle| entry(triangle)).collect();
         let lengths: Vec<f64> = topology.edges.iter().map(length_squared).collect();
         let sizes = run_sizes(&edges, &lengths, skins.len());
-        let class = topology::classes(areas.len(), &twins);
+        let sewn = Sewn::new(areas.len(), &twins, &ties);
         let edge_order = Order::new(&edges);
         let triangle_order = Order::new(&faces);
         let mut surface = Surface {
-            edge_classes: classes_of(&edge_order, &topology.edges, &class),
-            triangle_classes: classes_of(&triangle_order, &triangles, &class),
+            edge_classes: classes_of(&edge_order, &topology.edges, &sewn),
+            triangle_classes: classes_of(&triangle_order, &triangles, &sewn),
             edge_order,
             triangle_order,
             vertex_runs: Run::divide(&vertices, &sizes),
             edge_runs: Run::divide(&edges, &sizes),
             edge_lengths_squared: lengths,
             edge_areas: topology.areas_of_edges(&triangle_areas),
-            class,
+            sewn,
             edges: topology.edges,
             vertex_areas,
             triangle_areas,
@@ -189,10 +192,6 @@ impl Surface {
         check_places("vertex", positions)
     }
 
-    pub(crate) fn class(&self, vertex: u32) -> u32 {
-        self.class[vertex as usize]
-    }
-
     pub(crate) fn is_free(&self, vertices: &[u32]) -> bool {
         vertices.iter().any(|&v| (v as usize) < self.free)
     }
@@ -236,8 +235,8 @@ fn run_sizes(edges: &[Entry], lengths_squared: &[f64], groups: usize) -> Vec<f64
 }
 
 /// The classes of the vertices of the primitive in each slot.
-fn classes_of<const N: usize>(order: &Order, items: &[[u32; N]], class: &[u32]) -> Vec<[u32; N]> {
-    let classes = |&item: &u32| items[item as usize].map(|vertex| class[vertex as usize]);
+fn classes_of<const N: usize>(order: &Order, items: &[[u32; N]], sewn: &Sewn) -> Vec<[u32; N]> {
+    let classes = |&item: &u32| items[item as usize].map(|vertex| sewn.class(vertex));
     order.items.iter().map(classes).collect()
 }
 
@@ -275,7 +274,8 @@ fn check_parts(parts: &SurfaceParts) -> Result<(), CollideError> {
         return Err(CollideError::BadArea { particle, area });
     }
     let out = |vertex: &&u32| **vertex as usize >= vertices;
-    if let Some(&index) = parts.twins.iter().flatten().find(out) {
+    let mut sewn = parts.twins.iter().flatten().chain(parts.ties.iter().flatten());
+    if let Some(&index) = sewn.find(out) {
         return Err(CollideError::NoSuchTwin { index, vertices });
     }
     for (triangle, corners) in parts.triangles.iter().enumerate() {

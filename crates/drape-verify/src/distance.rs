@@ -86,34 +86,51 @@ fn segment_segment([a, b]: [Place; 2], [c, d]: [Place; 2]) -> Nearest {
     nearest
 }
 
-/// The places of a triangle's corners, in m, and the numbers of its vertices.
+/// A vertex as what is sewn to it has it too.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Vertex {
+    pub(crate) number: u32,
+    /// The numbers of the two vertices between which it lies, if it is sewn there.
+    pub(crate) between: Option<[u32; 2]>,
+}
+
+/// The places of a triangle's corners, in m, and its vertices.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Figure {
     pub(crate) corners: [Place; 3],
-    pub(crate) vertices: [u32; 3],
+    pub(crate) vertices: [Vertex; 3],
 }
 
-/// The nearest points of all corners and sides of one triangle with the other and its sides that share no vertex,
-/// by the numbers of the corners.
+/// The sides of a triangle, by the numbers of its corners.
+pub(crate) const SIDES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+
+/// Whether corners, sides or triangles are joined: they share a vertex, or a vertex of one lies on a side of the other.
+pub(crate) fn joined(one: &[Vertex], other: &[Vertex]) -> bool {
+    let has = |all: &[Vertex], number: u32| all.iter().any(|vertex| vertex.number == number);
+    let on = |vertex: &Vertex, all: &[Vertex]| {
+        has(all, vertex.number) || vertex.between.is_some_and(|[a, b]| has(all, a) && has(all, b))
+    };
+    one.iter().any(|vertex| on(vertex, other)) || other.iter().any(|vertex| on(vertex, one))
+}
+
+/// The nearest points of all corners and sides of one triangle with the other and its sides to which they are not joined.
 ///
-/// For triangles that share no vertex and do not meet it is their distance.
+/// For triangles that are not joined and do not meet it is their distance.
 pub(crate) fn triangles_apart(one: Figure, other: Figure) -> Nearest {
-    let Figure { corners: first, vertices: numbers } = one;
+    let Figure { corners: first, vertices: own } = one;
     let Figure { corners: second, vertices: others } = other;
     let mut nearest = Nearest::NONE;
     for k in 0..3 {
-        if !others.contains(&numbers[k]) {
+        if !joined(&own[k..=k], &others) {
             nearest = nearest.or(point_triangle(first[k], second));
         }
-        if !numbers.contains(&others[k]) {
+        if !joined(&others[k..=k], &own) {
             nearest = nearest.or(point_triangle(second[k], first));
         }
     }
-    let sides = [[0, 1], [1, 2], [2, 0]];
-    for side in sides {
-        for other in sides {
-            let ends = other.map(|k| others[k]);
-            if side.iter().all(|&k| !ends.contains(&numbers[k])) {
+    for side in SIDES {
+        for other in SIDES {
+            if !joined(&side.map(|k| own[k]), &other.map(|k| others[k])) {
                 let segments = (side.map(|k| first[k]), other.map(|k| second[k]));
                 nearest = nearest.or(segment_segment(segments.0, segments.1));
             }
@@ -126,8 +143,8 @@ pub(crate) fn triangles_apart(one: Figure, other: Figure) -> Nearest {
 mod tests {
     use super::*;
 
-    fn figure(corners: [Place; 3], vertices: [u32; 3]) -> Figure {
-        Figure { corners, vertices }
+    fn figure(corners: [Place; 3], numbers: [u32; 3]) -> Figure {
+        Figure { corners, vertices: numbers.map(|number| Vertex { number, between: None }) }
     }
 
     #[test]

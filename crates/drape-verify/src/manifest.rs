@@ -27,6 +27,9 @@ pub struct Manifest {
     /// Pairs of cloth vertices that are sewn together and count as one.
     #[serde(default)]
     pub twins: Vec<[u32; 2]>,
+    /// Cloth vertices that are sewn to a place between two others, and these.
+    #[serde(default)]
+    pub ties: Vec<[u32; 3]>,
 }
 
 /// A panel or a body.
@@ -77,7 +80,8 @@ impl Manifest {
             return Err(malformed(1, format!("{total} vertices and triangles are too many")));
         }
         let cloth: usize = manifest.panels.iter().map(|panel| panel.vertices).sum();
-        if manifest.twins.iter().flatten().any(|&twin| twin as usize >= cloth) {
+        let mut sewn = manifest.twins.iter().flatten().chain(manifest.ties.iter().flatten());
+        if sewn.any(|&vertex| vertex as usize >= cloth) {
             return Err(malformed(1, "a vertex is sewn that does not exist".to_owned()));
         }
         Ok(manifest)

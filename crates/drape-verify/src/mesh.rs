@@ -1,3 +1,6 @@
+use std::collections::BTreeMap;
+
+use crate::distance::Vertex;
 use crate::manifest::{Manifest, Part};
 
 /// Where a vertex or a triangle belongs: a panel, or a body, by its number.
@@ -25,6 +28,8 @@ pub struct Mesh {
     pub(crate) thinned: f64,
     /// The smallest of the vertices that are sewn to each vertex.
     class: Vec<u32>,
+    /// By the class of a vertex that lies between two others, their classes.
+    between: BTreeMap<u32, [u32; 2]>,
     /// Material coordinates of the cloth's vertices, in m: its shape at rest.
     pub(crate) material: Vec<[f64; 2]>,
 }
@@ -45,9 +50,14 @@ impl Mesh {
         }
         let vertices = parts.iter().map(|part| part.vertices).sum();
         let class = classes(vertices, &manifest.twins);
+        let tie = |tie: &[u32; 3]| {
+            let [own, a, b] = tie.map(|vertex| class[vertex as usize]);
+            (own, [a, b])
+        };
+        let between = manifest.ties.iter().map(tie).collect();
         let panels = manifest.panels.len();
         let thinned = manifest.thinned;
-        Mesh { triangles, part, first, parts, panels, thinned, class, material }
+        Mesh { triangles, part, first, parts, panels, thinned, class, between, material }
     }
 
     /// Number of triangles.
@@ -64,9 +74,12 @@ impl Mesh {
         self.part[triangle] as usize >= self.panels
     }
 
-    /// The corners, with one number for those that are sewn together.
-    pub(crate) fn classes(&self, triangle: usize) -> [u32; 3] {
-        self.triangles[triangle].map(|vertex| self.class[vertex as usize])
+    /// The corners, those that are sewn together alike.
+    pub(crate) fn vertices(&self, triangle: usize) -> [Vertex; 3] {
+        self.triangles[triangle].map(|vertex| {
+            let number = self.class[vertex as usize];
+            Vertex { number, between: self.between.get(&number).copied() }
+        })
     }
 
     /// Which part a triangle is of, and its number there.

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::distance::{Figure, triangles_apart};
+use crate::distance::{Figure, SIDES, joined, triangles_apart};
 use crate::grid::{Extent, Grid};
 use crate::intersection::{has_area, segment_meets, triangles_meet};
 use crate::mesh::{Mesh, PartNumber};
@@ -152,7 +152,7 @@ impl Shape<'_> {
         found.pairs += 1;
         let figures = pair.map(|triangle| Figure {
             corners: self.corners(triangle),
-            vertices: self.mesh.classes(triangle),
+            vertices: self.mesh.vertices(triangle),
         });
         if meet(figures) {
             found.intersections += 1;
@@ -208,22 +208,58 @@ impl Shape<'_> {
     }
 }
 
-/// Whether two triangles meet elsewhere than in what they share, by the numbers of their corners. Two that share a
-/// side can do so only if they lie in a plane; their distance then shows it.
+/// Whether two triangles meet elsewhere than where they are joined. Two that share a side can do so only if they lie in a
+/// plane; their distance then shows it.
 fn meet([one, other]: [Figure; 2]) -> bool {
-    let Figure { corners: first, vertices: numbers } = one;
-    let Figure { corners: second, vertices: others } = other;
-    // The two corners that are not shared, if just one is.
-    let opposite = |all: [u32; 3], of: [u32; 3]| {
-        let alone: Vec<usize> = (0..3).filter(|&k| !of.contains(&all[k])).collect();
-        <[usize; 2]>::try_from(alone)
-    };
-    match (opposite(numbers, others), opposite(others, numbers)) {
-        (Ok(own), Ok(of_other)) => {
-            segment_meets(own.map(|k| first[k]), second)
-                || segment_meets(of_other.map(|k| second[k]), first)
-        }
-        _ if numbers.iter().any(|number| others.contains(number)) => false,
-        _ => triangles_meet(first, second),
+    if !joined(&one.vertices, &other.vertices) {
+        return triangles_meet(one.corners, other.corners);
+    }
+    // Where they are not joined, one of them has a side that meets the other.
+    [(one, other), (other, one)].into_iter().any(|(figure, of)| {
+        SIDES.into_iter().any(|side| {
+            !joined(&side.map(|k| figure.vertices[k]), &of.vertices)
+                && segment_meets(side.map(|k| figure.corners[k]), of.corners)
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::distance::Vertex;
+
+    #[test]
+    fn what_is_sewn_to_a_side_meets_it_only_elsewhere() {
+        let plain = |number| Vertex { number, between: None };
+        let sewn = |number| Vertex { number, between: Some([0, 1]) };
+        let side = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
+        let whole = |apex: [f64; 3]| Figure {
+            corners: [side[0], side[1], apex],
+            vertices: [0, 1, 2].map(plain),
+        };
+        let [one, two] = [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+        // With a side, or with a corner, on that of the first.
+        let along = Figure {
+            corners: [one, two, [1.5, -1.0, 0.5]],
+            vertices: [sewn(3), sewn(4), plain(5)],
+        };
+        let hung = |a: [f64; 3], b: [f64; 3]| Figure {
+            corners: [one, a, b],
+            vertices: [sewn(3), plain(5), plain(6)],
+        };
+        let flat = whole([1.5, 2.0, 0.0]);
+        assert!(!meet([flat, along]) && !meet([along, flat]));
+        // In one plane and on each other they do not cross, and are near nothing but the seam.
+        let above = Figure { corners: [one, two, [1.5, 1.0, 0.0]], ..along };
+        assert!(!meet([flat, above]) && triangles_apart(flat, above).distance() < 1e-12);
+        let apart = hung([0.5, 1.0, 0.2], [1.5, 1.0, 0.2]);
+        assert!(!meet([flat, apart]) && !meet([apart, flat]));
+        let through = hung([1.0, 1.0, 0.2], [1.5, 1.0, -0.2]);
+        assert!(meet([flat, through]) && meet([through, flat]));
+        // A stranger in the same place touches.
+        let stranger = Figure { vertices: [7, 8, 9].map(plain), ..along };
+        assert!(meet([flat, stranger]));
+        let own = [sewn(3)];
+        assert!(joined(&own, &flat.vertices) && !joined(&own, &flat.vertices[1..]));
     }
 }

@@ -24,6 +24,7 @@ fn compare(places: &[[i64; 3]], scale: f64, shift: f64) -> [usize; 2] {
         skins: vec![SKIN; triangles],
         free: places.len(),
         twins: Vec::new(),
+        ties: Vec::new(),
     });
     let positions: Vec<f64> =
         places.as_flattened().iter().map(|&x| scale * x as f64 + shift).collect();
@@ -74,6 +75,7 @@ fn a_last_place_decides() {
             skins: vec![SKIN; 2],
             free: 3,
             twins: Vec::new(),
+            ties: Vec::new(),
         });
         let found = crossings(&surface, &positions).unwrap();
         assert_eq!(!found.is_empty(), meets, "the edge ends at {end}: {found:?}");

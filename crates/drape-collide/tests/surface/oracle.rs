@@ -43,6 +43,7 @@ fn two_triangles(size: f64, free: usize) -> Surface {
         skins: vec![Skin { reach: half(REACH), separation: half(SEPARATION) }; 2],
         free,
         twins: Vec::new(),
+        ties: Vec::new(),
     })
 }
 

@@ -15,6 +15,7 @@ pub fn sheets(layers: usize, side: usize, spacing: f64) -> SurfaceParts {
         skins: vec![SKIN; layers],
         free: layers * side * side,
         twins: Vec::new(),
+        ties: Vec::new(),
     };
     for layer in 0..layers {
         let first = (layer * side * side) as u32;
@@ -61,6 +62,7 @@ pub fn soup(dice: &mut Dice, triangles: usize, size: f64) -> SurfaceParts {
         skins: vec![SKIN; 2],
         free,
         twins: Vec::new(),
+        ties: Vec::new(),
     }
 }
 

@@ -17,7 +17,7 @@ fn parts_that_make_no_surface_are_refused() {
     };
     type Change = fn(&mut SurfaceParts);
     type Expected = fn(&CollideError) -> bool;
-    let cases: [(Change, Expected); 15] = [
+    let cases: [(Change, Expected); 16] = [
         (|p| _ = p.rest.pop(), |e| matches!(e, CollideError::WrongLength { .. })),
         (|p| _ = p.group.pop(), |e| matches!(e, CollideError::WrongLength { .. })),
         (|p| p.rest[4] = f64::NAN, |e| matches!(e, CollideError::BadPlace { .. })),
@@ -29,6 +29,7 @@ fn parts_that_make_no_surface_are_refused() {
         (|p| p.group[5] = 2, |e| matches!(e, CollideError::NoSuchSkin { vertex: 5, .. })),
         (|p| p.areas[3] = -1.0, |e| matches!(e, CollideError::BadArea { particle: 3, .. })),
         (|p| p.twins.push([0, 32]), |e| matches!(e, CollideError::NoSuchTwin { .. })),
+        (|p| p.ties.push([0, 1, 32]), |e| matches!(e, CollideError::NoSuchTwin { .. })),
         (|p| p.triangles[2][1] = 32, |e| matches!(e, CollideError::NoSuchVertex { .. })),
         (|p| p.triangles[2] = [1, 2, 1], |e| matches!(e, CollideError::RepeatedVertex { .. })),
         (|p| p.triangles[2] = [0, 1, 17], |e| matches!(e, CollideError::MixedTriangle { .. })),
@@ -206,6 +207,7 @@ fn a_head_on_approach_of_any_length_leaves_a_tenth_of_the_room() {
         skins: vec![Skin { reach: 1e-4, separation: 0.5 * separation }; 2],
         free: 6,
         twins: Vec::new(),
+        ties: Vec::new(),
     });
     let mut detector = Detector::default();
     let mut filter = Filter::default();

@@ -59,5 +59,9 @@ fn a_waistband_is_sewn_over_the_mouths_of_darts_and_over_the_side_seam() {
     let place = |id: drape_pattern::NodeId| cut.panels[id.panel].positions[id.node as usize];
     assert_eq!(twice[0].iter().map(|pair| place(pair[1])[0]).collect::<Vec<_>>(), [0.1075, 0.1325]);
     let band = &cut.panels[band];
-    assert_eq!(band.edges[0].len() - 1, seam.pairs.len() - 1 - twice.len(), "all of its nodes are sewn");
+    assert_eq!(
+        band.edges[0].len() - 1,
+        seam.pairs.len() - 1 - twice.len(),
+        "all of its nodes are sewn"
+    );
 }
