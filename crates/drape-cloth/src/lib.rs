@@ -37,7 +37,7 @@ pub use lattice::Lattice;
 pub use mesh::Mesh;
 pub use pattern::Pattern;
 pub use reference::Reference;
-pub use seam::{Seam, SeamBending, SeamState};
+pub use seam::{Seam, SeamBending, SeamState, Tie};
 pub use state::State;
 pub use triangle_strain::TriangleStrain;
 pub use workspace::Workspace;

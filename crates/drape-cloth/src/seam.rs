@@ -17,10 +17,23 @@ use crate::{ClothError, Lattice};
 pub struct Seam {
     /// Pairs of particles, one of each side, in the order in which the seam runs; both may be one, as at the tip of a dart.
     pub pairs: Vec<[u32; 2]>,
+    /// Particles of the longer side of a gather between them, in the order in which the seam runs.
+    pub ties: Vec<Tie>,
     /// How many times as stiff as the fabric a strip along the seam is that is added to the panels.
     pub stiffness: f64,
     /// Angle by which the panels are turned towards their right sides at rest, in rad: 0 if the seam is pressed open.
     pub rest_angle: f64,
+}
+
+/// A particle that is sewn to a place between two others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tie {
+    /// The particle.
+    pub particle: u32,
+    /// The two that it lies between: of two pairs that follow each other in a seam those of the other side.
+    pub ends: [u32; 2],
+    /// Part of the way from the first of them to the second.
+    pub share: f64,
 }
 
 /// Bending of seams, besides that of the panels, whose own connectors end at their outlines.
@@ -33,7 +46,8 @@ pub struct Seam {
 ///   two triangles leave the segment and the mean height `$w$`. Its length is `$\frac{2}{w}\sin\frac{\theta}{2}$` with
 ///   the angle `$\theta$` between the panels, and the curvature follows as for a triple of a yarn: `$\theta/w$`.
 /// * **Along** the seam the bow is, on each side, that of three nodes in a row, and of the next one inside where they do
-///   not lie on a line, so that a curved seam on a flat panel has none.
+///   not lie on a line, so that a curved seam on a flat panel has none. In a gather it is that of the shorter side alone,
+///   which the longer one follows.
 ///
 /// A curvature `$\kappa$` in a direction at an angle `$\vartheta$` to a yarn bends it by `$\kappa\cos^2\vartheta$`, as on
 /// a cylinder; each side has the laws of its own two yarns, friction and all, for half of the strip.
@@ -84,7 +98,7 @@ impl Seam {
     /// A seam of the usual stiffness that is pressed open.
     #[must_use]
     pub fn new(pairs: Vec<[u32; 2]>) -> Self {
-        Self { pairs, stiffness: Self::STIFFNESS, rest_angle: 0.0 }
+        Self { pairs, ties: Vec::new(), stiffness: Self::STIFFNESS, rest_angle: 0.0 }
     }
 }
 
@@ -162,7 +176,7 @@ impl SeamBending {
     ///
     /// # Errors
     /// When a seam has less than two pairs, a particle does not exist, neighbours on a side are not on one side of the
-    /// outline, or stiffness or angle are out of bounds.
+    /// outline, a particle is tied to others than those of the other side, or stiffness or angle are out of bounds.
     pub fn new(panels: &[(&Lattice, &Fabric)], seams: &[Seam]) -> Result<Self, ClothError> {
         let pieces = Pieces::of(panels);
         let mut bows = Vec::new();

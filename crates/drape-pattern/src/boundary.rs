@@ -69,6 +69,11 @@ impl SeamNodes {
         })
     }
 
+    /// The nodes between which a tied one lies.
+    pub fn ends(&self, tie: &Tie) -> [NodeId; 2] {
+        [tie.after, tie.after + 1].map(|pair| self.pairs[pair][1 - tie.side])
+    }
+
     pub(crate) fn nodes_mut(&mut self) -> impl Iterator<Item = &mut NodeId> {
         let ties = self.ties.iter_mut().map(|tie| &mut tie.node);
         self.pairs.iter_mut().flatten().chain(ties)

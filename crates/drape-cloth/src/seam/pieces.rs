@@ -94,36 +94,72 @@ impl Pieces {
         if let Some(pair) = seam.pairs.iter().position(lost) {
             return Err((pair, "a particle of it does not exist"));
         }
+        let mut ties = seam.ties.iter().peekable();
         let mut flaps = Vec::new();
         for (pair, ends) in seam.pairs.windows(2).enumerate() {
-            let [[a, b], [c, d]] = [ends[0], ends[1]];
+            // For each side the particles from this pair to the next.
+            let mut sides = [0, 1].map(|side| vec![ends[0][side]]);
+            for side in 0..2 {
+                let opposite = [ends[0][1 - side], ends[1][1 - side]];
+                while let Some(tie) = ties.next_if(|tie| tie.ends == opposite) {
+                    sides[side].push(tie.particle);
+                }
+                sides[side].push(ends[1][side]);
+            }
             // Over the mouth of a dart one side stays where it is, and the other leaps.
-            let stays = a == c || b == d;
+            let stays = [0, 1].iter().any(|&side| ends[0][side] == ends[1][side]);
+            let flaps_of = |side: &Vec<u32>| -> Result<Vec<Flap>, Wrong> {
+                side.windows(2).map(|two| self.flap(pair, two[0], two[1])).collect()
+            };
             flaps.push(if stays {
                 None
             } else {
-                Some([self.flap(pair, a, c)?, self.flap(pair, b, d)?])
+                Some([flaps_of(&sides[0])?, flaps_of(&sides[1])?])
             });
         }
-        for [one, other] in flaps.iter().flatten() {
-            self.across(seam, [one, other], bows);
+        if ties.next().is_some() {
+            return Err((
+                0,
+                "a particle is tied to others than those of the other side, in their order",
+            ));
+        }
+        for flaps in flaps.iter().flatten() {
+            self.across(seam, flaps, bows);
         }
         for pair in flaps.windows(2) {
             let [Some(here), Some(there)] = pair else { continue };
-            let heights = here.iter().chain(there).map(|flap| flap.height);
-            let width = 0.25 * heights.sum::<f64>();
+            let mean = |flaps: &Vec<Flap>| {
+                flaps.iter().map(|flap| flap.height).sum::<f64>() / flaps.len() as f64
+            };
+            let width = 0.25 * here.iter().chain(there).map(mean).sum::<f64>();
             for (one, next) in here.iter().zip(there) {
-                self.along(seam, ([one, next], width), bows);
+                if let ([one], [next]) = (&one[..], &next[..]) {
+                    self.along(seam, ([one, next], width), bows);
+                }
             }
         }
         Ok(())
     }
 
-    /// Adds the bows of a segment between two triangles.
-    fn across(&self, seam: &Seam, flaps: [&Flap; 2], bows: &mut Vec<Bow>) {
+    /// Adds the bows between the triangles of both sides from one pair to the next.
+    fn across(&self, seam: &Seam, flaps: &[Vec<Flap>; 2], bows: &mut Vec<Bow>) {
+        let [first, second] = flaps;
+        let arcs = first.len().max(second.len());
+        for k in 0..arcs {
+            // One side has a triangle for all of the other's.
+            let [one, other] =
+                [first, second].map(|side| (&side[k.min(side.len() - 1)], side.len()));
+            let length = |(flap, own): (&Flap, usize)| flap.length * own as f64 / arcs as f64;
+            let lengths = length(one) + length(other);
+            self.between(seam, ([one.0, other.0], lengths), bows);
+        }
+    }
+
+    /// Adds the bows of a segment between two triangles, whose sides there are so long together, in m.
+    fn between(&self, seam: &Seam, (flaps, lengths): ([&Flap; 2], f64), bows: &mut Vec<Bow>) {
         let [one, other] = flaps;
         let width = 0.5 * (one.height + other.height);
-        let area = 0.25 * (one.length + other.length) * width * seam.stiffness;
+        let area = 0.25 * lengths * width * seam.stiffness;
         let mut parts = Vec::new();
         for flap in flaps {
             let [a, b, c] = flap.corners.map(|node| self.place(node));

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use drape_cloth::{Grain, Lattice, Mesh, Seam};
 use drape_fabric::Fabric;
 use drape_input::Document;
-use drape_pattern::{Cut, Cutter, NodeId, Panel, Pattern};
+use drape_pattern::{Cut, Cutter, NodeId, Panel, Pattern, SeamNodes};
 
 /// Every feature on: toes with memory, two friction elements, growth, locking, a crease.
 pub const RICH: &str = r#"
@@ -103,7 +103,10 @@ pub fn garment(file: &str) -> (Vec<Lattice>, Vec<Seam>) {
         first += cut.yarns.len() as u32;
     }
     let number = |id: NodeId| numbers[id.panel][id.node as usize];
-    let seam = |pairs: &Vec<[NodeId; 2]>| Seam::new(pairs.iter().map(|p| p.map(number)).collect());
+    let seam = |nodes: &SeamNodes| {
+        assert!(nodes.ties.is_empty(), "none of them is gathered");
+        Seam::new(nodes.pairs.iter().map(|pair| pair.map(number)).collect())
+    };
     (panels, cut.seams.iter().map(seam).collect())
 }
 
