@@ -104,10 +104,10 @@ fn scene(scene: &Scene) -> String {
     }
     if let Some(sewing) = &scene.sewing {
         for seam in &sewing.seams {
-            let gaps = seam.gaps(&scene.positions);
+            let gaps: Vec<f64> = seam.stitching.gaps(&scene.positions).collect();
             let _ = writeln!(
                 text,
-                "  seam \"{}\": {} pairs, open by {:.1} mm, {:.1} mm at most",
+                "  seam \"{}\": {} stitches, open by {:.1} mm, {:.1} mm at most",
                 seam.name,
                 gaps.len(),
                 1e3 * gaps.iter().sum::<f64>() / gaps.len().max(1) as f64,

@@ -6,7 +6,7 @@ use crate::panel::{Panel, Strip};
 use crate::rim::{Near, Rim};
 use crate::state::{History, State};
 use crate::tangent::{Tangent, tangents};
-use crate::{ClothError, Lattice, Pattern, Workspace};
+use crate::{ClothError, Lattice, Pattern, Tie, Workspace};
 
 /// A cloth: particles joined by traction, shearing and bending connectors. Constant in time.
 ///
@@ -111,6 +111,18 @@ impl Cloth {
         self.coordinates.extend(&lattice.coordinates);
         self.triangles.extend(lattice.triangles().iter().map(|t| t.map(|p| first + p)));
         self.areas.extend(areas);
+    }
+
+    /// The cloth with the masses of tied particles at those that they lie between: their sum and its middle stay.
+    #[must_use]
+    pub fn tied<'a>(mut self, ties: impl IntoIterator<Item = &'a Tie>) -> Self {
+        for &Tie { particle, ends, share } in ties {
+            let mass = std::mem::take(&mut self.masses[particle as usize]);
+            for (end, part) in ends.into_iter().zip([1.0 - share, share]) {
+                self.masses[end as usize] += part * mass;
+            }
+        }
+        self
     }
 
     /// Number of particles.

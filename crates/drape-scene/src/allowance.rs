@@ -7,9 +7,9 @@ pub(crate) fn allowances(
     panel: usize,
 ) -> Vec<(Vec<u32>, f64)> {
     let mut lines: Vec<(Vec<u32>, f64)> = Vec::new();
-    for (stitch, pairs) in pattern.stitches().iter().zip(&cut.seams) {
+    for (stitch, seam) in pattern.stitches().iter().zip(&cut.seams) {
         for side in 0..2 {
-            let nodes: Vec<NodeId> = pairs.iter().map(|pair| pair[side]).collect();
+            let nodes: Vec<NodeId> = seam.side(side).collect();
             // A side goes on from one panel to another.
             for run in nodes.chunk_by(|one, next| one.panel == next.panel) {
                 if run[0].panel == panel {
@@ -103,7 +103,7 @@ allowance = 10
         assert_eq!(before.cloth.areas(), after.cloth.areas());
         let mut gains = vec![false; after.positions.len() / 3];
         let sewing = after.sewing.as_ref().expect("it has seams");
-        sewing.seams.iter().flat_map(|seam| seam.pairs.as_flattened()).for_each(|&node| {
+        sewing.stitching.pairs.as_flattened().iter().for_each(|&node| {
             gains[node as usize] = true;
         });
         for panel in &after.panels {

@@ -1,7 +1,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use drape_cloth::{ClothError, Grain, Lattice, Mesh};
+use drape_cloth::{ClothError, Grain, Lattice, Mesh, Tie};
 use drape_input::Diagnostic;
 use drape_pattern::{Cut, CutPattern, Cutter, Error, NodeId, Pattern, Placement};
 
@@ -11,25 +11,17 @@ use crate::material::Material;
 use crate::panel::{Laid, Panel, SPACING};
 use crate::placement::Random;
 use crate::reader::Reader;
-use crate::stitches::width;
+use crate::stitching::Stitching;
 
 /// A line along which two edges are sewn together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seam {
     /// Its name in the pattern.
     pub name: String,
-    /// The particles of both sides, in the order in which it runs; both are one at the tip of a dart.
-    pub pairs: Vec<[u32; 2]>,
+    /// The particles of both sides, in the order in which it runs; those of a pair are one at the tip of a dart.
+    pub stitching: Stitching,
     /// Angle by which its sides are turned towards their right sides at rest, in rad.
     pub angle: f64,
-}
-
-impl Seam {
-    /// How far its sides are apart at positions of the particles, pair by pair, in m.
-    #[must_use]
-    pub fn gaps(&self, positions: &[f64]) -> Vec<f64> {
-        self.pairs.iter().map(|&pair| width(positions, pair)).collect()
-    }
 }
 
 /// A garment as its panels and how they are sewn.
@@ -147,10 +139,15 @@ impl Reader<'_> {
             let (first, number) = &numbers[id.panel];
             *first as u32 + number[id.node as usize]
         };
-        let seams = pattern.stitches().iter().zip(&cut.seams).map(|(stitch, pairs)| Seam {
-            name: stitch.name.clone(),
-            angle: stitch.angle,
-            pairs: pairs.iter().map(|pair| pair.map(node)).collect(),
+        let seams = pattern.stitches().iter().zip(&cut.seams).map(|(stitch, nodes)| {
+            let tie = |tie: &drape_pattern::Tie| Tie {
+                particle: node(tie.node),
+                ends: nodes.ends(tie).map(node),
+                share: tie.share,
+            };
+            let pairs = nodes.pairs.iter().map(|pair| pair.map(node)).collect();
+            let stitching = Stitching { pairs, ties: nodes.ties.iter().map(tie).collect() };
+            Seam { name: stitch.name.clone(), angle: stitch.angle, stitching }
         });
         let notes = pattern.notes().iter().chain(&cut.notes).map(ToString::to_string).collect();
         let name = Path::new(&entry.pattern).file_stem().unwrap_or_default();

@@ -1,7 +1,6 @@
 use serde_json::{Map, Value, json};
 
 use crate::Simulation;
-use crate::stitches::width;
 
 /// Pressure from which a place counts as touched, in Pa: a hundredth of what a light weave weighs.
 const TOUCH: f64 = 0.01;
@@ -26,8 +25,8 @@ impl Simulation {
         let place = |particle: u32| -> [f64; 3] {
             std::array::from_fn(|axis| positions[3 * particle as usize + axis])
         };
-        let gaps = self.sewn.iter().map(|&pair| width(&positions, pair));
-        measures.insert("seam_gap_max".into(), json!(gaps.fold(0.0, f64::max)));
+        let gap = self.sewn.gaps(&positions).fold(0.0, f64::max);
+        measures.insert("seam_gap_max".into(), json!(gap));
         let heights = positions.iter().skip(1).step_by(3);
         measures.insert("lowest".into(), json!(heights.fold(f64::INFINITY, |a, b| a.min(*b))));
         let edges: Vec<Value> = self

@@ -170,6 +170,8 @@ impl Reader<'_> {
             Model::Kes => Cloth::new(&pairs),
             Model::Breen1994 => without_friction(&pairs),
         };
+        let ties = sewing.iter().flat_map(|sewing| &sewing.stitching.ties);
+        let cloth = cloth.tied(ties);
         let materials: Vec<Material> = materials.into_iter().flatten().collect();
         let positions: Vec<f64> = laid.iter().flat_map(|laid| &laid.positions).copied().collect();
         let mut velocities: Vec<f64> =
@@ -199,7 +201,7 @@ impl Reader<'_> {
                 bodies: &bodies,
                 courses: &courses,
                 held: &held,
-                sewn: sewing.as_ref().map_or(&[][..], |sewing| &sewing.pairs),
+                sewn: sewing.as_ref().map(|sewing| &sewing.stitching),
                 offset: contact_settings.offset,
                 stiffness: file.contact.stiffness,
                 stick,

@@ -8,6 +8,7 @@ use crate::measures::FreeEdge;
 use crate::panel::Laid;
 use crate::reader::Reader;
 use crate::scene::{Scene, without_friction};
+use crate::stitching::Stitching;
 
 /// How long the sides of the seams are drawn together when the scene does not say, in s.
 const SECONDS: f64 = 1.0;
@@ -18,8 +19,8 @@ const SECONDS: f64 = 1.0;
 pub struct Sewing {
     /// The seams.
     pub seams: Vec<Seam>,
-    /// The particles of all of them that become one, in pairs.
-    pub pairs: Vec<[u32; 2]>,
+    /// The particles of all of them.
+    pub stitching: Stitching,
     /// The cloth as it is sewn: its laws have no friction, so that how the sides are drawn together is no history.
     pub cloth: Cloth,
     /// How long it takes, in s.
@@ -60,7 +61,8 @@ impl Reader<'_> {
         let bending = |seam: &Seam| drape_cloth::Seam {
             stiffness,
             rest_angle: seam.angle,
-            ..drape_cloth::Seam::new(seam.pairs.clone())
+            ties: seam.stitching.ties.clone(),
+            ..drape_cloth::Seam::new(seam.stitching.pairs.clone())
         };
         let bending: Vec<drape_cloth::Seam> = seams.iter().map(bending).collect();
         let bending = SeamBending::new(panels, &bending).map_err(|error| {
@@ -70,10 +72,12 @@ impl Reader<'_> {
                 "choose another spacing, and report the pattern",
             );
         });
-        let pairs = seams.iter().flat_map(|seam| &seam.pairs).filter(|[a, b]| a != b);
+        let pairs = seams.iter().flat_map(|seam| &seam.stitching.pairs).filter(|[a, b]| a != b);
         let pairs = pairs.copied().collect();
+        let ties = seams.iter().flat_map(|seam| &seam.stitching.ties).copied().collect();
+        let stitching = Stitching { pairs, ties };
         let cloth = without_friction(panels);
-        Some(Sewing { seams, pairs, cloth, seconds, bending: bending.ok()? })
+        Some(Sewing { seams, stitching, cloth, seconds, bending: bending.ok()? })
     }
 
     /// Panels are told apart by their names. Those that the scene itself names twice have been reported.
@@ -94,8 +98,10 @@ impl Scene {
     /// The edges of panels whose particles between the ends are not sewn.
     pub(crate) fn free_edges(&self) -> Vec<FreeEdge> {
         let mut sewn = vec![false; self.cloth.particles()];
-        let pairs = self.sewing.iter().flat_map(|sewing| &sewing.pairs);
-        pairs.flatten().for_each(|&particle| sewn[particle as usize] = true);
+        for Stitching { pairs, ties } in self.sewing.iter().map(|sewing| &sewing.stitching) {
+            pairs.iter().flatten().for_each(|&particle| sewn[particle as usize] = true);
+            ties.iter().for_each(|tie| sewn[tie.particle as usize] = true);
+        }
         let edges = self.panels.iter().flat_map(|panel| {
             panel.edges.iter().map(move |(name, particles)| FreeEdge {
                 name: format!("{}.{name}", panel.name),

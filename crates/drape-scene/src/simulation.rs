@@ -17,6 +17,7 @@ use crate::pin::PinLoad;
 use crate::scene::Scene;
 use crate::scheme::{Integration, Scheme};
 use crate::settle::Settle;
+use crate::stitching::Stitching;
 use crate::stopwatch::Stopwatch;
 use crate::stretch::reaches;
 use crate::summary::{Energy, Phase, PhaseName, Solver, Status, Summary};
@@ -36,8 +37,8 @@ pub struct Simulation {
     integration: Integration,
     /// What makes sewn nodes one, once they are sewn.
     weld: Option<Weld>,
-    /// The nodes of the seams, in pairs.
-    pub(crate) sewn: Vec<[u32; 2]>,
+    /// The nodes of the seams.
+    pub(crate) sewn: Stitching,
     /// The edges of panels that are not sewn.
     pub(crate) free_edges: Vec<FreeEdge>,
     /// What was measured at the end of the run.
@@ -139,19 +140,21 @@ impl Simulation {
         let ground = if worn.is_empty() { None } else { lowest(scene.contact.bodies()) };
         let reaches = reaches(&scene.materials);
         let free_edges = scene.free_edges();
-        let sewn = scene.sewing.as_ref().map_or_else(Vec::new, |sewing| sewing.pairs.clone());
+        let sewn = scene.sewing.as_ref();
+        let sewn = sewn.map_or_else(Stitching::default, |sewing| sewing.stitching.clone());
         let world = World::new(scene);
-        let creeps = match &sewn[..] {
-            [] => world.creeps.then_some(rest::CREEP_TOLERANCE_MAX),
-            _ => Some(phases::TOLERANCE),
+        let creeps = if sewn.is_empty() {
+            world.creeps.then_some(rest::CREEP_TOLERANCE_MAX)
+        } else {
+            Some(phases::TOLERANCE)
         };
         let (now, tolerance) = scheme.on_the_way(creeps);
         let integration = now.start(&world)?;
         let order = phases::order(&scheme);
-        let name = match (&sewn[..], settle) {
-            ([_, ..], _) => PhaseName::Sew,
-            ([], Some(_)) => PhaseName::Relax,
-            ([], None) => PhaseName::Simulate,
+        let name = match (sewn.is_empty(), settle) {
+            (false, _) => PhaseName::Sew,
+            (true, Some(_)) => PhaseName::Relax,
+            (true, None) => PhaseName::Simulate,
         };
         let strides = if sewn.is_empty() { settle } else { Some(phases::strides(spacing)) };
         Ok(Self {

@@ -1,17 +1,19 @@
 use drape_implicit::BlockMatrix;
 
+use crate::stitching::{Stitching, Thread};
+
 /// Stiffness of a stitch, in N/m: some ten times that of a yarn of a usual weave, which is all that a thread must be. The
 /// gaps that its pull leaves, micrometres, go when the nodes become one.
 const STIFFNESS: f64 = 1e5;
 
 /// Threads between the two sides of the seams, which are drawn together while the garment is sewn.
 ///
-/// Each keeps what lies between its nodes near what lay there at the start times the part that is left, which falls
+/// Each keeps what lies between its ends near what lay there at the start times the part that is left, which falls
 /// evenly to nothing: pulled straight, without a choice of way, and with an energy that is a square.
 #[derive(Debug, Clone)]
 pub(crate) struct Stitches {
-    pairs: Vec<[u32; 2]>,
-    /// From the second node to the first at the start, in m.
+    threads: Vec<Thread>,
+    /// What lay between the ends of each at the start, in m.
     gaps: Vec<[f64; 3]>,
     /// How long the drawing together takes, in s.
     seconds: f64,
@@ -20,15 +22,20 @@ pub(crate) struct Stitches {
 }
 
 impl Stitches {
-    /// Stitches between pairs of nodes at their places at the start; seconds tells how long drawing together takes.
-    pub(crate) fn new(pairs: &[[u32; 2]], positions: &[f64], seconds: f64) -> Self {
-        let gaps = pairs.iter().map(|&pair| gap(positions, pair)).collect();
-        Self { pairs: pairs.to_vec(), gaps, seconds, left: 1.0 }
+    /// Stitches between nodes at their places at the start; seconds tells how long drawing together takes.
+    pub(crate) fn new(stitching: &Stitching, positions: &[f64], seconds: f64) -> Self {
+        let threads: Vec<Thread> = stitching.threads().collect();
+        let gaps = threads.iter().map(|thread| thread.gap(positions)).collect();
+        Self { threads, gaps, seconds, left: 1.0 }
     }
 
-    /// The pairs of nodes.
-    pub(crate) fn pairs(&self) -> &[[u32; 2]] {
-        &self.pairs
+    /// Pairs of nodes that are coupled.
+    pub(crate) fn pairs(&self) -> Vec<[u32; 2]> {
+        let pairs = self.threads.iter().flat_map(|thread| {
+            let nodes = thread.parts.iter().map(|part| part.0).enumerate();
+            nodes.flat_map(|(k, a)| thread.parts[k + 1..].iter().map(move |&(b, _)| [a, b]))
+        });
+        pairs.collect()
     }
 
     /// Opens a step that ends at a time, in s.
@@ -41,18 +48,19 @@ impl Stitches {
         self.seconds
     }
 
-    /// The widest gap, in m, and the pair that it is between.
+    /// The widest gap, in m, and two nodes that it is between.
     pub(crate) fn widest(&self, positions: &[f64]) -> (f64, [u32; 2]) {
-        let widths = self.pairs.iter().map(|&pair| (width(positions, pair), pair));
+        let ends = |thread: &Thread| [0, 1].map(|k| thread.parts[k].0);
+        let widths = self.threads.iter().map(|thread| (thread.width(positions), ends(thread)));
         widths.fold((0.0, [0; 2]), |widest, width| if width.0 > widest.0 { width } else { widest })
     }
 
     pub(crate) fn add_forces(&self, positions: &[f64], forces: &mut [f64]) {
-        for (&pair, excess) in self.pairs.iter().zip(self.excess(positions)) {
-            let [a, b] = pair.map(|node| 3 * node as usize);
-            for axis in 0..3 {
-                forces[a + axis] -= STIFFNESS * excess[axis];
-                forces[b + axis] += STIFFNESS * excess[axis];
+        for (thread, excess) in self.threads.iter().zip(self.excess(positions)) {
+            for &(node, weight) in &thread.parts {
+                for (axis, excess) in excess.iter().enumerate() {
+                    forces[3 * node as usize + axis] -= weight * STIFFNESS * excess;
+                }
             }
         }
     }
@@ -66,30 +74,20 @@ impl Stitches {
         let block = |size: f64| -> [f64; 9] {
             std::array::from_fn(|k| if k % 4 == 0 { size } else { 0.0 })
         };
-        let (own, other) = (block(STIFFNESS), block(-STIFFNESS));
-        for &pair in &self.pairs {
-            let [a, b] = pair.map(|node| node as usize);
-            matrix.add(a, a, &own);
-            matrix.add(b, b, &own);
-            matrix.add(a, b, &other);
+        for Thread { parts } in &self.threads {
+            for (k, &(a, weight)) in parts.iter().enumerate() {
+                for &(b, other) in &parts[k..] {
+                    matrix.add(a as usize, b as usize, &block(weight * other * STIFFNESS));
+                }
+            }
         }
     }
 
-    /// What lies between the nodes of each pair beyond what is left.
+    /// What lies between the ends of each thread beyond what is left.
     fn excess(&self, positions: &[f64]) -> impl Iterator<Item = [f64; 3]> {
-        self.pairs.iter().zip(&self.gaps).map(move |(&pair, start)| {
-            let now = gap(positions, pair);
+        self.threads.iter().zip(&self.gaps).map(move |(thread, start)| {
+            let now = thread.gap(positions);
             [0, 1, 2].map(|axis| now[axis] - self.left * start[axis])
         })
     }
-}
-
-/// Distance of the nodes of a pair, in m.
-pub(crate) fn width(positions: &[f64], pair: [u32; 2]) -> f64 {
-    gap(positions, pair).iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn gap(positions: &[f64], pair: [u32; 2]) -> [f64; 3] {
-    let [a, b] = pair.map(|node| 3 * node as usize);
-    [0, 1, 2].map(|axis| positions[a + axis] - positions[b + axis])
 }

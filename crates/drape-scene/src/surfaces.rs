@@ -12,6 +12,7 @@ use crate::course::Course;
 use crate::inflation::Inflation;
 use crate::material::Material;
 use crate::panel::Panel;
+use crate::stitching::Stitching;
 
 /// Part of a fabric's thickness under pressure that its surfaces keep between them under any load.
 const CRUSHED: f64 = 0.5;
@@ -60,8 +61,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) bodies: &'a [Body],
     pub(crate) courses: &'a [Option<Course>],
     pub(crate) held: &'a [bool],
-    /// Pairs of particles that are sewn together.
-    pub(crate) sewn: &'a [[u32; 2]],
+    /// The particles of the seams.
+    pub(crate) sewn: Option<&'a Stitching>,
     /// Distance of the middle of the cloth from a body at which contact begins, in m.
     pub(crate) offset: f64,
     /// In N/m³; what the fabrics' thickness under pressure asks for if there is none.
@@ -92,7 +93,8 @@ impl Surfaces {
             group: Vec::new(),
             skins: Vec::new(),
             free: cloth.particles(),
-            twins: parts.sewn.to_vec(),
+            twins: parts.sewn.map_or_else(Vec::new, |sewn| sewn.pairs.clone()),
+            ties: parts.sewn.map_or_else(Vec::new, Stitching::triples),
         };
         let mut frictions = Vec::new();
         for (index, panel) in panels.iter().enumerate() {

@@ -23,6 +23,9 @@ pub struct Topology {
     /// Pairs of the cloth's vertices that are sewn together.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub twins: Vec<[u32; 2]>,
+    /// Vertices of the cloth that are sewn to a place between two others, and these.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ties: Vec<[u32; 3]>,
     /// Material coordinates of the particles, in m.
     #[serde(skip)]
     pub coordinates: Vec<[f64; 2]>,
@@ -86,7 +89,8 @@ impl Simulation {
             panels,
             bodies,
             thinned: self.world.surfaces.as_ref().map_or(1.0, |s| s.contact.thinned()),
-            twins: self.sewn.clone(),
+            twins: self.sewn.pairs.clone(),
+            ties: self.sewn.triples(),
             coordinates: cloth.coordinates().to_vec(),
             triangles: cloth.triangles().to_vec(),
             body_triangles,

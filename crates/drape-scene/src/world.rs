@@ -86,13 +86,13 @@ impl World {
             Some(Course::Shapes(_)) | None => None,
         });
         let moving = moving.collect();
-        let stitches = sewing.as_ref().map(|s| Stitches::new(&s.pairs, &positions, s.seconds));
+        let stitches = sewing.as_ref().map(|s| Stitches::new(&s.stitching, &positions, s.seconds));
         let finished =
             sewing.map(|sewing| (std::mem::replace(&mut cloth, sewing.cloth), sewing.bending));
         let mut state = cloth.state(positions).expect("a scene places every particle");
         state.velocities = velocities;
-        let threads = stitches.as_ref().map_or(&[][..], Stitches::pairs);
-        let mut bonds = Bonds::new(&cloth, breen, (threads, &state.positions));
+        let threads = stitches.as_ref().map_or_else(Vec::new, Stitches::pairs);
+        let mut bonds = Bonds::new(&cloth, breen, (&threads, &state.positions));
         let drag = vec![0.0; cloth.particles()];
         let stored = bonds.stored(&cloth, &state);
         // The balance begins when the garment is sewn.
