@@ -349,6 +349,27 @@ mod tests {
     }
 
     #[test]
+    fn batches_may_lead_beyond_the_last_row_with_zeros() {
+        // Runs of many batches of which one couples to the last particle, another to the first of the last.
+        for pairs in [vec![(0, 40)], vec![(7, 40), (3, 40)], vec![(0, 40), (33, 41)]] {
+            let last = pairs.iter().map(|pair| pair.1).max().unwrap();
+            let mut matrix =
+                BlockMatrix::zeros(Pattern::from_pairs(last + 1, pairs.clone()).unwrap());
+            let block = |size: f64| [size, 0.1, 0.0, 0.1, size, 0.0, 0.0, 0.0, size];
+            (0..=last).for_each(|own| matrix.add(own, own, &block(3.0)));
+            pairs.iter().for_each(|&(a, b)| matrix.add(a, b, &block(-1.0)));
+            let mut factored = factorise(&matrix);
+            assert_eq!(factored.shifts, Ok(0));
+            let b: Vec<f64> = (0..3 * (last + 1)).map(|k| (k as f64).sin()).collect();
+            let mut back = vec![0.0; b.len()];
+            matrix.multiply(&apply(&mut factored, &b), &mut back);
+            for (b, back) in b.iter().zip(&back) {
+                assert!((b - back).abs() < 1e-6, "{back} against {b}: {pairs:?}");
+            }
+        }
+    }
+
+    #[test]
     fn an_indefinite_diagonal_block_is_reported() {
         let mut matrix = chain(3, 3.0, -1.0);
         matrix.add(1, 1, &[-9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);

@@ -6,7 +6,7 @@ use crate::lanes::LANES;
 /// Where a block would lie if the pattern had room for it.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
-/// Rows before the first and after the last: a batch may reach that far, with blocks of zeros.
+/// Rows before the first and, at the least, after the last: a batch may reach that far, with blocks of zeros.
 pub(crate) const MARGIN: usize = LANES;
 
 /// Particles in waves, and all that follows from them and a pattern.
@@ -112,6 +112,7 @@ impl Waves {
             work: 0,
         };
         waves.find_runs(pattern, &particles, &starts);
+        waves.make_room();
         waves.find_slots(pattern, &particles);
         waves.find_updates();
         waves
@@ -164,6 +165,20 @@ impl Waves {
                 run: last - run,
                 updates: 0..0,
             }));
+        }
+    }
+
+    /// Adds rows and numbers at the ends: all batches of a run have blocks at all its distances, and those of zeros may
+    /// lead beyond the last row.
+    fn make_room(&mut self) {
+        for run in &self.runs {
+            for diagonal in &self.diagonals[run.diagonals.clone()] {
+                let target = &self.runs[diagonal.run as usize];
+                let reach = run.end + diagonal.offset;
+                self.rows = self.rows.max(reach);
+                let last = target.above(target.diagonals.len(), 0) - target.len();
+                self.work = self.work.max(last + reach.saturating_sub(target.start));
+            }
         }
     }
 
