@@ -34,6 +34,8 @@ pub(crate) struct Entry {
     pub(crate) gravity: f64,
     /// Growth of the energy of contact.
     pub(crate) contact: f64,
+    /// By what holds particles in some directions.
+    pub(crate) hold: f64,
     /// By bodies that move, against contact, and by their friction.
     pub(crate) push: f64,
     pub(crate) drive: f64,
@@ -69,7 +71,7 @@ impl Ledger {
         sums.turning_dissipated += end - start - (entry.stored - self.stored) - entry.friction;
         sums.gravity += entry.gravity;
         sums.contact += entry.contact;
-        sums.work_in += entry.push + entry.drive;
+        sums.work_in += entry.push + entry.drive + entry.hold;
         sums.elastic += entry.stored - self.stored;
         sums.friction_dissipated += entry.friction;
         sums.body_dissipated += entry.slip;
