@@ -60,6 +60,13 @@ impl Attachments {
         0.5 * STIFFNESS * squares.sum::<f64>()
     }
 
+    /// Work on the cloth along a straight way with the force at its end, and the fall of the potential, in J.
+    pub(crate) fn work(&self, from: &[f64], to: &[f64]) -> [f64; 2] {
+        let powers = self.excess(to).map(|(number, excess)| excess * (to[number] - from[number]));
+        let work = -STIFFNESS * powers.sum::<f64>();
+        [work, self.potential(from) - self.potential(to)]
+    }
+
     pub(crate) fn add_stiffness(&self, matrix: &mut BlockMatrix) {
         for &Spring { particle, axes, .. } in &self.0 {
             let block =

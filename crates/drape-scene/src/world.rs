@@ -196,9 +196,7 @@ impl World {
         let mut air = 0.0;
         self.each_drag(positions, |particle, way, _| air += self.drag[particle] * way * way);
         let gravity = self.weight_energy(positions) - self.weight_energy(&self.state.positions);
-        let [start, end] =
-            [&self.state.positions, positions].map(|x| self.attachments.potential(x));
-        let hold = start - end;
+        let [hold, hold_potential] = self.attachments.work(&self.state.positions, positions);
         if let (Some(surfaces), Some(ledger)) = (&mut self.surfaces, &self.ledger) {
             let energy = surfaces.contact.potential(positions);
             let [_, lost] = surfaces.contact.friction();
@@ -207,6 +205,7 @@ impl World {
             return Entry {
                 gravity,
                 hold,
+                hold_potential,
                 contact: energy - lost - ledger.barrier,
                 drive: surfaces.contact.body_work(positions),
                 slip: lost,
@@ -237,6 +236,7 @@ impl World {
         Entry {
             gravity,
             hold,
+            hold_potential,
             contact: barrier - ledger.barrier + ledger.push,
             push: ledger.push,
             drive,
