@@ -94,9 +94,13 @@ fn scene(scene: &Scene) -> String {
     for panel in &scene.panels {
         let [across, along] = panel.lattice.spacing;
         let material = &scene.materials[panel.material];
+        let layer = match panel.layer {
+            0 => String::new(),
+            layer => format!("layer {layer}, "),
+        };
         let _ = writeln!(
             text,
-            "  panel \"{}\": {} particles, spacing {across:.5} × {along:.5} m, of {}",
+            "  panel \"{}\": {layer}{} particles, spacing {across:.5} × {along:.5} m, of {}",
             panel.name,
             panel.lattice.coordinates.len(),
             material.file.display()

@@ -150,7 +150,9 @@ pub(crate) struct PinFile {
     pub(crate) rows: Option<usize>,
     /// When it lets go, in s; never if missing.
     pub(crate) release: Option<f64>,
-    /// `sewn`: it lets go when the garment is sewn.
+    /// `x`, `y` and `z`: the directions in which it holds; all of them if missing.
+    pub(crate) axes: Option<Vec<String>>,
+    /// `sewn`: it lets go when the garment is sewn; `rest`: when the cloth has come to rest.
     pub(crate) until: Option<String>,
     /// How what it holds moves; it stays where it is if missing.
     pub(crate) motion: Option<MotionFile>,

@@ -7,6 +7,7 @@ use drape_pattern::{Cut, CutPattern, Cutter, Error, NodeId, Pattern, Placement};
 
 use crate::allowance::allowances;
 use crate::file::{GarmentFile, GarmentPanelFile, SceneFile};
+use crate::layers::worn_at;
 use crate::material::Material;
 use crate::panel::{Laid, Panel, SPACING};
 use crate::placement::Random;
@@ -26,7 +27,7 @@ pub struct Seam {
 
 /// A garment as its panels and how they are sewn.
 pub(crate) struct Garment {
-    /// After its pattern.
+    /// Its own, or else that of the file of its pattern.
     pub(crate) name: String,
     pub(crate) panels: Vec<Laid>,
     pub(crate) seams: Vec<Seam>,
@@ -44,6 +45,8 @@ struct Piece<'a> {
     number: &'a [u32],
     /// The number of its first particle in the scene.
     first: usize,
+    /// The layer of its garment.
+    layer: u32,
 }
 
 impl Garment {
@@ -126,11 +129,12 @@ impl Reader<'_> {
             self.unknown(&key, message, (name, &names), "panels of the pattern");
         }
         let cut = self.pieces(key, Cutter::new(spacing).cut(pattern))?;
+        let layer = self.layer(&format!("{key}.layer"), entry.layer, file).unwrap_or(0);
         let mut random = Random(entry.noise.as_ref().map_or(0, |noise| noise.seed));
         let (mut panels, mut numbers, mut next) = (Vec::new(), Vec::new(), first);
         for (index, own) in cut.panels.iter().enumerate() {
             let number = numbering(own);
-            let piece = Piece { pattern, cut: &cut, index, number: &number, first: next };
+            let piece = Piece { pattern, cut: &cut, index, number: &number, first: next, layer };
             panels.extend(self.lay((key, file, entry), &piece, (&mut random, unit)));
             numbers.push((next, number));
             next += own.positions.len();
@@ -150,8 +154,13 @@ impl Reader<'_> {
             Seam { name: stitch.name.clone(), angle: stitch.angle, stitching }
         });
         let notes = pattern.notes().iter().chain(&cut.notes).map(ToString::to_string).collect();
-        let name = Path::new(&entry.pattern).file_stem().unwrap_or_default();
-        let name = name.to_string_lossy().into_owned();
+        let name = match &entry.name {
+            Some(name) => name.clone(),
+            None => {
+                let name = Path::new(&entry.pattern).file_stem().unwrap_or_default();
+                name.to_string_lossy().into_owned()
+            }
+        };
         let whole = panels.len() == names.len();
         whole.then(|| Garment { name, panels, seams: seams.collect(), notes })
     }
@@ -178,12 +187,14 @@ impl Reader<'_> {
         piece: &Piece<'_>,
         (random, unit): (&mut Random, f64),
     ) -> Option<Laid> {
-        let &Piece { pattern, cut, index, number, first } = piece;
+        let &Piece { pattern, cut, index, number, first, layer } = piece;
         let panel = &pattern.panels()[index];
         let parts = allowances((pattern, cut), index);
         let cut = &cut.panels[index];
         let own = entry.panel.get(panel.name());
         let placement = self.place((key, panel.name()), (entry, own), panel.placement(), unit);
+        let layer_key = format!("{key}.panel.{}.layer", panel.name());
+        let layer = self.layer(&layer_key, own.and_then(|own| own.layer), file).unwrap_or(layer);
         let (fabric_key, fabric) = match own.and_then(|own| own.fabric.as_ref()) {
             Some(fabric) => (format!("{key}.panel.{}.fabric", panel.name()), fabric),
             None => (format!("{key}.fabric"), &entry.fabric),
@@ -197,7 +208,7 @@ impl Reader<'_> {
         });
         let folds = panel.folds().iter().map(|fold| (fold.ends, fold.angle));
         let lattice = self.folded((key, panel.name()), lattice.ok()?, folds)?;
-        let (placement, material) = (placement?, material?);
+        let (placement, material) = (worn_at(placement?, layer), material?);
         let noise = entry.noise.as_ref().map_or(0.0, |noise| noise.amplitude * unit);
         let mut positions = vec![0.0; 3 * cut.positions.len()];
         for (&node, &place) in number.iter().zip(&cut.positions) {
@@ -212,7 +223,11 @@ impl Reader<'_> {
             (edge.name.clone(), nodes.iter().map(|&node| number[node as usize]).collect())
         });
         let edges = edges.collect();
-        let panel = Panel { name: panel.name().to_owned(), material, lattice, first, edges };
+        let name = match &entry.name {
+            Some(garment) => format!("{garment}.{}", panel.name()),
+            None => panel.name().to_owned(),
+        };
+        let panel = Panel { name, material, lattice, first, edges, layer };
         let velocities = vec![0.0; positions.len()];
         Some(Laid { panel, positions, velocities })
     }

@@ -34,6 +34,10 @@ pub(crate) struct Entry {
     pub(crate) gravity: f64,
     /// Growth of the energy of contact.
     pub(crate) contact: f64,
+    /// By what holds particles in some directions, with its force at the end of the step.
+    pub(crate) hold: f64,
+    /// Fall of its potential, which has leapt with the places that it holds to at the start of the step.
+    pub(crate) hold_potential: f64,
     /// By bodies that move, against contact, and by their friction.
     pub(crate) push: f64,
     pub(crate) drive: f64,
@@ -69,7 +73,7 @@ impl Ledger {
         sums.turning_dissipated += end - start - (entry.stored - self.stored) - entry.friction;
         sums.gravity += entry.gravity;
         sums.contact += entry.contact;
-        sums.work_in += entry.push + entry.drive;
+        sums.work_in += entry.push + entry.drive + entry.hold;
         sums.elastic += entry.stored - self.stored;
         sums.friction_dissipated += entry.friction;
         sums.body_dissipated += entry.slip;
@@ -77,6 +81,7 @@ impl Ledger {
         // The integrator takes potentials for the work of all forces. For forces that grow along the
         // step, as friction and drag with the speed, that falls short of the work at its end.
         sums.numerical_dissipated += entry.slip_potential - entry.slip - 0.5 * entry.air;
+        sums.numerical_dissipated += entry.hold - entry.hold_potential;
         sums.numerical_dissipated += entry.drive;
         sums.numerical_dissipated += entry.brake;
         self.stored = entry.stored;

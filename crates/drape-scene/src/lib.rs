@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod allowance;
+mod attachments;
 mod bonds;
 mod clock;
 mod collider;
@@ -17,6 +18,7 @@ mod girth;
 #[cfg(test)]
 mod guards_check;
 mod inflation;
+mod layers;
 mod ledger;
 mod material;
 mod measures;
@@ -35,6 +37,7 @@ mod sewing;
 mod shapes;
 mod simulation;
 mod snapshot;
+mod start;
 mod stitches;
 mod stitching;
 mod stopwatch;

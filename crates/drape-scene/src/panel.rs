@@ -25,6 +25,8 @@ pub struct Panel {
     pub first: usize,
     /// The named edges of a panel of a garment, with the numbers of their particles in the panel.
     pub edges: Vec<(String, Vec<u32>)>,
+    /// How far out it is worn: what is of a higher layer starts outside of what is of a lower one.
+    pub layer: u32,
 }
 
 /// A panel at its place.
@@ -85,7 +87,8 @@ impl Reader<'_> {
                     let placement = placement.copied(copy, (entry.stack.as_ref(), unit));
                     let positions = placement.positions(&lattice);
                     let velocities = placement.velocities(&positions);
-                    let panel = Panel { name, material, lattice, first, edges: Vec::new() };
+                    let edges = Vec::new();
+                    let panel = Panel { name, material, lattice, first, edges, layer: 0 };
                     panels.push(Laid { panel, positions, velocities });
                     first += particles;
                 }

@@ -11,8 +11,21 @@ pub struct Pin {
     pub(crate) track: Option<Track>,
     /// When it lets go, in s; infinite if it never does.
     pub(crate) release: f64,
-    /// Whether it lets go when the garment is sewn.
-    pub(crate) until_sewn: bool,
+    /// The phases in which it holds.
+    pub(crate) until: Until,
+    /// Whether it holds along x, y and z.
+    pub(crate) axes: [bool; 3],
+}
+
+/// What a pin holds until.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Until {
+    /// The garment is sewn.
+    Sewn,
+    /// The cloth has come to rest, and bodies begin to move.
+    Rest,
+    /// The run ends.
+    End,
 }
 
 /// What a pin bears: the pull of the cloth and the weight that hangs on it.
@@ -30,9 +43,14 @@ impl Pin {
         end_time <= self.release
     }
 
-    /// Lets go, at a time in s, if it is to hold until the garment is sewn.
-    pub(crate) fn sewn(&mut self, time: f64) {
-        if self.until_sewn {
+    /// Whether its particles are held altogether; they are attached by springs otherwise.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.axes == [true; 3]
+    }
+
+    /// Lets go, at a time in s, if it is to hold until what has then been reached.
+    pub(crate) fn reached(&mut self, until: Until, time: f64) {
+        if self.until == until {
             self.release = time;
         }
     }
@@ -61,12 +79,19 @@ impl Pin {
         load
     }
 
+    /// The particles and their places at a time, in s.
+    pub(crate) fn places(&self, time: f64) -> impl Iterator<Item = (usize, [f64; 3])> {
+        let moved = self.track.as_ref().map(|track| track.points(time));
+        let place = move |&start: &[f64; 3]| moved.as_ref().map_or(start, |moved| moved(start));
+        self.particles.iter().copied().zip(self.start.iter().map(place))
+    }
+
     /// Writes the places of the particles at a time, in s, into the flat array of all places.
     pub(crate) fn place(&self, time: f64, positions: &mut [f64]) {
-        let Some(track) = &self.track else { return };
-        let place = track.points(time);
-        for (&particle, &start) in self.particles.iter().zip(&self.start) {
-            positions[3 * particle..3 * particle + 3].copy_from_slice(&place(start));
+        if self.track.is_some() {
+            for (particle, place) in self.places(time) {
+                positions[3 * particle..3 * particle + 3].copy_from_slice(&place);
+            }
         }
     }
 }

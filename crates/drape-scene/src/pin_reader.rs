@@ -1,8 +1,8 @@
 use drape_input::closest;
 
-use crate::file::PinFile;
+use crate::file::{PinFile, SceneFile};
 use crate::panel::Panel;
-use crate::pin::Pin;
+use crate::pin::{Pin, Until};
 use crate::reader::Reader;
 
 impl Reader<'_> {
@@ -57,12 +57,35 @@ impl Reader<'_> {
         if pin.release.is_some() {
             self.within(&format!("{key}.release"), release, (0.0, 1e5), "when it lets go, in s");
         }
-        let until_sewn = self.choice(
-            &format!("{key}.until"),
-            Some(pin.until.as_deref().unwrap_or("end")),
-            &[("end", false), ("sewn", true)],
-        );
-        Some(Pin { particles, start, track, release, until_sewn })
+        let choices = [("end", Until::End), ("sewn", Until::Sewn), ("rest", Until::Rest)];
+        let until = self.choice(&format!("{key}.until"), pin.until.as_deref(), &choices);
+        let axes = self.axes(&key, pin);
+        Some(Pin { particles, start, track, release, until, axes })
+    }
+
+    /// Whether a pin holds along x, y and z.
+    fn axes(&mut self, key: &str, pin: &PinFile) -> [bool; 3] {
+        let Some(names) = &pin.axes else { return [true; 3] };
+        if names.is_empty() {
+            let help = "axes = [\"y\"] holds up and down; without axes it holds altogether";
+            self.fail(&format!("{key}.axes"), "it holds in no direction".into(), help);
+        }
+        let mut axes = [false; 3];
+        for (number, name) in names.iter().enumerate() {
+            let key = format!("{key}.axes[{number}]");
+            axes[self.choice(&key, Some(name.as_str()), &[("x", 0), ("y", 1), ("z", 2)])] = true;
+        }
+        axes
+    }
+
+    /// A pin that holds until the cloth has come to rest lets go only where something follows.
+    pub(crate) fn pins_let_go(&mut self, file: &SceneFile) {
+        for (index, pin) in file.pin.iter().enumerate() {
+            if pin.until.as_deref() == Some("rest") && file.motion.is_none() {
+                let help = "leave until out, or add [motion] with what follows the rest";
+                self.fail(&format!("pin[{index}].until"), "the run ends at rest".into(), help);
+            }
+        }
     }
 
     /// The particles of an edge of a garment's panel.

@@ -20,17 +20,15 @@ use crate::reader::Reader;
 use crate::scheme::Scheme;
 use crate::settle::Settle;
 use crate::sewing::Sewing;
+use crate::start::Start;
 use crate::surfaces::{Parts, Surfaces};
-use crate::tangle::{Overlap, Tangle, overlaps};
+use crate::tangle::Tangle;
 
 /// Density of air at 20 °C and sea level, in kg/m³.
 const AIR_DENSITY: f64 = 1.2;
 
 /// Drag coefficient of a flat plate across the flow.
 const AIR_DRAG: f64 = 1.28;
-
-/// Pairs that the message of a start that is refused tells of.
-const OVERLAPS_TOLD: usize = 5;
 
 /// A scene that has been read and checked: everything a simulation needs, in SI units.
 #[derive(Debug)]
@@ -73,7 +71,7 @@ pub struct Scene {
     pub motion_seconds: Option<f64>,
     /// How the steps are made.
     pub scheme: Scheme,
-    /// Names of the garments, after their patterns, and which particles are theirs.
+    /// Names of the garments, their own or after their patterns, and which particles are theirs.
     pub garments: Vec<(String, Range<usize>)>,
     /// How the seams are sewn, if there are some.
     pub sewing: Option<Sewing>,
@@ -181,8 +179,10 @@ impl Reader<'_> {
         let pins: Vec<Pin> = pins
             .filter_map(|(index, pin)| self.pin(index, pin, (&panels, unit), &positions))
             .collect();
+        self.pins_let_go(&file);
         let mut held = vec![false; cloth.particles()];
-        pins.iter().flat_map(|pin| &pin.particles).for_each(|&particle| held[particle] = true);
+        let whole = pins.iter().filter(|pin| pin.is_whole());
+        whole.flat_map(|pin| &pin.particles).for_each(|&particle| held[particle] = true);
         for particle in (0..held.len()).filter(|&particle| held[particle]) {
             velocities[3 * particle..3 * particle + 3].fill(0.0);
         }
@@ -213,13 +213,18 @@ impl Reader<'_> {
         let surfaces =
             surfaces.map_err(|error| self.document.at("contact.surfaces", error.to_string()));
         let mut surfaces = surfaces.map_err(Diagnostics::from)?;
-        let tangle = surfaces.as_mut().and_then(|surfaces| self.tangle(surfaces, &positions));
+        let start =
+            Start { panels: &panels, garments: &worn, cloth: &cloth, positions: &positions };
+        let tangle = surfaces.as_mut().and_then(|surfaces| self.tangle(surfaces, &start));
         let contact = Contact::new(bodies, contact_settings, cloth.areas().to_vec());
         let contact = contact.map_err(|error| self.document.at("collider", error.to_string()));
         let contact = contact.map_err(Diagnostics::from)?;
         match (&surfaces, inflation) {
-            (Some(surfaces), Some(_)) => self.start_is_outside(surfaces, &panels, &positions),
+            (Some(surfaces), Some(_)) => self.start_is_outside(surfaces, &start),
             _ => self.start_is_free(&contact, &positions),
+        }
+        if tangle.is_none() {
+            notes.extend(self.layers_are_in_order(contact.bodies(), &start));
         }
         if !worn.is_empty() && settle.is_some() {
             notes.extend(cost(cloth.particles(), spacing));
@@ -306,65 +311,6 @@ impl Reader<'_> {
         self.within("air.density", density, (0.0, 100.0), "in kg/m³; 1.2 is usual, 0 a vacuum");
         self.within("air.drag", drag, (0.0, 10.0), "1.28 for a plate");
         0.5 * density * drag
-    }
-
-    /// The start must keep what every step keeps; if not, the pairs that do not, and how many there are.
-    fn tangle(
-        &mut self,
-        surfaces: &mut Surfaces,
-        positions: &[f64],
-    ) -> Option<(Vec<Overlap>, usize)> {
-        let contact = &mut surfaces.contact;
-        let crossings = contact.crossings(positions).map(|found| found.len());
-        let fault = match (crossings, contact.survey(positions)) {
-            (Ok(0), Ok(near)) if near.min_ratio < 1.0 => {
-                let [distance, kept] = [near.min_distance, near.min_distance / near.min_ratio];
-                format!("surfaces start {distance:.3e} m apart, where {kept:.3e} m is kept")
-            }
-            (Ok(0), Ok(_)) => return None,
-            (Ok(count), _) if count > 0 => format!("surfaces cross in {count} places at the start"),
-            (Err(error), _) | (_, Err(error)) => {
-                self.fail("panel", error.to_string(), "move or turn panels and bodies apart");
-                return None;
-            }
-            (Ok(_), Ok(_)) => return None,
-        };
-        let (overlaps, total) = overlaps(contact, positions, &surfaces.names);
-        let told = overlaps.iter().take(OVERLAPS_TOLD).map(|overlap| {
-            let ([a, b], [x, y, z]) = (&overlap.parts, overlap.place);
-            format!("\"{a}\" and \"{b}\" near ({x:.4}, {y:.4}, {z:.4}) m")
-        });
-        let told: Vec<String> = told.collect();
-        let more = match total.saturating_sub(told.len()) {
-            0 => String::new(),
-            more => format!("; and {more} more pairs of triangles"),
-        };
-        let fault = format!("{fault}: {}{more}", told.join("; "));
-        self.fail("panel", fault, "move or turn panels and bodies apart");
-        Some((overlaps, total))
-    }
-
-    fn start_is_free(&mut self, contact: &Contact, positions: &[f64]) {
-        let survey = contact.survey(positions);
-        if survey.inside > 0 {
-            let body = survey.nearest.map_or("", |(_, body)| &contact.bodies()[body].name);
-            let message = format!(
-                "{} particles start inside a body (deepest {:.4} m, in {body})",
-                survey.inside, -survey.min_distance
-            );
-            let help = "move or turn the panel so that it starts outside, or let bodies grow with contact.inflate";
-            self.fail("panel", message, help);
-        }
-    }
-
-    /// Of panels that cross no body, one particle tells whether they are in it.
-    fn start_is_outside(&mut self, surfaces: &Surfaces, panels: &[Panel], positions: &[f64]) {
-        for panel in panels {
-            if surfaces.contact.is_inside(panel.first, positions) {
-                let message = format!("all of \"{}\" starts inside a body", panel.name);
-                self.fail("panel", message, "move or turn the panel so that it starts outside");
-            }
-        }
     }
 }
 

@@ -87,7 +87,7 @@ impl Reader<'_> {
         for (index, Laid { panel, .. }) in laid.iter().enumerate() {
             if laid[..index].iter().any(|other| other.panel.name == panel.name) {
                 let message = format!("there are two panels \"{}\"", panel.name);
-                let help = "give each its own name";
+                let help = "give each its own name; the panels of a garment with a name are called NAME.PANEL";
                 self.mistakes.push(Diagnostic::new(self.document.path(), message).help(help));
             }
         }

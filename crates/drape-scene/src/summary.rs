@@ -147,7 +147,8 @@ pub struct Energy {
     /// the memory of the bending friction along those at its end. Of either sign, some thousandths of
     /// the friction at usual steps, less at shorter ones, and nothing where bending has no friction.
     pub turning_dissipated: f64,
-    /// Work done by whatever moves held particles.
+    /// Work done on the cloth by bodies that move and by whatever holds particles: where that holds in some directions
+    /// alone, what it gives way by counts.
     pub work_in: f64,
     /// What the other entries leave of the balance: rounding.
     pub remainder: f64,

@@ -4,10 +4,11 @@ use drape_cloth::{Cloth, SeamBending, State};
 use drape_collide::{Contact, Pose};
 use drape_implicit::System;
 
+use crate::attachments::Attachments;
 use crate::bonds::Bonds;
 use crate::course::Course;
 use crate::ledger::{Entry, Ledger};
-use crate::pin::{Pin, PinLoad};
+use crate::pin::{Pin, PinLoad, Until};
 use crate::scene::Scene;
 use crate::stitches::Stitches;
 use crate::surfaces::Surfaces;
@@ -48,6 +49,8 @@ pub(crate) struct World {
     brake: Vec<f64>,
     pub(crate) held: Vec<bool>,
     pub(crate) pins: Vec<Pin>,
+    /// What those that do not hold altogether pull by in this step.
+    attachments: Attachments,
     /// The bodies that move: which, where it started, its way.
     moving: Vec<(usize, Pose, Track)>,
     /// When bodies and pins begin to move, in s: the time on which they lag.
@@ -115,6 +118,7 @@ impl World {
             creeps: false,
             held,
             pins,
+            attachments: Attachments::default(),
             moving,
             moves_from: if scene.motion_seconds.is_some() { f64::INFINITY } else { 0.0 },
             air,
@@ -140,6 +144,7 @@ impl World {
     /// Lets bodies and pins begin their ways at a time, in s, and the cloth keep its momentum.
     pub(crate) fn set_in_motion(&mut self, time: f64) {
         self.moves_from = time;
+        self.pins.iter_mut().for_each(|pin| pin.reached(Until::Rest, time));
         self.state.velocities.fill(0.0);
         self.creep(false);
     }
@@ -164,9 +169,7 @@ impl World {
         }
         let state = self.cloth.state(positions.to_vec());
         self.state = state.expect("a place for every particle");
-        for pin in &mut self.pins {
-            pin.sewn(time);
-        }
+        self.pins.iter_mut().for_each(|pin| pin.reached(Until::Sewn, time));
         if self.balances {
             let stored = self.bonds.stored(&self.cloth, &self.state);
             self.ledger = Some(Ledger::new(stored, self.cloth.particles()));
@@ -193,6 +196,7 @@ impl World {
         let mut air = 0.0;
         self.each_drag(positions, |particle, way, _| air += self.drag[particle] * way * way);
         let gravity = self.weight_energy(positions) - self.weight_energy(&self.state.positions);
+        let [hold, hold_potential] = self.attachments.work(&self.state.positions, positions);
         if let (Some(surfaces), Some(ledger)) = (&mut self.surfaces, &self.ledger) {
             let energy = surfaces.contact.potential(positions);
             let [_, lost] = surfaces.contact.friction();
@@ -200,6 +204,8 @@ impl World {
             let brake = moved.zip(&self.brake).map(|(moved, brake)| -moved * brake).sum();
             return Entry {
                 gravity,
+                hold,
+                hold_potential,
                 contact: energy - lost - ledger.barrier,
                 drive: surfaces.contact.body_work(positions),
                 slip: lost,
@@ -229,6 +235,8 @@ impl World {
         let brake = moved.zip(&self.brake).map(|(moved, brake)| -moved * brake).sum();
         Entry {
             gravity,
+            hold,
+            hold_potential,
             contact: barrier - ledger.barrier + ledger.push,
             push: ledger.push,
             drive,
@@ -269,7 +277,7 @@ impl World {
             return;
         }
         self.held.fill(false);
-        for pin in self.pins.iter().filter(|pin| pin.holds(end_time)) {
+        for pin in self.pins.iter().filter(|pin| pin.is_whole() && pin.holds(end_time)) {
             pin.particles.iter().for_each(|&particle| self.held[particle] = true);
         }
     }
@@ -289,8 +297,11 @@ impl World {
         self.brake.fill(0.0);
         let mut forces = vec![0.0; positions.len()];
         self.forces(&positions, &mut forces);
-        let load = |pin: &Pin| {
-            if pin.holds(time) { pin.load(&positions, &forces) } else { PinLoad::default() }
+        let now = self.time_of_motion(time);
+        let load = |pin: &Pin| match (pin.holds(time), pin.is_whole()) {
+            (true, true) => pin.load(&positions, &forces),
+            (true, false) => pin.load(&positions, &Attachments::of(pin, now).pulls(&positions)),
+            (false, _) => PinLoad::default(),
         };
         self.pins.iter().map(load).collect()
     }

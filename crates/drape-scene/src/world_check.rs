@@ -66,7 +66,9 @@ fn moved(world: &mut World) -> Motion {
 
 #[test]
 fn forces_potential_and_stiffness_agree_in_contact_and_in_air() {
-    for more in ["", "settle = {}", "model = \"breen-1994\""] {
+    let held = "[[pin]]\npanel = \"cloth\"\nedge = \"top\"\naxes = [\"y\", \"z\"]\n\
+                [pin.motion]\ntimes = [0, 1]\nshift = [[0, 0, 0], [0.1, 0.3, -0.2]]";
+    for more in ["", "settle = {}", "model = \"breen-1994\"", held] {
         let mut world = world(more);
         let motion = moved(&mut world);
         assert!(world.contact.survey(&motion.positions).touching > 3, "it touches the ball");

@@ -8,6 +8,8 @@ use super::NoiseFile;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentFile {
+    /// What it is called, and its panels after it: `NAME.PANEL`; those of the pattern keep their names if missing.
+    pub(crate) name: Option<String>,
     pub(crate) pattern: String,
     /// The fabric of the panels that name none.
     pub(crate) fabric: String,
@@ -15,6 +17,8 @@ pub(crate) struct GarmentFile {
     /// Shift of all panels.
     #[serde(default)]
     pub(crate) center: [f64; 3],
+    /// How far out it is worn; 0 if missing, which is next to the body.
+    pub(crate) layer: Option<i64>,
     /// Random heights over the panels.
     pub(crate) noise: Option<NoiseFile>,
     /// What is said of single panels.
@@ -32,6 +36,8 @@ pub(crate) struct GarmentPanelFile {
     pub(crate) turn: Option<[f64; 3]>,
     /// Radius of the cylinder that it is bent to; that of the pattern if missing.
     pub(crate) wrap: Option<f64>,
+    /// How far out it is worn; as far as its garment if missing.
+    pub(crate) layer: Option<i64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

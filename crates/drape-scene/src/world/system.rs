@@ -24,8 +24,13 @@ impl System for World {
     fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]) {
         self.hold(end_time);
         let time = self.time_of_motion(end_time);
-        let holding = self.pins.iter().filter(|pin| pin.holds(end_time));
-        holding.for_each(|pin| pin.place(time, target));
+        self.attachments.clear();
+        for pin in self.pins.iter().filter(|pin| pin.holds(end_time)) {
+            match pin.is_whole() {
+                true => pin.place(time, target),
+                false => self.attachments.add(pin, time),
+            }
+        }
         let since = end_time - self.grows_from;
         let grown = if since < self.ramp { (since / self.ramp).max(0.0) } else { 1.0 };
         self.gravity = self.full_gravity.map(|g| grown * g);
@@ -70,6 +75,7 @@ impl System for World {
         if let Some(stitches) = &self.stitches {
             stitches.add_forces(positions, forces);
         }
+        self.attachments.add_forces(positions, forces);
         self.each_drag(positions, |particle, way, normal| {
             let pull = self.drag[particle] * way;
             for axis in 0..3 {
@@ -95,7 +101,8 @@ impl System for World {
             None => self.contact.potential(positions),
         };
         let threads = self.stitches.as_ref().map_or(0.0, |threads| threads.potential(positions));
-        cloth + self.weight_energy(positions) + brake + drag + contact + threads
+        let attached = self.attachments.potential(positions);
+        cloth + self.weight_energy(positions) + brake + drag + contact + threads + attached
     }
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
@@ -104,6 +111,7 @@ impl System for World {
         if let Some(stitches) = &self.stitches {
             stitches.add_stiffness(matrix);
         }
+        self.attachments.add_stiffness(matrix);
         self.each_drag(positions, |particle, _, normal| {
             let drag = self.drag[particle];
             let block: [f64; 9] = std::array::from_fn(|k| drag * normal[k / 3] * normal[k % 3]);

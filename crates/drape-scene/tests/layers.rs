@@ -1,0 +1,173 @@
+//! Garments over each other: where layers start, and which starts are refused.
+
+#![allow(clippy::unwrap_used)]
+
+use drape_input::Document;
+use drape_scene::{Frame, Progress, Scene, SceneError, Simulation, Status, Step};
+
+const FABRIC: &str = r#"name = "plain"
+density = 0.15
+thickness = 0.0003
+shear = { stiffness = 35.0 }
+[warp]
+traction.primed = { stiffness = 5000.0, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
+bending.rigidity = 1.2e-5
+[weft]
+traction.primed = { stiffness = 4000.0, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
+bending.rigidity = 0.8e-5
+"#;
+
+/// Two halves of a tube of 40 mm height, wrapped to a radius of 80 mm, that closes to one of 57 mm.
+const TUBE: &str = r#"length = "mm"
+[panel.front]
+grain = 0
+start = [-90, 0]
+outline = [
+    { name = "bottom", to = [90, 0] },
+    { name = "left", to = [90, 40] },
+    { name = "top", to = [-90, 40] },
+    { name = "right", to = [-90, 0] },
+]
+origin = [0, 0, 80]
+wrap = 80
+[panel.back]
+grain = 0
+start = [-90, 0]
+outline = [
+    { name = "bottom", to = [90, 0] },
+    { name = "right", to = [90, 40] },
+    { name = "top", to = [-90, 40] },
+    { name = "left", to = [-90, 0] },
+]
+origin = [0, 0, -80]
+turn = [0, 180, 0]
+wrap = 80
+[seam.left]
+sides = [["front.left"], ["back.left"]]
+[seam.right]
+sides = [["back.right"], ["front.right"]]
+"#;
+
+/// Two tubes round a post on a plate, one of which is called inner and one outer, with more said of each.
+fn tubes(inner: &str, outer: &str, more: &str) -> Result<Scene, SceneError> {
+    let garment = |name: &str, more: &str| {
+        format!(
+            "[[garment]]\nname = \"{name}\"\npattern = \"tube.toml\"\nfabric = \"plain\"\n{more}\n"
+        )
+    };
+    let text = format!(
+        "spacing = 0.01\nfabric.plain.file = \"plain.toml\"\n{}{}\
+         [[collider.cylinder]]\nname = \"post\"\nradius = 0.03\nheight = 0.2\nfriction = 0.3\n\
+         [[collider.cylinder]]\nname = \"plate\"\nradius = 0.15\nheight = 0.02\ncenter = [0, -0.12, 0]\nfriction = 0.3\n\
+         [time]\nstep = 0.005\nend = 20\n{more}\n",
+        garment("inner", inner),
+        garment("outer", outer)
+    );
+    let documents = [Document::new("plain.toml", FABRIC), Document::new("tube.toml", TUBE)];
+    Scene::from_documents(&Document::new("scene.toml", &text), &documents)
+}
+
+/// Distances of the particles of a panel from the axis of the post, in m.
+fn radii(scene: &Scene, name: &str) -> Vec<f64> {
+    let panel = scene.panels.iter().find(|panel| panel.name == name).unwrap();
+    let own = 3 * panel.first..3 * (panel.first + panel.lattice.coordinates.len());
+    scene.positions[own].chunks_exact(3).map(|x| x[0].hypot(x[2])).collect()
+}
+
+fn refused(scene: Result<Scene, SceneError>) -> String {
+    match scene {
+        Err(SceneError::Tangled(tangle)) => tangle.mistakes.to_string(),
+        Err(other) => other.to_string(),
+        Ok(_) => panic!("it is accepted"),
+    }
+}
+
+#[test]
+fn a_layer_starts_two_centimetres_outside_of_the_one_below() {
+    for (layer, radius) in [("", 0.1), ("[garment.panel.front]\nlayer = 3", 0.14)] {
+        let scene = tubes("", &format!("layer = 1\n{layer}"), "").unwrap();
+        assert!(radii(&scene, "inner.front").iter().all(|r| (r - 0.08).abs() < 1e-12));
+        assert!(radii(&scene, "outer.front").iter().all(|r| (r - radius).abs() < 1e-12));
+        assert!(radii(&scene, "outer.back").iter().all(|r| (r - 0.1).abs() < 1e-12));
+        assert_eq!(scene.notes, [""; 0]);
+    }
+}
+
+#[test]
+fn garments_that_cross_are_told_that_there_are_layers() {
+    let message = refused(tubes("", "", ""));
+    assert!(message.contains("\"inner.back\" and \"outer.back\""), "{message}");
+    assert!(message.contains("higher layer"), "{message}");
+}
+
+#[test]
+fn a_higher_layer_that_starts_inside_a_lower_one_is_refused() {
+    // Of the outer tube the front alone is bent to a radius of 40 mm, 60 mm with its layer.
+    let smaller = "layer = 1\n[garment.panel.front]\nwrap = 0.04\ncenter = [0, 0, 0.04]";
+    let message = refused(tubes("", smaller, ""));
+    assert!(message.contains("\"outer.front\" of layer 1 starts inside \"inner."), "{message}");
+    assert!(message.contains("of layer 0") && message.contains("raise its layer"), "{message}");
+    assert!(message.contains("scene.toml:12"), "{message}");
+    assert!(!message.contains("outer.back"), "{message}");
+    // With the layer that it needs it is accepted.
+    tubes("", &smaller.replace("layer = 1", "layer = 3"), "").unwrap();
+    let message = refused(tubes("layer = 1", &smaller.replace("layer = 1", "layer = 2"), ""));
+    assert!(message.contains("\"outer.front\" of layer 2 starts inside \"inner."), "{message}");
+}
+
+#[test]
+fn a_layer_that_is_none_is_refused_at_its_line() {
+    for (outer, more, said) in [
+        ("layer = -1", "", ["scene.toml:12", "-1 is not between 0 and 20"]),
+        ("layer = 21", "", ["scene.toml:12", "0 is next to the body"]),
+        ("[garment.panel.back]\nlayer = 99", "", ["scene.toml:13", "99 is not between"]),
+        ("layer = 1", "[contact]\nsurfaces = false", ["scene.toml:12", "does not meet cloth"]),
+    ] {
+        let message = refused(tubes("", outer, more));
+        assert!(said.iter().all(|said| message.contains(said)), "{outer}: {message}");
+        assert_eq!(message.matches("garment[1]").count(), 1, "{message}");
+    }
+}
+
+struct Silent;
+
+impl Progress for Silent {
+    fn step(&mut self, _: &Step, _: usize) {}
+
+    fn frame(&mut self, _: &Frame) -> Result<(), SceneError> {
+        Ok(())
+    }
+}
+
+#[test]
+fn two_tubes_are_sewn_round_each_other_and_the_outer_one_stays_outside() {
+    let scene = tubes("", "layer = 1", "[settle]\n").unwrap();
+    let own = |name: &str| {
+        let panel = scene.panels.iter().find(|panel| panel.name == name).unwrap();
+        panel.first..panel.first + panel.lattice.coordinates.len()
+    };
+    let [inner, outer] = ["inner", "outer"]
+        .map(|name| ["front", "back"].map(|panel| own(&format!("{name}.{panel}"))));
+    let mut simulation = Simulation::new(scene).unwrap();
+    let summary = simulation.run(&mut Silent).unwrap();
+    assert_eq!((summary.status, summary.settled), (Status::Ok, true), "{:?}", summary.reason);
+    assert_eq!(summary.contact.intersections, 0);
+    // Their girths are the same, so that they press on each other: everywhere round the post the outer one is outside.
+    let positions = simulation.frame().positions;
+    let ring = |panels: &[std::ops::Range<usize>; 2], from: f64| {
+        let particles = panels.iter().flat_map(Clone::clone);
+        let places = particles.map(|particle| &positions[3 * particle..3 * particle + 3]);
+        let near = places.filter(|x| {
+            let turn = (x[2].atan2(x[0]) - from).rem_euclid(std::f64::consts::TAU);
+            turn < 0.4
+        });
+        let (sum, count) =
+            near.fold((0.0, 0.0), |(sum, count), x| (sum + x[0].hypot(x[2]), count + 1.0));
+        sum / count
+    };
+    for sector in 0..15 {
+        let from = 0.4 * f64::from(sector);
+        let [inside, outside] = [ring(&inner, from), ring(&outer, from)];
+        assert!(outside > inside, "{outside} m and {inside} m at {from}");
+    }
+}
