@@ -126,12 +126,12 @@ fn seams(pattern: &Pattern, cut: &CutPattern) {
             let [from, to] = [tie.after, tie.after + 1].map(|k| seam.pairs[k][1 - tie.side]);
             assert!(from.panel == to.panel && from != to, "{}: {tie:?}", stitch.name);
         }
-        for side in 0..2 {
+        for (side, allowed) in allowed.iter().enumerate() {
             let nodes: Vec<NodeId> = seam.side(side).collect();
             for &NodeId { panel, node } in &nodes {
                 // An edge that was joined with a neighbour lends its nodes to another stitch.
                 let joined = cut.notes.iter().any(|n| n.to_string().contains("half the spacing"));
-                let own = joined || allowed[side].contains(&(panel, node));
+                let own = joined || allowed.contains(&(panel, node));
                 assert!(own, "{}: node {node} of {panel}", stitch.name);
             }
             for two in nodes.windows(2) {
