@@ -14,6 +14,7 @@ mod fold;
 mod frame;
 mod garment;
 mod girth;
+mod growth;
 #[cfg(test)]
 mod guards_check;
 mod inflation;

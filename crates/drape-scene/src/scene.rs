@@ -21,16 +21,13 @@ use crate::scheme::Scheme;
 use crate::settle::Settle;
 use crate::sewing::Sewing;
 use crate::surfaces::{Parts, Surfaces};
-use crate::tangle::{Overlap, Tangle, overlaps};
+use crate::tangle::Tangle;
 
 /// Density of air at 20 °C and sea level, in kg/m³.
 const AIR_DENSITY: f64 = 1.2;
 
 /// Drag coefficient of a flat plate across the flow.
 const AIR_DRAG: f64 = 1.28;
-
-/// Pairs that the message of a start that is refused tells of.
-const OVERLAPS_TOLD: usize = 5;
 
 /// A scene that has been read and checked: everything a simulation needs, in SI units.
 #[derive(Debug)]
@@ -150,6 +147,7 @@ impl Reader<'_> {
         self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
         let pinch = self.pinch(&file);
         let inflation = self.inflation(&file, unit, (clock.step, spacing));
+        let growth = self.growth(&file, (clock.step, clock.end));
         // What follows needs sound panels.
         Diagnostics::check(std::mem::take(&mut self.mistakes))?;
 
@@ -205,6 +203,7 @@ impl Reader<'_> {
                 stick,
                 pinch,
                 inflation,
+                growth,
             })
         });
         let surfaces = surfaces.transpose();
@@ -304,42 +303,6 @@ impl Reader<'_> {
         self.within("air.density", density, (0.0, 100.0), "in kg/m³; 1.2 is usual, 0 a vacuum");
         self.within("air.drag", drag, (0.0, 10.0), "1.28 for a plate");
         0.5 * density * drag
-    }
-
-    /// The start must keep what every step keeps; if not, the pairs that do not, and how many there are.
-    fn tangle(
-        &mut self,
-        surfaces: &mut Surfaces,
-        positions: &[f64],
-    ) -> Option<(Vec<Overlap>, usize)> {
-        let contact = &mut surfaces.contact;
-        let crossings = contact.crossings(positions).map(|found| found.len());
-        let fault = match (crossings, contact.survey(positions)) {
-            (Ok(0), Ok(near)) if near.min_ratio < 1.0 => {
-                let [distance, kept] = [near.min_distance, near.min_distance / near.min_ratio];
-                format!("surfaces start {distance:.3e} m apart, where {kept:.3e} m is kept")
-            }
-            (Ok(0), Ok(_)) => return None,
-            (Ok(count), _) if count > 0 => format!("surfaces cross in {count} places at the start"),
-            (Err(error), _) | (_, Err(error)) => {
-                self.fail("panel", error.to_string(), "move or turn panels and bodies apart");
-                return None;
-            }
-            (Ok(_), Ok(_)) => return None,
-        };
-        let (overlaps, total) = overlaps(contact, positions, &surfaces.names);
-        let told = overlaps.iter().take(OVERLAPS_TOLD).map(|overlap| {
-            let ([a, b], [x, y, z]) = (&overlap.parts, overlap.place);
-            format!("\"{a}\" and \"{b}\" near ({x:.4}, {y:.4}, {z:.4}) m")
-        });
-        let told: Vec<String> = told.collect();
-        let more = match total.saturating_sub(told.len()) {
-            0 => String::new(),
-            more => format!("; and {more} more pairs of triangles"),
-        };
-        let fault = format!("{fault}: {}{more}", told.join("; "));
-        self.fail("panel", fault, "move or turn panels and bodies apart");
-        Some((overlaps, total))
     }
 
     fn start_is_free(&mut self, contact: &Contact, positions: &[f64]) {
