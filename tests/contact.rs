@@ -28,10 +28,7 @@ fn jittered(name: &str, seed: u64, folder: &Path) -> PathBuf {
         let mut noise = noise.clone();
         let seed = 100 * seed as i64 + number as i64;
         noise.insert("seed".into(), toml::Value::Integer(seed));
-        let panel = panel.as_table_mut().expect("a panel");
-        if panel.contains_key("noise") {
-            panel.insert("noise".into(), noise.into());
-        }
+        panel.as_table_mut().expect("a panel").insert("noise".into(), noise.into());
     }
     let place = |table: &mut toml::Table| {
         let file = scenes.join(table["file"].as_str().expect("a path"));

@@ -145,3 +145,47 @@ fn a_heap_of_crossings_is_cut_short() {
     let found = triangles(&folder.path().join("out/scene-start.ply")).len();
     assert!((100..=2000).contains(&found), "{found} triangles");
 }
+
+#[test]
+fn sheets_that_are_too_near_start_if_what_is_kept_may_grow() {
+    // The lower edge of the upright sheet is 0.05 mm above the level one.
+    let folder = folder("-0.10005");
+    let path = folder.path().join("scene.toml");
+    let scene = std::fs::read_to_string(&path).expect("reads");
+    let refused = run(folder.path(), &[]);
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(refused.status.code() == Some(3) && message.contains("contact.grow"), "{message}");
+    let scene = scene
+        .replace("surfaces = true", "surfaces = true\ngrow = 0.05")
+        .replace("end = 0.01", "end = 0.1\n[output]\nevery = 0.01");
+    std::fs::write(&path, scene).expect("writes");
+    let output = run(folder.path(), &["-o", "out", "--json"]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let contact = &summary["contact"];
+    assert_eq!(contact["grown"], 1.0, "{contact}");
+    assert!((contact["grown_from"].as_f64().expect("a part") - 0.125).abs() < 1e-9, "{contact}");
+    let check = |folder: &Path| {
+        let mut command = Command::cargo_bin("drape").expect("the binary is built");
+        command.current_dir(folder).args(["check", "out", "--json"]).output().expect("runs")
+    };
+    let checked = check(folder.path());
+    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&checked.stdout).expect("JSON");
+    let grown: Vec<f64> = found[0]["frames"]
+        .as_array()
+        .expect("frames")
+        .iter()
+        .map(|frame| frame["grown"].as_f64().expect("a part"))
+        .collect();
+    assert!(grown.is_sorted() && grown[0] < 0.2 && grown.last() == Some(&1.0), "{grown:?}");
+    // A frame that says that it keeps all of it does not.
+    let frame = folder.path().join("out/frame-00000.obj");
+    let text = std::fs::read_to_string(&frame).expect("reads");
+    let lines = text.lines().filter(|line| !line.starts_with("# grown: "));
+    let whole: String = lines.flat_map(|line| [line, "\n"]).collect();
+    assert!(whole.len() < text.len(), "the frame says what is kept");
+    std::fs::write(&frame, whole).expect("writes");
+    assert_eq!(check(folder.path()).status.code(), Some(4));
+}

@@ -77,6 +77,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
             "{}; pin it, take it in, or raise the friction of the body; the last state was written",
             summary.reason.unwrap_or_default()
         ))),
+        Status::HeldTogether => Err(Failure::Solver(format!(
+            "{}; something holds them together, or contact.grow is short; the last state was written",
+            summary.reason.unwrap_or_default()
+        ))),
         Status::CertificateFailed => Err(Failure::Certificate(format!(
             "surfaces crossed in the step after {} s, however short it was made; the last good state was written",
             summary.simulated_seconds
@@ -148,7 +152,7 @@ fn describe(summary: &Summary) -> String {
         "{} particles, {} steps, {:.3} s simulated in {:.1} s{cpu}\n\
          {rest}, fastest particle {:.2} mm/s\n\
          strain: largest {:.2} %, 99 of 100 below {:.2} %; shear up to {:.1}°; 99 of 100 curvatures below {:.0} 1/m\n\
-         contact: nearest {nearest}, {} inside or through{}{}",
+         contact: nearest {nearest}, {} inside or through{}{}{}",
         summary.particles,
         summary.steps,
         summary.simulated_seconds,
@@ -160,6 +164,7 @@ fn describe(summary: &Summary) -> String {
         strain.curvature_p99,
         contact.intersections,
         pinched(contact),
+        grown(contact),
         energy.as_ref().map_or(String::new(), balance),
     )
 }
@@ -179,6 +184,15 @@ fn pinched(contact: &Contacts) -> String {
              intersect is not promised there"
         ),
     }
+}
+
+/// Which part of their distances surfaces kept, for people.
+fn grown(contact: &Contacts) -> String {
+    if contact.grown_from == 1.0 {
+        return String::new();
+    }
+    let [from, to] = [contact.grown_from, contact.grown].map(|part| 100.0 * part);
+    format!("; surfaces kept {from:.2} % of their distances at the start, and {to:.2} % at the end")
 }
 
 fn balance(energy: &Energy) -> String {

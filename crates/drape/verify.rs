@@ -84,6 +84,9 @@ fn describe(recording: &Recording, verdict: &Verdict) -> String {
         verdict.intersections,
         verdict.min_distance.map_or("beyond reach".to_owned(), millimetres),
     );
+    if verdict.grown < 1.0 {
+        text += &format!(", {:.2} % of the distances are kept yet", 100.0 * verdict.grown);
+    }
     for (count, what) in [
         (verdict.too_near, "pairs nearer than is kept"),
         (verdict.degenerate, "triangles without area"),

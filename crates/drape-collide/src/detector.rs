@@ -255,7 +255,8 @@ impl Query<'_> {
         if same_group && !surface.close.is_empty() {
             let close = &surface.close;
             if let Ok(place) = close.binary_search_by_key(&(kind, features), |close| close.key) {
-                (skin.reach, skin.separation) = (close[place].reach, close[place].separation);
+                let Close { reach, separation, .. } = close[place];
+                (skin.reach, skin.separation) = (surface.grown * reach, surface.grown * separation);
                 if let Limit::Margin(margin, _) = self.limit
                     && !(distance < skin.reach + margin + nearer)
                 {

@@ -12,6 +12,7 @@ mod error;
 mod filter;
 mod friction;
 mod gap;
+mod growth;
 mod guards;
 mod mesh;
 mod mesh_file;

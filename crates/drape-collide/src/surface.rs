@@ -70,6 +70,8 @@ pub struct Surface {
     pub(crate) close: Vec<Close>,
     /// How each free vertex meets bodies; empty if all do as usual.
     pub(crate) grips: Vec<Grip>,
+    /// Part of all distances that is kept; see [`SurfaceContact::grow`](crate::SurfaceContact::grow).
+    pub(crate) grown: f64,
 }
 
 impl Surface {
@@ -131,6 +133,7 @@ impl Surface {
             free,
             close: Vec::new(),
             grips: Vec::new(),
+            grown: 1.0,
         };
         surface.close = close_at_rest(&surface, &rest)?;
         Ok(surface)
@@ -177,7 +180,8 @@ impl Surface {
     /// to their distance at rest.
     pub fn distances(&self, a: u32, b: u32) -> Skin {
         let [a, b] = [a, b].map(|v| self.skins[self.group(v) as usize]);
-        Skin { reach: a.reach + b.reach, separation: a.separation + b.separation }
+        let (reach, separation) = (a.reach + b.reach, a.separation + b.separation);
+        Skin { reach: self.grown * reach, separation: self.grown * separation }
     }
 
     pub(crate) fn check_positions(&self, positions: &[f64]) -> Result<(), CollideError> {

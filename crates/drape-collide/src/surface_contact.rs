@@ -36,6 +36,10 @@ pub struct SurfaceContact {
     pub(crate) touching: Vec<Touching>,
     /// How the free vertices met bodies when the last step was closed; empty if all did as usual.
     pub(crate) grips: Vec<Grip>,
+    /// Part of their distances that surfaces kept when the last step was closed.
+    pub(crate) grown: f64,
+    /// Energy that its growth in the open step put into contact, in J.
+    pub(crate) growth_work: f64,
     slips: Vec<Slip>,
     anchors: Vec<Anchor>,
     /// What kept the last detection from being made.
@@ -55,13 +59,14 @@ pub(crate) struct Touching {
     pub(crate) gap: Gap,
 }
 
-/// What a [`SurfaceContact`] remembers between two steps: the stretches of friction, where the bodies are, and which
-/// cloth they pinch.
+/// What a [`SurfaceContact`] remembers between two steps: the stretches of friction, where the bodies are, which cloth
+/// they pinch, and which part of their distances surfaces keep.
 #[derive(Debug, Clone)]
 pub struct SurfaceMemory {
     anchors: Vec<Anchor>,
     bodies: Vec<f64>,
     grips: Vec<Grip>,
+    grown: f64,
 }
 
 impl SurfaceContact {
@@ -102,6 +107,8 @@ impl SurfaceContact {
             places: Vec::new(),
             touching: Vec::new(),
             grips: Vec::new(),
+            grown: 1.0,
+            growth_work: 0.0,
             slips: Vec::new(),
             anchors: Vec::new(),
             failure: None,
@@ -171,6 +178,7 @@ impl SurfaceContact {
         let [start, end] = &mut self.bodies;
         start.copy_from_slice(end);
         self.grips.clone_from(&self.surface.grips);
+        self.grown = self.surface.grown;
     }
 
     /// What the contact remembers between two steps.
@@ -179,14 +187,16 @@ impl SurfaceContact {
             anchors: self.anchors.clone(),
             bodies: self.bodies[0].clone(),
             grips: self.grips.clone(),
+            grown: self.grown,
         }
     }
 
     /// Goes back to what it remembered, as if the steps since had not been closed.
     pub fn restore(&mut self, memory: SurfaceMemory) {
-        let SurfaceMemory { anchors, bodies, grips } = memory;
-        (self.anchors, self.grips) = (anchors, grips.clone());
+        let SurfaceMemory { anchors, bodies, grips, grown } = memory;
+        (self.anchors, self.grips, self.grown) = (anchors, grips.clone(), grown);
         self.hold(grips);
+        self.keep(grown);
         self.bodies = [bodies.clone(), bodies];
         self.progress = 1.0;
     }
@@ -248,10 +258,13 @@ impl SurfaceContact {
         if self.failure.is_some() {
             return f64::NAN;
         }
+        self.barrier() + self.friction()[0]
+    }
+
+    /// Energy of the barriers at the places looked at last, in J.
+    pub(crate) fn barrier(&self) -> f64 {
         let stiffness = self.settings.stiffness;
-        let barrier: f64 =
-            self.touching.iter().map(|touching| touching.gap.energy(stiffness)).sum();
-        barrier + self.friction()[0]
+        self.touching.iter().map(|touching| touching.gap.energy(stiffness)).sum()
     }
 
     /// Potential of friction at the places looked at last, and the part of it that is lost if the step ends there,

@@ -22,6 +22,8 @@ pub(crate) struct ContactFile {
     pub(crate) pinch: Option<String>,
     /// Room for cloth that starts in a body.
     pub(crate) inflate: Option<InflateFile>,
+    /// How long the distances that surfaces keep grow, in s, for cloth that starts nearer.
+    pub(crate) grow: Option<f64>,
 }
 
 impl SceneFile {

@@ -13,6 +13,8 @@ pub struct Frame {
     pub positions: Vec<f64>,
     /// Positions of the vertices of all bodies, likewise.
     pub bodies: Vec<f64>,
+    /// Part of the distances that surfaces keep which they keep by then.
+    pub grown: f64,
 }
 
 impl Frame {
@@ -33,6 +35,9 @@ impl Frame {
         writeln!(to, "# metres, y up; t = {} s", self.time)?;
         if let Some(bodies) = bodies {
             writeln!(to, "# bodies: {bodies}")?;
+        }
+        if self.grown < 1.0 {
+            writeln!(to, "# grown: {:?}", self.grown)?;
         }
         write_vertices(&self.positions, &mut to)?;
         for [u, v] in &topology.coordinates {

@@ -15,7 +15,7 @@ pub(crate) struct Ledger {
     pub(crate) barrier: f64,
     /// Potential of the friction with bodies at the start of the step, which they have moved on from.
     pub(crate) slip: f64,
-    /// What their way in this step did to the energy of contact.
+    /// What their way in this step did to the energy of contact; of surfaces, what keeping more distance did.
     pub(crate) push: f64,
     /// Potential of the connectors when it was first and last asked for in this step. With the balance
     /// on, the integrator does so at the start and at the end.
@@ -38,7 +38,7 @@ pub(crate) struct Entry {
     pub(crate) hold: f64,
     /// Fall of its potential, which has leapt with the places that it holds to at the start of the step.
     pub(crate) hold_potential: f64,
-    /// By bodies that move, against contact, and by their friction.
+    /// By bodies that move, or by surfaces that keep more distance, against contact; and by friction of bodies.
     pub(crate) push: f64,
     pub(crate) drive: f64,
     /// Against the friction with bodies, with its force at the end of the step.

@@ -15,6 +15,7 @@ mod fold;
 mod frame;
 mod garment;
 mod girth;
+mod growth;
 #[cfg(test)]
 mod guards_check;
 mod inflation;

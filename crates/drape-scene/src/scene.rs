@@ -148,6 +148,7 @@ impl Reader<'_> {
         self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
         let pinch = self.pinch(&file);
         let inflation = self.inflation(&file, unit, (clock.step, spacing));
+        let growth = self.growth(&file, (clock.step, clock.end));
         // What follows needs sound panels.
         Diagnostics::check(std::mem::take(&mut self.mistakes))?;
 
@@ -207,6 +208,7 @@ impl Reader<'_> {
                 stick,
                 pinch,
                 inflation,
+                growth,
             })
         });
         let surfaces = surfaces.transpose();

@@ -1,3 +1,4 @@
+mod growth;
 mod outcome;
 mod phases;
 mod rest;
@@ -218,7 +219,8 @@ impl Simulation {
     pub fn frame(&self) -> Frame {
         let positions = self.motion.positions.clone();
         let bodies = self.outlines().into_iter().flat_map(|outline| outline.vertices).flatten();
-        Frame { number: self.frames, time: self.time(), positions, bodies: bodies.collect() }
+        let (bodies, grown) = (bodies.collect(), self.world.grown());
+        Frame { number: self.frames, time: self.time(), positions, bodies, grown }
     }
 
     /// Smallest distance of particles before deformation, in m.
@@ -287,6 +289,7 @@ impl Simulation {
                 self.judge_fall();
             }
         }
+        self.judge_growth();
         if let (true, Some(seconds)) = (self.at_rest(), self.motion_seconds) {
             self.set_in_motion(seconds)?;
         }
@@ -410,7 +413,7 @@ impl Simulation {
             }
         }
         self.measures = self.measure();
-        self.warnings = [self.sunk(), self.extrapolated()].concat();
+        self.warnings = [self.sunk(), self.extrapolated(), self.stunted()].concat();
         Ok(self.summary())
     }
 }

@@ -88,6 +88,9 @@ pub enum Status {
     /// A garment fell off its body.
     #[serde(rename = "fell off")]
     FellOff,
+    /// Surfaces that started too near could not part.
+    #[serde(rename = "held together")]
+    HeldTogether,
     /// Surfaces crossed in a step, however short.
     #[serde(rename = "certificate failed")]
     CertificateFailed,
@@ -185,4 +188,9 @@ pub struct Contacts {
     /// Largest number of particles that had let a body through after a step: it is not promised that cloth and bodies do
     /// not intersect there.
     pub released_max: usize,
+    /// Part of the distances that surfaces keep which they kept at the start, below 1 only with `contact.grow`, and which
+    /// they keep at the end. In between no two came nearer than the part of that time.
+    pub grown_from: f64,
+    /// See [`grown_from`](Contacts::grown_from).
+    pub grown: f64,
 }

@@ -9,6 +9,7 @@ use drape_fabric::Fabric;
 use drape_implicit::Way;
 
 use crate::course::Course;
+use crate::growth::Growth;
 use crate::inflation::Inflation;
 use crate::material::Material;
 use crate::panel::Panel;
@@ -35,6 +36,10 @@ pub struct Surfaces {
     start: Vec<f64>,
     /// How bodies grow, and how far inside of there each vertex then starts, in m.
     inflation: Option<(Inflation, Vec<f64>)>,
+    /// How the distances that are kept grow.
+    growth: Option<Growth>,
+    /// Part of them that is kept at the start.
+    pub(crate) grown_from: f64,
     moving: Vec<Mover>,
     /// How far a vertex of a body may stray from a straight way within a step, in m.
     bow: f64,
@@ -73,6 +78,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) pinch: Pinch,
     /// How bodies grow at the start.
     pub(crate) inflation: Option<Inflation>,
+    /// How the distances that are kept grow.
+    pub(crate) growth: Option<Growth>,
 }
 
 impl Surfaces {
@@ -153,7 +160,19 @@ impl Surfaces {
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|body| &body.name)).cloned().collect();
         let bow = 2.0 * BOW * thinnest.separation;
-        Ok(Self { contact, names, start, inflation, moving, bow, crossings: 0, held })
+        let (growth, grown_from) = (parts.growth, 1.0);
+        Ok(Self {
+            contact,
+            names,
+            start,
+            inflation,
+            growth,
+            grown_from,
+            moving,
+            bow,
+            crossings: 0,
+            held,
+        })
     }
 
     /// Whether all bodies go nearly straight between two times, in s, as they do within a step.
@@ -165,13 +184,37 @@ impl Surfaces {
             .all(|Mover { own, course, .. }| course.bow(times, &places[own.clone()]) <= self.bow)
     }
 
-    /// When all bodies have their size, in s.
+    /// When all bodies have their size, in s; never as long as surfaces keep less than they should.
     pub(crate) fn grown_at(&self) -> f64 {
+        if self.contact.grown() < 1.0 {
+            return f64::INFINITY;
+        }
         self.inflation.as_ref().map_or(0.0, |(inflation, _)| inflation.seconds)
     }
 
-    /// Opens a step that ends at a time since the start, and at one on the clock of what moves, in s.
-    pub(crate) fn begin(&mut self, [since, end_time]: [f64; 2], positions: &[f64]) {
+    /// Whether surfaces may start nearer than they keep.
+    pub(crate) fn may_grow(&self) -> bool {
+        self.growth.is_some()
+    }
+
+    /// Lets surfaces that do not cross keep less at the start.
+    pub(crate) fn shrink(&mut self, positions: &[f64]) -> Result<(), CollideError> {
+        self.contact.shrink(positions)?;
+        self.grown_from = self.contact.grown();
+        Ok(())
+    }
+
+    /// Whether what surfaces keep has had time enough to grow at a time since the start, in s, and did not.
+    pub(crate) fn is_stuck(&self, since: f64) -> bool {
+        let late = |growth: Growth| since >= Growth::PATIENCE * growth.seconds;
+        self.contact.grown() < 1.0 && self.growth.is_some_and(late)
+    }
+
+    /// Opens a step that ends at a time since the start, and at one on the clock of what moves, and its length, in s.
+    pub(crate) fn begin(&mut self, ([since, end_time], dt): ([f64; 2], f64), positions: &[f64]) {
+        if let Some(growth) = self.growth {
+            self.contact.grow(positions, (1.0 - self.grown_from) * dt / growth.seconds);
+        }
         let start = shrunk(&self.start, &self.inflation, since);
         let mut ends = start.to_vec();
         for Mover { own, course, .. } in &self.moving {

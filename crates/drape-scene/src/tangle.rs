@@ -5,8 +5,19 @@ use std::path::PathBuf;
 use drape_collide::{Kind, Surface, SurfaceContact};
 use drape_input::Diagnostics;
 
+use crate::growth::Growth;
+use crate::reader::Reader;
+use crate::start::Start;
+use crate::surfaces::Surfaces;
+
 /// Pairs of triangles that are listed at most.
 const PAIRS_MAX: usize = 1000;
+
+/// Pairs that the message tells of.
+const OVERLAPS_TOLD: usize = 5;
+
+/// What helps against any such start.
+const APART: &str = "move or turn panels and bodies apart";
 
 /// A start at which surfaces cross, or are nearer than they may ever be.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,6 +89,62 @@ impl Tangle {
             writeln!(to, "3 {first} {} {} {colour} {part}", first + 1, first + 2)?;
         }
         Ok(())
+    }
+}
+
+impl Reader<'_> {
+    /// The start must keep what every step keeps; if not, the pairs that do not, and how many there are.
+    pub(crate) fn tangle(
+        &mut self,
+        surfaces: &mut Surfaces,
+        start: &Start<'_>,
+    ) -> Option<(Vec<Overlap>, usize)> {
+        let positions = start.positions;
+        let mut help = APART;
+        let grows = surfaces.may_grow();
+        let contact = &mut surfaces.contact;
+        let crossings = contact.crossings(positions).map(|found| found.len());
+        let fault = match (crossings, contact.survey(positions)) {
+            (Ok(0), Ok(near)) if grows && near.min_distance >= Growth::NEAREST => {
+                let shrunk = surfaces.shrink(positions);
+                return shrunk.err().and_then(|error| {
+                    self.fail("panel", error.to_string(), APART);
+                    None
+                });
+            }
+            (Ok(0), Ok(near)) if grows => {
+                let [distance, least] = [near.min_distance, Growth::NEAREST];
+                format!("surfaces start {distance:.3e} m apart, and contact.grow needs {least:e} m")
+            }
+            (Ok(0), Ok(near)) if near.min_ratio < 1.0 => {
+                help = "move or turn panels and bodies apart, or let what is kept grow with contact.grow";
+                let [distance, kept] = [near.min_distance, near.min_distance / near.min_ratio];
+                format!("surfaces start {distance:.3e} m apart, where {kept:.3e} m is kept")
+            }
+            (Ok(0), Ok(_)) => return None,
+            (Ok(count), _) if count > 0 => format!("surfaces cross in {count} places at the start"),
+            (Err(error), _) | (_, Err(error)) => {
+                self.fail("panel", error.to_string(), APART);
+                return None;
+            }
+            (Ok(_), Ok(_)) => return None,
+        };
+        let (overlaps, total) = overlaps(contact, positions, &surfaces.names);
+        if overlaps.iter().any(|overlap| start.is_of_two_garments(overlap)) {
+            help = "give the garment that is worn outside a higher layer, or move or turn panels apart";
+        }
+        let told = overlaps.iter().take(OVERLAPS_TOLD).map(|overlap| {
+            let ([a, b], [x, y, z]) = (&overlap.parts, overlap.place);
+            format!("\"{a}\" and \"{b}\" near ({x:.4}, {y:.4}, {z:.4}) m")
+        });
+        let told: Vec<String> = told.collect();
+        let more = match total.saturating_sub(told.len()) {
+            0 => String::new(),
+            more => format!("; and {more} more pairs of triangles"),
+        };
+        let fault = format!("{fault}: {}{more}", told.join("; "));
+        self.fail("panel", fault, help);
+        Some((overlaps, total))
     }
 }
 

@@ -206,7 +206,8 @@ impl World {
                 gravity,
                 hold,
                 hold_potential,
-                contact: energy - lost - ledger.barrier,
+                contact: energy - lost - ledger.barrier + ledger.push,
+                push: ledger.push,
                 drive: surfaces.contact.body_work(positions),
                 slip: lost,
                 slip_potential: lost,
@@ -288,6 +289,11 @@ impl World {
         let grown = self.grows_from + self.ramp;
         let grown = self.surfaces.as_ref().map_or(grown, |surfaces| grown.max(surfaces.grown_at()));
         releases.filter(|release| release.is_finite()).fold(grown, f64::max)
+    }
+
+    /// Part of the distances that surfaces keep which they keep by now.
+    pub(crate) fn grown(&self) -> f64 {
+        self.surfaces.as_ref().map_or(1.0, |surfaces| surfaces.contact.grown())
     }
 
     /// What each pin bears at a time, in s, without the inertia of the particles it holds.

@@ -102,7 +102,8 @@ impl Recording {
         }
         let mut places = stored.cloth.vertices;
         places.extend(stored.bodies.vertices);
-        let shape = Shape { mesh: &self.mesh, places: &places };
+        let grown = stored.cloth.grown.unwrap_or(1.0);
+        let shape = Shape { mesh: &self.mesh, places: &places, grown };
         Ok(shape.verify((number, stored.path, stored.cloth.time)))
     }
 }

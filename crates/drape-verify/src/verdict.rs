@@ -27,6 +27,9 @@ pub struct Verdict {
     pub file: PathBuf,
     /// Its time, in s, where the file says it.
     pub time: Option<f64>,
+    /// Part of the distances that the run keeps which it says that it kept by then: less than 1 while what surfaces keep
+    /// grows.
+    pub grown: f64,
     /// Triangles of cloth and bodies.
     pub triangles: usize,
     /// Pairs of triangles whose boxes come near each other; all others are apart.
@@ -106,6 +109,8 @@ impl Found {
 pub(crate) struct Shape<'a> {
     pub(crate) mesh: &'a Mesh,
     pub(crate) places: &'a [[f64; 3]],
+    /// Part of the distances that surfaces keep which they kept by then.
+    pub(crate) grown: f64,
 }
 
 impl Shape<'_> {
@@ -131,6 +136,7 @@ impl Shape<'_> {
             number,
             file,
             time,
+            grown: self.grown,
             triangles: mesh.triangles(),
             pairs: found.pairs,
             intersections: found.intersections,
@@ -189,6 +195,7 @@ impl Shape<'_> {
             reach = reach.min(0.5 * rest);
             kept = kept.min(0.25 * rest);
         }
+        kept *= self.grown;
         let too_near = distance < kept * (1.0 - ROUNDING);
         found.too_near += usize::from(too_near);
         if distance < reach || too_near {

@@ -22,6 +22,8 @@ pub(crate) struct Wavefront {
     pub(crate) time: Option<f64>,
     /// The file of the bodies, where a comment says `bodies: NAME`.
     pub(crate) bodies: Option<String>,
+    /// Part of the distances that surfaces keep which they kept by then, where a comment says `grown: PART`.
+    pub(crate) grown: Option<f64>,
 }
 
 /// The text of a file, which must end its last line.
@@ -68,19 +70,25 @@ impl Wavefront {
             "vt" => self.material.push(numbers(rest)?),
             "f" => self.triangles.push(corners(rest)?),
             "o" | "" => {}
-            "#" => self.comment(rest),
+            "#" => self.comment(rest)?,
             _ => return Err(format!("\"{kind}\" is not a line of a frame")),
         }
         Ok(())
     }
 
-    fn comment(&mut self, text: &str) {
+    fn comment(&mut self, text: &str) -> Result<(), String> {
         if let Some(name) = text.strip_prefix("bodies: ") {
             self.bodies = Some(name.trim().to_owned());
+        }
+        if let Some(part) = text.strip_prefix("grown: ") {
+            let sound = |part: &f64| *part > 0.0 && *part <= 1.0;
+            let part = part.parse().ok().filter(sound);
+            self.grown = Some(part.ok_or_else(|| format!("\"{text}\" is no part of a distance"))?);
         }
         if let Some((_, time)) = text.split_once("t = ") {
             self.time = time.strip_suffix(" s").and_then(|time| time.parse().ok());
         }
+        Ok(())
     }
 }
 

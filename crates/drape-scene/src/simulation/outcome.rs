@@ -57,7 +57,7 @@ impl Simulation {
     }
 
     /// Where surfaces are nearest to what they keep, for people.
-    fn tightest(&self) -> Option<String> {
+    pub(super) fn tightest(&self) -> Option<String> {
         let Surfaces { contact, names, .. } = self.world.surfaces.as_ref()?;
         let (pair, distance) = contact.tightest()?;
         let of = |vertex: u32| &names[contact.surface().group(vertex) as usize];
@@ -92,6 +92,8 @@ impl Simulation {
             crossings_found,
             thinned_max: self.pinched_max[0],
             released_max: self.pinched_max[1],
+            grown_from: surfaces.as_ref().map_or(1.0, |surfaces| surfaces.grown_from),
+            grown: self.world.grown(),
         }
     }
 

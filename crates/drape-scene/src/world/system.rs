@@ -39,9 +39,9 @@ impl System for World {
             self.gravity = [0.0; 3];
         }
         if let Some(surfaces) = &mut self.surfaces {
-            surfaces.begin([end_time, time], start);
+            surfaces.begin(([end_time, time], dt), start);
             if let Some(ledger) = &mut self.ledger {
-                (ledger.slip, ledger.push) = (0.0, 0.0);
+                (ledger.slip, ledger.push) = (0.0, surfaces.contact.growth_work());
                 ledger.barrier = surfaces.contact.potential(start);
                 ledger.connectors = None;
             }

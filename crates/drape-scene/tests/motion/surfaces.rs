@@ -1,6 +1,6 @@
 //! Surfaces that do not pass through each other.
 
-use drape_scene::{Simulation, Summary};
+use drape_scene::{Simulation, Status, Summary};
 
 use crate::sheet::{FLAT, Sheet};
 
@@ -198,4 +198,99 @@ fn a_body_that_grows_takes_the_cloth_that_starts_in_it_along() {
     small.panel = format!("{FLAT}center = [0, -0.03, 0]\n");
     let message = small.try_scene().unwrap_err().to_string();
     assert!(message.contains("all of \"sheet\" starts inside a body"), "{message}");
+}
+
+/// Sheets so far above each other, of which all keep 0.14 mm, with more keys of their contact.
+fn close(count: usize, gap: f64, more: &str) -> Sheet {
+    let panel =
+        format!("{FLAT}stack = {{ count = {count}, step = [0, {gap}, 0], turn = [0, 20, 0] }}\n");
+    let scene = format!(
+        "gravity = [0, 0, 0]\nair.density = 0.0\n[contact]\nsurfaces = true\n{more}\n\
+         [time]\nstep = 0.005\nend = 0.3\n"
+    );
+    Sheet { side: 0.1, scene, panel, ..Sheet::default() }
+}
+
+#[test]
+fn sheets_that_start_too_near_come_to_keep_their_whole_distances() {
+    let message = close(3, 5e-5, "").try_scene().unwrap_err().to_string();
+    assert!(message.contains("5.000e-5 m apart") && message.contains("contact.grow"), "{message}");
+    let grown = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut simulation = close(3, 5e-5, "grow = 0.2").simulation();
+            let mut last = simulation.frame();
+            // No force acts at the start, where the nearest are 0.05 mm apart that push below 0.4.
+            assert!((last.grown - 0.125).abs() < 1e-12, "{}", last.grown);
+            while !simulation.step().unwrap().finished {
+                let (frame, summary) = (simulation.frame(), simulation.summary());
+                assert!(frame.grown >= last.grown && summary.contact.intersections == 0);
+                last = frame;
+            }
+            simulation
+        })
+    };
+    let simulation = grown(1);
+    let summary = simulation.summary();
+    sound(&summary);
+    assert!((summary.contact.grown_from - 0.125).abs() < 1e-12 && summary.contact.grown == 1.0);
+    let nearest = summary.contact.min_distance.unwrap();
+    assert!(nearest > 0.125 * 0.14e-3, "{nearest}");
+    // Each is now farther above the one below than they keep.
+    let heights: Vec<f64> = simulation.frame().positions.chunks_exact(3).map(|x| x[1]).collect();
+    let sheets: Vec<&[f64]> = heights.chunks(heights.len() / 3).collect();
+    for pair in sheets.windows(2) {
+        let gap = pair[1][60] - pair[0][60];
+        assert!(gap > 0.14e-3, "{gap}");
+    }
+    // What keeps growing works on the cloth, and the balance counts it.
+    let energy = simulation.energy().unwrap();
+    assert!(energy.work_in > 0.0 && energy.remainder.abs() < 1e-9 * energy.work_in, "{energy:?}");
+    assert_eq!(simulation.state_hash(), grown(2).state_hash());
+}
+
+#[test]
+fn sheets_that_are_held_too_near_are_named() {
+    let mut sheet = close(2, 5e-5, "grow = 0.1");
+    for panel in ["sheet", "sheet 2"] {
+        sheet.scene +=
+            &format!("[[pin]]\npanel = \"{panel}\"\npoints = [[0.05, 0.05]]\nradius = 0.03\n");
+    }
+    let simulation = run(&sheet);
+    let summary = simulation.summary();
+    assert_eq!(summary.status, Status::HeldTogether);
+    // They keep at most nine tenths of the 0.05 mm, of 0.14.
+    let part = summary.contact.grown;
+    assert!(part > 0.3 && part <= 0.9 * 0.05 / 0.14 + 1e-9, "{part}");
+    assert!((summary.simulated_seconds - 0.2).abs() < 0.01, "{}", summary.simulated_seconds);
+    let reason = summary.reason.unwrap();
+    for words in ["\"sheet\" and \"sheet 2\"", "% of the distances that they keep", "near ("] {
+        assert!(reason.contains(words), "{reason}");
+    }
+    assert_eq!(summary.contact.intersections, 0);
+}
+
+#[test]
+fn what_is_kept_grows_from_what_can_be_told_from_nothing_and_over_steps_only() {
+    let refused = |gap: f64, more: &str| close(2, gap, more).try_scene().unwrap_err().to_string();
+    let message = refused(1e-7, "grow = 0.2");
+    assert!(message.contains("contact.grow needs 1e-6 m"), "{message}");
+    let message = refused(0.0, "grow = 0.2");
+    assert!(message.contains("surfaces cross"), "{message}");
+    for grow in ["0.001", "0.31", "nan"] {
+        let message = refused(5e-5, &format!("grow = {grow}"));
+        assert!(message.contains("contact.grow") && message.contains("between"), "{message}");
+    }
+    let mut particles = close(2, 5e-5, "grow = 0.2");
+    particles.scene = particles.scene.replace("surfaces = true", "surfaces = false");
+    let message = particles.try_scene().unwrap_err().to_string();
+    assert!(message.contains("contact.surfaces = true"), "{message}");
+    // Where nothing is near it is the run without it.
+    let far = |more: &str| {
+        let mut sheet = close(2, 1e-3, more);
+        sheet.scene = sheet.scene.replace("gravity = [0, 0, 0]\n", "");
+        sheet.scene += "[[pin]]\npanel = \"sheet\"\nedge = \"top\"\n";
+        run(&sheet).state_hash()
+    };
+    assert_eq!(far(""), far("grow = 0.2"));
 }
