@@ -89,6 +89,37 @@ fn a_sewn_strip_hangs_like_one_that_is_not_and_alike_on_two_threads() {
 }
 
 #[test]
+fn a_flounce_three_times_as_long_as_its_band_is_gathered() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let shipped = root().join("scenes/patterns/gather.toml");
+    let mut pattern = std::fs::read_to_string(&shipped).expect("a pattern");
+    for (from, to) in [
+        ("[300, 60]", "[90, 30]"),
+        ("[-150, 0, 0]", "[-45, 0, 0]"),
+        ("[600, 150]", "[270, 45]"),
+        ("[-300, -160, 0]", "[-135, -55, 0]"),
+        ("max_ease = 2.0", "max_ease = 3.0"),
+    ] {
+        assert!(pattern.contains(from), "{from}");
+        pattern = pattern.replace(from, to);
+    }
+    let own = folder.path().join("pattern.toml");
+    std::fs::write(&own, pattern).expect("it can be written");
+    let [shipped, own] = [shipped, own].map(|path| path.display().to_string());
+    let scene = changed("gather", &[(&shipped, &own)], folder.path());
+    let [one, two] = [1, 2].map(|threads| run(&scene, threads));
+    assert_eq!(one["state_hash"], two["state_hash"]);
+    // Of 46 nodes at the top of the flounce 16 are those of the band, and the others have no place of their own.
+    let measures = &one["measures"];
+    assert!(number(&measures["seam_gap_max"]) < 1e-12, "{}", measures["seam_gap_max"]);
+    assert_eq!(number(&one["contact"]["intersections"]), 0.0);
+    let edges = measures["free_edges"].as_array().expect("edges");
+    let hem = edges.iter().find(|edge| edge["edge"] == "flounce.bottom").expect("the hem");
+    let length = number(&hem["length"]);
+    assert!((length / 0.27 - 1.0).abs() < 0.01, "the hem is {length} m long");
+}
+
+#[test]
 fn what_is_wrong_with_a_garment_is_said_with_its_place_and_a_remedy() {
     let folder = tempfile::tempdir().expect("a folder");
     let write =
