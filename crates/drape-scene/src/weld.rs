@@ -158,9 +158,7 @@ impl Weld {
             interpolate(place, values, node);
         }
     }
-}
 
-impl Weld {
     /// Shortens the ways of the particles to what is left of those of their nodes.
     fn shorten(&self, left: &[f64], ways: &mut [f64]) {
         let length = |way: &[f64]| way.iter().map(|x| x * x).sum::<f64>();
