@@ -27,11 +27,13 @@ impl Sewn {
 
     /// Whether two primitives, by the classes of their vertices, touch where they are sewn: they share a vertex, or one
     /// has a vertex that lies between two of the other.
+    #[inline]
     pub(crate) fn joins(&self, one: &[u32], other: &[u32]) -> bool {
         one.iter().any(|class| other.contains(class))
             || !self.ties.is_empty() && (self.hangs(one, other) || self.hangs(other, one))
     }
 
+    #[cold]
     fn hangs(&self, one: &[u32], other: &[u32]) -> bool {
         let ends = |class: &u32| {
             let place = self.ties.binary_search_by_key(class, |tie| tie.0).ok()?;
