@@ -6,7 +6,7 @@ use drape_verify::Recording;
 
 use crate::output::{Recorder, prepare_folder};
 use crate::scene::Scene;
-use crate::simulation::{Progress, Step};
+use crate::simulation::Progress;
 use crate::summary::{Contacts, Status};
 use crate::world_check::FABRIC;
 use crate::{Frame, SceneError, Simulation};
@@ -46,8 +46,6 @@ struct End {
 struct Film<'a>(Recorder<'a>);
 
 impl Progress for Film<'_> {
-    fn step(&mut self, _: &Step, _: usize) {}
-
     fn frame(&mut self, frame: &Frame) -> Result<(), SceneError> {
         self.0.frame(frame)
     }

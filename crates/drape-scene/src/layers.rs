@@ -54,9 +54,15 @@ impl Reader<'_> {
     ) -> Vec<String> {
         let lowest = start.panels.iter().map(|panel| panel.layer).min();
         let higher = start.panels.iter().filter(|panel| Some(panel.layer) > lowest);
+        let higher: Vec<&Panel> = higher.collect();
         let mut notes = Vec::new();
+        if higher.is_empty() {
+            return notes;
+        }
+        let ways = (0..start.cloth.particles()).map(|particle| way_to(bodies, start, particle));
+        let ways: Vec<Option<Way>> = ways.collect();
         for panel in higher {
-            let order = Order::of(panel, bodies, start);
+            let order = Order::of(panel, &ways, start);
             let Some((below, [x, y, z])) = order.hidden_by else { continue };
             let fault = format!(
                 "\"{}\" of layer {} starts inside \"{}\" of layer {}, between it and the body, near ({x:.4}, {y:.4}, {z:.4}) m",
@@ -86,17 +92,19 @@ struct Order<'a> {
 }
 
 impl<'a> Order<'a> {
-    fn of(panel: &Panel, bodies: &[Body], start: &Start<'a>) -> Self {
+    fn of(panel: &Panel, ways: &[Option<Way>], start: &Start<'a>) -> Self {
         let lower = || start.panels.iter().filter(|other| other.layer < panel.layer);
-        let own = Slabs::of(start, |particle| range(panel).contains(&particle));
-        let below = Slabs::of(start, |particle| lower().any(|l| range(l).contains(&particle)));
+        let own = Slabs::of(start, |particle| panel.particles().contains(&particle));
+        let is_below = |particle| lower().any(|lower| lower.particles().contains(&particle));
+        let below = Slabs::of(start, is_below);
+        let passes = |particle: usize, slabs: &Slabs| {
+            ways[particle].is_some_and(|way| slabs.are_crossed(way))
+        };
         let mut order = Self { inside: 0.0, outside: 0.0, hidden_by: None };
         let mut most = 0.0;
         for other in lower() {
-            let hidden = |&particle: &usize| {
-                way_to(bodies, start, particle).is_some_and(|way| own.are_crossed(way))
-            };
-            let hidden: Vec<usize> = range(other).filter(hidden).collect();
+            let hidden = other.particles().filter(|&particle| passes(particle, &own));
+            let hidden: Vec<usize> = hidden.collect();
             let area = hidden.iter().map(|&particle| start.cloth.areas()[particle]).sum();
             order.inside += area;
             if let (true, Some(&middle)) = (area > most, hidden.get(hidden.len() / 2)) {
@@ -104,27 +112,22 @@ impl<'a> Order<'a> {
             }
         }
         if order.hidden_by.is_some() {
-            let covers = |&particle: &usize| {
-                way_to(bodies, start, particle).is_some_and(|way| below.are_crossed(way))
-            };
-            let covers = range(panel).filter(covers);
+            let covers = panel.particles().filter(|&particle| passes(particle, &below));
             order.outside = covers.map(|particle| start.cloth.areas()[particle]).sum();
         }
         order
     }
 }
 
-/// The particles of a panel.
-fn range(panel: &Panel) -> std::ops::Range<usize> {
-    panel.first..panel.first + panel.lattice.coordinates.len()
-}
+/// A straight way, by its ends, in m.
+type Way = [[f64; 3]; 2];
 
 fn place(start: &Start<'_>, particle: usize) -> [f64; 3] {
     [0, 1, 2].map(|axis| start.positions[3 * particle + axis])
 }
 
 /// The straight way from a particle to the nearest place of a body, unless it is in one. Floors wear nothing.
-fn way_to(bodies: &[Body], start: &Start<'_>, particle: usize) -> Option<[[f64; 3]; 2]> {
+fn way_to(bodies: &[Body], start: &Start<'_>, particle: usize) -> Option<Way> {
     let from = place(start, particle);
     let solid = bodies.iter().filter(|body| !matches!(body.shape, Shape::Plane));
     let near = solid.filter_map(|body| body.proximity(from).ok());
@@ -165,7 +168,7 @@ impl Slabs {
     }
 
     /// Whether a straight way goes through one of them.
-    fn are_crossed(&self, way: [[f64; 3]; 2]) -> bool {
+    fn are_crossed(&self, way: Way) -> bool {
         let numbers = self.numbers(&way);
         let end = numbers.end.min(self.slabs.len());
         let slabs = self.slabs.get(numbers.start..end).unwrap_or_default();
@@ -174,7 +177,7 @@ impl Slabs {
 }
 
 /// Whether a straight way goes through a triangle, by the signs of the volumes that it spans with the sides.
-fn is_crossed([a, b, c]: [[f64; 3]; 3], [from, to]: [[f64; 3]; 2]) -> bool {
+fn is_crossed([a, b, c]: [[f64; 3]; 3], [from, to]: Way) -> bool {
     let volume = |p: [f64; 3], q: [f64; 3], r: [f64; 3], s: [f64; 3]| {
         let [u, v, w] = [q, r, s].map(|x| [0, 1, 2].map(|axis| x[axis] - p[axis]));
         u[0] * (v[1] * w[2] - v[2] * w[1])

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use drape_cloth::{ClothError, Grain, Lattice};
 use drape_input::Diagnostic;
 
@@ -27,6 +29,14 @@ pub struct Panel {
     pub edges: Vec<(String, Vec<u32>)>,
     /// How far out it is worn: what is of a higher layer starts outside of what is of a lower one.
     pub layer: u32,
+}
+
+impl Panel {
+    /// The numbers of its particles.
+    #[must_use]
+    pub fn particles(&self) -> Range<usize> {
+        self.first..self.first + self.lattice.coordinates.len()
+    }
 }
 
 /// A panel at its place.

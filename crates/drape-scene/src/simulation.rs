@@ -109,17 +109,21 @@ pub struct Step {
     pub finished: bool,
 }
 
-/// Watches a running simulation.
+/// Watches a running simulation. What is not told of here passes unseen; `()` sees nothing.
 pub trait Progress {
     /// A step is done, and the time is so many ticks of the clock.
-    fn step(&mut self, step: &Step, ticks: usize);
+    fn step(&mut self, _step: &Step, _ticks: usize) {}
 
     /// A frame is due.
     ///
     /// # Errors
     /// What keeps the frame from being stored; the run then ends with it.
-    fn frame(&mut self, frame: &Frame) -> Result<(), SceneError>;
+    fn frame(&mut self, _frame: &Frame) -> Result<(), SceneError> {
+        Ok(())
+    }
 }
+
+impl Progress for () {}
 
 impl Simulation {
     /// Prepares a scene.
@@ -134,7 +138,7 @@ impl Simulation {
         let span = |panel: &Panel| PanelSpan {
             name: panel.name.clone(),
             fabric: scene.materials[panel.material].name.clone(),
-            particles: panel.first..panel.first + panel.lattice.coordinates.len(),
+            particles: panel.particles(),
         };
         let panels = scene.panels.iter().map(span).collect();
         let worn = scene.garments.iter().cloned();

@@ -160,14 +160,13 @@ impl Surfaces {
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|body| &body.name)).cloned().collect();
         let bow = 2.0 * BOW * thinnest.separation;
-        let (growth, grown_from) = (parts.growth, 1.0);
         Ok(Self {
             contact,
             names,
             start,
             inflation,
-            growth,
-            grown_from,
+            growth: parts.growth,
+            grown_from: 1.0,
             moving,
             bow,
             crossings: 0,

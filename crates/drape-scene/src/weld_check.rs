@@ -7,12 +7,11 @@ use drape_input::Document;
 use crate::garment::Seam;
 use crate::scene::{Scene, without_friction};
 use crate::sewing::Sewing;
-use crate::simulation::{Progress, Step};
 use crate::stitching::Stitching;
 use crate::weld::{Sewn, Weld, join};
 use crate::world::World;
 use crate::world_check::FABRIC;
-use crate::{Frame, SceneError, Simulation, Status};
+use crate::{Simulation, Status};
 
 /// How the edges of both sheets are sewn: the lower one has so many arcs for each of the upper one.
 fn stitching(fullness: u32) -> Stitching {
@@ -77,16 +76,6 @@ residual = 1e-4
     scene
 }
 
-struct Silent;
-
-impl Progress for Silent {
-    fn step(&mut self, _: &Step, _: usize) {}
-
-    fn frame(&mut self, _: &Frame) -> Result<(), SceneError> {
-        Ok(())
-    }
-}
-
 #[test]
 fn the_forces_on_sewn_particles_agree_with_their_potential() {
     // With one arc on both sides, and with two and three on one.
@@ -128,7 +117,7 @@ fn sewn_sheets_hang_from_their_pin_with_all_their_weight() {
 
 fn hang(fullness: u32) {
     let mut simulation = Simulation::new(scene(fullness)).expect("it starts");
-    let summary = simulation.run(&mut Silent).expect("it runs");
+    let summary = simulation.run(&mut ()).expect("it runs");
     assert_eq!(summary.status, Status::Ok, "{:?}", summary.reason);
     let positions = simulation.frame().positions;
     let sewn = stitching(fullness);
@@ -155,7 +144,7 @@ fn seams_that_are_held_apart_end_the_run() {
     particles.iter().for_each(|&particle| scene.held[particle] = true);
     scene.pins.push(crate::Pin { particles, start, ..pin });
     let mut simulation = Simulation::new(scene).expect("it starts");
-    let summary = simulation.run(&mut Silent).expect("it runs");
+    let summary = simulation.run(&mut ()).expect("it runs");
     assert_eq!(summary.status, Status::SeamsOpen);
     let reason = summary.reason.expect("it says why");
     assert!(

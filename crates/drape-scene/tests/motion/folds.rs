@@ -3,8 +3,6 @@
 use drape_input::Document;
 use drape_scene::{Scene, SceneError, Simulation, Status};
 
-use crate::rest::Silent;
-
 /// Without friction a fold comes to its angle, whatever the path.
 const ELASTIC: &str = r#"name = "elastic"
 density = 0.2
@@ -79,7 +77,7 @@ impl Folded {
     /// its part at most, likewise; and the angle of the fold's line from the width.
     fn come_to_rest(&self) -> [f64; 3] {
         let mut simulation = Simulation::new(self.scene().unwrap()).unwrap();
-        let summary = simulation.run(&mut Silent).unwrap();
+        let summary = simulation.run(&mut ()).unwrap();
         assert_eq!(summary.status, Status::Ok, "{summary:?}");
         let positions = simulation.frame().positions;
         let at = |k: u32| -> [f64; 3] { std::array::from_fn(|a| positions[3 * k as usize + a]) };
@@ -188,7 +186,7 @@ fn a_seam_has_the_angle_of_its_pattern() {
     let documents = [Document::new("cloth.toml", ELASTIC), Document::new("two.toml", pattern)];
     let scene = Scene::from_documents(&Document::new("scene.toml", text), &documents).unwrap();
     let mut simulation = Simulation::new(scene).unwrap();
-    let summary = simulation.run(&mut Silent).unwrap();
+    let summary = simulation.run(&mut ()).unwrap();
     assert_eq!(summary.status, Status::Ok, "{summary:?}");
     let positions = simulation.frame().positions;
     let half = (positions.len() / 6) as u32;

@@ -1,20 +1,10 @@
-use drape_scene::{Progress, Status, Step, Summary};
+use drape_scene::{Status, Summary};
 
 use crate::sheet::{CORNERS, FLAT, Sheet};
 
-pub struct Silent;
-
-impl Progress for Silent {
-    fn step(&mut self, _: &Step, _: usize) {}
-
-    fn frame(&mut self, _: &drape_scene::Frame) -> Result<(), drape_scene::SceneError> {
-        Ok(())
-    }
-}
-
 fn run(sheet: &Sheet) -> (Summary, Vec<f64>) {
     let mut simulation = sheet.simulation();
-    let summary = simulation.run(&mut Silent).unwrap();
+    let summary = simulation.run(&mut ()).unwrap();
     (summary, simulation.frame().positions)
 }
 

@@ -1,9 +1,9 @@
 //! Pins that hold in some directions alone: what is held, what is free, and what that costs.
 
-#![allow(clippy::unwrap_used)]
-
 use drape_input::Document;
-use drape_scene::{Frame, Progress, Scene, SceneError, Simulation, Status, Step, Summary};
+use drape_scene::{Scene, SceneError, Simulation, Status, Summary};
+
+use crate::tube;
 
 const FABRIC: &str = r#"name = "plain"
 density = 0.15
@@ -17,49 +17,8 @@ traction.primed = { stiffness = 4000.0, toe_ratio = 0.7, toe_strain = 0.02, toe_
 bending = { rigidity = 0.8e-5, friction = [{ plateau = 4e-4, length = 4.0 }] }
 "#;
 
-/// Two halves of a band, wrapped to a radius of 90 mm, that closes to one of 51 mm.
-const BAND: &str = r#"length = "mm"
-[panel.front]
-grain = 0
-start = [-80, 0]
-outline = [
-    { name = "bottom", to = [80, 0] },
-    { name = "left", to = [80, 40] },
-    { name = "top", to = [-80, 40] },
-    { name = "right", to = [-80, 0] },
-]
-origin = [0, 0, 90]
-wrap = 90
-[panel.back]
-grain = 0
-start = [-80, 0]
-outline = [
-    { name = "bottom", to = [80, 0] },
-    { name = "right", to = [80, 40] },
-    { name = "top", to = [-80, 40] },
-    { name = "left", to = [-80, 0] },
-]
-origin = [0, 0, -90]
-turn = [0, 180, 0]
-wrap = 90
-[seam.left]
-sides = [["front.left"], ["back.left"]]
-[seam.right]
-sides = [["back.right"], ["front.right"]]
-"#;
-
 /// Weight of the band, in N.
 const WEIGHT: f64 = 2.0 * 0.16 * 0.04 * 0.15 * 9.81;
-
-struct Silent;
-
-impl Progress for Silent {
-    fn step(&mut self, _: &Step, _: usize) {}
-
-    fn frame(&mut self, _: &Frame) -> Result<(), SceneError> {
-        Ok(())
-    }
-}
 
 /// A band round a post that stands on a plate, whose upper edges are held.
 fn band(held: &str) -> Result<Simulation, SceneError> {
@@ -74,13 +33,14 @@ fn band(held: &str) -> Result<Simulation, SceneError> {
          [[collider.cylinder]]\nname = \"plate\"\nradius = 0.15\nheight = 0.02\ncenter = [0, -0.07, 0]\nfriction = 0.3\n\
          [time]\nstep = 0.005\nend = 20\n[settle]\n"
     );
-    let documents = [Document::new("plain.toml", FABRIC), Document::new("band.toml", BAND)];
+    let documents =
+        [Document::new("plain.toml", FABRIC), Document::new("band.toml", tube(160, 90))];
     let scene = Scene::from_documents(&Document::new("scene.toml", &text), &documents)?;
     Ok(Simulation::new(scene).unwrap())
 }
 
 fn run(simulation: &mut Simulation) -> Summary {
-    let summary = simulation.run(&mut Silent).unwrap();
+    let summary = simulation.run(&mut ()).unwrap();
     assert_eq!(summary.contact.intersections, 0);
     summary
 }

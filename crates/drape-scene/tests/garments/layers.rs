@@ -1,9 +1,9 @@
 //! Garments over each other: where layers start, and which starts are refused.
 
-#![allow(clippy::unwrap_used)]
-
 use drape_input::Document;
-use drape_scene::{Frame, Progress, Scene, SceneError, Simulation, Status, Step};
+use drape_scene::{Scene, SceneError, Simulation, Status};
+
+use crate::tube;
 
 const FABRIC: &str = r#"name = "plain"
 density = 0.15
@@ -15,37 +15,6 @@ bending.rigidity = 1.2e-5
 [weft]
 traction.primed = { stiffness = 4000.0, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
 bending.rigidity = 0.8e-5
-"#;
-
-/// Two halves of a tube of 40 mm height, wrapped to a radius of 80 mm, that closes to one of 57 mm.
-const TUBE: &str = r#"length = "mm"
-[panel.front]
-grain = 0
-start = [-90, 0]
-outline = [
-    { name = "bottom", to = [90, 0] },
-    { name = "left", to = [90, 40] },
-    { name = "top", to = [-90, 40] },
-    { name = "right", to = [-90, 0] },
-]
-origin = [0, 0, 80]
-wrap = 80
-[panel.back]
-grain = 0
-start = [-90, 0]
-outline = [
-    { name = "bottom", to = [90, 0] },
-    { name = "right", to = [90, 40] },
-    { name = "top", to = [-90, 40] },
-    { name = "left", to = [-90, 0] },
-]
-origin = [0, 0, -80]
-turn = [0, 180, 0]
-wrap = 80
-[seam.left]
-sides = [["front.left"], ["back.left"]]
-[seam.right]
-sides = [["back.right"], ["front.right"]]
 "#;
 
 /// Two tubes round a post on a plate, one of which is called inner and one outer, with more said of each.
@@ -63,14 +32,16 @@ fn tubes(inner: &str, outer: &str, more: &str) -> Result<Scene, SceneError> {
         garment("inner", inner),
         garment("outer", outer)
     );
-    let documents = [Document::new("plain.toml", FABRIC), Document::new("tube.toml", TUBE)];
+    let documents =
+        [Document::new("plain.toml", FABRIC), Document::new("tube.toml", tube(180, 80))];
     Scene::from_documents(&Document::new("scene.toml", &text), &documents)
 }
 
 /// Distances of the particles of a panel from the axis of the post, in m.
 fn radii(scene: &Scene, name: &str) -> Vec<f64> {
     let panel = scene.panels.iter().find(|panel| panel.name == name).unwrap();
-    let own = 3 * panel.first..3 * (panel.first + panel.lattice.coordinates.len());
+    let own = panel.particles();
+    let own = 3 * own.start..3 * own.end;
     scene.positions[own].chunks_exact(3).map(|x| x[0].hypot(x[2])).collect()
 }
 
@@ -129,27 +100,17 @@ fn a_layer_that_is_none_is_refused_at_its_line() {
     }
 }
 
-struct Silent;
-
-impl Progress for Silent {
-    fn step(&mut self, _: &Step, _: usize) {}
-
-    fn frame(&mut self, _: &Frame) -> Result<(), SceneError> {
-        Ok(())
-    }
-}
-
 #[test]
 fn two_tubes_are_sewn_round_each_other_and_the_outer_one_stays_outside() {
     let scene = tubes("", "layer = 1", "[settle]\n").unwrap();
     let own = |name: &str| {
         let panel = scene.panels.iter().find(|panel| panel.name == name).unwrap();
-        panel.first..panel.first + panel.lattice.coordinates.len()
+        panel.particles()
     };
     let [inner, outer] = ["inner", "outer"]
         .map(|name| ["front", "back"].map(|panel| own(&format!("{name}.{panel}"))));
     let mut simulation = Simulation::new(scene).unwrap();
-    let summary = simulation.run(&mut Silent).unwrap();
+    let summary = simulation.run(&mut ()).unwrap();
     assert_eq!((summary.status, summary.settled), (Status::Ok, true), "{:?}", summary.reason);
     assert_eq!(summary.contact.intersections, 0);
     // Their girths are the same, so that they press on each other: everywhere round the post the outer one is outside.
