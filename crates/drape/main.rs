@@ -30,7 +30,8 @@ mod verify;
 
 fn main() -> ExitCode {
     let command = command::Command::parse();
-    match command.execute() {
+    // On a thread of the pool, which shares work without a switch of threads each time.
+    match rayon::scope(|_| command.execute()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }

@@ -14,6 +14,7 @@ mod friction;
 mod gap;
 mod growth;
 mod guards;
+mod margin;
 mod mesh;
 mod mesh_file;
 mod mollifier;

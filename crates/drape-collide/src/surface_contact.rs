@@ -1,10 +1,12 @@
 use rayon::prelude::*;
 
+use crate::course::Course;
 use crate::detector::Detector;
 use crate::error::{CollideError, check};
 use crate::filter::Filter;
 use crate::gap::{Gap, Gradient, Hessian};
 use crate::guards::Guards;
+use crate::margin::Margin;
 use crate::pair::Pair;
 use crate::pinch::Grip;
 use crate::slip::{Anchor, Slip};
@@ -46,8 +48,7 @@ pub struct SurfaceContact {
     pub(crate) failure: Option<CollideError>,
     /// What of a step leads off the course of the pairs, in m.
     pub(crate) astray: Vec<f64>,
-    /// Margin of a detection, in m.
-    pub(crate) margin: f64,
+    pub(crate) margin: Margin,
     /// Longest ways of a step, in m.
     pub(crate) longest: [f64; 2],
 }
@@ -95,8 +96,8 @@ impl SurfaceContact {
         for &coefficient in &settings.friction {
             check("a coefficient of friction", coefficient, "0 or more", coefficient >= 0.0)?;
         }
-        let margin = surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max);
-        let longest = longest_ways(surface.median_edge(), margin);
+        let reach = surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max);
+        let edge = surface.median_edge();
         Ok(SurfaceContact {
             surface,
             settings,
@@ -113,8 +114,8 @@ impl SurfaceContact {
             anchors: Vec::new(),
             failure: None,
             astray: Vec::new(),
-            margin,
-            longest,
+            margin: Margin::new(reach, edge),
+            longest: longest_ways(edge, reach),
         })
     }
 
@@ -322,18 +323,18 @@ impl SurfaceContact {
         if places == self.places && self.failure.is_none() {
             return;
         }
-        self.places = places;
         self.failure = None;
         self.touching.clear();
-        self.detector.follow(&self.places);
+        self.detector.follow(&places);
         // Within half of the margin to both sides no pair comes into reach that was not found.
-        let mut strayed = self.strayed(&self.places);
+        let mut strayed = self.strayed(&places);
         if !(strayed <= 0.5 * self.detector.pairs().margin()) {
-            if let Err(failure) = self.detector.detect(&self.surface, &self.places, self.margin) {
-                self.failure = Some(failure);
-                return;
-            }
+            self.failure = self.detect(&places, Course::Still).err();
             strayed = 0.0;
+        }
+        self.places = places;
+        if self.failure.is_some() {
+            return;
         }
         let places = &self.places;
         let barrier = self.filter.guards.barrier;
@@ -347,6 +348,18 @@ impl SurfaceContact {
         };
         let pairs = self.detector.pairs().as_slice();
         self.touching = pairs.par_iter().with_min_len(CHUNK).filter_map(near).collect();
+    }
+
+    /// Detects the pairs that are near each other at places or on a course from there, and how widely to look next.
+    pub(crate) fn detect(
+        &mut self,
+        places: &[f64],
+        course: Course<'_>,
+    ) -> Result<(), CollideError> {
+        let margin = self.margin.value();
+        let found = self.detector.detect_along(&self.surface, (places, course), margin)?;
+        self.margin.follow(found.as_slice().len(), self.surface.vertices());
+        Ok(())
     }
 
     /// The farthest that a vertex is from where it was detected, in m.

@@ -14,9 +14,9 @@ const LONGEST: [f64; 2] = [4.0, 0.5];
 /// going downhill, but one near pair then stops everything.
 const LOCKED: f64 = 0.2;
 
-/// The longest ways of a step for edges of a length and a margin of detection, in m; see [`LONGEST`].
-pub(crate) fn longest_ways(edge: f64, margin: f64) -> [f64; 2] {
-    LONGEST.map(|edges| (edges * edge).max(margin))
+/// The longest ways of a step for edges of a length and the distance at which surfaces push, in m; see [`LONGEST`].
+pub(crate) fn longest_ways(edge: f64, reach: f64) -> [f64; 2] {
+    LONGEST.map(|edges| (edges * edge).max(reach))
 }
 
 impl SurfaceContact {
@@ -110,7 +110,7 @@ impl SurfaceContact {
         let near = self.strayed(places) + farthest <= BUDGET * self.detector.pairs().margin();
         if !near && self.filter.guards.cover {
             let course = if together { Course::Together(moves) } else { Course::Each(moves) };
-            self.detector.detect_along(&self.surface, (places, course), self.margin)?;
+            self.detect(places, course)?;
         }
         Ok(share)
     }

@@ -12,9 +12,11 @@ use crate::waves::Waves;
 pub(crate) enum Ending {
     /// The residual is below the target.
     Converged,
-    /// Out of iterations: the result is a descent direction all the same.
+    /// Out of iterations, or at a direction along which the matrix is not positive: the result is a descent direction
+    /// all the same.
     Truncated,
-    /// A direction along which the matrix is not positive was met.
+    /// A direction along which the matrix is not positive was met before the residual was any smaller than without a
+    /// solution.
     Indefinite,
 }
 
@@ -36,6 +38,11 @@ impl ConjugateGradient {
 
     /// Solves `A x = b` from `x = 0` until `‖b − A x‖₂ ≤ target`, in at least one iteration. `x` holds `b ≠ 0` on
     /// entry. Returns the iterations made and how they ended.
+    ///
+    /// At negative curvature what has been solved so far is kept if it is worth having (Dembo & Steihaug 1983, Math.
+    /// Program. 26). To begin again with a definite matrix took a third more iterations on a cloth that comes to rest on
+    /// a cube (35 300, not 25 900); to keep whatever there was took 19 300 there, but three times as many evaluations of
+    /// the forces on a T-shirt, where most such steps had to be cut.
     #[inline(always)]
     pub(crate) fn solve(
         &mut self,
@@ -72,10 +79,11 @@ impl ConjugateGradient {
     ) -> (usize, Ending) {
         let Self { solution, residual, direction, product } = self;
         // Keeps the numbers of the preconditioner in the range of single precision.
-        let mut scale = {
+        let start = {
             let [x, y, z] = &residual.0;
             (dot(x, x) + dot(y, y) + dot(z, z)).sqrt()
         };
+        let mut scale = start;
         for axis in 0..3 {
             let image = &mut preconditioner.image.0[axis];
             descend(0.0, &mut residual.0[axis], &mut product.0[axis], (image, 1.0 / scale));
@@ -96,7 +104,11 @@ impl ConjugateGradient {
             // Written so that a NaN takes this way too.
             let positive = curvature > 0.0 && weight > 0.0;
             if !positive {
-                return (iteration, Ending::Indefinite);
+                let worthwhile = scale < start;
+                return (
+                    iteration,
+                    if worthwhile { Ending::Truncated } else { Ending::Indefinite },
+                );
             }
             let step = weight / curvature;
             let mut square = 0.0;
@@ -191,9 +203,10 @@ mod tests {
         matrix
     }
 
-    fn solve(matrix: &BlockMatrix, limit: usize) -> (f64, usize, Ending) {
+    /// With a right side that has so much of a turn from one number to the next.
+    fn solve(matrix: &BlockMatrix, turn: f64, limit: usize) -> (f64, usize, Ending) {
         let size = 3 * matrix.pattern().particles();
-        let b: Vec<f64> = (0..size).map(|k| (k as f64 * 0.37).sin()).collect();
+        let b: Vec<f64> = (0..size).map(|k| (1.0 + k as f64 * turn).sin()).collect();
         let waves = Waves::new(matrix.pattern());
         let mut packed = Packed::new(&waves);
         let mut incomplete = Incomplete::new(&waves);
@@ -212,7 +225,7 @@ mod tests {
 
     #[test]
     fn a_definite_system_is_solved_to_the_target() {
-        let (residual, iterations, ending) = solve(&grid(20, 1e-3), 200);
+        let (residual, iterations, ending) = solve(&grid(20, 1e-3), 0.37, 200);
         assert_eq!(ending, Ending::Converged);
         // The recurrence's residual drifts from the true one by rounding only.
         assert!(residual < 1.1e-10, "{residual:e}");
@@ -221,9 +234,16 @@ mod tests {
 
     #[test]
     fn negative_curvature_and_a_short_limit_are_told_apart() {
-        let (_, _, indefinite) = solve(&grid(20, -1.0), 200);
-        assert_eq!(indefinite, Ending::Indefinite);
-        let (residual, iterations, truncated) = solve(&grid(20, 1e-3), 5);
+        let (_, iterations, indefinite) = solve(&grid(20, -1.0), 0.0, 200);
+        assert_eq!(
+            (iterations, indefinite),
+            (1, Ending::Indefinite),
+            "smooth, where it is not positive"
+        );
+        let (residual, iterations, late) = solve(&grid(20, -1.0), 0.37, 200);
+        assert_eq!(late, Ending::Truncated);
+        assert!(iterations > 1 && residual < 1.0, "{residual:e} after {iterations}");
+        let (residual, iterations, truncated) = solve(&grid(20, 1e-3), 0.37, 5);
         assert_eq!((iterations, truncated), (5, Ending::Truncated));
         assert!(residual > 1e-10, "{residual:e}");
     }

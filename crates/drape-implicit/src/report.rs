@@ -20,11 +20,11 @@ pub struct Report {
     pub linear_solves: usize,
     /// Conjugate-gradient iterations in them.
     pub linear_iterations: usize,
-    /// Linear systems left unfinished at the iteration limit.
+    /// Linear systems left unfinished, at the iteration limit or at a direction of negative curvature.
     pub linear_truncations: usize,
     /// Shifts of the preconditioner's diagonal after a collapsed pivot.
     pub pivot_shifts: usize,
-    /// Exact tangents that had a direction of negative curvature.
+    /// Exact tangents given up for definite ones, because a direction of negative curvature was met at once.
     pub negative_curvatures: usize,
     /// Shortenings in line searches.
     pub cuts: usize,
