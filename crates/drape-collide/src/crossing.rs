@@ -62,7 +62,7 @@ pub fn crossings(surface: &Surface, positions: &[f64]) -> Result<Vec<Crossing>, 
         }
         found
     };
-    let chunks = surface.edge_runs.par_chunks(CHUNK).map(runs);
+    let chunks = surface.edge_runs.par_chunks(CHUNK).with_max_len(1).map(runs);
     let chunks: Vec<Vec<Crossing>> = chunks.collect();
     Ok(chunks.concat())
 }

@@ -157,7 +157,8 @@ impl Detector {
                 }
             }
         };
-        chunks.par_iter_mut().enumerate().for_each(scan);
+        // One by one: folds gather in few of them.
+        chunks.par_iter_mut().enumerate().with_max_len(1).for_each(scan);
         if found.into_inner() > capacity {
             return Err(CollideError::TooManyPairs { capacity });
         }

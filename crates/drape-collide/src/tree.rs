@@ -11,6 +11,16 @@ const CHUNK: usize = 1024;
 /// one.
 const DEPTH: usize = 3 * 16 + 1;
 
+/// The lower of two numbers. Not `min`, which takes care of NaN; places have been checked.
+fn lower<T: PartialOrd>(a: T, b: T) -> T {
+    if b < a { b } else { a }
+}
+
+/// The higher of two numbers.
+fn higher<T: PartialOrd>(a: T, b: T) -> T {
+    if b > a { b } else { a }
+}
+
 /// A box along the axes, in single precision and never smaller than what it holds.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bounds {
@@ -27,8 +37,8 @@ impl Bounds {
         let mut all = Bounds::EMPTY;
         for bounds in list {
             for k in 0..3 {
-                all.low[k] = all.low[k].min(bounds.low[k]);
-                all.high[k] = all.high[k].max(bounds.high[k]);
+                all.low[k] = lower(all.low[k], bounds.low[k]);
+                all.high[k] = higher(all.high[k], bounds.high[k]);
             }
         }
         all
@@ -43,8 +53,8 @@ impl Bounds {
     pub(crate) fn around(points: &[[f64; 3]], margin: f64) -> Bounds {
         let mut bounds = Bounds { low: [0.0; 3], high: [0.0; 3] };
         for k in 0..3 {
-            let low = points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
-            let high = points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+            let low = points.iter().map(|p| p[k]).fold(f64::INFINITY, lower);
+            let high = points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, higher);
             // One step out from the nearest number is more than the rounding to it and that of
             // the sum.
             bounds.low[k] = ((low - margin) as f32).next_down();
@@ -76,8 +86,8 @@ impl Quad {
     /// The box around all four.
     fn bounds(&self) -> Bounds {
         Bounds {
-            low: self.low.map(|four| four.into_iter().fold(f32::INFINITY, f32::min)),
-            high: self.high.map(|four| four.into_iter().fold(f32::NEG_INFINITY, f32::max)),
+            low: self.low.map(|four| four.into_iter().fold(f32::INFINITY, lower)),
+            high: self.high.map(|four| four.into_iter().fold(f32::NEG_INFINITY, higher)),
         }
     }
 
@@ -90,9 +100,7 @@ impl Quad {
             for (lane, apart) in apart.iter_mut().enumerate() {
                 let below = self.low[k][lane] - bounds.high[k];
                 let above = bounds.low[k] - self.high[k][lane];
-                // Not `max`, which takes care of NaN.
-                let more = if below > above { below } else { above };
-                *apart = if more > *apart { more } else { *apart };
+                *apart = higher(*apart, higher(below, above));
             }
         }
         apart.iter().rev().fold(0, |bits, &apart| 2 * bits + u8::from(apart <= 0.0))
