@@ -4,7 +4,7 @@ use drape_fabric::Fabric;
 
 use crate::drapemeter::{Drapemeter, Protocol, Study, spacing_bound};
 use crate::prior::Prediction;
-use crate::sensitivity::FACTORS;
+use crate::sensitivity::{FACTORS, Factor};
 use crate::shipped::{COTTON, WOOL, fabric};
 use crate::{Axis, Check, Findings, Graph, Layout, Source, ValidationError};
 
@@ -86,18 +86,25 @@ fn drapemeter((text, measured, nodes): Measured) -> Result<Findings, ValidationE
     Ok(Findings { checks, graphs, ..Findings::default() })
 }
 
-/// How far the drape coefficients of the two fabrics change as one thing changes.
-pub fn sensitivity() -> Result<Findings, ValidationError> {
-    let mut checks = Vec::new();
-    for (text, ..) in MEASURED {
-        let fabric = fabric(text)?;
-        let resolution = (spacing(&fabric), TABLE_STARTS);
-        for factor in &FACTORS {
-            let [low, high] = factor.vary(&Drapemeter::frl(), &fabric, resolution)?;
-            let what = format!("{}, {}: change, points", fabric.name, factor.name);
-            checks.push(Check::told(what, 100.0 * (high.mean() - low.mean())));
-        }
-    }
+/// How far the cotton's drape coefficient changes as one thing changes.
+pub fn sensitivity_of_cotton() -> Result<Findings, ValidationError> {
+    sensitivity(COTTON)
+}
+
+/// How far the wool's drape coefficient changes as one thing changes.
+pub fn sensitivity_of_wool() -> Result<Findings, ValidationError> {
+    sensitivity(WOOL)
+}
+
+fn sensitivity(text: &str) -> Result<Findings, ValidationError> {
+    let fabric = fabric(text)?;
+    let resolution = (spacing(&fabric), TABLE_STARTS);
+    let row = |factor: &Factor| {
+        let [low, high] = factor.vary(&Drapemeter::frl(), &fabric, resolution)?;
+        let what = format!("{}, {}: change, points", fabric.name, factor.name);
+        Ok(Check::told(what, 100.0 * (high.mean() - low.mean())))
+    };
+    let checks = FACTORS.iter().map(row).collect::<Result<_, ValidationError>>()?;
     Ok(Findings { checks, ..Findings::default() })
 }
 

@@ -180,10 +180,16 @@ pub const CASES: &[Case] = &[
         run: drapes::wool,
     },
     Case {
-        name: "drape-sensitivity",
-        title: "What the drape coefficients of the two fabrics depend on",
+        name: "sensitivity-cotton",
+        title: "What the drape coefficient of the stiff cotton depends on",
         long: true,
-        run: drapes::sensitivity,
+        run: drapes::sensitivity_of_cotton,
+    },
+    Case {
+        name: "sensitivity-wool",
+        title: "What the drape coefficient of the limp wool depends on",
+        long: true,
+        run: drapes::sensitivity_of_wool,
     },
 ];
 
