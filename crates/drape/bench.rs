@@ -16,7 +16,7 @@ pub(crate) struct BenchArguments {
     sizes: Vec<usize>,
     /// Number of threads.
     #[arg(long, default_value_t = 1, value_name = "N")]
-    threads: usize,
+    pub(crate) threads: usize,
     /// Length of a step, in seconds.
     #[arg(long, default_value_t = 0.005, value_name = "SECONDS")]
     step: f64,
@@ -77,7 +77,7 @@ impl Run {
 
 /// `drape bench`.
 pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
-    let BenchArguments { sizes, threads, step, until, json } = arguments;
+    let BenchArguments { sizes, step, until, json, .. } = arguments;
     let usage = |message: String| Err(Failure::Usage(message));
     if let Some(size) = sizes.iter().find(|size| !(3..=1000).contains(*size)) {
         return usage(format!("--sizes {size}: from 3 to 1000 particles along a side"));
@@ -85,8 +85,6 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     if !(*step >= 1e-5 && *step <= 0.1 && *until >= *step && *until <= 1e3) {
         return usage(format!("--step {step} --until {until}: seconds, one step at least"));
     }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(*threads).build_global();
-    pool.map_err(|error| Failure::Usage(format!("--threads {threads}: {error}")))?;
     let bar = ProgressBar::new((MOTIONS.len() * sizes.len() * 1000) as u64);
     let style = "{elapsed_precise} {bar:32} {percent} %, {eta} left  {msg}";
     bar.set_style(ProgressStyle::with_template(style).expect("the template is right"));

@@ -247,7 +247,25 @@ pub(crate) struct CheckArguments {
 }
 
 impl Command {
+    /// Carries the command out, on a thread of the pool: work that comes from outside takes a switch of threads each time.
     pub(crate) fn execute(&self) -> Result<(), Failure> {
+        if let Some(threads) = self.threads() {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+            pool.map_err(|error| Failure::Usage(format!("--threads {threads}: {error}")))?;
+        }
+        rayon::scope(|_| self.carry_out())
+    }
+
+    /// How many threads are asked for.
+    fn threads(&self) -> Option<usize> {
+        match self {
+            Self::Run(arguments) => arguments.threads,
+            Self::Bench(arguments) => Some(arguments.threads),
+            _ => None,
+        }
+    }
+
+    fn carry_out(&self) -> Result<(), Failure> {
         match self {
             Self::Fit(arguments) => fit::fit(arguments),
             Self::Fabric(command) => fabric::fabric(command),

@@ -30,8 +30,7 @@ mod verify;
 
 fn main() -> ExitCode {
     let command = command::Command::parse();
-    // On a thread of the pool, which shares work without a switch of threads each time.
-    match rayon::scope(|_| command.execute()) {
+    match command.execute() {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }

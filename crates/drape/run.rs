@@ -14,10 +14,6 @@ use crate::strain_picture::draw_strains;
 
 /// `drape run`.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    if let Some(threads) = arguments.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
-        pool.map_err(|error| Failure::Usage(format!("--threads {threads}: {error}")))?;
-    }
     let mut scene = Scene::read(&arguments.scene).map_err(|error| refuse(error, arguments))?;
     if let Some(end) = arguments.until {
         if !(end >= scene.clock.step) {
