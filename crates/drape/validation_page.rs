@@ -167,7 +167,7 @@ const LEFT_OUT: &[&str] = &[
      friction; 2.1 points off at 0.7 of the spacing, where 2 are asked. His cotton (case `drapemeter-cotton`, ten starts for\n\
      each study too): 84.4 % with a standard deviation of 2.0, where 82.9 was measured; five or six nodes, where two were\n\
      counted; 73.7 to 87.5 % over what is open, most of it from the building up of the bending friction (73.9 to 84.3 %);\n\
-     62.8 % without friction; 0.7 points off at 0.7 of the spacing. Turned on the disc neither drapes otherwise, for the grid\n\
+     62.8 % without friction; 0.7 points off at 0.7 of the spacing. Turned on the disc it drapes the same, for the grid\n\
      lies along the yarns and turns with them. How the specimen is let down matters as much: without inertia the two keep 6 and\n\
      8 points more, and a platform that sinks ten times faster than 20 mm/s took 7 from the cotton in one start. The speed of\n\
      the measured ones is not known, nor whether they were shaken.",

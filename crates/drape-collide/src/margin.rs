@@ -16,7 +16,8 @@ const MOST: f64 = 0.5;
 ///
 /// A wide one lets vertices go far before pairs are to be found again, and a narrow one keeps the list short. A square
 /// metre of 2600 particles on a cube is detected a third as often as with a margin of its reach, and a band that is twisted
-/// a tenth as often, in half of the time; a stack of sheets keeps the narrow one. The forces do not depend on it.
+/// a tenth as often, in half of the time; a stack of sheets keeps the narrow one. The forces do not depend on it; how far
+/// vertices go that are stopped one by one may, for pairs farther off are then heeded too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Margin {
     least: f64,
