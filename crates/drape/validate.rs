@@ -1,6 +1,7 @@
 //! `drape validate`: simulations against what is known.
 
 use drape::validate::{CASES, Case, Check, Kind, Outcome};
+use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::command::ValidateArguments;
 use crate::failure::Failure;
@@ -10,8 +11,16 @@ use crate::{file, validation_page};
 pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     let cases = chosen(&arguments.cases, arguments.full)?;
     let mut outcomes = Vec::new();
+    let style = "{elapsed_precise} {bar:32} {msg}: {pos}/{len} simulations, {eta} left";
+    let style = ProgressStyle::with_template(style).expect("the template is right");
     for case in cases {
-        let outcome = Outcome::of(case);
+        let bar = ProgressBar::new(0).with_message(case.name).with_style(style.clone());
+        let told = |count| {
+            bar.set_length(count);
+            bar.inc(1);
+        };
+        let outcome = Outcome::of(case, &told);
+        bar.finish_and_clear();
         if !arguments.json {
             show(&outcome)?;
         }
@@ -42,7 +51,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
 /// The cases of some names, or all; without being asked for, none that take minutes.
 fn chosen(names: &[String], full: bool) -> Result<Vec<&'static Case>, Failure> {
     if names.is_empty() {
-        return Ok(CASES.iter().filter(|case| full || !case.long).collect());
+        return Ok(CASES.iter().filter(|case| full || !case.is_long()).collect());
     }
     let case = |name: &String| {
         CASES.iter().find(|case| case.name == name).ok_or_else(|| {

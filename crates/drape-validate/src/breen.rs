@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::cube::{Draped, Model};
 use crate::shipped::{COTTON, LIMP_WEFT, STIFF_COTTON, WOOL, fabric};
-use crate::{Axis, Check, Findings, Graph, Layout, Source, Still, ValidationError};
+use crate::{Axis, Check, Findings, Graph, Layout, Source, Still, Told, ValidationError};
 
 /// Spacing of the paper's 51 × 51 particles, and of a quick look, in m.
 const SPACING: f64 = 0.02;
@@ -108,16 +108,19 @@ pub fn coarse() -> Result<Findings, ValidationError> {
 /// The paper says that the cotton has a single large billow at 45°, that the wool, being less stiff, collapses into two
 /// smaller folds, and that the polyester/cotton, whose warp is stiffer, always has an asymmetric one. No figure of its
 /// fabrics is public. Matsudaira's wool is published and limp; his cotton is published too, but not stiff.
-pub fn cloths() -> Result<Findings, ValidationError> {
+pub fn cloths(told: &Told<'_>) -> Result<Findings, ValidationError> {
     let fabrics: Result<Vec<_>, ValidationError> =
         CLOTHS.iter().map(|(name, text)| Ok((*name, fabric(text)?))).collect();
     let fabrics = fabrics?;
     let wanted = Model::ALL.into_iter().flat_map(|model| fabrics.iter().map(move |f| (model, f)));
     let wanted: Vec<_> = wanted.collect();
-    let drapes: Result<Vec<Drapes>, _> = wanted
-        .into_par_iter()
-        .map(|(model, (name, fabric))| Drapes::of((name, fabric), model, (SPACING, STARTS)))
-        .collect();
+    let count = wanted.len() as u64;
+    let drape = |(model, (name, fabric)): (Model, &(&'static str, Fabric))| {
+        let drapes = Drapes::of((name, fabric), model, (SPACING, STARTS));
+        told(count);
+        drapes
+    };
+    let drapes: Result<Vec<Drapes>, _> = wanted.into_par_iter().map(drape).collect();
     let drapes = drapes?;
     let mut checks = Vec::new();
     for of_model in drapes.chunks(CLOTHS.len()) {

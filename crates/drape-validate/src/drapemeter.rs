@@ -149,7 +149,7 @@ impl Study {
 pub fn spacing_bound(fabric: &Fabric) -> f64 {
     let rigidity = fabric.warp.bending.backbone.respond(0.0).tangent;
     let rigidity = rigidity.min(fabric.weft.bending.backbone.respond(0.0).tangent);
-    0.25 * (rigidity / (fabric.density * GRAVITY)).cbrt()
+    0.22 * (rigidity / (fabric.density * GRAVITY)).cbrt()
 }
 
 impl Drapemeter {

@@ -6,7 +6,7 @@ use crate::drapemeter::{Drapemeter, Protocol, Study, spacing_bound};
 use crate::prior::Prediction;
 use crate::sensitivity::{FACTORS, Factor};
 use crate::shipped::{COTTON, WOOL, fabric};
-use crate::{Axis, Check, Findings, Graph, Layout, Source, ValidationError};
+use crate::{Axis, Check, Findings, Graph, Layout, Source, Told, ValidationError};
 
 /// Starts of an evaluation, and of each row of the table of what matters.
 const STARTS: u64 = 10;
@@ -28,25 +28,28 @@ fn spacing(fabric: &Fabric) -> f64 {
 }
 
 /// The cotton on the FRL meter, over what its sheet leaves open.
-pub fn cotton() -> Result<Findings, ValidationError> {
-    drapemeter(MEASURED[0])
+pub fn cotton(told: &Told<'_>) -> Result<Findings, ValidationError> {
+    drapemeter(MEASURED[0], told)
 }
 
 /// The wool on the FRL meter, over what its sheet leaves open.
-pub fn wool() -> Result<Findings, ValidationError> {
-    drapemeter(MEASURED[1])
+pub fn wool(told: &Told<'_>) -> Result<Findings, ValidationError> {
+    drapemeter(MEASURED[1], told)
 }
 
-fn drapemeter((text, measured, nodes): Measured) -> Result<Findings, ValidationError> {
+fn drapemeter(
+    (text, measured, nodes): Measured,
+    told: &Told<'_>,
+) -> Result<Findings, ValidationError> {
     let mut checks = Vec::new();
     let mut graphs = Vec::new();
     let meter = Drapemeter::frl();
-    let turned = Drapemeter { protocol: Protocol { turn: 45.0, ..meter.protocol }, ..meter };
     let fabric = fabric(text)?;
     let what = |what: &str| format!("{}: {what}", fabric.name);
-    let points = |study: &Study| 100.0 * study.mean();
-    let spacing = spacing(&fabric);
-    let found = Prediction::of(&meter, &fabric, (spacing, STARTS), &|| ())?;
+    let resolution = (spacing(&fabric), STARTS);
+    let count = STARTS * (1 + Prediction::studies(&fabric));
+    let told = || told(count);
+    let found = Prediction::of(&meter, &fabric, resolution, &told)?;
     let [low, high] = found.interval().map(|part| 100.0 * part);
     checks.extend([
         Check::told(what("measured drape coefficient, %"), measured),
@@ -56,7 +59,7 @@ fn drapemeter((text, measured, nodes): Measured) -> Result<Findings, ValidationE
         Check::at_most(what("half of its width, points"), 0.5 * (high - low), HALF_WIDTH),
     ]);
     graphs.push(shadows(&fabric.name, &meter, &found));
-    let elastic = meter.study(&fabric.elastic(), (spacing, STARTS), &|| ())?;
+    let elastic = meter.study(&fabric.elastic(), resolution, &told)?;
     checks.push(Check::told(what("without friction, %"), points(&elastic)));
     checks.push(Check::told(what("nodes as measured"), nodes));
     for (count, times) in found.fitted.nodes() {
@@ -70,42 +73,66 @@ fn drapemeter((text, measured, nodes): Measured) -> Result<Findings, ValidationE
         checks.push(Check::told(what("drape coefficient at the limp end, %"), points(low)));
         checks.push(Check::told(what("at the stiff end, %"), points(high)));
     }
-    for (other, what) in [
-        (
-            meter.study(&fabric, (FINER * spacing, STARTS), &|| ())?,
-            what("change at 0.7 of the spacing, points"),
-        ),
-        (
-            turned.study(&fabric, (spacing, STARTS), &|| ())?,
-            what("change with the grid turned by 45°, points"),
-        ),
-    ] {
-        let change = (points(&other) - points(&found.fitted)).abs();
-        checks.push(Check::at_most(what, change, CONVERGENCE));
-    }
     Ok(Findings { checks, graphs, ..Findings::default() })
 }
 
+/// The cotton on a finer grid, and on a turned one.
+pub fn grid_of_cotton(told: &Told<'_>) -> Result<Findings, ValidationError> {
+    grid(COTTON, told)
+}
+
+/// The wool on a finer grid, and on a turned one.
+pub fn grid_of_wool(told: &Told<'_>) -> Result<Findings, ValidationError> {
+    grid(WOOL, told)
+}
+
+fn grid(text: &str, told: &Told<'_>) -> Result<Findings, ValidationError> {
+    let fabric = fabric(text)?;
+    let meter = Drapemeter::frl();
+    let turned = Drapemeter { protocol: Protocol { turn: 45.0, ..meter.protocol }, ..meter };
+    let spacing = spacing(&fabric);
+    let told = || told(3 * STARTS);
+    let study = |meter: &Drapemeter, spacing: f64| meter.study(&fabric, (spacing, STARTS), &told);
+    let asked = study(&meter, spacing)?;
+    let what = |what: &str| format!("{}: {what}", fabric.name);
+    let mut checks = vec![
+        Check::told(what("spacing, mm"), 1e3 * spacing),
+        Check::told(what("drape coefficient, %"), points(&asked)),
+    ];
+    for (other, at) in [
+        (study(&meter, FINER * spacing)?, "change at 0.7 of the spacing, points"),
+        (study(&turned, spacing)?, "change with the grid turned by 45°, points"),
+    ] {
+        let change = (points(&other) - points(&asked)).abs();
+        checks.push(Check::at_most(what(at), change, CONVERGENCE));
+    }
+    Ok(checks.into())
+}
+
+fn points(study: &Study) -> f64 {
+    100.0 * study.mean()
+}
+
 /// How far the cotton's drape coefficient changes as one thing changes.
-pub fn sensitivity_of_cotton() -> Result<Findings, ValidationError> {
-    sensitivity(COTTON)
+pub fn sensitivity_of_cotton(told: &Told<'_>) -> Result<Findings, ValidationError> {
+    sensitivity(COTTON, told)
 }
 
 /// How far the wool's drape coefficient changes as one thing changes.
-pub fn sensitivity_of_wool() -> Result<Findings, ValidationError> {
-    sensitivity(WOOL)
+pub fn sensitivity_of_wool(told: &Told<'_>) -> Result<Findings, ValidationError> {
+    sensitivity(WOOL, told)
 }
 
-fn sensitivity(text: &str) -> Result<Findings, ValidationError> {
+fn sensitivity(text: &str, told: &Told<'_>) -> Result<Findings, ValidationError> {
     let fabric = fabric(text)?;
     let resolution = (spacing(&fabric), TABLE_STARTS);
+    let told = || told(2 * TABLE_STARTS * FACTORS.len() as u64);
     let row = |factor: &Factor| {
-        let [low, high] = factor.vary(&Drapemeter::frl(), &fabric, resolution)?;
+        let [low, high] = factor.vary(&Drapemeter::frl(), &fabric, resolution, &told)?;
         let what = format!("{}, {}: change, points", fabric.name, factor.name);
-        Ok(Check::told(what, 100.0 * (high.mean() - low.mean())))
+        Ok(Check::told(what, points(&high) - points(&low)))
     };
-    let checks = FACTORS.iter().map(row).collect::<Result<_, ValidationError>>()?;
-    Ok(Findings { checks, ..Findings::default() })
+    Ok(FACTORS.iter().map(row).collect::<Result<Vec<_>, ValidationError>>()?.into())
 }
 
 /// The shadows of a start, as fitted and with each open parameter at its ends.

@@ -34,4 +34,4 @@ pub use error::ValidationError;
 pub use findings::{Findings, Still};
 pub use graph::{Axis, Graph, Layout, Series, Source};
 pub use strip::{GRAVITY, Hold, Strip, finish};
-pub use suite::{CASES, Case, Outcome};
+pub use suite::{CASES, Case, Outcome, Told};

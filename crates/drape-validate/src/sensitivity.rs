@@ -32,7 +32,8 @@ pub const FACTORS: [Factor; 12] = [
 ];
 
 impl Factor {
-    /// Drapes a fabric with this at its lower and at its higher value, at a spacing, in m, from so many starts.
+    /// Drapes a fabric with this at its lower and at its higher value, at a spacing, in m, from so many starts; tells
+    /// after each.
     ///
     /// # Errors
     /// Those of [`Drapemeter::study`].
@@ -41,11 +42,12 @@ impl Factor {
         meter: &Drapemeter,
         fabric: &Fabric,
         resolution: (f64, u64),
+        told: &(dyn Fn() + Sync),
     ) -> Result<[Study; 2], ValidationError> {
         let study = |end: usize| {
             let mut setting = (*meter, fabric.clone());
             (self.set)(&mut setting, end);
-            setting.0.study(&setting.1, resolution, &|| ())
+            setting.0.study(&setting.1, resolution, told)
         };
         Ok([study(0)?, study(1)?])
     }

@@ -12,18 +12,33 @@ pub struct Case {
     pub name: &'static str,
     /// What it shows, and where the reference is from.
     pub title: &'static str,
-    /// Whether it takes minutes and is left out unless asked for.
-    pub long: bool,
-    run: fn() -> Result<Findings, ValidationError>,
+    run: Run,
+}
+
+/// Hears of each simulation of a long case when it is done, and of how many there are.
+pub type Told<'a> = dyn Fn(u64) + Sync + 'a;
+
+#[derive(Debug, Clone, Copy)]
+enum Run {
+    Short(fn() -> Result<Findings, ValidationError>),
+    Long(fn(&Told<'_>) -> Result<Findings, ValidationError>),
 }
 
 impl Case {
+    /// Whether it takes many minutes, and is left out unless asked for.
+    pub fn is_long(&self) -> bool {
+        matches!(self.run, Run::Long(_))
+    }
+
     /// Simulates and compares.
     ///
     /// # Errors
     /// A simulation that cannot be run to its end.
-    pub fn run(&self) -> Result<Findings, ValidationError> {
-        (self.run)()
+    pub fn run(&self, told: &Told<'_>) -> Result<Findings, ValidationError> {
+        match self.run {
+            Run::Short(run) => run(),
+            Run::Long(run) => run(told),
+        }
     }
 }
 
@@ -32,164 +47,147 @@ pub const CASES: &[Case] = &[
     Case {
         name: "instruments",
         title: "Specimens in simulated KES instruments return the loops of the laws",
-        long: false,
-        run: loops::instruments,
+        run: Run::Short(loops::instruments),
     },
     Case {
         name: "bias-bending",
         title: "Bending specimens cut on the bias, with both yarns' loops (closed form)",
-        long: false,
-        run: loops::bias_bending,
+        run: Run::Short(loops::bias_bending),
     },
     Case {
         name: "bias-rim",
         title: "Bending specimens cut on the bias, with a rim of triangles (closed form)",
-        long: false,
-        run: bias_rim::bias_rim,
+        run: Run::Short(bias_rim::bias_rim),
     },
     Case {
         name: "hysteresis",
         title: "A specimen that was bent loses energy and keeps a curvature (Dahl friction, closed forms)",
-        long: false,
-        run: loops::bending_hysteresis,
+        run: Run::Short(loops::bending_hysteresis),
     },
     Case {
         name: "decrement",
         title: "A strip with friction swings less and less (Dahl friction, area of the loop)",
-        long: false,
-        run: decrement::decrement,
+        run: Run::Short(decrement::decrement),
     },
     Case {
         name: "permanent-set",
         title: "A strip that was bent in clamps and let go stays curved (Dahl friction, closed form)",
-        long: false,
-        run: crease::permanent_set,
+        run: Run::Short(crease::permanent_set),
     },
     Case {
         name: "crease",
         title: "A strip that was folded and let go recovers (Dahl friction, closed form)",
-        long: false,
-        run: crease::recovery,
+        run: Run::Short(crease::recovery),
     },
     Case {
         name: "fold",
         title: "A strip that is folded at rest comes to the angle of its fold",
-        long: false,
-        run: fold::fold,
+        run: Run::Short(fold::fold),
     },
     Case {
         name: "heavy-cantilever",
         title: "A clamped strip bends under its own weight (heavy elastica)",
-        long: false,
-        run: statics::heavy_cantilever,
+        run: Run::Short(statics::heavy_cantilever),
     },
     Case {
         name: "end-load",
         title: "A clamped strip bends under a load at its tip (Bisshopp & Drucker 1945)",
-        long: false,
-        run: statics::end_loaded_cantilever,
+        run: Run::Short(statics::end_loaded_cantilever),
     },
     Case {
         name: "catenary",
         title: "A limp strip between two hinges (catenary)",
-        long: false,
-        run: statics::catenary,
+        run: Run::Short(statics::catenary),
     },
     Case {
         name: "self-stretch",
         title: "A hanging strip stretches under its own weight",
-        long: false,
-        run: statics::self_stretch,
+        run: Run::Short(statics::self_stretch),
     },
     Case {
         name: "cylinder",
         title: "A sheet on a cylinder stores the energy of its yarns' bending",
-        long: false,
-        run: statics::cylinder,
+        run: Run::Short(statics::cylinder),
     },
     Case {
         name: "bias-strip",
         title: "Strips cut at an angle to the grain stretch (Kilby 1963)",
-        long: false,
-        run: bias::bias_strip,
+        run: Run::Short(bias::bias_strip),
     },
     Case {
         name: "column",
         title: "An upright strip bends over under its own weight (Greenhill 1881)",
-        long: false,
-        run: statics::column,
+        run: Run::Short(statics::column),
     },
     Case {
         name: "hanging-chain",
         title: "Modes of a limp hanging strip (Bernoulli 1732)",
-        long: false,
-        run: dynamics::hanging_chain,
+        run: Run::Short(dynamics::hanging_chain),
     },
     Case {
         name: "hanging-strip",
         title: "First mode of a hanging strip with bending rigidity",
-        long: false,
-        run: dynamics::hanging_strip,
+        run: Run::Short(dynamics::hanging_strip),
     },
     Case {
         name: "pendulum",
         title: "Period of a stiff strip on a hinge at large amplitudes",
-        long: false,
-        run: dynamics::pendulum,
+        run: Run::Short(dynamics::pendulum),
     },
     Case {
         name: "free-fall",
         title: "A strip that nothing holds",
-        long: false,
-        run: dynamics::free_fall,
+        run: Run::Short(dynamics::free_fall),
     },
     Case {
         name: "rotation",
         title: "A strip that nothing holds or pulls at turns on",
-        long: false,
-        run: dynamics::rotation,
+        run: Run::Short(dynamics::rotation),
     },
     Case {
         name: "vacuum",
         title: "A strip in a vacuum swings, and is thrown over (Tagawa, Hayashi & Kijima 2003)",
-        long: false,
-        run: vacuum::tagawa,
+        run: Run::Short(vacuum::tagawa),
     },
     Case {
         name: "cube",
         title: "A stiff cloth on a cube, in the laws of its fabric and in Breen's particles; a coarse grid",
-        long: false,
-        run: breen::coarse,
+        run: Run::Short(breen::coarse),
     },
     Case {
         name: "breen",
         title: "Cloths on a cube, in the laws of their fabrics and in Breen's particles (Breen, House & Wozny 1994)",
-        long: true,
-        run: breen::cloths,
+        run: Run::Long(breen::cloths),
     },
     Case {
         name: "drapemeter-cotton",
         title: "Drape coefficient of a stiff cotton (Matsudaira et al. 2015)",
-        long: true,
-        run: drapes::cotton,
+        run: Run::Long(drapes::cotton),
     },
     Case {
         name: "drapemeter-wool",
         title: "Drape coefficient of a limp wool (Matsudaira et al. 2015)",
-        long: true,
-        run: drapes::wool,
+        run: Run::Long(drapes::wool),
+    },
+    Case {
+        name: "grid-cotton",
+        title: "Drape coefficient of the stiff cotton on a finer grid, and on a turned one",
+        run: Run::Long(drapes::grid_of_cotton),
+    },
+    Case {
+        name: "grid-wool",
+        title: "Drape coefficient of the limp wool on a finer grid, and on a turned one",
+        run: Run::Long(drapes::grid_of_wool),
     },
     Case {
         name: "sensitivity-cotton",
         title: "What the drape coefficient of the stiff cotton depends on",
-        long: true,
-        run: drapes::sensitivity_of_cotton,
+        run: Run::Long(drapes::sensitivity_of_cotton),
     },
     Case {
         name: "sensitivity-wool",
         title: "What the drape coefficient of the limp wool depends on",
-        long: true,
-        run: drapes::sensitivity_of_wool,
+        run: Run::Long(drapes::sensitivity_of_wool),
     },
 ];
 
@@ -216,9 +214,9 @@ pub struct Outcome {
 
 impl Outcome {
     /// Runs a case.
-    pub fn of(case: &Case) -> Self {
+    pub fn of(case: &Case, told: &Told<'_>) -> Self {
         let start = std::time::Instant::now();
-        let (findings, failure) = match case.run() {
+        let (findings, failure) = match case.run(told) {
             Ok(findings) => (findings, None),
             Err(error) => (Findings::default(), Some(error.to_string())),
         };
