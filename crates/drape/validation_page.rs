@@ -173,8 +173,9 @@ const LEFT_OUT: &[&str] = &[
      either end), in points: friction or none 22, its 2HB halved or half as much again 18, shaken or not 17, friction that\n\
      builds up over 0.2 or 0.02 1/cm 10, a platform at 200 or at 20 mm/s 9, 2HG of 0 or 2 gf/cm 6, B by 20 % or W by 5 % less or\n\
      more 2 each, G of 0.3 or 1.5 gf/(cm·deg) 1.5, traction halved or doubled 0.4; steps of 10 ms keep 2 more than those of\n\
-     2.5 ms. Without inertia the two keep 6 and 8 points more. The speed of the measured ones is not known, nor whether\n\
-     they were shaken.",
+     2.5 ms. To the wool (`sensitivity-wool`, at 5 mm): G 8.7, friction 7.6, B 6.8, 2HG 6.7, 2HB 6.1, the building up of\n\
+     friction 3.5, W 2.6, traction 0.2, shaking 4.8, the platform 2.1, steps of 10 ms 1.1. Without inertia the two keep 6 and 8 points\n\
+     more. The speed of the measured ones is not known, nor whether they were shaken.",
     "Breen's fabrics are not published. What stands for his stiff cotton has four times the bending of Matsudaira's \
      cotton broad, and what\nstands for his polyester/cotton a quarter of it along the weft, by choice. That stiff cloth \
      has one billow at a corner, limp cloth\ntwo and cloth with a limp weft slanted ones is so on grids of 2 and of 1 \
