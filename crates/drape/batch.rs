@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 
 use drape::fit::identify_all;
 use drape::report::{FitPage, Trust};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::command::FitArguments;
 use crate::failure::Failure;
 use crate::say::say;
-use crate::{file, fit};
+use crate::{file, fit, progress};
 
 const SHEET_FILE: &str = "sheet.toml";
 /// Folders deeper than this below one that was named are not searched: a link back up would never end.
@@ -86,9 +85,7 @@ struct Row {
 /// Fits every sheet, on all threads; a bad one does not stop the others.
 #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
 pub(crate) fn fit_all(sheets: &[PathBuf], arguments: &FitArguments) -> Result<(), Failure> {
-    let bar = ProgressBar::new(sheets.len() as u64);
-    let style = "{elapsed_precise} {bar:32} {pos}/{len} sheets, {per_sec}, {eta} left";
-    bar.set_style(ProgressStyle::with_template(style).expect("the template is right"));
+    let bar = progress::bar(sheets.len() as u64, "{pos}/{len} sheets, {per_sec}, {eta} left");
     let inputs: Vec<(&PathBuf, String)> = sheets.iter().zip(names(sheets)).collect();
     let settings = arguments.laws.settings();
     let read = |(path, name): &(&PathBuf, String)| {

@@ -3,10 +3,10 @@ use std::fmt::Write;
 use clap::Args;
 use drape::input::Document;
 use drape::scene::{Scene, Simulation, Summary};
-use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
 use crate::failure::Failure;
+use crate::progress;
 use crate::say::say;
 
 #[derive(Args)]
@@ -85,9 +85,8 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     if !(*step >= 1e-5 && *step <= 0.1 && *until >= *step && *until <= 1e3) {
         return usage(format!("--step {step} --until {until}: seconds, one step at least"));
     }
-    let bar = ProgressBar::new((MOTIONS.len() * sizes.len() * 1000) as u64);
-    let style = "{elapsed_precise} {bar:32} {percent} %, {eta} left  {msg}";
-    bar.set_style(ProgressStyle::with_template(style).expect("the template is right"));
+    let length = (MOTIONS.len() * sizes.len() * 1000) as u64;
+    let bar = progress::bar(length, "{percent} %, {eta} left  {msg}");
     let mut runs = Vec::new();
     for (motion, start) in MOTIONS {
         for &size in sizes {

@@ -4,11 +4,11 @@ use drape::fabric::Fabric;
 use drape::validate::ValidationError;
 use drape::validate::drapemeter::{Drapemeter, Shake, Study, spacing_bound};
 use drape::validate::prior::Prediction;
-use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
 use crate::command::{Meter, ShakeName, TestArguments};
 use crate::failure::Failure;
+use crate::progress;
 use crate::say::say;
 
 /// The coarsest spacing that is taken without being asked for, in m.
@@ -48,9 +48,8 @@ pub(crate) fn drape(fabric: &Fabric, arguments: &TestArguments) -> Result<(), Fa
             say(format_args!("warning: {message} {:.2} mm or less", 1e3 * bound))?;
         }
     }
-    let bar = ProgressBar::new(arguments.starts * (1 + Prediction::studies(fabric)));
-    let style = "{elapsed_precise} {bar:32} {pos}/{len} specimens, {eta} left";
-    bar.set_style(ProgressStyle::with_template(style).expect("the template is right"));
+    let specimens = arguments.starts * (1 + Prediction::studies(fabric));
+    let bar = progress::bar(specimens, "{pos}/{len} specimens, {eta} left");
     let resolution = (spacing, arguments.starts);
     let told = || bar.inc(1);
     let failed = |error: ValidationError| Failure::Solver(error.to_string());

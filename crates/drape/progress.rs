@@ -3,6 +3,14 @@ use std::time::Duration;
 use drape::scene::{Frame, Progress, Recorder, SceneError, Step};
 use indicatif::{ProgressBar, ProgressStyle};
 
+/// A bar of some length on stderr, which stays silent where stderr is not a terminal, with what is told beside it as
+/// indicatif's template.
+pub(crate) fn bar(length: u64, told: &str) -> ProgressBar {
+    let style = format!("{{elapsed_precise}} {{bar:32}} {told}");
+    let style = ProgressStyle::with_template(&style).expect("the template is right");
+    ProgressBar::new(length).with_style(style)
+}
+
 /// Shows a run on a terminal and stores its frames.
 pub(crate) struct Screen<'a> {
     bar: ProgressBar,
@@ -11,11 +19,9 @@ pub(crate) struct Screen<'a> {
 }
 
 impl<'a> Screen<'a> {
-    /// A bar on stderr, which stays silent where stderr is not a terminal.
+    /// A bar of so many steps.
     pub(crate) fn new(steps: usize, recorder: Recorder<'a>) -> Self {
-        let bar = ProgressBar::new(steps as u64);
-        let style = "{elapsed_precise} {bar:32} {pos}/{len} steps, {per_sec}, {eta} left  {msg}";
-        bar.set_style(ProgressStyle::with_template(style).expect("the template is right"));
+        let bar = bar(steps as u64, "{pos}/{len} steps, {per_sec}, {eta} left  {msg}");
         bar.enable_steady_tick(Duration::from_millis(250));
         Self { bar, recorder, last: None }
     }

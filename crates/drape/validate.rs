@@ -1,20 +1,18 @@
 //! `drape validate`: simulations against what is known.
 
 use drape::validate::{CASES, Case, Check, Kind, Outcome};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::command::ValidateArguments;
 use crate::failure::Failure;
 use crate::say::say;
-use crate::{file, validation_page};
+use crate::{file, progress, validation_page};
 
 pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     let cases = chosen(&arguments.cases, arguments.full)?;
     let mut outcomes = Vec::new();
-    let style = "{elapsed_precise} {bar:32} {msg}: {pos}/{len} simulations, {eta} left";
-    let style = ProgressStyle::with_template(style).expect("the template is right");
     for case in cases {
-        let bar = ProgressBar::new(0).with_message(case.name).with_style(style.clone());
+        let bar = progress::bar(0, "{msg}: {pos}/{len} simulations, {eta} left");
+        bar.set_message(case.name);
         let told = |count| {
             bar.set_length(count);
             bar.inc(1);
