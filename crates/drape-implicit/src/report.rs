@@ -22,7 +22,7 @@ pub struct Report {
     pub linear_iterations: usize,
     /// Linear systems left unfinished, at the iteration limit or at a direction of negative curvature.
     pub linear_truncations: usize,
-    /// Shifts of the preconditioner's diagonal after a collapsed pivot.
+    /// Factorisations of the preconditioner begun anew, with a larger shift, after a collapsed pivot.
     pub pivot_shifts: usize,
     /// Exact tangents given up for definite ones, because a direction of negative curvature was met at once.
     pub negative_curvatures: usize,

@@ -92,6 +92,7 @@ impl Solver {
     ) -> Result<(), Halt> {
         self.iterations = 0;
         self.cautious = false;
+        self.tangent.forget();
         self.current.progress = 1.0;
         self.trial.progress = 1.0;
         if problem.guarded {
@@ -182,6 +183,7 @@ impl Solver {
                 if kind == Stiffness::Exact {
                     problem.report.negative_curvatures += 1;
                     self.cautious = true;
+                    self.tangent.forget();
                 }
                 continue;
             };

@@ -39,6 +39,13 @@ impl Tangent {
         })
     }
 
+    /// The next matrix need not be like the one before.
+    pub(crate) fn forget(&mut self) {
+        if let Some(iterative) = &mut self.iterative {
+            iterative.incomplete.forget();
+        }
+    }
+
     /// Makes the matrix ready for [`solve`](Self::solve).
     pub(crate) fn prepare(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
         // The factor has no room for couplings beyond the pattern.
@@ -52,8 +59,7 @@ impl Tangent {
     fn precondition(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
         let matrix = &self.matrix;
         let iterative = self.iterative.get_or_insert_with(|| Iterative::new(matrix.pattern()));
-        let shifts = iterative.arch.dispatch(Prepare(iterative, matrix))?;
-        report.pivot_shifts += shifts;
+        report.pivot_shifts += iterative.arch.dispatch(Prepare(iterative, matrix))?;
         Ok(())
     }
 
