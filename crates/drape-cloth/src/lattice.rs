@@ -148,11 +148,32 @@ impl Lattice {
         if radius < spacing {
             return Err(ClothError::Spacing { spacing, size: 2.0 * radius });
         }
+        Self::round(grid, [0.0, radius], spacing)
+    }
+
+    /// A ring of the given radii, the inner one first, in m, cut from a grid as a [disc](Lattice::disc_on) is.
+    ///
+    /// # Errors
+    /// When a length is not positive, or fewer than 3 particles would lie across the ring.
+    pub fn ring_on(grid: [f64; 2], radii: [f64; 2], spacing: f64) -> Result<Self, ClothError> {
+        let [hole, radius] = radii;
+        check("the radius of the hole", hole)?;
+        check("the radius", radius)?;
+        check("the spacing", spacing)?;
+        if radius - hole < 2.0 * spacing {
+            return Err(ClothError::Spacing { spacing, size: radius - hole });
+        }
+        Self::round(grid, radii, spacing)
+    }
+
+    /// The cells of a grid that lie, or parts of them, between two circles.
+    fn round(grid: [f64; 2], [hole, radius]: [f64; 2], spacing: f64) -> Result<Self, ClothError> {
         let grid = on_grid(grid, spacing)?;
         let half = (radius / spacing + 0.5).ceil();
         let start = grid.map(|place| place - half * spacing);
         let area = |u0: f64, v0: f64, u1: f64, v1: f64| {
-            let corner = |u: f64, v: f64| disc_corner_area(radius, u, v);
+            let corner =
+                |u: f64, v: f64| disc_corner_area(radius, u, v) - disc_corner_area(hole, u, v);
             corner(u1, v1) - corner(u0, v1) - corner(u1, v0) + corner(u0, v0)
         };
         Self::cut([spacing; 2], start, [2.0 * half; 2], |column, row| {
@@ -355,6 +376,22 @@ mod tests {
         assert_eq!(lattice.triangles().len(), 2 * 48 * 29);
         assert!((lattice.area() - 0.6).abs() < 1e-12);
         assert!((lattice.coordinates[49 * 30 - 1][1] - 0.6).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_ring_has_its_own_area_and_no_particle_well_inside_its_hole() {
+        for (grid, spacing) in [([0.0; 2], 0.03), ([0.004, -0.003], 0.01), ([0.0; 2], 0.007)] {
+            let lattice = Lattice::ring_on(grid, [0.08, 0.15], spacing).expect("a ring");
+            let exact = std::f64::consts::PI * (0.15 * 0.15 - 0.08 * 0.08);
+            let area = lattice.area();
+            assert!((area / exact - 1.0).abs() < 1e-12, "{spacing}: {area} against {exact}");
+            let innermost = lattice.coordinates.iter().map(|[u, v]| u.hypot(*v));
+            let innermost = innermost.fold(f64::INFINITY, f64::min);
+            assert!((0.08 - 1.5 * spacing..0.08).contains(&innermost), "{spacing}: {innermost}");
+        }
+        for radii in [[0.0, 0.1], [0.1, 0.1], [0.2, 0.1], [0.09, 0.1], [f64::NAN, 0.1]] {
+            assert!(Lattice::ring_on([0.0; 2], radii, 0.01).is_err(), "{radii:?}");
+        }
     }
 
     #[test]

@@ -72,6 +72,8 @@ pub(crate) struct PanelFile {
     pub(crate) rectangle: Option<[f64; 2]>,
     /// Diameter.
     pub(crate) disc: Option<f64>,
+    /// Diameter of the hole in a disc's middle.
+    pub(crate) hole: Option<f64>,
     /// Angle from the panel's height to its warp, anticlockwise, in degrees.
     #[serde(default)]
     pub(crate) grain: f64,

@@ -150,13 +150,22 @@ impl Reader<'_> {
         let spacing = entry.spacing.or(spacing).map_or(SPACING, |s| s * unit);
         let grid = entry.grid.unwrap_or_default().map(|place| place * unit);
         let grain = self.grain(key, entry)?;
-        let lattice = match (entry.rectangle, entry.disc) {
-            (Some(size), None) => {
+        let radius = |diameter: f64| 0.5 * diameter * unit;
+        let lattice = match (entry.rectangle, entry.disc, entry.hole) {
+            (Some(size), None, None) => {
                 Lattice::rectangle_at(grain, grid, size.map(|side| side * unit), spacing)
             }
-            (None, Some(diameter)) => {
-                let disc = Lattice::disc_on(grid, 0.5 * diameter * unit, spacing);
-                disc.map(|disc| disc.turned(grain))
+            (None, Some(disc), None) => {
+                Lattice::disc_on(grid, radius(disc), spacing).map(|disc| disc.turned(grain))
+            }
+            (None, Some(disc), Some(hole)) => {
+                let ring = Lattice::ring_on(grid, [hole, disc].map(radius), spacing);
+                ring.map(|ring| ring.turned(grain))
+            }
+            (Some(_), None, Some(_)) => {
+                let message = format!("panel \"{}\" has a hole in a rectangle", entry.name);
+                self.fail(&format!("{key}.hole"), message, "a hole is in the middle of a disc");
+                return None;
             }
             _ => {
                 let help = "give one of rectangle = [width, height] and disc = diameter";
@@ -169,6 +178,7 @@ impl Reader<'_> {
                 format!("{key}.spacing")
             }
             Err(ClothError::Spacing { .. } | ClothError::TooMany { .. }) => "spacing".into(),
+            _ if entry.hole.is_some_and(|hole| !(hole > 0.0)) => format!("{key}.hole"),
             _ if entry.disc.is_some() => format!("{key}.disc"),
             _ => format!("{key}.rectangle"),
         };

@@ -117,7 +117,11 @@ impl Reader<'_> {
             let nearest = (0..coordinates.len()).min_by(by_distance);
             if let Some(radius) = pin.radius {
                 let within = |&place: &usize| distance(&coordinates[place]) <= radius * unit;
+                let before = particles.len();
                 particles.extend((0..coordinates.len()).filter(within).map(|p| panel.first + p));
+                if particles.len() > before {
+                    continue;
+                }
             }
             match nearest {
                 Some(nearest) if distance(&coordinates[nearest]) <= across.hypot(along) => {

@@ -200,6 +200,24 @@ fn a_disc_turns_with_its_grain() {
 }
 
 #[test]
+fn a_ring_is_held_around_its_hole() {
+    let shape = "disc = 0.3\nhole = 0.1";
+    let text = with("rectangle = [0.2, 0.3]", shape);
+    let scene =
+        read(&format!("{text}[[pin]]\npanel = \"towel\"\npoints = [[0, 0]]\nradius = 0.08\n"));
+    let scene = scene.unwrap();
+    let mass: f64 = scene.cloth.masses().iter().sum();
+    let ring = std::f64::consts::PI * (0.15_f64.powi(2) - 0.05_f64.powi(2));
+    assert!((mass / (ring * 0.12) - 1.0).abs() < 1e-12, "{mass}");
+    let places = scene.cloth.coordinates().iter().map(|[u, v]| u.hypot(*v));
+    for (held, radius) in scene.held.iter().zip(places) {
+        assert_eq!(*held, radius <= 0.08, "at {radius}");
+    }
+    let mistakes = read(&format!("{text}[[pin]]\npanel = \"towel\"\npoints = [[0, 0]]\n"));
+    assert!(mistakes.expect_err("the hole").to_string().contains("not on panel"));
+}
+
+#[test]
 fn rest_is_defined_by_its_table() {
     let settle = read(&with("", "[settle]")).unwrap().settle.unwrap();
     assert_eq!((settle.speed, settle.residual, settle.inertia), (0.002, 1e-3, false));
@@ -239,6 +257,9 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = 200", "200", 6),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = nan", "NaN", 6),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrid = [0.001, 0]", "follow", 6),
+        ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\nhole = 0.1", "rectangle", 6),
+        ("rectangle = [0.2, 0.3]", "spacing = 0.01\ndisc = 0.3\nhole = 0.29", "0.005", 5),
+        ("rectangle = [0.2, 0.3]", "disc = 0.3\nhole = -0.1", "-0.05", 6),
         ("rectangle = [0.2, 0.3]", "spacing = 0.15\nrectangle = [0.2, 0.3]\ngrain = 45", "0.15", 5),
     ];
     for (old, new, value, line) in cases {

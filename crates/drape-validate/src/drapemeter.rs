@@ -26,6 +26,9 @@ const SHAKE_KEYS: usize = 8;
 /// How far beyond the disc particles are held, over the spacing: the last ones lie half a spacing beyond the line
 /// where the slope is held, and half a spacing less than this beyond the disc on the average.
 const CLAMP_REACH: f64 = 1.0;
+/// How far inside the disc the simulated cloth ends, over the spacing: a connector reaches two spacings from a particle
+/// that moves to others that are held.
+const HELD_ROWS: f64 = 2.0;
 
 /// A drapemeter: its disc and the specimen's size, radii in m, and how the specimen is treated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -209,9 +212,11 @@ impl Drapemeter {
         let grid = grid(seed).map(|part| part * spacing);
         let down = sink / sink_speed;
         let (keys, end) = shaken(*shake, down);
+        let hole = 2.0 * (disc - HELD_ROWS * spacing);
+        let hole = if hole > 0.0 { format!("hole = {hole:e}\n") } else { String::new() };
         let text = format!(
             "name = \"drapemeter\"\nspacing = {spacing:e}\nfabric.specimen.file = \"fabric.toml\"\n\
-             [[panel]]\nname = \"specimen\"\nfabric = \"specimen\"\ndisc = {:e}\ngrid = {grid:?}\n\
+             [[panel]]\nname = \"specimen\"\nfabric = \"specimen\"\ndisc = {:e}\n{hole}grid = {grid:?}\n\
              turn = [-90, {turn:?}, 0]\nnoise = {{ amplitude = 1e-4, seed = {seed} }}\n\
              [[pin]]\npanel = \"specimen\"\npoints = [[0, 0]]\nradius = {:e}\nmotion = {keys}\n\
              [[collider.cylinder]]\nname = \"disc\"\nradius = {disc:e}\nheight = {PEDESTAL:e}\n\
@@ -237,7 +242,8 @@ impl Drapemeter {
             simulation.triangles(),
             (simulation.coordinates(), &positions),
             self.specimen,
-        );
+        )
+        .with_disc(self.disc);
         let [disc, specimen] = [self.disc, self.specimen].map(|radius| PI * radius * radius);
         let edge = shadow.edge();
         let smooth = LowPass::of(&edge, HARMONICS);

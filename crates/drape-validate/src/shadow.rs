@@ -57,6 +57,16 @@ impl Shadow {
         shadow
     }
 
+    /// The shadow with that of a disc around the middle, of a radius in m.
+    pub(crate) fn with_disc(mut self, radius: f64) -> Self {
+        let half = 0.5 * self.side as f64;
+        for (k, dark) in self.dark.iter_mut().enumerate() {
+            let [row, column] = [k / self.side, k % self.side].map(|at| at as f64 + 0.5 - half);
+            *dark |= row.hypot(column) * PIXEL <= radius;
+        }
+        self
+    }
+
     /// Darkens the squares whose middles lie in a triangle.
     fn darken(&mut self, corners: [[f64; 2]; 3]) {
         let half = 0.5 * self.side as f64;
