@@ -47,8 +47,8 @@ enum Fill {
 /// Each shift is four times the one before: coarse, because a factorisation costs as much as several iterations of the
 /// solver. With neither compensation nor stabilisation, and shifts from 0 on, three to five attempts failed where one
 /// fails now, and conjugate gradients took more iterations: 37 300 instead of 21 300 on a wool let down from a platform,
-/// 163 000 instead of 112 000 on cloth that settles on a sphere, 25 900 instead of 20 600 on one on a cube.
-/// Stabilisation without shifts did as well there, but with the springs of a garment's seams 75 000 instead of 27 000.
+/// 163 000 instead of 112 000 on cloth that settles on a sphere, 25 900 instead of 22 600 on one on a cube.
+/// Stabilisation without shifts did as well there, but with the springs of a garment's seams 75 000 instead of 26 000.
 const ATTEMPTS: [Attempt; 7] = [
     Attempt { fill: Fill::Compensated(0.97), shift: 0.0 },
     Attempt { fill: Fill::Stabilised(0.05), shift: 0.004 },
