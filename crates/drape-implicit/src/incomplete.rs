@@ -77,7 +77,7 @@ pub(crate) struct Incomplete {
     squares: Vec<Square>,
     /// The vector to apply the inverse to, by rows.
     pub image: Columns<f32>,
-    /// The first of [`ATTEMPTS`] to make.
+    /// Which of [`ATTEMPTS`] to begin with.
     first: usize,
     diagonal_only: bool,
 }
@@ -106,8 +106,8 @@ impl Incomplete {
         self.first = 0;
     }
 
-    /// Packs a matrix and factorises it, as the one before if that was not [forgotten](Self::forget), or more
-    /// cautiously as often as pivots collapse. Returns the number of attempts that failed.
+    /// Packs a matrix and factorises it. Begins one attempt before the one that held last, unless that was
+    /// [forgotten](Self::forget). Returns the number of attempts that failed.
     #[inline(always)]
     pub(crate) fn factorise(
         &mut self,
