@@ -45,8 +45,8 @@ enum Fill {
 /// What is tried, one after the other, as pivots collapse, before the block diagonal alone is used, which cannot fail.
 ///
 /// Each shift is four times the one before: coarse, because a factorisation costs as much as several iterations of the
-/// solver. With neither compensation nor stabilisation, and shifts from 0 on, three to five attempts failed where one
-/// fails now, and conjugate gradients took more iterations: 37 300 instead of 21 300 on a wool let down from a platform,
+/// solver. With shifts alone after the first, from 0 on, conjugate gradients took more iterations: 37 300 instead of
+/// 21 300 on a wool let down from a platform, where four or five attempts failed for most factors and one fails now,
 /// 163 000 instead of 112 000 on cloth that settles on a sphere, 25 900 instead of 22 600 on one on a cube.
 /// Stabilisation without shifts did as well there, but with the springs of a garment's seams 75 000 instead of 26 000.
 const ATTEMPTS: [Attempt; 7] = [
@@ -182,7 +182,10 @@ impl Incomplete {
                 for (diagonal, ((scaled, square), upper)) in made.enumerate() {
                     let block = above(work, run, (diagonal, batch));
                     *scaled = half_times(&inverse, &block);
-                    *square = Square::of(half_of_product(&block, scaled));
+                    square.blocks = half_of_product(&block, scaled);
+                    if matches!(attempt.fill, Fill::Stabilised(_)) {
+                        square.measure();
+                    }
                     for (upper, scaled) in upper.iter_mut().zip(scaled) {
                         *upper = scaled.narrow();
                     }
@@ -302,7 +305,7 @@ fn compensation(a: &Blocks<Double>, b: &Blocks<Double>, part: f64) -> Halves<Dou
 #[derive(Clone, Copy, Debug)]
 struct Square {
     blocks: Halves<Double>,
-    /// Roots of the traces and their inverses; 0 where there is nothing.
+    /// Roots of the traces and their inverses; 0 where there is nothing. Only stabilisation needs them.
     size: Double,
     inverse: Double,
 }
@@ -315,14 +318,12 @@ impl Default for Square {
 
 impl Square {
     #[inline(always)]
-    fn of(blocks: Halves<Double>) -> Self {
-        let mut size = blocks[0] + blocks[3] + blocks[5];
-        let mut inverse = Double::ZERO;
-        for (size, inverse) in size.0.iter_mut().zip(&mut inverse.0) {
+    fn measure(&mut self) {
+        self.size = self.blocks[0] + self.blocks[3] + self.blocks[5];
+        for (size, inverse) in self.size.0.iter_mut().zip(&mut self.inverse.0) {
             *size = if *size > 0.0 { size.sqrt() } else { 0.0 };
             *inverse = if *size > 0.0 { 1.0 / *size } else { 0.0 };
         }
-        Self { blocks, size, inverse }
     }
 
     /// What is taken off a pivot (it is negative) for the blocks between it and another one that have no room. Both
