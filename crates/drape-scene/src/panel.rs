@@ -155,12 +155,12 @@ impl Reader<'_> {
             (Some(size), None, None) => {
                 Lattice::rectangle_at(grain, grid, size.map(|side| side * unit), spacing)
             }
-            (None, Some(disc), None) => {
-                Lattice::disc_on(grid, radius(disc), spacing).map(|disc| disc.turned(grain))
-            }
-            (None, Some(disc), Some(hole)) => {
-                let ring = Lattice::ring_on(grid, [hole, disc].map(radius), spacing);
-                ring.map(|ring| ring.turned(grain))
+            (None, Some(disc), hole) => {
+                let round = match hole {
+                    None => Lattice::disc_on(grid, radius(disc), spacing),
+                    Some(hole) => Lattice::ring_on(grid, [hole, disc].map(radius), spacing),
+                };
+                round.map(|round| round.turned(grain))
             }
             (Some(_), None, Some(_)) => {
                 let message = format!("panel \"{}\" has a hole in a rectangle", entry.name);
