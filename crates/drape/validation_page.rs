@@ -174,8 +174,7 @@ const LEFT_OUT: &[&str] = &[
      starts are roughened from particle to particle or smoothly over 20 mm moves the mean by 0.4 points or less; at 3.3 mm eight\n\
      of ten have as many folds either way, so the place of the grid on the specimen seems to decide, perhaps because the ragged\n\
      rim of a coarse grid breaks the weave's own fourfold symmetry. Real specimens break it too, by how much is not known.\n\
-     Turned on the disc it drapes the same, for\n\
-     the grid lies along the yarns and turns with them. What matters to the cotton (`sensitivity-cotton`, four starts at\n\
+     Turned on the disc it drapes the same, for the grid lies along the yarns and turns with them. What matters to the cotton (`sensitivity-cotton`, four starts at\n\
      either end), in points: friction or none 22, its 2HB halved or half as much again 18, shaken or not 17, friction that\n\
      builds up over 0.2 or 0.02 1/cm 10, a platform at 200 or at 20 mm/s 9, 2HG of 0 or 2 gf/cm 6, B by 20 % or W by 5 % less or\n\
      more 2 each, G of 0.3 or 1.5 gf/(cm·deg) 1.5, traction halved or doubled 0.4; steps of 10 ms keep 2 more than those of\n\
