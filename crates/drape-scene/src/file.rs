@@ -133,6 +133,7 @@ pub(crate) struct RippleFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct NoiseFile {
     pub(crate) amplitude: f64,
+    pub(crate) length: Option<f64>,
     #[serde(default)]
     pub(crate) seed: u64,
 }

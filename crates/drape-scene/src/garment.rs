@@ -9,8 +9,8 @@ use crate::allowance::allowances;
 use crate::file::{GarmentFile, GarmentPanelFile, SceneFile};
 use crate::layers::worn_at;
 use crate::material::Material;
+use crate::noise::Noise;
 use crate::panel::{Laid, Panel, SPACING};
-use crate::placement::Random;
 use crate::reader::Reader;
 use crate::stitching::Stitching;
 
@@ -130,12 +130,12 @@ impl Reader<'_> {
         }
         let cut = self.pieces(key, Cutter::new(spacing).cut(pattern))?;
         let layer = self.layer(&format!("{key}.layer"), entry.layer, file).unwrap_or(0);
-        let mut random = Random(entry.noise.as_ref().map_or(0, |noise| noise.seed));
+        let mut noise = self.noise(&format!("{key}.noise"), entry.noise.as_ref(), unit);
         let (mut panels, mut numbers, mut next) = (Vec::new(), Vec::new(), first);
         for (index, own) in cut.panels.iter().enumerate() {
             let number = numbering(own);
             let piece = Piece { pattern, cut: &cut, index, number: &number, first: next, layer };
-            panels.extend(self.lay((key, file, entry), &piece, (&mut random, unit)));
+            panels.extend(self.lay((key, file, entry), &piece, (&mut noise, unit)));
             numbers.push((next, number));
             next += own.positions.len();
         }
@@ -185,7 +185,7 @@ impl Reader<'_> {
         &mut self,
         (key, file, entry): (&str, &SceneFile, &GarmentFile),
         piece: &Piece<'_>,
-        (random, unit): (&mut Random, f64),
+        (noise, unit): (&mut Option<Noise>, f64),
     ) -> Option<Laid> {
         let &Piece { pattern, cut, index, number, first, layer } = piece;
         let panel = &pattern.panels()[index];
@@ -209,10 +209,9 @@ impl Reader<'_> {
         let folds = panel.folds().iter().map(|fold| (fold.ends, fold.angle));
         let lattice = self.folded((key, panel.name()), lattice.ok()?, folds)?;
         let (placement, material) = (worn_at(placement?, layer), material?);
-        let noise = entry.noise.as_ref().map_or(0.0, |noise| noise.amplitude * unit);
         let mut positions = vec![0.0; 3 * cut.positions.len()];
         for (&node, &place) in number.iter().zip(&cut.positions) {
-            let height = noise * random.next();
+            let height = noise.as_mut().map_or(0.0, |noise| noise.height(place));
             let point = placement.point(place);
             for axis in 0..3 {
                 positions[3 * node as usize + axis] =

@@ -24,6 +24,7 @@ mod ledger;
 mod material;
 mod measures;
 mod model;
+mod noise;
 mod output;
 mod pace;
 mod panel;

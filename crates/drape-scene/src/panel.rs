@@ -74,7 +74,8 @@ impl Reader<'_> {
                 let folds = entry.fold.iter().map(|fold| (ends(fold), fold.angle.to_radians()));
                 self.folded((&format!("{key}.fold"), &entry.name), lattice, folds)
             });
-            let placement = Placement::new(entry, unit);
+            let noise = self.noise(&format!("{key}.noise"), entry.noise.as_ref(), unit);
+            let placement = Placement::new(entry, noise, unit);
             let bad = entry.center.iter().chain(&entry.turn).any(|x| !x.is_finite());
             if entry.velocity.iter().chain(&entry.spin).any(|x| !x.is_finite()) {
                 let help = "velocity in the file's unit per second, spin in degrees per second";

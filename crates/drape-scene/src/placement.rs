@@ -1,6 +1,7 @@
 use drape_cloth::Lattice;
 
-use crate::file::{NoiseFile, PanelFile, RippleFile, StackFile};
+use crate::file::{PanelFile, RippleFile, StackFile};
+use crate::noise::Noise;
 
 /// Where a panel is before the simulation begins, in m.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,20 +12,19 @@ pub(crate) struct Placement {
     velocity: [f64; 3],
     spin: [f64; 3],
     ripple: Option<(f64, f64)>,
-    noise: Option<(f64, u64)>,
+    noise: Option<Noise>,
 }
 
 impl Placement {
-    pub(crate) fn new(panel: &PanelFile, unit: f64) -> Self {
+    pub(crate) fn new(panel: &PanelFile, noise: Option<Noise>, unit: f64) -> Self {
         let ripple = |r: &RippleFile| (r.amplitude * unit, r.wavelength * unit);
-        let noise = |n: &NoiseFile| (n.amplitude * unit, n.seed);
         Self {
             center: panel.center.map(|x| x * unit),
             turn: panel.turn,
             velocity: panel.velocity.map(|v| v * unit),
             spin: panel.spin.map(f64::to_radians),
             ripple: panel.ripple.as_ref().map(ripple),
-            noise: panel.noise.as_ref().map(noise),
+            noise,
         }
     }
 
@@ -37,7 +37,7 @@ impl Placement {
         Self {
             center: along(self.center, stack.step, unit),
             turn: along(self.turn, stack.turn, 1.0),
-            noise: self.noise.map(|(amplitude, seed)| (amplitude, seed + copy as u64)),
+            noise: self.noise.as_ref().map(|noise| noise.copied(copy as u64)),
             ..self.clone()
         }
     }
@@ -48,17 +48,16 @@ impl Placement {
         let places = lattice.places();
         let left = places.iter().map(|place| place[0]).fold(f64::INFINITY, f64::min);
         let middle = lattice.middle;
-        let mut random = Random(self.noise.map_or(0, |(_, seed)| seed));
+        let mut noise = self.noise.clone();
         let mut positions = Vec::with_capacity(3 * lattice.coordinates.len());
         for [x, y] in places {
             let mut height = 0.0;
             if let Some((amplitude, wavelength)) = self.ripple {
                 height += amplitude * (std::f64::consts::TAU * (x - left) / wavelength).sin();
             }
-            if let Some((amplitude, _)) = self.noise {
-                height += amplitude * random.next();
-            }
-            let turned = turned([x - middle[0], y - middle[1], height], self.turn);
+            let place = [x - middle[0], y - middle[1]];
+            height += noise.as_mut().map_or(0.0, |noise| noise.height(place));
+            let turned = turned([place[0], place[1], height], self.turn);
             positions.extend((0..3).map(|axis| turned[axis] + self.center[axis]));
         }
         positions
@@ -87,17 +86,4 @@ pub(crate) fn turned(point: [f64; 3], degrees: [f64; 3]) -> [f64; 3] {
         (point[i], point[j]) = (cos * point[i] - sin * point[j], sin * point[i] + cos * point[j]);
     }
     point
-}
-
-/// SplitMix64: the same numbers on every machine, between −1 and 1.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
 }

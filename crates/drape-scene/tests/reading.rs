@@ -256,6 +256,13 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, -0.3]", "-0.3", 5),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = 200", "200", 6),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = nan", "NaN", 6),
+        (
+            "rectangle = [0.2, 0.3]",
+            "rectangle = [0.2, 0.3]\nnoise = { amplitude = nan }",
+            "finite",
+            6,
+        ),
+        ("[time]", "noise = { amplitude = 1e-4, length = 0 }\n[time]", "0 is no length", 6),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrid = [0.001, 0]", "follow", 6),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\nhole = 0.1", "rectangle", 6),
         ("rectangle = [0.2, 0.3]", "spacing = 0.01\ndisc = 0.3\nhole = 0.29", "0.005", 5),

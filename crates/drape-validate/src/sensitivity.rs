@@ -16,7 +16,7 @@ pub struct Factor {
 }
 
 /// All factors, in the order of a table.
-pub const FACTORS: [Factor; 12] = [
+pub const FACTORS: [Factor; 13] = [
     Factor { name: "no friction, with friction", set: friction },
     Factor { name: "2HG 0 to 2 gf/cm", set: shear_loop },
     Factor { name: "G 0.3 to 1.5 gf/(cm·deg)", set: shear_stiffness },
@@ -28,6 +28,7 @@ pub const FACTORS: [Factor; 12] = [
     Factor { name: "three strokes of 10 mm, no shaking", set: shake },
     Factor { name: "platform at 200 mm/s, at 20 mm/s", set: sink_speed },
     Factor { name: "steps of 10 ms, of 2.5 ms", set: step },
+    Factor { name: "uneven by 0.05 mm, by 0.8 mm", set: unevenness },
     Factor { name: "grid at 0° and at 45° to the shaken noise", set: turn },
 ];
 
@@ -109,6 +110,10 @@ fn sink_speed((meter, _): &mut Setting, end: usize) {
 
 fn step((meter, _): &mut Setting, end: usize) {
     meter.protocol.step = [0.01, 0.0025][end];
+}
+
+fn unevenness((meter, _): &mut Setting, end: usize) {
+    meter.protocol.unevenness = [5e-5, 8e-4][end];
 }
 
 fn turn((meter, _): &mut Setting, end: usize) {
