@@ -30,6 +30,31 @@ fn a_case_leaves_its_figures_and_plots() {
 }
 
 #[test]
+fn outcomes_of_an_earlier_run_are_shown_with_those_of_this_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (json, markdown) = (folder.path().join("earlier.json"), folder.path().join("page.md"));
+    let validate = |case: &str| {
+        let mut command = Command::cargo_bin("drape").expect("it is built");
+        command.args(["validate", case]);
+        command
+    };
+    let outcome = r#"[{"name": "grid-wool", "title": "Wool", "failure": null, "seconds": 1.0, "checks": [{
+        "what": "of another day", "measured": 1.5, "reference": null, "limit": 0.0, "kind": "told"}]}]"#;
+    std::fs::write(&json, outcome).expect("it is written");
+    let mut command = validate("hysteresis");
+    let told = command.arg("--earlier").arg(&json).arg("--markdown").arg(&markdown);
+    told.assert().success();
+    let page = std::fs::read_to_string(markdown).expect("a page");
+    let place = |case: &str| page.find(&format!("`drape validate {case}`")).expect(case);
+    assert!(place("hysteresis") < place("grid-wool"), "in the order of the suite");
+    assert!(page.contains("| of another day | 1.500 | | | none | pass |"), "{page}");
+    std::fs::write(&json, "[{\"name\": \"no-such-case\"}]").expect("it is written");
+    let output = validate("hysteresis").arg("--earlier").arg(&json).assert().code(3);
+    let message = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
+    assert!(message.contains("earlier.json") && message.contains("line 1"), "{message}");
+}
+
+#[test]
 fn a_case_that_there_is_not_is_named_with_those_there_are() {
     let mut command = Command::cargo_bin("drape").expect("it is built");
     let output = command.args(["validate", "no-such-case"]).assert().code(2);

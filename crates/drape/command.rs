@@ -169,6 +169,9 @@ pub(crate) struct ValidateArguments {
     /// Runs the cases that take minutes too.
     #[arg(long, conflicts_with = "cases")]
     pub(crate) full: bool,
+    /// Outcomes that `--json` printed earlier, to be shown with those of this run; of a case in both, this run's.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) earlier: Vec<PathBuf>,
     /// Folder for a page with plots and pictures, and each of them as a file.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) report: Option<PathBuf>,

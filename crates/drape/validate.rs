@@ -1,5 +1,8 @@
 //! `drape validate`: simulations against what is known.
 
+use std::path::Path;
+
+use drape::input::Diagnostic;
 use drape::validate::{CASES, Case, Check, Kind, Outcome};
 
 use crate::command::ValidateArguments;
@@ -10,6 +13,9 @@ use crate::{file, progress, validation_page};
 pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     let cases = chosen(&arguments.cases, arguments.full)?;
     let mut outcomes = Vec::new();
+    for path in &arguments.earlier {
+        outcomes.extend(earlier(path)?);
+    }
     for case in cases {
         let bar = progress::bar(0, "{msg}: {pos}/{len} simulations, {eta} left");
         bar.set_message(case.name);
@@ -24,6 +30,11 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
         }
         outcomes.push(outcome);
     }
+    // Of several outcomes of a case, the last.
+    let place = |outcome: &Outcome| CASES.iter().position(|case| case.name == outcome.name);
+    outcomes.reverse();
+    outcomes.sort_by_key(place);
+    outcomes.dedup_by_key(|outcome| place(outcome));
     if arguments.json {
         let json = serde_json::to_string_pretty(&outcomes);
         say(json.expect("numbers and strings have a JSON form"))?;
@@ -44,6 +55,22 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
         return Err(Failure::Limit(message));
     }
     Ok(())
+}
+
+/// The outcomes of an earlier run.
+fn earlier(path: &Path) -> Result<Vec<Outcome>, Failure> {
+    let mistake = |message: String| {
+        let help = "give a file that `drape validate --json` printed";
+        Failure::Input(Diagnostic::new(path, message).help(help).into())
+    };
+    let text = std::fs::read_to_string(path).map_err(|error| mistake(error.to_string()))?;
+    let outcomes: Vec<Outcome> =
+        serde_json::from_str(&text).map_err(|error| mistake(error.to_string()))?;
+    let known = |outcome: &Outcome| CASES.iter().any(|case| case.name == outcome.name);
+    match outcomes.iter().find(|outcome| !known(outcome)) {
+        Some(outcome) => Err(mistake(format!("there is no case \"{}\"", outcome.name))),
+        None => Ok(outcomes),
+    }
 }
 
 /// The cases of some names, or all; without being asked for, none that take minutes.
@@ -77,12 +104,17 @@ fn line(check: &Check) -> String {
             format!("= {reference:.5}, off {:+.3} % of {} %", 100.0 * check.error(), 100.0 * limit)
         }
         Kind::AtLeast => format!("≥ {reference:.5}"),
-        Kind::AtMost => format!("≤ {reference:.1e}"),
+        Kind::AtMost => format!("≤ {}", figure(*reference)),
         Kind::Told => String::new(),
     };
     let measured = match kind {
-        Kind::AtMost => format!("{measured:.1e}"),
+        Kind::AtMost => figure(*measured),
         _ => format!("{measured:.5}"),
     };
     format!("  {verdict}  {what:<66} {measured:>9} {limit}")
+}
+
+/// A figure that may be of any size.
+pub(crate) fn figure(value: f64) -> String {
+    if (0.01..1e5).contains(&value.abs()) { format!("{value:.3}") } else { format!("{value:.1e}") }
 }

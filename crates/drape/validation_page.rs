@@ -7,6 +7,7 @@ use drape::report::{Picture, ValidationCase, ValidationPage, ValidationRow};
 use drape::validate::{Check, Graph, Kind, Layout, Outcome, Source, Still};
 
 use crate::failure::Failure;
+use crate::validate::figure;
 use crate::{fabric_page, file, picture};
 
 /// Name of the page in its folder.
@@ -94,7 +95,7 @@ fn row(check: &Check) -> ValidationRow {
             [format!("{measured:.3}"), String::new(), String::new(), format!("≥ {reference}")]
         }
         Kind::AtMost => {
-            [format!("{measured:.1e}"), String::new(), String::new(), format!("≤ {reference:.0e}")]
+            [figure(*measured), String::new(), String::new(), format!("≤ {}", figure(*reference))]
         }
         Kind::Told => [format!("{measured:.3}"), String::new(), String::new(), "none".to_owned()],
     };
@@ -115,7 +116,7 @@ pub(crate) fn markdown(outcomes: &[Outcome]) -> String {
             page += &format!("It could not be run: {failure}\n");
             continue;
         }
-        let still = outcome.stills.first().map_or("", |still| still.title.as_str());
+        let still = outcome.stills.first().map_or(&outcome.title, |still| &still.title);
         for (_, path) in SHIPPED.iter().filter(|(case, _)| *case == outcome.name) {
             page += &format!("![{still}]({path})\n\n{still}.\n\n");
         }

@@ -1,13 +1,15 @@
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A figure of a simulation beside what it should be.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     /// What was measured, with the circumstances.
     pub what: String,
     /// The figure of the simulation.
+    #[serde(deserialize_with = "number")]
     pub measured: f64,
-    /// What it should be.
+    /// What it should be; no number where there is none.
+    #[serde(deserialize_with = "number")]
     pub reference: f64,
     /// How far it may be off, a part of the reference.
     pub limit: f64,
@@ -16,7 +18,7 @@ pub struct Check {
 }
 
 /// How a figure is held against its reference.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// It may differ by a part of the reference either way.
@@ -27,6 +29,11 @@ pub enum Kind {
     AtMost,
     /// It has none, and is told for what it is.
     Told,
+}
+
+/// JSON has no word for what is no number but null.
+fn number<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }
 
 impl Check {

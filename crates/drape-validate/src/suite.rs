@@ -1,4 +1,4 @@
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     Check, Findings, Graph, Still, ValidationError, bias, bias_rim, breen, crease, decrement,
@@ -192,7 +192,7 @@ pub const CASES: &[Case] = &[
 ];
 
 /// What came of a case.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// The case's name.
     pub name: String,
