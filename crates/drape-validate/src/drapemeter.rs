@@ -57,8 +57,8 @@ pub struct Protocol {
     /// How uneven the specimen is at first, by heights that change over 20 mm: the greatest, in m.
     ///
     /// They are the same at every spacing. If each particle had a height of its own, the cloth would be curved the more
-    /// the finer its grid, and the friction of its yarns would have slipped before it moves: at 2.3 mm a cotton would
-    /// drape to 75 % in four folds or five, where it drapes to 83 % in five or six.
+    /// the finer its grid, and the friction of its yarns would slip, it seems, before it moves: at 2.3 mm a cotton then
+    /// drapes to 75 % in four folds or five, where it drapes to 83 % in five or six.
     pub unevenness: f64,
 }
 
