@@ -97,7 +97,11 @@ fn show(outcome: &Outcome) -> Result<(), Failure> {
 }
 
 fn line(check: &Check) -> String {
-    let verdict = if check.passes() { "pass" } else { "FAIL" };
+    let verdict = match check.verdict() {
+        Some(true) => "pass",
+        Some(false) => "FAIL",
+        None => "    ",
+    };
     let Check { what, measured, reference, limit, kind } = check;
     let limit = match kind {
         Kind::Equal => {

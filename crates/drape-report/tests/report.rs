@@ -216,7 +216,7 @@ fn a_validation_has_its_figures_plots_and_pictures_in_one_page() {
     let row = |what: &str, passes| ValidationRow {
         what: what.to_owned(),
         cells: ["1.01", "1", "+1 %", "2 %"].map(str::to_owned),
-        passes,
+        passes: Some(passes),
     };
     let case = |name: &str, rows| ValidationCase {
         name: name.to_owned(),

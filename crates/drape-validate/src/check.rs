@@ -71,4 +71,10 @@ impl Check {
             Kind::Told => self.measured.is_finite(),
         }
     }
+
+    /// Whether the figure is within its limit, if it has one; false too for one without that is no number.
+    pub fn verdict(&self) -> Option<bool> {
+        let passes = self.passes();
+        (self.kind != Kind::Told || !passes).then_some(passes)
+    }
 }
