@@ -1,13 +1,14 @@
 //! Incomplete Cholesky factorisation without fill, block by block, with its own fallbacks.
 
 use crate::BlockMatrix;
+use crate::fill::{Fill, Square};
 use crate::lane_block::{
     Blocks, Halves, determinant, half_of_product, half_product, half_times, inverse, product,
     sound, transposed_product, transposed_times,
 };
 use crate::lanes::{Columns, Double, LANES, Single};
 use crate::packed::Packed;
-use crate::waves::{NOWHERE, Run, Waves};
+use crate::waves::{Batch, NOWHERE, Place, Run, StrayUpdate, Waves};
 
 /// A pivot whose determinant is below this fraction of its original block's is refused.
 ///
@@ -22,24 +23,6 @@ struct Attempt {
     fill: Fill,
     /// Relative shift of the diagonal.
     shift: f64,
-}
-
-/// What becomes of blocks that the pattern has no room for.
-#[derive(Clone, Copy, Debug)]
-enum Fill {
-    /// This part of them is taken off the diagonal.
-    ///
-    /// With all of it the factor would treat a translation of all particles as the matrix does, and the number of
-    /// iterations would grow with the square root of the number of particles across (Gustafsson 1978, BIT 18, for
-    /// scalars); but then pivots collapse. On hung cloth of 2500 and 10 000 particles, 0.95 took 27 % and 39 % fewer
-    /// iterations than 0; on 40 000 particles that swing, steps took 54, 51, 50, 79 and 157 iterations with 0.95, 0.97,
-    /// 0.98, 0.99 and 1.
-    Compensated(f64),
-    /// This part of what makes up for their absence is added to the diagonal.
-    ///
-    /// With all of it what is factorised is the matrix and something positive, and the pivots of a definite matrix are
-    /// positive (Ajiz & Jennings 1984, Int. J. Numer. Methods Eng. 20, for scalars).
-    Stabilised(f64),
 }
 
 /// What is tried, one after the other, as pivots collapse, before the block diagonal alone is used, which cannot fail.
@@ -69,17 +52,25 @@ pub(crate) struct Incomplete {
     work: Vec<f64>,
     /// `U` above the diagonal, as the matrix is packed.
     upper: Vec<Blocks<Single>>,
+    strays: Vec<Blocks<f32>>,
     /// `D⁻¹`, by batch.
     pivots: Vec<Halves<Double>>,
-    /// A batch of `U` in the making.
-    scaled: Vec<Blocks<Double>>,
-    /// What its blocks take off the pivots.
-    squares: Vec<Square>,
+    making: Making,
     /// The vector to apply the inverse to, by rows.
     pub image: Columns<f32>,
     /// Which of [`ATTEMPTS`] to begin with.
     first: usize,
     diagonal_only: bool,
+}
+
+/// A batch of `U` in the making.
+#[derive(Debug)]
+struct Making {
+    /// Its blocks on diagonals, and what they take off the pivots.
+    scaled: Vec<Blocks<Double>>,
+    squares: Vec<Square<Double>>,
+    scaled_strays: Vec<Blocks<f64>>,
+    stray_squares: Vec<Square<f64>>,
 }
 
 /// A diagonal block is not positive definite: neither is the matrix.
@@ -92,9 +83,14 @@ impl Incomplete {
             // A batch of updates may reach beyond the last column, with zeros.
             work: vec![0.0; waves.work + LANES],
             upper: vec![[Single::ZERO; 9]; waves.slots.len()],
+            strays: vec![[0.0; 9]; waves.strays.len()],
             pivots: vec![[Double::ZERO; 6]; waves.own_slots.len()],
-            scaled: vec![[Double::ZERO; 9]; waves.widest],
-            squares: vec![Square::default(); waves.widest],
+            making: Making {
+                scaled: Vec::with_capacity(waves.widest),
+                squares: Vec::with_capacity(waves.widest),
+                scaled_strays: Vec::with_capacity(waves.most_strays),
+                stray_squares: Vec::with_capacity(waves.most_strays),
+            },
             image: Columns::new(waves.rows),
             first: 0,
             diagonal_only: false,
@@ -161,69 +157,124 @@ impl Incomplete {
     #[inline(always)]
     fn eliminate(&mut self, waves: &Waves, packed: &Packed, attempt: Attempt) -> bool {
         let floor = Double::splat(PIVOT_COLLAPSE * (1.0 + attempt.shift).powi(3));
-        let Self { work, upper, pivots, scaled, squares, .. } = self;
         for run in &waves.runs {
-            let (length, count) = (run.len(), run.diagonals.len());
-            let diagonals = &waves.diagonals[run.diagonals.clone()];
-            let updates = &waves.updates;
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
                 let at = run.work + batch * LANES;
                 let mut pivot = [Double::ZERO; 6];
                 for (k, pivot) in pivot.iter_mut().enumerate() {
-                    *pivot = Double::load(work, at + k * length);
+                    *pivot = Double::load(&self.work, at + k * run.len());
                 }
                 if !sound(&pivot, floor * determinant(&packed.own(row))) {
                     return false;
                 }
                 let inverse = inverse(&pivot, determinant(&pivot));
-                pivots[run.batches + batch] = inverse;
-                let upper = &mut upper[run.blocks + batch * count..][..count];
-                let made = scaled.iter_mut().zip(&mut *squares).zip(upper);
-                for (diagonal, ((scaled, square), upper)) in made.enumerate() {
-                    let block = above(work, run, (diagonal, batch));
-                    *scaled = half_times(&inverse, &block);
-                    square.blocks = half_of_product(&block, scaled);
-                    if matches!(attempt.fill, Fill::Stabilised(_)) {
-                        square.measure();
-                    }
-                    for (upper, scaled) in upper.iter_mut().zip(scaled) {
-                        *upper = scaled.narrow();
-                    }
+                self.pivots[run.batches + batch] = inverse;
+                self.eliminate_diagonals((waves, run, batch), &inverse, attempt.fill);
+                self.eliminate_strays((waves, run, batch), &inverse, attempt.fill);
+            }
+        }
+        true
+    }
+
+    #[inline(always)]
+    fn eliminate_diagonals(
+        &mut self,
+        (waves, run, batch): (&Waves, &Run, usize),
+        inverse: &Halves<Double>,
+        fill: Fill,
+    ) {
+        let Self { work, upper, making: Making { scaled, squares, .. }, .. } = self;
+        let row = run.start + batch * LANES;
+        let diagonals = &waves.diagonals[run.diagonals.clone()];
+        scaled.clear();
+        squares.clear();
+        let upper = &mut upper[run.blocks + batch * diagonals.len()..][..diagonals.len()];
+        for (diagonal, upper) in upper.iter_mut().enumerate() {
+            let block = above(work, run, (diagonal, batch));
+            let own = half_times(inverse, &block);
+            for (upper, own) in upper.iter_mut().zip(&own) {
+                *upper = own.narrow();
+            }
+            squares.push(Square::new(half_of_product(&block, &own), fill));
+            scaled.push(own);
+        }
+        for (left, a) in diagonals.iter().enumerate() {
+            let block = above(work, run, (left, batch));
+            let target = &waves.runs[a.run as usize];
+            let place = (row + a.offset).wrapping_sub(target.start);
+            let pivots = (target.work.wrapping_add(place), target.len());
+            take_off(work, pivots, &squares[left].blocks);
+            for update in &waves.updates[a.updates.clone()] {
+                let right = update.right as usize;
+                if update.target != NOWHERE {
+                    let product = transposed_times(&block, &scaled[right]);
+                    let column = (6 + 9 * update.target as usize) * target.len();
+                    let first = (target.work + column).wrapping_add(place);
+                    take_off(work, (first, target.len()), &product);
+                    continue;
                 }
-                for (left, a) in diagonals.iter().enumerate() {
-                    let block = above(work, run, (left, batch));
-                    let target = &waves.runs[a.run as usize];
-                    let place = (row + a.offset).wrapping_sub(target.start);
-                    let pivots = (target.work.wrapping_add(place), target.len());
-                    take_off(work, pivots, &squares[left].blocks);
-                    for update in &updates[a.updates.clone()] {
-                        let right = update.right as usize;
-                        if update.target != NOWHERE {
-                            let product = transposed_times(&block, &scaled[right]);
-                            let column = (6 + 9 * update.target as usize) * target.len();
-                            let first = (target.work + column).wrapping_add(place);
-                            take_off(work, (first, target.len()), &product);
-                            continue;
-                        }
-                        let [here, there] = match attempt.fill {
-                            Fill::Compensated(part) => {
-                                [compensation(&block, &scaled[right], part); 2]
-                            }
-                            Fill::Stabilised(part) => {
-                                let [left, right] = [&squares[left], &squares[right]];
-                                [left.against(right, part), right.against(left, part)]
-                            }
-                        };
-                        take_off(work, pivots, &here);
-                        let other = &diagonals[right];
-                        let target = &waves.runs[other.run as usize];
-                        let place = (row + other.offset).wrapping_sub(target.start);
-                        take_off(work, (target.work.wrapping_add(place), target.len()), &there);
+                let both = [&squares[left], &squares[right]];
+                let [here, there] = fill.in_place_of((&block, &scaled[right]), both);
+                take_off(work, pivots, &here);
+                let other = &diagonals[right];
+                let target = &waves.runs[other.run as usize];
+                let place = (row + other.offset).wrapping_sub(target.start);
+                take_off(work, (target.work.wrapping_add(place), target.len()), &there);
+            }
+        }
+    }
+
+    /// To be called after that for the diagonals.
+    #[inline(always)]
+    fn eliminate_strays(
+        &mut self,
+        (waves, run, batch): (&Waves, &Run, usize),
+        inverse: &Halves<Double>,
+        fill: Fill,
+    ) {
+        let Self { work, strays, making, .. } = self;
+        let Making { scaled, squares, scaled_strays, stray_squares } = making;
+        let Batch { strays: own, updates } = &waves.batches[run.batches + batch];
+        scaled_strays.clear();
+        stray_squares.clear();
+        for index in own.clone() {
+            let stray = &waves.strays[index];
+            let block = stray_block(work, waves.stray(index));
+            let scaled = half_times(&lane_of(inverse, stray.lane), &block);
+            for (short, entry) in strays[index].iter_mut().zip(&scaled) {
+                *short = *entry as f32;
+            }
+            let square = Square::new(half_of_product(&block, &scaled), fill);
+            take_stray_off(work, waves.pivots[stray.column as usize], &square.blocks);
+            stray_squares.push(square);
+            scaled_strays.push(scaled);
+        }
+        let count = run.diagonals.len();
+        for &StrayUpdate { lane, left, right, target } in &waves.stray_updates[updates.clone()] {
+            let [left, right] = [left as usize, right as usize];
+            let block = match left.checked_sub(count) {
+                None => lane_of(&above(work, run, (left, batch)), lane),
+                Some(stray) => stray_block(work, waves.stray(own.start + stray)),
+            };
+            let scaled = match right.checked_sub(count) {
+                None => lane_of(&scaled[right], lane),
+                Some(stray) => scaled_strays[stray],
+            };
+            match target {
+                Ok(place) => take_stray_off(work, place, &transposed_times(&block, &scaled)),
+                Err(pivots) => {
+                    let square = |item: usize| match item.checked_sub(count) {
+                        None => squares[item].lane(lane as usize),
+                        Some(stray) => stray_squares[stray],
+                    };
+                    let both = [&square(left), &square(right)];
+                    let replaced = fill.in_place_of((&block, &scaled), both);
+                    for (pivot, replaced) in pivots.into_iter().zip(&replaced) {
+                        take_stray_off(work, pivot, replaced);
                     }
                 }
             }
         }
-        true
     }
 
     /// Turns the image `r` into `(Uᵀ D U)⁻¹ r`.
@@ -245,7 +296,7 @@ impl Incomplete {
     /// `D⁻¹ U⁻ᵀ`.
     #[inline(always)]
     fn sweep_down(&mut self, waves: &Waves) {
-        let Self { image, upper, pivots, .. } = self;
+        let Self { image, upper, strays, pivots, .. } = self;
         for run in &waves.runs {
             let diagonals = &waves.diagonals[run.diagonals.clone()];
             let starts = (run.start..run.end).step_by(LANES);
@@ -258,6 +309,11 @@ impl Incomplete {
                     let [a, b, c] = transposed_product(block, here);
                     image.store(column, [x - a, y - b, z - c]);
                 }
+                let own = waves.batches[run.batches + batch].strays.clone();
+                for (stray, block) in waves.strays[own.clone()].iter().zip(&strays[own]) {
+                    let here = image.at(row + stray.lane as usize);
+                    image.take_off(stray.column as usize, transposed_product(block, here));
+                }
                 divide(pivot, image, row);
             }
         }
@@ -266,7 +322,7 @@ impl Incomplete {
     /// `U⁻¹`.
     #[inline(always)]
     fn sweep_up(&mut self, waves: &Waves) {
-        let Self { image, upper, .. } = self;
+        let Self { image, upper, strays, .. } = self;
         for run in waves.runs.iter().rev() {
             let diagonals = &waves.diagonals[run.diagonals.clone()];
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
@@ -280,6 +336,11 @@ impl Incomplete {
                 }
                 let [x, y, z] = image.load(row);
                 image.store(row, [x - sum[0], y - sum[1], z - sum[2]]);
+                let own = waves.batches[run.batches + batch].strays.clone();
+                for (stray, block) in waves.strays[own.clone()].iter().zip(&strays[own]) {
+                    let there = image.at(stray.column as usize);
+                    image.take_off(row + stray.lane as usize, product(block, there));
+                }
             }
         }
     }
@@ -293,50 +354,34 @@ fn divide(pivot: &Halves<Double>, image: &mut Columns<f32>, row: usize) {
     image.store(row, [x.narrow(), y.narrow(), z.narrow()]);
 }
 
-/// What is taken off the pivots of both particles for blocks `aᵀ b` between them that have no room.
+/// What a lane has of blocks.
 #[inline(always)]
-fn compensation(a: &Blocks<Double>, b: &Blocks<Double>, part: f64) -> Halves<Double> {
-    let (half, whole) = (Double::splat(0.5 * part), Double::splat(part));
-    let [a, b, c, d, e, f, g, h, i] = transposed_times(a, b);
-    [whole * a, half * (b + d), half * (c + g), whole * e, half * (f + h), whole * i]
-}
-
-/// What a pivot's blocks take off another pivot, positive semi-definite.
-#[derive(Clone, Copy, Debug)]
-struct Square {
-    blocks: Halves<Double>,
-    /// Roots of the traces and their inverses; 0 where there is nothing. Only stabilisation needs them.
-    size: Double,
-    inverse: Double,
-}
-
-impl Default for Square {
-    fn default() -> Self {
-        Self { blocks: [Double::ZERO; 6], size: Double::ZERO, inverse: Double::ZERO }
+fn lane_of<const N: usize>(blocks: &[Double; N], lane: u32) -> [f64; N] {
+    let mut own = [0.0; N];
+    for (own, entry) in own.iter_mut().zip(blocks) {
+        *own = entry.0[lane as usize];
     }
+    own
 }
 
-impl Square {
-    #[inline(always)]
-    fn measure(&mut self) {
-        self.size = self.blocks[0] + self.blocks[3] + self.blocks[5];
-        for (size, inverse) in self.size.0.iter_mut().zip(&mut self.inverse.0) {
-            *size = if *size > 0.0 { size.sqrt() } else { 0.0 };
-            *inverse = if *size > 0.0 { 1.0 / *size } else { 0.0 };
-        }
+#[inline(always)]
+fn stray_block(work: &[f64], Place { first, step }: Place) -> Blocks<f64> {
+    let mut block = [0.0; 9];
+    for (k, entry) in block.iter_mut().enumerate() {
+        *entry = work[first as usize + k * step as usize];
     }
+    block
+}
 
-    /// What is taken off a pivot (it is negative) for the blocks between it and another one that have no room. Both
-    /// squares with these blocks beside them would be positive, and are so if one is scaled up and the other down,
-    /// here to the same size.
-    #[inline(always)]
-    fn against(&self, other: &Self, part: f64) -> Halves<Double> {
-        let factor = Double::splat(-part) * (other.size * self.inverse);
-        let mut blocks = self.blocks;
-        for entry in &mut blocks {
-            *entry = *entry * factor;
-        }
-        blocks
+/// Subtracts from the block of a lane.
+#[inline(always)]
+fn take_stray_off<const N: usize>(
+    work: &mut [f64],
+    Place { first, step }: Place,
+    values: &[f64; N],
+) {
+    for (k, value) in values.iter().enumerate() {
+        work[first as usize + k * step as usize] -= value;
     }
 }
 
@@ -366,9 +411,12 @@ fn take_off<const N: usize>(
 
 #[cfg(test)]
 mod tests {
+    use faer::linalg::solvers::DenseSolveCore;
+
     use super::*;
     use crate::Pattern;
     use crate::vector::dot;
+    use crate::waves::tests::rimmed;
 
     /// A chain: its exact factor has no fill, so the incomplete one is exact.
     fn chain(particles: usize, own: f64, coupling: f64) -> BlockMatrix {
@@ -426,7 +474,12 @@ mod tests {
     #[test]
     fn batches_may_lead_beyond_the_last_row_with_zeros() {
         // Runs of many batches of which one couples to the last particle, another to the first of the last.
-        for pairs in [vec![(0, 40)], vec![(7, 40), (3, 40)], vec![(0, 40), (33, 41)]] {
+        for pairs in [
+            vec![(0, 40), (1, 41)],
+            vec![(6, 40), (7, 41), (3, 40)],
+            vec![(0, 40), (1, 41), (33, 42), (34, 43)],
+            vec![(0, 40), (33, 41)],
+        ] {
             let last = pairs.iter().map(|pair| pair.1).max().unwrap();
             let mut matrix =
                 BlockMatrix::zeros(Pattern::from_pairs(last + 1, pairs.clone()).unwrap());
@@ -442,6 +495,54 @@ mod tests {
                 assert!((b - back).abs() < 1e-6, "{back} against {b}: {pairs:?}");
             }
         }
+    }
+
+    #[test]
+    fn without_compensation_the_factor_is_the_matrix_on_its_pattern() {
+        let pattern = rimmed(7);
+        let count = pattern.particles();
+        let mut matrix = BlockMatrix::zeros(pattern.clone());
+        for i in 0..count {
+            matrix.add(i, i, &[9.0, 0.3, -0.2, 0.3, 9.5, 0.1, -0.2, 0.1, 8.0]);
+            for slot in pattern.row(i).skip(1) {
+                let entry = |k: usize| ((9 * slot + k) as f64 * 0.7).sin();
+                matrix.add_block(slot, &core::array::from_fn(entry));
+            }
+        }
+        let waves = Waves::new(&pattern);
+        assert!(!waves.stray_updates.is_empty(), "nothing of this goes astray");
+        let mut packed = Packed::new(&waves);
+        let mut incomplete = Incomplete::new(&waves);
+        packed.pack(&waves, &matrix, &mut incomplete.work);
+        assert!(incomplete.load(&waves, &packed, 1.0));
+        let attempt = Attempt { fill: Fill::Compensated(0.0), shift: 0.0 };
+        assert!(incomplete.eliminate(&waves, &packed, attempt));
+        let mut factored = Factored { waves, incomplete, failed: Ok(0) };
+        let size = 3 * count;
+        let mut inverse = faer::Mat::<f64>::zeros(size, size);
+        for column in 0..size {
+            let mut unit = vec![0.0; size];
+            unit[column] = 1.0;
+            for (row, entry) in apply(&mut factored, &unit).into_iter().enumerate() {
+                inverse[(row, column)] = entry;
+            }
+        }
+        let factor = inverse.partial_piv_lu().inverse();
+        let mut beside: f64 = 0.0;
+        for (i, j) in (0..count).flat_map(|i| (i..count).map(move |j| (i, j))) {
+            for k in 0..9 {
+                let entry = factor[(3 * i + k / 3, 3 * j + k % 3)];
+                match pattern.slot(i, j) {
+                    Some(slot) => {
+                        let expected = matrix.blocks()[slot][k];
+                        let error = (entry - expected).abs();
+                        assert!(error < 1e-5, "({i}, {j}): {entry} for {expected}");
+                    }
+                    None => beside = beside.max(entry.abs()),
+                }
+            }
+        }
+        assert!(beside > 0.01, "there is room for everything");
     }
 
     #[test]

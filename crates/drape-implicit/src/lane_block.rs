@@ -88,7 +88,10 @@ pub(crate) fn inverse([a, b, c, d, e, f]: &Halves<Double>, det: Double) -> Halve
 
 /// `p b` of symmetric `p`.
 #[inline(always)]
-pub(crate) fn half_times(p: &Halves<Double>, b: &Blocks<Double>) -> Blocks<Double> {
+pub(crate) fn half_times<T: Copy + Add<Output = T> + Mul<Output = T>>(
+    p: &Halves<T>,
+    b: &Blocks<T>,
+) -> Blocks<T> {
     let x = half_product(p, [b[0], b[3], b[6]]);
     let y = half_product(p, [b[1], b[4], b[7]]);
     let z = half_product(p, [b[2], b[5], b[8]]);
@@ -97,7 +100,10 @@ pub(crate) fn half_times(p: &Halves<Double>, b: &Blocks<Double>) -> Blocks<Doubl
 
 /// `aᵀ b`.
 #[inline(always)]
-pub(crate) fn transposed_times(a: &Blocks<Double>, b: &Blocks<Double>) -> Blocks<Double> {
+pub(crate) fn transposed_times<T: Copy + Add<Output = T> + Mul<Output = T>>(
+    a: &Blocks<T>,
+    b: &Blocks<T>,
+) -> Blocks<T> {
     let x = transposed_product(a, [b[0], b[3], b[6]]);
     let y = transposed_product(a, [b[1], b[4], b[7]]);
     let z = transposed_product(a, [b[2], b[5], b[8]]);
@@ -106,8 +112,11 @@ pub(crate) fn transposed_times(a: &Blocks<Double>, b: &Blocks<Double>) -> Blocks
 
 /// Upper half of a product `aᵀ b` that is symmetric.
 #[inline(always)]
-pub(crate) fn half_of_product(a: &Blocks<Double>, b: &Blocks<Double>) -> Halves<Double> {
-    let mut half = [Double::ZERO; 6];
+pub(crate) fn half_of_product<T: Copy + Add<Output = T> + Mul<Output = T>>(
+    a: &Blocks<T>,
+    b: &Blocks<T>,
+) -> Halves<T> {
+    let mut half = [a[0]; 6];
     for (half, (row, column)) in half.iter_mut().zip(UPPER) {
         *half = (a[row] * b[column] + a[3 + row] * b[3 + column]) + a[6 + row] * b[6 + column];
     }

@@ -71,6 +71,43 @@ macro_rules! lanes {
 }
 
 lanes!(Double, f64, 64);
+/// One number or several.
+pub(crate) trait Number: Copy + Add<Output = Self> + Mul<Output = Self> {
+    fn of(x: f64) -> Self;
+
+    /// The root and its inverse; 0 both of what is not positive.
+    fn root(self) -> [Self; 2];
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn root(self) -> [Self; 2] {
+        let root = if self > 0.0 { self.sqrt() } else { 0.0 };
+        [root, if root > 0.0 { 1.0 / root } else { 0.0 }]
+    }
+}
+
+impl Number for Double {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        Self::splat(x)
+    }
+
+    #[inline(always)]
+    fn root(self) -> [Self; 2] {
+        let mut roots = [Self::ZERO; 2];
+        for (lane, x) in self.0.into_iter().enumerate() {
+            [roots[0].0[lane], roots[1].0[lane]] = x.root();
+        }
+        roots
+    }
+}
+
 lanes!(Single, f32, 32);
 
 impl Double {
@@ -108,6 +145,31 @@ impl<T: Copy + Default> Columns<T> {
     pub(crate) fn new(rows: usize) -> Self {
         let column = || vec![T::default(); rows];
         Self([column(), column(), column()])
+    }
+}
+
+impl<T: Copy + Add<Output = T> + Sub<Output = T>> Columns<T> {
+    /// The numbers of a row.
+    #[inline(always)]
+    pub(crate) fn at(&self, row: usize) -> [T; 3] {
+        let [x, y, z] = &self.0;
+        [x[row], y[row], z[row]]
+    }
+
+    /// Adds to the numbers of a row.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, row: usize, numbers: [T; 3]) {
+        for (column, number) in self.0.iter_mut().zip(numbers) {
+            column[row] = column[row] + number;
+        }
+    }
+
+    /// Subtracts from the numbers of a row.
+    #[inline(always)]
+    pub(crate) fn take_off(&mut self, row: usize, numbers: [T; 3]) {
+        for (column, number) in self.0.iter_mut().zip(numbers) {
+            column[row] = column[row] - number;
+        }
     }
 }
 

@@ -10,6 +10,7 @@ mod conjugate_gradient;
 mod error;
 mod error_estimate;
 mod explicit;
+mod fill;
 mod formula;
 mod incomplete;
 mod incremental;

@@ -1,5 +1,7 @@
 //! A matrix laid out for vector instructions.
 
+use core::ops::{Add, Mul};
+
 use crate::BlockMatrix;
 use crate::block::{self, Block};
 use crate::block_matrix::Coupling;
@@ -23,6 +25,7 @@ const IDENTITY: Block = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 pub(crate) struct Packed {
     /// By run, batch and diagonal.
     above: Vec<Blocks<Single>>,
+    strays: Vec<Blocks<f32>>,
     /// Upper halves by row. Rows without a particle have the identity.
     own: [Vec<f64>; 6],
     /// What the pattern had no room for, between rows.
@@ -33,6 +36,7 @@ impl Packed {
     pub(crate) fn new(waves: &Waves) -> Self {
         Self {
             above: vec![[Single::ZERO; 9]; waves.slots.len()],
+            strays: vec![[0.0; 9]; waves.strays.len()],
             own: core::array::from_fn(|_| vec![0.0; waves.rows]),
             couplings: Vec::new(),
         }
@@ -85,6 +89,22 @@ impl Packed {
                         }
                     }
                 }
+                let own = waves.batches[run.batches + batch].strays.clone();
+                let strays = waves.strays[own.clone()].iter().zip(&mut self.strays[own.clone()]);
+                for (index, (stray, short)) in own.zip(strays) {
+                    let block = &blocks[stray.slot as usize];
+                    let place = waves.stray(index);
+                    work[place.first as usize..][..9].copy_from_slice(block);
+                    let mut lost = block::ZERO;
+                    for ((lost, short), value) in lost.iter_mut().zip(short).zip(block) {
+                        *short = *value as f32;
+                        *lost = *value - f64::from(*short);
+                    }
+                    for (column, lost) in self.own.iter_mut().zip(symmetric(&lost, 0.5)) {
+                        column[row + stray.lane as usize] += lost;
+                        column[stray.column as usize] += lost;
+                    }
+                }
             }
         }
     }
@@ -125,6 +145,16 @@ impl Packed {
                 }
                 let old = y.load(row);
                 y.store(row, [old[0] + sum[0], old[1] + sum[1], old[2] + sum[2]]);
+                let own = waves.batches[run.batches + batch].strays.clone();
+                for (stray, block) in waves.strays[own.clone()].iter().zip(&self.strays[own]) {
+                    let mut wide = block::ZERO;
+                    for (wide, entry) in wide.iter_mut().zip(block) {
+                        *wide = (*entry).into();
+                    }
+                    let (row, column) = (row + stray.lane as usize, stray.column as usize);
+                    y.add(row, product(&wide, x.at(column)));
+                    y.add(column, transposed_product(&wide, x.at(row)));
+                }
             }
         }
         for Coupling { row, column, block } in &self.couplings {
@@ -148,8 +178,13 @@ fn shorten(block: &Blocks<Double>, above: &mut Blocks<Single>) -> Halves<Double>
         *above = value.narrow();
         *lost = *value - above.widen();
     }
-    let [a, b, c, d, e, f, g, h, i] = lost;
-    let half = Double::splat(0.5);
+    symmetric(&lost, Double::splat(0.5))
+}
+
+/// Upper half of the symmetric part of a block.
+#[inline(always)]
+fn symmetric<T: Copy + Add<Output = T> + Mul<Output = T>>(a: &Blocks<T>, half: T) -> Halves<T> {
+    let [a, b, c, d, e, f, g, h, i] = *a;
     [a, half * (b + d), half * (c + g), e, half * (f + h), i]
 }
 

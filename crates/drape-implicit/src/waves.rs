@@ -29,10 +29,20 @@ pub(crate) struct Waves {
     pub slots: Vec<[u32; LANES]>,
     /// For each batch of the diagonal the slots of the matrix.
     pub own_slots: Vec<[u32; LANES]>,
+    /// What each batch has besides its diagonals.
+    pub batches: Vec<Batch>,
+    pub strays: Vec<Stray>,
+    pub stray_updates: Vec<StrayUpdate>,
+    /// Where a factorisation has the pivot of each row.
+    pub pivots: Vec<Place>,
     /// Most diagonals of a run.
     pub widest: usize,
-    /// Numbers of the factorisation: see [`Run::work`].
+    /// Most strays of a batch.
+    pub most_strays: usize,
+    /// Numbers of the factorisation: see [`Run::work`] and [`stray`](Self::stray).
     pub work: usize,
+    /// First number of the strays.
+    stray_work: usize,
 }
 
 /// Batches of a wave that share their diagonals.
@@ -83,6 +93,43 @@ pub(crate) struct Update {
     pub target: u32,
 }
 
+/// What a batch has besides its diagonals.
+#[derive(Clone, Debug)]
+pub(crate) struct Batch {
+    pub strays: core::ops::Range<usize>,
+    pub updates: core::ops::Range<usize>,
+}
+
+/// A block by itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stray {
+    /// Its row, counted within its batch.
+    pub lane: u32,
+    /// The row of its column.
+    pub column: u32,
+    /// Its slot in the matrix.
+    pub slot: u32,
+}
+
+/// A block of a lane times another one of it, taken off a third one. Those of the diagonals of the run count first, then
+/// the strays of the batch. With themselves, they are taken off the pivots.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StrayUpdate {
+    pub lane: u32,
+    /// The one whose column is eliminated first.
+    pub left: u32,
+    pub right: u32,
+    /// The third, or the pivots of both columns in place of one that the pattern has no room for.
+    pub target: Result<Place, [Place; 2]>,
+}
+
+/// Where a factorisation keeps the block of a lane: its numbers are so many apart.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Place {
+    pub first: u32,
+    pub step: u32,
+}
+
 impl Waves {
     pub(crate) fn new(pattern: &Pattern) -> Self {
         let waves = sort(pattern);
@@ -108,32 +155,40 @@ impl Waves {
             updates: Vec::new(),
             slots: Vec::new(),
             own_slots: Vec::new(),
+            batches: Vec::new(),
+            strays: Vec::new(),
+            stray_updates: Vec::new(),
+            pivots: Vec::new(),
             widest: 0,
+            most_strays: 0,
             work: 0,
+            stray_work: 0,
         };
-        waves.find_runs(pattern, &particles, &starts);
+        let run_of_row = waves.find_runs(pattern, &particles, &starts);
         waves.make_room();
         waves.find_slots(pattern, &particles);
-        waves.find_updates();
+        waves.find_pivots();
+        waves.find_updates(pattern, &particles, &run_of_row);
         waves
     }
 
-    /// Cuts the waves, the last first, because diagonals name the runs that they lead to.
-    fn find_runs(&mut self, pattern: &Pattern, particles: &[u32], starts: &[usize]) {
+    /// Cuts the waves, the last first, because diagonals name the runs that they lead to. Returns the run of each row.
+    fn find_runs(&mut self, pattern: &Pattern, particles: &[u32], starts: &[usize]) -> Vec<u32> {
         let mut found: Vec<(usize, usize, Vec<Distance>)> = Vec::new();
         // Counted from the end until their number is known.
         let mut run_of_row = vec![0; particles.len()];
         for wave in starts.windows(2).rev() {
             let first = found.len();
             for start in (wave[0]..wave[1]).step_by(LANES).rev() {
-                let mut own = Vec::new();
+                let mut distances = Vec::new();
                 for (row, &particle) in particles.iter().enumerate().skip(start).take(LANES) {
                     for (_, column) in self.later(pattern, particle) {
-                        own.push((column - row, run_of_row[column]));
+                        distances.push((column - row, run_of_row[column]));
                     }
                 }
-                own.sort_unstable();
-                own.dedup();
+                distances.sort_unstable();
+                let shared = distances.chunk_by(|a, b| a == b).filter(|same| same.len() > 1);
+                let own: Vec<Distance> = shared.map(|same| same[0]).collect();
                 let part = |a: &[Distance], b: &[Distance]| a.iter().all(|x| b.contains(x));
                 match found[first..].last_mut() {
                     Some((first_row, _, diagonals)) if part(&own, diagonals) => *first_row = start,
@@ -166,6 +221,7 @@ impl Waves {
                 updates: 0..0,
             }));
         }
+        run_of_row.into_iter().map(|run| last.saturating_sub(run)).collect()
     }
 
     /// Adds rows and numbers at the ends: all batches of a run have blocks at all its distances, and those of zeros may
@@ -191,6 +247,7 @@ impl Waves {
         slots.skip(1).map(|slot| (slot, self.places[pattern.columns()[slot] as usize] as usize))
     }
 
+    /// Gives every block of the pattern its place, on a diagonal if there is one for it.
     fn find_slots(&mut self, pattern: &Pattern, particles: &[u32]) {
         for index in 0..self.runs.len() {
             let run = self.runs[index].clone();
@@ -199,6 +256,7 @@ impl Waves {
             for start in (run.start..run.end).step_by(LANES) {
                 let mut own = [NOWHERE; LANES];
                 let mut blocks = vec![[NOWHERE; LANES]; run.diagonals.len()];
+                let mut strays = Vec::new();
                 for lane in 0..LANES {
                     let row = start + lane;
                     let particle = particles[row];
@@ -206,27 +264,62 @@ impl Waves {
                         own[lane] = pattern.row(particle as usize).start as u32;
                     }
                     for (slot, column) in self.later(pattern, particle) {
-                        let leads = |d: &Diagonal| {
-                            let run = &self.runs[d.run as usize];
-                            d.offset == column - row && (run.start..run.end).contains(&column)
-                        };
-                        let diagonals = &self.diagonals[run.diagonals.clone()];
-                        let place = diagonals.iter().position(leads);
-                        blocks[place.expect("it was collected from these rows")][lane] =
-                            slot as u32;
+                        let slot = slot as u32;
+                        match self.diagonal(&run, row, column) {
+                            Some(place) => blocks[place][lane] = slot,
+                            None => strays.push(Stray {
+                                lane: lane as u32,
+                                column: column as u32,
+                                slot,
+                            }),
+                        }
                     }
                 }
                 self.own_slots.push(own);
                 self.slots.append(&mut blocks);
+                self.most_strays = self.most_strays.max(strays.len());
+                let first = self.strays.len();
+                self.strays.append(&mut strays);
+                self.batches.push(Batch { strays: first..self.strays.len(), updates: 0..0 });
+            }
+        }
+        self.stray_work = self.work;
+        self.work += 9 * self.strays.len();
+    }
+
+    /// The diagonal of a run, counted within it, that leads from a row to a column.
+    fn diagonal(&self, run: &Run, row: usize, column: usize) -> Option<usize> {
+        self.diagonals[run.diagonals.clone()].iter().position(|d| {
+            let run = &self.runs[d.run as usize];
+            row + d.offset == column && (run.start..run.end).contains(&column)
+        })
+    }
+
+    /// Where a factorisation keeps a stray.
+    #[inline(always)]
+    pub(crate) fn stray(&self, index: usize) -> Place {
+        Place { first: (self.stray_work + 9 * index) as u32, step: 1 }
+    }
+
+    fn find_pivots(&mut self) {
+        self.pivots = vec![Place::default(); self.rows];
+        for run in &self.runs {
+            for row in run.start..run.end {
+                let first = (run.work + row - run.start) as u32;
+                self.pivots[row] = Place { first, step: run.len() as u32 };
             }
         }
     }
 
-    fn find_updates(&mut self) {
-        for run in &self.runs {
+    fn find_updates(&mut self, pattern: &Pattern, particles: &[u32], run_of_row: &[u32]) {
+        for index in 0..self.runs.len() {
+            let run = self.runs[index].clone();
+            let own = run.diagonals.start;
+            // Pairs of diagonals whose product belongs to strays, in some lane at least.
+            let mut apart = Vec::new();
             for left in run.diagonals.clone() {
                 let first = self.updates.len();
-                let a = &self.diagonals[left];
+                let a = self.diagonals[left].clone();
                 let others = &self.diagonals[self.runs[a.run as usize].diagonals.clone()];
                 for right in left + 1..run.diagonals.end {
                     let b = &self.diagonals[right];
@@ -234,12 +327,82 @@ impl Waves {
                         .iter()
                         .position(|d| d.run == b.run && a.offset + d.offset == b.offset)
                         .map_or(NOWHERE, |place| place as u32);
-                    let right = (right - run.diagonals.start) as u32;
-                    self.updates.push(Update { right, target });
+                    let coupled = |row: usize| {
+                        let ends = [row + a.offset, row + b.offset].map(|row| particles.get(row));
+                        matches!(ends, [Some(&a), Some(&b)] if a != NOWHERE && b != NOWHERE
+                            && pattern.slot(a as usize, b as usize).is_some())
+                    };
+                    if target == NOWHERE && (run.start..run.end).any(coupled) {
+                        apart.push((left - own, right - own));
+                    } else {
+                        self.updates.push(Update { right: (right - own) as u32, target });
+                    }
                 }
                 self.diagonals[left].updates = first..self.updates.len();
             }
+            for batch in 0..run.len() / LANES {
+                let first = self.stray_updates.len();
+                for lane in 0..LANES {
+                    self.find_stray_updates((&run, batch, lane), &apart, (particles, run_of_row));
+                }
+                let updates = first..self.stray_updates.len();
+                self.batches[run.batches + batch].updates = updates;
+            }
         }
+    }
+
+    /// Of a lane, for pairs of diagonals and for all with strays in them.
+    fn find_stray_updates(
+        &mut self,
+        (run, batch, lane): (&Run, usize, usize),
+        apart: &[(usize, usize)],
+        (particles, run_of_row): (&[u32], &[u32]),
+    ) {
+        let row = run.start + batch * LANES + lane;
+        if particles[row] == NOWHERE {
+            return;
+        }
+        let count = run.diagonals.len();
+        let slots = &self.slots[run.blocks + batch * count..][..count];
+        let diagonals = self.diagonals[run.diagonals.clone()].iter().zip(slots).enumerate();
+        let mut items: Vec<(usize, usize)> = diagonals
+            .filter(|(_, (_, slots))| slots[lane] != NOWHERE)
+            .map(|(index, (diagonal, _))| (index, row + diagonal.offset))
+            .collect();
+        let strays = &self.strays[self.batches[run.batches + batch].strays.clone()];
+        let own = strays.iter().enumerate().filter(|(_, stray)| stray.lane as usize == lane);
+        items.extend(own.map(|(index, stray)| (count + index, stray.column as usize)));
+        for (before, &later) in items.iter().enumerate() {
+            for &earlier in &items[..before] {
+                if later.0 < count && !apart.contains(&(earlier.0, later.0)) {
+                    continue;
+                }
+                let in_order = earlier.1 < later.1;
+                let ((a, left), (b, right)) =
+                    if in_order { (earlier, later) } else { (later, earlier) };
+                let place = self.place((left, right), run_of_row);
+                self.stray_updates.push(StrayUpdate {
+                    lane: lane as u32,
+                    left: a as u32,
+                    right: b as u32,
+                    target: place.ok_or([self.pivots[left], self.pivots[right]]),
+                });
+            }
+        }
+    }
+
+    /// Where a factorisation keeps the block of a row and a later one, if there is room for it.
+    fn place(&self, (row, column): (usize, usize), run_of_row: &[u32]) -> Option<Place> {
+        let run = &self.runs[run_of_row[row] as usize];
+        if let Some(diagonal) = self.diagonal(run, row, column) {
+            let first = (run.above(diagonal, 0) + row - run.start) as u32;
+            return Some(Place { first, step: run.len() as u32 });
+        }
+        let range = self.batches[run.batches + (row - run.start) / LANES].strays.clone();
+        let is =
+            |stray: &Stray| stray.column as usize == column && stray.lane as usize == row % LANES;
+        let index = self.strays[range.clone()].iter().position(is)?;
+        Some(self.stray(range.start + index))
     }
 }
 
@@ -265,7 +428,7 @@ fn sort(pattern: &Pattern) -> Vec<Vec<u32>> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// The couplings of woven cloth: neighbours, those beyond them, and those across a cell.
@@ -283,12 +446,48 @@ mod tests {
         Pattern::from_pairs(n * n, pairs).unwrap()
     }
 
+    /// A square of `n` by `n` with a chain around it, numbered last, each link tied to the nearest of the square.
+    pub(crate) fn rimmed(n: usize) -> Pattern {
+        let inside = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+        let steps = [(0, 1), (1, 0), (1, 1)];
+        let lattice = inside
+            .flat_map(|(i, j)| steps.map(|(down, right)| ((i, j), (i + down, j + right))))
+            .filter(|&(_, (i, j))| i < n && j < n)
+            .map(|((i, j), (k, l))| (i * n + j, k * n + l));
+        let side = |k: usize| {
+            (0..n - 1).map(move |along| match k {
+                0 => along,
+                1 => along * n + n - 1,
+                2 => n * n - 1 - along,
+                _ => (n - 1 - along) * n,
+            })
+        };
+        let edge: Vec<usize> = (0..4).flat_map(side).collect();
+        let first = n * n;
+        let links = (0..edge.len()).flat_map(|k| {
+            let next = (k + 1) % edge.len();
+            [(first + k, first + next), (first + k, edge[k]), (first + k, edge[next])]
+        });
+        Pattern::from_pairs(first + edge.len(), lattice.chain(links)).unwrap()
+    }
+
+    #[test]
+    fn what_surrounds_a_lattice_does_not_widen_its_runs() {
+        let waves = Waves::new(&rimmed(40));
+        assert!(waves.widest <= 6, "{} diagonals in a run", waves.widest);
+        // Each link has three blocks.
+        assert!(waves.strays.len() <= 3 * 156, "{} strays", waves.strays.len());
+    }
+
     #[test]
     fn every_block_has_one_place() {
-        for pattern in [weave(11), Pattern::from_pairs(9, [(0, 8), (3, 4), (1, 7)]).unwrap()] {
+        let few = Pattern::from_pairs(9, [(0, 8), (3, 4), (1, 7)]).unwrap();
+        for pattern in [weave(11), rimmed(12), few] {
             let waves = Waves::new(&pattern);
-            let slots = waves.slots.iter().chain(&waves.own_slots).flatten();
-            let mut found: Vec<u32> = slots.copied().filter(|&slot| slot != NOWHERE).collect();
+            let slots = waves.slots.iter().chain(&waves.own_slots).flatten().copied();
+            let found = slots.filter(|&slot| slot != NOWHERE);
+            let strays = waves.strays.iter().map(|stray| stray.slot);
+            let mut found: Vec<u32> = found.chain(strays).collect();
             found.sort_unstable();
             assert_eq!(found, (0..pattern.blocks() as u32).collect::<Vec<_>>());
         }
@@ -296,11 +495,18 @@ mod tests {
 
     #[test]
     fn no_row_of_a_run_waits_for_another() {
-        let waves = Waves::new(&weave(11));
-        for run in &waves.runs {
-            for diagonal in &waves.diagonals[run.diagonals.clone()] {
-                let target = &waves.runs[diagonal.run as usize];
-                assert!(target.start >= run.end, "{run:?} leads to {target:?}");
+        for pattern in [weave(11), rimmed(12)] {
+            let waves = Waves::new(&pattern);
+            for run in &waves.runs {
+                for diagonal in &waves.diagonals[run.diagonals.clone()] {
+                    let target = &waves.runs[diagonal.run as usize];
+                    assert!(target.start >= run.end, "{run:?} leads to {target:?}");
+                }
+                for batch in &waves.batches[run.batches..][..run.len() / LANES] {
+                    for stray in &waves.strays[batch.strays.clone()] {
+                        assert!(stray.column as usize >= run.end, "{run:?} leads to {stray:?}");
+                    }
+                }
             }
         }
     }
@@ -309,6 +515,7 @@ mod tests {
     fn cloth_needs_six_diagonals() {
         let waves = Waves::new(&weave(40));
         assert_eq!(waves.widest, 6);
+        assert!(waves.strays.len() < 200, "{} of 9200 blocks go astray", waves.strays.len());
         // A wave has up to 20 particles, and its last batch is half empty on average.
         assert!(waves.rows < 1600 * 4 / 3, "{} rows", waves.rows);
     }
