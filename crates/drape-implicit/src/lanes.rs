@@ -71,6 +71,8 @@ macro_rules! lanes {
 }
 
 lanes!(Double, f64, 64);
+lanes!(Single, f32, 32);
+
 /// One number or several.
 pub(crate) trait Number: Copy + Add<Output = Self> + Mul<Output = Self> {
     fn of(x: f64) -> Self;
@@ -107,8 +109,6 @@ impl Number for Double {
         roots
     }
 }
-
-lanes!(Single, f32, 32);
 
 impl Double {
     #[inline(always)]
