@@ -1,5 +1,7 @@
 //! Garments over each other: where layers start, and which starts are refused.
 
+use std::f64::consts::PI;
+
 use drape_input::Document;
 use drape_scene::{Scene, SceneError, Simulation, Status};
 
@@ -113,22 +115,32 @@ fn two_tubes_are_sewn_round_each_other_and_the_outer_one_stays_outside() {
     let summary = simulation.run(&mut ()).unwrap();
     assert_eq!((summary.status, summary.settled), (Status::Ok, true), "{:?}", summary.reason);
     assert_eq!(summary.contact.intersections, 0);
-    // Their girths are the same, so that they press on each other: everywhere round the post the outer one is outside.
+    // Their girths are the same, so that they press on each other, or the inner one has a dent: every particle of the outer
+    // one is farther from the axis than the inner one is beside it, half a centimetre up or down, in the same direction.
     let positions = simulation.frame().positions;
-    let ring = |panels: &[std::ops::Range<usize>; 2], from: f64| {
-        let particles = panels.iter().flat_map(Clone::clone);
-        let places = particles.map(|particle| &positions[3 * particle..3 * particle + 3]);
-        let near = places.filter(|x| {
-            let turn = (x[2].atan2(x[0]) - from).rem_euclid(std::f64::consts::TAU);
-            turn < 0.4
-        });
-        let (sum, count) =
-            near.fold((0.0, 0.0), |(sum, count), x| (sum + x[0].hypot(x[2]), count + 1.0));
-        sum / count
+    let places = |panels: [std::ops::Range<usize>; 2]| -> Vec<[f64; 3]> {
+        let polar = |x: &[f64]| [x[2].atan2(x[0]), x[1], x[0].hypot(x[2])];
+        panels
+            .into_iter()
+            .flatten()
+            .map(|particle| polar(&positions[3 * particle..][..3]))
+            .collect()
     };
-    for sector in 0..15 {
-        let from = 0.4 * f64::from(sector);
-        let [inside, outside] = [ring(&inner, from), ring(&outer, from)];
-        assert!(outside > inside, "{outside} m and {inside} m at {from}");
+    let [inner, outer] = [inner, outer].map(places);
+    for [turn, height, radius] in outer {
+        // The nearest on both sides: how far round, and their distances from the axis.
+        let mut beside = [(f64::INFINITY, f64::NAN); 2];
+        for [other, _, radius] in
+            inner.iter().filter(|[_, other, _]| (other - height).abs() < 0.005)
+        {
+            let gap = (other - turn + PI).rem_euclid(2.0 * PI) - PI;
+            let side = &mut beside[usize::from(gap > 0.0)];
+            if gap.abs() < side.0 {
+                *side = (gap.abs(), *radius);
+            }
+        }
+        let [(before, a), (after, b)] = beside;
+        let inside = (a * after + b * before) / (before + after);
+        assert!(radius > inside, "{radius} m and {inside} m at {turn} and {height} m");
     }
 }
