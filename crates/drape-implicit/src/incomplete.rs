@@ -50,7 +50,7 @@ const ATTEMPTS: [Attempt; 7] = [
 pub(crate) struct Incomplete {
     /// What is left of the matrix: see [`Run::work`].
     work: Vec<f64>,
-    /// `U` above the diagonal, as the matrix is packed.
+    /// `U` above the diagonal, as the matrix is packed: batches of diagonals, and strays.
     upper: Vec<Blocks<Single>>,
     strays: Vec<Blocks<f32>>,
     /// `D⁻¹`, by batch.
@@ -69,6 +69,7 @@ struct Making {
     /// Its blocks on diagonals, and what they take off the pivots.
     scaled: Vec<Blocks<Double>>,
     squares: Vec<Square<Double>>,
+    /// The same of its strays.
     scaled_strays: Vec<Blocks<f64>>,
     stray_squares: Vec<Square<f64>>,
 }
@@ -239,29 +240,31 @@ impl Incomplete {
         stray_squares.clear();
         for index in own.clone() {
             let stray = &waves.strays[index];
-            let block = stray_block(work, waves.stray(index));
+            let block = block_at(work, waves.stray(index));
             let scaled = half_times(&lane_of(inverse, stray.lane), &block);
             for (short, entry) in strays[index].iter_mut().zip(&scaled) {
                 *short = *entry as f32;
             }
             let square = Square::new(half_of_product(&block, &scaled), fill);
-            take_stray_off(work, waves.pivots[stray.column as usize], &square.blocks);
+            take_off_at(work, waves.pivots[stray.column as usize], &square.blocks);
             stray_squares.push(square);
             scaled_strays.push(scaled);
         }
         let count = run.diagonals.len();
         for &StrayUpdate { lane, left, right, target } in &waves.stray_updates[updates.clone()] {
             let [left, right] = [left as usize, right as usize];
-            let block = match left.checked_sub(count) {
-                None => lane_of(&above(work, run, (left, batch)), lane),
-                Some(stray) => stray_block(work, waves.stray(own.start + stray)),
+            let row = run.start + batch * LANES + lane as usize;
+            let place = match left.checked_sub(count) {
+                None => run.place(left, row),
+                Some(stray) => waves.stray(own.start + stray),
             };
+            let block = block_at(work, place);
             let scaled = match right.checked_sub(count) {
                 None => lane_of(&scaled[right], lane),
                 Some(stray) => scaled_strays[stray],
             };
             match target {
-                Ok(place) => take_stray_off(work, place, &transposed_times(&block, &scaled)),
+                Ok(place) => take_off_at(work, place, &transposed_times(&block, &scaled)),
                 Err(pivots) => {
                     let square = |item: usize| match item.checked_sub(count) {
                         None => squares[item].lane(lane as usize),
@@ -270,7 +273,7 @@ impl Incomplete {
                     let both = [&square(left), &square(right)];
                     let replaced = fill.in_place_of((&block, &scaled), both);
                     for (pivot, replaced) in pivots.into_iter().zip(&replaced) {
-                        take_stray_off(work, pivot, replaced);
+                        take_off_at(work, pivot, replaced);
                     }
                 }
             }
@@ -365,7 +368,7 @@ fn lane_of<const N: usize>(blocks: &[Double; N], lane: u32) -> [f64; N] {
 }
 
 #[inline(always)]
-fn stray_block(work: &[f64], Place { first, step }: Place) -> Blocks<f64> {
+fn block_at(work: &[f64], Place { first, step }: Place) -> Blocks<f64> {
     let mut block = [0.0; 9];
     for (k, entry) in block.iter_mut().enumerate() {
         *entry = work[first as usize + k * step as usize];
@@ -373,13 +376,9 @@ fn stray_block(work: &[f64], Place { first, step }: Place) -> Blocks<f64> {
     block
 }
 
-/// Subtracts from the block of a lane.
+/// Subtracts from the block at a place.
 #[inline(always)]
-fn take_stray_off<const N: usize>(
-    work: &mut [f64],
-    Place { first, step }: Place,
-    values: &[f64; N],
-) {
+fn take_off_at<const N: usize>(work: &mut [f64], Place { first, step }: Place, values: &[f64; N]) {
     for (k, value) in values.iter().enumerate() {
         work[first as usize + k * step as usize] -= value;
     }

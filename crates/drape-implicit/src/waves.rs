@@ -14,7 +14,8 @@ pub(crate) const MARGIN: usize = LANES;
 /// A particle is in the first wave that comes after those of all its neighbours of smaller number: those of a wave do
 /// not wait for each other, and the factor is the one of the order of the numbers. The rows of a wave are eliminated in
 /// batches, one row to a lane. On a lattice the neighbours of a batch are batches again, at the same few distances in
-/// all of a wave: the *diagonals* of a run of batches. Anything else works too, with more diagonals and zeros in them.
+/// all of a wave: the *diagonals* of a run of batches. Blocks that no other lane of the batch would share, as those about
+/// an outline, are *strays* and computed one by one.
 #[derive(Debug)]
 pub(crate) struct Waves {
     /// The row of each particle.
@@ -70,6 +71,13 @@ impl Run {
     #[inline(always)]
     pub(crate) fn above(&self, diagonal: usize, batch: usize) -> usize {
         self.work + (6 + 9 * diagonal) * self.len() + batch * LANES
+    }
+
+    /// The same for one row.
+    #[inline(always)]
+    pub(crate) fn place(&self, diagonal: usize, row: usize) -> Place {
+        let first = self.above(diagonal, 0) + row - self.start;
+        Place { first: first as u32, step: self.len() as u32 }
     }
 }
 
@@ -395,8 +403,7 @@ impl Waves {
     fn place(&self, (row, column): (usize, usize), run_of_row: &[u32]) -> Option<Place> {
         let run = &self.runs[run_of_row[row] as usize];
         if let Some(diagonal) = self.diagonal(run, row, column) {
-            let first = (run.above(diagonal, 0) + row - run.start) as u32;
-            return Some(Place { first, step: run.len() as u32 });
+            return Some(run.place(diagonal, row));
         }
         let range = self.batches[run.batches + (row - run.start) / LANES].strays.clone();
         let is =
