@@ -1,6 +1,6 @@
 //! What becomes of blocks that a factor has no room for.
 
-use crate::lane_block::{Blocks, Halves, transposed_times};
+use crate::lane_block::{Blocks, Halves, lane_of, symmetric, transposed_times};
 use crate::lanes::{Double, Number};
 
 /// How their absence is made up for.
@@ -31,18 +31,21 @@ impl Fill {
         [this, other]: [&Square<T>; 2],
     ) -> [Halves<T>; 2] {
         match self {
-            Fill::Compensated(part) => [compensation(left, right, part); 2],
+            Fill::Compensated(part) => {
+                [times(symmetric(&transposed_times(left, right)), T::of(part)); 2]
+            }
             Fill::Stabilised(part) => [this.against(other, part), other.against(this, part)],
         }
     }
 }
 
-/// A part of the symmetric part of `aᵀ b`.
+/// Blocks times a factor.
 #[inline(always)]
-fn compensation<T: Number>(a: &Blocks<T>, b: &Blocks<T>, part: f64) -> Halves<T> {
-    let (half, whole) = (T::of(0.5 * part), T::of(part));
-    let [a, b, c, d, e, f, g, h, i] = transposed_times(a, b);
-    [whole * a, half * (b + d), half * (c + g), whole * e, half * (f + h), whole * i]
+fn times<T: Number>(mut blocks: Halves<T>, factor: T) -> Halves<T> {
+    for entry in &mut blocks {
+        *entry = *entry * factor;
+    }
+    blocks
 }
 
 /// What a pivot's blocks take off another pivot, positive semi-definite.
@@ -69,23 +72,15 @@ impl<T: Number> Square<T> {
     /// here to the same size.
     #[inline(always)]
     fn against(&self, other: &Self, part: f64) -> Halves<T> {
-        let factor = T::of(-part) * (other.size * self.inverse);
-        let mut blocks = self.blocks;
-        for entry in &mut blocks {
-            *entry = *entry * factor;
-        }
-        blocks
+        times(self.blocks, T::of(-part) * (other.size * self.inverse))
     }
 }
 
 impl Square<Double> {
     /// That of a lane.
     #[inline(always)]
-    pub(crate) fn lane(&self, lane: usize) -> Square<f64> {
-        let mut blocks = [0.0; 6];
-        for (own, entry) in blocks.iter_mut().zip(&self.blocks) {
-            *own = entry.0[lane];
-        }
-        Square { blocks, size: self.size.0[lane], inverse: self.inverse.0[lane] }
+    pub(crate) fn lane(&self, lane: u32) -> Square<f64> {
+        let [size, inverse] = lane_of(&[self.size, self.inverse], lane);
+        Square { blocks: lane_of(&self.blocks, lane), size, inverse }
     }
 }

@@ -3,8 +3,8 @@
 use crate::BlockMatrix;
 use crate::fill::{Fill, Square};
 use crate::lane_block::{
-    Blocks, Halves, determinant, half_of_product, half_product, half_times, inverse, product,
-    sound, transposed_product, transposed_times,
+    Blocks, Halves, determinant, half_of_product, half_product, half_times, inverse, lane_of,
+    product, sound, transposed_product, transposed_times,
 };
 use crate::lanes::{Columns, Double, LANES, Single};
 use crate::packed::Packed;
@@ -267,7 +267,7 @@ impl Incomplete {
                 Ok(place) => take_off_at(work, place, &transposed_times(&block, &scaled)),
                 Err(pivots) => {
                     let square = |item: usize| match item.checked_sub(count) {
-                        None => squares[item].lane(lane as usize),
+                        None => squares[item].lane(lane),
                         Some(stray) => stray_squares[stray],
                     };
                     let both = [&square(left), &square(right)];
@@ -355,16 +355,6 @@ fn divide(pivot: &Halves<Double>, image: &mut Columns<f32>, row: usize) {
     let [x, y, z] = image.load(row);
     let [x, y, z] = half_product(pivot, [x.widen(), y.widen(), z.widen()]);
     image.store(row, [x.narrow(), y.narrow(), z.narrow()]);
-}
-
-/// What a lane has of blocks.
-#[inline(always)]
-fn lane_of<const N: usize>(blocks: &[Double; N], lane: u32) -> [f64; N] {
-    let mut own = [0.0; N];
-    for (own, entry) in own.iter_mut().zip(blocks) {
-        *own = entry.0[lane as usize];
-    }
-    own
 }
 
 #[inline(always)]

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Mul};
 
-use crate::lanes::{Double, LANES};
+use crate::lanes::{Double, LANES, Number};
 
 /// Three-by-three blocks in lanes, row by row.
 pub(crate) type Blocks<T> = [T; 9];
@@ -88,10 +88,7 @@ pub(crate) fn inverse([a, b, c, d, e, f]: &Halves<Double>, det: Double) -> Halve
 
 /// `p b` of symmetric `p`.
 #[inline(always)]
-pub(crate) fn half_times<T: Copy + Add<Output = T> + Mul<Output = T>>(
-    p: &Halves<T>,
-    b: &Blocks<T>,
-) -> Blocks<T> {
+pub(crate) fn half_times<T: Number>(p: &Halves<T>, b: &Blocks<T>) -> Blocks<T> {
     let x = half_product(p, [b[0], b[3], b[6]]);
     let y = half_product(p, [b[1], b[4], b[7]]);
     let z = half_product(p, [b[2], b[5], b[8]]);
@@ -100,10 +97,7 @@ pub(crate) fn half_times<T: Copy + Add<Output = T> + Mul<Output = T>>(
 
 /// `aᵀ b`.
 #[inline(always)]
-pub(crate) fn transposed_times<T: Copy + Add<Output = T> + Mul<Output = T>>(
-    a: &Blocks<T>,
-    b: &Blocks<T>,
-) -> Blocks<T> {
+pub(crate) fn transposed_times<T: Number>(a: &Blocks<T>, b: &Blocks<T>) -> Blocks<T> {
     let x = transposed_product(a, [b[0], b[3], b[6]]);
     let y = transposed_product(a, [b[1], b[4], b[7]]);
     let z = transposed_product(a, [b[2], b[5], b[8]]);
@@ -112,15 +106,30 @@ pub(crate) fn transposed_times<T: Copy + Add<Output = T> + Mul<Output = T>>(
 
 /// Upper half of a product `aᵀ b` that is symmetric.
 #[inline(always)]
-pub(crate) fn half_of_product<T: Copy + Add<Output = T> + Mul<Output = T>>(
-    a: &Blocks<T>,
-    b: &Blocks<T>,
-) -> Halves<T> {
+pub(crate) fn half_of_product<T: Number>(a: &Blocks<T>, b: &Blocks<T>) -> Halves<T> {
     let mut half = [a[0]; 6];
     for (half, (row, column)) in half.iter_mut().zip(UPPER) {
         *half = (a[row] * b[column] + a[3 + row] * b[3 + column]) + a[6 + row] * b[6 + column];
     }
     half
+}
+
+/// Upper half of the symmetric part of a block.
+#[inline(always)]
+pub(crate) fn symmetric<T: Number>(a: &Blocks<T>) -> Halves<T> {
+    let half = T::of(0.5);
+    let [a, b, c, d, e, f, g, h, i] = *a;
+    [a, half * (b + d), half * (c + g), e, half * (f + h), i]
+}
+
+/// What a lane has of blocks.
+#[inline(always)]
+pub(crate) fn lane_of<const N: usize>(blocks: &[Double; N], lane: u32) -> [f64; N] {
+    let mut own = [0.0; N];
+    for (own, entry) in own.iter_mut().zip(blocks) {
+        *own = entry.0[lane as usize];
+    }
+    own
 }
 
 #[cfg(test)]

@@ -1,11 +1,9 @@
 //! A matrix laid out for vector instructions.
 
-use core::ops::{Add, Mul};
-
 use crate::BlockMatrix;
 use crate::block::{self, Block};
 use crate::block_matrix::Coupling;
-use crate::lane_block::{Blocks, Halves, half_product, product, transposed_product};
+use crate::lane_block::{Blocks, Halves, half_product, product, symmetric, transposed_product};
 use crate::lanes::{Columns, Double, LANES, Single};
 use crate::waves::{NOWHERE, Waves};
 
@@ -100,7 +98,7 @@ impl Packed {
                         *short = *value as f32;
                         *lost = *value - f64::from(*short);
                     }
-                    for (column, lost) in self.own.iter_mut().zip(symmetric(&lost, 0.5)) {
+                    for (column, lost) in self.own.iter_mut().zip(symmetric(&lost)) {
                         column[row + stray.lane as usize] += lost;
                         column[stray.column as usize] += lost;
                     }
@@ -178,14 +176,7 @@ fn shorten(block: &Blocks<Double>, above: &mut Blocks<Single>) -> Halves<Double>
         *above = value.narrow();
         *lost = *value - above.widen();
     }
-    symmetric(&lost, Double::splat(0.5))
-}
-
-/// Upper half of the symmetric part of a block.
-#[inline(always)]
-fn symmetric<T: Copy + Add<Output = T> + Mul<Output = T>>(a: &Blocks<T>, half: T) -> Halves<T> {
-    let [a, b, c, d, e, f, g, h, i] = *a;
-    [a, half * (b + d), half * (c + g), e, half * (f + h), i]
+    symmetric(&lost)
 }
 
 #[inline(always)]
