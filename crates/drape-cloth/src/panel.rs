@@ -243,10 +243,12 @@ impl Panel {
         self.points + 2 * self.margin + LANES
     }
 
-    /// Cuts the points into strips of about the same length, and puts them to those of other panels.
+    /// Cuts the points into strips of about the same length, and puts them to those of other panels: one, or an even
+    /// number, which two threads share alike. None is less than three quarters as long as wanted.
     pub(crate) fn cut(&self, panel: usize, pattern: &Pattern, strips: &mut Vec<Strip>) {
         let wanted = STRIP_POINTS.max(STRIP_ROWS * self.stride);
-        let count = (self.points as f64 / wanted as f64).round().max(1.0) as usize;
+        let pairs = (self.points as f64 / (2 * wanted) as f64 + 0.25) as usize;
+        let count = (2 * pairs).max(1);
         let length = self.points.div_ceil(count).next_multiple_of(LANES);
         let mut first = self.first;
         for start in (0..self.points).step_by(length) {

@@ -1,34 +1,63 @@
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use crate::scratch::Scratch;
 
+/// A scratch for each thread of a pool.
+#[derive(Debug)]
+pub(crate) struct Scratches(Vec<Mutex<Scratch>>);
+
+impl Scratches {
+    /// So many, at least one.
+    pub(crate) fn new(scratch: &Scratch, threads: usize) -> Self {
+        Self((0..threads.max(1)).map(|_| Mutex::new(scratch.clone())).collect())
+    }
+
+    /// One of them, for whoever has all.
+    pub(crate) fn any(&mut self) -> &mut Scratch {
+        self.0[0].get_mut().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// That of the thread that asks. Nothing is read from a scratch that was not written before for the same strip, so
+    /// a panic in the middle of one leaves nothing wrong in it.
+    fn own(&self) -> MutexGuard<'_, Scratch> {
+        let thread = rayon::current_thread_index().unwrap_or(0);
+        self.0[thread % self.0.len()].lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Clone for Scratches {
+    fn clone(&self) -> Self {
+        Self::new(&self.own(), self.0.len())
+    }
+}
+
 /// Works through strips or rims, on as many threads as there are scratches, each on its own part of the output: `split`
-/// cuts the output that begins with one of them where another begins.
+/// cuts the output that begins with one of them where another begins. A thread that is done takes over from others.
 ///
 /// What a strip writes depends on nothing but the strip, so neither the number of threads nor their
 /// pace can change a number.
 pub(crate) fn share<P: Sync, O: Send>(
-    (strips, scratches): (&[P], &mut [Scratch]),
+    (strips, scratches): (&[P], &Scratches),
     output: O,
     split: &(impl Fn(O, &P, &P) -> (O, O) + Sync),
     work: &(impl Fn(&P, &mut Scratch, O) + Sync),
 ) {
     let [.., last] = strips else { return };
-    if scratches.len() < 2 || strips.len() < 2 {
-        let mut output = output;
-        for pair in strips.windows(2) {
-            let (own, rest) = split(output, &pair[0], &pair[1]);
-            work(&pair[0], &mut scratches[0], own);
-            output = rest;
-        }
-        work(last, &mut scratches[0], output);
+    if scratches.0.len() > 1 && strips.len() > 1 {
+        let (here, there) = strips.split_at(strips.len().div_ceil(2));
+        let (output, rest) = split(output, &here[0], &there[0]);
+        rayon::join(
+            || share((here, scratches), output, split, work),
+            || share((there, scratches), rest, split, work),
+        );
         return;
     }
-    let threads = scratches.len();
-    let (left, right) = scratches.split_at_mut(threads / 2);
-    let middle = (strips.len() * left.len()).div_ceil(threads);
-    let (here, there) = strips.split_at(middle.clamp(1, strips.len() - 1));
-    let (output, rest) = split(output, &here[0], &there[0]);
-    rayon::join(
-        || share((here, left), output, split, work),
-        || share((there, right), rest, split, work),
-    );
+    let mut scratch = scratches.own();
+    let mut output = output;
+    for pair in strips.windows(2) {
+        let (own, rest) = split(output, &pair[0], &pair[1]);
+        work(&pair[0], &mut scratch, own);
+        output = rest;
+    }
+    work(last, &mut scratch, output);
 }

@@ -5,8 +5,9 @@ use crate::field::Field;
 use crate::panel::{Panel, Strip};
 use crate::rim::{Course, Rim, RimTrial};
 use crate::scratch::{Scratch, Trial};
+use crate::share::{Scratches, share};
 use crate::state::Moving;
-use crate::{Cloth, State, energy, force, rim, share::share, stiffness};
+use crate::{Cloth, State, energy, force, rim, stiffness};
 
 /// Room for evaluating one cloth again and again: after it has been made, nothing allocates.
 ///
@@ -17,7 +18,7 @@ use crate::{Cloth, State, energy, force, rim, share::share, stiffness};
 #[derive(Debug, Clone)]
 pub struct Workspace {
     /// One for each thread that can be of use.
-    scratches: Vec<Scratch>,
+    scratches: Scratches,
     /// What each strip and then each rim has summed up.
     sums: Vec<f64>,
     arch: Arch,
@@ -30,7 +31,7 @@ impl Workspace {
         let scratch = Scratch::new(reach.max().unwrap_or(0));
         let threads = rayon::current_num_threads().min(cloth.strips.len());
         Self {
-            scratches: vec![scratch; threads.max(1)],
+            scratches: Scratches::new(&scratch, threads),
             sums: vec![0.0; cloth.strips.len() + cloth.rims.len()],
             arch: Arch::new(),
         }
@@ -40,7 +41,7 @@ impl Workspace {
     pub fn add_forces(&mut self, cloth: &Cloth, state: &State, trial: &[f64], forces: &mut [f64]) {
         let arch = self.arch;
         share(
-            (&cloth.strips, &mut self.scratches),
+            (&cloth.strips, &self.scratches),
             &mut *forces,
             &|forces, from, to| {
                 forces.split_at_mut(3 * (to.particles.start - from.particles.start))
@@ -52,7 +53,7 @@ impl Workspace {
         );
         let Some(first) = cloth.rims.first() else { return };
         share(
-            (&cloth.rims, &mut self.scratches),
+            (&cloth.rims, &self.scratches),
             &mut forces[3 * first.particles.start..],
             &|forces, from, to| {
                 forces.split_at_mut(3 * (to.particles.start - from.particles.start))
@@ -69,7 +70,7 @@ impl Workspace {
         let arch = self.arch;
         let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
         share(
-            (&cloth.strips, &mut self.scratches),
+            (&cloth.strips, &self.scratches),
             sums,
             &|sums, from, to| sums.split_at_mut(to.index - from.index),
             &|strip, scratch, sums| {
@@ -78,7 +79,7 @@ impl Workspace {
             },
         );
         share(
-            (&cloth.rims, &mut self.scratches),
+            (&cloth.rims, &self.scratches),
             rim_sums,
             &|sums, from, to| sums.split_at_mut(to.index - from.index),
             &|rim, _, sums| {
@@ -98,7 +99,7 @@ impl Workspace {
     ) {
         let arch = self.arch;
         share(
-            (&cloth.strips, &mut self.scratches),
+            (&cloth.strips, &self.scratches),
             &mut *values,
             &|values, from, to| values.split_at_mut(9 * (to.blocks.start - from.blocks.start)),
             &|strip, scratch, values| {
@@ -108,7 +109,7 @@ impl Workspace {
         );
         let Some(first) = cloth.rims.first() else { return };
         share(
-            (&cloth.rims, &mut self.scratches),
+            (&cloth.rims, &self.scratches),
             &mut values[9 * first.blocks.start..],
             &|values, from, to| values.split_at_mut(9 * (to.blocks.start - from.blocks.start)),
             &|rim, _, values| {
@@ -133,7 +134,7 @@ impl Workspace {
         let arch = self.arch;
         let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
         share(
-            (&cloth.strips, &mut self.scratches),
+            (&cloth.strips, &self.scratches),
             (moving, sums),
             &|(moving, sums), from, to| {
                 let (moving, others) = moving.split(place(to) - place(from));
@@ -147,7 +148,7 @@ impl Workspace {
             },
         );
         share(
-            (&cloth.rims, &mut self.scratches),
+            (&cloth.rims, &self.scratches),
             (state.history.rim.course(), rim_sums),
             &|(course, sums), from, to| {
                 let (course, others) = course.split(from, to);
@@ -167,7 +168,7 @@ impl Workspace {
     #[must_use]
     pub fn stored(&mut self, cloth: &Cloth, state: &State) -> f64 {
         let trial = |strip| Trial::new(cloth, state, (strip, &state.positions));
-        let scratch = &mut self.scratches[0];
+        let scratch = self.scratches.any();
         let strips = cloth.strips.iter();
         let strips: f64 = strips.map(|strip| energy::stored(scratch, &trial(strip))).sum();
         let rims = cloth.rims.iter();
@@ -179,7 +180,7 @@ impl Workspace {
     pub(crate) fn start(&mut self, cloth: &Cloth, state: &mut State) {
         for strip in &cloth.strips {
             let own = (&cloth.panels[strip.panel], strip);
-            let scratch = &mut self.scratches[0];
+            let scratch = self.scratches.any();
             energy::start(scratch, own, &mut state.history, &state.positions);
         }
         for rim in &cloth.rims {
