@@ -63,9 +63,8 @@ impl Stepper {
 
         self.set_velocities(formula);
         if let Some(start) = start {
-            let balance = self.balance(system, motion, formula, start);
+            let balance = self.balance((system, report), motion, formula, start);
             report.potential_evaluations += 1;
-            report.force_evaluations += 1;
             *report.energy.get_or_insert_default() += balance;
         }
         let end = &self.solver.current;
@@ -152,19 +151,23 @@ impl Stepper {
     /// What the sub-step did with the energy, given the kinetic and potential energies at its start.
     fn balance(
         &mut self,
-        system: &mut dyn System,
+        (system, report): (&mut dyn System, &mut Report),
         motion: &Motion,
         formula: Formula,
         (kinetic, potential): (f64, f64),
     ) -> Energy {
         let end = &self.solver.current;
-        let forces = &mut self.solver.image;
-        system.forces(&end.positions, forces);
+        let carried = |k: usize| self.held[k / 3] && end.positions[k] != motion.positions[k];
         let mut work = 0.0;
-        for (k, force) in forces.iter().enumerate().filter(|(k, _)| self.held[k / 3]) {
-            let acceleration = (self.velocities[k] - self.momentum[k]) / formula.reach;
-            let pull = self.masses[k / 3] * acceleration - force;
-            work += pull * (end.positions[k] - motion.positions[k]);
+        if (0..end.positions.len()).any(carried) {
+            let forces = &mut self.solver.image;
+            system.forces(&end.positions, forces);
+            report.force_evaluations += 1;
+            for (k, force) in forces.iter().enumerate().filter(|&(k, _)| carried(k)) {
+                let acceleration = (self.velocities[k] - self.momentum[k]) / formula.reach;
+                let pull = self.masses[k / 3] * acceleration - force;
+                work += pull * (end.positions[k] - motion.positions[k]);
+            }
         }
         let kinetic = self.kinetic(&self.velocities) - kinetic;
         let potential = system.potential(&end.positions) - potential;
