@@ -90,6 +90,10 @@ pub struct Settings {
     pub newton_forcing: f64,
     /// Conjugate-gradient iterations after which the direction found so far is taken. Default 2000.
     pub max_linear_iterations: usize,
+    /// Whether a step of a system that guards its ways begins where velocities lead if nothing is in the way, even if the
+    /// start is better balanced: for motion that goes on, such as creeping to rest, whose forces are small at the start
+    /// however far it has to go. Default false.
+    pub goes_on: bool,
     /// Whether the report has the energy balance, at the price of two potentials per sub-step. Default false.
     pub energy_balance: bool,
 }
@@ -108,6 +112,7 @@ impl Default for Settings {
             broyden_forcing: 0.03,
             newton_forcing: 0.01,
             max_linear_iterations: 2000,
+            goes_on: false,
             energy_balance: false,
         }
     }

@@ -96,7 +96,7 @@ impl Solver {
         self.current.progress = 1.0;
         self.trial.progress = 1.0;
         if problem.guarded {
-            self.approach(problem);
+            self.approach(problem, settings.goes_on);
         } else {
             problem.evaluate(&mut self.current);
         }

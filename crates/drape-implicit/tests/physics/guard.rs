@@ -141,9 +141,12 @@ fn settings() -> Settings {
 
 #[test]
 fn a_bullet_does_not_pass_a_floor_thinner_than_its_step() {
-    for method in [Method::Broyden, Method::Newton] {
+    for (method, goes_on) in
+        [(Method::Broyden, false), (Method::Newton, false), (Method::Newton, true)]
+    {
         let mut floor = Floor::new(0.0);
-        let mut stepper = Stepper::new(&floor, Settings { method, ..settings() }).unwrap();
+        let settings = Settings { method, goes_on, ..settings() };
+        let mut stepper = Stepper::new(&floor, settings).unwrap();
         let mut motion = falling(0.5, 100.0);
         let mut height: f64 = 0.5;
         for _ in 0..40 {
@@ -155,6 +158,20 @@ fn a_bullet_does_not_pass_a_floor_thinner_than_its_step() {
         assert!(9.81 * height <= 5000.0 + 9.81 * 0.5, "bounced to {height} m");
         assert!(motion.positions[1] > 0.0);
     }
+}
+
+#[test]
+fn what_goes_on_does_not_look_back_unless_something_is_in_its_way() {
+    let evaluations = |height: f64, goes_on: bool| {
+        let mut floor = Floor::new(0.0);
+        let mut stepper = Stepper::new(&floor, Settings { goes_on, ..settings() }).unwrap();
+        let mut motion = falling(height, 1.0);
+        let report = stepper.advance(&mut floor, &mut motion, 0.01).unwrap();
+        (report.force_evaluations, motion.positions[1])
+    };
+    let [(looking, way), (going, same)] = [false, true].map(|goes_on| evaluations(0.5, goes_on));
+    assert_eq!((looking - going, way), (1, same));
+    assert_eq!(evaluations(0.01, false), evaluations(0.01, true));
 }
 
 #[test]

@@ -84,7 +84,8 @@ impl Scheme {
 }
 
 /// Settings of creeping steps, by the formula without a past. A tangent kept for a second iteration is worth nothing in
-/// long ones.
+/// long ones. Begun where the last step leads, a cloth on a cube took 23 300 iterations of conjugate gradients instead of
+/// 33 400, one on a sphere 75 200 instead of 123 000, a gathered flounce 108 700 instead of 208 300, a T-shirt as many.
 fn creeping(settings: &Settings, tolerance: f64) -> Scheme {
     let method = match settings.method {
         Method::Broyden => Method::Newton,
@@ -92,5 +93,13 @@ fn creeping(settings: &Settings, tolerance: f64) -> Scheme {
     };
     let newton_forcing = CREEP_FORCING;
     let integrator = Integrator::BackwardEuler;
-    Scheme::Implicit(Settings { method, tolerance, newton_forcing, integrator, ..settings.clone() })
+    let goes_on = true;
+    Scheme::Implicit(Settings {
+        method,
+        tolerance,
+        newton_forcing,
+        integrator,
+        goes_on,
+        ..settings.clone()
+    })
 }
