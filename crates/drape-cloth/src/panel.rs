@@ -244,7 +244,7 @@ impl Panel {
     }
 
     /// Cuts the points into strips of about the same length, and puts them to those of other panels: one, or an even
-    /// number, which two threads share alike. None is less than three quarters as long as wanted.
+    /// number, which two threads share alike, of three quarters of the wanted length at the least.
     pub(crate) fn cut(&self, panel: usize, pattern: &Pattern, strips: &mut Vec<Strip>) {
         let wanted = STRIP_POINTS.max(STRIP_ROWS * self.stride);
         let pairs = (self.points as f64 / (2 * wanted) as f64 + 0.25) as usize;

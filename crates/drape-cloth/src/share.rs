@@ -1,8 +1,8 @@
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
 use crate::scratch::Scratch;
 
-/// A scratch for each thread of a pool.
+/// A scratch for each thread that can be of use.
 #[derive(Debug)]
 pub(crate) struct Scratches(Vec<Mutex<Scratch>>);
 
@@ -17,11 +17,22 @@ impl Scratches {
         self.0[0].get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// That of the thread that asks. Nothing is read from a scratch that was not written before for the same strip, so
+    /// One for the thread that asks. Nothing is read from a scratch that was not written before for the same strip, so
     /// a panic in the middle of one leaves nothing wrong in it.
     fn own(&self) -> MutexGuard<'_, Scratch> {
-        let thread = rayon::current_thread_index().unwrap_or(0);
-        self.0[thread % self.0.len()].lock().unwrap_or_else(PoisonError::into_inner)
+        self.free().unwrap_or_else(|| self.0[0].lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// One that nobody uses, the same for the same thread if it can be: a pool may have more threads than there are
+    /// scratches, whose numbers then say nothing.
+    fn free(&self) -> Option<MutexGuard<'_, Scratch>> {
+        let thread = rayon::current_thread_index().unwrap_or(0) % self.0.len();
+        let (before, after) = self.0.split_at(thread);
+        after.iter().chain(before).find_map(|scratch| match scratch.try_lock() {
+            Ok(scratch) => Some(scratch),
+            Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => None,
+        })
     }
 }
 
@@ -38,7 +49,7 @@ impl Clone for Scratches {
 /// pace can change a number.
 pub(crate) fn share<P: Sync, O: Send>(
     (strips, scratches): (&[P], &Scratches),
-    output: O,
+    mut output: O,
     split: &(impl Fn(O, &P, &P) -> (O, O) + Sync),
     work: &(impl Fn(&P, &mut Scratch, O) + Sync),
 ) {
@@ -53,11 +64,24 @@ pub(crate) fn share<P: Sync, O: Send>(
         return;
     }
     let mut scratch = scratches.own();
-    let mut output = output;
     for pair in strips.windows(2) {
         let (own, rest) = split(output, &pair[0], &pair[1]);
         work(&pair[0], &mut scratch, own);
         output = rest;
     }
     work(last, &mut scratch, output);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scratch_in_use_is_passed_over() {
+        let scratches = Scratches::new(&Scratch::new(1), 2);
+        let (first, second) = (scratches.free(), scratches.free());
+        assert!(first.is_some() && second.is_some() && scratches.free().is_none());
+        drop(first);
+        assert!(scratches.free().is_some());
+    }
 }
