@@ -194,13 +194,8 @@ impl Filter {
     /// Whether a pair keeps a tenth of its opening by the lengths of the ways alone, however they
     /// are shortened.
     pub(crate) fn stays_apart(&self, pair: &Pair, step: &Step<'_>) -> bool {
-        let [a, b, c, d] = pair.vertices.map(|vertex| vertex as usize);
-        let longest = |list: &[f64]| match pair.first() {
-            1 => list[a] + list[b].max(list[c]).max(list[d]),
-            _ => list[a].max(list[b]) + list[c].max(list[d]),
-        };
-        let opening = pair.distance - pair.separation - longest(&self.moved);
-        opening > step.smallest && longest(&self.lengths) < 0.9 * CLOSED * opening
+        let opening = pair.distance - pair.separation - pair.most(&self.moved);
+        opening > step.smallest && pair.most(&self.lengths) < 0.9 * CLOSED * opening
     }
 }
 

@@ -26,7 +26,7 @@ impl SurfaceContact {
     pub fn shrink(&mut self, positions: &[f64]) -> Result<(), CollideError> {
         self.survey(positions)?;
         let part = |touching: &Touching| touching.gap.distance() / touching.pair.reach;
-        self.grown = self.touching.iter().map(part).fold(self.grown, f64::min);
+        self.grown = self.touching().map(part).fold(self.grown, f64::min);
         self.keep(self.grown);
         Ok(())
     }

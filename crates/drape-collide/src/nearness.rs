@@ -54,11 +54,11 @@ impl SurfaceContact {
     /// How near the surfaces are to each other at the places looked at last.
     pub fn nearness(&self) -> Nearness {
         let mut nearness = Nearness {
-            touching: self.touching.len(),
+            touching: self.touching().count(),
             min_distance: f64::INFINITY,
             min_ratio: f64::INFINITY,
         };
-        for Touching { pair, gap } in &self.touching {
+        for Touching { pair, gap } in self.touching() {
             nearness.min_distance = nearness.min_distance.min(gap.distance());
             nearness.min_ratio = nearness.min_ratio.min(gap.distance() / pair.separation);
         }
@@ -68,13 +68,13 @@ impl SurfaceContact {
     /// The pair that is nearest to what it keeps at the places looked at last, with its distance, in m.
     pub fn tightest(&self) -> Option<(&Pair, f64)> {
         let ratio = |touching: &&Touching| touching.gap.distance() / touching.pair.separation;
-        let least = self.touching.iter().min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
+        let least = self.touching().min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
         least.map(|touching| (&touching.pair, touching.gap.distance()))
     }
 
     /// The pairs that are nearer than they keep at the places looked at last, each with its distance, in m.
     pub fn too_near(&self) -> impl Iterator<Item = (&Pair, f64)> {
-        let near = self.touching.iter().map(|touching| (&touching.pair, touching.gap.distance()));
+        let near = self.touching().map(|touching| (&touching.pair, touching.gap.distance()));
         near.filter(|(pair, distance)| !(*distance >= pair.separation))
     }
 }

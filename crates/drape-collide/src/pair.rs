@@ -48,6 +48,15 @@ impl Pair {
         }
     }
 
+    /// The largest sum of two numbers of a list, of a vertex of either primitive.
+    pub(crate) fn most(&self, list: &[f64]) -> f64 {
+        let [a, b, c, d] = self.vertices.map(|vertex| list[vertex as usize]);
+        match self.kind {
+            Kind::VertexFace => a + b.max(c).max(d),
+            Kind::EdgeEdge => a.max(b) + c.max(d),
+        }
+    }
+
     /// The four vertices' places, in m.
     pub(crate) fn places(&self, positions: &[f64]) -> [[f64; 3]; 4] {
         self.vertices.map(|vertex| at(positions, vertex as usize))

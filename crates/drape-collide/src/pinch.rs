@@ -141,7 +141,7 @@ impl SurfaceContact {
         let free = self.surface.free();
         let [start, end] = &self.bodies;
         let mut sides: BTreeMap<u32, Vec<Side>> = BTreeMap::new();
-        for Touching { pair, gap } in &self.touching {
+        for Touching { pair, gap } in self.touching() {
             let of_body = pair.vertices.map(|vertex| vertex as usize >= free);
             let Some(corner) = of_body.iter().position(|body| *body) else { continue };
             // The normal goes from the second to the first.

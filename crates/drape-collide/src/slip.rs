@@ -1,6 +1,6 @@
-use crate::gap::{Gap, Gradient, Hessian};
+use crate::gap::{Gap, Gradient};
 use crate::pair::{Kind, Pair};
-use crate::vector::{Vector, add, at, dot, norm, scale, subtract};
+use crate::vector::{Block, Vector, across, add, at, combine, dot, norm, outer, scale, subtract};
 
 /// Coulomb friction of a pair of primitives during one step, with what it remembers of those before.
 ///
@@ -21,7 +21,7 @@ use crate::vector::{Vector, add, at, dot, norm, scale, subtract};
 pub(crate) struct Slip {
     key: (Kind, [u32; 2]),
     pub(crate) vertices: [u32; 4],
-    weights: [f64; 4],
+    pub(crate) weights: [f64; 4],
     normal: Vector,
     /// `$\sum w_i x_i$` at the step's start less the stretch that was left, in m.
     anchor: Vector,
@@ -91,23 +91,14 @@ impl Slip {
         std::array::from_fn(|k| self.weights[k / 3] * pull * stretch[k % 3])
     }
 
-    /// Second derivative of the potential, never indefinite, in N/m.
-    pub(crate) fn hessian(&self, places: &[f64], stick: f64) -> Hessian {
+    /// Second derivative of the potential by `$\sum w_i x_i$`, never indefinite, in N/m.
+    pub(crate) fn stiffness(&self, places: &[f64], stick: f64) -> Block {
         let stretch = self.stretch(places);
         let length = norm(stretch);
         let pull = self.limit / length.max(stick);
-        let slides = length > stick;
-        let block = |row: usize, column: usize| {
-            let same = if row == column { 1.0 } else { 0.0 };
-            let along =
-                if slides { stretch[row] * stretch[column] / (length * length) } else { 0.0 };
-            pull * (same - self.normal[row] * self.normal[column] - along)
-        };
-        std::array::from_fn(|row| {
-            std::array::from_fn(|column| {
-                self.weights[row / 3] * self.weights[column / 3] * block(row % 3, column % 3)
-            })
-        })
+        let plane = across(self.normal);
+        let along = if length > stick { pull / (length * length) } else { 0.0 };
+        combine(&plane, pull, &outer(stretch), -along)
     }
 
     /// What is left of the stretch when the step ends at these places.

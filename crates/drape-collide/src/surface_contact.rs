@@ -4,7 +4,7 @@ use crate::course::Course;
 use crate::detector::Detector;
 use crate::error::{CollideError, check};
 use crate::filter::Filter;
-use crate::gap::{Gap, Gradient, Hessian};
+use crate::gap::{Gap, Gradient};
 use crate::guards::Guards;
 use crate::margin::Margin;
 use crate::pair::Pair;
@@ -12,7 +12,7 @@ use crate::pinch::Grip;
 use crate::slip::{Anchor, Slip};
 use crate::surface::Surface;
 use crate::surface_settings::SurfaceSettings;
-use crate::vector::{at, norm, subtract};
+use crate::vector::{Block, at, norm, outer, subtract};
 use crate::way::longest_ways;
 
 /// Pairs that are looked at as one, whatever the number of threads.
@@ -34,8 +34,10 @@ pub struct SurfaceContact {
     pub(crate) progress: f64,
     /// Places of all vertices at which `touching` holds, in m.
     pub(crate) places: Vec<f64>,
-    /// The pairs within their reach.
-    pub(crate) touching: Vec<Touching>,
+    /// How far each vertex is there from where it was detected, in m.
+    pub(crate) moved: Vec<f64>,
+    /// The pairs within their reach, of every chunk of the list.
+    pub(crate) touching: Vec<Vec<Touching>>,
     /// How the free vertices met bodies when the last step was closed; empty if all did as usual.
     pub(crate) grips: Vec<Grip>,
     /// Part of their distances that surfaces kept when the last step was closed.
@@ -106,6 +108,7 @@ impl SurfaceContact {
             bodies: [bodies.clone(), bodies],
             progress: 1.0,
             places: Vec::new(),
+            moved: Vec::new(),
             touching: Vec::new(),
             grips: Vec::new(),
             grown: 1.0,
@@ -152,7 +155,7 @@ impl SurfaceContact {
         self.look(start);
         let groups = self.surface.skins().len();
         let mut slips = std::mem::take(&mut self.slips);
-        for Touching { pair, gap } in &self.touching {
+        for Touching { pair, gap } in self.touching() {
             let [a, b] = [pair.vertices[0], pair.vertices[3]];
             let [a, b] = [a, b].map(|vertex| self.surface.group(vertex) as usize);
             let coefficient = self.settings.friction[a * groups + b];
@@ -243,9 +246,9 @@ impl SurfaceContact {
     fn each_gradient(&self, mut visit: impl FnMut(&[u32; 4], &Gradient)) {
         let stiffness = self.settings.stiffness;
         let of = |touching: &Touching| touching.gap.gradient(stiffness);
-        let gradients: Vec<Gradient> =
-            self.touching.par_iter().with_min_len(CHUNK).map(of).collect();
-        for (touching, gradient) in self.touching.iter().zip(&gradients) {
+        let gradients = self.touching.par_iter().map(|list| list.iter().map(of).collect());
+        let gradients: Vec<Vec<Gradient>> = gradients.collect();
+        for (touching, gradient) in self.touching().zip(gradients.iter().flatten()) {
             visit(&touching.pair.vertices, gradient);
         }
         for slip in &self.slips {
@@ -265,7 +268,7 @@ impl SurfaceContact {
     /// Energy of the barriers at the places looked at last, in J.
     pub(crate) fn barrier(&self) -> f64 {
         let stiffness = self.settings.stiffness;
-        self.touching.iter().map(|touching| touching.gap.energy(stiffness)).sum()
+        self.touching().map(|touching| touching.gap.energy(stiffness)).sum()
     }
 
     /// Potential of friction at the places looked at last, and the part of it that is lost if the step ends there,
@@ -284,25 +287,26 @@ impl SurfaceContact {
     pub fn add_stiffness(&mut self, positions: &[f64], add: &mut dyn FnMut([usize; 2], &[f64; 9])) {
         self.look(positions);
         let free = self.surface.free();
-        let stiffness = self.settings.stiffness;
-        let of = |touching: &Touching| gauss_newton(&touching.gap, stiffness);
-        let hessians: Vec<Hessian> = self.touching.par_iter().with_min_len(CHUNK).map(of).collect();
-        let mut hand_over = |vertices: &[u32; 4], hessian: &Hessian| {
+        // Both are blocks times the weights of two vertices.
+        let mut hand_over = |vertices: [u32; 4], weights: [f64; 4], block: &Block| {
             for a in 0..4 {
                 for b in a..4 {
                     let [i, j] = [vertices[a], vertices[b]].map(|vertex| vertex as usize);
-                    if i < free && j < free {
-                        let block = std::array::from_fn(|k| hessian[3 * a + k / 3][3 * b + k % 3]);
-                        add([i, j], &block);
+                    let weight = weights[a] * weights[b];
+                    if i < free && j < free && weight != 0.0 {
+                        add([i, j], &block.map(|entry| weight * entry));
                     }
                 }
             }
         };
-        for (touching, hessian) in self.touching.iter().zip(&hessians) {
-            hand_over(&touching.pair.vertices, hessian);
+        for Touching { pair, gap } in self.touching() {
+            let curvature = gap.definite(self.settings.stiffness).0;
+            let block = outer(gap.normal()).map(|entry| curvature * entry);
+            hand_over(pair.vertices, gap.weights(), &block);
         }
         for slip in &self.slips {
-            hand_over(&slip.vertices, &slip.hessian(&self.places, self.settings.stick));
+            let block = slip.stiffness(&self.places, self.settings.stick);
+            hand_over(slip.vertices, slip.weights, &block);
         }
     }
 
@@ -324,30 +328,36 @@ impl SurfaceContact {
             return;
         }
         self.failure = None;
-        self.touching.clear();
+        self.touching.iter_mut().for_each(Vec::clear);
         self.detector.follow(&places);
         // Within half of the margin to both sides no pair comes into reach that was not found.
-        let mut strayed = self.strayed(&places);
-        if !(strayed <= 0.5 * self.detector.pairs().margin()) {
+        if !(self.stray(&places) <= 0.5 * self.detector.pairs().margin()) {
             self.failure = self.detect(&places, Course::Still).err();
-            strayed = 0.0;
+            self.moved.fill(0.0);
         }
         self.places = places;
         if self.failure.is_some() {
             return;
         }
-        let places = &self.places;
+        let (places, moved) = (&self.places, &self.moved);
         let barrier = self.filter.guards.barrier;
         let near = |pair: &Pair| {
-            if pair.distance - 2.0 * strayed >= pair.reach || !barrier {
+            if pair.distance - pair.most(moved) >= pair.reach || !barrier {
                 return None;
             }
             let gap = Gap::new(pair, places);
             // Written so that NaN counts as near.
             (!(gap.distance() >= pair.reach)).then_some(Touching { pair: *pair, gap })
         };
-        let pairs = self.detector.pairs().as_slice();
-        self.touching = pairs.par_iter().with_min_len(CHUNK).filter_map(near).collect();
+        let chunks = self.detector.pairs().as_slice().par_chunks(CHUNK);
+        self.touching.resize_with(chunks.len(), Vec::new);
+        let lists = self.touching.par_iter_mut();
+        chunks.zip(lists).for_each(|(pairs, list)| list.extend(pairs.iter().filter_map(near)));
+    }
+
+    /// The pairs within their reach at the places looked at last.
+    pub(crate) fn touching(&self) -> impl Iterator<Item = &Touching> {
+        self.touching.iter().flatten()
     }
 
     /// Detects the pairs that are near each other at places or on a course from there, and how widely to look next.
@@ -362,19 +372,17 @@ impl SurfaceContact {
         Ok(())
     }
 
-    /// The farthest that a vertex is from where it was detected, in m.
-    pub(crate) fn strayed(&self, places: &[f64]) -> f64 {
+    /// Measures how far each vertex is from where it was detected. Returns the farthest, in m.
+    pub(crate) fn stray(&mut self, places: &[f64]) -> f64 {
         let detected = self.detector.pairs().positions();
+        let way = |vertex| norm(subtract(at(places, vertex), at(detected, vertex)));
+        self.moved.clear();
         if detected.len() != places.len() {
+            self.moved.resize(places.len() / 3, 0.0);
             return f64::INFINITY;
         }
-        let way = |vertex| norm(subtract(at(places, vertex), at(detected, vertex)));
+        self.moved.extend((0..places.len() / 3).map(way));
         // A maximum that keeps NaN.
-        (0..places.len() / 3).map(way).fold(0.0, |most, way| if way <= most { most } else { way })
+        self.moved.iter().fold(0.0, |most, &way| if way <= most { most } else { way })
     }
-}
-
-fn gauss_newton(gap: &Gap, stiffness: f64) -> Hessian {
-    let (curvature, direction) = gap.definite(stiffness);
-    direction.map(|a| direction.map(|b| curvature * a * b))
 }

@@ -1,5 +1,6 @@
 use crate::order::Order;
 use rayon::prelude::*;
+use wide::{f32x4, u32x4};
 
 /// Boxes under each node, which are tested at once.
 pub(crate) const WIDTH: usize = 4;
@@ -67,43 +68,43 @@ impl Bounds {
 /// Four boxes side by side.
 #[derive(Debug, Clone, Copy)]
 struct Quad {
-    low: [[f32; WIDTH]; 3],
-    high: [[f32; WIDTH]; 3],
+    low: [f32x4; 3],
+    high: [f32x4; 3],
 }
 
 impl Quad {
     /// Boxes that overlap nothing.
-    const EMPTY: Quad =
-        Quad { low: [[f32::INFINITY; WIDTH]; 3], high: [[f32::NEG_INFINITY; WIDTH]; 3] };
+    const EMPTY: Quad = Quad {
+        low: [f32x4::new([f32::INFINITY; WIDTH]); 3],
+        high: [f32x4::new([f32::NEG_INFINITY; WIDTH]); 3],
+    };
 
     fn set(&mut self, lane: usize, bounds: &Bounds) {
         for k in 0..3 {
-            self.low[k][lane] = bounds.low[k];
-            self.high[k][lane] = bounds.high[k];
+            self.low[k].as_mut_array()[lane] = bounds.low[k];
+            self.high[k].as_mut_array()[lane] = bounds.high[k];
         }
     }
 
     /// The box around all four.
     fn bounds(&self) -> Bounds {
         Bounds {
-            low: self.low.map(|four| four.into_iter().fold(f32::INFINITY, lower)),
-            high: self.high.map(|four| four.into_iter().fold(f32::NEG_INFINITY, higher)),
+            low: self.low.map(|four| four.to_array().into_iter().fold(f32::INFINITY, lower)),
+            high: self.high.map(|four| four.to_array().into_iter().fold(f32::NEG_INFINITY, higher)),
         }
     }
 
-    /// Which of the four overlap a box, as bits.
-    fn overlaps(&self, bounds: &Bounds) -> u8 {
-        // The largest way between the two along any axis, in lanes that vectorise; a difference is
-        // never rounded to the other sign.
-        let mut apart = [f32::NEG_INFINITY; WIDTH];
-        for k in 0..3 {
-            for (lane, apart) in apart.iter_mut().enumerate() {
-                let below = self.low[k][lane] - bounds.high[k];
-                let above = bounds.low[k] - self.high[k][lane];
-                *apart = higher(*apart, higher(below, above));
-            }
-        }
-        apart.iter().rev().fold(0, |bits, &apart| 2 * bits + u8::from(apart <= 0.0))
+    /// A box in all four places.
+    fn splat(bounds: &Bounds) -> Quad {
+        Quad { low: bounds.low.map(f32x4::splat), high: bounds.high.map(f32x4::splat) }
+    }
+
+    /// Which of the four overlap the box beside them, as bits.
+    fn overlaps(&self, other: &Quad) -> u8 {
+        let meet = |k: usize| {
+            self.low[k].simd_le(other.high[k]) & self.high[k].simd_ge(other.low[k])
+        };
+        (meet(0) & meet(1) & meet(2)).to_bitmask() as u8
     }
 }
 
@@ -159,7 +160,9 @@ impl Tree {
     ///
     /// Primitives that the probe does not look for may be among them.
     pub(crate) fn visit(&self, order: &Order, probe: &Probe, mut visit: impl FnMut(usize, usize)) {
-        let all = Bounds::union(&probe.bounds);
+        let all = Quad::splat(&Bounds::union(&probe.bounds));
+        let each = probe.bounds.map(|bounds| Quad::splat(&bounds));
+        let after = probe.after.map(u32x4::splat);
         let mut stack = [(0u32, 0u8); DEPTH];
         let Some(top) = self.levels.len().checked_sub(1) else { return };
         if order.items.is_empty() {
@@ -176,12 +179,12 @@ impl Tree {
             if probe.only_free {
                 asked &= order.free[level][index];
             }
-            if let Some(after) = probe.after {
-                let last = &order.last[level][index];
-                asked &= last.iter().rev().fold(0, |bits, &last| 2 * bits + u8::from(last > after));
+            if let Some(after) = after {
+                let last = u32x4::new(order.last[level][index]);
+                asked &= last.simd_gt(after).to_bitmask() as u8;
             }
             if level == 0 {
-                for (k, bounds) in probe.bounds.iter().enumerate() {
+                for (k, bounds) in each.iter().enumerate() {
                     let mut hits = asked & quad.overlaps(bounds);
                     while hits != 0 {
                         visit(k, WIDTH * index + hits.trailing_zeros() as usize);

@@ -107,7 +107,7 @@ impl SurfaceContact {
         self.detector.pairs().astray(moves, together, &mut self.astray);
         let farthest = longest(&self.astray);
         // Written so that NaN detects anew.
-        let near = self.strayed(places) + farthest <= BUDGET * self.detector.pairs().margin();
+        let near = self.stray(places) + farthest <= BUDGET * self.detector.pairs().margin();
         if !near && self.filter.guards.cover {
             let course = if together { Course::Together(moves) } else { Course::Each(moves) };
             self.detect(places, course)?;

@@ -30,6 +30,8 @@ pub(crate) struct Point {
     pub residual: Vec<f64>,
     /// `‖φ‖₂`, N. NaN or infinite if the forces are.
     pub norm: f64,
+    /// The energy, J, if it has been asked for.
+    energy: Option<f64>,
     /// Part of the prescribed motions that is done: all of them but on the ways of a system that guards.
     pub progress: f64,
 }
@@ -42,6 +44,7 @@ impl Point {
             positions: zeros(),
             residual: zeros(),
             norm: f64::NAN,
+            energy: None,
             progress: 1.0,
         }
     }
@@ -85,6 +88,7 @@ impl Incremental<'_> {
 
     /// Fills in the positions, and puts there what moves by prescription.
     pub(crate) fn locate(&mut self, point: &mut Point) {
+        point.energy = None;
         for ((x, base), d) in point.positions.iter_mut().zip(self.base).zip(&point.deviation) {
             *x = base + d;
         }
@@ -101,13 +105,16 @@ impl Incremental<'_> {
     }
 
     /// The energy of an evaluated point, J.
-    pub(crate) fn energy(&mut self, point: &Point) -> f64 {
+    pub(crate) fn energy(&mut self, point: &mut Point) -> f64 {
+        if let Some(energy) = point.energy {
+            return energy;
+        }
         self.report.potential_evaluations += 1;
         let mut kinetic = 0.0;
         for (d, inertia) in block::triples(&point.deviation).iter().zip(self.inertia) {
             kinetic += 0.5 * inertia * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         }
-        kinetic + self.system.potential(&point.positions)
+        *point.energy.insert(kinetic + self.system.potential(&point.positions))
     }
 
     /// Assembles the matrix of an evaluated point.

@@ -215,7 +215,6 @@ impl Solver {
     /// Shortens the step until the residual falls or, failing that, the energy. Moves `current` there and returns
     /// the length accepted.
     fn line_search(&mut self, problem: &mut Incremental<'_>, slope: f64) -> Option<f64> {
-        let mut start = None;
         let mut length = 1.0;
         // A way that was cut need not lead down.
         if !(slope < 0.0) {
@@ -227,8 +226,8 @@ impl Solver {
                 return Some(self.accept(length));
             }
             if self.trial.norm.is_finite() {
-                let start = *start.get_or_insert_with(|| problem.energy(&self.current));
-                let end = problem.energy(&self.trial);
+                let start = problem.energy(&mut self.current);
+                let end = problem.energy(&mut self.trial);
                 let noise = ENERGY_NOISE * (start.abs() + end.abs());
                 let good = if noise.is_finite() && (end - start).abs() <= noise {
                     dot(&self.trial.residual, &self.direction) <= (2.0 * ARMIJO - 1.0) * slope
