@@ -36,7 +36,7 @@ pub fn crossings(surface: &Surface, positions: &[f64]) -> Result<Vec<Crossing>, 
     let order = &surface.triangle_order;
     let mut tree = Tree::default();
     tree.fit(order, |triangle| {
-        Bounds::around(&surface.triangles()[triangle as usize].map(place), 0.0)
+        Bounds::around(surface.triangles()[triangle as usize].map(place), 0.0)
     });
     let runs = |runs: &[Run]| {
         let mut found = Vec::new();
@@ -44,7 +44,7 @@ pub fn crossings(surface: &Surface, positions: &[f64]) -> Result<Vec<Crossing>, 
             let ends = |k: usize| surface.edges()[run.first as usize + k];
             let segment = |k: usize| ends(k).map(place);
             let probe = Probe {
-                bounds: array(run.count, Bounds::EMPTY, |k| Bounds::around(&segment(k), 0.0)),
+                bounds: array(run.count, Bounds::EMPTY, |k| Bounds::around(segment(k), 0.0)),
                 only_free: !surface.is_free(&ends(0)),
                 after: None,
             };

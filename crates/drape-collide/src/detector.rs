@@ -215,16 +215,14 @@ impl Query<'_> {
         let places = vertices.map(|vertex| at(self.positions, vertex as usize));
         // Half of how near two must be, in each of two boxes that then overlap.
         match self.limit {
-            Limit::Rest => Bounds::around(&places, 2.0 * skin.reach),
+            Limit::Rest => Bounds::around(places, 2.0 * skin.reach),
             Limit::Margin(margin, course) => {
                 let around = skin.reach + 0.5 * margin;
-                let bounds = Bounds::around(&places, around);
-                let Some(ways) = course.ways() else { return bounds };
-                let mut ends = places;
-                for (end, vertex) in ends.iter_mut().zip(vertices) {
-                    *end = add(*end, subtract(at(ways, vertex as usize), self.drift));
-                }
-                bounds.with(Bounds::around(&ends, around))
+                let Some(ways) = course.ways() else { return Bounds::around(places, around) };
+                let way = |vertex: u32| subtract(at(ways, vertex as usize), self.drift);
+                let ends = places.into_iter().zip(vertices);
+                let ends = ends.map(|(place, vertex)| add(place, way(vertex)));
+                Bounds::around(places.into_iter().chain(ends), around)
             }
         }
     }

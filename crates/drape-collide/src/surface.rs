@@ -159,9 +159,13 @@ impl Surface {
         &self.edges
     }
 
-    /// Median length of the edges at rest, in m; 0 without edges.
+    /// Median length of the free edges at rest, in m; 0 without any.
+    ///
+    /// The edges of bodies do not count: those of a rounded box may be a hundred times shorter.
     pub fn median_edge(&self) -> f64 {
-        let mut squares = self.edge_lengths_squared.clone();
+        let free = self.edges.iter().zip(&self.edge_lengths_squared);
+        let free = free.filter(|(edge, _)| self.is_free(&edge[..]));
+        let mut squares: Vec<f64> = free.map(|(_, square)| *square).collect();
         squares.sort_by(f64::total_cmp);
         squares.get(squares.len() / 2).map_or(0.0, |square| square.sqrt())
     }

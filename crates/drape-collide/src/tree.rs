@@ -1,4 +1,5 @@
 use crate::order::Order;
+use crate::vector::Vector;
 use rayon::prelude::*;
 use wide::{f32x4, u32x4};
 
@@ -45,23 +46,20 @@ impl Bounds {
         all
     }
 
-    /// The box of both.
-    pub(crate) fn with(self, other: Bounds) -> Bounds {
-        Bounds::union(&[self, other])
-    }
-
     /// The box of some points with so much around.
-    pub(crate) fn around(points: &[[f64; 3]], margin: f64) -> Bounds {
-        let mut bounds = Bounds { low: [0.0; 3], high: [0.0; 3] };
-        for k in 0..3 {
-            let low = points.iter().map(|p| p[k]).fold(f64::INFINITY, lower);
-            let high = points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, higher);
-            // One step out from the nearest number is more than the rounding to it and that of
-            // the sum.
-            bounds.low[k] = ((low - margin) as f32).next_down();
-            bounds.high[k] = ((high + margin) as f32).next_up();
+    pub(crate) fn around(points: impl IntoIterator<Item = Vector>, margin: f64) -> Bounds {
+        let (mut lows, mut highs) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for point in points {
+            for k in 0..3 {
+                lows[k] = lower(lows[k], point[k]);
+                highs[k] = higher(highs[k], point[k]);
+            }
         }
-        bounds
+        // One step out from the nearest number is more than the rounding to it and that of the sum.
+        Bounds {
+            low: lows.map(|low| ((low - margin) as f32).next_down()),
+            high: highs.map(|high| ((high + margin) as f32).next_up()),
+        }
     }
 }
 
@@ -101,9 +99,8 @@ impl Quad {
 
     /// Which of the four overlap the box beside them, as bits.
     fn overlaps(&self, other: &Quad) -> u8 {
-        let meet = |k: usize| {
-            self.low[k].simd_le(other.high[k]) & self.high[k].simd_ge(other.low[k])
-        };
+        let meet =
+            |k: usize| self.low[k].simd_le(other.high[k]) & self.high[k].simd_ge(other.low[k]);
         (meet(0) & meet(1) & meet(2)).to_bitmask() as u8
     }
 }
