@@ -13,4 +13,5 @@ mod exactness;
 mod layers;
 mod oracle;
 mod sheets;
+mod stiffness;
 mod surfaces;

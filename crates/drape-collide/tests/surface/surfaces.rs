@@ -46,6 +46,17 @@ fn parts_that_make_no_surface_are_refused() {
     assert!(matches!(touching, CollideError::TouchingAtRest { .. }), "{touching}");
 }
 
+#[test]
+fn the_edges_of_bodies_do_not_count_in_the_median() {
+    let sheet = surface(&sheets(1, 4, 0.01)).median_edge();
+    assert!((sheet - 0.01).abs() < 1e-12, "{sheet}");
+    let mut parts = sheets(2, 4, 0.01);
+    parts.free = 16;
+    // A finely meshed body.
+    parts.rest[48..].iter_mut().for_each(|x| *x *= 0.01);
+    assert_eq!(surface(&parts).median_edge(), sheet);
+}
+
 /// Two crumpled sheets and a way for them.
 fn crumpled() -> (Surface, Vec<f64>, Vec<f64>) {
     let mut parts = sheets(2, 40, 5e-3);

@@ -1,0 +1,83 @@
+//! The stiffness of surfaces in contact against differences of their forces.
+
+use crate::sheets::{SKIN, sheets, surface};
+use drape_collide::{Pinch, SurfaceContact, SurfaceSettings};
+
+const STICK: f64 = 1e-4;
+
+/// Of the differences, in m.
+const STEP: f64 = 1e-9;
+
+/// Sum of the forces on the free sheet when all of it is moved by a way.
+fn pull(contact: &mut SurfaceContact, positions: &[f64], way: [f64; 3]) -> [f64; 3] {
+    let moved: Vec<f64> = positions.iter().zip(way.iter().cycle()).map(|(x, w)| x + w).collect();
+    let mut forces = vec![0.0; moved.len()];
+    contact.add_forces(&moved, &mut forces);
+    let mut sum = [0.0; 3];
+    for force in forces.chunks(3) {
+        sum = [0, 1, 2].map(|k| sum[k] + force[k]);
+    }
+    sum
+}
+
+/// Sum of all blocks: what a sheet that is moved as a whole meets.
+fn sum_of_blocks(contact: &mut SurfaceContact, positions: &[f64]) -> [f64; 9] {
+    let mut sum = [0.0; 9];
+    contact.add_stiffness(positions, &mut |[i, j], block| {
+        for (k, sum) in sum.iter_mut().enumerate() {
+            *sum += block[k];
+            if i != j {
+                *sum += block[3 * (k % 3) + k / 3];
+            }
+        }
+    });
+    sum
+}
+
+/// A flat sheet over a flat body neither turns nor bends the distances of its pairs, so what `add_stiffness` leaves out is
+/// zero for its motion as a whole: up and down against the barrier, and along against friction that holds or slides.
+#[test]
+fn a_flat_sheet_meets_the_derivative_of_its_forces() {
+    let (side, spacing) = (6, 5e-3);
+    let mut parts = sheets(2, side, spacing);
+    parts.free = side * side;
+    let bodies = parts.rest[3 * parts.free..].to_vec();
+    let settings = SurfaceSettings {
+        stiffness: 1e9,
+        stick: STICK,
+        friction: vec![0.4; 4],
+        pinch: Pinch::Error,
+    };
+    let height = 2.0 * SKIN.separation + 0.36 * (2.0 * SKIN.reach - 2.0 * SKIN.separation);
+    // No vertex is within reach of an edge that it is not over: all pairs push straight up.
+    let offset = [0.45 * spacing, 0.2 * spacing, height];
+    let start: Vec<f64> = bodies.iter().zip(offset.iter().cycle()).map(|(x, o)| x + o).collect();
+    for (slip, slides) in [([0.3 * STICK, -0.2 * STICK], false), ([2.0 * STICK, 1.5 * STICK], true)]
+    {
+        let mut contact =
+            SurfaceContact::new(surface(&parts), settings.clone(), bodies.clone()).unwrap();
+        contact.begin(&start, &bodies);
+        let way = [slip[0], slip[1], 0.0];
+        let positions: Vec<f64> =
+            start.iter().zip(way.iter().cycle()).map(|(x, w)| x + w).collect();
+        let stiffness = sum_of_blocks(&mut contact, &positions);
+        let size = stiffness[8];
+        assert!(size > 0.0 && contact.nearness().touching > 50);
+        for axis in 0..3 {
+            let ways =
+                [STEP, -STEP].map(|step| [0, 1, 2].map(|k| if k == axis { step } else { 0.0 }));
+            let [ahead, behind] = ways.map(|way| pull(&mut contact, &positions, way));
+            for k in 0..3 {
+                let slope = (behind[k] - ahead[k]) / (2.0 * STEP);
+                let entry = stiffness[3 * k + axis];
+                assert!((slope - entry).abs() < 1e-5 * size, "{k} by {axis}: {entry}, not {slope}");
+            }
+        }
+        // Along the slip a pair that slides resists no more than it does already, and across it does.
+        let along = [0, 1].map(|k| stiffness[3 * k] * slip[0] + stiffness[3 * k + 1] * slip[1]);
+        let across = stiffness[0] * slip[1] * slip[1] - 2.0 * stiffness[1] * slip[0] * slip[1]
+            + stiffness[4] * slip[0] * slip[0];
+        let resists = along.iter().any(|force| force.abs() > 1e-9 * size * STICK);
+        assert!(across > 0.0 && resists != slides, "along {along:?}, across {across}");
+    }
+}
