@@ -63,6 +63,8 @@ pub(crate) struct Incremental<'a> {
     pub held: &'a [bool],
     /// `x̃` for free particles, the prescribed positions for held ones, m.
     pub base: &'a [f64],
+    /// Where the sub-step starts, m.
+    pub start: &'a [f64],
     /// The norm of `φ` at which the step is solved, N.
     pub limit: f64,
     /// Whether the system watches the solver's ways.
@@ -115,6 +117,19 @@ impl Incremental<'_> {
             kinetic += 0.5 * inertia * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         }
         *point.energy.insert(kinetic + self.system.potential(&point.positions))
+    }
+
+    /// The kinetic energy of going straight to a point, `½ Σ m |x − x₀|²/h²`, J.
+    pub(crate) fn motion(&self, point: &Point) -> f64 {
+        let ways = block::triples(&point.positions).iter().zip(block::triples(self.start));
+        let mut sum = 0.0;
+        for (((x, start), inertia), &held) in ways.zip(self.inertia).zip(self.held) {
+            if !held {
+                let way = [x[0] - start[0], x[1] - start[1], x[2] - start[2]];
+                sum += 0.5 * inertia * vector::dot(&way, &way);
+            }
+        }
+        sum
     }
 
     /// Assembles the matrix of an evaluated point.

@@ -72,6 +72,11 @@ pub struct Settings {
     /// A step has converged when `‖M a − f‖₂ ≤ tolerance · acceleration · √Σm²` over the free particles: the
     /// root-mean-square error of the acceleration, as a fraction of `acceleration`. Default 1e-4.
     pub tolerance: f64,
+    /// A step has also converged when a whole Newton step, half its decrement `pᵀφ`, promised to gain at most this part
+    /// of the kinetic energy `½ Σ m |x − x₀|²/h²` of the way from where the step began, and has left at most a hundred
+    /// times what `tolerance` asks for: what is left then changes the way by little, however stiff what resists it. For
+    /// motion that goes on from there, not for its end. Default 0, which leaves only the tolerance.
+    pub energy_tolerance: f64,
     /// Acceleration that the tolerance refers to, in m/s². Default 9.81, the one of gravity; a system without
     /// weight sets the one that matters to it.
     pub acceleration: f64,
@@ -105,6 +110,7 @@ impl Default for Settings {
             method: Method::default(),
             linear_solver: LinearSolver::default(),
             tolerance: 1e-4,
+            energy_tolerance: 0.0,
             acceleration: 9.81,
             max_iterations: 100,
             max_halvings: 10,
@@ -129,6 +135,12 @@ impl Settings {
         let count = |value: usize| value > 0;
         let rules = [
             ("tolerance", self.tolerance, positive(self.tolerance), "positive"),
+            (
+                "energy_tolerance",
+                self.energy_tolerance,
+                (0.0..1.0).contains(&self.energy_tolerance),
+                "at least 0 and below 1",
+            ),
             ("acceleration", self.acceleration, positive(self.acceleration), "positive"),
             (
                 "max_iterations",

@@ -44,6 +44,18 @@ const ENERGY_NOISE: f64 = 1e-12;
 /// hundred times too well. The rest is left to the nonlinearity.
 const LINEAR_SHARE: f64 = 0.3;
 
+/// What a step that has little energy left to gain may leave of the residual, times the limit. Without a bound, or with
+/// one of a thousand, some steps of a cloth on a cube ended with contacts that were too tight for the next ones.
+const NEGLIGIBLE_MAX: f64 = 100.0;
+
+/// A Newton step that was taken.
+struct Taken {
+    /// Whether it went the whole way.
+    whole: bool,
+    /// What it promised to gain of the energy, J; infinite if that is not known.
+    promise: f64,
+}
+
 /// The iteration and its work space. Nothing in it outlives a sub-step.
 #[derive(Debug)]
 pub(crate) struct Solver {
@@ -143,7 +155,10 @@ impl Solver {
                 self.carry(problem)?;
             }
             let before = self.current.norm;
-            let whole = self.newton_step(problem, settings.newton_forcing)?;
+            let Taken { whole, promise } = self.newton_step(problem, settings.newton_forcing)?;
+            if whole && self.is_negligible(promise, problem, settings) {
+                break;
+            }
             self.updates.forget();
             let contraction = self.current.norm / before;
             let expected = self.current.norm * contraction.max(EXPECTED_CONTRACTION);
@@ -161,12 +176,20 @@ impl Solver {
         Ok(())
     }
 
-    /// A step along the exact tangent's direction, or along the definite one's if that fails. Returns whether it went
-    /// the whole way.
+    /// Whether what a whole Newton step promised shows that little is left.
+    fn is_negligible(&self, promise: f64, problem: &Incremental<'_>, settings: &Settings) -> bool {
+        let share = settings.energy_tolerance;
+        share > 0.0
+            && self.current.progress == 1.0
+            && self.current.solves(NEGLIGIBLE_MAX * problem.limit)
+            && promise <= share * problem.motion(&self.current)
+    }
+
+    /// A step along the exact tangent's direction, or along the definite one's if that fails.
     ///
     /// After a direction of negative curvature the exact tangent is left out once: tried at every iteration, most of
     /// them were assembled in vain.
-    fn newton_step(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> Result<bool, Halt> {
+    fn newton_step(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> Result<Taken, Halt> {
         let mut stop = Stop::Indefinite;
         let kinds: &[Stiffness] = match core::mem::take(&mut self.cautious) {
             true => &[Stiffness::Definite],
@@ -174,7 +197,7 @@ impl Solver {
         };
         for &kind in kinds {
             problem.assemble(&self.current, kind, &mut self.tangent)?;
-            let Some(mut slope) = self.newton_direction(problem, forcing) else {
+            let Some((mut slope, solved)) = self.newton_direction(problem, forcing) else {
                 if let Some(entry) =
                     self.tangent.matrix.values().iter().position(|x| !x.is_finite())
                 {
@@ -187,29 +210,35 @@ impl Solver {
                 }
                 continue;
             };
+            let promise = if solved { -0.5 * slope } else { f64::INFINITY };
             let whole = problem.allow(&self.current, &mut self.direction, &mut 0.0);
             if !whole {
                 slope = dot(&self.direction, &self.current.residual);
             }
             stop = Stop::LineSearch;
             if let Some(length) = self.line_search(problem, slope) {
-                return Ok(whole && length == 1.0);
+                return Ok(Taken { whole: whole && length == 1.0, promise });
             }
         }
         Err(Halt::Stop(stop))
     }
 
-    /// Solves for the Newton direction. Returns the slope of the energy along it, `None` unless negative.
-    fn newton_direction(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> Option<f64> {
+    /// Solves for the Newton direction. Returns the slope of the energy along it, and whether it is solved as well as
+    /// asked; `None` unless the slope is negative.
+    fn newton_direction(
+        &mut self,
+        problem: &mut Incremental<'_>,
+        forcing: f64,
+    ) -> Option<(f64, bool)> {
         self.tangent.prepare(problem.report).ok()?;
         let target = linear_target(&self.current, forcing, problem.limit);
         let Self { current, direction, tangent, .. } = self;
-        tangent.solve(&current.residual, direction, target, problem.report).ok()?;
+        let solved = tangent.solve(&current.residual, direction, target, problem.report).ok()?;
         for p in direction.iter_mut() {
             *p = -*p;
         }
         let slope = dot(direction, &current.residual);
-        (slope < 0.0).then_some(slope)
+        (slope < 0.0).then_some((slope, solved))
     }
 
     /// Shortens the step until the residual falls or, failing that, the energy. Moves `current` there and returns

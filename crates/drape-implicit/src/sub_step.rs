@@ -52,6 +52,7 @@ impl Stepper {
             inertia: &self.inertia,
             held: &self.held,
             base: &self.base,
+            start: &motion.positions,
             limit: limit * self.settings.tolerance,
             guarded,
             report: &mut *report,

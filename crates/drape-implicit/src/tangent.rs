@@ -63,19 +63,20 @@ impl Tangent {
         Ok(())
     }
 
-    /// `x = A⁻¹ b` to a residual of at most `target` (conjugate gradients) or to rounding (Cholesky).
+    /// `x = A⁻¹ b` to a residual of at most `target` (conjugate gradients) or to rounding (Cholesky). Returns whether the
+    /// target was met.
     pub(crate) fn solve(
         &mut self,
         b: &[f64],
         x: &mut [f64],
         target: f64,
         report: &mut Report,
-    ) -> Result<(), NotDefinite> {
+    ) -> Result<bool, NotDefinite> {
         report.linear_solves += 1;
         x.copy_from_slice(b);
         if self.direct {
             if self.solve_directly(b, x) {
-                return Ok(());
+                return Ok(true);
             }
             self.precondition(report)?;
             self.direct = false;
@@ -85,10 +86,10 @@ impl Tangent {
         let (iterations, ending) = iterative.arch.dispatch(Solve(iterative, x, target, self.limit));
         report.linear_iterations += iterations;
         match ending {
-            Ending::Converged => Ok(()),
+            Ending::Converged => Ok(true),
             Ending::Truncated => {
                 report.linear_truncations += 1;
-                Ok(())
+                Ok(false)
             }
             Ending::Indefinite => Err(NotDefinite),
         }

@@ -9,6 +9,7 @@ use std::ops::Range;
 
 use drape_implicit::{Error, ErrorEstimate, Motion, Report};
 
+use self::rest::Accuracy;
 use crate::SceneError;
 use crate::clock::Clock;
 use crate::frame::Frame;
@@ -46,7 +47,7 @@ pub struct Simulation {
     /// What was measured at the end of the run.
     measures: serde_json::Map<String, serde_json::Value>,
     /// Tolerance of the steps now.
-    tolerance: f64,
+    accuracy: Accuracy,
     /// How long it goes on with motion when it has come to rest, in s, until it has.
     motion_seconds: Option<f64>,
     /// Whether it came to rest before it was set in motion.
@@ -150,11 +151,11 @@ impl Simulation {
         let sewn = sewn.map_or_else(Stitching::default, |sewing| sewing.stitching.clone());
         let world = World::new(scene);
         let creeps = if sewn.is_empty() {
-            world.creeps.then_some(rest::CREEP_TOLERANCE_MAX)
+            world.creeps.then_some(Accuracy::CREEPING)
         } else {
-            Some(phases::TOLERANCE)
+            Some(phases::SEWING)
         };
-        let (now, tolerance) = scheme.on_the_way(creeps);
+        let (now, accuracy) = scheme.on_the_way(creeps);
         let integration = now.start(&world)?;
         let order = phases::order(&scheme);
         let name = match (sewn.is_empty(), settle) {
@@ -176,7 +177,7 @@ impl Simulation {
             sewn,
             free_edges,
             measures: serde_json::Map::new(),
-            tolerance,
+            accuracy,
             motion_seconds: scene_motion,
             rested: false,
             pace: Pace::new(clock, strides, order),

@@ -2,6 +2,7 @@
 
 use drape_implicit::{
     Error, Initial, Integrator, LinearSolver, Method, Motion, Report, Settings, Stepper, Stop,
+    System,
 };
 
 use crate::springs::Springs;
@@ -223,4 +224,57 @@ fn a_stiffness_that_claims_to_be_definite_and_is_not_stops_the_step() {
     }
     // At a hundredth of the step inertia outweighs the hill.
     stepper.advance(&mut system, &mut motion, 0.01).unwrap();
+}
+
+/// A stiff sheet that falls from rest in every step: its iterations, and how much energy its steps leave to be gained at
+/// the most, over their kinetic energy.
+fn creep(settings: &Settings) -> (usize, f64) {
+    let n = 16;
+    let dt = 0.015;
+    let mut system = Springs::sheet(n, 5000.0);
+    let mut stepper = Stepper::new(&system, settings.clone()).unwrap();
+    let exact = Settings { tolerance: 1e-8, energy_tolerance: 0.0, ..settings.clone() };
+    let mut exact = Stepper::new(&system, exact).unwrap();
+    let mut start = Motion::at_rest(Springs::flat(n));
+    let (mut iterations, mut left) = (0, 0.0_f64);
+    for _ in 0..40 {
+        let mut motion = start.clone();
+        iterations += stepper.advance(&mut system, &mut motion, dt).unwrap().iterations;
+        let mut best = start.clone();
+        exact.advance(&mut system, &mut best, dt).unwrap();
+        let kinetic = |end: &Motion| {
+            let ways = end.positions.chunks_exact(3).zip(start.positions.chunks_exact(3));
+            let square = |(a, b): (&[f64], &[f64])| -> f64 {
+                a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
+            };
+            let energies = ways.zip(&system.masses).map(|(way, m)| 0.5 * m * square(way));
+            energies.sum::<f64>() / (dt * dt)
+        };
+        let [moves, best_moves] = [kinetic(&motion), kinetic(&best)];
+        let [stores, best_stores] = [&motion, &best].map(|end| system.potential(&end.positions));
+        left = left.max((moves + stores - best_moves - best_stores) / moves);
+        start = Motion::at_rest(motion.positions);
+    }
+    (iterations, left)
+}
+
+#[test]
+fn a_step_may_end_when_little_energy_is_left_to_gain() {
+    let settings = Settings {
+        integrator: Integrator::BackwardEuler,
+        method: Method::Newton,
+        tolerance: 1e-3,
+        ..Settings::default()
+    };
+    let (solved, _) = creep(&settings);
+    for share in [1e-3, 1e-2] {
+        let (iterations, left) = creep(&Settings { energy_tolerance: share, ..settings.clone() });
+        println!("{share:e}: {iterations} of {solved} iterations, {left:e} left");
+        assert!(iterations < solved, "{iterations} of {solved} iterations");
+        assert!(left <= share, "{left:e} of the kinetic energy is left at {share:e}");
+    }
+    // What a direction that is not solved for promises tells nothing.
+    let cut = Settings { max_linear_iterations: 1, max_iterations: 1000, ..settings };
+    let patient = Settings { energy_tolerance: 0.5, ..cut.clone() };
+    assert_eq!(creep(&patient).0, creep(&cut).0);
 }

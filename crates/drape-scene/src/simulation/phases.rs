@@ -1,7 +1,7 @@
 use drape_implicit::{Error, Integrator, Motion};
 
 use super::Simulation;
-use super::rest::CREEP_TOLERANCE_MAX;
+use super::rest::Accuracy;
 use crate::pace::Pace;
 use crate::scheme::{Integration, Scheme};
 use crate::settle::Settle;
@@ -21,7 +21,10 @@ const STRIDE: f64 = 1.0;
 /// Tolerance of the steps while a garment is sewn, over g, and what may be out of balance when its sides become one: what
 /// matters of the way is that it ends closed, untangled and calm. With a third of it hems came to rest within 2 mm of
 /// where they do now.
-pub(super) const TOLERANCE: f64 = 0.3;
+const TOLERANCE: f64 = 0.3;
+
+/// How well steps are solved while a garment is sewn.
+pub(super) const SEWING: Accuracy = Accuracy { tolerance: TOLERANCE, ..Accuracy::CREEPING };
 
 /// How far steps go while a garment is sewn, of particles that are so far apart, in m.
 pub(super) fn strides(spacing: f64) -> Settle {
@@ -108,10 +111,10 @@ impl Simulation {
     /// Goes on from rest as the world now moves.
     fn go_on(&mut self, positions: Vec<f64>) -> Result<(), Error> {
         self.motion = Motion { time: self.motion.time, ..Motion::at_rest(positions) };
-        let creeps = self.world.creeps.then_some(CREEP_TOLERANCE_MAX);
-        let (scheme, tolerance) = self.scheme.on_the_way(creeps);
+        let creeps = self.world.creeps.then_some(Accuracy::CREEPING);
+        let (scheme, accuracy) = self.scheme.on_the_way(creeps);
         self.integration = self.start(&scheme)?;
-        self.tolerance = tolerance;
+        self.accuracy = accuracy;
         self.pace = Pace::new(self.clock, self.settle, order(&self.scheme));
         Ok(())
     }
