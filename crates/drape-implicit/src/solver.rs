@@ -33,6 +33,10 @@ const TANGENT_FLOOR: f64 = 0.1;
 /// that it only excludes steps that gain nothing.
 pub(crate) const ARMIJO: f64 = 1e-4;
 
+/// A line search takes what leaves at most this of the least residual so far, without asking for the energy. With the
+/// residual before in its place a step that gained residual and one that gained energy could undo each other for good.
+const GAIN: f64 = 0.9;
+
 /// Halvings in a line search before the direction is given up: 2⁻¹⁶ of a Newton step is no progress.
 pub(crate) const MAX_CUTS: usize = 16;
 
@@ -72,6 +76,8 @@ pub(crate) struct Solver {
     pub diagonal: Vec<f64>,
     pub tangent: Tangent,
     pub iterations: usize,
+    /// The least norm of the residual since things moved by prescription, N.
+    best: f64,
     /// The last exact tangent had a direction of negative curvature: the next one would, most likely.
     cautious: bool,
 }
@@ -91,6 +97,7 @@ impl Solver {
             diagonal: Vec::new(),
             tangent,
             iterations: 0,
+            best: f64::INFINITY,
             cautious: false,
         }
     }
@@ -149,12 +156,15 @@ impl Solver {
         settings: &Settings,
         uses: usize,
     ) -> Result<(), Halt> {
+        self.best = self.current.norm;
         while self.current.progress < 1.0 || !self.current.solves(problem.limit) {
             self.count(problem, settings)?;
             if self.current.progress < 1.0 {
                 self.carry(problem)?;
+                self.best = self.current.norm;
             }
             let before = self.current.norm;
+            self.best = self.best.min(before);
             let Taken { whole, promise } = self.newton_step(problem, settings.newton_forcing)?;
             if whole && self.is_negligible(promise, problem, settings) {
                 break;
@@ -241,7 +251,7 @@ impl Solver {
         (slope < 0.0).then_some((slope, solved))
     }
 
-    /// Shortens the step until the residual falls or, failing that, the energy. Moves `current` there and returns
+    /// Shortens the step until the residual falls below all before or, failing that, the energy falls. Moves `current` there and returns
     /// the length accepted.
     fn line_search(&mut self, problem: &mut Incremental<'_>, slope: f64) -> Option<f64> {
         let mut length = 1.0;
@@ -251,7 +261,7 @@ impl Solver {
         }
         for _ in 0..=MAX_CUTS {
             self.try_step(problem, length);
-            if self.trial.norm <= (1.0 - ARMIJO * length) * self.current.norm {
+            if self.trial.norm <= GAIN * self.best {
                 return Some(self.accept(length));
             }
             if self.trial.norm.is_finite() {

@@ -278,3 +278,38 @@ fn a_step_may_end_when_little_energy_is_left_to_gain() {
     let patient = Settings { energy_tolerance: 0.5, ..cut.clone() };
     assert_eq!(creep(&patient).0, creep(&cut).0);
 }
+
+/// Soft on both sides of a stiff middle. From −1 m Newton's method leads to 3 m, where the force is smaller and the
+/// energy larger, and from there back again.
+fn gully(x: f64) -> [f64; 3] {
+    let left = |x: f64| [0.125 * (x + 1.0).powi(2) - (x + 1.0), 0.25 * (x + 1.0) - 1.0, 0.25];
+    let middle = |x: f64| {
+        let (way, start) = (x + 0.6, left(-0.6));
+        [start[0] + start[1] * way + 0.5 * 5.175 * way * way, start[1] + 5.175 * way, 5.175]
+    };
+    let right = |x: f64| {
+        let (way, start) = (x + 0.4, middle(-0.4));
+        [start[0] + start[1] * way + 0.5 * 0.225 * way * way, start[1] + 0.225 * way, 0.225]
+    };
+    if x <= -0.6 {
+        left(x)
+    } else if x <= -0.4 {
+        middle(x)
+    } else {
+        right(x)
+    }
+}
+
+#[test]
+fn steps_that_gain_residual_and_energy_in_turn_do_not_undo_each_other() {
+    assert!(gully(3.0)[1].abs() < gully(-1.0)[1].abs() && gully(3.0)[0] > gully(-1.0)[0]);
+    let settings = Settings { method: Method::Newton, max_halvings: 0, ..Settings::default() };
+    let mut system = Well::new(gully);
+    let mut stepper = Stepper::new(&system, settings).unwrap();
+    let mut motion = Motion::at_rest(vec![-1.0, 0.0, 0.0]);
+    // So long that inertia counts for nothing.
+    let report = stepper.advance(&mut system, &mut motion, 1e4).unwrap();
+    assert!(report.iterations < 10, "{} iterations", report.iterations);
+    let bottom = 0.9 / 5.175 - 0.6;
+    assert!((motion.positions[0] - bottom).abs() < 1e-6, "{}", motion.positions[0]);
+}
