@@ -72,8 +72,8 @@ pub struct Settings {
     /// A step has converged when `‖M a − f‖₂ ≤ tolerance · acceleration · √Σm²` over the free particles: the
     /// root-mean-square error of the acceleration, as a fraction of `acceleration`. Default 1e-4.
     pub tolerance: f64,
-    /// A step has also converged when a whole Newton step, half its decrement `pᵀφ`, promised to gain at most this part
-    /// of the kinetic energy `½ Σ m |x − x₀|²/h²` of the way from where the step began, and has left at most a hundred
+    /// A step has also converged when a Newton step promised to gain, by half its decrement `−pᵀφ`, at most this part of
+    /// the kinetic energy `½ Σ m |x − x₀|²/h²` of the way from where the step began, and has left at most a hundred
     /// times what `tolerance` asks for: what is left then changes the way by little, however stiff what resists it. For
     /// motion that goes on from there, not for its end. Default 0, which leaves only the tolerance.
     pub energy_tolerance: f64,

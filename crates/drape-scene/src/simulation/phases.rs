@@ -24,7 +24,7 @@ const STRIDE: f64 = 1.0;
 const TOLERANCE: f64 = 0.3;
 
 /// How well steps are solved while a garment is sewn.
-pub(super) const SEWING: Accuracy = Accuracy { tolerance: TOLERANCE, ..Accuracy::CREEPING };
+pub(super) const SEWING: Accuracy = Accuracy { tolerance: TOLERANCE, energy: 1e-2 };
 
 /// How far steps go while a garment is sewn, of particles that are so far apart, in m.
 pub(super) fn strides(spacing: f64) -> Settle {
