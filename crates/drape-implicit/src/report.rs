@@ -31,12 +31,15 @@ pub struct Report {
     /// Largest final residual of the accepted sub-steps, relative as
     /// [`Settings::tolerance`](crate::Settings::tolerance) is.
     pub residual: f64,
+    /// Most that a sub-step which ended for it promised to gain yet, over its kinetic energy; see
+    /// [`Settings::energy_tolerance`](crate::Settings::energy_tolerance). Zero if none did.
+    pub energy_left: f64,
     /// The energy balance, if asked for.
     pub energy: Option<Energy>,
 }
 
 impl AddAssign<&Report> for Report {
-    /// Adds up the work of several steps; the residual is the largest of them.
+    /// Adds up the work of several steps; the residual and the energy left are the largest of them.
     fn add_assign(&mut self, other: &Report) {
         self.sub_steps += other.sub_steps;
         self.rejected += other.rejected;
@@ -51,6 +54,7 @@ impl AddAssign<&Report> for Report {
         self.negative_curvatures += other.negative_curvatures;
         self.cuts += other.cuts;
         self.residual = self.residual.max(other.residual);
+        self.energy_left = self.energy_left.max(other.energy_left);
         if let Some(energy) = other.energy {
             *self.energy.get_or_insert_default() += energy;
         }

@@ -55,7 +55,7 @@ const LINEAR_SHARE: f64 = 0.3;
 
 /// What a step that has little energy left to gain may leave of the residual, times the limit. Without a bound, or with
 /// one of a thousand, some steps of a cloth on a cube ended with contacts that were too tight for the next ones.
-const NEGLIGIBLE_MAX: f64 = 100.0;
+const UNBALANCED_MAX: f64 = 100.0;
 
 /// A Newton step that was taken.
 struct Taken {
@@ -172,8 +172,12 @@ impl Solver {
             let before = self.current.norm;
             self.best = self.best.min(before);
             let Taken { whole, promise } = self.newton_step(problem, settings.newton_forcing)?;
-            if self.is_negligible(promise, problem, settings) {
-                break;
+            if settings.energy_tolerance > 0.0 {
+                let left = promise / problem.motion(&self.current);
+                if left <= settings.energy_tolerance && self.may_end(problem) {
+                    problem.report.energy_left = problem.report.energy_left.max(left);
+                    break;
+                }
             }
             self.updates.forget();
             let contraction = self.current.norm / before;
@@ -192,13 +196,9 @@ impl Solver {
         Ok(())
     }
 
-    /// Whether what a Newton step promised shows that little is left.
-    fn is_negligible(&self, promise: f64, problem: &Incremental<'_>, settings: &Settings) -> bool {
-        let share = settings.energy_tolerance;
-        share > 0.0
-            && self.current.progress == 1.0
-            && self.current.solves(NEGLIGIBLE_MAX * problem.limit)
-            && promise <= share * problem.motion(&self.current)
+    /// Whether a step that has little energy left to gain may end here.
+    fn may_end(&self, problem: &Incremental<'_>) -> bool {
+        self.current.progress == 1.0 && self.current.solves(UNBALANCED_MAX * problem.limit)
     }
 
     /// A step along the exact tangent's direction, or along the definite one's if that fails.

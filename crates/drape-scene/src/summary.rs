@@ -112,8 +112,11 @@ pub struct Solver {
     pub inexact_steps: usize,
     /// Accepted parts of steps.
     pub sub_steps: usize,
-    /// Largest residual of an accepted step: rms acceleration error relative to g.
+    /// Largest residual of an accepted step: rms acceleration error relative to g. Steps that creep to rest may end
+    /// earlier, with little energy left to gain, but for the last ones.
     pub residual_max: f64,
+    /// Most energy that such a step left to be gained, over its kinetic energy.
+    pub energy_left_max: f64,
     /// Largest error of the positions that an accepted step was estimated to make, in m, where the
     /// scene limits it.
     pub error_max: Option<f64>,

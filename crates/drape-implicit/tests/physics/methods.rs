@@ -239,7 +239,9 @@ fn creep(settings: &Settings) -> (usize, f64) {
     let (mut iterations, mut left) = (0, 0.0_f64);
     for _ in 0..40 {
         let mut motion = start.clone();
-        iterations += stepper.advance(&mut system, &mut motion, dt).unwrap().iterations;
+        let report = stepper.advance(&mut system, &mut motion, dt).unwrap();
+        assert!(report.energy_left <= settings.energy_tolerance, "{report:?}");
+        iterations += report.iterations;
         let mut best = start.clone();
         exact.advance(&mut system, &mut best, dt).unwrap();
         let kinetic = |end: &Motion| {

@@ -74,6 +74,7 @@ impl Simulation {
         solver.rejected_steps += report.rejected;
         solver.sub_steps += report.sub_steps;
         solver.residual_max = solver.residual_max.max(report.residual);
+        solver.energy_left_max = solver.energy_left_max.max(report.energy_left);
         solver.force_evaluations += report.force_evaluations;
         solver.linear_iterations += report.linear_iterations;
         solver.tangents += report.tangents;

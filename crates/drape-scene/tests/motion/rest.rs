@@ -26,6 +26,23 @@ fn a_cloth_comes_to_rest_where_its_forces_are_balanced() {
 }
 
 #[test]
+fn steps_on_the_way_leave_little_energy_and_the_last_ones_little_force() {
+    let mut simulation = hung("", "end = 100").simulation();
+    let mut residuals = Vec::new();
+    loop {
+        let step = simulation.step().unwrap();
+        residuals.push(step.report.residual);
+        if step.finished {
+            break;
+        }
+    }
+    println!("{residuals:.1e?}");
+    // Those that are solved for their forces have at most a hundredth of g.
+    assert!(residuals.iter().any(|residual| *residual > 1e-2), "{residuals:?}");
+    assert!(*residuals.last().unwrap() <= 1e-4, "{residuals:?}");
+}
+
+#[test]
 fn a_cloth_that_has_no_time_to_settle_is_not_said_to_have() {
     let (summary, _) = run(&hung("", "end = 0.2"));
     assert_eq!(summary.status, Status::DidNotSettle);
