@@ -36,7 +36,6 @@ fn steps_on_the_way_leave_little_energy_and_the_last_ones_little_force() {
             break;
         }
     }
-    println!("{residuals:.1e?}");
     // Those that are solved for their forces have at most a hundredth of g.
     assert!(residuals.iter().any(|residual| *residual > 1e-2), "{residuals:?}");
     assert!(*residuals.last().unwrap() <= 1e-4, "{residuals:?}");
