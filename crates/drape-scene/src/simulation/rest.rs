@@ -16,9 +16,9 @@ const CREEP_TOLERANCE: f64 = 0.1;
 /// The loosest tolerance of a creeping step. Looser ones saved no time on a cloth on a cube.
 const CREEP_TOLERANCE_MAX: f64 = 1e-2;
 
-/// Part of the kinetic energy of a creeping step that it may leave to be gained: its forces are stiff, and the most of
-/// what is out of balance after a few iterations hardly moves the cloth. A cloth on a cube took 22 000 iterations of
-/// conjugate gradients and 1320 tangents without, and takes TODO.
+/// Part of the kinetic energy of a creeping step that it may leave to be gained: its forces are stiff, and most of what is
+/// out of balance after a few iterations hardly moves the cloth. From four starts a cloth on a cube took 1450 tangents
+/// without it, 810 with it, and 800 with three times as much; a cloth on a sphere then stored 2 % more.
 const CREEP_ENERGY: f64 = 3e-3;
 
 /// An imbalance of so many times the one of rest is the last that leaves energy to be gained.
@@ -27,7 +27,7 @@ const NEAR_REST: f64 = 2.0;
 /// How well a creeping step is solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Accuracy {
-    /// Root-mean-square error of the acceleration, over g.
+    /// Root-mean-square error of the acceleration that it may leave, over g.
     pub tolerance: f64,
     /// Part of its kinetic energy that it may leave to be gained.
     pub energy: f64,
