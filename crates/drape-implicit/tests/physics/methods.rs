@@ -182,7 +182,7 @@ fn a_stiffness_that_claims_to_be_definite_and_is_not_stops_the_step() {
         [-50.0 * x * x, -100.0 * x, -100.0]
     }
     struct Liar(Well);
-    impl drape_implicit::System for Liar {
+    impl System for Liar {
         fn particles(&self) -> usize {
             1
         }
