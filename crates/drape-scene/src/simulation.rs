@@ -46,7 +46,7 @@ pub struct Simulation {
     pub(crate) free_edges: Vec<FreeEdge>,
     /// What was measured at the end of the run.
     measures: serde_json::Map<String, serde_json::Value>,
-    /// Tolerance of the steps now.
+    /// How well steps are solved now.
     accuracy: Accuracy,
     /// How long it goes on with motion when it has come to rest, in s, until it has.
     motion_seconds: Option<f64>,
