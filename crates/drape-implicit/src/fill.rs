@@ -1,7 +1,7 @@
 //! What becomes of blocks that a factor has no room for.
 
 use crate::lane_block::{Blocks, Halves, lane_of, symmetric, transposed_times};
-use crate::lanes::{Double, Number};
+use crate::lanes::{Number, Single};
 
 /// How their absence is made up for.
 #[derive(Clone, Copy, Debug)]
@@ -76,10 +76,10 @@ impl<T: Number> Square<T> {
     }
 }
 
-impl Square<Double> {
+impl Square<Single> {
     /// That of a lane.
     #[inline(always)]
-    pub(crate) fn lane(&self, lane: u32) -> Square<f64> {
+    pub(crate) fn lane(&self, lane: u32) -> Square<f32> {
         let [size, inverse] = lane_of(&[self.size, self.inverse], lane);
         Square { blocks: lane_of(&self.blocks, lane), size, inverse }
     }

@@ -6,9 +6,10 @@ use crate::lane_block::{
     Blocks, Halves, determinant, half_of_product, half_product, half_times, inverse, lane_of,
     product, sound, transposed_product, transposed_times,
 };
-use crate::lanes::{Columns, Double, LANES, Single};
+use crate::lanes::{Columns, Double, LANES, Number, Single};
 use crate::packed::Packed;
-use crate::waves::{Batch, NOWHERE, Place, Run, StrayUpdate, Waves};
+use crate::remainder::Remainder;
+use crate::waves::{Batch, NOWHERE, Run, StrayUpdate, Waves};
 
 /// A pivot whose determinant is below this fraction of its original block's is refused.
 ///
@@ -44,12 +45,11 @@ const ATTEMPTS: [Attempt; 7] = [
 
 /// The factor `Uᵀ D U` of a matrix, `U` unit upper triangular on the matrix's own pattern.
 ///
-/// `U` is kept in single precision, which a preconditioner does not need more than: a solve is bound by memory. Both
-/// sweeps use the same shortened `U`, so the product stays symmetric and positive.
+/// All but the inverses of pivots is in single precision, which a preconditioner does not need more than: it is bound by
+/// memory. Both sweeps use the same `U`, so the product stays symmetric and positive.
 #[derive(Debug)]
 pub(crate) struct Incomplete {
-    /// What is left of the matrix: see [`Run::work`].
-    work: Vec<f64>,
+    remainder: Remainder,
     /// `U` above the diagonal, as the matrix is packed: batches of diagonals, and strays.
     upper: Vec<Blocks<Single>>,
     strays: Vec<Blocks<f32>>,
@@ -66,12 +66,11 @@ pub(crate) struct Incomplete {
 /// A batch of `U` in the making.
 #[derive(Debug)]
 struct Making {
-    /// Its blocks on diagonals, and what they take off the pivots.
-    scaled: Vec<Blocks<Double>>,
-    squares: Vec<Square<Double>>,
-    /// The same of its strays.
-    scaled_strays: Vec<Blocks<f64>>,
-    stray_squares: Vec<Square<f64>>,
+    /// What its blocks on diagonals take off the pivots, and what with all that there is no room for.
+    squares: Vec<Square<Single>>,
+    taken: Vec<Halves<Single>>,
+    /// What its strays take off the pivots.
+    stray_squares: Vec<Square<f32>>,
 }
 
 /// A diagonal block is not positive definite: neither is the matrix.
@@ -81,15 +80,13 @@ pub(crate) struct NotDefinite;
 impl Incomplete {
     pub(crate) fn new(waves: &Waves) -> Self {
         Self {
-            // A batch of updates may reach beyond the last column, with zeros.
-            work: vec![0.0; waves.work + LANES],
+            remainder: Remainder::new(waves),
             upper: vec![[Single::ZERO; 9]; waves.slots.len()],
             strays: vec![[0.0; 9]; waves.strays.len()],
             pivots: vec![[Double::ZERO; 6]; waves.own_slots.len()],
             making: Making {
-                scaled: Vec::with_capacity(waves.widest),
                 squares: Vec::with_capacity(waves.widest),
-                scaled_strays: Vec::with_capacity(waves.most_strays),
+                taken: Vec::with_capacity(waves.widest),
                 stray_squares: Vec::with_capacity(waves.most_strays),
             },
             image: Columns::new(waves.rows),
@@ -103,8 +100,12 @@ impl Incomplete {
         self.first = 0;
     }
 
-    /// Packs a matrix and factorises it. Begins one attempt before the one that held last, unless that was
-    /// [forgotten](Self::forget). Returns the number of attempts that failed.
+    /// Packs a matrix and factorises it. Begins with the attempt that held last, or with the one before it if that held at
+    /// once, unless it was [forgotten](Self::forget); but the first of all is tried no more after it has failed. Returns the
+    /// number of attempts that failed.
+    ///
+    /// With the one before tried each time, the first was tried in vain for almost every matrix of a cloth on its way to rest,
+    /// and for half of those of a swing.
     #[inline(always)]
     pub(crate) fn factorise(
         &mut self,
@@ -112,66 +113,57 @@ impl Incomplete {
         matrix: &BlockMatrix,
         packed: &mut Packed,
     ) -> Result<usize, NotDefinite> {
-        self.diagonal_only = false;
+        packed.pack(waves, matrix);
+        let batches = || waves.runs.iter().flat_map(|run| (run.start..run.end).step_by(LANES));
+        if !batches().all(|row| sound(&packed.own(row), Double::ZERO)) {
+            return Err(NotDefinite);
+        }
         let first = self.first;
         for (failed, attempt) in ATTEMPTS[first..].iter().enumerate() {
-            packed.pack(waves, matrix, &mut self.work);
-            if !self.load(waves, packed, 1.0 + attempt.shift) {
-                return Err(NotDefinite);
-            }
             if self.eliminate(waves, packed, *attempt) {
-                self.first = (first + failed).saturating_sub(1);
+                self.diagonal_only = false;
+                self.first = first + failed;
+                if failed == 0 && first > 1 {
+                    self.first -= 1;
+                }
                 return Ok(failed);
             }
         }
         self.diagonal_only = true;
-        for run in &waves.runs {
-            let pivots = &mut self.pivots[run.batches..];
-            for (row, pivot) in (run.start..run.end).step_by(LANES).zip(pivots) {
-                let own = packed.own(row);
-                *pivot = inverse(&own, determinant(&own));
-            }
+        for (pivot, row) in self.pivots.iter_mut().zip(batches()) {
+            let own = packed.own(row);
+            *pivot = inverse(&own, determinant(&own));
         }
         Ok(ATTEMPTS.len() - first)
     }
 
-    /// Copies the diagonal, larger by a factor. False if a block of it is not definite.
-    #[inline(always)]
-    fn load(&mut self, waves: &Waves, packed: &Packed, factor: f64) -> bool {
-        let factor = Double::splat(factor);
-        for run in &waves.runs {
-            for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
-                let own = packed.own(row);
-                if !sound(&own, Double::ZERO) {
-                    return false;
-                }
-                for (entry, value) in own.iter().enumerate() {
-                    let at = run.work + batch * LANES + entry * run.len();
-                    (*value * factor).store(&mut self.work, at);
-                }
-            }
-        }
-        true
-    }
-
-    /// Factorises what has been loaded. False if a pivot collapses.
+    /// Factorises a packed matrix. False if a pivot collapses.
     #[inline(always)]
     fn eliminate(&mut self, waves: &Waves, packed: &Packed, attempt: Attempt) -> bool {
-        let floor = Double::splat(PIVOT_COLLAPSE * (1.0 + attempt.shift).powi(3));
+        let factor = 1.0 + attempt.shift;
+        let floor = Double::of(PIVOT_COLLAPSE * factor.powi(3));
+        let mut loaded = 0;
         for run in &waves.runs {
+            while loaded < run.ahead {
+                self.remainder.load(waves, &waves.runs[loaded], packed, factor);
+                loaded += 1;
+            }
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
-                let at = run.work + batch * LANES;
                 let mut pivot = [Double::ZERO; 6];
-                for (k, pivot) in pivot.iter_mut().enumerate() {
-                    *pivot = Double::load(&self.work, at + k * run.len());
+                for (pivot, left) in pivot.iter_mut().zip(&self.remainder.pivots(run, batch)) {
+                    *pivot = left.widen();
                 }
                 if !sound(&pivot, floor * determinant(&packed.own(row))) {
                     return false;
                 }
                 let inverse = inverse(&pivot, determinant(&pivot));
                 self.pivots[run.batches + batch] = inverse;
-                self.eliminate_diagonals((waves, run, batch), &inverse, attempt.fill);
-                self.eliminate_strays((waves, run, batch), &inverse, attempt.fill);
+                let mut short = [Single::ZERO; 6];
+                for (short, entry) in short.iter_mut().zip(&inverse) {
+                    *short = entry.narrow();
+                }
+                self.eliminate_diagonals((waves, run, batch), &short, attempt.fill);
+                self.eliminate_strays((waves, run, batch), &short, attempt.fill);
             }
         }
         true
@@ -181,47 +173,48 @@ impl Incomplete {
     fn eliminate_diagonals(
         &mut self,
         (waves, run, batch): (&Waves, &Run, usize),
-        inverse: &Halves<Double>,
+        inverse: &Halves<Single>,
         fill: Fill,
     ) {
-        let Self { work, upper, making: Making { scaled, squares, .. }, .. } = self;
+        let Self { remainder, upper, making: Making { squares, taken, .. }, .. } = self;
         let row = run.start + batch * LANES;
         let diagonals = &waves.diagonals[run.diagonals.clone()];
-        scaled.clear();
         squares.clear();
+        taken.clear();
         let upper = &mut upper[run.blocks + batch * diagonals.len()..][..diagonals.len()];
         for (diagonal, upper) in upper.iter_mut().enumerate() {
-            let block = above(work, run, (diagonal, batch));
-            let own = half_times(inverse, &block);
-            for (upper, own) in upper.iter_mut().zip(&own) {
-                *upper = own.narrow();
-            }
-            squares.push(Square::new(half_of_product(&block, &own), fill));
-            scaled.push(own);
+            let block = remainder.above(run, (diagonal, batch));
+            *upper = half_times(inverse, &block);
+            let square = Square::new(half_of_product(&block, upper), fill);
+            taken.push(square.blocks);
+            squares.push(square);
         }
         for (left, a) in diagonals.iter().enumerate() {
-            let block = above(work, run, (left, batch));
+            let block = remainder.above(run, (left, batch));
             let target = &waves.runs[a.run as usize];
             let place = (row + a.offset).wrapping_sub(target.start);
-            let pivots = (target.work.wrapping_add(place), target.len());
-            take_off(work, pivots, &squares[left].blocks);
             for update in &waves.updates[a.updates.clone()] {
                 let right = update.right as usize;
                 if update.target != NOWHERE {
-                    let product = transposed_times(&block, &scaled[right]);
+                    let product = transposed_times(&block, &upper[right]);
                     let column = (6 + 9 * update.target as usize) * target.len();
                     let first = (target.work + column).wrapping_add(place);
-                    take_off(work, (first, target.len()), &product);
+                    remainder.take_off((first, target.len()), &product);
                     continue;
                 }
                 let both = [&squares[left], &squares[right]];
-                let [here, there] = fill.in_place_of((&block, &scaled[right]), both);
-                take_off(work, pivots, &here);
-                let other = &diagonals[right];
-                let target = &waves.runs[other.run as usize];
-                let place = (row + other.offset).wrapping_sub(target.start);
-                take_off(work, (target.work.wrapping_add(place), target.len()), &there);
+                let replaced = fill.in_place_of((&block, &upper[right]), both);
+                for (diagonal, replaced) in [left, right].into_iter().zip(&replaced) {
+                    for (taken, replaced) in taken[diagonal].iter_mut().zip(replaced) {
+                        *taken = *taken + *replaced;
+                    }
+                }
             }
+        }
+        for (diagonal, taken) in diagonals.iter().zip(&*taken) {
+            let target = &waves.runs[diagonal.run as usize];
+            let place = (row + diagonal.offset).wrapping_sub(target.start);
+            remainder.take_off((target.work.wrapping_add(place), target.len()), taken);
         }
     }
 
@@ -230,27 +223,24 @@ impl Incomplete {
     fn eliminate_strays(
         &mut self,
         (waves, run, batch): (&Waves, &Run, usize),
-        inverse: &Halves<Double>,
+        inverse: &Halves<Single>,
         fill: Fill,
     ) {
-        let Self { work, strays, making, .. } = self;
-        let Making { scaled, squares, scaled_strays, stray_squares } = making;
+        let Self { remainder, upper, strays, making, .. } = self;
+        let Making { squares, stray_squares, .. } = making;
         let Batch { strays: own, updates } = &waves.batches[run.batches + batch];
-        scaled_strays.clear();
         stray_squares.clear();
         for index in own.clone() {
             let stray = &waves.strays[index];
-            let block = block_at(work, waves.stray(index));
+            let block = remainder.block_at(waves.stray(index));
             let scaled = half_times(&lane_of(inverse, stray.lane), &block);
-            for (short, entry) in strays[index].iter_mut().zip(&scaled) {
-                *short = *entry as f32;
-            }
             let square = Square::new(half_of_product(&block, &scaled), fill);
-            take_off_at(work, waves.pivots[stray.column as usize], &square.blocks);
+            remainder.take_off_at(waves.pivots[stray.column as usize], &square.blocks);
+            strays[index] = scaled;
             stray_squares.push(square);
-            scaled_strays.push(scaled);
         }
         let count = run.diagonals.len();
+        let upper = &upper[run.blocks + batch * count..][..count];
         for &StrayUpdate { lane, left, right, target } in &waves.stray_updates[updates.clone()] {
             let [left, right] = [left as usize, right as usize];
             let row = run.start + batch * LANES + lane as usize;
@@ -258,13 +248,13 @@ impl Incomplete {
                 None => run.place(left, row),
                 Some(stray) => waves.stray(own.start + stray),
             };
-            let block = block_at(work, place);
+            let block = remainder.block_at(place);
             let scaled = match right.checked_sub(count) {
-                None => lane_of(&scaled[right], lane),
-                Some(stray) => scaled_strays[stray],
+                None => lane_of(&upper[right], lane),
+                Some(stray) => strays[own.start + stray],
             };
             match target {
-                Ok(place) => take_off_at(work, place, &transposed_times(&block, &scaled)),
+                Ok(place) => remainder.take_off_at(place, &transposed_times(&block, &scaled)),
                 Err(pivots) => {
                     let square = |item: usize| match item.checked_sub(count) {
                         None => squares[item].lane(lane),
@@ -273,7 +263,7 @@ impl Incomplete {
                     let both = [&square(left), &square(right)];
                     let replaced = fill.in_place_of((&block, &scaled), both);
                     for (pivot, replaced) in pivots.into_iter().zip(&replaced) {
-                        take_off_at(work, pivot, replaced);
+                        remainder.take_off_at(pivot, replaced);
                     }
                 }
             }
@@ -355,47 +345,6 @@ fn divide(pivot: &Halves<Double>, image: &mut Columns<f32>, row: usize) {
     let [x, y, z] = image.load(row);
     let [x, y, z] = half_product(pivot, [x.widen(), y.widen(), z.widen()]);
     image.store(row, [x.narrow(), y.narrow(), z.narrow()]);
-}
-
-#[inline(always)]
-fn block_at(work: &[f64], Place { first, step }: Place) -> Blocks<f64> {
-    let mut block = [0.0; 9];
-    for (k, entry) in block.iter_mut().enumerate() {
-        *entry = work[first as usize + k * step as usize];
-    }
-    block
-}
-
-/// Subtracts from the block at a place.
-#[inline(always)]
-fn take_off_at<const N: usize>(work: &mut [f64], Place { first, step }: Place, values: &[f64; N]) {
-    for (k, value) in values.iter().enumerate() {
-        work[first as usize + k * step as usize] -= value;
-    }
-}
-
-/// Blocks of a batch of a diagonal of a run.
-#[inline(always)]
-fn above(work: &[f64], run: &Run, (diagonal, batch): (usize, usize)) -> Blocks<Double> {
-    let at = run.above(diagonal, batch);
-    let mut block = [Double::ZERO; 9];
-    for (k, entry) in block.iter_mut().enumerate() {
-        *entry = Double::load(work, at + k * run.len());
-    }
-    block
-}
-
-/// Subtracts from columns of a length, from a place on.
-#[inline(always)]
-fn take_off<const N: usize>(
-    work: &mut [f64],
-    (first, length): (usize, usize),
-    values: &[Double; N],
-) {
-    for (k, value) in values.iter().enumerate() {
-        let at = first + k * length;
-        (Double::load(work, at) - *value).store(work, at);
-    }
 }
 
 #[cfg(test)]
@@ -502,8 +451,7 @@ mod tests {
         assert!(!waves.stray_updates.is_empty(), "nothing of this goes astray");
         let mut packed = Packed::new(&waves);
         let mut incomplete = Incomplete::new(&waves);
-        packed.pack(&waves, &matrix, &mut incomplete.work);
-        assert!(incomplete.load(&waves, &packed, 1.0));
+        packed.pack(&waves, &matrix);
         let attempt = Attempt { fill: Fill::Compensated(0.0), shift: 0.0 };
         assert!(incomplete.eliminate(&waves, &packed, attempt));
         let mut factored = Factored { waves, incomplete, failed: Ok(0) };
@@ -583,8 +531,7 @@ mod tests {
             let mut packed = Packed::new(&waves);
             let mut incomplete = Incomplete::new(&waves);
             let mut holds = |fill: Fill| {
-                packed.pack(&waves, &matrix, &mut incomplete.work);
-                assert!(incomplete.load(&waves, &packed, 1.0));
+                packed.pack(&waves, &matrix);
                 incomplete.eliminate(&waves, &packed, Attempt { fill, shift: 0.0 })
             };
             assert!(holds(Fill::Stabilised(1.0)), "seed {seed}");

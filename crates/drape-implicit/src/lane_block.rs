@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Mul};
 
-use crate::lanes::{Double, LANES, Number};
+use crate::lanes::{Double, LANES, Number, Single};
 
 /// Three-by-three blocks in lanes, row by row.
 pub(crate) type Blocks<T> = [T; 9];
@@ -124,7 +124,7 @@ pub(crate) fn symmetric<T: Number>(a: &Blocks<T>) -> Halves<T> {
 
 /// What a lane has of blocks.
 #[inline(always)]
-pub(crate) fn lane_of<const N: usize>(blocks: &[Double; N], lane: u32) -> [f64; N] {
+pub(crate) fn lane_of<const N: usize>(blocks: &[Single; N], lane: u32) -> [f32; N] {
     let mut own = [0.0; N];
     for (own, entry) in own.iter_mut().zip(blocks) {
         *own = entry.0[lane as usize];
@@ -138,7 +138,7 @@ mod tests {
 
     /// The same block in all lanes.
     fn halves(a: Halves<f64>) -> Halves<Double> {
-        a.map(Double::splat)
+        a.map(Double::of)
     }
 
     #[test]
@@ -157,7 +157,7 @@ mod tests {
     fn blocks_indefinite_in_one_lane_or_not_a_number_are_not_sound() {
         let mut a = halves([4.0, 1.0, -0.5, 3.0, 0.25, 2.0]);
         assert!(sound(&a, Double::ZERO));
-        assert!(!sound(&a, Double::splat(100.0)), "its determinant is 20.75");
+        assert!(!sound(&a, Double::of(100.0)), "its determinant is 20.75");
         // Two negative directions: the determinant alone would let it pass.
         let twice = [-1.0, 0.0, 0.0, -1.0, 0.0, 1.0];
         for (entry, value) in a.iter_mut().zip(twice) {

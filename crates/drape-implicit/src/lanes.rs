@@ -81,41 +81,43 @@ pub(crate) trait Number: Copy + Add<Output = Self> + Mul<Output = Self> {
     fn root(self) -> [Self; 2];
 }
 
-impl Number for f64 {
-    #[inline(always)]
-    fn of(x: f64) -> Self {
-        x
-    }
+macro_rules! number {
+    ($scalar:ty, $lanes:ident) => {
+        impl Number for $scalar {
+            #[inline(always)]
+            fn of(x: f64) -> Self {
+                x as $scalar
+            }
 
-    #[inline(always)]
-    fn root(self) -> [Self; 2] {
-        let root = if self > 0.0 { self.sqrt() } else { 0.0 };
-        [root, if root > 0.0 { 1.0 / root } else { 0.0 }]
-    }
-}
-
-impl Number for Double {
-    #[inline(always)]
-    fn of(x: f64) -> Self {
-        Self::splat(x)
-    }
-
-    #[inline(always)]
-    fn root(self) -> [Self; 2] {
-        let mut roots = [Self::ZERO; 2];
-        for (lane, x) in self.0.into_iter().enumerate() {
-            [roots[0].0[lane], roots[1].0[lane]] = x.root();
+            #[inline(always)]
+            fn root(self) -> [Self; 2] {
+                let root = if self > 0.0 { self.sqrt() } else { 0.0 };
+                [root, if root > 0.0 { 1.0 / root } else { 0.0 }]
+            }
         }
-        roots
-    }
+
+        impl Number for $lanes {
+            #[inline(always)]
+            fn of(x: f64) -> Self {
+                Self([x as $scalar; LANES])
+            }
+
+            #[inline(always)]
+            fn root(self) -> [Self; 2] {
+                let mut roots = [Self::ZERO; 2];
+                for (lane, x) in self.0.into_iter().enumerate() {
+                    [roots[0].0[lane], roots[1].0[lane]] = x.root();
+                }
+                roots
+            }
+        }
+    };
 }
+
+number!(f64, Double);
+number!(f32, Single);
 
 impl Double {
-    #[inline(always)]
-    pub(crate) fn splat(x: f64) -> Self {
-        Self([x; LANES])
-    }
-
     #[inline(always)]
     pub(crate) fn narrow(self) -> Single {
         let mut lanes = Single::ZERO;

@@ -19,6 +19,7 @@ mod lanes;
 mod motion;
 mod packed;
 mod pattern;
+mod remainder;
 mod report;
 mod settings;
 mod solver;

@@ -22,8 +22,8 @@ const IDENTITY: Block = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 #[derive(Debug)]
 pub(crate) struct Packed {
     /// By run, batch and diagonal.
-    above: Vec<Blocks<Single>>,
-    strays: Vec<Blocks<f32>>,
+    pub above: Vec<Blocks<Single>>,
+    pub strays: Vec<Blocks<f32>>,
     /// Upper halves by row. Rows without a particle have the identity.
     own: [Vec<f64>; 6],
     /// What the pattern had no room for, between rows.
@@ -40,9 +40,9 @@ impl Packed {
         }
     }
 
-    /// Copies a matrix: in double precision what is above its diagonal goes to where it will be factorised.
+    /// Copies a matrix.
     #[inline(always)]
-    pub(crate) fn pack(&mut self, waves: &Waves, matrix: &BlockMatrix, work: &mut [f64]) {
+    pub(crate) fn pack(&mut self, waves: &Waves, matrix: &BlockMatrix) {
         let blocks = matrix.blocks();
         self.couplings.clear();
         self.couplings.extend(matrix.couplings().iter().map(|coupling| Coupling {
@@ -50,35 +50,29 @@ impl Packed {
             column: waves.places[coupling.column as usize],
             ..*coupling
         }));
+        for column in &mut self.own {
+            column.fill(0.0);
+        }
         for run in &waves.runs {
+            let diagonals = &waves.diagonals[run.diagonals.clone()];
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
                 let slots = &waves.own_slots[run.batches + batch];
                 for (column, place) in self.own.iter_mut().zip(HALF) {
                     let column = &mut column[row..row + LANES];
                     for (entry, &slot) in column.iter_mut().zip(slots) {
-                        *entry = pick(blocks, slot, &IDENTITY)[place];
+                        *entry += pick(blocks, slot, &IDENTITY)[place];
                     }
                 }
-            }
-        }
-        for run in &waves.runs {
-            let diagonals = &waves.diagonals[run.diagonals.clone()];
-            for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
                 let first = run.blocks + batch * diagonals.len();
                 let slots = &waves.slots[first..first + diagonals.len()];
                 let above = &mut self.above[first..first + diagonals.len()];
-                let places = diagonals.iter().enumerate().zip(slots).zip(above);
-                for (((index, diagonal), slots), above) in places {
+                for ((diagonal, slots), above) in diagonals.iter().zip(slots).zip(above) {
                     let mut block = [Double::ZERO; 9];
                     for (lane, &slot) in slots.iter().enumerate() {
                         let source = pick(blocks, slot, &block::ZERO);
                         for (entry, value) in block.iter_mut().zip(source) {
                             entry.0[lane] = *value;
                         }
-                    }
-                    let at = run.above(index, batch);
-                    for (k, entry) in block.iter().enumerate() {
-                        entry.store(work, at + k * run.len());
                     }
                     let lost = shorten(&block, above);
                     for (column, lost) in self.own.iter_mut().zip(lost) {
@@ -88,12 +82,9 @@ impl Packed {
                     }
                 }
                 let own = waves.batches[run.batches + batch].strays.clone();
-                let strays = waves.strays[own.clone()].iter().zip(&mut self.strays[own.clone()]);
-                for (index, (stray, short)) in own.zip(strays) {
-                    let block = &blocks[stray.slot as usize];
-                    let place = waves.stray(index);
-                    work[place.first as usize..][..9].copy_from_slice(block);
+                for (stray, short) in waves.strays[own.clone()].iter().zip(&mut self.strays[own]) {
                     let mut lost = block::ZERO;
+                    let block = &blocks[stray.slot as usize];
                     for ((lost, short), value) in lost.iter_mut().zip(short).zip(block) {
                         *short = *value as f32;
                         *lost = *value - f64::from(*short);
@@ -212,7 +203,7 @@ mod tests {
     fn multiply(matrix: &BlockMatrix, x: impl Fn(usize) -> f64) -> Vec<f64> {
         let waves = Waves::new(matrix.pattern());
         let mut packed = Packed::new(&waves);
-        packed.pack(&waves, matrix, &mut vec![0.0; waves.work + LANES]);
+        packed.pack(&waves, matrix);
         let (mut columns, mut product) = (Columns::new(waves.rows), Columns::new(waves.rows));
         let entries = || (0..3 * waves.places.len()).map(|k| (k, waves.places[k / 3] as usize));
         for (k, row) in entries() {

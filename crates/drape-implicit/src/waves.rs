@@ -58,6 +58,8 @@ pub(crate) struct Run {
     pub batches: usize,
     /// First of its numbers in a factorisation: six columns of its rows for the pivots, then nine for each diagonal.
     pub work: usize,
+    /// Runs from the first that its elimination, and that of those before, changes or reads.
+    pub ahead: usize,
 }
 
 impl Run {
@@ -176,6 +178,7 @@ impl Waves {
         waves.make_room();
         waves.find_slots(pattern, &particles);
         waves.find_pivots();
+        waves.look_ahead(&run_of_row);
         waves.find_updates(pattern, &particles, &run_of_row);
         waves
     }
@@ -219,6 +222,7 @@ impl Waves {
                 blocks: 0,
                 batches: 0,
                 work: self.work,
+                ahead: 0,
             });
             self.work += (end - start) * (6 + 9 * count);
             self.widest = self.widest.max(count);
@@ -307,6 +311,20 @@ impl Waves {
     #[inline(always)]
     pub(crate) fn stray(&self, index: usize) -> Place {
         Place { first: (self.stray_work + 9 * index) as u32, step: 1 }
+    }
+
+    /// Finds how far ahead of a run its columns lie.
+    fn look_ahead(&mut self, run_of_row: &[u32]) {
+        let mut ahead = 0;
+        for (index, run) in self.runs.iter_mut().enumerate() {
+            let diagonals = self.diagonals[run.diagonals.clone()].iter().map(|d| d.run);
+            let batches = &self.batches[run.batches..][..run.len() / LANES];
+            let strays = batches.iter().flat_map(|batch| &self.strays[batch.strays.clone()]);
+            let columns = strays.map(|stray| run_of_row[stray.column as usize]);
+            let last = diagonals.chain(columns).max().map_or(0, |last| last as usize);
+            ahead = ahead.max(index + 1).max(last + 1);
+            run.ahead = ahead;
+        }
     }
 
     fn find_pivots(&mut self) {
