@@ -23,6 +23,9 @@ pub(crate) struct BenchArguments {
     /// Simulated time, in seconds.
     #[arg(long, default_value_t = 1.0, value_name = "SECONDS")]
     until: f64,
+    /// In air, whose drag calms the swing, and not in a vacuum.
+    #[arg(long)]
+    air: bool,
     /// Prints the results as JSON.
     #[arg(long)]
     json: bool,
@@ -77,7 +80,7 @@ impl Run {
 
 /// `drape bench`.
 pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
-    let BenchArguments { sizes, step, until, json, .. } = arguments;
+    let BenchArguments { sizes, step, until, .. } = arguments;
     let usage = |message: String| Err(Failure::Usage(message));
     if let Some(size) = sizes.iter().find(|size| !(3..=1000).contains(*size)) {
         return usage(format!("--sizes {size}: from 3 to 1000 particles along a side"));
@@ -93,23 +96,24 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
             bar.set_message(format!("{motion}, {size} × {size}"));
             let base = (runs.len() * 1000) as u64;
             let done = |part: f64| bar.set_position(base + (1000.0 * part) as u64);
-            let summary = run(start, size, (*step, *until), &done)?;
+            let summary = run(start, size, arguments, &done)?;
             runs.push(Run { motion, size, summary });
         }
     }
     bar.finish_and_clear();
-    say(if *json { as_json(&runs, *step) } else { table(&runs, *step) })
+    say(if arguments.json { as_json(&runs, arguments) } else { table(&runs, arguments) })
 }
 
 fn run(
     start: &str,
     size: usize,
-    (step, until): (f64, f64),
+    &BenchArguments { step, until, air, .. }: &BenchArguments,
     done: &dyn Fn(f64),
 ) -> Result<Summary, Failure> {
+    let air = if air { "" } else { "air.density = 0.0" };
     let spacing = 1.0 / (size as f64 - 1.0);
     let text = format!(
-        "name = \"bench\"\nspacing = {spacing}\nair.density = 0.0\n\
+        "name = \"bench\"\nspacing = {spacing}\n{air}\n\
          contact.surfaces = false\nfabric.bench.file = \"bench.toml\"\n\
          [[panel]]\nname = \"sheet\"\nfabric = \"bench\"\nrectangle = [1.0, 1.0]\n{start}\n\
          [[pin]]\npanel = \"sheet\"\npoints = [[0, 1], [1, 1]]\n\
@@ -127,11 +131,12 @@ fn run(
     }
 }
 
-fn table(runs: &[Run], step: f64) -> String {
+fn table(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> String {
     let mut text = format!(
-        "A square metre of 0.2 kg/m², 5000 N/m, friction in every law, held at two corners;\n\
+        "A square metre of 0.2 kg/m², 5000 N/m, friction in every law, held at two corners {};\n\
          steps of {} ms, tolerance 1e-4 g, {} threads.\n\n\
          motion    particles  ms/step  iterations  linear  rejected  CPU s per simulated s\n",
+        if air { "in air" } else { "in a vacuum" },
         1e3 * step,
         runs[0].summary.threads
     );
@@ -154,7 +159,7 @@ fn table(runs: &[Run], step: f64) -> String {
     text.trim_end().to_owned()
 }
 
-fn as_json(runs: &[Run], step: f64) -> String {
+fn as_json(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> String {
     let rows = runs.iter().map(|run| {
         json!({
             "motion": run.motion,
@@ -167,7 +172,8 @@ fn as_json(runs: &[Run], step: f64) -> String {
     });
     let growth: serde_json::Map<_, _> =
         growths(runs).into_iter().map(|(motion, g)| (motion.to_owned(), g.into())).collect();
-    let all = json!({ "step": step, "runs": rows.collect::<Vec<_>>(), "growth_exponent": growth });
+    let rows = rows.collect::<Vec<_>>();
+    let all = json!({ "step": step, "air": air, "runs": rows, "growth_exponent": growth });
     serde_json::to_string_pretty(&all).expect("numbers and words always have a JSON form")
 }
 
