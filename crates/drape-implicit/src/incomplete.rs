@@ -6,7 +6,7 @@ use crate::lane_block::{
     Blocks, Halves, determinant, half_of_product, half_product, half_times, inverse, lane_of,
     product, sound, transposed_product, transposed_times,
 };
-use crate::lanes::{Columns, Double, LANES, Number, Single};
+use crate::lanes::{Columns, Double, LANES, Number, Single, narrowed, widened};
 use crate::packed::Packed;
 use crate::remainder::Remainder;
 use crate::waves::{Batch, NOWHERE, Run, StrayUpdate, Waves};
@@ -122,10 +122,7 @@ impl Incomplete {
         for (failed, attempt) in ATTEMPTS[first..].iter().enumerate() {
             if self.eliminate(waves, packed, *attempt) {
                 self.diagonal_only = false;
-                self.first = first + failed;
-                if failed == 0 && first > 1 {
-                    self.first -= 1;
-                }
+                self.first = if failed == 0 && first > 1 { first - 1 } else { first + failed };
                 return Ok(failed);
             }
         }
@@ -149,19 +146,13 @@ impl Incomplete {
                 loaded += 1;
             }
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
-                let mut pivot = [Double::ZERO; 6];
-                for (pivot, left) in pivot.iter_mut().zip(&self.remainder.pivots(run, batch)) {
-                    *pivot = left.widen();
-                }
+                let pivot = widened(&self.remainder.pivots(run, batch));
                 if !sound(&pivot, floor * determinant(&packed.own(row))) {
                     return false;
                 }
                 let inverse = inverse(&pivot, determinant(&pivot));
                 self.pivots[run.batches + batch] = inverse;
-                let mut short = [Single::ZERO; 6];
-                for (short, entry) in short.iter_mut().zip(&inverse) {
-                    *short = entry.narrow();
-                }
+                let short = narrowed(&inverse);
                 self.eliminate_diagonals((waves, run, batch), &short, attempt.fill);
                 self.eliminate_strays((waves, run, batch), &short, attempt.fill);
             }
@@ -181,7 +172,7 @@ impl Incomplete {
         let diagonals = &waves.diagonals[run.diagonals.clone()];
         squares.clear();
         taken.clear();
-        let upper = &mut upper[run.blocks + batch * diagonals.len()..][..diagonals.len()];
+        let upper = &mut upper[run.blocks_of(batch)];
         for (diagonal, upper) in upper.iter_mut().enumerate() {
             let block = remainder.above(run, (diagonal, batch));
             *upper = half_times(inverse, &block);
@@ -210,11 +201,9 @@ impl Incomplete {
                     }
                 }
             }
-        }
-        for (diagonal, taken) in diagonals.iter().zip(&*taken) {
-            let target = &waves.runs[diagonal.run as usize];
-            let place = (row + diagonal.offset).wrapping_sub(target.start);
-            remainder.take_off((target.work.wrapping_add(place), target.len()), taken);
+            // Later diagonals add nothing to it: updates are with later ones only.
+            let pivots = (target.work.wrapping_add(place), target.len());
+            remainder.take_off(pivots, &taken[left]);
         }
     }
 
@@ -240,7 +229,7 @@ impl Incomplete {
             stray_squares.push(square);
         }
         let count = run.diagonals.len();
-        let upper = &upper[run.blocks + batch * count..][..count];
+        let upper = &upper[run.blocks_of(batch)];
         for &StrayUpdate { lane, left, right, target } in &waves.stray_updates[updates.clone()] {
             let [left, right] = [left as usize, right as usize];
             let row = run.start + batch * LANES + lane as usize;
@@ -295,7 +284,7 @@ impl Incomplete {
             let starts = (run.start..run.end).step_by(LANES);
             for ((batch, row), pivot) in starts.enumerate().zip(&pivots[run.batches..]) {
                 let here = image.load(row);
-                let blocks = &upper[run.blocks + batch * diagonals.len()..][..diagonals.len()];
+                let blocks = &upper[run.blocks_of(batch)];
                 for (diagonal, block) in diagonals.iter().zip(blocks) {
                     let column = row + diagonal.offset;
                     let [x, y, z] = image.load(column);
@@ -319,7 +308,7 @@ impl Incomplete {
         for run in waves.runs.iter().rev() {
             let diagonals = &waves.diagonals[run.diagonals.clone()];
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
-                let blocks = &upper[run.blocks + batch * diagonals.len()..][..diagonals.len()];
+                let blocks = &upper[run.blocks_of(batch)];
                 let mut sum = [Single::ZERO; 3];
                 for (diagonal, block) in diagonals.iter().zip(blocks) {
                     let more = product(block, image.load(row + diagonal.offset));
@@ -342,9 +331,7 @@ impl Incomplete {
 /// Applies inverse pivots, in double precision: stiff and soft directions may be far apart in them.
 #[inline(always)]
 fn divide(pivot: &Halves<Double>, image: &mut Columns<f32>, row: usize) {
-    let [x, y, z] = image.load(row);
-    let [x, y, z] = half_product(pivot, [x.widen(), y.widen(), z.widen()]);
-    image.store(row, [x.narrow(), y.narrow(), z.narrow()]);
+    image.store(row, narrowed(&half_product(pivot, widened(&image.load(row)))));
 }
 
 #[cfg(test)]

@@ -67,26 +67,11 @@ macro_rules! lanes {
                 self
             }
         }
-    };
-}
 
-lanes!(Double, f64, 64);
-lanes!(Single, f32, 32);
-
-/// One number or several.
-pub(crate) trait Number: Copy + Add<Output = Self> + Mul<Output = Self> {
-    fn of(x: f64) -> Self;
-
-    /// The root and its inverse; 0 both of what is not positive.
-    fn root(self) -> [Self; 2];
-}
-
-macro_rules! number {
-    ($scalar:ty, $lanes:ident) => {
-        impl Number for $scalar {
+        impl Number for $number {
             #[inline(always)]
             fn of(x: f64) -> Self {
-                x as $scalar
+                x as $number
             }
 
             #[inline(always)]
@@ -96,10 +81,10 @@ macro_rules! number {
             }
         }
 
-        impl Number for $lanes {
+        impl Number for $name {
             #[inline(always)]
             fn of(x: f64) -> Self {
-                Self([x as $scalar; LANES])
+                Self([x as $number; LANES])
             }
 
             #[inline(always)]
@@ -114,8 +99,16 @@ macro_rules! number {
     };
 }
 
-number!(f64, Double);
-number!(f32, Single);
+lanes!(Double, f64, 64);
+lanes!(Single, f32, 32);
+
+/// One number or several.
+pub(crate) trait Number: Copy + Add<Output = Self> + Mul<Output = Self> {
+    fn of(x: f64) -> Self;
+
+    /// The root and its inverse; 0 both of what is not positive.
+    fn root(self) -> [Self; 2];
+}
 
 impl Double {
     #[inline(always)]
@@ -137,6 +130,26 @@ impl Single {
         }
         lanes
     }
+}
+
+/// The same numbers in double precision.
+#[inline(always)]
+pub(crate) fn widened<const N: usize>(short: &[Single; N]) -> [Double; N] {
+    let mut wide = [Double::ZERO; N];
+    for (wide, short) in wide.iter_mut().zip(short) {
+        *wide = short.widen();
+    }
+    wide
+}
+
+/// The same numbers in single precision.
+#[inline(always)]
+pub(crate) fn narrowed<const N: usize>(wide: &[Double; N]) -> [Single; N] {
+    let mut short = [Single::ZERO; N];
+    for (short, wide) in short.iter_mut().zip(wide) {
+        *short = wide.narrow();
+    }
+    short
 }
 
 /// Numbers of particles by axis: three columns.

@@ -4,7 +4,7 @@ use crate::BlockMatrix;
 use crate::block::{self, Block};
 use crate::block_matrix::Coupling;
 use crate::lane_block::{Blocks, Halves, half_product, product, symmetric, transposed_product};
-use crate::lanes::{Columns, Double, LANES, Single};
+use crate::lanes::{Columns, Double, LANES, Single, widened};
 use crate::waves::{NOWHERE, Waves};
 
 /// Places of a symmetric block's upper half in the block.
@@ -63,9 +63,8 @@ impl Packed {
                         *entry += pick(blocks, slot, &IDENTITY)[place];
                     }
                 }
-                let first = run.blocks + batch * diagonals.len();
-                let slots = &waves.slots[first..first + diagonals.len()];
-                let above = &mut self.above[first..first + diagonals.len()];
+                let slots = &waves.slots[run.blocks_of(batch)];
+                let above = &mut self.above[run.blocks_of(batch)];
                 for ((diagonal, slots), above) in diagonals.iter().zip(slots).zip(above) {
                     let mut block = [Double::ZERO; 9];
                     for (lane, &slot) in slots.iter().enumerate() {
@@ -116,14 +115,10 @@ impl Packed {
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
                 let here = x.load(row);
                 let mut sum = half_product(&self.own(row), here);
-                let first = run.blocks + batch * diagonals.len();
-                let blocks = &self.above[first..first + diagonals.len()];
+                let blocks = &self.above[run.blocks_of(batch)];
                 for (diagonal, block) in diagonals.iter().zip(blocks) {
                     let column = row + diagonal.offset;
-                    let mut wide = [Double::ZERO; 9];
-                    for (wide, entry) in wide.iter_mut().zip(block) {
-                        *wide = entry.widen();
-                    }
+                    let wide = widened(block);
                     let there = product(&wide, x.load(column));
                     for (sum, there) in sum.iter_mut().zip(there) {
                         *sum = *sum + there;

@@ -1,13 +1,13 @@
 //! What is left of a matrix while it is factorised.
 
 use crate::lane_block::Blocks;
-use crate::lanes::{Double, LANES, Number, Single};
+use crate::lanes::{Double, LANES, Number, Single, narrowed};
 use crate::packed::Packed;
 use crate::waves::{Place, Run, Waves};
 
 /// Its blocks in columns, so that a batch of them can begin at any row: see [`Run::work`].
 ///
-/// In single precision, which halves the time that it takes: what is factorised is a matrix of single precision.
+/// In single precision, in which the matrix is packed too: a factor takes a fifth less time than in double.
 #[derive(Debug)]
 pub(crate) struct Remainder(Vec<f32>);
 
@@ -21,15 +21,13 @@ impl Remainder {
     #[inline(always)]
     pub(crate) fn load(&mut self, waves: &Waves, run: &Run, packed: &Packed, factor: f64) {
         let factor = Double::of(factor);
-        let count = run.diagonals.len();
         for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
-            let mut own = [Single::ZERO; 6];
-            for (own, entry) in own.iter_mut().zip(&packed.own(row)) {
-                *own = (*entry * factor).narrow();
+            let mut own = packed.own(row);
+            for entry in &mut own {
+                *entry = *entry * factor;
             }
-            self.put(run.work + batch * LANES, run.len(), &own);
-            let blocks = &packed.above[run.blocks + batch * count..][..count];
-            for (diagonal, block) in blocks.iter().enumerate() {
+            self.put(run.work + batch * LANES, run.len(), &narrowed(&own));
+            for (diagonal, block) in packed.above[run.blocks_of(batch)].iter().enumerate() {
                 self.put(run.above(diagonal, batch), run.len(), block);
             }
             for index in waves.batches[run.batches + batch].strays.clone() {

@@ -69,6 +69,13 @@ impl Run {
         self.end - self.start
     }
 
+    /// Its blocks above the diagonal in a batch.
+    #[inline(always)]
+    pub(crate) fn blocks_of(&self, batch: usize) -> core::ops::Range<usize> {
+        let first = self.blocks + batch * self.diagonals.len();
+        first..first + self.diagonals.len()
+    }
+
     /// Place in a factorisation of the first number of a batch of a diagonal, both counted within the run.
     #[inline(always)]
     pub(crate) fn above(&self, diagonal: usize, batch: usize) -> usize {
@@ -389,7 +396,7 @@ impl Waves {
             return;
         }
         let count = run.diagonals.len();
-        let slots = &self.slots[run.blocks + batch * count..][..count];
+        let slots = &self.slots[run.blocks_of(batch)];
         let diagonals = self.diagonals[run.diagonals.clone()].iter().zip(slots).enumerate();
         let mut items: Vec<(usize, usize)> = diagonals
             .filter(|(_, (_, slots))| slots[lane] != NOWHERE)
