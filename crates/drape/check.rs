@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
 use drape::input::{Diagnostic, Diagnostics, Document};
 use drape::kes::Sheet;
-use drape::scene::{Scene, SceneError};
+use drape::scene::{Error, Scene};
 
 use crate::command::CheckArguments;
 use crate::failure::Failure;
@@ -65,9 +65,9 @@ fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics> {
         return Ok(CutOut::read(file, spacing)?.describe());
     }
     if has(&["panel", "garment", "time", "collider"]) {
-        let read = Scene::read(file).map_err(|error| match error {
-            SceneError::Input(mistakes) => mistakes,
-            SceneError::Tangled(tangle) => tangle.mistakes,
+        let read = drape::read_scene(file).map_err(|error| match error {
+            Error::Input(mistakes) => mistakes,
+            Error::Tangled(tangle) => tangle.mistakes,
             other => Diagnostic::new(file, other.to_string()).into(),
         });
         Ok(scene(&read?))
@@ -87,7 +87,7 @@ fn scene(scene: &Scene) -> String {
         scene.name,
         scene.cloth.particles(),
         scene.held.iter().filter(|held| **held).count(),
-        scene.contact.bodies().len(),
+        scene.bodies.len(),
         scene.clock.step,
         scene.clock.end
     );

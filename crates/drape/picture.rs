@@ -1,5 +1,5 @@
+use drape::dynamics::Snapshot;
 use drape::report::{Colour, Picture, Scene, Surface, View, render};
-use drape::scene::Snapshot;
 
 use crate::failure::Failure;
 

@@ -1,6 +1,6 @@
 use std::time::Duration;
 
-use drape::scene::{Frame, Progress, Recorder, SceneError, Step};
+use drape::dynamics::{Error, Frame, Progress, Recorder, Step};
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// A bar of some length on stderr, which stays silent where stderr is not a terminal, with what is told beside it as
@@ -42,7 +42,7 @@ impl Progress for Screen<'_> {
         self.bar.set_position(ticks as u64);
     }
 
-    fn frame(&mut self, frame: &Frame) -> Result<(), SceneError> {
+    fn frame(&mut self, frame: &Frame) -> Result<(), Error> {
         self.recorder.frame(frame)?;
         self.last = Some(frame.clone());
         Ok(())

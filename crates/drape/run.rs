@@ -1,9 +1,9 @@
 use std::path::PathBuf;
 
-use drape::scene::{
-    Contacts, Energy, PhaseName, Scene, SceneError, Simulation, Snapshot, Status, Summary,
-    prepare_folder,
+use drape::dynamics::{
+    Contacts, Energy, PhaseName, Simulation, Snapshot, Status, Summary, prepare_folder,
 };
+use drape::scene::{Error, Scene};
 
 use crate::command::RunArguments;
 use crate::failure::Failure;
@@ -14,7 +14,8 @@ use crate::strain_picture::draw_strains;
 
 /// `drape run`.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let mut scene = Scene::read(&arguments.scene).map_err(|error| refuse(error, arguments))?;
+    let mut scene =
+        drape::read_scene(&arguments.scene).map_err(|error| refuse(error, arguments))?;
     if let Some(end) = arguments.until {
         if !(end >= scene.clock.step) {
             let step = scene.clock.step;
@@ -105,8 +106,8 @@ fn folder(arguments: &RunArguments, of_scene: Option<&PathBuf>) -> PathBuf {
 }
 
 /// Why a scene is refused. Triangles that cross at the start are written beside where its results would be.
-fn refuse(error: SceneError, arguments: &RunArguments) -> Failure {
-    let SceneError::Tangled(mut tangle) = error else { return error.into() };
+fn refuse(error: Error, arguments: &RunArguments) -> Failure {
+    let Error::Tangled(mut tangle) = error else { return error.into() };
     let folder = folder(arguments, tangle.folder.as_ref());
     let mut name = folder.file_name().unwrap_or_default().to_owned();
     name.push("-start.ply");

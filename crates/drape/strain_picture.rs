@@ -1,6 +1,6 @@
 use drape::cloth::TriangleStrain;
+use drape::dynamics::Snapshot;
 use drape::report::{Colour, StrainMap, diverging, strain_svg};
-use drape::scene::Snapshot;
 
 use crate::failure::Failure;
 use crate::picture::draw_from;
