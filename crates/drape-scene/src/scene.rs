@@ -170,7 +170,7 @@ impl Reader<'_> {
             Model::Breen1994 => without_friction(&pairs),
         };
         let ties = sewing.iter().flat_map(|sewing| &sewing.stitching.ties);
-        let cloth = cloth.tied(ties);
+        let cloth = cloth.with_ties(ties);
         let materials: Vec<Material> = materials.into_iter().flatten().collect();
         let positions: Vec<f64> = laid.iter().flat_map(|laid| &laid.positions).copied().collect();
         let mut velocities: Vec<f64> =
@@ -318,7 +318,7 @@ impl Reader<'_> {
 
 /// A cloth that keeps the account of its strains and of nothing else.
 pub(crate) fn without_friction(panels: &[(&Lattice, &Fabric)]) -> Cloth {
-    let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.elastic()).collect();
+    let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.without_friction()).collect();
     let lattices = panels.iter().map(|(lattice, _)| *lattice);
     Cloth::new(&lattices.zip(&fabrics).collect::<Vec<_>>())
 }

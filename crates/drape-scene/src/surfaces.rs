@@ -88,7 +88,7 @@ impl Surfaces {
         let fabric = |panel: &Panel| &materials[panel.material].fabric;
         let skin = |fabric: &Fabric| Skin {
             reach: 0.5 * fabric.thickness,
-            separation: 0.5 * CRUSHED * fabric.under_pressure(),
+            separation: 0.5 * CRUSHED * fabric.thickness_under_pressure(),
         };
         let skins = panels.iter().map(|panel| skin(fabric(panel)));
         let thinnest = skins.min_by(|a, b| a.reach.total_cmp(&b.reach));
@@ -257,7 +257,7 @@ fn shrunk<'a>(
 
 /// Stiffness of contact that presses two layers of a fabric as its compression test does, in N/m³.
 fn stiffness(fabric: &Fabric) -> f64 {
-    let pressed = fabric.under_pressure();
+    let pressed = fabric.thickness_under_pressure();
     let distance = pressed.min(PRESSED * fabric.thickness);
     let ends = [fabric.thickness, CRUSHED * pressed];
     SurfaceSettings::stiffness_under(Fabric::PRESSURE, distance, ends)

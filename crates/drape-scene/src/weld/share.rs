@@ -92,8 +92,8 @@ pub(super) fn places_of(nodes: usize, sewn: &Stitching) -> Vec<Share> {
         }
     }
     let place = |node: usize| match tie[node] {
-        Some(Tie { ends, share, .. }) => {
-            Share { particles: ends.map(|end| particle[end as usize]), part: share }
+        Some(Tie { ends, fraction, .. }) => {
+            Share { particles: ends.map(|end| particle[end as usize]), part: fraction }
         }
         None => Share { particles: [particle[node]; 2], part: 0.0 },
     };

@@ -1,23 +1,27 @@
-#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
+//! The law of traction for a batch. The weight of its friction has three knots: the ends of buckling
+//! and of the priming zone, and zero strain.
+#![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
 use drape_hysteresis::exp_m1;
 
-use crate::batch::{BatchLaw, LANES, Lanes, Responses, Sliders, any, positive};
-use crate::memories::{Lane, Remembered};
-use crate::{Buckling, Polynomial, Primed, TractionBackbone, TractionLaw};
+use crate::batch::batch_law::{BatchLaw, Knot, Responses};
+use crate::batch::friction::PreparedFriction;
+use crate::batch::lanes::{LANES, Lanes, any, positive};
+use crate::batch::memories::{LaneMemory, MemoryBatch, Toe};
+use crate::laws::traction::{Buckling, Polynomial, Primed, TractionBackbone, TractionLaw};
 
-/// A [`TractionLaw`] for many segments side by side.
+/// A [`TractionLaw`] for many connectors side by side.
 ///
-/// The length of the priming zone is kept with the memory. For a law without one it is 1, where
-/// nothing depends on it.
+/// The end of the priming zone is kept with the memory ([`Toe`]). A law without one has it at a strain
+/// of 1, which no weight depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TractionBatch {
     law: TractionLaw,
-    sliders: Sliders,
+    friction: PreparedFriction,
     /// Weight of the friction at rest.
     at_rest: f64,
-    /// Growth of the weight while a buckled yarn straightens.
-    straightening: f64,
+    /// Derivative of the weight with respect to the strain of a buckled yarn.
+    buckled_slope: f64,
 }
 
 impl TractionBatch {
@@ -30,59 +34,62 @@ impl TractionBatch {
         };
         Self {
             law,
-            sliders: Sliders::new(&law.friction),
+            friction: PreparedFriction::new(&law.friction),
             at_rest,
-            straightening: at_rest / law.buckling.strain,
+            buckled_slope: at_rest / law.buckling.strain,
         }
     }
 
+    /// Adds the elastic load in tension of a law with a priming zone.
     #[inline(always)]
-    fn tension<const TANGENT: bool>(
+    fn add_tension<const TANGENT: bool>(
         &self,
         primed: &Primed,
-        (memory, trial): (&Remembered<'_>, &Lanes),
+        memory: &MemoryBatch<'_>,
+        trial: &Lanes,
         responses: &mut Responses,
     ) {
         let Responses { load, tangent } = responses;
         let Primed { stiffness, toe_ratio, toe_strain, toe_strain_after } = *primed;
-        let bow = 1.0 - toe_ratio;
+        let deficit = 1.0 - toe_ratio;
         for lane in 0..LANES {
-            let (strain, [toe, priming]) = (positive(trial[lane]), memory.lane(lane).toe);
-            // The weight's slope in the toe is (1 − r)/(r ε_c).
-            let bend = toe_ratio * priming * strain;
+            let (strain, toe) = (positive(trial[lane]), memory.lane(lane).toe);
+            // The slope of the weight in the priming zone is (1 − r)/(r ε_c).
+            let bend = toe_ratio * toe.weight_slope * strain;
             let within = stiffness * strain * (bend + 2.0 * toe_ratio - 1.0);
-            let beyond = stiffness * (strain - bow * toe);
-            let bends = strain <= toe;
+            let beyond = stiffness * (strain - deficit * toe.end);
+            let bends = strain <= toe.end;
             load[lane] += if bends { within } else { beyond };
             if TANGENT {
                 let slope = stiffness * (2.0 * bend + 2.0 * toe_ratio - 1.0);
                 tangent[lane] += if bends { slope } else { stiffness };
             }
         }
-        if self.lengthens(primed, memory, trial) {
+        if self.extends_toe(primed, memory, trial) {
             for lane in 0..LANES {
                 let strain = trial[lane];
                 let new = strain > memory.lane(lane).peak.max(toe_strain);
-                // The toe moves along: it takes the place of the one that was kept.
+                // The priming zone moves with the strain: it replaces the remembered one.
                 let toe = toe_after(primed, strain);
-                let softer = stiffness * bow * (memory.lane(lane).toe[0] - toe);
+                let softer = stiffness * deficit * (memory.lane(lane).toe.end - toe);
                 load[lane] += if new { softer } else { 0.0 };
                 if TANGENT {
                     let growth = (toe_strain_after - toe) / toe_strain;
-                    tangent[lane] -= if new { stiffness * bow * growth } else { 0.0 };
+                    tangent[lane] -= if new { stiffness * deficit * growth } else { 0.0 };
                 }
             }
         }
     }
 
-    /// Whether some lane is stretched further than ever and its toe with it.
+    /// Returns whether some lane is stretched beyond its largest elongation, which moves its toe.
     #[inline(always)]
-    fn lengthens(&self, primed: &Primed, memory: &Remembered<'_>, trial: &Lanes) -> bool {
+    fn extends_toe(&self, primed: &Primed, memory: &MemoryBatch<'_>, trial: &Lanes) -> bool {
         any(|lane| trial[lane] > memory.lane(lane).peak.max(primed.toe_strain))
     }
 
+    /// Adds the elastic load in compression.
     #[inline(always)]
-    fn compression<const TANGENT: bool>(&self, trial: &Lanes, responses: &mut Responses) {
+    fn add_compression<const TANGENT: bool>(&self, trial: &Lanes, responses: &mut Responses) {
         let Responses { load, tangent } = responses;
         let rest = self.law.backbone.rest_stiffness();
         let Buckling { strain, stiffness } = self.law.buckling;
@@ -91,7 +98,7 @@ impl TractionBatch {
             let lost = exp_m1(squeeze / strain);
             load[lane] += rest * strain * lost - 0.5 * stiffness * squeeze * squeeze;
             if TANGENT {
-                // In tension the slope is the other branch's.
+                // The branch of tension has added the slope at rest.
                 let slope = rest * (1.0 + lost) - stiffness * squeeze;
                 let at_rest = rest;
                 tangent[lane] += if squeeze < 0.0 { slope - at_rest } else { 0.0 };
@@ -100,7 +107,7 @@ impl TractionBatch {
     }
 }
 
-/// [`Primed::toe`] in straight arithmetic.
+/// Returns [`Primed::toe`], in straight arithmetic.
 #[inline(always)]
 fn toe_after(primed: &Primed, peak: f64) -> f64 {
     let beyond = positive(peak - primed.toe_strain) / primed.toe_strain;
@@ -109,21 +116,21 @@ fn toe_after(primed: &Primed, peak: f64) -> f64 {
 
 impl BatchLaw for TractionBatch {
     const KNOTS: usize = 3;
-    const AGES: bool = true;
+    const DEPENDS_ON_PEAK: bool = true;
 
     #[inline(always)]
-    fn sliders(&self) -> &Sliders {
-        &self.sliders
+    fn friction(&self) -> &PreparedFriction {
+        &self.friction
     }
 
     #[inline(always)]
-    fn toe(&self, peak: f64) -> [f64; 2] {
+    fn toe(&self, peak: f64) -> Toe {
         match &self.law.backbone {
             TractionBackbone::Primed(primed) => {
                 let end = toe_after(primed, peak);
-                [end, (1.0 - self.at_rest) / end]
+                Toe { end, weight_slope: (1.0 - self.at_rest) / end }
             }
-            TractionBackbone::Polynomial(_) => [1.0, 0.0],
+            TractionBackbone::Polynomial(_) => Toe { end: 1.0, weight_slope: 0.0 },
         }
     }
 
@@ -133,44 +140,45 @@ impl BatchLaw for TractionBatch {
     }
 
     #[inline(always)]
-    fn weight(&self, lane: Lane, strain: f64) -> f64 {
-        let [toe, priming] = lane.toe;
-        let stretched = self.at_rest + priming * strain;
-        let squeezed = positive(self.at_rest + self.straightening * strain);
+    fn weight(&self, lane: LaneMemory, strain: f64) -> f64 {
+        let toe = lane.toe;
+        let stretched = self.at_rest + toe.weight_slope * strain;
+        let squeezed = positive(self.at_rest + self.buckled_slope * strain);
         let within = if strain >= 0.0 { stretched } else { squeezed };
-        if strain >= toe { 1.0 } else { within }
+        if strain >= toe.end { 1.0 } else { within }
     }
 
     #[inline(always)]
-    fn slope(&self, lane: Lane, rising: bool) -> f64 {
+    fn weight_slope(&self, lane: LaneMemory, rising: bool) -> f64 {
         let at = lane.position;
         let below = |knot: f64| (at < knot) | (!rising & (at == knot));
-        let [toe, priming] = lane.toe;
-        let mut slope = if below(toe) { priming } else { 0.0 };
-        slope = if below(0.0) { self.straightening } else { slope };
+        let toe = lane.toe;
+        let mut slope = if below(toe.end) { toe.weight_slope } else { 0.0 };
+        slope = if below(0.0) { self.buckled_slope } else { slope };
         if below(-self.law.buckling.strain) { 0.0 } else { slope }
     }
 
     #[inline(always)]
-    fn knot(&self, knot: usize, lane: Lane) -> (f64, f64) {
-        let [toe, priming] = lane.toe;
-        match knot {
-            0 => (-self.law.buckling.strain, self.straightening),
-            1 => (0.0, priming - self.straightening),
-            _ => (toe, -priming),
-        }
+    fn knot(&self, knot: usize, lane: LaneMemory) -> Knot {
+        let toe = lane.toe;
+        let (position, slope_change) = match knot {
+            0 => (-self.law.buckling.strain, self.buckled_slope),
+            1 => (0.0, toe.weight_slope - self.buckled_slope),
+            _ => (toe.end, -toe.weight_slope),
+        };
+        Knot { position, slope_change }
     }
 
     #[inline(always)]
-    fn elastic<const TANGENT: bool>(
+    fn add_elastic<const TANGENT: bool>(
         &self,
-        memory: &Remembered<'_>,
+        memory: &MemoryBatch<'_>,
         trial: &Lanes,
         responses: &mut Responses,
     ) {
         match &self.law.backbone {
             TractionBackbone::Primed(primed) => {
-                self.tension::<TANGENT>(primed, (memory, trial), responses);
+                self.add_tension::<TANGENT>(primed, memory, trial, responses);
             }
             TractionBackbone::Polynomial(Polynomial { quadratic, quartic }) => {
                 for lane in 0..LANES {
@@ -185,29 +193,29 @@ impl BatchLaw for TractionBatch {
             }
         }
         if any(|lane| trial[lane] < 0.0) {
-            self.compression::<TANGENT>(trial, responses);
+            self.add_compression::<TANGENT>(trial, responses);
         }
     }
 
     #[inline(always)]
-    fn energy(&self, memory: &Remembered<'_>, trial: &Lanes, energies: &mut Lanes) {
+    fn add_elastic_energy(&self, memory: &MemoryBatch<'_>, trial: &Lanes, energies: &mut Lanes) {
         match &self.law.backbone {
             TractionBackbone::Primed(primed) => {
                 for lane in 0..LANES {
                     let strain = positive(trial[lane]);
-                    energies[lane] += primed.fixed_energy(memory.lane(lane).toe[0], strain);
+                    energies[lane] += primed.fixed_energy(memory.lane(lane).toe.end, strain);
                 }
-                if self.lengthens(primed, memory, trial) {
+                if self.extends_toe(primed, memory, trial) {
                     let Primed { stiffness, toe_ratio, toe_strain, toe_strain_after } = *primed;
                     for lane in 0..LANES {
-                        let (strain, toe) = (trial[lane], memory.lane(lane).toe[0]);
+                        let (strain, toe) = (trial[lane], memory.lane(lane).toe.end);
                         let seen = memory.lane(lane).peak.max(toe_strain);
-                        // The moving toe's integral less that of the one that was kept.
-                        let way = strain - seen;
-                        let toes = (toe_strain_after - toe) * way
+                        // Integral of the moving toe less that of the remembered one.
+                        let beyond = strain - seen;
+                        let toes = (toe_strain_after - toe) * beyond
                             - toe_strain * (toe_after(primed, strain) - toe);
                         let softer = stiffness * (1.0 - toe_ratio) * toes;
-                        energies[lane] -= if way > 0.0 { softer } else { 0.0 };
+                        energies[lane] -= if beyond > 0.0 { softer } else { 0.0 };
                     }
                 }
             }

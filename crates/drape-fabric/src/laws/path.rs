@@ -1,14 +1,16 @@
-use drape_hysteresis::{BlimanSorine, Loads, Slip};
+//! Straight path of a law's deformation, in pieces along which the weight of the friction is linear.
 
-/// A straight path cut where the friction's weight changes its slope.
+use drape_hysteresis::{BlimanSorine, Loads, Response, Slip};
+
+/// Straight path, cut where the weight of the friction changes its slope.
 pub(crate) struct Path {
     slips: [Slip; 4],
     count: usize,
 }
 
 impl Path {
-    /// Cuts the way from `from` to `to` at up to three knots, given in rising order, between which
-    /// `weight` is linear.
+    /// Cuts the path between two deformations at up to three knots, given in rising order, between
+    /// which `weight` is linear.
     pub(crate) fn new(from: f64, to: f64, knots: &[f64], weight: impl Fn(f64) -> f64) -> Self {
         debug_assert!(knots.len() <= 3);
         let mut path = Self { slips: [Slip::from(0.0); 4], count: 0 };
@@ -31,19 +33,19 @@ impl Path {
         path
     }
 
-    /// Friction loads at the end of the path.
+    /// Returns the friction loads at the end of the path.
     pub(crate) fn advance(&self, friction: &BlimanSorine, loads: Loads) -> Loads {
         self.slips[..self.count].iter().fold(loads, |loads, slip| friction.advance(loads, *slip))
     }
 
-    /// Friction load at the end and its derivative with respect to the end.
-    pub(crate) fn respond(&self, friction: &BlimanSorine, loads: Loads) -> (f64, f64) {
+    /// Returns the friction load at the end and its derivative with respect to the end.
+    pub(crate) fn respond(&self, friction: &BlimanSorine, loads: Loads) -> Response {
         let (last, before) = (self.slips[self.count - 1], &self.slips[..self.count - 1]);
         let loads = before.iter().fold(loads, |loads, slip| friction.advance(loads, *slip));
         friction.respond(loads, last)
     }
 
-    /// Work of the friction over the path.
+    /// Returns the work of the friction over the path.
     pub(crate) fn work(&self, friction: &BlimanSorine, loads: Loads) -> f64 {
         let mut loads = loads;
         let mut work = 0.0;

@@ -1,43 +1,46 @@
-#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
+//! The law of shear for a batch. The weight of its friction has one knot, at zero shear.
+#![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
-use crate::batch::{BatchLaw, LANES, Lanes, Responses, Sliders, any};
-use crate::memories::{Lane, Remembered};
-use crate::{Locking, ShearBackbone, ShearLaw};
+use crate::batch::batch_law::{BatchLaw, Knot, Responses};
+use crate::batch::friction::PreparedFriction;
+use crate::batch::lanes::{LANES, Lanes, any};
+use crate::batch::memories::{LaneMemory, MemoryBatch, Toe};
+use crate::laws::shear::{Elastic, Locking, ShearBackbone, ShearLaw};
 
-/// A [`ShearLaw`] for many corners side by side.
+/// A [`ShearLaw`] for many connectors side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShearBatch {
     law: ShearLaw,
-    sliders: Sliders,
+    friction: PreparedFriction,
 }
 
 impl ShearBatch {
     /// Prepares a law.
     #[must_use]
     pub fn new(law: ShearLaw) -> Self {
-        let sliders = Sliders::new(&law.friction);
-        Self { law, sliders }
+        let friction = PreparedFriction::new(&law.friction);
+        Self { law, friction }
     }
 
-    /// The jamming of the yarns, if some lane has got there.
+    /// Returns the locking, if the shear of some lane is beyond its onset.
     #[inline(always)]
-    fn jammed(&self, trial: &Lanes) -> Option<Locking> {
+    fn locked(&self, trial: &Lanes) -> Option<Locking> {
         self.law.locking.filter(|locking| any(|lane| trial[lane].abs() > locking.onset))
     }
 }
 
 impl BatchLaw for ShearBatch {
     const KNOTS: usize = 1;
-    const AGES: bool = false;
+    const DEPENDS_ON_PEAK: bool = false;
 
     #[inline(always)]
-    fn sliders(&self) -> &Sliders {
-        &self.sliders
+    fn friction(&self) -> &PreparedFriction {
+        &self.friction
     }
 
     #[inline(always)]
-    fn toe(&self, _peak: f64) -> [f64; 2] {
-        [0.0; 2]
+    fn toe(&self, _peak: f64) -> Toe {
+        Toe::default()
     }
 
     #[inline(always)]
@@ -46,25 +49,25 @@ impl BatchLaw for ShearBatch {
     }
 
     #[inline(always)]
-    fn weight(&self, _lane: Lane, deformation: f64) -> f64 {
+    fn weight(&self, _lane: LaneMemory, deformation: f64) -> f64 {
         1.0 + self.law.growth * deformation.abs()
     }
 
     #[inline(always)]
-    fn slope(&self, lane: Lane, rising: bool) -> f64 {
+    fn weight_slope(&self, lane: LaneMemory, rising: bool) -> f64 {
         let falls = (lane.position < 0.0) | (!rising & (lane.position == 0.0));
         if falls { -self.law.growth } else { self.law.growth }
     }
 
     #[inline(always)]
-    fn knot(&self, _knot: usize, _lane: Lane) -> (f64, f64) {
-        (0.0, 2.0 * self.law.growth)
+    fn knot(&self, _knot: usize, _lane: LaneMemory) -> Knot {
+        Knot { position: 0.0, slope_change: 2.0 * self.law.growth }
     }
 
     #[inline(always)]
-    fn elastic<const TANGENT: bool>(
+    fn add_elastic<const TANGENT: bool>(
         &self,
-        _memory: &Remembered<'_>,
+        _memory: &MemoryBatch<'_>,
         trial: &Lanes,
         responses: &mut Responses,
     ) {
@@ -87,12 +90,12 @@ impl BatchLaw for ShearBatch {
                 }
             }
         }
-        if let Some(locking) = self.jammed(trial) {
+        if let Some(locking) = self.locked(trial) {
             let at_onset = self.law.backbone.respond(locking.onset);
             for lane in 0..LANES {
                 let size = trial[lane].abs();
                 let beyond = size > locking.onset;
-                let (response, _) = locking.respond(at_onset, size);
+                let Elastic { response, .. } = locking.respond(at_onset, size);
                 let free = self.law.backbone.respond(trial[lane]);
                 let more = response.load.copysign(trial[lane]) - free.load;
                 load[lane] += if beyond { more } else { 0.0 };
@@ -105,15 +108,15 @@ impl BatchLaw for ShearBatch {
     }
 
     #[inline(always)]
-    fn energy(&self, _memory: &Remembered<'_>, trial: &Lanes, energies: &mut Lanes) {
+    fn add_elastic_energy(&self, _memory: &MemoryBatch<'_>, trial: &Lanes, energies: &mut Lanes) {
         for lane in 0..LANES {
             energies[lane] += self.law.backbone.energy(trial[lane]);
         }
-        if self.jammed(trial).is_some() {
-            // The logarithm of the jamming's energy is the library's, one lane at a time.
+        if self.locked(trial).is_some() {
+            // The energy of locking has a logarithm, which is computed one lane at a time.
             for lane in 0..LANES {
                 let free = self.law.backbone.energy(trial[lane]);
-                energies[lane] += self.law.elastic(trial[lane]).1 - free;
+                energies[lane] += self.law.elastic(trial[lane]).energy - free;
             }
         }
     }

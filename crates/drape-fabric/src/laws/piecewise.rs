@@ -1,8 +1,10 @@
-/// A quadratic through the origin that runs into a straight line, odd about the origin.
+//! Backbone of bending and shear after Breen: a quadratic, then a line.
+
+/// Quadratic through the origin that continues as a straight line, odd about the origin.
 ///
-/// Breen's approximation of the first branch of a KES bending or shear curve [Breen, House & Wozny
-/// 1994, §5.1]: the line is fitted to the outer, stable part, and the quadratic continues it to the
-/// origin with the same value and slope at the knot:
+/// It approximates the first branch of a KES bending or shear curve \[BHW94, §5.1\]: the line is fitted
+/// to the outer, stable part, and the quadratic continues it to the origin with the same value and
+/// slope at the knot:
 ///
 /// ```math
 /// L(d) = \begin{cases} p\,d + q\,d^2, & 0 \le d \le d_k\\ c + s\,d, & d > d_k \end{cases}
@@ -12,14 +14,14 @@
 pub struct Piecewise {
     /// Slope `$s$` of the line, in load per deformation, greater than 0.
     pub slope: f64,
-    /// Load `$c$` at which the line meets the axis, in the unit of the load.
+    /// Intercept `$c$` of the line, in the unit of the load.
     pub intercept: f64,
-    /// Deformation `$d_k$` where the pieces meet, greater than 0.
+    /// Deformation `$d_k$` where quadratic and line meet, greater than 0.
     pub knot: f64,
 }
 
 impl Piecewise {
-    /// Load at a deformation, in the unit of the load.
+    /// Returns the load at a deformation, in the unit of the load.
     #[must_use]
     pub fn load(&self, deformation: f64) -> f64 {
         let d = deformation.abs();
@@ -32,7 +34,8 @@ impl Piecewise {
         load.copysign(load * deformation)
     }
 
-    /// Load over deformation at a deformation of at least 0, in load per deformation; at 0 its limit.
+    /// Returns load over deformation at a deformation of at least 0, in load per deformation; at 0 the
+    /// limit.
     #[must_use]
     #[inline]
     pub fn secant(&self, deformation: f64) -> f64 {
@@ -42,14 +45,14 @@ impl Piecewise {
         if deformation <= self.knot { within } else { beyond }
     }
 
-    /// Slope of the load, in load per deformation.
+    /// Returns the derivative of the load, in load per deformation.
     #[must_use]
     pub fn tangent(&self, deformation: f64) -> f64 {
         let t = (deformation.abs() / self.knot).min(1.0);
         self.slope + 2.0 * self.intercept / self.knot * (1.0 - t)
     }
 
-    /// Integral of the load from 0, in load times deformation.
+    /// Returns the integral of the load from 0, in load times deformation.
     #[must_use]
     pub fn energy(&self, deformation: f64) -> f64 {
         let d = deformation.abs();

@@ -1,47 +1,79 @@
-use drape_hysteresis::BlimanSorine;
+//! Law of traction: tension per width against strain along one yarn system.
 
-use crate::law::{Law, Memory, Response};
-use crate::path::Path;
+use drape_hysteresis::{BlimanSorine, Response};
 
-/// Strain over which a compressed yarn gives way, a ratio.
+use crate::laws::law::{Law, Memory};
+use crate::laws::path::Path;
+
+/// Strain over which a compressed yarn buckles, a ratio.
 ///
-/// Larger values make compression stiffer and the equations easier; smaller ones sharpen the corner
-/// at zero strain, on which quasi-Newton iterations stumble. A fifth of a per cent is well below the
-/// strains of a KES tensile curve (1 to 10 %).
+/// Larger values make compression stiffer and the equations easier to solve; smaller ones sharpen the
+/// corner of the load at zero strain, which slows quasi-Newton iterations. A fifth of a per cent is
+/// well below the strains of a KES tensile curve (1 to 10 %).
 pub const BUCKLING_STRAIN: f64 = 0.002;
 
-/// Stiffness that keeps a buckled yarn segment from collapsing, in N/m.
+/// Post-buckling stiffness of a yarn, in N/m.
 ///
 /// The load grows with the square of the compression: 0.5 N/m at 10 %, a quarter of the weight of
-/// a metre of cloth. Without it a segment could shrink to nothing at no cost.
+/// a metre of cloth. Without it a segment could shrink to zero length without any load.
 pub const POST_BUCKLING_STIFFNESS: f64 = 100.0;
 
-/// Smallest toe ratio; at one half the fabric would have no stiffness at rest.
+/// Smallest toe ratio, a ratio; at one half the fabric would have no stiffness at rest.
 pub const TOE_RATIO_MIN: f64 = 0.505;
 
-/// Tension of a woven fabric along one of its yarns, per width, against strain.
+/// Tension per width of a woven fabric along one of its yarn systems, against strain.
+///
+/// ```math
+/// F = F_e(\varepsilon, \hat\varepsilon) + F_{fr}
+/// ```
+///
+/// with the elastic backbone `$F_e$` ([`TractionBackbone`]; [`Buckling`] in compression) and the
+/// friction `$F_{fr}$`, whose plateau carries the weight
+///
+/// ```math
+/// g(\varepsilon) = \frac{(1-r)\,\varepsilon/\varepsilon_c + 2r-1}{r}\;(0 \le \varepsilon \le \varepsilon_c),
+/// \qquad g = 1\;(\varepsilon > \varepsilon_c)
+/// ```
+///
+/// because in the priming zone only part of the yarns bear load. Below zero strain the yarns buckle
+/// and the weight falls linearly to zero at `$-\varepsilon_b$`. The factor printed in \[NB04, eq. 3\],
+/// `$a\varepsilon + b$`, has the unit of a strain and jumps at `$\varepsilon_c$`; `$g$` is that factor
+/// times `$k_t/F_1$`.
+///
+/// ```
+/// use drape_fabric::{BlimanSorine, Buckling, Law, Primed, TractionBackbone, TractionLaw};
+///
+/// let toe = Primed { stiffness: 4000.0, toe_ratio: 0.7, toe_strain: 0.01, toe_strain_after: 0.01 };
+/// let law = TractionLaw {
+///     backbone: TractionBackbone::Primed(toe),
+///     friction: BlimanSorine::none(),
+///     buckling: Buckling::default(),
+/// };
+/// assert!((law.respond(&law.virgin(), 0.01).load - toe.toe_load()).abs() < 1e-12);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TractionLaw {
-    /// Elastic load in tension.
+    /// Elastic load in tension, per width.
     pub backbone: TractionBackbone,
     /// Internal friction; its plateau is in N/m, its length a ratio.
     pub friction: BlimanSorine,
-    /// What a yarn carries in compression.
+    /// Elastic load in compression, per width.
     pub buckling: Buckling,
 }
 
-/// Elastic load of a fabric in tension.
+/// Elastic load of a fabric in tension, per width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TractionBackbone {
-    /// A priming zone that runs into a line [Ngo Ngoc & Boivin 2004, eq. 3].
+    /// Priming zone, then a line \[NB04, eq. 3\].
     Primed(Primed),
-    /// Even polynomial of the strain [Tagawa et al. 2003, fig. 8a].
+    /// Even polynomial of the strain \[THK03, fig. 8a\].
     Polynomial(Polynomial),
 }
 
-/// Priming zone (toe) and linear zone of a tensile curve [Ngo Ngoc & Boivin 2004, eq. 3].
+/// Priming zone (toe) and linear zone of a tensile curve \[NB04, eq. 3\].
 ///
-/// With the toe ratio `$r = F_1/(k_t\varepsilon_c)$` the load is
+/// With the rigidity `$k_t$`, the end `$\varepsilon_c$` of the priming zone, the load `$F_1$` there and
+/// the toe ratio `$r = F_1/(k_t\varepsilon_c)$` the load is
 ///
 /// ```math
 /// F = k_t\left[(1-r)\,\varepsilon^2/\varepsilon_c + (2r-1)\,\varepsilon\right]
@@ -49,8 +81,8 @@ pub enum TractionBackbone {
 /// F = k_t\left[\varepsilon - (1-r)\,\varepsilon_c\right]\;(\varepsilon > \varepsilon_c)
 /// ```
 ///
-/// once differentiable, and monotone for `$\tfrac12 \le r \le 1$`. The length of the toe remembers
-/// the largest elongation `$\hat\varepsilon$`:
+/// It is once differentiable, and monotone for `$\tfrac12 \le r \le 1$`. The end of the toe depends on
+/// the largest elongation so far, `$\hat\varepsilon$`:
 ///
 /// ```math
 /// \varepsilon_c = \varepsilon_1 + (\varepsilon_1'-\varepsilon_1)
@@ -58,10 +90,10 @@ pub enum TractionBackbone {
 /// \qquad \hat\varepsilon > \varepsilon_1
 /// ```
 ///
-/// with the toe ratio unchanged. The paper has two values of `$\varepsilon_c$` and no rule between
-/// them; this one is continuous, keeps the virgin curve rising while
-/// `$\varepsilon_1' \le 2\varepsilon_1$`, and saturates, so that it does not extrapolate a fit to
-/// absurd lengths.
+/// with the toe ratio unchanged. The paper identifies two values of `$\varepsilon_c$` and gives no rule
+/// between them. This rule is continuous, keeps the virgin curve rising while
+/// `$\varepsilon_1' \le 2\varepsilon_1$`, and saturates, so that a fit is not extrapolated without
+/// bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Primed {
     /// Linear rigidity `$k_t$`, in N/m.
@@ -70,12 +102,12 @@ pub struct Primed {
     pub toe_ratio: f64,
     /// Strain `$\varepsilon_1$` where the priming zone of a virgin fabric ends, a ratio.
     pub toe_strain: f64,
-    /// Strain `$\varepsilon_1'$` where it ends once the fabric has been stretched, a ratio from
+    /// Strain `$\varepsilon_1'$` where it ends after the fabric has been stretched, a ratio from
     /// `toe_strain` to twice that.
     pub toe_strain_after: f64,
 }
 
-/// Even polynomial `$F = c_2\varepsilon^2 + c_4\varepsilon^4$` [Tagawa et al. 2003, fig. 8a].
+/// Even polynomial `$F = c_2\varepsilon^2 + c_4\varepsilon^4$` \[THK03, fig. 8a\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Polynomial {
     /// Coefficient `$c_2$` of the squared strain, in N/m.
@@ -84,19 +116,19 @@ pub struct Polynomial {
     pub quartic: f64,
 }
 
-/// Load of a compressed yarn, which buckles below the spacing of the particles.
+/// Load of a compressed yarn, which buckles at a length below the spacing of the particles.
 ///
 /// ```math
 /// F = k_0\varepsilon_b\left(e^{\varepsilon/\varepsilon_b}-1\right) - \tfrac12 k_p\varepsilon^2,
 /// \qquad \varepsilon < 0
 /// ```
 ///
-/// where `$k_0$` is the stiffness at rest, so that the slope is continuous. No KES test measures it.
+/// with the stiffness `$k_0$` at rest, so that the slope is continuous. No KES test measures it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Buckling {
-    /// Strain `$\varepsilon_b$` over which the stiffness at rest is lost, a ratio.
+    /// Strain `$\varepsilon_b$` over which the stiffness at rest decays, a ratio.
     pub strain: f64,
-    /// Growth `$k_p$` of the stiffness after buckling, in N/m.
+    /// Increase `$k_p$` of the stiffness per strain after buckling, in N/m.
     pub stiffness: f64,
 }
 
@@ -107,7 +139,7 @@ impl Default for Buckling {
 }
 
 impl Primed {
-    /// Strain where the priming zone ends after the largest elongation `peak`, a ratio.
+    /// Returns the strain where the priming zone ends after the largest elongation `peak`, a ratio.
     #[must_use]
     pub fn toe(&self, peak: f64) -> f64 {
         let beyond = (peak - self.toe_strain).max(0.0) / self.toe_strain;
@@ -120,7 +152,7 @@ impl Primed {
         self.toe_ratio * self.stiffness * self.toe_strain
     }
 
-    /// Load and slope at a strain of at least 0 with a toe of fixed length.
+    /// Returns load and tangent at a strain of at least 0 with a toe of fixed length.
     fn fixed(&self, toe: f64, strain: f64) -> Response {
         let Self { stiffness, toe_ratio, .. } = *self;
         if strain <= toe {
@@ -135,7 +167,7 @@ impl Primed {
         }
     }
 
-    /// Load and slope at a strain beyond every earlier one and beyond the virgin toe.
+    /// Returns load and tangent at a strain beyond every earlier one and beyond the virgin toe.
     fn virgin(&self, strain: f64) -> Response {
         let toe = self.toe(strain);
         let growth = (self.toe_strain_after - toe) / self.toe_strain;
@@ -153,7 +185,8 @@ impl Primed {
         }
     }
 
-    /// Integral of the load from 0 to a strain of at least 0 with a toe of fixed length, in J/m².
+    /// Returns the integral of the load from 0 to a strain of at least 0 with a toe of fixed length, in
+    /// J/m².
     pub(crate) fn fixed_energy(&self, toe: f64, strain: f64) -> f64 {
         let Self { stiffness, toe_ratio, .. } = *self;
         let within = strain.min(toe);
@@ -164,13 +197,13 @@ impl Primed {
         stiffness * (toe_part + beyond * (0.5 * (strain + within) - (1.0 - toe_ratio) * toe))
     }
 
-    /// Integral of the load from 0, the largest elongation before being `peak`, in J/m².
+    /// Returns the integral of the load from 0 after the largest elongation `peak`, in J/m².
     fn energy(&self, peak: f64, strain: f64) -> f64 {
         let seen = peak.max(self.toe_strain);
         if strain <= seen {
             return self.fixed_energy(self.toe(peak), strain);
         }
-        // The moving toe's integral: ∫ε_c dε = ε₁'Δε − ε₁(ε_c(end) − ε_c(start)).
+        // Integral of the moving toe: ∫ε_c dε = ε₁'Δε − ε₁(ε_c(end) − ε_c(start)).
         let toes = self.toe_strain_after * (strain - seen)
             - self.toe_strain * (self.toe(strain) - self.toe(seen));
         let line = 0.5 * (strain - seen) * (strain + seen);
@@ -214,7 +247,7 @@ impl TractionBackbone {
 }
 
 impl TractionLaw {
-    /// Elastic load and slope with the largest earlier elongation `peak`, in N/m.
+    /// Returns the elastic load and its tangent after the largest elongation `peak`, in N/m.
     #[must_use]
     pub fn elastic(&self, peak: f64, strain: f64) -> Response {
         if strain >= 0.0 {
@@ -239,11 +272,7 @@ impl TractionLaw {
             - stiffness * strain * strain * strain / 6.0
     }
 
-    /// The path of the friction, whose plateau is weighted by the share of yarns that bear.
-    ///
-    /// In the priming zone the weight is `$g = [(1-r)\varepsilon/\varepsilon_c + 2r-1]/r$`, which is
-    /// one at its end; the paper's own factor has the unit of a strain and jumps there. Below zero
-    /// strain the yarns buckle and the weight falls to nothing.
+    /// Returns the path of the friction with the weight `$g$` of the type's documentation.
     fn path(&self, memory: &Memory, strain: f64) -> Path {
         let slack = -self.buckling.strain;
         let (toe, at_rest) = match &self.backbone {
@@ -266,8 +295,8 @@ impl TractionLaw {
 impl Law for TractionLaw {
     fn respond(&self, memory: &Memory, strain: f64) -> Response {
         let elastic = self.elastic(memory.peak, strain);
-        let (load, tangent) = self.path(memory, strain).respond(&self.friction, memory.friction);
-        Response { load: elastic.load + load, tangent: elastic.tangent + tangent }
+        let friction = self.path(memory, strain).respond(&self.friction, memory.friction);
+        Response { load: elastic.load + friction.load, tangent: elastic.tangent + friction.tangent }
     }
 
     fn work(&self, memory: &Memory, strain: f64) -> f64 {
