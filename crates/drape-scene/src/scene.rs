@@ -2,7 +2,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use drape_cloth::{Breen, Cloth, Lattice};
-use drape_collide::{Body, Contact, Shape, SurfaceSettings};
+use drape_collide::{Body, ParticleContact, Shape, SurfaceSettings};
 use drape_fabric::Fabric;
 use drape_input::{Diagnostic, Diagnostics, Document};
 
@@ -144,7 +144,8 @@ impl Reader<'_> {
             self.speeds(&bodies, (clock.step, spacing));
         }
         let contact_settings = self.contact_settings(&file, unit);
-        let stick = file.contact.stick.map_or(SurfaceSettings::STICK, |stick| stick * unit);
+        let stick =
+            file.contact.stick.map_or(SurfaceSettings::STICKING_DISPLACEMENT, |stick| stick * unit);
         self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
         let pinch = self.pinch(&file);
         let inflation = self.inflation(&file, unit, (clock.step, spacing));
@@ -218,7 +219,7 @@ impl Reader<'_> {
         let start =
             Start { panels: &panels, garments: &worn, cloth: &cloth, positions: &positions };
         let tangle = surfaces.as_mut().and_then(|surfaces| self.tangle(surfaces, &start));
-        let contact = Contact::new(bodies, contact_settings, cloth.areas().to_vec());
+        let contact = ParticleContact::new(bodies, contact_settings, cloth.areas().to_vec());
         let contact = contact.map_err(|error| self.document.at("collider", error.to_string()));
         let contact = contact.map_err(Diagnostics::from)?;
         match (&surfaces, inflation) {
