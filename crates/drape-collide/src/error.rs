@@ -238,7 +238,7 @@ pub enum Error {
     /// More pairs are close to each other than the list may hold.
     #[error(
         "more than {capacity} pairs of primitives are near each other; is the cloth crushed, or \
-         the activation_distance far larger than the triangles?"
+         the activation distance far larger than the triangles?"
     )]
     TooManyPairs {
         /// How many the list may hold.

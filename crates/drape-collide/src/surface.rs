@@ -273,16 +273,16 @@ fn check_parts(parts: &SurfaceParts) -> Result<(), Error> {
     for (k, skin) in parts.distances.iter().enumerate() {
         let ContactDistances { activation_distance, min_separation } = *skin;
         check(
-            format!("the activation_distance of skin {k} (m)"),
+            format!("the activation distance of group {k} (m)"),
             activation_distance,
             "above 0",
             activation_distance > 0.0,
         )?;
-        let what = format!("the min_separation of skin {k} (m)");
+        let what = format!("the minimum separation of group {k} (m)");
         check(
             what,
             min_separation,
-            "above 0 and below its activation_distance",
+            "above 0 and below its activation distance",
             min_separation > 0.0 && min_separation < activation_distance,
         )?;
     }

@@ -162,12 +162,12 @@ fn energy_and_force_do_not_jump_across_features() {
 #[test]
 fn a_resting_load_of_five_kilopascal_stays_outside() {
     let settings = ParticleSettings::default();
-    let depth = 0.1 * settings.offset;
+    let depth = 0.1 * settings.activation_distance;
     let pressure = settings.pressure(depth);
     assert!((pressure - 5000.0).abs() < 1e-6, "{pressure} Pa at a tenth of the gap");
     let last = settings.pressure(0.0);
     assert!((last - 10_000.0).abs() < 1e-6, "{last} Pa at the surface");
-    assert_eq!(settings.pressure(settings.offset), 0.0);
+    assert_eq!(settings.pressure(settings.activation_distance), 0.0);
 }
 
 #[test]

@@ -24,7 +24,8 @@ impl Block {
         let settings = ParticleSettings::default();
         let contact = ParticleContact::new(vec![plane], settings, vec![AREA]).unwrap();
         // The gap at which contact carries the block's weight.
-        let gap = settings.offset - MASS * GRAVITY * angle.cos() / (settings.stiffness * AREA);
+        let gap = settings.activation_distance
+            - MASS * GRAVITY * angle.cos() / (settings.stiffness * AREA);
         Block {
             contact,
             position: [gap * angle.sin(), gap * angle.cos(), 0.0],

@@ -54,7 +54,7 @@ pub struct Scene {
     /// What each pin holds, and how that moves, in the order of the file.
     pub pins: Vec<Pin>,
     /// Contact of the cloth with the bodies.
-    pub contact: Contact,
+    pub contact: ParticleContact,
     /// The surfaces of cloth and bodies, if they are kept apart; `contact` then has the bodies for pictures only.
     pub surfaces: Option<Surfaces>,
     /// The ways of the bodies, of those that move.
@@ -204,7 +204,7 @@ impl Reader<'_> {
                 courses: &courses,
                 held: &held,
                 sewn: sewing.as_ref().map(|sewing| &sewing.stitching),
-                offset: contact_settings.offset,
+                offset: contact_settings.activation_distance,
                 stiffness: file.contact.stiffness,
                 stick,
                 pinch,

@@ -56,7 +56,7 @@ impl Simulation {
         let outlines = bodies.map(|body| body.triangulate().expect("contact has checked it"));
         let mut outlines: Vec<Triangulation> = outlines.collect();
         if let Some(surfaces) = &self.world.surfaces {
-            let mut places = surfaces.contact.bodies().as_chunks::<3>().0.iter();
+            let mut places = surfaces.contact.body_positions().as_chunks::<3>().0.iter();
             let vertices = outlines.iter_mut().flat_map(|outline| &mut outline.vertices);
             vertices.zip(&mut places).for_each(|(vertex, place)| *vertex = *place);
         }

@@ -47,7 +47,7 @@ fn two_triangles(size: f64, free: usize) -> Surface {
             };
             2
         ],
-        free,
+        free_vertices: free,
         seam_pairs: Vec::new(),
         ties: Vec::new(),
     })

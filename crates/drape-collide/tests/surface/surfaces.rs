@@ -64,7 +64,7 @@ fn crumpled() -> (Surface, Vec<f64>, Vec<f64>) {
     parts.distances.fill(ContactDistances { activation_distance: 3e-4, min_separation: 1e-4 });
     let mut dice = Dice::new(71);
     let positions: Vec<f64> = parts
-        .rest
+        .rest_positions
         .chunks(3)
         .zip(&parts.groups)
         .flat_map(|(x, group)| {
