@@ -1,6 +1,6 @@
 //! The report of a fit.
 
-use drape::fit::lm::Stop;
+use drape::lm::Stop;
 use drape::fit::{CurveFit, Estimate, Fit, Settings, Unknown};
 use drape::kes::{Curve, Sheet, Test};
 use drape::report::plot::{Branch, BranchKind, Correlation, LoopPlot, Point};

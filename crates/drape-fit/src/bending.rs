@@ -7,7 +7,7 @@ use crate::choice::Model;
 use crate::curve_fit::{self, CurveFit, Identified, line};
 use crate::history::along;
 use crate::line::{Form, Line, Loop};
-use crate::lm::Parameter;
+use drape_lm::Parameter;
 use crate::search::Named;
 use crate::{Error, FrictionOrder, LoopModel, Plateau, Settings};
 

@@ -4,7 +4,7 @@ use drape_kes::Curve;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use crate::lm::{self, Report};
+use drape_lm::{self as lm, Report};
 use crate::search::{Found, Named, Residuals, search};
 use crate::statistics::Independence;
 

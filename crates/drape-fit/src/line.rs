@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use crate::basis::{Basis, ratios};
 use crate::bending::{mean_slope, reach, span, zero};
 use crate::choice::{Model, Predict};
-use crate::lm::Parameter;
+use drape_lm::Parameter;
 use crate::search::Named;
 use crate::strokes::{Element, Strokes};
 use crate::{Error, FrictionOrder, Plateau};

@@ -7,7 +7,7 @@ use crate::bending::span;
 use crate::curve_fit::{self, Identified};
 use crate::elastica::Arch;
 use crate::line::{LEAST_LENGTH, friction};
-use crate::lm::{Parameter, Problem};
+use drape_lm::{Parameter, Problem};
 use crate::search::{Named, refine, search};
 use crate::statistics::statistics;
 use crate::{CurveFit, Error, Settings};

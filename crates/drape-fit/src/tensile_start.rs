@@ -12,7 +12,7 @@ use crate::basis::Basis;
 use crate::bending::{falling, span};
 use crate::curve_fit::line;
 use crate::line::LEAST_LENGTH;
-use crate::lm::Parameter;
+use drape_lm::Parameter;
 use crate::pull::along;
 use crate::search::Named;
 use crate::tensile::Form;

@@ -1,13 +1,13 @@
-//! The NIST reference problems, both starts: the minimiser alone, with standard errors, and with profiles.
+//! NIST reference problems from both starts: the minimiser alone, standard errors, profiles.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use drape_fit::lm::{Covariance, Loss, Settings, minimise, profile};
+use drape_lm::{Covariance, Loss, ProfileSettings, Settings, minimise, profile};
 
 #[path = "../tests/nist/model.rs"]
 mod model;
 #[path = "../tests/nist/number.rs"]
 mod number;
-// What is certified is for the test alone.
+// The certified values are used by the test only.
 #[allow(dead_code)]
 #[path = "../tests/nist/problem.rs"]
 mod problem;
@@ -44,10 +44,10 @@ fn uncertainty(c: &mut Criterion) {
         b.iter(|| minimise(&problem, &parameters, &settings).sum);
     });
     group.bench_function("covariance", |b| {
-        b.iter(|| Covariance::of(&problem, &parameters, &report, Loss::Squares).deviation);
+        b.iter(|| Covariance::of(&problem, &parameters, &report, Loss::Squares).residual_deviation);
     });
     group.bench_function("profile", |b| {
-        b.iter(|| profile(&problem, &parameters, &report, (0.95, &settings)).len());
+        b.iter(|| profile(&problem, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() }).len());
     });
     group.finish();
 }

@@ -1,41 +1,49 @@
-//! How much a large residual counts.
+//! Loss of a residual: its square, or a robust loss that limits the influence of outliers.
 
-/// What is summed over the residuals: their squares, or something that grows more slowly for large ones.
+/// Function of a residual that is summed.
 ///
-/// With `$u = (r/c)^2$` the sum is `$\sum_i c^2\rho(u_i)$`, where `$c$` is the size of a residual from which on
-/// it counts less. The residuals are those times the roots of their weights, so `$c$` is in that unit. A good
-/// `$c$` is [`Loss::HUBER_TUNING`] or [`Loss::CAUCHY_TUNING`] times the standard deviation of the noise, which
-/// [`Loss::spread`] estimates without being misled by outliers.
+/// With `$u = (r/c)^2$` the sum is `$\sum_i c^2\rho(u_i)$`, where `$c$` is the size from which on a
+/// residual counts less. Residuals are taken times the roots of their weights, and `$c$` is in that
+/// unit. A good `$c$` is [`Loss::HUBER_TUNING`] or [`Loss::CAUCHY_TUNING`] times the standard
+/// deviation of the noise, which [`Loss::spread`] estimates without being misled by outliers.
+///
+/// ```
+/// use drape_lm::Loss;
+///
+/// let noise = Loss::spread(&[0.1, -0.2, 0.15, -0.1, 40.0]);
+/// let loss = Loss::Huber { size: Loss::HUBER_TUNING * noise };
+/// assert!(loss.weight(0.1) == 1.0 && loss.weight(40.0) < 0.01);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Loss {
-    /// `$\rho = u$`: least squares.
+    /// Least squares: `$\rho = u$`.
     #[default]
     Squares,
-    /// `$\rho = u$` for `$u \le 1$`, else `$2\sqrt u - 1$`: least squares within, absolute values beyond
-    /// [Huber 1964]. It has one minimum where least squares have one.
+    /// Huber's loss: `$\rho = u$` for `$u \le 1$`, else `$2\sqrt u - 1$` \[Hub64\].
+    ///
+    /// It has one minimum where least squares have one.
     Huber {
-        /// The size `$c$`, in the unit of the weighted residuals.
+        /// Size `$c$`, in the unit of the weighted residuals.
         size: f64,
     },
-    /// `$\rho = \ln(1 + u)$`: outliers lose nearly all influence, at the price of possible false minima.
+    /// Cauchy's loss: `$\rho = \ln(1 + u)$`.
+    ///
+    /// Outliers lose nearly all influence, but false minima are possible.
     Cauchy {
-        /// The size `$c$`, in the unit of the weighted residuals.
+        /// Size `$c$`, in the unit of the weighted residuals.
         size: f64,
     },
 }
 
 impl Loss {
-    /// Size of Huber's loss over the noise at which 5 % of the precision is given up where there are no
-    /// outliers.
+    /// Size of Huber's loss over the noise at 95 % efficiency for normal noise.
     pub const HUBER_TUNING: f64 = 1.345;
-    /// Size of Cauchy's loss over the noise at which 5 % of the precision is given up where there are no
-    /// outliers.
+    /// Size of Cauchy's loss over the noise at 95 % efficiency for normal noise.
     pub const CAUCHY_TUNING: f64 = 2.385;
 
-    /// Standard deviation of the noise from the median size of the residuals, in their unit.
+    /// Returns the standard deviation of the noise from the median absolute residual.
     ///
-    /// For normal noise the median of the sizes is 0.6745 standard deviations. Zero where no residual is
-    /// finite.
+    /// For normal noise the median is 0.6745 standard deviations. Zero where no residual is finite.
     #[must_use]
     pub fn spread(residuals: &[f64]) -> f64 {
         let mut sizes: Vec<f64> = residuals.iter().map(|r| r.abs()).collect();
@@ -45,7 +53,7 @@ impl Loss {
         median / 0.674_489_750_196_081_7
     }
 
-    /// What a residual adds to the sum, `$c^2\rho$`.
+    /// Returns the loss of a residual, `$c^2\rho$`.
     #[must_use]
     pub fn value(self, residual: f64) -> f64 {
         match self {
@@ -56,7 +64,8 @@ impl Loss {
         }
     }
 
-    /// Weight `$\rho'(u)$` of the squared residual in the least squares problem that has the same gradient.
+    /// Returns the weight `$\rho'(u)$` of the squared residual in the least squares problem with
+    /// the same gradient.
     #[must_use]
     pub fn weight(self, residual: f64) -> f64 {
         match self {
@@ -67,7 +76,7 @@ impl Loss {
         }
     }
 
-    /// Slope `$\psi'$` of the influence `$\psi = r\rho'(u)$` of a residual.
+    /// Returns the slope `$\psi'$` of the influence function `$\psi = r\rho'(u)$`.
     #[must_use]
     pub fn influence_slope(self, residual: f64) -> f64 {
         match self {

@@ -1,15 +1,15 @@
-//! One reference problem: its file, its residuals.
+//! One reference problem: its data file and its residuals.
 
 use std::fs;
 use std::path::PathBuf;
 
-use drape_fit::lm::{Parameter, Problem};
+use drape_lm::{Parameter, Problem};
 use nalgebra::DMatrix;
 
 use crate::model::{MODELS, Model};
 use crate::number::Dual;
 
-/// A problem as certified.
+/// Problem with its certified solution.
 pub struct Nist {
     pub name: &'static str,
     /// Starting values, the far and the near ones.
@@ -20,7 +20,7 @@ pub struct Nist {
     pub deviations: Vec<f64>,
     /// Certified residual standard deviation.
     pub residual_deviation: f64,
-    /// Whether the derivatives are computed exactly instead of by differences.
+    /// Whether the derivatives are exact instead of by differences.
     pub exact: bool,
     response: Vec<f64>,
     predictors: Vec<Vec<f64>>,
@@ -28,7 +28,7 @@ pub struct Nist {
 }
 
 impl Nist {
-    /// All problems, in the order of their names.
+    /// Reads all problems, in the order of their names.
     pub fn all() -> Vec<Self> {
         MODELS.iter().map(|&(name, model)| Self::read(name, model)).collect()
     }
@@ -71,7 +71,7 @@ impl Nist {
         }
     }
 
-    /// The starting values as parameters without bounds.
+    /// Returns the starting values as parameters without bounds.
     pub fn parameters(&self, start: usize) -> Vec<Parameter> {
         self.starts[start].iter().map(|&value| Parameter::new(value)).collect()
     }

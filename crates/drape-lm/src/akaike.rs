@@ -1,21 +1,36 @@
-//! Which of several models the data bear out.
+//! Information criterion that compares models fitted to the same data.
 
-use super::Report;
+use crate::minimise::Report;
 
-/// Akaike's information criterion for small samples, up to a constant of the data; the least is the best
-/// [Hurvich & Tsai 1989].
+/// Returns Akaike's corrected information criterion, up to a constant of the data \[HT89\].
 ///
 /// ```math
 /// n\ln\frac{S}{n} + 2k + \frac{2k(k+1)}{n - k - 1}
 /// ```
 ///
-/// with the sum `$S$` of `$n$` squared residuals and `$k$` = free parameters and one for the noise. Models may be
-/// compared when they were fitted to the same data with the same weights and the same loss; a difference
-/// beyond ten leaves the worse one no support, one below two says nothing. Nothing where there are not two
-/// residuals more than parameters, or where the sum is not a number.
+/// with the sum `$S$` of `$n$` squared residuals and `$k$` = free parameters plus one for the noise;
+/// the smallest is the best. Models may be compared when they were fitted to the same data with the
+/// same weights and the same loss. A difference beyond ten leaves the worse model no support, one
+/// below two says nothing \[BA02\]. `None` where there are fewer than two residuals more than
+/// parameters, or where the sum is not a number.
 ///
-/// It takes the residuals for independent: where a model misses the data systematically, neighbours are not,
-/// and differences come out too large.
+/// The residuals are taken as independent. Where a model misses the data systematically neighbours
+/// are correlated, and differences come out too large.
+///
+/// ```
+/// # use drape_lm::{Parameter, Problem, Settings, akaike, minimise};
+/// # struct Mean([f64; 6]);
+/// # impl Problem for Mean {
+/// #     fn residual_count(&self) -> usize { 6 }
+/// #     fn residuals(&self, p: &[f64], out: &mut [f64]) {
+/// #         for (r, y) in out.iter_mut().zip(self.0) { *r = p[0] - y; }
+/// #     }
+/// # }
+/// # let data = [1.0, 1.2, 0.9, 1.1, 1.0, 0.8];
+/// let fit = minimise(&Mean(data), &[Parameter::new(0.0)], &Settings::default());
+/// let criterion = akaike(&fit, 6, 1).expect("six residuals are enough for one parameter");
+/// assert!(criterion < 0.0);
+/// ```
 #[must_use]
 pub fn akaike(report: &Report, residuals: usize, free_parameters: usize) -> Option<f64> {
     let (n, k) = (residuals as f64, free_parameters as f64 + 1.0);
@@ -27,7 +42,7 @@ pub fn akaike(report: &Report, residuals: usize, free_parameters: usize) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lm::Stop;
+    use crate::minimise::Stop;
 
     fn report(sum: f64) -> Report {
         Report {

@@ -6,9 +6,9 @@ mod loss;
 mod nonsense;
 mod profile;
 
-use drape_fit::lm::{Parameter, Problem};
+use drape_lm::{Parameter, Problem};
 
-/// A problem from a function of the parameters.
+/// Problem from a function of the parameters.
 struct Model<F> {
     count: usize,
     weights: Vec<f64>,
@@ -35,12 +35,12 @@ fn starts(values: &[f64]) -> Vec<Parameter> {
     values.iter().map(|&value| Parameter::new(value)).collect()
 }
 
-/// A scatter of zero mean that no line follows, in steps of one fifth.
+/// Scatter of zero mean in steps of one fifth, uncorrelated with a line.
 fn scatter(i: usize) -> f64 {
     f64::from((i * 7 % 11) as u32) / 5.0 - 1.0
 }
 
-/// A line through scattered points, with weights.
+/// Straight line through scattered points, with weights.
 fn line(weights: &[f64]) -> Model<impl Fn(&[f64], &mut [f64]) + use<>> {
     Model {
         count: 22,

@@ -1,13 +1,13 @@
-//! Links against the same problems written out.
+//! Linked parameters against the same problems without links.
 
-use drape_fit::lm::{Covariance, Linked, Loss, Problem, Settings, minimise};
+use drape_lm::{Covariance, Linked, Loss, Problem, Settings, minimise};
 use nalgebra::DMatrix;
 
 use crate::{line, model, starts};
 
 #[test]
 fn linked_parameters_follow_and_pass_their_errors_on() {
-    // The line with its slope a function of its intercept, against the same written out.
+    // The line with its slope a function of its intercept, linked and substituted.
     let problem = line(&[]);
     let linked = Linked::new(&problem).linked(1, |p| -p[0] * p[0] / 20.0);
     let parameters = linked.parameters(&starts(&[2.0, 7.0]));
@@ -22,8 +22,8 @@ fn linked_parameters_follow_and_pass_their_errors_on() {
     let all = linked.complete(&report.parameters);
     let covariance = Covariance::of(&linked, &parameters, &report, Loss::Squares);
     let one = Covariance::of(&written, &starts(&[2.0]), &other, Loss::Squares);
-    assert_eq!(covariance.degrees, one.degrees);
-    let slope = covariance.error_of(&linked.gradient(1, &report.parameters)).expect("determined");
+    assert_eq!(covariance.degrees_of_freedom, one.degrees_of_freedom);
+    let slope = covariance.propagated_error(&linked.gradient(1, &report.parameters)).expect("determined");
     let exact = one.standard_error(0).expect("determined") * all[0].abs() / 10.0;
     assert!((slope / exact - 1.0).abs() < 1e-6, "{slope} against {exact}");
 }

@@ -1,6 +1,6 @@
 //! The minimiser against the certified reference problems of NIST.
 //!
-//! `cargo test --release -p drape-fit --test nist -- --nocapture` prints the table.
+//! `cargo test --release -p drape-lm --test nist -- --nocapture` prints the table.
 
 #![allow(clippy::print_stdout)]
 
@@ -8,16 +8,16 @@ mod model;
 mod number;
 mod problem;
 
-use drape_fit::lm::{Covariance, Loss, Problem, Report, Settings, minimise};
+use drape_lm::{Covariance, Loss, Problem, Report, Settings, minimise};
 use problem::Nist;
 
-/// Digits that are asked of parameters, standard errors and the residual standard deviation.
+/// Digits required of parameters, standard errors and the residual standard deviation.
 const WANTED: f64 = 6.0;
-/// Evaluations of MINPACK from both starts, without those for derivatives, where known.
+/// Evaluations of MINPACK from both starts, without those for derivatives.
 const MINPACK: [(&str, [usize; 2]); 4] =
     [("Bennett5", [765, 213]), ("MGH09", [527, 44]), ("MGH10", [287, 131]), ("MGH17", [603, 31])];
 
-/// Digits that two numbers share; the certified ones have eleven.
+/// Digits in which a number agrees with a certified one of eleven digits.
 fn digits(found: f64, certified: f64) -> f64 {
     let error = ((found - certified) / certified).abs();
     if error.is_nan() {
@@ -26,7 +26,7 @@ fn digits(found: f64, certified: f64) -> f64 {
     (-error.log10()).clamp(0.0, 11.0)
 }
 
-/// Digits of the worst of several numbers.
+/// Smallest agreement of several numbers, in digits.
 fn worst(found: impl Iterator<Item = f64>, certified: &[f64]) -> f64 {
     let pairs = found.zip(certified);
     pairs.map(|(found, certified)| digits(found, *certified)).fold(11.0, f64::min)
@@ -47,14 +47,14 @@ fn solve(problem: &Nist, start: usize) -> Outcome {
     let report = minimise(problem, &parameters, &Settings::default());
     let covariance = Covariance::of(problem, &parameters, &report, Loss::Squares);
     let errors = (0..parameters.len()).map(|j| covariance.standard_error(j).unwrap_or(f64::NAN));
-    assert_eq!(covariance.degrees, problem.residual_count() - parameters.len(), "{}", problem.name);
+    assert_eq!(covariance.degrees_of_freedom, problem.residual_count() - parameters.len(), "{}", problem.name);
     Outcome {
         name: problem.name,
         start,
         parameters: worst(report.parameters.iter().copied(), &problem.certified),
         errors: worst(errors, &problem.deviations),
-        deviation: digits(covariance.deviation, problem.residual_deviation),
-        conditioning: covariance.conditioning,
+        deviation: digits(covariance.residual_deviation, problem.residual_deviation),
+        conditioning: covariance.reciprocal_condition,
         report,
     }
 }
@@ -98,8 +98,8 @@ fn print(outcomes: &[Outcome]) {
 
 /// Asserts that all starts lead to the certified values.
 ///
-/// Lanczos1 is exempt from the digits of its errors: its residuals are 1e-13 of the data, so that only two or
-/// three digits of them are there in double precision at all.
+/// Lanczos1 is exempt from the digits of its errors: its residuals are 1e-13 of the data, so that in
+/// double precision they have two or three digits at all.
 fn check(outcomes: &[Outcome]) {
     for outcome in outcomes {
         let Outcome { name, start, .. } = outcome;

@@ -1,25 +1,28 @@
-//! Parameters that follow others.
+//! Parameters that are functions of other parameters.
+//!
+//! [`Linked`] wraps a [`Problem`] and is one itself, so the minimiser and the statistics take it as
+//! any other.
 
 use nalgebra::DMatrix;
 
-use super::{Parameter, Problem};
+use crate::problem::{Parameter, Problem};
 
-/// Relative step of the differences through a link: the cube root of the rounding unit, best for the central
-/// formula.
+/// Relative step of the differences through a link: the cube root of the rounding unit, best for
+/// the central formula.
 const STEP: f64 = 6e-6;
 
-/// How a parameter follows from the others.
+/// A parameter as a function of all parameters.
 type Rule<'a> = Box<dyn Fn(&[f64]) -> f64 + Sync + 'a>;
 
-/// A problem some of whose parameters are functions of others.
+/// Problem in which some parameters are functions of others.
 ///
-/// The list of parameters stays as long as it is: the entries of linked parameters are kept fixed and
-/// ignored. A rule sees all parameters, with the links added before it already followed, so chains are
-/// allowed. The bounds of a linked parameter do not hold it; a rule may give not a number where the
-/// parameters would be outside.
+/// The list of parameters keeps its length: the entries of linked parameters are held fixed and
+/// ignored. A rule sees all parameters, with the links that were added before it applied, so chains
+/// are allowed. The bounds of a linked parameter have no effect; a rule may return not a number
+/// where the parameters would be inadmissible.
 ///
 /// ```
-/// # use drape_fit::lm::{Linked, Parameter, Problem, Settings, minimise};
+/// # use drape_lm::{Linked, Parameter, Problem, Settings, minimise};
 /// # struct Line;
 /// # impl Problem for Line {
 /// #     fn residual_count(&self) -> usize { 3 }
@@ -40,25 +43,26 @@ pub struct Linked<'a, P> {
 }
 
 impl<'a, P: Problem> Linked<'a, P> {
-    /// The problem without links yet.
+    /// Wraps a problem, without links yet.
+    #[must_use]
     pub fn new(problem: &'a P) -> Self {
         Self { problem, links: Vec::new() }
     }
 
-    /// Parameter `target` follows from all others by a smooth rule.
+    /// Adds a link: parameter `target` is a smooth function of all parameters.
     #[must_use]
     pub fn linked(mut self, target: usize, rule: impl Fn(&[f64]) -> f64 + Sync + 'a) -> Self {
         self.links.push((target, Box::new(rule)));
         self
     }
 
-    /// Parameter `target` is a multiple of parameter `source`.
+    /// Adds a link: parameter `target` is a multiple of parameter `source`.
     #[must_use]
     pub fn scaled(self, target: usize, source: usize, factor: f64) -> Self {
         self.linked(target, move |p| p.get(source).map_or(f64::NAN, |value| factor * value))
     }
 
-    /// The parameters with the linked ones fixed where their rules put them.
+    /// Returns the parameters with the linked ones fixed at the values of their rules.
     #[must_use]
     pub fn parameters(&self, parameters: &[Parameter]) -> Vec<Parameter> {
         let starts: Vec<f64> = parameters.iter().map(|p| p.clamp(p.start)).collect();
@@ -72,7 +76,7 @@ impl<'a, P: Problem> Linked<'a, P> {
         parameters
     }
 
-    /// All parameters, with the linked ones as their rules give them.
+    /// Returns all parameters, with the linked ones computed by their rules.
     #[must_use]
     pub fn complete(&self, parameters: &[f64]) -> Vec<f64> {
         let mut all = parameters.to_vec();
@@ -85,7 +89,8 @@ impl<'a, P: Problem> Linked<'a, P> {
         all
     }
 
-    /// Derivatives of a linked parameter by all parameters, for [`super::Covariance::error_of`].
+    /// Returns the derivatives of a linked parameter by all parameters, the gradient that
+    /// `Covariance::propagated_error` takes.
     #[must_use]
     pub fn gradient(&self, target: usize, parameters: &[f64]) -> Vec<f64> {
         let value = |at: &[f64]| self.complete(at).get(target).copied().unwrap_or(f64::NAN);
@@ -118,7 +123,7 @@ impl<P: Problem> Problem for Linked<'_, P> {
         if !self.problem.jacobian(&self.complete(parameters), out) {
             return false;
         }
-        // The chain rule, for the entries of the parameters that are not linked.
+        // The chain rule gives the columns of the parameters that are not linked.
         let own = out.clone();
         let targets = || self.links.iter().map(|(target, _)| *target).filter(|j| *j < own.ncols());
         for target in targets() {

@@ -1,7 +1,7 @@
 //! Standard errors and correlations against the normal equations.
 
-use drape_fit::lm::{
-    Covariance, Loss, Parameter, Problem, Settings, Undetermined, minimise, profile,
+use drape_lm::{
+    Covariance, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined, minimise, profile,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -25,7 +25,7 @@ fn the_covariance_of_a_linear_fit_is_that_of_the_normal_equations() {
     let degrees = weights.iter().filter(|w| **w > 0.0).count() - 2;
     let exact = inverse * (squares / degrees as f64);
 
-    assert_eq!(found.degrees, degrees);
+    assert_eq!(found.degrees_of_freedom, degrees);
     for (i, j) in [(0, 0), (0, 1), (1, 1)] {
         let value = found.covariance(i, j).expect("determined");
         // Central differences are good to ten digits.
@@ -34,7 +34,7 @@ fn the_covariance_of_a_linear_fit_is_that_of_the_normal_equations() {
     let correlation = exact[(0, 1)] / (exact[(0, 0)] * exact[(1, 1)]).sqrt();
     assert!((found.correlation(0, 1).expect("determined") - correlation).abs() < 1e-8);
     // The value of the line at 10 is a function of both.
-    let error = found.error_of(&[1.0, 10.0]).expect("determined");
+    let error = found.propagated_error(&[1.0, 10.0]).expect("determined");
     let exact = (exact[(0, 0)] + 20.0 * exact[(0, 1)] + 100.0 * exact[(1, 1)]).sqrt();
     assert!((error / exact - 1.0).abs() < 1e-8, "{error} against {exact}");
 }
@@ -55,10 +55,10 @@ fn a_product_of_two_parameters_determines_neither_and_says_with_which() {
     assert_eq!(covariance.standard_error(1), with(&[3]));
     assert_eq!(covariance.standard_error(2), with(&[]));
     assert_eq!(covariance.standard_error(3), with(&[1]));
-    assert_eq!(covariance.degrees, 18);
-    let intervals = profile(&product, &parameters, &report, (0.95, &settings));
+    assert_eq!(covariance.degrees_of_freedom, 18);
+    let intervals = profile(&product, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() });
     assert!(intervals[0].is_ok() && intervals[1].is_err(), "{intervals:?}");
-    // Fixing one of the two tells the other.
+    // Fixing one of the two determines the other.
     parameters[3] = Parameter::new(2.0).fixed();
     let report = minimise(&product, &parameters, &settings);
     assert_eq!(report.parameters[3], 2.0);
@@ -77,7 +77,7 @@ fn as_many_parameters_as_residuals_leave_no_error_to_estimate() {
     let settings = Settings::default();
     let report = minimise(&exact, &parameters, &settings);
     let covariance = Covariance::of(&exact, &parameters, &report, Loss::Squares);
-    assert_eq!(covariance.standard_error(0), Err(Undetermined::NoFreedom));
-    let intervals = profile(&exact, &parameters, &report, (0.95, &settings));
-    assert_eq!(intervals[1], Err(Undetermined::NoFreedom));
+    assert_eq!(covariance.standard_error(0), Err(Undetermined::NoDegreesOfFreedom));
+    let intervals = profile(&exact, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() });
+    assert_eq!(intervals[1], Err(Undetermined::NoDegreesOfFreedom));
 }

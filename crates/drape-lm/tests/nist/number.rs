@@ -1,11 +1,11 @@
-//! Plain numbers, and numbers that carry their derivatives.
+//! Plain numbers and dual numbers, which carry their derivatives.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Most parameters of a reference problem.
+/// Largest number of parameters of a reference problem.
 const MOST: usize = 9;
 
-/// What the models need of a number.
+/// Arithmetic that the models need.
 pub trait Number:
     Copy
     + Neg<Output = Self>
@@ -46,7 +46,7 @@ impl Number for f64 {
     }
 }
 
-/// A value with its derivatives by all parameters.
+/// Dual number: a value with its derivatives by all parameters.
 #[derive(Clone, Copy)]
 pub struct Dual {
     pub value: f64,
@@ -54,7 +54,7 @@ pub struct Dual {
 }
 
 impl Dual {
-    /// The parameters as variables of differentiation.
+    /// Returns the parameters as independent variables.
     pub fn variables(parameters: &[f64]) -> Vec<Self> {
         let variable = |(j, &value): (usize, &f64)| {
             let mut slope = [0.0; MOST];
@@ -64,7 +64,7 @@ impl Dual {
         parameters.iter().enumerate().map(variable).collect()
     }
 
-    /// A function of this number, with its value and its derivative there.
+    /// Returns a function of this number from its value and its derivative there.
     fn map(self, value: f64, derivative: f64) -> Self {
         Self { value, slope: self.slope.map(|slope| derivative * slope) }
     }

@@ -1,7 +1,7 @@
-//! Intervals from the loss against those known by other means.
+//! Profile intervals against those known by other means.
 
-use drape_fit::lm::{
-    Covariance, End, Loss, Parameter, Problem, Settings, Undetermined, minimise, profile,
+use drape_lm::{
+    Covariance, End, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined, minimise, profile,
     student_quantile,
 };
 
@@ -15,7 +15,7 @@ fn the_profile_of_a_linear_fit_is_the_interval_of_its_standard_error() {
     let report = minimise(&problem, &parameters, &settings);
     let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
     for (j, interval) in
-        profile(&problem, &parameters, &report, (0.95, &settings)).into_iter().enumerate()
+        profile(&problem, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() }).into_iter().enumerate()
     {
         let interval = interval.expect("determined");
         let half = covariance.half_width(j, 0.95).expect("determined");
@@ -30,7 +30,7 @@ fn the_profile_of_a_linear_fit_is_the_interval_of_its_standard_error() {
     }
 }
 
-/// A decay seen until it is hardly half over: its rate is determined, but not evenly to both sides.
+/// Decay measured until it is hardly half over: its rate is determined, with an asymmetric interval.
 fn decay() -> Model<impl Fn(&[f64], &mut [f64])> {
     model(14, |p, r| {
         for (i, r) in r.iter_mut().enumerate() {
@@ -47,7 +47,7 @@ fn the_profile_of_a_curved_model_ends_where_the_conditional_sum_reaches_the_leve
     let settings = Settings::default();
     let report = minimise(&problem, &parameters, &settings);
     let interval =
-        profile(&problem, &parameters, &report, (0.95, &settings))[1].clone().expect("determined");
+        profile(&problem, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() })[1].clone().expect("determined");
     // With the time constant given the amplitude is a linear fit: the conditional sum is known exactly.
     let sum = |tau: f64| {
         let shape: Vec<f64> = (0..14).map(|i| (-(f64::from(i) / 10.0) / tau).exp()).collect();
@@ -81,7 +81,7 @@ fn a_parameter_at_its_bound_has_a_one_sided_interval_and_no_error() {
     let reason = Undetermined::AtBound(-0.45);
     assert_eq!(covariance.standard_error(1), Err(reason));
     assert!(covariance.standard_error(0).is_ok());
-    let interval = profile(&problem, &parameters, &report, (0.95, &settings))[1]
+    let interval = profile(&problem, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() })[1]
         .clone()
         .expect("an interval from the bound inwards");
     assert_eq!(interval.lower, End::AtBound(-0.45));
@@ -101,7 +101,7 @@ fn an_interval_without_an_end_says_so() {
     let parameters = [Parameter::new(4.0), Parameter::new(3.0).between(0.0, f64::INFINITY)];
     let settings = Settings::default();
     let report = minimise(&rise, &parameters, &settings);
-    let intervals = profile(&rise, &parameters, &report, (0.95, &settings));
+    let intervals = profile(&rise, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() });
     if let Ok(interval) = &intervals[1] {
         assert!(matches!(interval.upper, End::Unbounded(_)), "{interval:?} around {report:?}");
         assert!(interval.lower.value().is_some_and(|lower| lower > 1.0));
@@ -113,8 +113,8 @@ fn an_interval_without_an_end_says_so() {
 
 #[test]
 fn a_false_minimum_is_found_out_by_its_profile() {
-    // Valleys at all whole numbers, the lower the nearer to −3; the ridges between them are within the noise
-    // of the other residuals.
+    // Minima near all whole numbers, deeper towards −3; the maxima between them are within the
+    // noise of the other residuals.
     let valleys = model(22, |p, r| {
         r[0] = 0.8 * (std::f64::consts::PI * p[0]).sin();
         r[1] = 0.3 * (p[0] + 3.0);
@@ -127,7 +127,7 @@ fn a_false_minimum_is_found_out_by_its_profile() {
     let report = minimise(&valleys, &parameters, &settings);
     assert!(report.parameters[0].abs() < 0.1, "{report:?}");
     let interval =
-        profile(&valleys, &parameters, &report, (0.95, &settings))[0].clone().expect("determined");
+        profile(&valleys, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() })[0].clone().expect("determined");
     let End::LowerMinimum(there) = &interval.lower else {
         panic!("{interval:?} around {report:?}");
     };

@@ -1,6 +1,6 @@
 //! Losses with and without outliers.
 
-use drape_fit::lm::{Covariance, Loss, Settings, minimise, profile};
+use drape_lm::{Covariance, Loss, ProfileSettings, Settings, minimise, profile};
 
 use crate::{line, model, scatter, starts};
 
@@ -23,7 +23,8 @@ fn robust_losses_hardly_see_outliers_that_spoil_least_squares() {
     };
     let (off, _) = fit(Loss::Squares);
     assert!(off.abs() > 3.0, "least squares are off by {off}");
-    // The scatter is 0.06 and the intercept's error some 0.03; three outliers pull Huber's all one way.
+    // The scatter is 0.06 and the intercept's error some 0.03; the three outliers have one
+    // sign, which biases Huber's loss.
     for loss in [Loss::Huber { size: 0.1 }, Loss::Cauchy { size: 0.15 }] {
         let (off, error) = fit(loss);
         assert!(off.abs() < 0.1 && error < 0.1, "{loss:?}: {off} ± {error}");
@@ -38,7 +39,7 @@ fn without_outliers_a_robust_loss_gives_nearly_the_errors_of_least_squares() {
         let settings = Settings { loss, ..Settings::default() };
         let report = minimise(&problem, &parameters, &settings);
         let covariance = Covariance::of(&problem, &parameters, &report, loss);
-        let interval = profile(&problem, &parameters, &report, (0.95, &settings))[0]
+        let interval = profile(&problem, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() })[0]
             .clone()
             .expect("determined");
         let width = [&interval.lower, &interval.upper].map(|end| end.value().expect("closed"));

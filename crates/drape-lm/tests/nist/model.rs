@@ -1,10 +1,10 @@
-//! The models of the reference problems, over plain numbers and over numbers that carry their derivatives.
+//! Models of the reference problems, for plain and for dual numbers.
 
 use std::f64::consts::PI;
 
 use crate::number::{Dual, Number};
 
-/// A model over both kinds of numbers.
+/// Model for both kinds of numbers.
 #[derive(Clone, Copy)]
 pub struct Model {
     pub plain: fn(&[f64], &[f64]) -> f64,

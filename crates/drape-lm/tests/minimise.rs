@@ -1,9 +1,9 @@
 //! The minimiser against problems whose minima are known by other means.
 
-use drape_fit::lm::{Parameter, Problem, Settings, Stop, minimise};
+use drape_lm::{Parameter, Problem, Settings, Stop, minimise};
 use nalgebra::{DMatrix, DVector};
 
-/// A problem from a function of the parameters.
+/// Problem from a function of the parameters.
 struct Model<F> {
     count: usize,
     weights: Vec<f64>,
@@ -145,7 +145,8 @@ fn a_trial_without_a_value_is_refused_and_the_search_goes_on() {
 
 #[test]
 fn a_minimum_at_a_jump_is_no_convergence() {
-    // The residual jumps where it is least: no step downhill, however short, brings what the slope promises.
+    // The residual jumps at its minimum: no step, however short, achieves the predicted
+    // reduction.
     let jump = model(1, |p, r| r[0] = if p[0] > 0.3 { 1.0 + p[0] } else { 5.0 });
     let report = minimise(&jump, &starts(&[2.0]), &Settings::default());
     assert_eq!(report.stop, Stop::Stalled, "{report:?}");
@@ -184,7 +185,7 @@ fn an_analytic_jacobian_and_differences_end_at_the_same_place() {
     let report = minimise(&Analytic, &starts(&[-1.2, 1.0]), &Settings::default());
     assert!(report.stop.converged(), "{report:?}");
     assert!(report.parameters.iter().all(|value| (value - 1.0).abs() < 1e-12), "{report:?}");
-    // Without differences each iteration costs one evaluation, or two where its step is bent; the start and
-    // the last steps cost one each.
+    // With an analytic Jacobian each iteration costs one evaluation, or two with the second-order
+    // correction; the start and the polish steps cost one each.
     assert!(report.evaluations <= 2 * report.iterations + 3, "{report:?}");
 }

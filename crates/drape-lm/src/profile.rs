@@ -1,46 +1,71 @@
-//! Intervals from the loss itself instead of its linear model.
+//! Profile likelihood intervals: from the loss itself in place of its linear model.
+//!
+//! Takes the report of `minimise` and minimises again with one parameter held at trial values.
 
 use rayon::prelude::*;
 
-use super::{
-    Covariance, Parameter, Problem, Report, Settings, Stop, Undetermined, minimise,
-    student_quantile,
-};
+use crate::covariance::{Covariance, Undetermined};
+use crate::minimise::{Report, Settings, Stop, minimise};
+use crate::problem::{Parameter, Problem};
+use crate::student::student_quantile;
 
-/// How near the deviation at an end must come to that of the level, as a part of it.
+/// Relative tolerance on the deviation at an end.
 ///
-/// The deviation is nearly proportional to the distance, so the ends are good to as much of the half width.
-const NEAR: f64 = 1e-4;
-/// Factor by which the first step outwards may grow, per trial.
+/// The deviation is nearly proportional to the distance, so the ends are good to the same fraction
+/// of the half width.
+const TOLERANCE: f64 = 1e-4;
+/// Largest growth of the step outwards, per trial.
 const GROWTH: f64 = 4.0;
-/// Trials outwards: with the growth, a million million standard errors.
-const REACHES: usize = 20;
-/// Trials between two values known to be inside and outside; five are usual.
-const TRIALS: usize = 60;
-/// Relative fall of the loss along the profile that is no rounding: the minimum was none.
+/// Limit on the trials outwards: with the growth, 1e12 standard errors.
+const OUTWARD_TRIALS: usize = 20;
+/// Limit on the trials between a value inside and one outside; five are usual.
+const BRACKET_TRIALS: usize = 60;
+/// Relative fall of the loss along the profile that is no rounding: the fit was not at the minimum.
 const LOWER: f64 = 1e-9;
-/// Relative reduction and step at which the others are minimised well enough: the loss is flat around its
-/// minimum, so both leave the deviation better than [`NEAR`].
-const TOLERANCE: f64 = 1e-10;
+/// Relative reduction and step at which the others are fitted well enough.
+///
+/// The loss is flat around its minimum, so both leave the deviation better than [`TOLERANCE`].
+const FIT_TOLERANCE: f64 = 1e-10;
+
+/// Level of the intervals, and settings of the fits along the profile.
+///
+/// ```
+/// let settings = drape_lm::ProfileSettings { level: 0.99, ..Default::default() };
+/// assert_eq!(settings.minimiser, drape_lm::Settings::default());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProfileSettings {
+    /// Probability that an interval contains the true value, 0 to 1.
+    pub level: f64,
+    /// Settings with which the fit was made.
+    pub minimiser: Settings,
+}
+
+impl Default for ProfileSettings {
+    /// Returns a level of 95 % and the default settings of the minimiser.
+    fn default() -> Self {
+        Self { level: 0.95, minimiser: Settings::default() }
+    }
+}
 
 /// One end of an interval.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum End {
-    /// The value at which the loss has risen to the level.
+    /// Value at which the loss has risen to the level.
     At(f64),
-    /// The bound of the parameter, where the loss is still below the level.
+    /// Bound of the parameter, where the loss is still below the level.
     AtBound(f64),
-    /// The loss is still below the level here, so far out that the data set no end.
+    /// Value at which the search ended with the loss below the level: the data set no end.
     Unbounded(f64),
-    /// A lower loss than that of the fit was found with these parameters: start there again.
+    /// Parameters with a lower loss than that of the fit: start there again.
     LowerMinimum(Vec<f64>),
-    /// The others could not be fitted with the parameter at this value; the end is farther out.
+    /// Value at which the other parameters could not be fitted, and why; the end is farther out.
     NotConverged(f64, Stop),
 }
 
 impl End {
-    /// The value of a closed end, or of the bound that closes it.
+    /// Returns the value of a closed end, or of the bound that closes it.
     #[must_use]
     pub fn value(&self) -> Option<f64> {
         match self {
@@ -50,17 +75,17 @@ impl End {
     }
 }
 
-/// An interval that contains the true parameter with the probability of its level.
+/// Interval that contains the true parameter with the probability of its level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interval {
-    /// Below the estimate.
+    /// End below the estimate.
     pub lower: End,
-    /// Above the estimate.
+    /// End above the estimate.
     pub upper: End,
 }
 
 impl Interval {
-    /// Whether a value is inside; an end that was not found excludes nothing on its side.
+    /// Returns whether a value is inside; an end that was not found excludes nothing on its side.
     #[must_use]
     pub fn contains(&self, value: f64) -> bool {
         self.lower.value().is_none_or(|lower| value >= lower)
@@ -68,35 +93,42 @@ impl Interval {
     }
 }
 
-/// Profile likelihood intervals of all parameters at a level such as 0.95.
+/// Computes the profile likelihood intervals of all parameters.
 ///
-/// Each parameter is moved away from its estimate while all others are fitted anew, until the loss has risen
-/// to the level [Bates & Watts 1988, §6.1.2]:
+/// Each parameter is moved away from its estimate while all others are fitted again, until the loss
+/// has risen to the level \[Bat88, §6.1.2\]:
 ///
 /// ```math
 /// \sqrt{\frac{S(\theta_j) - S_{min}}{s^2}} = t_{\nu}
 /// ```
 ///
-/// Unlike standard errors this holds for models that are curved over their errors, does not depend on how
-/// the parameters are written, respects bounds, and shows where an interval has no end. Parameters are done
-/// side by side, each by the same steps for any number of threads.
+/// Unlike standard errors this holds for models that are curved over their errors, does not depend
+/// on how the model is parameterised, respects bounds, and shows where an interval has no end.
+/// Parameters are done in parallel, each by the same steps for any number of threads.
 ///
 /// # Errors
-/// In place of an interval, why a parameter has none at all.
+/// In place of an interval, the reason why a parameter has none.
+#[must_use]
 pub fn profile(
     problem: &(impl Problem + Sync),
     parameters: &[Parameter],
     report: &Report,
-    (level, settings): (f64, &Settings),
+    settings: &ProfileSettings,
 ) -> Vec<Result<Interval, Undetermined>> {
-    let covariance = Covariance::of(problem, parameters, report, settings.loss);
+    let ProfileSettings { level, minimiser } = *settings;
+    let covariance = Covariance::of(problem, parameters, report, minimiser.loss);
     let count = parameters.len().min(report.parameters.len());
     let profile = Profile {
         problem,
         parameters: &parameters[..count],
         report,
-        settings: Settings { reduction: TOLERANCE, step: TOLERANCE, polish: false, ..*settings },
-        quantile: student_quantile(level, covariance.degrees),
+        settings: Settings {
+            reduction: FIT_TOLERANCE,
+            step: FIT_TOLERANCE,
+            polish: false,
+            ..minimiser
+        },
+        quantile: student_quantile(level, covariance.degrees_of_freedom),
         covariance: &covariance,
     };
     (0..count).into_par_iter().map(|j| profile.interval(j)).collect()
@@ -111,36 +143,40 @@ struct Profile<'a, P> {
     covariance: &'a Covariance,
 }
 
-/// A point of the profile: the parameters, and the deviation less that of the level.
+/// Point of a profile.
 struct Point {
+    /// Value of the parameter that is held.
     value: f64,
+    /// All parameters.
     parameters: Vec<f64>,
+    /// Deviation less that of the level, in standard deviations.
     excess: f64,
 }
 
 impl<P: Problem> Profile<'_, P> {
     fn interval(&self, j: usize) -> Result<Interval, Undetermined> {
-        match self.covariance.reason(j) {
-            Some(Undetermined::AtBound(_)) if self.covariance.degrees > 0 => {}
+        match self.covariance.undetermined(j) {
+            Some(Undetermined::AtBound(_)) if self.covariance.degrees_of_freedom > 0 => {}
             Some(reason) => return Err(reason.clone()),
             None => {}
         }
         if !self.quantile.is_finite() {
-            return Err(Undetermined::NoFreedom);
+            return Err(Undetermined::NoDegreesOfFreedom);
         }
         let step = self.first_step(j);
         Ok(Interval { lower: self.end(j, -step), upper: self.end(j, step) })
     }
 
-    /// Half the width of the interval of the linear model; from a bound, a guess to be corrected.
+    /// Returns half the width of the interval of the linear model; at a bound, a first guess.
     fn first_step(&self, j: usize) -> f64 {
         let error = self.covariance.standard_error(j);
-        let step = self.quantile * error.unwrap_or_else(|_| self.covariance.error_alone(j));
+        let step = self.quantile * error.unwrap_or_else(|_| self.covariance.conditional_error(j));
         let size = self.report.parameters[j].abs().max(self.parameters[j].scale);
-        // Shorter steps than this are rounding, and longer ones are of a parameter without effect.
+        // Shorter steps are rounding, longer ones belong to a parameter without effect.
         step.clamp(1e3 * f64::EPSILON * size, size / f64::EPSILON)
     }
 
+    /// Searches one end outwards from the estimate.
     fn end(&self, j: usize, first: f64) -> End {
         let parameter = &self.parameters[j];
         let estimate = self.report.parameters[j];
@@ -152,7 +188,7 @@ impl<P: Problem> Profile<'_, P> {
         let mut before: Option<Point> = None;
         let mut step = first;
         let mut outside = None;
-        for _ in 0..REACHES {
+        for _ in 0..OUTWARD_TRIALS {
             let value = parameter.clamp(inside.value + step);
             if value == inside.value {
                 return End::AtBound(value);
@@ -166,7 +202,7 @@ impl<P: Problem> Profile<'_, P> {
                 outside = Some(point);
                 break;
             }
-            // The deviation is nearly straight: aim at the level, a little beyond to come out.
+            // The deviation is nearly linear: aim a little beyond the level, to end outside.
             let gained = point.excess - inside.excess;
             let aim = 1.1 * (value - inside.value) * -point.excess / gained;
             let most = GROWTH * (value - inside.value);
@@ -179,11 +215,11 @@ impl<P: Problem> Profile<'_, P> {
         }
     }
 
-    /// The value at the level, from one on either side of it, by false position with the Illinois weights.
+    /// Finds the value at the level from one on either side, by the Illinois method.
     fn between(&self, j: usize, mut inside: Point, mut outside: Point) -> End {
         let (mut inner, mut outer) = (inside.excess, outside.excess);
-        for _ in 0..TRIALS {
-            if inside.excess.abs().min(outside.excess) <= NEAR * self.quantile {
+        for _ in 0..BRACKET_TRIALS {
+            if inside.excess.abs().min(outside.excess) <= TOLERANCE * self.quantile {
                 break;
             }
             let part = inner / (inner - outer);
@@ -208,7 +244,7 @@ impl<P: Problem> Profile<'_, P> {
         End::At(nearer.value)
     }
 
-    /// Where the others are expected: on the line through two points, or as the linear model has it.
+    /// Extrapolates the other parameters, through two points or by the linear model.
     fn guess(&self, j: usize, value: f64, from: &Point, other: Option<&Point>) -> Vec<f64> {
         let change = value - from.value;
         let slope = |k: usize| match other {
@@ -225,7 +261,7 @@ impl<P: Problem> Profile<'_, P> {
         (0..self.parameters.len()).map(moved).collect()
     }
 
-    /// Fits the others with one parameter at a value.
+    /// Fits the other parameters with one held at a value.
     fn point(&self, j: usize, value: f64, guess: Vec<f64>) -> Result<Point, End> {
         let mut parameters = self.parameters.to_vec();
         for (parameter, start) in parameters.iter_mut().zip(&guess) {
@@ -239,14 +275,14 @@ impl<P: Problem> Profile<'_, P> {
             return Err(End::LowerMinimum(report.parameters));
         }
         let excess = self.deviation(rise) - self.quantile;
-        // Short of the minimum the loss is too large: good enough to be inside, not to be outside.
+        // Before the minimum the loss is too large: that proves a value inside, not outside.
         if !report.stop.converged() && !(excess < 0.0) {
             return Err(End::NotConverged(value, report.stop));
         }
         Ok(Point { value, parameters: report.parameters, excess })
     }
 
-    /// Rise of the loss in standard deviations.
+    /// Returns a rise of the loss in standard deviations.
     fn deviation(&self, rise: f64) -> f64 {
         let variance = self.covariance.rise_of_one_deviation();
         (rise.max(0.0) / variance).sqrt()

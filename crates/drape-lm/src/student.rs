@@ -1,20 +1,23 @@
-//! Student's t distribution.
+//! Quantiles of Student's t distribution, for `covariance` and `profile`.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
-/// Degrees of freedom taken for any larger number: the quantile is then one in ten thousand too large at most.
+/// Largest number of degrees of freedom that is computed with; more are taken for it.
+///
+/// The quantile is then too large by one in ten thousand at most.
 const MOST_DEGREES: usize = 10_000;
-/// Halvings of the quantile's angle: as many as a double has bits to give.
+/// Bisections for the angle of the quantile: the bits of a double.
 const HALVINGS: usize = 55;
 
-/// The deviation, in standard errors, that a part `level` of all estimates stays within on both sides.
+/// Returns the two-sided quantile of Student's t distribution, in standard errors.
 ///
-/// With few degrees of freedom the standard error itself is uncertain, and the deviation is larger than the
-/// 1.96 of the normal distribution at 95 %. Not a number without degrees of freedom or with a level outside
+/// It is the deviation that the fraction `level` of all estimates does not exceed. With few degrees
+/// of freedom the standard error itself is uncertain, and the quantile is larger than the 1.96 of
+/// the normal distribution at 95 %. Not a number without degrees of freedom or for a level outside
 /// 0 to 1.
 ///
 /// ```
-/// let deviation = drape_fit::lm::student_quantile(0.95, 10);
+/// let deviation = drape_lm::student_quantile(0.95, 10);
 /// assert!((deviation - 2.228_139).abs() < 1e-6);
 /// ```
 #[must_use]
@@ -26,7 +29,7 @@ pub fn student_quantile(level: f64, degrees: usize) -> f64 {
     let (mut low, mut high) = (0.0, FRAC_PI_2);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if within(middle, degrees) < level {
+        if probability(middle, degrees) < level {
             low = middle;
         } else {
             high = middle;
@@ -35,20 +38,20 @@ pub fn student_quantile(level: f64, degrees: usize) -> f64 {
     (0.5 * (low + high)).tan() * (degrees as f64).sqrt()
 }
 
-/// Probability of a deviation up to `$t = \sqrt\nu\tan\theta$` [Abramowitz & Stegun 1964, eqs. 26.7.3–4].
+/// Returns the probability of a deviation up to `$t = \sqrt\nu\tan\theta$` \[AS64, eqs. 26.7.3–4\].
 ///
 /// ```math
 /// \sin\theta\left(1 + \tfrac12\cos^2\theta + \tfrac{1\cdot3}{2\cdot4}\cos^4\theta + \dots\right)
 /// \quad\text{for even } \nu
 /// ```
 ///
-/// and a like sum for odd `$\nu$`: finite, and exact to rounding.
-fn within(angle: f64, degrees: usize) -> f64 {
+/// and a similar finite sum for odd `$\nu$`; both are exact up to rounding.
+fn probability(angle: f64, degrees: usize) -> f64 {
     let (sine, cosine) = angle.sin_cos();
     let odd = degrees % 2 == 1;
     let mut term = if odd { cosine } else { 1.0 };
     let mut sum = 0.0;
-    // Powers of the cosine below `degrees − 1`, every second.
+    // Every second power of the cosine below `degrees − 1`.
     let mut power = if odd { 1 } else { 0 };
     while power + 2 <= degrees {
         sum += term;
