@@ -1,8 +1,8 @@
 //! The report of a fit.
 
-use drape::lm::Stop;
 use drape::fit::{CurveFit, Estimate, Fit, Settings, Unknown};
 use drape::kes::{Curve, Sheet, Test};
+use drape::lm::Stop;
 use drape::report::plot::{Branch, BranchKind, Correlation, LoopPlot, Point};
 use drape::report::{
     FitPage, Interval, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,

@@ -4,10 +4,10 @@ use drape_kes::{Curve, Direction, Test};
 
 use crate::choice::{Candidate, Model, choose};
 use crate::estimate::Estimate;
-use drape_lm::{Problem, Stop};
 use crate::search::{Found, Residuals, refine};
 use crate::statistics::{Independence, Statistics, statistics};
 use crate::{Error, Intervals};
+use drape_lm::{Problem, Stop};
 
 /// How well a law follows a measured curve, and with which parameters.
 #[derive(Clone, Debug, PartialEq)]

@@ -57,7 +57,7 @@ impl Unknown {
                 Self::Unidentifiable(others.iter().map(|&other| names[other]).collect())
             }
             lm::Undetermined::NoDegreesOfFreedom => Self::TooFewPoints,
-            lm::Undetermined::NotFinite => Self::NotSmooth,
+            _ => Self::NotSmooth,
         }
     }
 }

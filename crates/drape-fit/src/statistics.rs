@@ -5,8 +5,10 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use crate::estimate::{Estimate, Unknown};
-use drape_lm::{self as lm, Covariance, Interval, Loss, Parameter, Problem, Report, student_quantile};
 use crate::{Intervals, search::Named};
+use drape_lm::{
+    self as lm, Covariance, Interval, Loss, Parameter, Problem, Report, student_quantile,
+};
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;

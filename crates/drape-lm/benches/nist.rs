@@ -47,7 +47,15 @@ fn uncertainty(c: &mut Criterion) {
         b.iter(|| Covariance::of(&problem, &parameters, &report, Loss::Squares).residual_deviation);
     });
     group.bench_function("profile", |b| {
-        b.iter(|| profile(&problem, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() }).len());
+        b.iter(|| {
+            profile(
+                &problem,
+                &parameters,
+                &report,
+                &ProfileSettings { minimiser: settings, ..Default::default() },
+            )
+            .len()
+        });
     });
     group.finish();
 }

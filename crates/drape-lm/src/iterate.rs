@@ -102,12 +102,8 @@ impl<'a, P: Problem> Iterate<'a, P> {
         if !self.problem.jacobian(&self.values, &mut self.jacobian) {
             let raw = self.unweighted();
             let point = Evaluated { parameters: &self.values, residuals: &raw };
-            self.evaluations += self.difference.jacobian(
-                self.problem,
-                self.parameters,
-                point,
-                &mut self.jacobian,
-            );
+            self.evaluations +=
+                self.difference.jacobian(self.problem, self.parameters, point, &mut self.jacobian);
         }
         for (i, root) in self.roots.iter().enumerate() {
             self.jacobian.row_mut(i).scale_mut(*root);

@@ -254,11 +254,7 @@ pub fn minimise(problem: &impl Problem, parameters: &[Parameter], settings: &Set
 
 /// Returns a damped step with its second-order correction; `None` where that is too large or has no
 /// value.
-fn corrected(
-    iterate: &mut Iterate<impl Problem>,
-    step: &[f64],
-    damping: f64,
-) -> Option<Vec<f64>> {
+fn corrected(iterate: &mut Iterate<impl Problem>, step: &[f64], damping: f64) -> Option<Vec<f64>> {
     if damping == 0.0 {
         return Some(step.to_vec());
     }

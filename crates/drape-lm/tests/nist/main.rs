@@ -47,7 +47,12 @@ fn solve(problem: &Nist, start: usize) -> Outcome {
     let report = minimise(problem, &parameters, &Settings::default());
     let covariance = Covariance::of(problem, &parameters, &report, Loss::Squares);
     let errors = (0..parameters.len()).map(|j| covariance.standard_error(j).unwrap_or(f64::NAN));
-    assert_eq!(covariance.degrees_of_freedom, problem.residual_count() - parameters.len(), "{}", problem.name);
+    assert_eq!(
+        covariance.degrees_of_freedom,
+        problem.residual_count() - parameters.len(),
+        "{}",
+        problem.name
+    );
     Outcome {
         name: problem.name,
         start,

@@ -1,7 +1,8 @@
 //! Standard errors and correlations against the normal equations.
 
 use drape_lm::{
-    Covariance, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined, minimise, profile,
+    Covariance, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined, minimise,
+    profile,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -56,7 +57,12 @@ fn a_product_of_two_parameters_determines_neither_and_says_with_which() {
     assert_eq!(covariance.standard_error(2), with(&[]));
     assert_eq!(covariance.standard_error(3), with(&[1]));
     assert_eq!(covariance.degrees_of_freedom, 18);
-    let intervals = profile(&product, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() });
+    let intervals = profile(
+        &product,
+        &parameters,
+        &report,
+        &ProfileSettings { minimiser: settings, ..Default::default() },
+    );
     assert!(intervals[0].is_ok() && intervals[1].is_err(), "{intervals:?}");
     // Fixing one of the two determines the other.
     parameters[3] = Parameter::new(2.0).fixed();
@@ -78,6 +84,11 @@ fn as_many_parameters_as_residuals_leave_no_error_to_estimate() {
     let report = minimise(&exact, &parameters, &settings);
     let covariance = Covariance::of(&exact, &parameters, &report, Loss::Squares);
     assert_eq!(covariance.standard_error(0), Err(Undetermined::NoDegreesOfFreedom));
-    let intervals = profile(&exact, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() });
+    let intervals = profile(
+        &exact,
+        &parameters,
+        &report,
+        &ProfileSettings { minimiser: settings, ..Default::default() },
+    );
     assert_eq!(intervals[1], Err(Undetermined::NoDegreesOfFreedom));
 }

@@ -23,7 +23,8 @@ fn linked_parameters_follow_and_pass_their_errors_on() {
     let covariance = Covariance::of(&linked, &parameters, &report, Loss::Squares);
     let one = Covariance::of(&written, &starts(&[2.0]), &other, Loss::Squares);
     assert_eq!(covariance.degrees_of_freedom, one.degrees_of_freedom);
-    let slope = covariance.propagated_error(&linked.gradient(1, &report.parameters)).expect("determined");
+    let slope =
+        covariance.propagated_error(&linked.gradient(1, &report.parameters)).expect("determined");
     let exact = one.standard_error(0).expect("determined") * all[0].abs() / 10.0;
     assert!((slope / exact - 1.0).abs() < 1e-6, "{slope} against {exact}");
 }

@@ -39,9 +39,14 @@ fn without_outliers_a_robust_loss_gives_nearly_the_errors_of_least_squares() {
         let settings = Settings { loss, ..Settings::default() };
         let report = minimise(&problem, &parameters, &settings);
         let covariance = Covariance::of(&problem, &parameters, &report, loss);
-        let interval = profile(&problem, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() })[0]
-            .clone()
-            .expect("determined");
+        let interval = profile(
+            &problem,
+            &parameters,
+            &report,
+            &ProfileSettings { minimiser: settings, ..Default::default() },
+        )[0]
+        .clone()
+        .expect("determined");
         let width = [&interval.lower, &interval.upper].map(|end| end.value().expect("closed"));
         (covariance.standard_error(0).expect("determined"), width[1] - width[0])
     };

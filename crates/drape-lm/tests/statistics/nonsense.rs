@@ -11,7 +11,12 @@ fn nonsense_ends_with_a_reason_and_never_in_a_panic() {
     let all = |problem: &Plain, parameters: &[Parameter]| {
         let report = minimise(problem, parameters, &settings);
         let covariance = Covariance::of(problem, parameters, &report, settings.loss);
-        let intervals = profile(problem, parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() });
+        let intervals = profile(
+            problem,
+            parameters,
+            &report,
+            &ProfileSettings { minimiser: settings, ..Default::default() },
+        );
         for (j, interval) in intervals.iter().enumerate() {
             assert!(covariance.standard_error(j).is_err());
             assert!(interval.is_err(), "{interval:?}");

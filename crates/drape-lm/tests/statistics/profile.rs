@@ -1,8 +1,8 @@
 //! Profile intervals against those known by other means.
 
 use drape_lm::{
-    Covariance, End, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined, minimise, profile,
-    student_quantile,
+    Covariance, End, Loss, Parameter, Problem, ProfileSettings, Settings, Undetermined, minimise,
+    profile, student_quantile,
 };
 
 use crate::{Model, line, model, scatter, starts};
@@ -14,8 +14,14 @@ fn the_profile_of_a_linear_fit_is_the_interval_of_its_standard_error() {
     let settings = Settings::default();
     let report = minimise(&problem, &parameters, &settings);
     let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
-    for (j, interval) in
-        profile(&problem, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() }).into_iter().enumerate()
+    for (j, interval) in profile(
+        &problem,
+        &parameters,
+        &report,
+        &ProfileSettings { minimiser: settings, ..Default::default() },
+    )
+    .into_iter()
+    .enumerate()
     {
         let interval = interval.expect("determined");
         let half = covariance.half_width(j, 0.95).expect("determined");
@@ -46,8 +52,14 @@ fn the_profile_of_a_curved_model_ends_where_the_conditional_sum_reaches_the_leve
     let parameters = [Parameter::new(1.0), Parameter::new(1.0).between(0.01, 1e3)];
     let settings = Settings::default();
     let report = minimise(&problem, &parameters, &settings);
-    let interval =
-        profile(&problem, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() })[1].clone().expect("determined");
+    let interval = profile(
+        &problem,
+        &parameters,
+        &report,
+        &ProfileSettings { minimiser: settings, ..Default::default() },
+    )[1]
+    .clone()
+    .expect("determined");
     // With the time constant given the amplitude is a linear fit: the conditional sum is known exactly.
     let sum = |tau: f64| {
         let shape: Vec<f64> = (0..14).map(|i| (-(f64::from(i) / 10.0) / tau).exp()).collect();
@@ -81,9 +93,14 @@ fn a_parameter_at_its_bound_has_a_one_sided_interval_and_no_error() {
     let reason = Undetermined::AtBound(-0.45);
     assert_eq!(covariance.standard_error(1), Err(reason));
     assert!(covariance.standard_error(0).is_ok());
-    let interval = profile(&problem, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() })[1]
-        .clone()
-        .expect("an interval from the bound inwards");
+    let interval = profile(
+        &problem,
+        &parameters,
+        &report,
+        &ProfileSettings { minimiser: settings, ..Default::default() },
+    )[1]
+    .clone()
+    .expect("an interval from the bound inwards");
     assert_eq!(interval.lower, End::AtBound(-0.45));
     let upper = interval.upper.value().expect("closed");
     assert!(upper > -0.45 && upper < -0.3, "{interval:?}");
@@ -101,7 +118,12 @@ fn an_interval_without_an_end_says_so() {
     let parameters = [Parameter::new(4.0), Parameter::new(3.0).between(0.0, f64::INFINITY)];
     let settings = Settings::default();
     let report = minimise(&rise, &parameters, &settings);
-    let intervals = profile(&rise, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() });
+    let intervals = profile(
+        &rise,
+        &parameters,
+        &report,
+        &ProfileSettings { minimiser: settings, ..Default::default() },
+    );
     if let Ok(interval) = &intervals[1] {
         assert!(matches!(interval.upper, End::Unbounded(_)), "{interval:?} around {report:?}");
         assert!(interval.lower.value().is_some_and(|lower| lower > 1.0));
@@ -126,8 +148,14 @@ fn a_false_minimum_is_found_out_by_its_profile() {
     let parameters = starts(&[0.1]);
     let report = minimise(&valleys, &parameters, &settings);
     assert!(report.parameters[0].abs() < 0.1, "{report:?}");
-    let interval =
-        profile(&valleys, &parameters, &report, &ProfileSettings { minimiser: settings, ..Default::default() })[0].clone().expect("determined");
+    let interval = profile(
+        &valleys,
+        &parameters,
+        &report,
+        &ProfileSettings { minimiser: settings, ..Default::default() },
+    )[0]
+    .clone()
+    .expect("determined");
     let End::LowerMinimum(there) = &interval.lower else {
         panic!("{interval:?} around {report:?}");
     };
