@@ -1,18 +1,48 @@
-//! `drape fabric`: what fabrics there are, what one is, how two differ.
+//! `drape fabric`: lists fabrics, shows one, compares two.
 
 use std::path::{Path, PathBuf};
 
+use clap::Subcommand;
 use drape::fabric::Fabric;
 use drape::fit::Settings;
 use drape::input::Document;
+use drape::kes::Sheet;
 
-use crate::batch;
-use crate::command::FabricCommand;
-use crate::fabric_page::{compare_page, show_page};
+use crate::commands::fit::{identify, store};
+use crate::commands::sheets;
 use crate::failure::Failure;
+use crate::file;
+use crate::pages::fabric::{compare_page, show_page};
 use crate::say::say;
-use crate::{file, fit};
 
+#[derive(Subcommand)]
+pub(crate) enum FabricCommand {
+    /// Lists the sheets in folders: mass, thickness, what was measured.
+    List {
+        /// Folders to search.
+        #[arg(default_value = "fabrics", value_name = "FOLDER")]
+        folders: Vec<PathBuf>,
+    },
+    /// Shows a fabric: its parameters, the loops an instrument would draw, its KES values.
+    Show {
+        /// A fabric, or a sheet, which is fitted first.
+        fabric: PathBuf,
+        /// Folder for a page with plots.
+        #[arg(long, value_name = "FOLDER")]
+        report: Option<PathBuf>,
+    },
+    /// Compares two fabrics: their loops overlaid, a table of their values.
+    Compare {
+        /// Fabrics, or sheets, which are fitted first.
+        #[arg(required = true, num_args = 2, value_names = ["FIRST", "SECOND"])]
+        fabrics: Vec<PathBuf>,
+        /// Folder for a page with plots.
+        #[arg(long, value_name = "FOLDER")]
+        report: Option<PathBuf>,
+    },
+}
+
+/// Executes `drape fabric`.
 pub(crate) fn fabric(command: &FabricCommand) -> Result<(), Failure> {
     match command {
         FabricCommand::List { folders } => list(folders),
@@ -27,33 +57,34 @@ pub(crate) fn fabric(command: &FabricCommand) -> Result<(), Failure> {
     }
 }
 
-/// A fabric from its file, or from a sheet, which is fitted on the way.
+/// Reads a fabric from its file, or from a sheet, which it fits.
 pub(crate) fn read(path: &Path) -> Result<Fabric, Failure> {
     if path.is_dir() {
-        return Ok(fit::identified(path, &Settings::default())?.0.fabric);
+        return Ok(identify(path, &Settings::default())?.fit.fabric);
     }
     let document = Document::read(path)?;
     let table: toml::Table = document.decode()?;
     if table.contains_key("density") || table.contains_key("shear") {
         return Ok(Fabric::from_document(&document)?);
     }
-    Ok(fit::identified(path, &Settings::default())?.0.fabric)
+    Ok(identify(path, &Settings::default())?.fit.fabric)
 }
 
 fn list(folders: &[PathBuf]) -> Result<(), Failure> {
-    let sheets = batch::sheets(folders)?;
+    let sheets = sheets::sheets(folders)?;
     say(format_args!("{:<44} {:>6} {:>7}  {:<38} sheet", "fabric", "g/m²", "mm", "measured"))?;
     for path in &sheets {
-        match drape::kes::Sheet::read(path) {
+        match sheets::read(path) {
             Ok(sheet) => say(line(path, &sheet))?,
-            Err(error) => Failure::from(fit::input(path, error)).print(),
+            Err(mistakes) => Failure::from(mistakes).print(),
         }
     }
     Ok(())
 }
 
-/// What a sheet has: mass, thickness, curves by test, values by symbol.
-fn line(path: &Path, sheet: &drape::kes::Sheet) -> String {
+/// Line of the table for a sheet: mass, thickness, tests that have curves, and whether it has
+/// values.
+fn line(path: &Path, sheet: &Sheet) -> String {
     let number = |value: Option<f64>, scale: f64, digits: usize| {
         value.map_or("–".into(), |value| format!("{:.digits$}", value * scale))
     };
@@ -75,7 +106,7 @@ fn line(path: &Path, sheet: &drape::kes::Sheet) -> String {
 fn show(path: &Path, report: Option<&Path>) -> Result<(), Failure> {
     let page = show_page(&read(path)?);
     say(page.to_text()?.trim_end())?;
-    if let Some(written) = fit::store(&page, &batch::stem(path), report)? {
+    if let Some(written) = store(&page, &sheets::stem(path), report)? {
         say(format_args!("page written to {}", written.display()))?;
     }
     Ok(())
@@ -85,7 +116,7 @@ fn compare(paths: [&PathBuf; 2], report: Option<&Path>) -> Result<(), Failure> {
     let page = compare_page([&read(paths[0])?, &read(paths[1])?]);
     say(page.to_text()?.trim_end())?;
     if let Some(folder) = report {
-        let [first, second] = paths.map(|path| batch::stem(path));
+        let [first, second] = paths.map(|path| sheets::stem(path));
         let path = folder.join(format!("{first}-and-{second}.html"));
         file::write(&path, &page.to_html()?)?;
         say(format_args!("page written to {}", path.display()))?;

@@ -1,4 +1,4 @@
-//! `drape test --drape`: specimens of a fabric in a simulated drapemeter.
+//! Specimens of a fabric on a simulated drapemeter: `drape test --drape`.
 
 use drape::fabric::Fabric;
 use drape::validate::ValidationError;
@@ -6,22 +6,24 @@ use drape::validate::drapemeter::{Drapemeter, Shake, Study, spacing_bound};
 use drape::validate::prior::Prediction;
 use serde_json::json;
 
-use crate::command::{Meter, ShakeName, TestArguments};
+use super::arguments::{Meter, ShakeName, TestArguments};
 use crate::failure::Failure;
 use crate::progress;
 use crate::say::say;
 
-/// The coarsest spacing that is taken without being asked for, in m.
+/// Largest default spacing, in m.
 const SPACING_MAX: f64 = 0.005;
-/// Harmonics that are printed.
+/// Number of harmonics that are printed.
 const SHOWN: usize = 10;
 
-/// One evaluation, and what it is of.
+/// Drapes of one fabric from several starts.
 struct Evaluation {
+    /// Name of the fabric's variant.
     of: String,
     study: Study,
 }
 
+/// Drapes the fabric as it is, without friction, and at the ends of what its sheet leaves open.
 pub(crate) fn drape(fabric: &Fabric, arguments: &TestArguments) -> Result<(), Failure> {
     let mut meter = match arguments.meter {
         Meter::Frl => Drapemeter::frl(),
@@ -44,8 +46,7 @@ pub(crate) fn drape(fabric: &Fabric, arguments: &TestArguments) -> Result<(), Fa
             1e3 * spacing
         ))?;
         if spacing > 1.05 * bound {
-            let message = "the fabric asks for";
-            say(format_args!("warning: {message} {:.2} mm or less", 1e3 * bound))?;
+            say(format_args!("warning: the fabric requires {:.2} mm or less", 1e3 * bound))?;
         }
     }
     let specimens = arguments.starts * (1 + Prediction::studies(fabric));
@@ -78,8 +79,8 @@ pub(crate) fn drape(fabric: &Fabric, arguments: &TestArguments) -> Result<(), Fa
     if open {
         let [low, high] = interval.map(|part| 100.0 * part);
         say(format_args!(
-            "the sheet does not say everything: nine of ten fabrics with the same sheet drape to {low:.1} to \
-             {high:.1} %, if one in twenty lies beyond each of the ends above"
+            "the sheet leaves parameters open: nine of ten fabrics with the same sheet drape to \
+             {low:.1} to {high:.1} %, if one in twenty lies beyond each of the ends above"
         ))?;
     }
     Ok(())
@@ -93,7 +94,8 @@ fn line(of: &str, study: &Study) -> String {
         .take(SHOWN)
         .map(|amplitude| format!("{:.1}", 1e3 * amplitude));
     format!(
-        "{of:<52} drape coefficient {:.1} ± {:.1} %, nodes {}, harmonics 1 to {SHOWN} of the edge {} mm",
+        "{of:<52} drape coefficient {:.1} ± {:.1} %, nodes {}, harmonics 1 to {SHOWN} of the edge \
+         {} mm",
         100.0 * study.mean(),
         100.0 * study.deviation(),
         nodes.collect::<Vec<_>>().join(", "),
@@ -101,7 +103,7 @@ fn line(of: &str, study: &Study) -> String {
     )
 }
 
-/// An evaluation as scripts read it.
+/// Entry of the JSON output for an evaluation.
 fn row(evaluation: &Evaluation) -> serde_json::Value {
     let Evaluation { of, study } = evaluation;
     let starts = study.drapes.iter().map(|drape| {

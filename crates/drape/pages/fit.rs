@@ -1,16 +1,20 @@
-//! The report of a fit.
+//! Report of a fit: every law with its loop, its parameters and their intervals, and what was
+//! assumed.
 
 use drape::fit::{CurveFit, Estimate, Fit, Settings, Unknown};
 use drape::kes::{Curve, Sheet, Test};
 use drape::lm::Stop;
-use drape::report::plot::{Branch, BranchKind, Correlation, LoopPlot, Point};
+use drape::report::plot::{Correlation, LoopPlot};
 use drape::report::{
     FitPage, Interval, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,
 };
 
-use crate::{kes_value, quantity};
+use super::kes_value::{self, SheetValues};
+use super::loop_plot::{Loads, loop_plot};
+use super::quantity;
+use super::version::VERSION;
 
-/// Everything that tells whether to believe a fit.
+/// Returns the report of a fit: all that shows whether it can be trusted.
 pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> FitPage {
     let given = |name: &str, value: Option<f64>, taken: f64, units: Units| Quantity {
         name: name.into(),
@@ -19,11 +23,11 @@ pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> FitPage
         origin: if value.is_some() { "sheet" } else { "assumed" }.into(),
     };
     let fabric = &fit.fabric;
-    let (values, odd) = kes_value::of_sheet(sheet, fabric, settings);
+    let SheetValues { values, warnings } = kes_value::of_sheet(sheet, fabric, settings);
     FitPage {
         name: sheet.name.clone(),
         source: sheet.source.clone(),
-        version: concat!("drape ", env!("CARGO_PKG_VERSION")).into(),
+        version: VERSION.into(),
         quantities: vec![
             given("mass per area", sheet.density(), fabric.density, quantity::mass()),
             given("thickness", sheet.thickness(), fabric.thickness, quantity::thickness()),
@@ -31,7 +35,7 @@ pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> FitPage
         laws: sheet.curves.iter().zip(&fit.curves).map(|(c, f)| law(c, f)).collect(),
         values,
         assumed: fit.assumed.clone(),
-        warnings: sheet.warnings().iter().map(ToString::to_string).chain(odd).collect(),
+        warnings: sheet.warnings().iter().map(ToString::to_string).chain(warnings).collect(),
         ..FitPage::default()
     }
 }
@@ -69,7 +73,7 @@ fn law(curve: &Curve, fit: &CurveFit) -> LawReport {
     }
 }
 
-/// The curve's name, with its direction.
+/// Returns the curve's name with its direction.
 fn title(fit: &CurveFit) -> String {
     let direction = fit.direction.name();
     if fit.name.contains(direction) {
@@ -97,7 +101,7 @@ fn parameter(test: Test, estimate: &Estimate) -> Parameter {
     }
 }
 
-/// The matrix of the parameters that have correlations.
+/// Returns the correlations of the parameters that have some.
 fn correlation(fit: &CurveFit) -> Option<Correlation> {
     let whole = |&i: &usize| fit.correlations.get(i).is_some_and(|row| row[i].is_some());
     let kept: Vec<usize> = (0..fit.parameters.len()).filter(whole).collect();
@@ -108,7 +112,7 @@ fn correlation(fit: &CurveFit) -> Option<Correlation> {
     (kept.len() > 1).then(|| Correlation { symbols: kept.iter().map(symbol).collect(), matrix })
 }
 
-/// Autocorrelation above which the residuals are said to be systematic.
+/// Autocorrelation above which the residuals are called systematic.
 const SYSTEMATIC: f64 = 0.5;
 
 fn notes(fit: &CurveFit) -> Vec<String> {
@@ -126,38 +130,7 @@ fn notes(fit: &CurveFit) -> Vec<String> {
     notes
 }
 
-/// The loads at a point of a history, in SI.
-#[derive(Default)]
-pub(crate) struct Loads {
-    pub(crate) measured: Option<f64>,
-    pub(crate) fitted: Option<f64>,
-    pub(crate) band: Option<[f64; 2]>,
-}
-
-/// A history, branch by branch, with its measured and its fitted load at each point.
-pub(crate) fn loop_plot(title: String, curve: &Curve, loads: impl Fn(usize) -> Loads) -> LoopPlot {
-    let [deformation, load] = quantity::axes(curve.test);
-    let branches = curve.branches();
-    let both_sides = matches!(curve.test, Test::Bending | Test::Shear);
-    let first = branches.first().is_some_and(|branch| branch.rising);
-    let point = |i: usize| {
-        let Loads { measured, fitted, band } = loads(i);
-        Point { deformation: curve.deformation()[i], measured, fitted, band }
-    };
-    let branch = |(index, branch): (usize, &drape::kes::Branch)| Branch {
-        kind: match (branch.rising == first, both_sides && index > 0) {
-            (true, false) => BranchKind::Loading,
-            (true, true) => BranchKind::Reversal,
-            (false, _) => BranchKind::Unloading,
-        },
-        cycle: index / 2 + 1,
-        points: branch.points.clone().map(point).collect(),
-    };
-    let branches = branches.iter().enumerate().map(branch).collect();
-    LoopPlot { title, deformation, load, branches }
-}
-
-/// The measured and the fitted loop.
+/// Returns the plot of the measured and the fitted loop.
 fn plot(curve: &Curve, fit: &CurveFit) -> LoopPlot {
     // A load equal to the measured one to the last bit marks a point that the fit left out.
     loop_plot(title(fit), curve, |i| {
@@ -169,7 +142,7 @@ fn plot(curve: &Curve, fit: &CurveFit) -> LoopPlot {
     })
 }
 
-/// Why a search ended, in words.
+/// Returns the reason why a search ended, in words.
 fn stop(stop: Stop) -> &'static str {
     match stop {
         Stop::Reduction => "the sum of squares no longer falls",

@@ -1,19 +1,21 @@
+//! Contents of a pattern: its panels as they are cut at a spacing, in words or as a drawing.
+
 use std::fmt::Write;
 use std::path::Path;
 
 use drape::input::{Diagnostic, Diagnostics};
 use drape::pattern::{CutPattern, Cutter, Error, Pattern, Quality, figure};
 
-/// What is in a pattern, and how it is cut at a spacing in m.
+/// A pattern with its panels cut.
 pub(crate) struct CutOut {
     pattern: Pattern,
     cut: CutPattern,
 }
 
 impl CutOut {
-    /// Reads and cuts a pattern.
+    /// Reads a pattern and cuts it at a spacing, in m.
     pub(crate) fn read(path: &Path, spacing: f64) -> Result<Self, Diagnostics> {
-        let told = |error: Error| match error {
+        let mistakes = |error: Error| match error {
             Error::Input(mistakes) => mistakes,
             Error::Pattern(mistakes) => Diagnostics(
                 mistakes
@@ -23,12 +25,12 @@ impl CutOut {
             ),
             other => Diagnostic::new(path, other.to_string()).into(),
         };
-        let pattern = Pattern::read(path).map_err(told)?;
-        let cut = Cutter::new(spacing).cut(&pattern).map_err(told)?;
+        let pattern = Pattern::read(path).map_err(mistakes)?;
+        let cut = Cutter::new(spacing).cut(&pattern).map_err(mistakes)?;
         Ok(Self { pattern, cut })
     }
 
-    /// For people: every panel with the quality of its cut, and what should be known.
+    /// Describes every panel with the quality of its cut, then the notes.
     pub(crate) fn describe(&self) -> String {
         let Self { pattern, cut } = self;
         let mut text = format!(
@@ -42,8 +44,8 @@ impl CutOut {
             let quality = Quality::new(panel, own, cut.spacing);
             let _ = writeln!(
                 text,
-                "  panel \"{}\": {:.4} m², {} particles, shortest edge {:.2} spacings, sharpest angle {:.0}°, area off \
-                 by {:.3} %",
+                "  panel \"{}\": {:.4} m², {} particles, shortest edge {:.2} spacings, sharpest \
+                 angle {:.0}°, error of the area {:.3} %",
                 panel.name(),
                 panel.area(),
                 own.positions.len(),
@@ -58,7 +60,7 @@ impl CutOut {
         text
     }
 
-    /// The cut panels as SVG.
+    /// Draws the cut panels as SVG.
     pub(crate) fn figure(&self) -> String {
         figure(&self.pattern, &self.cut)
     }

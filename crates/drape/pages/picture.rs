@@ -1,19 +1,21 @@
+//! Pictures of cloth and bodies, with yarn lines or in a colour per particle.
+
 use drape::report::{Colour, Picture, Scene, Surface, View, render};
 use drape::scene::Snapshot;
 
 use crate::failure::Failure;
 
-/// Distance between the yarn lines that are drawn, in m, for a cloth of a metre.
+/// Distance between the yarn lines, in m, for a cloth of a metre.
 const LINE_SPACING: f64 = 0.05;
 
-/// How far below the lowest point of cloth and bodies the floor is, in m.
+/// Depth of the floor below the lowest point of cloth and bodies, in m.
 const FLOOR: f64 = 0.01;
 
-/// From where a garment is seen: from the front, the side and the back, in degrees around the vertical.
+/// Azimuths of the pictures of a garment: front, side and back, in degrees.
 const SIDES: [f64; 3] = [0.0, 90.0, 180.0];
 
-/// How high the eye is that sees a garment, in degrees.
-const EYE: f64 = 6.0;
+/// Elevation of the pictures of a garment, in degrees.
+const ELEVATION: f64 = 6.0;
 
 /// Pixels of each picture of a garment.
 const UPRIGHT: [u32; 2] = [600, 1000];
@@ -26,7 +28,8 @@ pub(crate) fn draw_round(snapshot: &Snapshot) -> Result<Picture, Failure> {
     draw_from(snapshot, &SIDES, None)
 }
 
-/// Draws a garment from some sides, in degrees around the vertical; in a colour per particle instead of with its yarns.
+/// Draws a garment from some azimuths, in degrees; with its yarn lines, or in a colour per
+/// particle.
 pub(crate) fn draw_from(
     snapshot: &Snapshot,
     sides: &[f64],
@@ -34,9 +37,9 @@ pub(crate) fn draw_from(
 ) -> Result<Picture, Failure> {
     let side = |azimuth: &f64| {
         let cloth = Surface::cloth(&snapshot.positions, &snapshot.triangles);
-        let view = [Some(*azimuth), Some(EYE)];
+        let view = [Some(*azimuth), Some(ELEVATION)];
         match tints {
-            Some(tints) => draw_cloth(snapshot, cloth.with_tints(tints), (view, UPRIGHT)),
+            Some(tints) => draw_cloth(snapshot, cloth.with_tints(tints), view, UPRIGHT),
             None => draw(snapshot, view, UPRIGHT),
         }
     };
@@ -44,7 +47,7 @@ pub(crate) fn draw_from(
     Ok(Picture::sheet(&pictures?, sides.len()))
 }
 
-/// Draws a scene as it was, seen from an azimuth and an elevation in degrees, in so many pixels.
+/// Draws a scene, seen from an azimuth and an elevation in degrees, in so many pixels.
 pub(crate) fn draw(
     snapshot: &Snapshot,
     view: [Option<f64>; 2],
@@ -52,16 +55,17 @@ pub(crate) fn draw(
 ) -> Result<Picture, Failure> {
     let Snapshot { positions, coordinates, triangles, .. } = snapshot;
     let coordinates: Vec<f64> = coordinates.iter().flatten().copied().collect();
-    let reach = coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
+    let extent = coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
     let cloth = Surface::cloth(positions, triangles);
-    let cloth = cloth.with_lines(&coordinates, LINE_SPACING * reach.max(0.1));
-    draw_cloth(snapshot, cloth, (view, size))
+    let cloth = cloth.with_lines(&coordinates, LINE_SPACING * extent.max(0.1));
+    draw_cloth(snapshot, cloth, view, size)
 }
 
 fn draw_cloth(
     snapshot: &Snapshot,
     cloth: Surface<'_>,
-    ([azimuth, elevation], [width, height]): ([Option<f64>; 2], [u32; 2]),
+    [azimuth, elevation]: [Option<f64>; 2],
+    [width, height]: [u32; 2],
 ) -> Result<Picture, Failure> {
     let Snapshot { positions, bodies, spacing, .. } = snapshot;
     let bodies_too = bodies.iter().flat_map(|body| &body.positions[..]);

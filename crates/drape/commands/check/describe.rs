@@ -1,56 +1,17 @@
+//! Contents of scenes, fabrics and sheets in words and SI units.
+
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
 use drape::input::{Diagnostic, Diagnostics, Document};
-use drape::kes::Sheet;
 use drape::scene::{Scene, SceneError};
 
-use crate::command::CheckArguments;
-use crate::failure::Failure;
-use crate::file;
-use crate::pattern::CutOut;
-use crate::say::say;
-use crate::verify;
+use super::pattern::CutOut;
+use crate::commands::sheets;
 
-/// `drape check`: all files are read, all mistakes reported together; then the frames of runs are looked at.
-pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
-    let (runs, files): (Vec<&PathBuf>, Vec<&PathBuf>) =
-        arguments.files.iter().partition(|file| verify::is_run(file));
-    if let (true, Some(file)) = (arguments.json, files.first()) {
-        let message = format!("--json is for folders of runs, and {} is none", file.display());
-        return Err(Failure::Usage(message));
-    }
-    let spacing = 1e-3 * arguments.spacing;
-    let mut mistakes = Vec::new();
-    let mut told = |file: &Path, found: Result<String, Diagnostics>| match found {
-        Ok(text) => say(format_args!("{}: {}", file.display(), text.trim_end())),
-        Err(found) => {
-            mistakes.extend(found.0);
-            Ok(())
-        }
-    };
-    match (&arguments.figure, &files[..]) {
-        (Some(figure), [pattern]) => {
-            let cut = CutOut::read(pattern, spacing)?;
-            file::write(figure, cut.figure())?;
-            told(pattern, Ok(cut.describe()))?;
-        }
-        (Some(_), _) => {
-            return Err(Failure::Usage("--figure is for one pattern at a time".into()));
-        }
-        (None, files) => {
-            for file in files {
-                told(file, describe(file, spacing))?;
-            }
-        }
-    }
-    Diagnostics::check(mistakes)?;
-    verify::verify(&runs, arguments.json)
-}
-
-/// What a file holds, in SI; a pattern as it is cut at a spacing.
-fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics> {
+/// Reads a file and describes it, in SI; a pattern as it is cut at a spacing, in m.
+pub(crate) fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics> {
     if file.is_dir() {
         return sheet(file);
     }
@@ -162,7 +123,7 @@ fn fabric(fabric: &Fabric) -> String {
 }
 
 fn sheet(file: &Path) -> Result<String, Diagnostics> {
-    let sheet = Sheet::read(file).map_err(|error| crate::fit::input(file, error))?;
+    let sheet = sheets::read(file)?;
     let density = sheet.density().map_or("no".into(), |w| format!("{w}"));
     let mut text =
         format!("sheet \"{}\": {density} kg/m², {} curves\n", sheet.name, sheet.curves.len());
@@ -170,7 +131,8 @@ fn sheet(file: &Path) -> Result<String, Diagnostics> {
         let ((low, high), (least, most)) = (curve.deformation_range(), curve.load_range());
         let _ = writeln!(
             text,
-            "  {} {}: {} points, deformation {low:.4e} to {high:.4e}, load {least:.4e} to {most:.4e}",
+            "  {} {}: {} points, deformation {low:.4e} to {high:.4e}, load {least:.4e} to \
+             {most:.4e}",
             curve.test.name(),
             curve.direction.name(),
             curve.deformation().len()

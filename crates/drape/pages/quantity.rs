@@ -1,20 +1,24 @@
-//! What the numbers of a test are called, and the units they are shown in.
+//! Names, symbols and units of the numbers of a test, and the axes of its plots.
 
-use drape::kes::Test;
+use drape::kes::{Direction, Test};
 use drape::report::Units;
 use drape::report::plot::Axis;
 
-/// One gram-force in N.
+/// Directions of the yarns, in the order of the pages.
+pub(crate) const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
+
+/// One gram-force, in N.
 const GRAM_FORCE: f64 = 9.806_65e-3;
-/// One degree in rad.
+/// One degree, in rad.
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// A number of a test, as people call it.
+/// Parameter of the law of a test, as a page shows it.
 pub(crate) struct Quantity {
     pub(crate) symbol: &'static str,
+    /// Name in words.
     pub(crate) words: &'static str,
     pub(crate) units: Units,
-    /// Whether it belongs to the test and not to the fabric.
+    /// Whether it is a property of the test, not of the fabric.
     pub(crate) incidental: bool,
 }
 
@@ -58,7 +62,7 @@ pub(crate) fn thickness() -> Units {
     Units::si("m").with_kes("mm", 1e-3)
 }
 
-/// Deformation and load of a test.
+/// Axes of a test's plots: deformation, then load.
 pub(crate) fn axes(test: Test) -> [Axis; 2] {
     match test {
         Test::Tensile => [Axis::new("strain", "%", 0.01), Axis::new("tension", "N/m", 1.0)],
@@ -70,12 +74,12 @@ pub(crate) fn axes(test: Test) -> [Axis; 2] {
     }
 }
 
-/// Unit of the load of a test.
+/// Units of the load of a test.
 fn load(test: Test) -> Units {
     if test == Test::Bending { moment() } else { tension() }
 }
 
-/// A fitted parameter of a test's law; a name of no law keeps its name.
+/// Describes a parameter of a test's law by its name in the fit; an unknown name stands for itself.
 pub(crate) fn parameter(test: Test, name: &'static str) -> Quantity {
     let incidental = matches!(name, "zero" | "free strain" | "drift" | "state");
     let of = |symbol, words, units| Quantity { symbol, words, units, incidental };

@@ -1,27 +1,34 @@
-//! Pages on fabrics as the simulator has them.
+//! Pages of `drape fabric`: a fabric with the loops that an ideal instrument would draw of it, and
+//! two compared.
 
 use drape::fabric::{
     BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
 };
-use drape::kes::{Curve, Direction, Test};
-use drape::report::plot::{OverlayPlot, Trace};
+use drape::kes::{Direction, Test};
+use drape::report::plot::OverlayPlot;
 use drape::report::{
     ComparePage, ComparedValue, FabricName, FitPage, Interval, LawReport, Parameter, Quantity,
 };
 use drape::validate::instrument;
 
-use crate::fit_page::{Loads, loop_plot};
-use crate::{kes_value, quantity};
+use super::loop_plot::{Loads, loop_plot, trace};
+use super::quantity::DIRECTIONS;
+use super::version::VERSION;
+use super::{kes_value, quantity};
 
-/// Points of a branch of a loop; enough for the trapezoids of WT to be right to a hundred-thousandth.
+/// Points of a branch of a loop; enough for the trapezoids of WT to be right to a
+/// hundred-thousandth.
 const POINTS: usize = 400;
-pub(crate) const VERSION: &str = concat!("drape ", env!("CARGO_PKG_VERSION"));
-pub(crate) const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
-/// The tests, each with the directions in which it differs; there is one shear law.
-const TESTS: [(Test, &[Direction]); 3] =
-    [(Test::Tensile, &DIRECTIONS), (Test::Bending, &DIRECTIONS), (Test::Shear, &[Direction::Warp])];
 
-/// A fabric with the loops that an instrument would draw of it.
+/// Tests of a fabric, in the order of the pages.
+const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
+
+/// Directions in which a test differs; there is one shear law.
+fn directions(test: Test) -> &'static [Direction] {
+    if test == Test::Shear { &DIRECTIONS[..1] } else { &DIRECTIONS }
+}
+
+/// Returns the page of a fabric, with the loops that an instrument would draw of it.
 pub(crate) fn show_page(fabric: &Fabric) -> FitPage {
     let given = |name: &str, value: f64, units| Quantity {
         name: name.into(),
@@ -29,8 +36,8 @@ pub(crate) fn show_page(fabric: &Fabric) -> FitPage {
         units,
         origin: String::new(),
     };
-    let laws = TESTS.into_iter().flat_map(|(test, directions)| {
-        directions.iter().map(move |&direction| law(fabric, test, direction))
+    let laws = TESTS.into_iter().flat_map(|test| {
+        directions(test).iter().map(move |&direction| law(fabric, test, direction))
     });
     FitPage {
         name: fabric.name.clone(),
@@ -60,12 +67,12 @@ fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
         Test::Shear => test.name().to_owned(),
         _ => format!("{}, {}", test.name(), direction.name()),
     };
-    let parameter = |(name, value): (&'static str, f64)| {
-        let named = quantity::parameter(test, name);
+    let parameter = |parameter: NamedValue| {
+        let named = quantity::parameter(test, parameter.name);
         Parameter {
             name: named.words.into(),
             symbol: named.symbol.into(),
-            value,
+            value: parameter.value,
             units: named.units,
             standard_error: None,
             interval: Interval::Fixed { reason: String::new() },
@@ -83,8 +90,18 @@ fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
     }
 }
 
-/// The numbers of a law under the names that a fit gives them.
-fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<(&'static str, f64)> {
+/// Parameter of a law under the name that a fit gives it.
+struct NamedValue {
+    name: &'static str,
+    value: f64,
+}
+
+fn named<const N: usize>(values: [(&'static str, f64); N]) -> Vec<NamedValue> {
+    values.map(|(name, value)| NamedValue { name, value }).into()
+}
+
+/// Returns the parameters of a law: of its backbone, then of its friction.
+fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<NamedValue> {
     let laws = match direction {
         Direction::Warp => &fabric.warp,
         Direction::Weft => &fabric.weft,
@@ -92,31 +109,31 @@ fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<(&'stati
     let (mut all, friction) = match test {
         Test::Tensile => {
             let backbone = match laws.traction.backbone {
-                TractionBackbone::Primed(primed) => vec![
+                TractionBackbone::Primed(primed) => named([
                     ("stiffness", primed.stiffness),
                     ("toe_ratio", primed.toe_ratio),
                     ("toe_strain", primed.toe_strain),
                     ("toe_growth", primed.toe_strain_after / primed.toe_strain),
-                ],
+                ]),
                 TractionBackbone::Polynomial(p) => {
-                    vec![("quadratic", p.quadratic), ("quartic", p.quartic)]
+                    named([("quadratic", p.quadratic), ("quartic", p.quartic)])
                 }
             };
             (backbone, &laws.traction.friction)
         }
         Test::Bending | Test::LoopBending => {
             let backbone = match laws.bending.backbone {
-                BendingBackbone::Linear { rigidity } => vec![("rigidity", rigidity)],
+                BendingBackbone::Linear { rigidity } => named([("rigidity", rigidity)]),
                 BendingBackbone::Piecewise(p) => piecewise(&p),
             };
             (backbone, &laws.bending.friction)
         }
         Test::Shear => {
             let mut backbone = match fabric.shear.backbone {
-                ShearBackbone::Linear { stiffness } => vec![("stiffness", stiffness)],
+                ShearBackbone::Linear { stiffness } => named([("stiffness", stiffness)]),
                 ShearBackbone::Piecewise(p) => piecewise(&p),
             };
-            backbone.push(("growth", fabric.shear.growth));
+            backbone.push(NamedValue { name: "growth", value: fabric.shear.growth });
             (backbone, &fabric.shear.friction)
         }
     };
@@ -124,42 +141,37 @@ fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<(&'stati
     all
 }
 
-fn piecewise(law: &Piecewise) -> Vec<(&'static str, f64)> {
-    vec![("slope", law.slope), ("intercept", law.intercept), ("knot", law.knot)]
+fn piecewise(law: &Piecewise) -> Vec<NamedValue> {
+    named([("slope", law.slope), ("intercept", law.intercept), ("knot", law.knot)])
 }
 
-/// The elements of a friction; the second one's names differ.
-fn elements(friction: &BlimanSorine) -> Vec<(&'static str, f64)> {
+/// Returns the elements of a friction; those of the second have names of their own.
+fn elements(friction: &BlimanSorine) -> Vec<NamedValue> {
     let names = [["plateau", "length"], ["second plateau", "second length"]];
     let pairs = friction.elements.iter().zip(names).filter(|(element, _)| element.plateau != 0.0);
     pairs
         .flat_map(|(element, [plateau, length])| {
-            [(plateau, element.plateau), (length, element.length)]
+            named([(plateau, element.plateau), (length, element.length)])
         })
         .collect()
 }
 
-/// A curve as a plot draws it.
-pub(crate) fn trace_of(label: &str, curve: &Curve) -> Trace {
-    let points = curve.deformation().iter().zip(curve.load());
-    Trace { label: label.into(), points: points.map(|(&q, &f)| [q, f]).collect() }
-}
-
-/// The loops of two fabrics overlaid, and their values beside each other.
+/// Returns the page of two fabrics: their loops overlaid, their values side by side.
 pub(crate) fn compare_page(fabrics: [&Fabric; 2]) -> ComparePage {
     let names = fabrics.map(|fabric| fabric.name.clone());
-    let overlay = |(test, directions): (Test, &[Direction])| {
+    let overlay = |test: Test| {
         let [deformation, load] = quantity::axes(test);
-        let trace = |fabric: &Fabric, direction: Direction| {
+        let directions = directions(test);
+        let trace_of = |fabric: &Fabric, direction: Direction| {
             let label = if test == Test::Shear { "shear" } else { direction.name() };
-            trace_of(label, &instrument::ideal(fabric, test, direction, POINTS))
+            trace(label, &instrument::ideal(fabric, test, direction, POINTS))
         };
         OverlayPlot {
             title: test.name().into(),
             deformation,
             load,
             fabrics: names.clone(),
-            traces: fabrics.map(|fabric| directions.iter().map(|&d| trace(fabric, d)).collect()),
+            traces: fabrics.map(|fabric| directions.iter().map(|&d| trace_of(fabric, d)).collect()),
         }
     };
     let given = |symbol: &str, name: &str, units, value: fn(&Fabric) -> f64| ComparedValue {

@@ -1,3 +1,5 @@
+//! Frames of runs, read and verified pair by pair.
+
 use std::path::{Path, PathBuf};
 
 use drape::verify::{PartNumber, Place, Recording, Verdict};
@@ -6,13 +8,13 @@ use serde_json::json;
 use crate::failure::Failure;
 use crate::say::say;
 
-/// Whether a folder is one that a run wrote, whole or not.
+/// Returns whether a folder was written by a run, complete or not.
 pub(crate) fn is_run(path: &Path) -> bool {
-    let frame = |name: &str| path.join(name).exists();
-    Recording::is_one(path) || frame("frame-00000.obj") || frame("summary.json")
+    let has = |name: &str| path.join(name).exists();
+    Recording::is_one(path) || has("frame-00000.obj") || has("summary.json")
 }
 
-/// `drape check` of folders of runs: every frame is read and looked at.
+/// Verifies every frame of the folders; fails after the last if one does not hold.
 pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
     let mut broken = Vec::new();
     let mut found = Vec::new();
@@ -49,7 +51,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
     match broken.first() {
         None => Ok(()),
         Some(first) => Err(Failure::Certificate(format!(
-            "surfaces meet or are too near in {} frames, the first of them {}",
+            "surfaces intersect or are too close in {} frames, first in {}",
             broken.len(),
             first.display()
         ))),
@@ -59,10 +61,12 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
 fn headline(folder: &Path, recording: &Recording) -> String {
     let manifest = recording.manifest();
     let promise = match manifest.guarded {
-        true => "surfaces were kept apart",
-        false => "only particles met bodies, so surfaces may meet (contact.surfaces = false)",
+        true => "the run kept surfaces apart",
+        false => {
+            "contact was of particles only, so surfaces may intersect (contact.surfaces = false)"
+        }
     };
-    let end = if recording.ended() { "" } else { "; the run has not ended" };
+    let end = if recording.ended() { "" } else { "; the run is incomplete" };
     format!(
         "{}: {} frames of {} panels and {} bodies, {} triangles; {promise}{end}",
         folder.display(),
@@ -82,13 +86,13 @@ fn describe(recording: &Recording, verdict: &Verdict) -> String {
         verdict.triangles,
         verdict.pairs,
         verdict.intersections,
-        verdict.min_distance.map_or("beyond reach".to_owned(), millimetres),
+        verdict.min_distance.map_or("beyond the activation distance".to_owned(), millimetres),
     );
     if verdict.grown < 1.0 {
-        text += &format!(", {:.2} % of the distances are kept yet", 100.0 * verdict.grown);
+        text += &format!(", minimum separations grown to {:.2} %", 100.0 * verdict.grown);
     }
     for (count, what) in [
-        (verdict.too_near, "pairs nearer than is kept"),
+        (verdict.too_near, "pairs closer than the minimum separation"),
         (verdict.degenerate, "triangles without area"),
     ] {
         if count > 0 {
@@ -112,10 +116,12 @@ fn describe_place(recording: &Recording, place: &Place) -> String {
     let [one, other] =
         [0, 1].map(|k| format!("triangle {} of \"{}\"", place.triangles[k], name(place.parts[k])));
     let how = match place.distance {
-        0.0 => "meet".to_owned(),
-        distance => {
-            format!("are {:.4} mm apart, {:.4} mm is kept,", 1e3 * distance, 1e3 * place.kept)
-        }
+        0.0 => "intersect".to_owned(),
+        distance => format!(
+            "are {:.4} mm apart, where {:.4} mm is the minimum,",
+            1e3 * distance,
+            1e3 * place.kept
+        ),
     };
     format!("{one} and {other} {how} near ({x:.5}, {y:.5}, {z:.5}) m")
 }

@@ -1,15 +1,41 @@
-//! `drape validate`: simulations against what is known.
+//! `drape validate`: compares simulations with exact solutions and measurements, case by case.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use clap::Args;
 use drape::input::Diagnostic;
+use drape::report::plot::graph_svg;
 use drape::validate::{CASES, Case, Check, Kind, Outcome};
 
-use crate::command::ValidateArguments;
 use crate::failure::Failure;
+use crate::pages::validation::{self, figure};
 use crate::say::say;
-use crate::{file, progress, validation_page};
+use crate::{file, progress};
 
+#[derive(Args)]
+pub(crate) struct ValidateArguments {
+    /// Cases to run [default: all that take seconds].
+    #[arg(value_name = "CASE")]
+    pub(crate) cases: Vec<String>,
+    /// Runs the cases that take minutes too.
+    #[arg(long, conflicts_with = "cases")]
+    pub(crate) full: bool,
+    /// Outcomes that `--json` printed earlier, to be shown with those of this run; this run's
+    /// replace them.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) earlier: Vec<PathBuf>,
+    /// Folder for a page with plots and pictures, and each of them as a file.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) report: Option<PathBuf>,
+    /// Writes the outcomes as a page in Markdown.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) markdown: Option<PathBuf>,
+    /// Prints the outcomes as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Executes `drape validate`.
 pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     let cases = chosen(&arguments.cases, arguments.full)?;
     let mut outcomes = Vec::new();
@@ -30,7 +56,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
         }
         outcomes.push(outcome);
     }
-    // Of several outcomes of a case, the last.
+    // The last of several outcomes of a case is kept.
     let place = |outcome: &Outcome| CASES.iter().position(|case| case.name == outcome.name);
     outcomes.reverse();
     outcomes.sort_by_key(place);
@@ -40,12 +66,11 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
         say(json.expect("numbers and strings have a JSON form"))?;
     }
     if let Some(path) = &arguments.markdown {
-        file::write(path, validation_page::markdown(&outcomes))?;
+        file::write(path, validation::markdown(&outcomes))?;
     }
     if let Some(folder) = &arguments.report {
-        validation_page::store(&outcomes, folder)?;
+        let page = store(&outcomes, folder)?;
         if !arguments.json {
-            let page = folder.join(validation_page::NAME);
             say(format_args!("page written to {}", page.display()))?;
         }
     }
@@ -57,7 +82,26 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The outcomes of an earlier run.
+/// Writes the page into a folder, with every plot and picture as a file beside it, and returns its
+/// path.
+fn store(outcomes: &[Outcome], folder: &Path) -> Result<PathBuf, Failure> {
+    let page = validation::page(outcomes)?;
+    let path = folder.join("validation.html");
+    file::write(&path, page.to_html()?)?;
+    for case in &page.cases {
+        for (number, plot) in case.plots.iter().enumerate() {
+            let path = folder.join(format!("{}-{}.svg", case.name, number + 1));
+            file::write(&path, graph_svg(plot)?)?;
+        }
+        for (number, (_, picture)) in case.pictures.iter().enumerate() {
+            let path = folder.join(format!("{}-{}.png", case.name, number + 1));
+            file::write(&path, picture.png()?)?;
+        }
+    }
+    Ok(path)
+}
+
+/// Reads the outcomes of an earlier run.
 fn earlier(path: &Path) -> Result<Vec<Outcome>, Failure> {
     let mistake = |message: String| {
         let help = "give a file that `drape validate --json` printed";
@@ -73,7 +117,7 @@ fn earlier(path: &Path) -> Result<Vec<Outcome>, Failure> {
     }
 }
 
-/// The cases of some names, or all; without being asked for, none that take minutes.
+/// Returns the cases with some names; if none is named, all that take seconds, or all.
 fn chosen(names: &[String], full: bool) -> Result<Vec<&'static Case>, Failure> {
     if names.is_empty() {
         return Ok(CASES.iter().filter(|case| full || !case.is_long()).collect());
@@ -116,9 +160,4 @@ fn line(check: &Check) -> String {
         _ => format!("{measured:.5}"),
     };
     format!("  {verdict}  {what:<66} {measured:>9} {limit}")
-}
-
-/// A figure that may be of any size.
-pub(crate) fn figure(value: f64) -> String {
-    if (0.01..1e5).contains(&value.abs()) { format!("{value:.3}") } else { format!("{value:.1e}") }
 }

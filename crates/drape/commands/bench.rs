@@ -1,3 +1,6 @@
+//! `drape bench`: times the solver on a square metre of cloth, hung as a curtain and in a violent
+//! swing.
+
 use std::fmt::Write;
 
 use clap::Args;
@@ -23,7 +26,7 @@ pub(crate) struct BenchArguments {
     /// Simulated time, in seconds.
     #[arg(long, default_value_t = 1.0, value_name = "SECONDS")]
     until: f64,
-    /// In air, whose drag calms the swing, and not in a vacuum.
+    /// Simulates in air, whose drag damps the swing, instead of in a vacuum.
     #[arg(long)]
     air: bool,
     /// Prints the results as JSON.
@@ -31,7 +34,7 @@ pub(crate) struct BenchArguments {
     json: bool,
 }
 
-/// Plain weave of 200 g/m² with friction in every law.
+/// Fabric of the cloth: plain weave of 200 g/m² with friction in every law.
 const FABRIC: &str = r#"name = "bench"
 density = 0.2
 thickness = 0.0004
@@ -48,13 +51,19 @@ stiffness = 50.0
 friction = [{ plateau = 0.5, length = 0.004 }]
 "#;
 
-/// A square metre held at two corners: how it starts.
-const MOTIONS: [(&str, &str); 2] = [
-    ("curtain", "ripple = { amplitude = 0.005, wavelength = 0.25 }"),
-    ("swing", "turn = [-90, 0, 0]"),
+/// A motion of the square metre, which is held at two corners.
+struct Motion {
+    name: &'static str,
+    /// Keys of the panel that start it.
+    start: &'static str,
+}
+
+const MOTIONS: [Motion; 2] = [
+    Motion { name: "curtain", start: "ripple = { amplitude = 0.005, wavelength = 0.25 }" },
+    Motion { name: "swing", start: "turn = [-90, 0, 0]" },
 ];
 
-/// What one run took.
+/// One run of a motion.
 struct Run {
     motion: &'static str,
     size: usize,
@@ -62,23 +71,25 @@ struct Run {
 }
 
 impl Run {
-    /// Processor time per simulated second, or time where the system does not tell.
+    /// Returns the processor time per simulated second, or the elapsed time where the system does
+    /// not measure that.
     fn load(&self) -> f64 {
         let Summary { cpu_seconds, wall_seconds, simulated_seconds, .. } = &self.summary;
         cpu_seconds.unwrap_or(*wall_seconds) / simulated_seconds
     }
 
+    /// Returns the time per step, in ms.
     fn step_milliseconds(&self) -> f64 {
         1e3 * self.load() * self.summary.simulated_seconds / self.summary.steps as f64
     }
 
-    /// Linear iterations per step.
+    /// Returns the number of linear iterations per step.
     fn linear(&self) -> f64 {
         self.summary.solver.linear_iterations as f64 / self.summary.steps as f64
     }
 }
 
-/// `drape bench`.
+/// Executes `drape bench`.
 pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     let BenchArguments { sizes, step, until, .. } = arguments;
     let usage = |message: String| Err(Failure::Usage(message));
@@ -91,13 +102,13 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
     let length = (MOTIONS.len() * sizes.len() * 1000) as u64;
     let bar = progress::bar(length, "{percent} %, {eta} left  {msg}");
     let mut runs = Vec::new();
-    for (motion, start) in MOTIONS {
+    for Motion { name, start } in MOTIONS {
         for &size in sizes {
-            bar.set_message(format!("{motion}, {size} × {size}"));
+            bar.set_message(format!("{name}, {size} × {size}"));
             let base = (runs.len() * 1000) as u64;
             let done = |part: f64| bar.set_position(base + (1000.0 * part) as u64);
             let summary = run(start, size, arguments, &done)?;
-            runs.push(Run { motion, size, summary });
+            runs.push(Run { motion: name, size, summary });
         }
     }
     bar.finish_and_clear();
@@ -153,7 +164,7 @@ fn table(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> St
             run.load()
         );
     }
-    for (motion, exponent) in growths(runs) {
+    for Growth { motion, exponent } in growths(runs) {
         let _ = writeln!(text, "{motion} grows like N^{exponent:.2}");
     }
     text.trim_end().to_owned()
@@ -171,16 +182,22 @@ fn as_json(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> 
         })
     });
     let growth: serde_json::Map<_, _> =
-        growths(runs).into_iter().map(|(motion, g)| (motion.to_owned(), g.into())).collect();
+        growths(runs).into_iter().map(|g| (g.motion.to_owned(), g.exponent.into())).collect();
     let rows = rows.collect::<Vec<_>>();
     let all = json!({ "step": step, "air": air, "runs": rows, "growth_exponent": growth });
     serde_json::to_string_pretty(&all).expect("numbers and words always have a JSON form")
 }
 
-/// For each motion of two sizes or more: the exponent of the number of particles that the processor
-/// time grows with, by least squares of the logarithms.
-fn growths(runs: &[Run]) -> Vec<(&'static str, f64)> {
-    let exponent = |motion: &'static str| {
+/// Growth of the processor time of a motion with the number of particles.
+struct Growth {
+    motion: &'static str,
+    /// Exponent of the number of particles, by least squares of the logarithms.
+    exponent: f64,
+}
+
+/// Returns the growth of each motion that has two sizes or more.
+fn growths(runs: &[Run]) -> Vec<Growth> {
+    let growth = |motion: &'static str| {
         let points = runs.iter().filter(|run| run.motion == motion);
         let points: Vec<[f64; 2]> =
             points.map(|run| [(run.summary.particles as f64).ln(), run.load().ln()]).collect();
@@ -188,7 +205,7 @@ fn growths(runs: &[Run]) -> Vec<(&'static str, f64)> {
         let (x, y) = (mean(0), mean(1));
         let spread: f64 = points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum();
         let slope: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
-        (spread > 0.0).then_some((motion, slope / spread))
+        (spread > 0.0).then_some(Growth { motion, exponent: slope / spread })
     };
-    MOTIONS.iter().filter_map(|(motion, _)| exponent(motion)).collect()
+    MOTIONS.iter().filter_map(|motion| growth(motion.name)).collect()
 }
