@@ -66,7 +66,7 @@ pub enum Intervals {
     /// From the standard errors: right where the law is nearly linear over them.
     #[default]
     Wald,
-    /// From the residuals themselves, [`lm::profile`](crate::lm::profile): right for curved laws and at bounds,
+    /// From the residuals themselves, [`lm::profile`](drape_lm::profile): right for curved laws and at bounds,
     /// for some hundred times the work.
     Profile,
 }

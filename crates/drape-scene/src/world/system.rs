@@ -147,7 +147,7 @@ impl System for World {
 
     fn arrive(&mut self, progress: f64) {
         if let Some(surfaces) = &mut self.surfaces {
-            surfaces.contact.arrive(progress);
+            surfaces.contact.set_obstacle_time(progress);
         }
     }
 
