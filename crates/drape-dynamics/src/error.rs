@@ -9,7 +9,7 @@ pub enum Error {
     Solver(#[from] drape_implicit::Error),
     /// The contact cannot be set up for the scene, which was changed after it had been checked.
     #[error("the contact cannot be set up: {0}")]
-    Contact(#[from] drape_collide::CollideError),
+    Contact(#[from] drape_collide::Error),
     /// The folder for the results is there already: give another one, or allow it to be replaced.
     #[error("{} holds results already; give another folder, or allow it with --force", folder.display())]
     Occupied {

@@ -1,7 +1,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use drape_collide::{CollideError, Shape, SurfaceContact};
+use drape_collide::{Error, Shape, SurfaceContact, SurfaceStep};
 use drape_implicit::Way;
 use drape_scene::{Course, Growth, Inflation, Scene, StartSurfaces};
 
@@ -46,13 +46,13 @@ struct Mover {
 
 impl Surfaces {
     /// The surfaces of a scene that has been checked, at its start.
-    pub(crate) fn new(scene: &Scene) -> Result<Self, CollideError> {
+    pub(crate) fn new(scene: &Scene) -> Result<Self, Error> {
         let StartSurfaces { mut contact, names, vertices, bodies, inward, separation } =
             StartSurfaces::new(scene)?;
-        contact.survey(&scene.positions)?;
+        contact.summary_at(&scene.positions)?;
         let growth = scene.contact.growth;
         if growth.is_some() {
-            contact.shrink(&scene.positions)?;
+            contact.shrink_distances(&scene.positions)?;
         }
         let moves = scene.bodies.iter().zip(vertices).filter_map(|(moving, own)| {
             let course = moving.course.clone()?;
@@ -60,7 +60,7 @@ impl Surfaces {
         });
         let held = (0..scene.held.len()).filter(|&particle| scene.held[particle]).collect();
         Ok(Self {
-            grown_from: contact.grown(),
+            grown_from: contact.growth_fraction(),
             contact,
             names,
             start: bodies,
@@ -84,7 +84,7 @@ impl Surfaces {
 
     /// When all bodies have their size, in s; never as long as surfaces keep less than they should.
     pub(crate) fn grown_at(&self) -> f64 {
-        if self.contact.grown() < 1.0 {
+        if self.contact.growth_fraction() < 1.0 {
             return f64::INFINITY;
         }
         self.inflation.as_ref().map_or(0.0, |(inflation, _)| inflation.seconds)
@@ -93,13 +93,13 @@ impl Surfaces {
     /// Whether what surfaces keep has had time enough to grow at a time since the start, in s, and did not.
     pub(crate) fn is_stuck(&self, since: f64) -> bool {
         let late = |growth: Growth| since >= PATIENCE * growth.seconds;
-        self.contact.grown() < 1.0 && self.growth.is_some_and(late)
+        self.contact.growth_fraction() < 1.0 && self.growth.is_some_and(late)
     }
 
     /// Opens a step that ends at a time since the start, and at one on the clock of what moves, and its length, in s.
     pub(crate) fn begin(&mut self, ([since, end_time], dt): ([f64; 2], f64), positions: &[f64]) {
         if let Some(growth) = self.growth {
-            self.contact.grow(positions, (1.0 - self.grown_from) * dt / growth.seconds);
+            self.contact.grow_distances(positions, (1.0 - self.grown_from) * dt / growth.seconds);
         }
         let start = shrunk(&self.start, &self.inflation, since);
         let mut ends = start.to_vec();
@@ -112,12 +112,18 @@ impl Surfaces {
 
     /// Shortens a way to what keeps all surfaces apart; see [`drape_implicit::System::allow`].
     pub(crate) fn allow(&mut self, way: Way<'_>) -> bool {
-        self.contact.allow((way.from, way.step), &self.held, (way.progress, way.advance))
+        self.contact.limit_step(SurfaceStep {
+            from: way.from,
+            displacements: way.step,
+            held: &self.held,
+            progress: way.progress,
+            advance: way.advance,
+        })
     }
 
     /// Whether no surface crosses another at these positions.
     pub(crate) fn certify(&mut self, positions: &[f64]) -> bool {
-        match self.contact.crossings(positions) {
+        match self.contact.intersections(positions) {
             Ok(crossings) => {
                 self.crossings += crossings.len();
                 crossings.is_empty()

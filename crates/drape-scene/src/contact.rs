@@ -1,4 +1,4 @@
-use drape_collide::{Pinch, Settings, SurfaceSettings};
+use drape_collide::{ParticleSettings, PinchPolicy, SurfaceSettings};
 use serde::Deserialize;
 
 use crate::file::SceneFile;
@@ -33,13 +33,13 @@ pub struct ContactSettings {
     /// Whether surfaces are kept apart, and not particles out of bodies only.
     pub surfaces: bool,
     /// Contact of particles with bodies, where surfaces are not kept apart.
-    pub particles: Settings,
+    pub particles: ParticleSettings,
     /// Stiffness of the contact of surfaces, in N/m³; without one, the fabrics' thickness under pressure gives it.
     pub stiffness: Option<f64>,
     /// How far surfaces that stick give way before they slide, in m.
     pub stick: f64,
     /// What becomes of cloth that bodies close on.
-    pub pinch: Pinch,
+    pub pinch: PinchPolicy,
     /// How bodies grow at the start.
     pub inflation: Option<Inflation>,
     /// How the distances that are kept grow.
@@ -64,7 +64,8 @@ impl Reader<'_> {
         (step, end): (f64, f64),
     ) -> ContactSettings {
         let particles = self.particle_contact(file, unit);
-        let stick = file.contact.stick.map_or(SurfaceSettings::STICK, |stick| stick * unit);
+        let stick =
+            file.contact.stick.map_or(SurfaceSettings::STICKING_DISPLACEMENT, |stick| stick * unit);
         self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
         let pinch = self.pinch(file);
         let inflation = self.inflation(file, unit, (step, spacing));
@@ -80,12 +81,12 @@ impl Reader<'_> {
         }
     }
 
-    fn particle_contact(&mut self, file: &SceneFile, unit: f64) -> Settings {
-        let mut settings = Settings::default();
+    fn particle_contact(&mut self, file: &SceneFile, unit: f64) -> ParticleSettings {
+        let mut settings = ParticleSettings::default();
         if let Some(offset) = file.contact.offset {
-            settings.offset = offset * unit;
+            settings.activation_distance = offset * unit;
             let help = "the distance at which contact begins; 1 mm is usual";
-            self.within("contact.offset", settings.offset, (1e-5, 0.1), help);
+            self.within("contact.offset", settings.activation_distance, (1e-5, 0.1), help);
         }
         if let Some(stiffness) = file.contact.stiffness {
             settings.stiffness = stiffness;
@@ -99,9 +100,12 @@ impl Reader<'_> {
     }
 
     /// What becomes of cloth that bodies close on.
-    fn pinch(&mut self, file: &SceneFile) -> Pinch {
-        let policies =
-            [("error", Pinch::Error), ("thin", Pinch::Thin), ("release", Pinch::Release)];
+    fn pinch(&mut self, file: &SceneFile) -> PinchPolicy {
+        let policies = [
+            ("error", PinchPolicy::Error),
+            ("thin", PinchPolicy::Thin),
+            ("release", PinchPolicy::Release),
+        ];
         let word = file.contact.pinch.as_deref();
         if word.is_some() && !file.keeps_apart() {
             let message = "nothing is kept apart here".to_owned();

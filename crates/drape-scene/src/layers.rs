@@ -130,7 +130,7 @@ fn way_to(scene: &Scene, particle: usize) -> Option<Way> {
         .iter()
         .map(|moving| &moving.body)
         .filter(|body| !matches!(body.shape, Shape::Plane));
-    let near = solid.filter_map(|body| body.proximity(from).ok());
+    let near = solid.filter_map(|body| body.signed_distance(from).ok());
     let near = near.min_by(|a, b| a.distance.total_cmp(&b.distance))?;
     let to = [0, 1, 2].map(|axis| from[axis] - near.distance * near.normal[axis]);
     (near.distance > 0.0).then_some([from, to])

@@ -2,7 +2,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use drape_cloth::{Breen, Cloth, Lattice};
-use drape_collide::{Body, CollideError, Contact, Shape};
+use drape_collide::{Body, ParticleContact, Shape};
 use drape_fabric::Fabric;
 use drape_input::{Diagnostic, Diagnostics, Document};
 
@@ -118,9 +118,9 @@ impl Scene {
     ///
     /// # Errors
     /// Settings or bodies that are none.
-    pub fn particle_contact(&self) -> Result<Contact, CollideError> {
+    pub fn particle_contact(&self) -> Result<ParticleContact, drape_collide::Error> {
         let bodies = self.bodies.iter().map(|moving| moving.body.clone()).collect();
-        Contact::new(bodies, self.contact.particles, self.cloth.areas().to_vec())
+        ParticleContact::new(bodies, self.contact.particles, self.cloth.areas().to_vec())
     }
 
     /// The same for a scene in memory. A fabric whose path, seen from the scene's folder, is that of
@@ -191,7 +191,7 @@ impl Reader<'_> {
             Model::Breen1994 => without_friction(&pairs),
         };
         let ties = sewing.iter().flat_map(|sewing| &sewing.stitching.ties);
-        let cloth = cloth.tied(ties);
+        let cloth = cloth.with_ties(ties);
         let materials: Vec<Material> = materials.into_iter().flatten().collect();
         let positions: Vec<f64> = laid.iter().flat_map(|laid| &laid.positions).copied().collect();
         let mut velocities: Vec<f64> =
@@ -324,7 +324,7 @@ impl Reader<'_> {
 
 /// A cloth that keeps the account of its strains and of nothing else.
 pub(crate) fn without_friction(panels: &[(&Lattice, &Fabric)]) -> Cloth {
-    let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.elastic()).collect();
+    let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.without_friction()).collect();
     let lattices = panels.iter().map(|(lattice, _)| *lattice);
     Cloth::new(&lattices.zip(&fabrics).collect::<Vec<_>>())
 }

@@ -1,6 +1,8 @@
 use std::ops::Range;
 
-use drape_collide::{CollideError, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings};
+use drape_collide::{
+    ContactDistances, Error, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
+};
 use drape_fabric::Fabric;
 
 use crate::course::Course;
@@ -37,40 +39,41 @@ impl StartSurfaces {
     ///
     /// # Errors
     /// Settings or surfaces that are none.
-    pub fn new(scene: &Scene) -> Result<Self, CollideError> {
+    pub fn new(scene: &Scene) -> Result<Self, Error> {
         let Scene { panels, materials, cloth, bodies, contact, .. } = scene;
         let fabric = |panel: &Panel| &materials[panel.material].fabric;
-        let skin = |fabric: &Fabric| Skin {
-            reach: 0.5 * fabric.thickness,
-            separation: 0.5 * CRUSHED * fabric.under_pressure(),
+        let skin = |fabric: &Fabric| ContactDistances {
+            activation_distance: 0.5 * fabric.thickness,
+            min_separation: 0.5 * CRUSHED * fabric.thickness_under_pressure(),
         };
         let skins = panels.iter().map(|panel| skin(fabric(panel)));
-        let thinnest = skins.min_by(|a, b| a.reach.total_cmp(&b.reach));
-        let thinnest = thinnest.unwrap_or(Skin { reach: 0.0, separation: 0.0 });
+        let thinnest = skins.min_by(|a, b| a.activation_distance.total_cmp(&b.activation_distance));
+        let thinnest =
+            thinnest.unwrap_or(ContactDistances { activation_distance: 0.0, min_separation: 0.0 });
         let sewn = scene.sewing.as_ref().map(|sewing| &sewing.stitching);
         let mut surface = SurfaceParts {
-            rest: cloth.coordinates().iter().flat_map(|[u, v]| [*u, *v, 0.0]).collect(),
+            rest_positions: cloth.coordinates().iter().flat_map(|[u, v]| [*u, *v, 0.0]).collect(),
             triangles: cloth.triangles().to_vec(),
             areas: cloth.areas().to_vec(),
-            group: Vec::new(),
-            skins: Vec::new(),
-            free: cloth.particles(),
-            twins: sewn.map_or_else(Vec::new, |sewn| sewn.pairs.clone()),
+            groups: Vec::new(),
+            distances: Vec::new(),
+            free_vertices: cloth.particles(),
+            seam_pairs: sewn.map_or_else(Vec::new, |sewn| sewn.pairs.clone()),
             ties: sewn.map_or_else(Vec::new, Stitching::triples),
         };
         let mut frictions = Vec::new();
         for (index, panel) in panels.iter().enumerate() {
             surface
-                .group
+                .groups
                 .extend(std::iter::repeat_n(index as u32, panel.lattice.coordinates.len()));
-            surface.skins.push(skin(fabric(panel)));
+            surface.distances.push(skin(fabric(panel)));
             frictions.push(Err(fabric(panel).surface_friction));
         }
         let (mut start, mut inward) = (Vec::new(), Vec::new());
         let mut vertices = Vec::new();
         for moving in bodies {
             let outline = moving.body.triangulate()?;
-            let first = surface.group.len();
+            let first = surface.groups.len();
             let count = outline.vertices.len();
             vertices.push(start.len() / 3..start.len() / 3 + count);
             start.extend(outline.vertices.iter().flatten());
@@ -83,13 +86,14 @@ impl StartSurfaces {
             let corners = |t: &[u32; 3]| t.map(|corner| corner + first as u32);
             surface.triangles.extend(outline.triangles.iter().map(corners));
             surface.areas.extend(std::iter::repeat_n(0.0, count));
-            surface.group.extend(std::iter::repeat_n(surface.skins.len() as u32, count));
+            surface.groups.extend(std::iter::repeat_n(surface.distances.len() as u32, count));
             // Half of the cloth's thickness is its own.
-            let reach = (contact.particles.offset - thinnest.reach).max(thinnest.reach);
-            surface.skins.push(Skin { reach, ..thinnest });
+            let half = thinnest.activation_distance;
+            let activation_distance = (contact.particles.activation_distance - half).max(half);
+            surface.distances.push(ContactDistances { activation_distance, ..thinnest });
             frictions.push(Ok(moving.body.friction));
         }
-        surface.rest.extend(&start);
+        surface.rest_positions.extend(&start);
         let pair = |a: &Result<f64, f64>, b: &Result<f64, f64>| match (a, b) {
             // Of two fabrics the geometric mean; a body's coefficient is that with cloth.
             (Err(a), Err(b)) => (a * b).sqrt(),
@@ -100,8 +104,8 @@ impl StartSurfaces {
             stiffness: contact.stiffness.unwrap_or_else(|| {
                 panels.iter().map(|panel| stiffness(fabric(panel))).fold(0.0, f64::max)
             }),
-            stick: contact.stick,
-            friction: friction.collect(),
+            sticking_displacement: contact.stick,
+            friction_coefficients: friction.collect(),
             pinch: contact.pinch,
         };
         let at_start: Vec<f64> = match contact.inflation {
@@ -111,15 +115,18 @@ impl StartSurfaces {
         let contact = SurfaceContact::new(Surface::new(surface)?, settings, at_start)?;
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|moving| &moving.body.name)).cloned().collect();
-        let separation = thinnest.separation;
+        let separation = thinnest.min_separation;
         Ok(Self { contact, names, vertices, bodies: start, inward, separation })
     }
 }
 
 /// Stiffness of contact that presses two layers of a fabric as its compression test does, in N/m³.
 fn stiffness(fabric: &Fabric) -> f64 {
-    let pressed = fabric.under_pressure();
+    let pressed = fabric.thickness_under_pressure();
     let distance = pressed.min(PRESSED * fabric.thickness);
-    let ends = [fabric.thickness, CRUSHED * pressed];
-    SurfaceSettings::stiffness_under(Fabric::PRESSURE, distance, ends)
+    let of_pair = ContactDistances {
+        activation_distance: fabric.thickness,
+        min_separation: CRUSHED * pressed,
+    };
+    SurfaceSettings::stiffness_for_pressure(Fabric::PRESSURE, distance, of_pair)
 }
