@@ -6,7 +6,6 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
 use drape::report::ReportError;
 use drape::scene::SceneError;
-use drape::verify::VerifyError;
 
 /// Why a command ends early, with its exit code.
 pub(crate) enum Failure {
@@ -17,7 +16,7 @@ pub(crate) enum Failure {
     /// Exit code 3: a sheet gives no fabric.
     Fit(drape::fit::Error),
     /// Exit code 3: saved frames cannot be read.
-    Frames(VerifyError),
+    Frames(drape::verify::Error),
     /// Exit code 3: some sheets of a batch failed, and said why.
     Batch,
     /// Exit code 4: surfaces crossed.
@@ -87,8 +86,8 @@ impl fmt::Display for Failure {
     }
 }
 
-impl From<VerifyError> for Failure {
-    fn from(error: VerifyError) -> Self {
+impl From<drape::verify::Error> for Failure {
+    fn from(error: drape::verify::Error) -> Self {
         Self::Frames(error)
     }
 }

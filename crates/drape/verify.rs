@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use drape::verify::{PartNumber, Place, Recording, Verdict};
+use drape::verify::{ClosePair, PartNumber, Recording, Verdict};
 use serde_json::json;
 
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use crate::say::say;
 /// Whether a folder is one that a run wrote, whole or not.
 pub(crate) fn is_run(path: &Path) -> bool {
     let frame = |name: &str| path.join(name).exists();
-    Recording::is_one(path) || frame("frame-00000.obj") || frame("summary.json")
+    Recording::exists(path) || frame("frame-00000.obj") || frame("summary.json")
 }
 
 /// `drape check` of folders of runs: every frame is read and looked at.
@@ -33,7 +33,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
             verdicts.push(verdict);
         }
         let holds = verdicts.iter().all(Verdict::holds);
-        let (guarded, ended) = (recording.manifest().guarded, recording.ended());
+        let (guarded, ended) = (recording.manifest().surface_contact, recording.ended());
         let names = |part: &drape::verify::Part| part.name.clone();
         found.push(json!({
             "folder": folder, "holds": holds, "guarded": guarded, "ended": ended,
@@ -58,7 +58,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
 
 fn headline(folder: &Path, recording: &Recording) -> String {
     let manifest = recording.manifest();
-    let promise = match manifest.guarded {
+    let promise = match manifest.surface_contact {
         true => "surfaces were kept apart",
         false => "only particles met bodies, so surfaces may meet (contact.surfaces = false)",
     };
@@ -84,8 +84,8 @@ fn describe(recording: &Recording, verdict: &Verdict) -> String {
         verdict.intersections,
         verdict.min_distance.map_or("beyond reach".to_owned(), millimetres),
     );
-    if verdict.grown < 1.0 {
-        text += &format!(", {:.2} % of the distances are kept yet", 100.0 * verdict.grown);
+    if verdict.growth < 1.0 {
+        text += &format!(", {:.2} % of the distances are kept yet", 100.0 * verdict.growth);
     }
     for (count, what) in [
         (verdict.too_near, "pairs nearer than is kept"),
@@ -102,19 +102,23 @@ fn describe(recording: &Recording, verdict: &Verdict) -> String {
     text
 }
 
-fn describe_place(recording: &Recording, place: &Place) -> String {
+fn describe_place(recording: &Recording, place: &ClosePair) -> String {
     let manifest = recording.manifest();
     let name = |part: PartNumber| match part {
         PartNumber::Panel(number) => &manifest.panels[number].name,
         PartNumber::Body(number) => &manifest.bodies[number].name,
     };
-    let [x, y, z] = place.place;
+    let [x, y, z] = place.point;
     let [one, other] =
         [0, 1].map(|k| format!("triangle {} of \"{}\"", place.triangles[k], name(place.parts[k])));
     let how = match place.distance {
         0.0 => "meet".to_owned(),
         distance => {
-            format!("are {:.4} mm apart, {:.4} mm is kept,", 1e3 * distance, 1e3 * place.kept)
+            format!(
+                "are {:.4} mm apart, {:.4} mm is kept,",
+                1e3 * distance,
+                1e3 * place.min_separation
+            )
         }
     };
     format!("{one} and {other} {how} near ({x:.5}, {y:.5}, {z:.5}) m")
