@@ -1,9 +1,9 @@
 //! Report of a fit: every law with its loop, its parameters and their intervals, and what was
 //! assumed.
 
-use drape::fit::lm::Stop;
 use drape::fit::{CurveFit, Estimate, Fit, Settings, Unknown};
 use drape::kes::{Curve, Sheet, Test};
+use drape::lm::Stop;
 use drape::report::plot::{Correlation, LoopPlot};
 use drape::report::{
     FitPage, Interval, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,
