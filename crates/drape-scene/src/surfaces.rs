@@ -6,7 +6,7 @@ use drape_collide::{
     Body, CollideError, Pinch, Shape, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
 };
 use drape_fabric::Fabric;
-use drape_implicit::Way;
+use drape_implicit::{StepLimit, TrialStep};
 
 use crate::course::Course;
 use crate::growth::Growth;
@@ -223,13 +223,18 @@ impl Surfaces {
         self.contact.begin(positions, &ends);
     }
 
-    /// Shortens a way to what keeps all surfaces apart; see [`drape_implicit::System::allow`].
-    pub(crate) fn allow(&mut self, way: Way<'_>) -> bool {
-        self.contact.allow((way.from, way.step), &self.held, (way.progress, way.advance))
+    /// Limits a step to a part that keeps all surfaces apart.
+    pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+        let TrialStep { start, displacements, obstacle_time, mut obstacle_advance } = step;
+        let times = (obstacle_time, &mut obstacle_advance);
+        match self.contact.allow((start, displacements), &self.held, times) {
+            true => StepLimit::Whole,
+            false => StepLimit::Shortened { obstacle_advance },
+        }
     }
 
-    /// Whether no surface crosses another at these positions.
-    pub(crate) fn certify(&mut self, positions: &[f64]) -> bool {
+    /// Whether no surface intersects another at these positions.
+    pub(crate) fn is_intersection_free(&mut self, positions: &[f64]) -> bool {
         match self.contact.crossings(positions) {
             Ok(crossings) => {
                 self.crossings += crossings.len();
