@@ -1,3 +1,5 @@
+//! Failures of commands, with their messages on stderr and their exit codes.
+
 use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
@@ -8,7 +10,7 @@ use drape::report::ReportError;
 use drape::scene::SceneError;
 use drape::verify::VerifyError;
 
-/// Why a command ends early, with its exit code.
+/// Failure that ends a command, with its exit code.
 pub(crate) enum Failure {
     /// Exit code 2: the arguments do not fit together.
     Usage(String),
@@ -18,9 +20,9 @@ pub(crate) enum Failure {
     Fit(drape::fit::Error),
     /// Exit code 3: saved frames cannot be read.
     Frames(VerifyError),
-    /// Exit code 3: some sheets of a batch failed, and said why.
+    /// Exit code 3: some sheets of a batch failed; each was reported.
     Batch,
-    /// Exit code 4: surfaces crossed.
+    /// Exit code 4: surfaces intersect.
     Certificate(String),
     /// Exit code 5: the solver failed, or the cloth did not settle.
     Solver(String),
@@ -31,7 +33,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// Prints the failure and gives its exit code.
+    /// Prints the failure and returns its exit code.
     pub(crate) fn report(&self) -> ExitCode {
         self.print();
         ExitCode::from(match self {
@@ -44,7 +46,7 @@ impl Failure {
         })
     }
 
-    /// Prints the failure, with the lines of the files that are to blame.
+    /// Prints the failure, with the lines of the input that caused it.
     #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
     pub(crate) fn print(&self) {
         match self {
@@ -56,7 +58,7 @@ impl Failure {
 }
 
 impl Failure {
-    /// The same with the sheet that it is about, where it does not say so yet.
+    /// Adds the sheet that the failure concerns, if it does not name one.
     pub(crate) fn of(self, sheet: &Path) -> Self {
         match self {
             Self::Fit(error) => Self::Input(Diagnostic::new(sheet, error.to_string()).into()),
@@ -118,7 +120,7 @@ impl From<SceneError> for Failure {
     }
 }
 
-/// A mistake with the line of the file it is in.
+/// Returns a mistake as text, with the line of its file.
 fn render(mistake: &Diagnostic) -> String {
     let path = mistake.file.display().to_string();
     let source = mistake.span.as_ref().and_then(|_| std::fs::read_to_string(&mistake.file).ok());

@@ -1,10 +1,10 @@
-//! Files that a command writes.
+//! Files that commands write: complete or not at all.
 
 use std::path::Path;
 
 use crate::failure::Failure;
 
-/// Writes to a temporary file first, so that a reader never sees half of it; makes the folder.
+/// Writes a file, by way of a temporary one so that no reader sees half of it; creates its folder.
 pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     let temporary = path.with_extension("part");
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());

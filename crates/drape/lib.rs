@@ -8,6 +8,7 @@ pub use drape_hysteresis as hysteresis;
 pub use drape_implicit as implicit;
 pub use drape_input as input;
 pub use drape_kes as kes;
+pub use drape_lm as lm;
 pub use drape_pattern as pattern;
 pub use drape_report as report;
 pub use drape_scene as scene;

@@ -1,32 +1,25 @@
 //! The `drape` command: see `drape --help`.
+//!
+//! From the top down: [`command`] reads the arguments, one module of [`commands`] carries each
+//! command out, [`pages`] turns its results into pages and pictures, and [`say`], [`file`],
+//! [`progress`] and [`failure`] are all that writes.
 
 use std::process::ExitCode;
 
 use clap::Parser;
 
-mod batch;
-mod bench;
-mod check;
+// What a person types, and what is done.
 mod command;
-mod drapemeter;
-mod fabric;
-mod fabric_page;
+mod commands;
+
+// What a person is shown.
+mod pages;
+
+// Where it goes: stdout, files, stderr, the exit code.
 mod failure;
 mod file;
-mod fit;
-mod fit_page;
-mod kes_value;
-mod pattern;
-mod picture;
 mod progress;
-mod quantity;
-mod run;
 mod say;
-mod strain_picture;
-mod test;
-mod validate;
-mod validation_page;
-mod verify;
 
 fn main() -> ExitCode {
     let command = command::Command::parse();

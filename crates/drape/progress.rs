@@ -1,25 +1,28 @@
+//! Progress bars on stderr, and the recording of a run with its bar.
+
 use std::time::Duration;
 
 use drape::scene::{Frame, Progress, Recorder, SceneError, Step};
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A bar of some length on stderr, which stays silent where stderr is not a terminal, with what is told beside it as
-/// indicatif's template.
-pub(crate) fn bar(length: u64, told: &str) -> ProgressBar {
-    let style = format!("{{elapsed_precise}} {{bar:32}} {told}");
+/// Returns a progress bar on stderr, silent where that is no terminal, with a template of indicatif
+/// for the text beside it.
+pub(crate) fn bar(length: u64, template: &str) -> ProgressBar {
+    let style = format!("{{elapsed_precise}} {{bar:32}} {template}");
     let style = ProgressStyle::with_template(&style).expect("the template is right");
     ProgressBar::new(length).with_style(style)
 }
 
-/// Shows a run on a terminal and stores its frames.
+/// Progress of a run: its bar, and the recorder of its frames.
 pub(crate) struct Screen<'a> {
     bar: ProgressBar,
     recorder: Recorder<'a>,
+    /// Latest frame.
     pub(crate) last: Option<Frame>,
 }
 
 impl<'a> Screen<'a> {
-    /// A bar of so many steps.
+    /// Starts the bar of a run of so many steps.
     pub(crate) fn new(steps: usize, recorder: Recorder<'a>) -> Self {
         let bar = bar(steps as u64, "{pos}/{len} steps, {per_sec}, {eta} left  {msg}");
         bar.enable_steady_tick(Duration::from_millis(250));

@@ -1,11 +1,11 @@
-//! What a command says on stdout.
+//! Lines that commands write to stdout.
 
 use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 
 use crate::failure::Failure;
 
-/// Writes a line of the command's result to stdout; a reader that has seen enough ends nothing.
+/// Writes a line to stdout; a closed pipe is no failure.
 pub(crate) fn say(text: impl Display) -> Result<(), Failure> {
     match writeln!(std::io::stdout().lock(), "{text}") {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {

@@ -7,9 +7,9 @@ use crate::choice::Model;
 use crate::curve_fit::{self, CurveFit, Identified, line};
 use crate::history::along;
 use crate::line::{Form, Line, Loop};
-use crate::lm::Parameter;
 use crate::search::Named;
 use crate::{Error, FrictionOrder, LoopModel, Plateau, Settings};
+use drape_lm::Parameter;
 
 /// Identifies the bending law of one direction from a bending curve.
 ///

@@ -4,9 +4,9 @@ use drape_kes::Curve;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use crate::lm::{self, Report};
 use crate::search::{Found, Named, Residuals, search};
 use crate::statistics::Independence;
+use drape_lm::{self as lm, Report};
 
 /// Lead in Akaike's criterion that a law less preferred must have.
 ///

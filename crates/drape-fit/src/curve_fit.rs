@@ -4,10 +4,10 @@ use drape_kes::{Curve, Direction, Test};
 
 use crate::choice::{Candidate, Model, choose};
 use crate::estimate::Estimate;
-use crate::lm::{Problem, Stop};
 use crate::search::{Found, Residuals, refine};
 use crate::statistics::{Independence, Statistics, statistics};
 use crate::{Error, Intervals};
+use drape_lm::{Problem, Stop};
 
 /// How well a law follows a measured curve, and with which parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,7 +140,7 @@ impl CurveFit {
         self.parameters.iter().map(|estimate| estimate.value).collect()
     }
 
-    /// Akaike's criterion of the law taken, [`lm::akaike`](crate::lm::akaike), from the independent residuals;
+    /// Akaike's criterion of the law taken, [`lm::akaike`](drape_lm::akaike), from the independent residuals;
     /// nothing where they are too few.
     #[must_use]
     pub fn criterion(&self) -> Option<f64> {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::lm;
+use drape_lm as lm;
 
 /// A fitted parameter, in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,8 +56,8 @@ impl Unknown {
             lm::Undetermined::Unidentifiable(others) => {
                 Self::Unidentifiable(others.iter().map(|&other| names[other]).collect())
             }
-            lm::Undetermined::NoFreedom => Self::TooFewPoints,
-            lm::Undetermined::NotFinite => Self::NotSmooth,
+            lm::Undetermined::NoDegreesOfFreedom => Self::TooFewPoints,
+            _ => Self::NotSmooth,
         }
     }
 }

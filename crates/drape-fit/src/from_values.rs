@@ -7,7 +7,7 @@ use drape_fabric::{
 
 use crate::Error;
 use crate::assumed::{BENDING_SLIP, TENSILE_SLIP};
-use crate::lm::{self, Parameter, Problem, Settings};
+use drape_lm::{self as lm, Parameter, Problem, Settings};
 
 /// How near the values of a law are to those asked for, relative, when it has them.
 pub(crate) const VALUE_TOLERANCE: f64 = 1e-6;

@@ -66,7 +66,7 @@ pub enum Intervals {
     /// From the standard errors: right where the law is nearly linear over them.
     #[default]
     Wald,
-    /// From the residuals themselves, [`lm::profile`](crate::lm::profile): right for curved laws and at bounds,
+    /// From the residuals themselves, [`lm::profile`](drape_lm::profile): right for curved laws and at bounds,
     /// for some hundred times the work.
     Profile,
 }
@@ -151,8 +151,8 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         thickness,
         pressed_thickness,
         surface_friction,
-        warp: fabric::Direction { traction: warp, bending: warp_bending },
-        weft: fabric::Direction { traction: weft, bending: weft_bending },
+        warp: fabric::YarnLaws { traction: warp, bending: warp_bending },
+        weft: fabric::YarnLaws { traction: weft, bending: weft_bending },
         shear,
         provenance: Some(Provenance {
             sheet: sheet.name.clone(),
@@ -160,7 +160,7 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
             fitted_by: concat!("drape-fit ", env!("CARGO_PKG_VERSION")).to_owned(),
             assumed: notes.clone(),
             standard_errors: standard_errors(&fits),
-            reach: reach(sheet),
+            measured_range: reach(sheet),
         }),
     };
     if let Some(problem) = fabric.problems().into_iter().next() {

@@ -16,7 +16,6 @@ mod from_values;
 mod history;
 mod identify;
 mod line;
-pub mod lm;
 mod loop_bending;
 mod loop_model;
 mod measured;

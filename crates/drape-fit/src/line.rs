@@ -7,10 +7,10 @@ use nalgebra::DMatrix;
 use crate::basis::{Basis, ratios};
 use crate::bending::{mean_slope, reach, span, zero};
 use crate::choice::{Model, Predict};
-use crate::lm::Parameter;
 use crate::search::Named;
 use crate::strokes::{Element, Strokes};
 use crate::{Error, FrictionOrder, Plateau};
+use drape_lm::Parameter;
 
 /// Shortest friction length over the largest deformation: below it a friction is a step at any sampling.
 pub(crate) const LEAST_LENGTH: f64 = 1e-4;

@@ -7,10 +7,10 @@ use crate::bending::span;
 use crate::curve_fit::{self, Identified};
 use crate::elastica::Arch;
 use crate::line::{LEAST_LENGTH, friction};
-use crate::lm::{Parameter, Problem};
 use crate::search::{Named, refine, search};
 use crate::statistics::statistics;
 use crate::{CurveFit, Error, Settings};
+use drape_lm::{Parameter, Problem};
 
 /// Least shortening of the strip that is used, a part of its length.
 ///

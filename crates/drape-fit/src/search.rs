@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::choice::Predict;
-use crate::lm::{self, Parameter, Report, Settings};
+use drape_lm::{self as lm, Parameter, Report, Settings};
 
 /// Steps that every start is given before the best is chosen.
 ///

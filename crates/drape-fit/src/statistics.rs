@@ -5,8 +5,10 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use crate::estimate::{Estimate, Unknown};
-use crate::lm::{self, Covariance, Interval, Loss, Parameter, Problem, Report, student_quantile};
 use crate::{Intervals, search::Named};
+use drape_lm::{
+    self as lm, Covariance, Interval, Loss, Parameter, Problem, Report, student_quantile,
+};
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;
@@ -93,7 +95,7 @@ pub(crate) fn statistics(
     let independence = Independence::of(&residuals);
     let covariance = Covariance::of(problem, &parameters, report, Loss::Squares);
     // Left out, a parameter that is not determined is taken as known.
-    let known = |j: usize| covariance.reason(j).is_none();
+    let known = |j: usize| covariance.undetermined(j).is_none();
     let jacobian = derivatives(problem, &parameters, &report.parameters, known);
     let sandwich = sandwich(problem.weights(), (&covariance, &residuals), &jacobian);
     let widening = residuals.len() as f64 / independence.count;
@@ -104,8 +106,8 @@ pub(crate) fn statistics(
         Err(reason) => Err(Unknown::new(reason, &names)),
     };
     let profiles = (intervals == Intervals::Profile).then(|| {
-        let settings = lm::Settings::default();
-        lm::profile(problem, &parameters, report, (LEVEL, &settings))
+        let settings = lm::ProfileSettings { level: LEVEL, ..Default::default() };
+        lm::profile(problem, &parameters, report, &settings)
     });
     let interval = |j: usize| {
         let value = report.parameters[j];
@@ -182,7 +184,7 @@ fn sandwich(
     jacobian: &DMatrix<f64>,
 ) -> DMatrix<f64> {
     let count = jacobian.ncols();
-    let variance = covariance.deviation.powi(2);
+    let variance = covariance.residual_deviation.powi(2);
     let mut inverse =
         DMatrix::from_fn(count, count, |i, j| covariance.covariance(i, j).unwrap_or(0.0));
     if weights.is_empty() || !(variance > 0.0 && variance.is_finite()) {

@@ -12,11 +12,11 @@ use crate::basis::Basis;
 use crate::bending::{falling, span};
 use crate::curve_fit::line;
 use crate::line::LEAST_LENGTH;
-use crate::lm::Parameter;
 use crate::pull::along;
 use crate::search::Named;
 use crate::tensile::Form;
 use crate::{Toe, TractionModel};
+use drape_lm::Parameter;
 
 /// Toes to start from, over the largest strain.
 const TOES: [f64; 5] = [0.12, 0.25, 0.45, 0.7, 1.0];

@@ -10,7 +10,9 @@ mod random;
 use drape_fabric::{
     BendingBackbone, BendingLaw, BlimanSorine, Law, ShearBackbone, ShearLaw, drive,
 };
-use drape_fit::lm::{Covariance, Loss, Parameter, Problem, Settings, minimise, profile};
+use drape_lm::{
+    Covariance, Loss, Parameter, Problem, ProfileSettings, Settings, minimise, profile,
+};
 use random::Random;
 use rayon::prelude::*;
 
@@ -130,7 +132,7 @@ fn trial(case: &Case, noise: f64, seed: u64) -> Vec<Count> {
     let settings = Settings::default();
     let report = minimise(&problem, &parameters, &settings);
     let covariance = Covariance::of(&problem, &parameters, &report, Loss::Squares);
-    let intervals = profile(&problem, &parameters, &report, (LEVEL, &settings));
+    let intervals = profile(&problem, &parameters, &report, &ProfileSettings::default());
     let counts = truth.iter().zip(intervals).enumerate();
     counts
         .map(|(j, (truth, interval))| {

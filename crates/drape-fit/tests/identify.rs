@@ -148,14 +148,14 @@ fn compression_and_friction_of_the_surface_are_those_of_the_sheet() {
     (sheet.t, sheet.tm, sheet.miu) = (Some(0.5), Some(0.3), Some(0.18));
     let fit = identify(&sheet).expect("identified");
     assert_eq!(fit.fabric.surface_friction, 0.18);
-    assert!((fit.fabric.under_pressure() - 3e-4).abs() < 1e-18);
+    assert!((fit.fabric.thickness_under_pressure() - 3e-4).abs() < 1e-18);
     assert!(
         !fit.assumed.iter().any(|note| note.contains("friction: not") || note.contains("pressed"))
     );
     assert!(fit.fabric.to_toml().contains("\npressed_thickness = 0.0003\n"));
     sheet.tm = None;
     let fit = identify(&sheet).expect("identified");
-    assert!((fit.fabric.under_pressure() - 3.5e-4).abs() < 1e-18);
+    assert!((fit.fabric.thickness_under_pressure() - 3.5e-4).abs() < 1e-18);
 }
 
 #[test]

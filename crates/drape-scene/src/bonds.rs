@@ -1,4 +1,4 @@
-use drape_cloth::{Breen, Cloth, Committed, Pattern, SeamBending, SeamState, State, Workspace};
+use drape_cloth::{Breen, Cloth, SeamBending, SeamState, Sparsity, State, Workspace};
 use drape_implicit::{BlockMatrix, Sparsity as Coupling};
 
 /// What holds the particles of a cloth together.
@@ -18,7 +18,7 @@ pub(crate) struct Bonds {
 }
 
 /// Row and column of each block of a cloth's connectors.
-fn blocks(pattern: &Pattern) -> impl Iterator<Item = [usize; 2]> {
+fn blocks(pattern: &Sparsity) -> impl Iterator<Item = [usize; 2]> {
     (0..pattern.offsets.len() - 1).flat_map(|row| {
         let columns = &pattern.columns[pattern.offsets[row]..pattern.offsets[row + 1]];
         columns.iter().map(move |&column| [row, column])
@@ -26,7 +26,7 @@ fn blocks(pattern: &Pattern) -> impl Iterator<Item = [usize; 2]> {
 }
 
 /// The coupling of a cloth's connectors and of some more pairs.
-fn coupling(pattern: &Pattern, more: &[[u32; 2]]) -> Coupling {
+fn coupling(pattern: &Sparsity, more: &[[u32; 2]]) -> Coupling {
     let more = more.iter().map(|pair| pair.map(|particle| particle as usize));
     let particles = pattern.offsets.len() - 1;
     let pairs = blocks(pattern).chain(more);
@@ -34,7 +34,7 @@ fn coupling(pattern: &Pattern, more: &[[u32; 2]]) -> Coupling {
 }
 
 /// Room for a matrix of the connectors alone, and where its blocks go in a coupling that has more.
-fn spread(pattern: &Pattern, coupling: &Coupling) -> (Vec<f64>, Vec<usize>) {
+fn spread(pattern: &Sparsity, coupling: &Coupling) -> (Vec<f64>, Vec<usize>) {
     let slots = blocks(pattern).filter_map(|[row, column]| coupling.slot(row, column));
     (vec![0.0; 9 * pattern.blocks()], slots.collect())
 }
@@ -46,12 +46,12 @@ impl Bonds {
         breen: Option<Breen>,
         (threads, positions): (&[[u32; 2]], &[f64]),
     ) -> Self {
-        let coupling = coupling(cloth.pattern(), threads);
+        let coupling = coupling(cloth.sparsity(), threads);
         let mut bonds = Self {
             workspace: cloth.workspace(),
             breen,
             seams: None,
-            spread: (!threads.is_empty()).then(|| spread(cloth.pattern(), &coupling)),
+            spread: (!threads.is_empty()).then(|| spread(cloth.sparsity(), &coupling)),
             coupling,
             version: 0,
         };
@@ -71,8 +71,8 @@ impl Bonds {
     pub(crate) fn sew(&mut self, cloth: &Cloth, bending: SeamBending, positions: &[f64]) {
         self.workspace = cloth.workspace();
         let pairs: Vec<[u32; 2]> = bending.pairs().collect();
-        self.coupling = coupling(cloth.pattern(), &pairs);
-        self.spread = Some(spread(cloth.pattern(), &self.coupling));
+        self.coupling = coupling(cloth.sparsity(), &pairs);
+        self.spread = Some(spread(cloth.sparsity(), &self.coupling));
         self.version += 1;
         let state = bending.state(positions).expect("a place for every particle");
         self.seams = Some((bending, state));
@@ -93,10 +93,10 @@ impl Bonds {
     /// Takes the pairs that have come near each other into the coupling. Those that have left stay until then.
     fn couple(&mut self, cloth: &Cloth, positions: &[f64]) {
         let Some(breen) = &mut self.breen else { return };
-        let near = breen.near(positions);
+        let near = breen.close_pairs(positions);
         let known = |&[a, b]: &[u32; 2]| self.coupling.slot(a as usize, b as usize).is_some();
         if !near.iter().all(known) {
-            self.coupling = coupling(cloth.pattern(), near);
+            self.coupling = coupling(cloth.sparsity(), near);
             self.version += 1;
         }
     }
@@ -110,7 +110,7 @@ impl Bonds {
     ) {
         match &mut self.breen {
             Some(breen) => breen.add_forces(positions, forces),
-            None => self.workspace.add_forces(cloth, state, positions, forces),
+            None => self.workspace.add_forces(cloth.trial(state, positions), forces),
         }
         if let Some((seams, state)) = &self.seams {
             seams.add_forces(state, positions, forces);
@@ -123,7 +123,7 @@ impl Bonds {
         seams
             + match &mut self.breen {
                 Some(breen) => breen.energy(positions),
-                None => self.workspace.potential(cloth, state, positions),
+                None => self.workspace.potential(cloth.trial(state, positions)),
             }
     }
 
@@ -137,18 +137,18 @@ impl Bonds {
         matrix: &mut BlockMatrix,
     ) {
         let Some(breen) = &mut self.breen else {
-            let kind = (positions, definite);
+            let trial = cloth.trial(state, positions);
             let Some((values, slots)) = &mut self.spread else {
-                self.workspace.add_stiffness(cloth, state, kind, matrix.values_mut());
+                self.workspace.add_stiffness(trial, definite, matrix.values_mut());
                 return;
             };
             values.fill(0.0);
-            self.workspace.add_stiffness(cloth, state, kind, values);
+            self.workspace.add_stiffness(trial, definite, values);
             for (block, &slot) in values.as_chunks::<9>().0.iter().zip(&*slots) {
                 matrix.add_block(slot, block);
             }
             if let Some((seams, state)) = &self.seams {
-                seams.add_stiffness(state, (positions, definite), |row, column, block| {
+                seams.add_stiffness(state, positions, definite, |row, column, block| {
                     matrix.add(row as usize, column as usize, &block);
                 });
             }
@@ -172,13 +172,13 @@ impl Bonds {
         cloth: &Cloth,
         state: &mut State,
         (positions, velocities): (&[f64], &[f64]),
-    ) -> Committed {
-        let mut committed = self.workspace.commit(cloth, state, (positions, velocities));
+    ) -> f64 {
+        let mut dissipated = self.workspace.commit(cloth, state, positions, velocities);
         if let Some((seams, state)) = &mut self.seams {
-            committed.dissipated += seams.commit(state, positions).dissipated;
+            dissipated += seams.commit(state, positions);
         }
         self.couple(cloth, positions);
-        if self.breen.is_some() { Committed::default() } else { committed }
+        if self.breen.is_some() { 0.0 } else { dissipated }
     }
 
     /// Energy that can be had back, in J.

@@ -1,4 +1,4 @@
-use drape_collide::{Pinch, Settings};
+use drape_collide::{ParticleSettings, PinchPolicy};
 use serde::Deserialize;
 
 use crate::file::SceneFile;
@@ -37,12 +37,12 @@ impl SceneFile {
 }
 
 impl Reader<'_> {
-    pub(crate) fn contact_settings(&mut self, file: &SceneFile, unit: f64) -> Settings {
-        let mut settings = Settings::default();
+    pub(crate) fn contact_settings(&mut self, file: &SceneFile, unit: f64) -> ParticleSettings {
+        let mut settings = ParticleSettings::default();
         if let Some(offset) = file.contact.offset {
-            settings.offset = offset * unit;
+            settings.activation_distance = offset * unit;
             let help = "the distance at which contact begins; 1 mm is usual";
-            self.within("contact.offset", settings.offset, (1e-5, 0.1), help);
+            self.within("contact.offset", settings.activation_distance, (1e-5, 0.1), help);
         }
         if let Some(stiffness) = file.contact.stiffness {
             settings.stiffness = stiffness;
@@ -56,9 +56,12 @@ impl Reader<'_> {
     }
 
     /// What becomes of cloth that bodies close on.
-    pub(crate) fn pinch(&mut self, file: &SceneFile) -> Pinch {
-        let policies =
-            [("error", Pinch::Error), ("thin", Pinch::Thin), ("release", Pinch::Release)];
+    pub(crate) fn pinch(&mut self, file: &SceneFile) -> PinchPolicy {
+        let policies = [
+            ("error", PinchPolicy::Error),
+            ("thin", PinchPolicy::Thin),
+            ("release", PinchPolicy::Release),
+        ];
         let word = file.contact.pinch.as_deref();
         if word.is_some() && !file.keeps_apart() {
             let message = "nothing is kept apart here".to_owned();

@@ -1,4 +1,4 @@
-use drape_collide::{Shape, classes};
+use drape_collide::{Shape, equivalence_classes};
 use serde_json::{Value, json};
 
 use crate::Simulation;
@@ -58,7 +58,7 @@ impl Simulation {
 
     /// The free edges in closed rows.
     fn openings(&self) -> Vec<Opening> {
-        let class = classes(self.world.cloth.particles(), &self.sewn.pairs);
+        let class = equivalence_classes(self.world.cloth.particles(), &self.sewn.pairs);
         let ends = |edge: &FreeEdge| {
             let ends = [edge.particles[0], edge.particles[edge.particles.len() - 1]];
             ends.map(|particle| class[particle as usize])

@@ -130,7 +130,7 @@ fn place(start: &Start<'_>, particle: usize) -> [f64; 3] {
 fn way_to(bodies: &[Body], start: &Start<'_>, particle: usize) -> Option<Way> {
     let from = place(start, particle);
     let solid = bodies.iter().filter(|body| !matches!(body.shape, Shape::Plane));
-    let near = solid.filter_map(|body| body.proximity(from).ok());
+    let near = solid.filter_map(|body| body.signed_distance(from).ok());
     let near = near.min_by(|a, b| a.distance.total_cmp(&b.distance))?;
     let to = [0, 1, 2].map(|axis| from[axis] - near.distance * near.normal[axis]);
     (near.distance > 0.0).then_some([from, to])

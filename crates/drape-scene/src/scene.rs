@@ -2,7 +2,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use drape_cloth::{Breen, Cloth, Lattice};
-use drape_collide::{Body, Contact, Shape, SurfaceSettings};
+use drape_collide::{Body, ParticleContact, Shape, SurfaceSettings};
 use drape_fabric::Fabric;
 use drape_input::{Diagnostic, Diagnostics, Document};
 
@@ -54,7 +54,7 @@ pub struct Scene {
     /// What each pin holds, and how that moves, in the order of the file.
     pub pins: Vec<Pin>,
     /// Contact of the cloth with the bodies.
-    pub contact: Contact,
+    pub contact: ParticleContact,
     /// The surfaces of cloth and bodies, if they are kept apart; `contact` then has the bodies for pictures only.
     pub surfaces: Option<Surfaces>,
     /// The ways of the bodies, of those that move.
@@ -144,7 +144,8 @@ impl Reader<'_> {
             self.speeds(&bodies, (clock.step, spacing));
         }
         let contact_settings = self.contact_settings(&file, unit);
-        let stick = file.contact.stick.map_or(SurfaceSettings::STICK, |stick| stick * unit);
+        let stick =
+            file.contact.stick.map_or(SurfaceSettings::STICKING_DISPLACEMENT, |stick| stick * unit);
         self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
         let pinch = self.pinch(&file);
         let inflation = self.inflation(&file, unit, (clock.step, spacing));
@@ -170,7 +171,7 @@ impl Reader<'_> {
             Model::Breen1994 => without_friction(&pairs),
         };
         let ties = sewing.iter().flat_map(|sewing| &sewing.stitching.ties);
-        let cloth = cloth.tied(ties);
+        let cloth = cloth.with_ties(ties);
         let materials: Vec<Material> = materials.into_iter().flatten().collect();
         let positions: Vec<f64> = laid.iter().flat_map(|laid| &laid.positions).copied().collect();
         let mut velocities: Vec<f64> =
@@ -203,7 +204,7 @@ impl Reader<'_> {
                 courses: &courses,
                 held: &held,
                 sewn: sewing.as_ref().map(|sewing| &sewing.stitching),
-                offset: contact_settings.offset,
+                offset: contact_settings.activation_distance,
                 stiffness: file.contact.stiffness,
                 stick,
                 pinch,
@@ -218,7 +219,7 @@ impl Reader<'_> {
         let start =
             Start { panels: &panels, garments: &worn, cloth: &cloth, positions: &positions };
         let tangle = surfaces.as_mut().and_then(|surfaces| self.tangle(surfaces, &start));
-        let contact = Contact::new(bodies, contact_settings, cloth.areas().to_vec());
+        let contact = ParticleContact::new(bodies, contact_settings, cloth.areas().to_vec());
         let contact = contact.map_err(|error| self.document.at("collider", error.to_string()));
         let contact = contact.map_err(Diagnostics::from)?;
         match (&surfaces, inflation) {
@@ -318,7 +319,7 @@ impl Reader<'_> {
 
 /// A cloth that keeps the account of its strains and of nothing else.
 pub(crate) fn without_friction(panels: &[(&Lattice, &Fabric)]) -> Cloth {
-    let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.elastic()).collect();
+    let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.without_friction()).collect();
     let lattices = panels.iter().map(|(lattice, _)| *lattice);
     Cloth::new(&lattices.zip(&fabrics).collect::<Vec<_>>())
 }

@@ -249,7 +249,7 @@ impl Simulation {
 
     /// The bodies and the cloth's contact with them.
     #[must_use]
-    pub fn contact(&self) -> &drape_collide::Contact {
+    pub fn contact(&self) -> &drape_collide::ParticleContact {
         &self.world.contact
     }
 

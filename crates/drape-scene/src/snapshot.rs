@@ -1,5 +1,5 @@
 use drape_cloth::TriangleStrain;
-use drape_collide::{Outline, Shape};
+use drape_collide::{Shape, Triangulation};
 
 use crate::Simulation;
 
@@ -51,12 +51,12 @@ impl Simulation {
     }
 
     /// The bodies as triangles, where they are now. Surfaces move their vertices along; otherwise poses do.
-    pub(crate) fn outlines(&self) -> Vec<Outline> {
+    pub(crate) fn outlines(&self) -> Vec<Triangulation> {
         let bodies = self.contact().bodies().iter();
         let outlines = bodies.map(|body| body.triangulate().expect("contact has checked it"));
-        let mut outlines: Vec<Outline> = outlines.collect();
+        let mut outlines: Vec<Triangulation> = outlines.collect();
         if let Some(surfaces) = &self.world.surfaces {
-            let mut places = surfaces.contact.bodies().as_chunks::<3>().0.iter();
+            let mut places = surfaces.contact.body_positions().as_chunks::<3>().0.iter();
             let vertices = outlines.iter_mut().flat_map(|outline| &mut outline.vertices);
             vertices.zip(&mut places).for_each(|(vertex, place)| *vertex = *place);
         }

@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use drape_cloth::Cloth;
-use drape_collide::Contact;
+use drape_collide::ParticleContact;
 
 use crate::panel::Panel;
 use crate::reader::Reader;
@@ -34,13 +34,13 @@ impl Start<'_> {
 }
 
 impl Reader<'_> {
-    pub(crate) fn start_is_free(&mut self, contact: &Contact, positions: &[f64]) {
-        let survey = contact.survey(positions);
-        if survey.inside > 0 {
-            let body = survey.nearest.map_or("", |(_, body)| &contact.bodies()[body].name);
+    pub(crate) fn start_is_free(&mut self, contact: &ParticleContact, positions: &[f64]) {
+        let summary = contact.summary(positions);
+        if summary.inside > 0 {
+            let body = summary.nearest.map_or("", |nearest| &contact.bodies()[nearest.body].name);
             let message = format!(
                 "{} particles start inside a body (deepest {:.4} m, in {body})",
-                survey.inside, -survey.min_distance
+                summary.inside, -summary.min_distance
             );
             let help = "move or turn the panel so that it starts outside, or let bodies grow with contact.inflate";
             self.fail("panel", message, help);
@@ -50,7 +50,7 @@ impl Reader<'_> {
     /// Of panels that cross no body, one particle tells whether they are in it.
     pub(crate) fn start_is_outside(&mut self, surfaces: &Surfaces, start: &Start<'_>) {
         for panel in start.panels {
-            if surfaces.contact.is_inside(panel.first, start.positions) {
+            if surfaces.contact.is_inside_body(panel.first, start.positions) {
                 let message = format!("all of \"{}\" starts inside a body", panel.name);
                 self.fail("panel", message, "move or turn the panel so that it starts outside");
             }

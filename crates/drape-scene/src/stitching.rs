@@ -24,8 +24,8 @@ impl Stitching {
     /// Its stitches, those of the pairs first.
     pub(crate) fn threads(&self) -> impl Iterator<Item = Thread> {
         let pairs = self.pairs.iter().map(|&[a, b]| vec![(a, 1.0), (b, -1.0)]);
-        let ties = self.ties.iter().map(|&Tie { particle, ends: [a, b], share }| {
-            vec![(particle, 1.0), (a, share - 1.0), (b, -share)]
+        let ties = self.ties.iter().map(|&Tie { particle, ends: [a, b], fraction }| {
+            vec![(particle, 1.0), (a, fraction - 1.0), (b, -fraction)]
         });
         pairs.chain(ties).map(|parts| Thread { parts })
     }

@@ -117,7 +117,7 @@ impl Simulation {
 /// it does so here.
 pub(crate) fn reaches(materials: &[Material]) -> BTreeMap<String, BTreeMap<String, f64>> {
     let reach = |material: &Material| {
-        let mut reach = material.fabric.provenance.as_ref()?.reach.clone();
+        let mut reach = material.fabric.provenance.as_ref()?.measured_range.clone();
         for [one, other] in [["warp.traction", "weft.traction"], ["weft.traction", "warp.traction"]]
         {
             if let Some(strain) = reach.get(one).copied() {

@@ -3,7 +3,8 @@ use std::ops::Range;
 
 use drape_cloth::Cloth;
 use drape_collide::{
-    Body, CollideError, Pinch, Shape, Skin, Surface, SurfaceContact, SurfaceParts, SurfaceSettings,
+    Body, ContactDistances, Error, PinchPolicy, Shape, Surface, SurfaceContact, SurfaceParts,
+    SurfaceSettings, SurfaceStep,
 };
 use drape_fabric::Fabric;
 use drape_implicit::{StepLimit, TrialStep};
@@ -75,7 +76,7 @@ pub(crate) struct Parts<'a> {
     /// In m.
     pub(crate) stick: f64,
     /// What becomes of cloth that bodies close on.
-    pub(crate) pinch: Pinch,
+    pub(crate) pinch: PinchPolicy,
     /// How bodies grow at the start.
     pub(crate) inflation: Option<Inflation>,
     /// How the distances that are kept grow.
@@ -83,39 +84,40 @@ pub(crate) struct Parts<'a> {
 }
 
 impl Surfaces {
-    pub(crate) fn new(parts: &Parts<'_>) -> Result<Self, CollideError> {
+    pub(crate) fn new(parts: &Parts<'_>) -> Result<Self, Error> {
         let Parts { panels, materials, cloth, bodies, courses, .. } = parts;
         let fabric = |panel: &Panel| &materials[panel.material].fabric;
-        let skin = |fabric: &Fabric| Skin {
-            reach: 0.5 * fabric.thickness,
-            separation: 0.5 * CRUSHED * fabric.under_pressure(),
+        let skin = |fabric: &Fabric| ContactDistances {
+            activation_distance: 0.5 * fabric.thickness,
+            min_separation: 0.5 * CRUSHED * fabric.thickness_under_pressure(),
         };
         let skins = panels.iter().map(|panel| skin(fabric(panel)));
-        let thinnest = skins.min_by(|a, b| a.reach.total_cmp(&b.reach));
-        let thinnest = thinnest.unwrap_or(Skin { reach: 0.0, separation: 0.0 });
+        let thinnest = skins.min_by(|a, b| a.activation_distance.total_cmp(&b.activation_distance));
+        let thinnest =
+            thinnest.unwrap_or(ContactDistances { activation_distance: 0.0, min_separation: 0.0 });
         let mut surface = SurfaceParts {
-            rest: cloth.coordinates().iter().flat_map(|[u, v]| [*u, *v, 0.0]).collect(),
+            rest_positions: cloth.coordinates().iter().flat_map(|[u, v]| [*u, *v, 0.0]).collect(),
             triangles: cloth.triangles().to_vec(),
             areas: cloth.areas().to_vec(),
-            group: Vec::new(),
-            skins: Vec::new(),
-            free: cloth.particles(),
-            twins: parts.sewn.map_or_else(Vec::new, |sewn| sewn.pairs.clone()),
+            groups: Vec::new(),
+            distances: Vec::new(),
+            free_vertices: cloth.particles(),
+            seam_pairs: parts.sewn.map_or_else(Vec::new, |sewn| sewn.pairs.clone()),
             ties: parts.sewn.map_or_else(Vec::new, Stitching::triples),
         };
         let mut frictions = Vec::new();
         for (index, panel) in panels.iter().enumerate() {
             surface
-                .group
+                .groups
                 .extend(std::iter::repeat_n(index as u32, panel.lattice.coordinates.len()));
-            surface.skins.push(skin(fabric(panel)));
+            surface.distances.push(skin(fabric(panel)));
             frictions.push(Err(materials[panel.material].fabric.surface_friction));
         }
         let (mut start, mut inward) = (Vec::new(), Vec::new());
         let mut moving = Vec::new();
         for (body, course) in bodies.iter().zip(*courses) {
             let outline = body.triangulate()?;
-            let first = surface.group.len();
+            let first = surface.groups.len();
             let count = outline.vertices.len();
             let own = start.len() / 3..start.len() / 3 + count;
             start.extend(outline.vertices.iter().flatten());
@@ -127,17 +129,18 @@ impl Surfaces {
             let corners = |t: &[u32; 3]| t.map(|corner| corner + first as u32);
             surface.triangles.extend(outline.triangles.iter().map(corners));
             surface.areas.extend(std::iter::repeat_n(0.0, count));
-            surface.group.extend(std::iter::repeat_n(surface.skins.len() as u32, count));
+            surface.groups.extend(std::iter::repeat_n(surface.distances.len() as u32, count));
             // Half of the cloth's thickness is its own.
-            let reach = (parts.offset - thinnest.reach).max(thinnest.reach);
-            surface.skins.push(Skin { reach, ..thinnest });
+            let half = thinnest.activation_distance;
+            let activation_distance = (parts.offset - half).max(half);
+            surface.distances.push(ContactDistances { activation_distance, ..thinnest });
             frictions.push(Ok(body.friction));
             if let Some(course) = course {
                 let endless = matches!(body.shape, Shape::Plane);
                 moving.push(Mover { own, course: course.clone(), endless });
             }
         }
-        surface.rest.extend(&start);
+        surface.rest_positions.extend(&start);
         let pair = |a: &Result<f64, f64>, b: &Result<f64, f64>| match (a, b) {
             // Of two fabrics the geometric mean; a body's coefficient is that with cloth.
             (Err(a), Err(b)) => (a * b).sqrt(),
@@ -148,8 +151,8 @@ impl Surfaces {
             stiffness: parts.stiffness.unwrap_or_else(|| {
                 panels.iter().map(|panel| stiffness(fabric(panel))).fold(0.0, f64::max)
             }),
-            stick: parts.stick,
-            friction: friction.collect(),
+            sticking_displacement: parts.stick,
+            friction_coefficients: friction.collect(),
             pinch: parts.pinch,
         };
         let inflation = parts.inflation.map(|inflation| (inflation, inward));
@@ -159,7 +162,7 @@ impl Surfaces {
         let held = (0..parts.held.len()).filter(|&particle| parts.held[particle]).collect();
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|body| &body.name)).cloned().collect();
-        let bow = 2.0 * BOW * thinnest.separation;
+        let bow = 2.0 * BOW * thinnest.min_separation;
         Ok(Self {
             contact,
             names,
@@ -185,7 +188,7 @@ impl Surfaces {
 
     /// When all bodies have their size, in s; never as long as surfaces keep less than they should.
     pub(crate) fn grown_at(&self) -> f64 {
-        if self.contact.grown() < 1.0 {
+        if self.contact.growth_fraction() < 1.0 {
             return f64::INFINITY;
         }
         self.inflation.as_ref().map_or(0.0, |(inflation, _)| inflation.seconds)
@@ -197,22 +200,22 @@ impl Surfaces {
     }
 
     /// Lets surfaces that do not cross keep less at the start.
-    pub(crate) fn shrink(&mut self, positions: &[f64]) -> Result<(), CollideError> {
-        self.contact.shrink(positions)?;
-        self.grown_from = self.contact.grown();
+    pub(crate) fn shrink(&mut self, positions: &[f64]) -> Result<(), Error> {
+        self.contact.shrink_distances(positions)?;
+        self.grown_from = self.contact.growth_fraction();
         Ok(())
     }
 
     /// Whether what surfaces keep has had time enough to grow at a time since the start, in s, and did not.
     pub(crate) fn is_stuck(&self, since: f64) -> bool {
         let late = |growth: Growth| since >= Growth::PATIENCE * growth.seconds;
-        self.contact.grown() < 1.0 && self.growth.is_some_and(late)
+        self.contact.growth_fraction() < 1.0 && self.growth.is_some_and(late)
     }
 
     /// Opens a step that ends at a time since the start, and at one on the clock of what moves, and its length, in s.
     pub(crate) fn begin(&mut self, ([since, end_time], dt): ([f64; 2], f64), positions: &[f64]) {
         if let Some(growth) = self.growth {
-            self.contact.grow(positions, (1.0 - self.grown_from) * dt / growth.seconds);
+            self.contact.grow_distances(positions, (1.0 - self.grown_from) * dt / growth.seconds);
         }
         let start = shrunk(&self.start, &self.inflation, since);
         let mut ends = start.to_vec();
@@ -226,8 +229,14 @@ impl Surfaces {
     /// Limits a step to a part that keeps all surfaces apart.
     pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
         let TrialStep { start, displacements, obstacle_time, mut obstacle_advance } = step;
-        let times = (obstacle_time, &mut obstacle_advance);
-        match self.contact.allow((start, displacements), &self.held, times) {
+        let whole = self.contact.limit_step(SurfaceStep {
+            from: start,
+            displacements,
+            held: &self.held,
+            progress: obstacle_time,
+            advance: &mut obstacle_advance,
+        });
+        match whole {
             true => StepLimit::Whole,
             false => StepLimit::Shortened { obstacle_advance },
         }
@@ -235,7 +244,7 @@ impl Surfaces {
 
     /// Whether no surface intersects another at these positions.
     pub(crate) fn is_intersection_free(&mut self, positions: &[f64]) -> bool {
-        match self.contact.crossings(positions) {
+        match self.contact.intersections(positions) {
             Ok(crossings) => {
                 self.crossings += crossings.len();
                 crossings.is_empty()
@@ -262,8 +271,11 @@ fn shrunk<'a>(
 
 /// Stiffness of contact that presses two layers of a fabric as its compression test does, in N/m³.
 fn stiffness(fabric: &Fabric) -> f64 {
-    let pressed = fabric.under_pressure();
+    let pressed = fabric.thickness_under_pressure();
     let distance = pressed.min(PRESSED * fabric.thickness);
-    let ends = [fabric.thickness, CRUSHED * pressed];
-    SurfaceSettings::stiffness_under(Fabric::PRESSURE, distance, ends)
+    let of_pair = ContactDistances {
+        activation_distance: fabric.thickness,
+        min_separation: CRUSHED * pressed,
+    };
+    SurfaceSettings::stiffness_for_pressure(Fabric::PRESSURE, distance, of_pair)
 }

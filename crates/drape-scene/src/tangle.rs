@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use drape_collide::{Kind, Surface, SurfaceContact};
+use drape_collide::{PairDistance, PairKind, Surface, SurfaceContact};
 use drape_input::Diagnostics;
 
 use crate::growth::Growth;
@@ -103,8 +103,8 @@ impl Reader<'_> {
         let mut help = APART;
         let grows = surfaces.may_grow();
         let contact = &mut surfaces.contact;
-        let crossings = contact.crossings(positions).map(|found| found.len());
-        let fault = match (crossings, contact.survey(positions)) {
+        let crossings = contact.intersections(positions).map(|found| found.len());
+        let fault = match (crossings, contact.summary_at(positions)) {
             (Ok(0), Ok(near)) if grows && near.min_distance >= Growth::NEAREST => {
                 let shrunk = surfaces.shrink(positions);
                 return shrunk.err().and_then(|error| {
@@ -159,18 +159,18 @@ pub(crate) fn overlaps(
     names: &[String],
 ) -> (Vec<Overlap>, usize) {
     let surface = contact.surface();
-    let places: Vec<f64> = positions.iter().chain(contact.bodies()).copied().collect();
+    let places: Vec<f64> = positions.iter().chain(contact.body_positions()).copied().collect();
     let at = |vertex: u32| {
         let first = 3 * vertex as usize;
         [places[first], places[first + 1], places[first + 2]]
     };
-    let found = contact.crossings(positions).unwrap_or_default();
+    let found = contact.intersections(positions).unwrap_or_default();
     let crossing = found.iter().map(|crossing| {
         let edge = surface.edges()[crossing.edge as usize].to_vec();
         ([edge, surface.triangles()[crossing.triangle as usize].to_vec()], 0.0)
     });
-    let near = contact.too_near().map(|(pair, distance)| {
-        let first = if pair.kind == Kind::VertexFace { 1 } else { 2 };
+    let near = contact.pairs_below_min_separation().map(|PairDistance { pair, distance }| {
+        let first = if pair.kind == PairKind::VertexFace { 1 } else { 2 };
         let (one, other) = pair.vertices.split_at(first);
         ([one.to_vec(), other.to_vec()], distance)
     });

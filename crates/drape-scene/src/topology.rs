@@ -65,9 +65,10 @@ impl Simulation {
         let mut groups = 0..;
         let mut part = |name: &str, [vertices, triangles]: [usize; 2]| {
             let surfaces = self.world.surfaces.as_ref();
-            let skins = surfaces.map(|surfaces| surfaces.contact.surface().skins());
+            let skins = surfaces.map(|surfaces| surfaces.contact.surface().group_distances());
             let skin = groups.next().and_then(|group: usize| skins?.get(group));
-            let [reach, separation] = skin.map_or([0.0; 2], |skin| [skin.reach, skin.separation]);
+            let [reach, separation] =
+                skin.map_or([0.0; 2], |skin| [skin.activation_distance, skin.min_separation]);
             Part { name: name.to_owned(), vertices, triangles, reach, separation }
         };
         let panels = self.panels.iter().map(|PanelSpan { name, particles: own, .. }| {
@@ -88,7 +89,7 @@ impl Simulation {
             guarded: self.world.surfaces.is_some(),
             panels,
             bodies,
-            thinned: self.world.surfaces.as_ref().map_or(1.0, |s| s.contact.thinned()),
+            thinned: self.world.surfaces.as_ref().map_or(1.0, |s| s.contact.thinned_fraction()),
             twins: self.sewn.pairs.clone(),
             ties: self.sewn.triples(),
             coordinates: cloth.coordinates().to_vec(),

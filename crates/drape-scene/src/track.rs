@@ -104,7 +104,7 @@ impl Track {
 pub(crate) fn turn(pose: Pose, degrees: [f64; 3]) -> Pose {
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let turns = axes.into_iter().zip(degrees).filter(|(_, angle)| *angle != 0.0);
-    turns.fold(pose, |pose, (axis, angle)| pose.turned(axis, angle.to_radians()))
+    turns.fold(pose, |pose, (axis, angle)| pose.rotated(axis, angle.to_radians()))
 }
 
 impl Reader<'_> {

@@ -21,7 +21,7 @@ fn stitching(fullness: u32) -> Stitching {
     let tie = |k: u32| Tie {
         particle: lower(k),
         ends: [k / fullness, k / fullness + 1],
-        share: f64::from(k % fullness) / f64::from(fullness),
+        fraction: f64::from(k % fullness) / f64::from(fullness),
     };
     let between = (0..6 * fullness).filter(|k| k % fullness != 0);
     let pairs = (0..7).map(|k| [k, lower(fullness * k)]).collect();
@@ -71,7 +71,7 @@ residual = 1e-4
     };
     let bending = SeamBending::new(&lattices, &[seam]);
     let bending = bending.expect("a seam of two edges");
-    scene.cloth = scene.cloth.tied(&stitching.ties);
+    scene.cloth = scene.cloth.with_ties(&stitching.ties);
     scene.sewing = Some(Sewing { seams, stitching, cloth, seconds: 0.5, bending });
     scene
 }

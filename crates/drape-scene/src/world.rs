@@ -1,7 +1,7 @@
 mod system;
 
 use drape_cloth::{Cloth, SeamBending, State};
-use drape_collide::{Contact, Pose};
+use drape_collide::{ParticleContact, Pose};
 use drape_implicit::System;
 
 use crate::attachments::Attachments;
@@ -26,7 +26,7 @@ pub(crate) struct World {
     pub(crate) cloth: Cloth,
     pub(crate) bonds: Bonds,
     pub(crate) state: State,
-    pub(crate) contact: Contact,
+    pub(crate) contact: ParticleContact,
     /// The surfaces, if they are kept apart: the bodies are then among them and not in the contact of the particles.
     pub(crate) surfaces: Option<Surfaces>,
     /// Acceleration of gravity when it has grown to its value, in m/s².
@@ -199,7 +199,7 @@ impl World {
         let [hold, hold_potential] = self.attachments.work(&self.state.positions, positions);
         if let (Some(surfaces), Some(ledger)) = (&mut self.surfaces, &self.ledger) {
             let energy = surfaces.contact.potential(positions);
-            let [_, lost] = surfaces.contact.friction();
+            let lost = surfaces.contact.friction_energy().dissipated;
             let moved = positions.iter().zip(&self.state.positions).map(|(end, start)| end - start);
             let brake = moved.zip(&self.brake).map(|(moved, brake)| -moved * brake).sum();
             return Entry {
@@ -219,14 +219,14 @@ impl World {
         let Self { contact, ledger, state, .. } = self;
         let ledger = ledger.as_mut().expect("entries are made for a ledger");
         let [with, without] = &mut ledger.forces;
-        let push = |contact: &mut Contact, forces: &mut [f64]| {
+        let push = |contact: &mut ParticleContact, forces: &mut [f64]| {
             forces.fill(0.0);
             contact.add_forces(positions, forces);
             contact.potential(positions)
         };
         // A step just opened has no slip and so no friction.
         let potential = push(contact, with);
-        let drive = contact.friction_drive(positions);
+        let drive = contact.body_friction_work(positions);
         contact.begin(positions, dt);
         let barrier = push(contact, without);
         let moved = positions.iter().zip(&state.positions).map(|(end, start)| end - start);
@@ -268,7 +268,7 @@ impl World {
         let time = self.time_of_motion(time);
         for (body, start, track) in &self.moving {
             let pose = track.pose(time, *start);
-            self.contact.place(*body, pose).expect("a rigid motion turns a pose into a pose");
+            self.contact.move_body(*body, pose).expect("a rigid motion turns a pose into a pose");
         }
     }
 
@@ -293,7 +293,7 @@ impl World {
 
     /// Part of the distances that surfaces keep which they keep by now.
     pub(crate) fn grown(&self) -> f64 {
-        self.surfaces.as_ref().map_or(1.0, |surfaces| surfaces.contact.grown())
+        self.surfaces.as_ref().map_or(1.0, |surfaces| surfaces.contact.growth_fraction())
     }
 
     /// What each pin bears at a time, in s, without the inertia of the particles it holds.

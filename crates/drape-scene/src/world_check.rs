@@ -75,7 +75,7 @@ fn forces_potential_and_stiffness_agree_in_contact_and_in_air() {
     for more in ["", "settle = {}", "model = \"breen-1994\"", held] {
         let mut world = world(more);
         let motion = moved(&mut world);
-        assert!(world.contact.survey(&motion.positions).touching > 3, "it touches the ball");
+        assert!(world.contact.summary(&motion.positions).touching > 3, "it touches the ball");
         let step = |(x, v): (&f64, &f64)| x + 0.004 * v;
         let trial: Vec<f64> = motion.positions.iter().zip(&motion.velocities).map(step).collect();
         let check = check_system(&mut world, &motion.positions, &trial, 0.005).expect("sound");
@@ -91,7 +91,7 @@ fn forces_potential_and_stiffness_agree_in_contact_and_in_air() {
 fn forces_and_potential_agree_where_surfaces_touch() {
     let mut world = world("surfaces");
     let motion = moved(&mut world);
-    let touching = |world: &World| world.surfaces.as_ref().map(|s| s.contact.nearness().touching);
+    let touching = |world: &World| world.surfaces.as_ref().map(|s| s.contact.summary().touching);
     assert!(touching(&world).is_some_and(|pairs| pairs > 10), "{:?}", touching(&world));
     let step = |(x, v): (&f64, &f64)| x + 0.001 * v;
     let trial: Vec<f64> = motion.positions.iter().zip(&motion.velocities).map(step).collect();

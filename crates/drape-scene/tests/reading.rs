@@ -155,7 +155,7 @@ energy = false
     assert_eq!(names, ["ball", "box 1", "cylinder 1", "plane 1"]);
     assert_eq!((bodies[0].friction, bodies[1].friction), (0.7, 0.25), "its own, or the fabric's");
     let contact = scene.contact.settings();
-    assert!((contact.offset - 0.003).abs() < 1e-15);
+    assert!((contact.activation_distance - 0.003).abs() < 1e-15);
     assert_eq!((contact.stiffness, contact.slip_speed), (1e6, 0.002));
     let clock = scene.clock;
     assert_eq!((clock.step, clock.ticks_per_step, clock.ticks_max), (0.008, 8, 32));

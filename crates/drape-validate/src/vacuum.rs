@@ -98,7 +98,7 @@ fn middle(simulation: &Simulation) -> Vec<[f64; 2]> {
 /// Both experiments.
 pub fn tagawa() -> Result<Findings, ValidationError> {
     let fabric = fabric(TAGAWA)?;
-    let rest = fabric.elastic();
+    let rest = fabric.without_friction();
     let mass = fabric.density * LENGTH * WIDTH;
     let swung = mass * GRAVITY * 0.5 * LENGTH * (1.0 - ANGLE.to_radians().cos());
     // The first mode of a hanging strip, whose bending is small beside its weight.

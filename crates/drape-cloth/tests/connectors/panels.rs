@@ -84,7 +84,7 @@ pub fn mesh(cut: &Cut) -> (Mesh, Vec<u32>) {
     let mesh = Mesh {
         spacing: cut.spacing,
         coordinates: order.iter().map(|&k| cut.yarns[k]).collect(),
-        places: order.iter().filter_map(|&k| cut.lattice[k]).collect(),
+        grid: order.iter().filter_map(|&k| cut.lattice[k]).collect(),
         cells: cut.quads.iter().map(|quad| quad.map(|k| number[k as usize])).collect(),
         triangles: cut.triangles.iter().map(|three| three.map(|k| number[k as usize])).collect(),
     };
@@ -111,7 +111,7 @@ pub fn garment(file: &str) -> (Vec<Lattice>, Vec<Seam>) {
 }
 
 pub fn lattice(cut: &Cut, degrees: f64) -> Lattice {
-    Lattice::with_rim(mesh(cut).0, Grain::from_degrees(degrees)).expect("a panel")
+    Lattice::from_mesh(mesh(cut).0, Grain::from_degrees(degrees)).expect("a panel")
 }
 
 /// A panel of one outline in millimetres, its warp at an angle in degrees from its height.

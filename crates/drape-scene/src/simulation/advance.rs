@@ -58,13 +58,14 @@ impl Simulation {
         }
         let touching = match &self.world.surfaces {
             Some(surfaces) => {
-                let nearness = surfaces.contact.nearness();
+                let nearness = surfaces.contact.summary();
                 self.distance_min = self.distance_min.min(nearness.min_distance);
-                let pinched = surfaces.contact.pinched();
+                let pinched = surfaces.contact.pinched_vertices();
+                let pinched = [pinched.thinned, pinched.released];
                 self.pinched_max = [0, 1].map(|k| self.pinched_max[k].max(pinched[k]));
                 nearness.touching
             }
-            None => self.world.contact.survey(&self.motion.positions).touching,
+            None => self.world.contact.summary(&self.motion.positions).touching,
         };
         self.pairs_max = self.pairs_max.max(touching);
     }

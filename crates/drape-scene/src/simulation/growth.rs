@@ -6,7 +6,7 @@ impl Simulation {
     pub(super) fn judge_growth(&mut self) {
         let Some(surfaces) = &self.world.surfaces else { return };
         if self.status == Status::Ok && surfaces.is_stuck(self.time()) {
-            let part = 100.0 * surfaces.contact.grown();
+            let part = 100.0 * surfaces.contact.growth_fraction();
             let tight = self.tightest().map(|place| format!("; {place}")).unwrap_or_default();
             self.reason = Some(format!(
                 "surfaces came to {part:.2} % of the distances that they keep{tight}"

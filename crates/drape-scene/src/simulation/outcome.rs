@@ -1,4 +1,5 @@
 use drape_cloth::SeamState;
+use drape_collide::PairDistance;
 use drape_implicit::{Error, Stop};
 
 use super::Simulation;
@@ -59,7 +60,7 @@ impl Simulation {
     /// Where surfaces are nearest to what they keep, for people.
     pub(super) fn tightest(&self) -> Option<String> {
         let Surfaces { contact, names, .. } = self.world.surfaces.as_ref()?;
-        let (pair, distance) = contact.tightest()?;
+        let PairDistance { pair, distance } = contact.closest_pair()?;
         let of = |vertex: u32| &names[contact.surface().group(vertex) as usize];
         let [one, other] = [pair.vertices[0], pair.vertices[3]].map(of);
         let first = 3 * pair.vertices.into_iter().min()? as usize;
@@ -68,7 +69,7 @@ impl Simulation {
             "surfaces are nearest to what they keep between \"{one}\" and \"{other}\" near ({x:.4}, {y:.4}, {z:.4}) m, \
              {:.4} of {:.4} mm",
             1e3 * distance,
-            1e3 * pair.separation
+            1e3 * pair.min_separation
         ))
     }
 
@@ -76,13 +77,13 @@ impl Simulation {
         let World { contact, surfaces, state, .. } = &self.world;
         let (min_distance, intersections, crossings_found) = match surfaces {
             Some(surfaces) => {
-                let found = surfaces.contact.intersections(&state.positions);
+                let found = surfaces.contact.intersections_with_released(&state.positions);
                 let crossings = found.map_or(usize::MAX, |found| found.len());
                 (self.distance_min, crossings, surfaces.crossings)
             }
             None => {
-                let survey = contact.survey(&state.positions);
-                (survey.min_distance, survey.inside, 0)
+                let summary = contact.summary(&state.positions);
+                (summary.min_distance, summary.inside, 0)
             }
         };
         Contacts {

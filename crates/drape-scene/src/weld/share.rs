@@ -1,7 +1,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use drape_cloth::Tie;
-use drape_collide::classes;
+use drape_collide::equivalence_classes;
 
 use crate::stitching::Stitching;
 
@@ -77,7 +77,7 @@ pub(super) fn masses_of(places: &[Share], nodes: &[f64]) -> Vec<f64> {
 
 /// Where each node is. The particles are numbered in the order of their first nodes; the nodes of a pair have the same.
 pub(super) fn places_of(nodes: usize, sewn: &Stitching) -> Vec<Share> {
-    let first = classes(nodes, &sewn.pairs);
+    let first = equivalence_classes(nodes, &sewn.pairs);
     let mut tie = vec![None; nodes];
     sewn.ties.iter().for_each(|own| tie[own.particle as usize] = Some(*own));
     let mut count = 0;
@@ -92,8 +92,8 @@ pub(super) fn places_of(nodes: usize, sewn: &Stitching) -> Vec<Share> {
         }
     }
     let place = |node: usize| match tie[node] {
-        Some(Tie { ends, share, .. }) => {
-            Share { particles: ends.map(|end| particle[end as usize]), part: share }
+        Some(Tie { ends, fraction, .. }) => {
+            Share { particles: ends.map(|end| particle[end as usize]), part: fraction }
         }
         None => Share { particles: [particle[node]; 2], part: 0.0 },
     };
@@ -104,7 +104,7 @@ pub(super) fn places_of(nodes: usize, sewn: &Stitching) -> Vec<Share> {
 pub(super) fn chains(places: &[Share], particles: usize) -> Vec<Vec<u32>> {
     let tied: Vec<[u32; 2]> =
         places.iter().filter(|place| place.is_tied()).map(|place| place.particles).collect();
-    let first = classes(particles, &tied);
+    let first = equivalence_classes(particles, &tied);
     let mut chains: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     let joined: BTreeSet<u32> = tied.into_iter().flatten().collect();
     joined.into_iter().for_each(|own| chains.entry(first[own as usize]).or_default().push(own));

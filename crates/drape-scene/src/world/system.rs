@@ -137,10 +137,10 @@ impl System for World {
         if let Some(surfaces) = &mut self.surfaces {
             surfaces.contact.commit(positions);
         }
-        let committed = self.bonds.commit(&self.cloth, &mut self.state, (positions, velocities));
+        let dissipated = self.bonds.commit(&self.cloth, &mut self.state, (positions, velocities));
         if let (Some(ledger), Some(entry)) = (&mut self.ledger, entry) {
             let stored = self.bonds.stored(&self.cloth, &self.state);
-            ledger.enter(&Entry { friction: committed.dissipated, stored, ..entry });
+            ledger.enter(&Entry { friction: dissipated, stored, ..entry });
         }
     }
 }
@@ -160,7 +160,7 @@ impl StepFilter for World {
 
     fn set_obstacle_time(&mut self, time: f64) {
         if let Some(surfaces) = &mut self.surfaces {
-            surfaces.contact.arrive(time);
+            surfaces.contact.set_obstacle_time(time);
         }
     }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use drape_collide::{Body, Outline, Pose, Shape};
+use drape_collide::{Body, Pose, Shape, Triangulation};
 use drape_scene::Simulation;
 
 use crate::sheet::{FLAT, Sheet, apart};
@@ -18,11 +18,11 @@ fn sheet(scene: String) -> Sheet {
     Sheet { side: 0.2, scene, panel: FLAT.into(), ..Sheet::default() }
 }
 
-fn outline(shape: Shape, middle: [f64; 3]) -> Outline {
+fn outline(shape: Shape, middle: [f64; 3]) -> Triangulation {
     Body::new("", shape, Pose::new(middle)).triangulate().unwrap()
 }
 
-fn obj(outline: &Outline) -> String {
+fn obj(outline: &Triangulation) -> String {
     let mut text = String::new();
     outline.vertices.iter().for_each(|[x, y, z]| writeln!(text, "v {x:?} {y:?} {z:?}").unwrap());
     for [a, b, c] in &outline.triangles {
@@ -42,12 +42,12 @@ fn point_cache(samples: &[Vec<[f64; 3]>]) -> Vec<u8> {
     bytes
 }
 
-fn moved(outline: &Outline, way: [f64; 3]) -> Vec<[f64; 3]> {
+fn moved(outline: &Triangulation, way: [f64; 3]) -> Vec<[f64; 3]> {
     outline.vertices.iter().map(|x| [0, 1, 2].map(|axis| x[axis] + way[axis])).collect()
 }
 
 /// A block below the middle of the sheet, whose coordinates and way are fractions of two: exact in 32 bits too.
-fn block() -> (Outline, [f64; 3]) {
+fn block() -> (Triangulation, [f64; 3]) {
     let shape = Shape::Box { half_extents: [0.0625, 0.03125, 0.0625], edge_radius: 0.0 };
     (outline(shape, [0.0, -0.03515625, 0.0]), [0.0078125, 0.015625, 0.0])
 }
@@ -97,7 +97,8 @@ fn a_body_that_changes_its_shape_does_work_that_is_accounted_for() {
     for (number, [wide, high]) in [(8, [1.0, 1.0]), (9, [1.1, 1.2]), (10, [0.9, 1.5])] {
         let vertices =
             ball.vertices.iter().map(|[x, y, z]| [wide * x, high * y, z + 0.3 * (high - 1.0) * y]);
-        let frame = Outline { vertices: vertices.collect(), triangles: ball.triangles.clone() };
+        let frame =
+            Triangulation { vertices: vertices.collect(), triangles: ball.triangles.clone() };
         std::fs::write(folder.path().join(format!("ball {number}.obj")), obj(&frame)).unwrap();
     }
     std::fs::write(folder.path().join("block.obj"), obj(&ball)).unwrap();
@@ -192,7 +193,7 @@ fn the_hash_of_a_scene_tells_its_bodies_apart() {
     let mut hashes = Vec::new();
     for (start, end) in [(0.0, 1.0), (0.0, 0.5), (-0.001, 0.5)] {
         let start = [0.0, start, 0.0];
-        let mesh = Outline { vertices: moved(&block, start), ..block.clone() };
+        let mesh = Triangulation { vertices: moved(&block, start), ..block.clone() };
         std::fs::write(folder.path().join("block.obj"), obj(&mesh)).unwrap();
         let samples = [start, way.map(|x| end * x)].map(|way| moved(&block, way));
         std::fs::write(&cache, point_cache(&samples)).unwrap();

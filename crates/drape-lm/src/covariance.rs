@@ -1,0 +1,327 @@
+//! Standard errors and correlations of the parameters from the linear model at the minimum.
+//!
+//! Takes the report of `minimise`; `profile` builds on it.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::difference::Difference;
+use crate::iterate::Iterate;
+use crate::loss::Loss;
+use crate::minimise::Report;
+use crate::problem::{Parameter, Problem};
+use crate::student::student_quantile;
+
+/// Singular value of the Jacobian, its columns scaled to length one, below which a direction has no
+/// effect.
+///
+/// Central differences are good to ten digits, so anything smaller may be their error. A fit that
+/// needs more has standard errors a thousand million times those of its best parameter, and is no
+/// fit.
+const RANK: f64 = 1e-9;
+/// Component of a parameter in a direction without effect from which on it is undetermined.
+///
+/// In a direction that mixes parameters the components are of order one; rounding mixes in 1e-7 of
+/// the others.
+const COMPONENT: f64 = 1e-3;
+/// Limit on the iterations of the singular value decomposition, far more than it needs.
+const SVD_ITERATIONS: usize = 10_000;
+
+/// Reason why a parameter has no standard error or no interval.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Undetermined {
+    /// It was held fixed.
+    #[error("the parameter is fixed")]
+    Fixed,
+    /// It ended at this bound: the minimum lies beyond, and the error around the bound is not
+    /// symmetric.
+    #[error("the parameter is at its bound {0:e}")]
+    AtBound(f64),
+    /// It can change together with these others (or alone, if there are none) without any effect on
+    /// the residuals: fix one of them, or measure something that separates them.
+    #[error("the data do not separate the parameter from parameters {0:?}")]
+    Unidentifiable(Vec<usize>),
+    /// There are no more residuals than free parameters, or the level is not between 0 and 1.
+    #[error("there are too few residuals, or the level is not between 0 and 1")]
+    NoDegreesOfFreedom,
+    /// The model has no derivative at the minimum.
+    #[error("the model has no derivative at the minimum")]
+    NotFinite,
+}
+
+/// Standard errors and correlations of fitted parameters.
+///
+/// ```math
+/// C = s^2 (J^T J)^{-1}, \qquad s^2 = \frac{\sum_i w_i r_i^2}{n - p}
+/// ```
+///
+/// from the singular values of `$J$`, whose columns are first scaled to length one \[Bat88, §2.2\].
+/// Parameters that are fixed or at a bound are taken as known. Directions without effect are left
+/// out, and the parameters that take part in them have a reason in place of an error. With a robust
+/// loss the variance `$s^2$` is `$K^2\,\frac{\sum\psi^2/(n-p)}{\overline{\psi'}^2}$` with
+/// `$K = 1 + \frac{p}{n}\,\mathrm{var}(\psi')/\overline{\psi'}^2$` \[Hub81, §7.6\].
+///
+/// It holds for residuals that are independent and of one variance after weighting, and for a model
+/// that is nearly linear over the errors; [`profile`](fn@crate::profile) shows where it is not. Where
+/// a model misses its data systematically the errors come out too small.
+///
+/// ```
+/// # use drape_lm::{Covariance, Loss, Parameter, Problem, Settings, minimise};
+/// # struct Mean([f64; 4]);
+/// # impl Problem for Mean {
+/// #     fn residual_count(&self) -> usize { 4 }
+/// #     fn residuals(&self, p: &[f64], out: &mut [f64]) {
+/// #         for (r, y) in out.iter_mut().zip(self.0) { *r = p[0] - y; }
+/// #     }
+/// # }
+/// // The mean of four measurements: its error is their standard deviation over √4.
+/// let problem = Mean([1.0, 2.0, 3.0, 4.0]);
+/// let start = [Parameter::new(0.0)];
+/// let report = minimise(&problem, &start, &Settings::default());
+/// let covariance = Covariance::of(&problem, &start, &report, Loss::Squares);
+/// let error = covariance.standard_error(0)?;
+/// assert!((error - (5.0f64 / 3.0).sqrt() / 2.0).abs() < 1e-9);
+/// # Ok::<(), drape_lm::Undetermined>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Covariance {
+    /// Standard deviation of a residual of weight one, in the unit of the residuals.
+    pub residual_deviation: f64,
+    /// Number of residuals with a weight less the number of parameters that the data determine.
+    pub degrees_of_freedom: usize,
+    /// Reciprocal condition number of the scaled Jacobian of the free parameters, a ratio.
+    pub reciprocal_condition: f64,
+    /// Rise of the sum of the losses, over the variance, where a parameter is one standard error off.
+    rise: f64,
+    /// Standard errors of the parameters if all others were known.
+    conditional: Vec<f64>,
+    matrix: DMatrix<f64>,
+    undetermined: Vec<Option<Undetermined>>,
+}
+
+impl Covariance {
+    /// Computes the covariance at the end of a minimisation with the given loss.
+    #[must_use]
+    pub fn of(
+        problem: &impl Problem,
+        parameters: &[Parameter],
+        report: &Report,
+        loss: Loss,
+    ) -> Self {
+        let n = parameters.len().min(report.parameters.len());
+        let mut covariance = Self {
+            residual_deviation: f64::NAN,
+            degrees_of_freedom: 0,
+            reciprocal_condition: 0.0,
+            rise: 1.0,
+            conditional: vec![0.0; n],
+            matrix: DMatrix::zeros(n, n),
+            undetermined: vec![Some(Undetermined::NotFinite); n],
+        };
+        let parameters = &parameters[..n];
+        let values = &report.parameters[..n];
+        for (j, parameter) in parameters.iter().enumerate() {
+            if parameter.is_fixed() {
+                covariance.undetermined[j] = Some(Undetermined::Fixed);
+            } else if values[j] <= parameter.lower || values[j] >= parameter.upper {
+                covariance.undetermined[j] = Some(Undetermined::AtBound(values[j]));
+            }
+        }
+        let mut iterate = Iterate::new(problem, parameters, values, loss);
+        iterate.difference = Difference::Central;
+        let jacobian = iterate.differentiate().clone();
+        covariance.fill(&jacobian, &iterate.residuals, problem.weights(), loss);
+        covariance
+    }
+
+    fn fill(
+        &mut self,
+        jacobian: &DMatrix<f64>,
+        residuals: &DVector<f64>,
+        weights: &[f64],
+        loss: Loss,
+    ) {
+        let finite = |values: &DMatrix<f64>| values.iter().all(|value| value.is_finite());
+        if !finite(jacobian) || !residuals.iter().all(|r| r.is_finite()) {
+            return;
+        }
+        let free: Vec<usize> = (0..self.undetermined.len())
+            .filter(|&j| self.undetermined[j] == Some(Undetermined::NotFinite))
+            .collect();
+        let norms: Vec<f64> = free.iter().map(|&j| jacobian.column(j).norm()).collect();
+        let mut scaled = jacobian.select_columns(&free);
+        for (mut column, norm) in scaled.column_iter_mut().zip(&norms) {
+            if *norm > 0.0 {
+                column.unscale_mut(*norm);
+            }
+        }
+        // Rows of zeros complete the singular vectors where there are fewer residuals than
+        // parameters.
+        let rows = scaled.nrows().max(free.len());
+        let scaled = scaled.resize_vertically(rows, 0.0);
+        let triangle = if free.is_empty() { scaled } else { scaled.qr().r() };
+        let (mut singular, mut v_t) = (DVector::zeros(0), DMatrix::zeros(0, 0));
+        if !free.is_empty() {
+            let Some(svd) = triangle.try_svd(false, true, f64::EPSILON, SVD_ITERATIONS) else {
+                return;
+            };
+            let Some(vectors) = svd.v_t else { return };
+            (singular, v_t) = (svd.singular_values, vectors);
+            self.reciprocal_condition = singular.min() / singular.max();
+        }
+        let floor = RANK * singular.iter().copied().fold(0.0, f64::max);
+        let effect: Vec<bool> = singular.iter().map(|s| *s > floor).collect();
+        let rank = effect.iter().filter(|effect| **effect).count();
+        let idle = |weight: &&f64| **weight == 0.0;
+        let count = residuals.len() - weights.iter().take(residuals.len()).filter(idle).count();
+        self.degrees_of_freedom = count.saturating_sub(rank);
+        if self.degrees_of_freedom == 0 {
+            for &j in &free {
+                self.undetermined[j] = Some(Undetermined::NoDegreesOfFreedom);
+            }
+            return;
+        }
+        let spread = Spread::of(residuals, Counts { residuals: count, rank }, loss);
+        (self.residual_deviation, self.rise) = (spread.deviation, spread.influence_slope);
+        if !(self.residual_deviation >= 0.0 && self.residual_deviation.is_finite()) {
+            return;
+        }
+        for (error, column) in self.conditional.iter_mut().zip(jacobian.column_iter()) {
+            *error = self.residual_deviation / column.norm();
+        }
+        for (a, &i) in free.iter().enumerate() {
+            for (b, &j) in free.iter().enumerate() {
+                let terms = (0..singular.len()).filter(|&k| effect[k]);
+                let inverse: f64 =
+                    terms.map(|k| v_t[(k, a)] * v_t[(k, b)] / singular[k].powi(2)).sum();
+                self.matrix[(i, j)] =
+                    inverse * self.residual_deviation.powi(2) / (norms[a] * norms[b]);
+            }
+            let mut others = Vec::new();
+            let mut takes_part = false;
+            for k in (0..singular.len()).filter(|&k| !effect[k] && v_t[(k, a)].abs() > COMPONENT) {
+                takes_part = true;
+                let mixed = |&b: &usize| b != a && v_t[(k, b)].abs() > COMPONENT;
+                others.extend((0..free.len()).filter(mixed));
+            }
+            others.sort_unstable();
+            others.dedup();
+            let others = others.into_iter().map(|b| free[b]).collect();
+            self.undetermined[i] = takes_part.then_some(Undetermined::Unidentifiable(others));
+        }
+    }
+
+    /// Returns why a parameter is undetermined; `None` where it is determined.
+    #[must_use]
+    pub fn undetermined(&self, parameter: usize) -> Option<&Undetermined> {
+        self.undetermined.get(parameter)?.as_ref()
+    }
+
+    /// Returns the standard error of a parameter, in its unit.
+    ///
+    /// # Errors
+    /// The reason why it has none.
+    pub fn standard_error(&self, parameter: usize) -> Result<f64, Undetermined> {
+        match self.undetermined.get(parameter) {
+            Some(None) => Ok(self.matrix[(parameter, parameter)].sqrt()),
+            Some(Some(reason)) => Err(reason.clone()),
+            None => Err(Undetermined::Fixed),
+        }
+    }
+
+    /// Returns the covariance of two parameters, in the product of their units; `None` where one is
+    /// undetermined.
+    #[must_use]
+    pub fn covariance(&self, i: usize, j: usize) -> Option<f64> {
+        let known = |k: usize| matches!(self.undetermined.get(k), Some(None));
+        (known(i) && known(j)).then(|| self.matrix[(i, j)])
+    }
+
+    /// Returns the correlation of two parameters, a ratio from −1 to 1; `None` where one is
+    /// undetermined.
+    #[must_use]
+    pub fn correlation(&self, i: usize, j: usize) -> Option<f64> {
+        let covariance = self.covariance(i, j)?;
+        let errors = (self.matrix[(i, i)] * self.matrix[(j, j)]).sqrt();
+        Some(if errors > 0.0 { (covariance / errors).clamp(-1.0, 1.0) } else { f64::from(i == j) })
+    }
+
+    /// Returns the standard error of a parameter if all others were known.
+    ///
+    /// It is never larger than the parameter's own, and exists at a bound too.
+    pub(crate) fn conditional_error(&self, parameter: usize) -> f64 {
+        self.conditional[parameter]
+    }
+
+    /// Returns the rise of the sum of the losses where a parameter is one standard error off and the
+    /// others are fitted again.
+    pub(crate) fn rise_of_one_deviation(&self) -> f64 {
+        self.rise * self.residual_deviation.powi(2)
+    }
+
+    /// Returns half the width of the interval of a parameter at a level such as 0.95, in the
+    /// parameter's unit.
+    ///
+    /// # Errors
+    /// The reason why it has none.
+    pub fn half_width(&self, parameter: usize, level: f64) -> Result<f64, Undetermined> {
+        Ok(self.standard_error(parameter)? * student_quantile(level, self.degrees_of_freedom))
+    }
+
+    /// Returns the standard error of a function of the parameters from its gradient, in the
+    /// function's unit.
+    ///
+    /// # Errors
+    /// The reason why the first parameter that matters and is undetermined has no error. Fixed
+    /// parameters contribute none.
+    pub fn propagated_error(&self, gradient: &[f64]) -> Result<f64, Undetermined> {
+        let mut variance = 0.0;
+        let slopes = || gradient.iter().enumerate().filter(|(_, slope)| **slope != 0.0);
+        for (i, a) in slopes() {
+            match self.standard_error(i) {
+                Ok(_) => {}
+                Err(Undetermined::Fixed) => continue,
+                Err(reason) => return Err(reason),
+            }
+            for (j, b) in slopes() {
+                variance += a * b * self.covariance(i, j).unwrap_or(0.0);
+            }
+        }
+        Ok(variance.max(0.0).sqrt())
+    }
+}
+
+/// Number of residuals with a weight, and rank of the Jacobian.
+#[derive(Clone, Copy)]
+struct Counts {
+    residuals: usize,
+    rank: usize,
+}
+
+/// Spread of the residuals under a loss.
+struct Spread {
+    /// Standard deviation of a residual of weight one.
+    deviation: f64,
+    /// Mean slope of the influence function.
+    influence_slope: f64,
+}
+
+impl Spread {
+    fn of(residuals: &DVector<f64>, counts: Counts, loss: Loss) -> Self {
+        let Counts { residuals: count, rank } = counts;
+        let influence = |r: &f64| (r * loss.weight(*r)).powi(2);
+        let square: f64 = residuals.iter().map(influence).sum();
+        let spread = (square / (count - rank) as f64).sqrt();
+        if loss == Loss::Squares {
+            return Self { deviation: spread, influence_slope: 1.0 };
+        }
+        let slopes = || residuals.iter().map(|r| loss.influence_slope(*r));
+        // Residuals without weight are zero, and would count as one each.
+        let idle = (residuals.len() - count) as f64;
+        let mean = (slopes().sum::<f64>() - idle) / count as f64;
+        let mean_square = (slopes().map(|slope| slope * slope).sum::<f64>() - idle) / count as f64;
+        let variance = mean_square / (mean * mean) - 1.0;
+        let correction = 1.0 + rank as f64 / count as f64 * variance;
+        Self { deviation: correction * spread / mean, influence_slope: mean }
+    }
+}

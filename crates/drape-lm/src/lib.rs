@@ -1,0 +1,36 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! A [`Problem`] and its [`Parameter`]s are the input; [`minimise`] returns a [`Report`].
+//! [`Covariance`], [`profile`] and [`akaike`] take problem and report and judge the result.
+//!
+//! * The problem: `problem`, `linked` (parameters as functions of others), `loss`.
+//! * The minimiser: `difference` (Jacobian by differences) and `trust_region` (a step within a
+//!   radius) serve `iterate` (the current point with its linear model), which `minimise` drives.
+//! * The uncertainty: `covariance`, `profile`, `student` (quantiles), `akaike`.
+
+// The problem.
+mod linked;
+mod loss;
+mod problem;
+// The minimiser.
+mod difference;
+mod iterate;
+mod minimise;
+mod trust_region;
+// The uncertainty of the result.
+mod akaike;
+mod covariance;
+mod profile;
+mod student;
+
+pub use akaike::akaike;
+pub use covariance::{Covariance, Undetermined};
+pub use linked::Linked;
+pub use loss::Loss;
+pub use minimise::{Report, Settings, Stop, minimise};
+pub use nalgebra;
+pub use problem::{Parameter, Problem};
+pub use profile::{End, Interval, ProfileSettings, profile};
+pub use student::student_quantile;

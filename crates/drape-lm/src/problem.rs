@@ -1,0 +1,105 @@
+//! The input of a fit: residuals as a function of parameters, and where each parameter starts.
+//!
+//! Every other module reads a [`Problem`] through this trait.
+
+use nalgebra::DMatrix;
+
+/// Residuals as a function of parameters.
+///
+/// ```
+/// use drape_lm::{Parameter, Problem, Settings, minimise};
+///
+/// /// A straight line through the origin.
+/// struct Line;
+///
+/// impl Problem for Line {
+///     fn residual_count(&self) -> usize { 3 }
+///     fn residuals(&self, p: &[f64], out: &mut [f64]) {
+///         for (r, (x, y)) in out.iter_mut().zip([(1.0, 2.1), (2.0, 3.9), (3.0, 6.0)]) {
+///             *r = p[0] * x - y;
+///         }
+///     }
+/// }
+///
+/// let report = minimise(&Line, &[Parameter::new(1.0)], &Settings::default());
+/// assert!((report.parameters[0] - 27.9 / 14.0).abs() < 1e-12);
+/// ```
+pub trait Problem {
+    /// Number of residuals.
+    fn residual_count(&self) -> usize;
+
+    /// Writes the residuals at the given parameters; not a number where the model has no value.
+    ///
+    /// A trial step with a residual that is not finite is rejected.
+    fn residuals(&self, parameters: &[f64], out: &mut [f64]);
+
+    /// Writes the derivative of residual `i` by parameter `j` into `out[(i, j)]`, if it is known.
+    ///
+    /// Returns `false`, the default, to have the derivatives taken by differences.
+    fn jacobian(&self, _parameters: &[f64], _out: &mut DMatrix<f64>) -> bool {
+        false
+    }
+
+    /// Weight of each squared residual; an empty slice, the default, means one for all.
+    fn weights(&self) -> &[f64] {
+        &[]
+    }
+}
+
+/// Start, bounds and scale of one parameter.
+///
+/// ```
+/// use drape_lm::Parameter;
+///
+/// let length = Parameter::new(0.3).between(1e-3, 10.0);
+/// assert!(!length.is_fixed() && length.fixed().is_fixed());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// Starting value; it is moved inside the bounds.
+    pub start: f64,
+    /// Lower bound.
+    pub lower: f64,
+    /// Upper bound.
+    pub upper: f64,
+    /// Typical size, which sets the difference step where the value is near zero.
+    pub scale: f64,
+}
+
+impl Parameter {
+    /// Creates an unbounded parameter whose scale is the size of its start (one at zero).
+    #[must_use]
+    pub fn new(start: f64) -> Self {
+        let scale = if start == 0.0 { 1.0 } else { start.abs() };
+        Self { start, lower: f64::NEG_INFINITY, upper: f64::INFINITY, scale }
+    }
+
+    /// Returns the parameter with the given bounds.
+    #[must_use]
+    pub fn between(self, lower: f64, upper: f64) -> Self {
+        Self { lower, upper, ..self }
+    }
+
+    /// Returns the parameter with another scale.
+    #[must_use]
+    pub fn with_scale(self, scale: f64) -> Self {
+        Self { scale, ..self }
+    }
+
+    /// Returns the parameter held at its start.
+    #[must_use]
+    pub fn fixed(self) -> Self {
+        self.between(self.start, self.start)
+    }
+
+    /// Returns whether the bounds leave only one value.
+    #[must_use]
+    pub fn is_fixed(&self) -> bool {
+        !(self.lower < self.upper)
+    }
+
+    /// Returns the nearest value within the bounds.
+    pub(crate) fn clamp(&self, value: f64) -> f64 {
+        value.max(self.lower).min(self.upper)
+    }
+}

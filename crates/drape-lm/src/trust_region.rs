@@ -1,0 +1,91 @@
+//! Step of a linear least squares problem within a trust region.
+//!
+//! `iterate` builds a [`TrustRegion`] from the scaled Jacobian and asks it for damping and step.
+
+use nalgebra::linalg::QR;
+use nalgebra::{DMatrix, DVector, Dyn};
+
+/// Relative tolerance on the length of a step against the radius.
+///
+/// The radius itself is only known within a factor of two, so a tenth is enough \[Mor78\].
+const LENGTH_TOLERANCE: f64 = 0.1;
+/// Limit on Newton's iterations for the damping; two or three are usual.
+const DAMPING_ITERATIONS: usize = 60;
+/// Limit on the iterations of the singular value decomposition, far more than it needs.
+const SVD_ITERATIONS: usize = 10_000;
+
+/// Linear model `$\|A z + r\|$` of the residuals in scaled parameters, decomposed once and solved for
+/// any radius.
+///
+/// ```math
+/// z(\lambda) = -V\,\mathrm{diag}\!\left(\frac{\sigma}{\sigma^2 + \lambda}\right) U^T r
+/// ```
+///
+/// with `$A = U\Sigma V^T$`. The condition number is not squared, a loss of rank does no harm, and
+/// another damping `$\lambda$` costs one product with `$V$`.
+pub(crate) struct TrustRegion {
+    /// `$A = QR$`: the singular vectors are those of the triangle.
+    qr: QR<f64, Dyn, Dyn>,
+    u: DMatrix<f64>,
+    singular: DVector<f64>,
+    v_t: DMatrix<f64>,
+}
+
+impl TrustRegion {
+    /// Decomposes a matrix with at least as many rows as columns; `None` where that does not
+    /// converge.
+    pub(crate) fn new(matrix: DMatrix<f64>) -> Option<Self> {
+        let qr = matrix.qr();
+        let svd = qr.r().try_svd(true, true, f64::EPSILON, SVD_ITERATIONS)?;
+        Some(Self { qr, u: svd.u?, singular: svd.singular_values, v_t: svd.v_t? })
+    }
+
+    /// Returns the residuals in the basis of the left singular vectors.
+    pub(crate) fn project(&self, residuals: &DVector<f64>) -> DVector<f64> {
+        let mut rotated = residuals.clone();
+        self.qr.q_tr_mul(&mut rotated);
+        self.u.tr_mul(&rotated.rows(0, self.u.nrows()))
+    }
+
+    /// Returns the damping at which the step is as long as the radius, zero where the undamped step
+    /// is shorter.
+    pub(crate) fn damping(&self, projected: &DVector<f64>, radius: f64) -> f64 {
+        let floor = self.floor();
+        let terms = || {
+            let pairs = self.singular.iter().zip(projected.iter());
+            pairs.filter(move |(s, _)| **s > floor)
+        };
+        let mut damping = 0.0;
+        for _ in 0..DAMPING_ITERATIONS {
+            let (mut length, mut slope) = (0.0, 0.0);
+            for (s, g) in terms() {
+                let term = s * s + damping;
+                length += (s * g / term).powi(2);
+                slope += (s * g / term).powi(2) / term;
+            }
+            let length = length.sqrt();
+            if !(length > radius * (1.0 + LENGTH_TOLERANCE)) {
+                break;
+            }
+            // Newton's step for 1/length, which is nearly linear in the damping: it converges from
+            // below without overshooting.
+            damping += length * length / slope * (length - radius) / radius;
+        }
+        damping
+    }
+
+    /// Returns the step for a damping.
+    pub(crate) fn step(&self, projected: &DVector<f64>, damping: f64) -> DVector<f64> {
+        let floor = self.floor();
+        let mut rotated = projected.clone();
+        for (g, s) in rotated.iter_mut().zip(self.singular.iter()) {
+            *g = if *s > floor { -*g * s / (s * s + damping) } else { 0.0 };
+        }
+        self.v_t.tr_mul(&rotated)
+    }
+
+    /// Returns the singular value below which only rounding is left.
+    fn floor(&self) -> f64 {
+        self.singular.max() * f64::EPSILON
+    }
+}

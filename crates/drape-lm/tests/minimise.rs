@@ -1,0 +1,191 @@
+//! The minimiser against problems whose minima are known by other means.
+
+use drape_lm::{Parameter, Problem, Settings, Stop, minimise};
+use nalgebra::{DMatrix, DVector};
+
+/// Problem from a function of the parameters.
+struct Model<F> {
+    count: usize,
+    weights: Vec<f64>,
+    residuals: F,
+}
+
+impl<F: Fn(&[f64], &mut [f64])> Problem for Model<F> {
+    fn residual_count(&self) -> usize {
+        self.count
+    }
+    fn residuals(&self, parameters: &[f64], out: &mut [f64]) {
+        (self.residuals)(parameters, out);
+    }
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+}
+
+fn model<F: Fn(&[f64], &mut [f64])>(count: usize, residuals: F) -> Model<F> {
+    Model { count, weights: Vec::new(), residuals }
+}
+
+fn starts(values: &[f64]) -> Vec<Parameter> {
+    values.iter().map(|&value| Parameter::new(value)).collect()
+}
+
+#[test]
+fn rosenbrocks_valley_is_followed_to_its_end() {
+    let valley = model(2, |p, r| {
+        r[0] = 10.0 * (p[1] - p[0] * p[0]);
+        r[1] = 1.0 - p[0];
+    });
+    let report = minimise(&valley, &starts(&[-1.2, 1.0]), &Settings::default());
+    assert!(report.stop.converged(), "{report:?}");
+    for value in &report.parameters {
+        assert!((value - 1.0).abs() < 1e-10, "{report:?}");
+    }
+}
+
+#[test]
+fn powells_singular_problem_is_solved_as_far_as_its_singularity_allows() {
+    // The Jacobian loses rank at the minimum (0, 0, 0, 0): convergence there is linear, not quadratic.
+    let singular = model(4, |p, r| {
+        r[0] = p[0] + 10.0 * p[1];
+        r[1] = 5f64.sqrt() * (p[2] - p[3]);
+        r[2] = (p[1] - 2.0 * p[2]).powi(2);
+        r[3] = 10f64.sqrt() * (p[0] - p[3]).powi(2);
+    });
+    let report = minimise(&singular, &starts(&[3.0, -1.0, 0.0, 1.0]), &Settings::default());
+    assert!(report.rms < 1e-12, "{report:?}");
+    assert!(report.parameters.iter().all(|value| value.abs() < 1e-5), "{report:?}");
+}
+
+#[test]
+fn a_linear_fit_with_weights_solves_the_normal_equations() {
+    let x: Vec<f64> = (0..20).map(|i| f64::from(i) / 10.0).collect();
+    let y: Vec<f64> =
+        x.iter().enumerate().map(|(i, x)| 3.0 - 2.0 * x + ((i * 7) % 5) as f64).collect();
+    let weights: Vec<f64> = (0..20).map(|i| 1.0 + f64::from(i % 3)).collect();
+    let line = Model {
+        count: 20,
+        weights: weights.clone(),
+        residuals: |p: &[f64], r: &mut [f64]| {
+            for ((r, x), y) in r.iter_mut().zip(&x).zip(&y) {
+                *r = p[0] + p[1] * x - y;
+            }
+        },
+    };
+    let report = minimise(&line, &starts(&[0.0, 0.0]), &Settings::default());
+    let a = DMatrix::from_fn(20, 2, |i, j| if j == 0 { 1.0 } else { x[i] });
+    let w = DMatrix::from_diagonal(&DVector::from_vec(weights));
+    let normal = a.transpose() * &w * &a;
+    let right = a.transpose() * &w * DVector::from_vec(y.clone());
+    let exact = normal.lu().solve(&right).expect("two distinct abscissae");
+    for (found, exact) in report.parameters.iter().zip(exact.iter()) {
+        assert!((found - exact).abs() < 1e-9, "{found} against {exact}: {report:?}");
+    }
+}
+
+#[test]
+fn a_bound_holds_and_the_others_still_reach_their_conditional_minimum() {
+    // Least squares of (p − 3, p + q − 5, q − 4): p = 7/3, q = 10/3; with p ≤ 2, q = (5 − 2 + 4)/2 = 3.5.
+    let plane = model(3, |p, r| {
+        r[0] = p[0] - 3.0;
+        r[1] = p[0] + p[1] - 5.0;
+        r[2] = p[1] - 4.0;
+    });
+    let free = minimise(&plane, &starts(&[0.0, 0.0]), &Settings::default());
+    assert!((free.parameters[0] - 7.0 / 3.0).abs() < 1e-9, "{free:?}");
+    let bounded = [Parameter::new(0.0).between(-1.0, 2.0), Parameter::new(0.0)];
+    let report = minimise(&plane, &bounded, &Settings::default());
+    assert_eq!(report.parameters[0], 2.0);
+    assert!((report.parameters[1] - 3.5).abs() < 1e-9, "{report:?}");
+    assert!(report.stop.converged(), "{report:?}");
+}
+
+#[test]
+fn a_start_at_a_bound_leaves_it_when_the_minimum_is_inside() {
+    let decay = model(30, |p, r| {
+        for (i, r) in r.iter_mut().enumerate() {
+            let t = i as f64 / 10.0;
+            *r = p[0] * (-t / p[1]).exp() - 2.0 * (-t / 0.7).exp();
+        }
+    });
+    let start = [Parameter::new(0.0).between(0.0, 10.0), Parameter::new(5.0).between(0.1, 5.0)];
+    let report = minimise(&decay, &start, &Settings::default());
+    assert!((report.parameters[0] / 2.0 - 1.0).abs() < 1e-8, "{report:?}");
+    assert!((report.parameters[1] / 0.7 - 1.0).abs() < 1e-8, "{report:?}");
+}
+
+#[test]
+fn units_of_the_parameters_do_not_matter() {
+    let solve = |unit: f64| {
+        let power = model(20, move |p, r| {
+            for (i, r) in r.iter_mut().enumerate() {
+                let x = 1.0 + i as f64 / 5.0;
+                *r = p[0] * x.powf(p[1] * unit) - 3.0 * x.powf(0.6);
+            }
+        });
+        let report = minimise(&power, &starts(&[1.0, 1.0 / unit]), &Settings::default());
+        (report.parameters[0], report.parameters[1] * unit, report.iterations)
+    };
+    let (a, b, steps) = solve(1.0);
+    let (c, d, other) = solve(1e9);
+    assert!((a - 3.0).abs() < 1e-9 && (b - 0.6).abs() < 1e-9, "{a} {b}");
+    assert!((a - c).abs() < 1e-9 && (b - d).abs() < 1e-9, "{a} {b} against {c} {d}");
+    assert_eq!(steps, other);
+}
+
+#[test]
+fn a_trial_without_a_value_is_refused_and_the_search_goes_on() {
+    // The full first step from 0.1 would take the logarithm of a negative number.
+    let log = model(1, |p, r| r[0] = p[0].ln());
+    let report = minimise(&log, &starts(&[4.0]), &Settings::default());
+    assert!((report.parameters[0] - 1.0).abs() < 1e-9, "{report:?}");
+    let report = minimise(&log, &starts(&[-1.0]), &Settings::default());
+    assert_eq!(report.stop, Stop::NotFinite);
+}
+
+#[test]
+fn a_minimum_at_a_jump_is_no_convergence() {
+    // The residual jumps at its minimum: no step, however short, achieves the predicted
+    // reduction.
+    let jump = model(1, |p, r| r[0] = if p[0] > 0.3 { 1.0 + p[0] } else { 5.0 });
+    let report = minimise(&jump, &starts(&[2.0]), &Settings::default());
+    assert_eq!(report.stop, Stop::Stalled, "{report:?}");
+    assert!(!report.stop.converged());
+    // Within the difference step of the jump the slope is that of the jump, and leads away from it.
+    assert!((report.parameters[0] - 0.3).abs() < 1e-5, "{report:?}");
+}
+
+#[test]
+fn a_parameter_without_effect_stays_where_it_started() {
+    let first = model(2, |p, r| {
+        r[0] = p[0] - 1.0;
+        r[1] = 2.0 * p[0] - 2.0;
+    });
+    let report = minimise(&first, &starts(&[0.0, 7.0]), &Settings::default());
+    assert!((report.parameters[0] - 1.0).abs() < 1e-12, "{report:?}");
+    assert_eq!(report.parameters[1], 7.0);
+}
+
+#[test]
+fn an_analytic_jacobian_and_differences_end_at_the_same_place() {
+    struct Analytic;
+    impl Problem for Analytic {
+        fn residual_count(&self) -> usize {
+            2
+        }
+        fn residuals(&self, p: &[f64], r: &mut [f64]) {
+            r[0] = 10.0 * (p[1] - p[0] * p[0]);
+            r[1] = 1.0 - p[0];
+        }
+        fn jacobian(&self, p: &[f64], out: &mut DMatrix<f64>) -> bool {
+            out.copy_from_slice(&[-20.0 * p[0], -1.0, 10.0, 0.0]);
+            true
+        }
+    }
+    let report = minimise(&Analytic, &starts(&[-1.2, 1.0]), &Settings::default());
+    assert!(report.stop.converged(), "{report:?}");
+    assert!(report.parameters.iter().all(|value| (value - 1.0).abs() < 1e-12), "{report:?}");
+    // With an analytic Jacobian each iteration costs one evaluation, or two with the second-order
+    // correction; the start and the polish steps cost one each.
+    assert!(report.evaluations <= 2 * report.iterations + 3, "{report:?}");
+}

@@ -1,0 +1,56 @@
+//! Linked parameters against the same problems without links.
+
+use drape_lm::{Covariance, Linked, Loss, Problem, Settings, minimise};
+use nalgebra::DMatrix;
+
+use crate::{line, model, starts};
+
+#[test]
+fn linked_parameters_follow_and_pass_their_errors_on() {
+    // The line with its slope a function of its intercept, linked and substituted.
+    let problem = line(&[]);
+    let linked = Linked::new(&problem).linked(1, |p| -p[0] * p[0] / 20.0);
+    let parameters = linked.parameters(&starts(&[2.0, 7.0]));
+    assert_eq!(parameters[1].start, -0.2);
+    let settings = Settings::default();
+    let report = minimise(&linked, &parameters, &settings);
+    let written = model(22, |p: &[f64], r: &mut [f64]| {
+        line(&[]).residuals(&[p[0], -p[0] * p[0] / 20.0], r);
+    });
+    let other = minimise(&written, &starts(&[2.0]), &settings);
+    assert!((report.parameters[0] - other.parameters[0]).abs() < 1e-8);
+    let all = linked.complete(&report.parameters);
+    let covariance = Covariance::of(&linked, &parameters, &report, Loss::Squares);
+    let one = Covariance::of(&written, &starts(&[2.0]), &other, Loss::Squares);
+    assert_eq!(covariance.degrees_of_freedom, one.degrees_of_freedom);
+    let slope =
+        covariance.propagated_error(&linked.gradient(1, &report.parameters)).expect("determined");
+    let exact = one.standard_error(0).expect("determined") * all[0].abs() / 10.0;
+    assert!((slope / exact - 1.0).abs() < 1e-6, "{slope} against {exact}");
+}
+
+#[test]
+fn the_chain_rule_serves_analytic_derivatives_through_a_link() {
+    struct Line;
+    impl Problem for Line {
+        fn residual_count(&self) -> usize {
+            22
+        }
+        fn residuals(&self, p: &[f64], r: &mut [f64]) {
+            line(&[]).residuals(p, r);
+        }
+        fn jacobian(&self, _: &[f64], out: &mut DMatrix<f64>) -> bool {
+            for i in 0..22 {
+                (out[(i, 0)], out[(i, 1)]) = (1.0, i as f64);
+            }
+            true
+        }
+    }
+    let linked = Linked::new(&Line).scaled(1, 0, -0.2);
+    let mut exact = DMatrix::zeros(22, 2);
+    assert!(linked.jacobian(&[3.0, 99.0], &mut exact));
+    for i in 0..22 {
+        let slope = 1.0 - 0.2 * i as f64;
+        assert!((exact[(i, 0)] - slope).abs() < 1e-9 && exact[(i, 1)] == 0.0);
+    }
+}

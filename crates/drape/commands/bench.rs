@@ -1,0 +1,211 @@
+//! `drape bench`: times the solver on a square metre of cloth, hung as a curtain and in a violent
+//! swing.
+
+use std::fmt::Write;
+
+use clap::Args;
+use drape::input::Document;
+use drape::scene::{Scene, Simulation, Summary};
+use serde_json::json;
+
+use crate::failure::Failure;
+use crate::progress;
+use crate::say::say;
+
+#[derive(Args)]
+pub(crate) struct BenchArguments {
+    /// Particles along a side of the square, one run each.
+    #[arg(long, value_delimiter = ',', default_value = "20,50,100", value_name = "N,…")]
+    sizes: Vec<usize>,
+    /// Number of threads.
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    pub(crate) threads: usize,
+    /// Length of a step, in seconds.
+    #[arg(long, default_value_t = 0.005, value_name = "SECONDS")]
+    step: f64,
+    /// Simulated time, in seconds.
+    #[arg(long, default_value_t = 1.0, value_name = "SECONDS")]
+    until: f64,
+    /// Simulates in air, whose drag damps the swing, instead of in a vacuum.
+    #[arg(long)]
+    air: bool,
+    /// Prints the results as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Fabric of the cloth: plain weave of 200 g/m² with friction in every law.
+const FABRIC: &str = r#"name = "bench"
+density = 0.2
+thickness = 0.0004
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
+traction.friction = [{ plateau = 4.0, length = 0.001 }]
+bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4.0 }] }
+[weft]
+traction.primed = { stiffness = 5000, toe_ratio = 0.6, toe_strain = 0.015, toe_strain_after = 0.02 }
+traction.friction = [{ plateau = 4.0, length = 0.001 }]
+bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4.0 }] }
+[shear]
+stiffness = 50.0
+friction = [{ plateau = 0.5, length = 0.004 }]
+"#;
+
+/// A motion of the square metre, which is held at two corners.
+struct Motion {
+    name: &'static str,
+    /// Keys of the panel that start it.
+    start: &'static str,
+}
+
+const MOTIONS: [Motion; 2] = [
+    Motion { name: "curtain", start: "ripple = { amplitude = 0.005, wavelength = 0.25 }" },
+    Motion { name: "swing", start: "turn = [-90, 0, 0]" },
+];
+
+/// One run of a motion.
+struct Run {
+    motion: &'static str,
+    size: usize,
+    summary: Summary,
+}
+
+impl Run {
+    /// Returns the processor time per simulated second, or the elapsed time where the system does
+    /// not measure that.
+    fn load(&self) -> f64 {
+        let Summary { cpu_seconds, wall_seconds, simulated_seconds, .. } = &self.summary;
+        cpu_seconds.unwrap_or(*wall_seconds) / simulated_seconds
+    }
+
+    /// Returns the time per step, in ms.
+    fn step_milliseconds(&self) -> f64 {
+        1e3 * self.load() * self.summary.simulated_seconds / self.summary.steps as f64
+    }
+
+    /// Returns the number of linear iterations per step.
+    fn linear(&self) -> f64 {
+        self.summary.solver.linear_iterations as f64 / self.summary.steps as f64
+    }
+}
+
+/// Executes `drape bench`.
+pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), Failure> {
+    let BenchArguments { sizes, step, until, .. } = arguments;
+    let usage = |message: String| Err(Failure::Usage(message));
+    if let Some(size) = sizes.iter().find(|size| !(3..=1000).contains(*size)) {
+        return usage(format!("--sizes {size}: from 3 to 1000 particles along a side"));
+    }
+    if !(*step >= 1e-5 && *step <= 0.1 && *until >= *step && *until <= 1e3) {
+        return usage(format!("--step {step} --until {until}: seconds, one step at least"));
+    }
+    let length = (MOTIONS.len() * sizes.len() * 1000) as u64;
+    let bar = progress::bar(length, "{percent} %, {eta} left  {msg}");
+    let mut runs = Vec::new();
+    for Motion { name, start } in MOTIONS {
+        for &size in sizes {
+            bar.set_message(format!("{name}, {size} × {size}"));
+            let base = (runs.len() * 1000) as u64;
+            let done = |part: f64| bar.set_position(base + (1000.0 * part) as u64);
+            let summary = run(start, size, arguments, &done)?;
+            runs.push(Run { motion: name, size, summary });
+        }
+    }
+    bar.finish_and_clear();
+    say(if arguments.json { as_json(&runs, arguments) } else { table(&runs, arguments) })
+}
+
+fn run(
+    start: &str,
+    size: usize,
+    &BenchArguments { step, until, air, .. }: &BenchArguments,
+    done: &dyn Fn(f64),
+) -> Result<Summary, Failure> {
+    let air = if air { "" } else { "air.density = 0.0" };
+    let spacing = 1.0 / (size as f64 - 1.0);
+    let text = format!(
+        "name = \"bench\"\nspacing = {spacing}\n{air}\n\
+         contact.surfaces = false\nfabric.bench.file = \"bench.toml\"\n\
+         [[panel]]\nname = \"sheet\"\nfabric = \"bench\"\nrectangle = [1.0, 1.0]\n{start}\n\
+         [[pin]]\npanel = \"sheet\"\npoints = [[0, 1], [1, 1]]\n\
+         [time]\nstep = {step:?}\nend = {until:?}\n[output]\nevery = {until:?}\nenergy = false\n"
+    );
+    let fabric = Document::new("bench.toml", FABRIC);
+    let scene = Scene::from_documents(&Document::new("scene.toml", text), &[fabric])?;
+    let mut simulation = Simulation::new(scene)?;
+    loop {
+        let step = simulation.step().map_err(|error| Failure::Solver(error.to_string()))?;
+        done(step.time / until);
+        if step.finished {
+            return Ok(simulation.summary());
+        }
+    }
+}
+
+fn table(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> String {
+    let mut text = format!(
+        "A square metre of 0.2 kg/m², 5000 N/m, friction in every law, held at two corners {};\n\
+         steps of {} ms, tolerance 1e-4 g, {} threads.\n\n\
+         motion    particles  ms/step  iterations  linear  rejected  CPU s per simulated s\n",
+        if air { "in air" } else { "in a vacuum" },
+        1e3 * step,
+        runs[0].summary.threads
+    );
+    for run in runs {
+        let Summary { particles, solver, .. } = &run.summary;
+        let _ = writeln!(
+            text,
+            "{:8} {particles:10} {:8.2} {:11.1} {:7.0} {:9} {:22.3}",
+            run.motion,
+            run.step_milliseconds(),
+            solver.iterations_mean,
+            run.linear(),
+            solver.rejected_steps,
+            run.load()
+        );
+    }
+    for Growth { motion, exponent } in growths(runs) {
+        let _ = writeln!(text, "{motion} grows like N^{exponent:.2}");
+    }
+    text.trim_end().to_owned()
+}
+
+fn as_json(runs: &[Run], &BenchArguments { step, air, .. }: &BenchArguments) -> String {
+    let rows = runs.iter().map(|run| {
+        json!({
+            "motion": run.motion,
+            "size": run.size,
+            "particles": run.summary.particles,
+            "step_milliseconds": run.step_milliseconds(),
+            "cpu_per_simulated_second": run.load(),
+            "summary": run.summary,
+        })
+    });
+    let growth: serde_json::Map<_, _> =
+        growths(runs).into_iter().map(|g| (g.motion.to_owned(), g.exponent.into())).collect();
+    let rows = rows.collect::<Vec<_>>();
+    let all = json!({ "step": step, "air": air, "runs": rows, "growth_exponent": growth });
+    serde_json::to_string_pretty(&all).expect("numbers and words always have a JSON form")
+}
+
+/// Growth of the processor time of a motion with the number of particles.
+struct Growth {
+    motion: &'static str,
+    /// Exponent of the number of particles, by least squares of the logarithms.
+    exponent: f64,
+}
+
+/// Returns the growth of each motion that has two sizes or more.
+fn growths(runs: &[Run]) -> Vec<Growth> {
+    let growth = |motion: &'static str| {
+        let points = runs.iter().filter(|run| run.motion == motion);
+        let points: Vec<[f64; 2]> =
+            points.map(|run| [(run.summary.particles as f64).ln(), run.load().ln()]).collect();
+        let mean = |axis: usize| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64;
+        let (x, y) = (mean(0), mean(1));
+        let spread: f64 = points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum();
+        let slope: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
+        (spread > 0.0).then_some(Growth { motion, exponent: slope / spread })
+    };
+    MOTIONS.iter().filter_map(|motion| growth(motion.name)).collect()
+}

@@ -1,0 +1,149 @@
+//! Contents of scenes, fabrics and sheets in words and SI units.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
+use drape::input::{Diagnostic, Diagnostics, Document};
+use drape::scene::{Scene, SceneError};
+
+use super::pattern::CutOut;
+use crate::commands::sheets;
+
+/// Reads a file and describes it, in SI; a pattern as it is cut at a spacing, in m.
+pub(crate) fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics> {
+    if file.is_dir() {
+        return sheet(file);
+    }
+    if file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
+        return Ok(CutOut::read(file, spacing)?.describe());
+    }
+    let document = Document::read(file)?;
+    let table: toml::Table = document.decode()?;
+    let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
+    // The panels of a pattern have names, those of a scene are in a row.
+    if matches!(table.get("panel"), Some(toml::Value::Table(_))) {
+        return Ok(CutOut::read(file, spacing)?.describe());
+    }
+    if has(&["panel", "garment", "time", "collider"]) {
+        let read = Scene::read(file).map_err(|error| match error {
+            SceneError::Input(mistakes) => mistakes,
+            SceneError::Tangled(tangle) => tangle.mistakes,
+            other => Diagnostic::new(file, other.to_string()).into(),
+        });
+        Ok(scene(&read?))
+    } else if has(&["density", "shear"]) {
+        Ok(fabric(&Fabric::from_document(&document)?))
+    } else {
+        sheet(file)
+    }
+}
+
+fn scene(scene: &Scene) -> String {
+    let mass: f64 = scene.cloth.masses().iter().sum();
+    let area: f64 = scene.cloth.areas().iter().sum();
+    let mut text = format!(
+        "scene \"{}\", {} particles, {area:.4} m², {mass:.4} kg, {} held, {} bodies, \
+         steps of {} s to {} s\n",
+        scene.name,
+        scene.cloth.particles(),
+        scene.held.iter().filter(|held| **held).count(),
+        scene.contact.bodies().len(),
+        scene.clock.step,
+        scene.clock.end
+    );
+    for panel in &scene.panels {
+        let [across, along] = panel.lattice.spacing;
+        let material = &scene.materials[panel.material];
+        let layer = match panel.layer {
+            0 => String::new(),
+            layer => format!("layer {layer}, "),
+        };
+        let _ = writeln!(
+            text,
+            "  panel \"{}\": {layer}{} particles, spacing {across:.5} × {along:.5} m, of {}",
+            panel.name,
+            panel.lattice.coordinates.len(),
+            material.file.display()
+        );
+    }
+    if let Some(sewing) = &scene.sewing {
+        for seam in &sewing.seams {
+            let gaps: Vec<f64> = seam.stitching.gaps(&scene.positions).collect();
+            let _ = writeln!(
+                text,
+                "  seam \"{}\": {} stitches, open by {:.1} mm, {:.1} mm at most",
+                seam.name,
+                gaps.len(),
+                1e3 * gaps.iter().sum::<f64>() / gaps.len().max(1) as f64,
+                1e3 * gaps.iter().fold(0.0, |a: f64, b| a.max(*b))
+            );
+        }
+    }
+    scene.notes.iter().for_each(|note| {
+        let _ = writeln!(text, "  note: {note}");
+    });
+    scene.materials.iter().for_each(|material| text += &indent(&fabric(&material.fabric)));
+    text
+}
+
+fn fabric(fabric: &Fabric) -> String {
+    let mut text = format!(
+        "fabric \"{}\": {} kg/m², {} m thick\n",
+        fabric.name, fabric.density, fabric.thickness
+    );
+    for (name, direction) in [("warp", &fabric.warp), ("weft", &fabric.weft)] {
+        let stretch = match direction.traction.backbone {
+            TractionBackbone::Primed(p) => {
+                format!("{:.4e} N/m after a toe of {:.2} %", p.stiffness, 100.0 * p.toe_strain)
+            }
+            TractionBackbone::Polynomial(p) => {
+                format!("{:.4e} ε² + {:.4e} ε⁴ N/m", p.quadratic, p.quartic)
+            }
+        };
+        let rigidity = match direction.bending.backbone {
+            BendingBackbone::Linear { rigidity } => rigidity,
+            BendingBackbone::Piecewise(piecewise) => piecewise.slope,
+        };
+        let _ = writeln!(
+            text,
+            "  {name}: traction {stretch}, friction {:.3e} N/m; bending {rigidity:.4e} N·m, \
+             friction {:.3e} N",
+            direction.traction.friction.plateau(),
+            direction.bending.friction.plateau()
+        );
+    }
+    let stiffness = match fabric.shear.backbone {
+        ShearBackbone::Linear { stiffness } => stiffness,
+        ShearBackbone::Piecewise(piecewise) => piecewise.slope,
+    };
+    let plateau = fabric.shear.friction.plateau();
+    let _ = writeln!(text, "  shear {stiffness:.4e} N/m, friction {plateau:.3e} N/m");
+    text
+}
+
+fn sheet(file: &Path) -> Result<String, Diagnostics> {
+    let sheet = sheets::read(file)?;
+    let density = sheet.density().map_or("no".into(), |w| format!("{w}"));
+    let mut text =
+        format!("sheet \"{}\": {density} kg/m², {} curves\n", sheet.name, sheet.curves.len());
+    for curve in &sheet.curves {
+        let ((low, high), (least, most)) = (curve.deformation_range(), curve.load_range());
+        let _ = writeln!(
+            text,
+            "  {} {}: {} points, deformation {low:.4e} to {high:.4e}, load {least:.4e} to \
+             {most:.4e}",
+            curve.test.name(),
+            curve.direction.name(),
+            curve.deformation().len()
+        );
+    }
+    sheet.warnings().iter().for_each(|warning| {
+        let _ = writeln!(text, "  warning: {warning}");
+    });
+    Ok(text)
+}
+
+fn indent(text: &str) -> String {
+    text.lines().fold(String::new(), |all, line| all + "  " + line + "\n")
+}

@@ -1,0 +1,127 @@
+//! Frames of runs, read and verified pair by pair.
+
+use std::path::{Path, PathBuf};
+
+use drape::verify::{PartNumber, Place, Recording, Verdict};
+use serde_json::json;
+
+use crate::failure::Failure;
+use crate::say::say;
+
+/// Returns whether a folder was written by a run, complete or not.
+pub(crate) fn is_run(path: &Path) -> bool {
+    let has = |name: &str| path.join(name).exists();
+    Recording::is_one(path) || has("frame-00000.obj") || has("summary.json")
+}
+
+/// Verifies every frame of the folders; fails after the last if one does not hold.
+pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
+    let mut broken = Vec::new();
+    let mut found = Vec::new();
+    for folder in folders {
+        let recording = Recording::open(folder)?;
+        if !json {
+            say(headline(folder, &recording))?;
+        }
+        let mut verdicts = Vec::new();
+        for number in 0..recording.frames() {
+            let verdict = recording.verify(number)?;
+            if !json {
+                say(describe(&recording, &verdict))?;
+            }
+            if !verdict.holds() {
+                broken.push(verdict.file.clone());
+            }
+            verdicts.push(verdict);
+        }
+        let holds = verdicts.iter().all(Verdict::holds);
+        let (guarded, ended) = (recording.manifest().guarded, recording.ended());
+        let names = |part: &drape::verify::Part| part.name.clone();
+        found.push(json!({
+            "folder": folder, "holds": holds, "guarded": guarded, "ended": ended,
+            "panels": recording.manifest().panels.iter().map(names).collect::<Vec<_>>(),
+            "bodies": recording.manifest().bodies.iter().map(names).collect::<Vec<_>>(),
+            "frames": verdicts,
+        }));
+    }
+    if json {
+        let found = serde_json::to_string_pretty(&found);
+        say(found.expect("verdicts always have a JSON form"))?;
+    }
+    match broken.first() {
+        None => Ok(()),
+        Some(first) => Err(Failure::Certificate(format!(
+            "surfaces intersect or are too close in {} frames, first in {}",
+            broken.len(),
+            first.display()
+        ))),
+    }
+}
+
+fn headline(folder: &Path, recording: &Recording) -> String {
+    let manifest = recording.manifest();
+    let promise = match manifest.guarded {
+        true => "the run kept surfaces apart",
+        false => {
+            "contact was of particles only, so surfaces may intersect (contact.surfaces = false)"
+        }
+    };
+    let end = if recording.ended() { "" } else { "; the run is incomplete" };
+    format!(
+        "{}: {} frames of {} panels and {} bodies, {} triangles; {promise}{end}",
+        folder.display(),
+        recording.frames(),
+        manifest.panels.len(),
+        manifest.bodies.len(),
+        recording.mesh().triangles()
+    )
+}
+
+fn describe(recording: &Recording, verdict: &Verdict) -> String {
+    let millimetres = |distance: f64| format!("{:.4} mm", 1e3 * distance);
+    let mut text = format!(
+        "frame {:>5}{}: {} triangles, {} pairs, {} intersections, smallest distance {}",
+        verdict.number,
+        verdict.time.map_or(String::new(), |time| format!(" at {time:.4} s")),
+        verdict.triangles,
+        verdict.pairs,
+        verdict.intersections,
+        verdict.min_distance.map_or("beyond the activation distance".to_owned(), millimetres),
+    );
+    if verdict.grown < 1.0 {
+        text += &format!(", minimum separations grown to {:.2} %", 100.0 * verdict.grown);
+    }
+    for (count, what) in [
+        (verdict.too_near, "pairs closer than the minimum separation"),
+        (verdict.degenerate, "triangles without area"),
+    ] {
+        if count > 0 {
+            text += &format!(", {count} {what}");
+        }
+    }
+    let shown = if verdict.holds() { 1 } else { verdict.worst.len() };
+    for place in verdict.worst.iter().take(shown) {
+        text += &format!("\n  {}", describe_place(recording, place));
+    }
+    text
+}
+
+fn describe_place(recording: &Recording, place: &Place) -> String {
+    let manifest = recording.manifest();
+    let name = |part: PartNumber| match part {
+        PartNumber::Panel(number) => &manifest.panels[number].name,
+        PartNumber::Body(number) => &manifest.bodies[number].name,
+    };
+    let [x, y, z] = place.place;
+    let [one, other] =
+        [0, 1].map(|k| format!("triangle {} of \"{}\"", place.triangles[k], name(place.parts[k])));
+    let how = match place.distance {
+        0.0 => "intersect".to_owned(),
+        distance => format!(
+            "are {:.4} mm apart, where {:.4} mm is the minimum,",
+            1e3 * distance,
+            1e3 * place.kept
+        ),
+    };
+    format!("{one} and {other} {how} near ({x:.5}, {y:.5}, {z:.5}) m")
+}

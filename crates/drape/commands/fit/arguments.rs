@@ -1,0 +1,95 @@
+//! Arguments of `drape fit`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use drape::fit::{FrictionOrder, Intervals, LoopModel, Settings, TractionModel};
+
+#[derive(Args)]
+pub(crate) struct FitArguments {
+    /// Sheets, TOML files, or folders: one with a sheet.toml, or one with such folders inside.
+    #[arg(required = true, value_name = "SHEET")]
+    pub(crate) sheets: Vec<PathBuf>,
+    /// The fabric to write, or the folder for several [default: fabric.toml beside each sheet].
+    #[arg(short, long, value_name = "FABRIC.toml")]
+    pub(crate) output: Option<PathBuf>,
+    /// Folder for a report with plots, one HTML page per sheet.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) report: Option<PathBuf>,
+    /// Replaces fabrics that are there already.
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Prints the fit as JSON, in SI.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) laws: LawArguments,
+}
+
+/// Laws to take instead of those that the curves support best.
+#[derive(Args, Clone, Copy)]
+pub(crate) struct LawArguments {
+    /// Elastic load of the traction laws.
+    #[arg(long, value_enum, value_name = "LAW")]
+    traction: Option<Traction>,
+    /// Bending laws.
+    #[arg(long, value_enum, value_name = "LAW")]
+    bending: Option<Loop>,
+    /// Shear law.
+    #[arg(long, value_enum, value_name = "LAW")]
+    shear: Option<Loop>,
+    /// Intervals from the profile of the residuals, for nonlinear laws and parameters at bounds;
+    /// slower.
+    #[arg(long)]
+    profile: bool,
+}
+
+/// Elastic loads of a traction law.
+#[derive(Clone, Copy, ValueEnum)]
+enum Traction {
+    /// A priming zone that runs into a line (Ngo Ngoc & Boivin 2004).
+    Primed,
+    /// An even polynomial (Tagawa et al. 2003).
+    Polynomial,
+}
+
+/// Laws of bending or shear, whose curves are loops.
+#[derive(Clone, Copy, ValueEnum)]
+enum Loop {
+    /// A line with one friction element.
+    FirstOrder,
+    /// A line with two friction elements side by side: nested loops that grow.
+    Parallel,
+    /// A line with friction of second order (Bliman & Sorine 1995).
+    SecondOrder,
+    /// A quadratic and a line without friction (Breen et al. 1994).
+    #[value(name = "breen-1994")]
+    Breen,
+}
+
+impl Loop {
+    fn model(self) -> LoopModel {
+        match self {
+            Self::FirstOrder => LoopModel::Linear(FrictionOrder::First),
+            Self::Parallel => LoopModel::Linear(FrictionOrder::Parallel),
+            Self::SecondOrder => LoopModel::Linear(FrictionOrder::Second),
+            Self::Breen => LoopModel::Piecewise,
+        }
+    }
+}
+
+impl LawArguments {
+    /// Returns the settings of the fit that the arguments ask for.
+    pub(crate) fn settings(self) -> Settings {
+        Settings {
+            traction: self.traction.map(|traction| match traction {
+                Traction::Primed => TractionModel::Primed,
+                Traction::Polynomial => TractionModel::Polynomial,
+            }),
+            bending: self.bending.map(Loop::model),
+            shear: self.shear.map(Loop::model),
+            intervals: if self.profile { Intervals::Profile } else { Intervals::Wald },
+            ..Settings::default()
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! Many sheets fitted on all threads, each to its own fabric and page; printed as one table.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use drape::fit::identify_all;
+use drape::kes::Sheet;
+use drape::report::{FitPage, Trust};
+
+use super::arguments::FitArguments;
+use super::identify::{beside, page, store};
+use crate::commands::sheets;
+use crate::failure::Failure;
+use crate::say::say;
+use crate::{file, progress};
+
+/// One sheet of a batch, with what its files are called.
+struct Job<'a> {
+    sheet: &'a Path,
+    /// Name of its page, and of its fabric if that goes into a common folder.
+    name: String,
+    /// File of its fabric.
+    fabric: PathBuf,
+}
+
+/// Plans the files of each sheet: named by its stem, with a number where that is taken.
+fn plan<'a>(sheets: &'a [PathBuf], arguments: &FitArguments) -> Vec<Job<'a>> {
+    let mut taken = BTreeSet::new();
+    let job = |sheet: &'a PathBuf| {
+        let stem = sheets::stem(sheet);
+        let numbered = (2..).map(|number| format!("{stem}-{number}"));
+        let mut candidates = std::iter::once(stem.clone()).chain(numbered);
+        let name = candidates.find(|name| taken.insert(name.clone()));
+        let name = name.expect("there is always a next number");
+        let fabric = match &arguments.output {
+            Some(folder) => folder.join(format!("{name}.toml")),
+            None => beside(sheet),
+        };
+        Job { sheet, name, fabric }
+    };
+    sheets.iter().map(job).collect()
+}
+
+impl Job<'_> {
+    /// Reads the sheet, unless its fabric is there already and may not be replaced.
+    fn read(&self, force: bool) -> Result<Sheet, Failure> {
+        if self.fabric.exists() && !force {
+            let path = self.fabric.display();
+            return Err(Failure::Usage(format!("{path} exists; replace it with --force")));
+        }
+        Ok(sheets::read(self.sheet)?)
+    }
+}
+
+/// Heads of the columns of the table.
+const HEAD: [&str; 5] = ["fabric", "fit", "misfit", "warnings", "assumed"];
+
+/// Row of the table: all that is kept of a fitted sheet, because there may be thousands.
+struct Row {
+    /// Name of the fabric.
+    name: String,
+    trust: Trust,
+    misfit: Option<f64>,
+    warnings: usize,
+    assumed: usize,
+}
+
+/// Fits every sheet on all threads; a sheet that fails does not stop the others.
+#[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
+pub(crate) fn fit_all(sheets: &[PathBuf], arguments: &FitArguments) -> Result<(), Failure> {
+    let bar = progress::bar(sheets.len() as u64, "{pos}/{len} sheets, {per_sec}, {eta} left");
+    let jobs = plan(sheets, arguments);
+    let settings = arguments.laws.settings();
+    let read = |job: &Job<'_>| job.read(arguments.force);
+    let rows = identify_all(&jobs, &settings, read, |job, found| {
+        let row = found.and_then(|(sheet, fit)| {
+            let page = page(sheet, fit, &settings)?;
+            file::write(&job.fabric, fit.fabric.to_toml())?;
+            store(&page, &job.name, arguments.report.as_deref())?;
+            Ok(Row::new(&page))
+        });
+        bar.inc(1);
+        row.map_err(|failure| failure.of(job.sheet))
+    });
+    bar.finish_and_clear();
+    let failed = rows.iter().filter(|row| row.is_err()).count();
+    if arguments.json {
+        let rows: Vec<_> = sheets.iter().zip(&rows).map(|(sheet, row)| json(sheet, row)).collect();
+        let json = serde_json::to_string_pretty(&rows);
+        say(json.expect("numbers and strings have a JSON form"))?;
+    } else {
+        let [name, fit, misfit, warnings, assumed] = HEAD;
+        say(format_args!("{name:<36} {fit:<10} {misfit:>8} {warnings:>8} {assumed:>8}  sheet"))?;
+        for (sheet, row) in sheets.iter().zip(&rows) {
+            say(line(sheet, row))?;
+        }
+    }
+    rows.iter().filter_map(|row| row.as_ref().err()).for_each(Failure::print);
+    eprintln!("{} of {} sheets fitted", sheets.len() - failed, sheets.len());
+    if failed > 0 { Err(Failure::Batch) } else { Ok(()) }
+}
+
+impl Row {
+    /// Summarises a page: its least trusted law, its largest misfit.
+    fn new(page: &FitPage) -> Self {
+        let verdicts = page.laws.iter().map(|law| law.verdict(&page.limits).trust);
+        let misfits = page.laws.iter().filter_map(|law| law.statistics.as_ref());
+        Self {
+            name: page.name.clone(),
+            trust: verdicts.max().unwrap_or(Trust::Unjudged),
+            misfit: misfits.map(|statistics| statistics.misfit).reduce(f64::max),
+            warnings: page.warnings.len(),
+            assumed: page.assumed.len(),
+        }
+    }
+}
+
+fn line(sheet: &Path, row: &Result<Row, Failure>) -> String {
+    let path = sheet.display();
+    let Ok(Row { name, trust, misfit, warnings, assumed }) = row else {
+        return format!("{:<36} {:<10} {:>26}  {path}", "", "failed", "");
+    };
+    let misfit = misfit.map_or(String::new(), |misfit| format!("{:.2} %", 100.0 * misfit));
+    let trust = trust.name();
+    format!("{name:<36} {trust:<10} {misfit:>8} {warnings:>8} {assumed:>8}  {path}")
+}
+
+fn json(sheet: &Path, row: &Result<Row, Failure>) -> serde_json::Value {
+    match row {
+        Ok(row) => serde_json::json!({
+            "sheet": sheet,
+            "fabric": row.name,
+            "trust": row.trust,
+            "misfit": row.misfit,
+            "warnings": row.warnings,
+            "assumed": row.assumed,
+        }),
+        Err(failure) => serde_json::json!({ "sheet": sheet, "error": failure.to_string() }),
+    }
+}

@@ -1,0 +1,123 @@
+//! Result of a run in words: what came out, and what failed with its remedy.
+
+use drape::scene::{Contacts, Energy, PhaseName, Status, Summary};
+
+use crate::failure::Failure;
+
+/// Describes a run in a few lines.
+pub(crate) fn describe(summary: &Summary) -> String {
+    let Summary { energy, strain, contact, .. } = summary;
+    let relaxes = summary.phases.last().is_some_and(|phase| phase.name == PhaseName::Relax);
+    let rest = match (summary.settled, relaxes) {
+        (true, true) => "at rest",
+        (true, false) => "moving again after rest",
+        (false, _) => "moving",
+    };
+    let cpu = summary.cpu_seconds.map_or(String::new(), |cpu| format!(", {cpu:.1} s of processor"));
+    let smallest =
+        contact.min_distance.map_or("none near".into(), |d| format!("{:.3} mm", 1e3 * d));
+    format!(
+        "{} particles, {} steps, {:.3} s simulated in {:.1} s{cpu}\n\
+         {rest}, fastest particle {:.2} mm/s\n\
+         strain: largest {:.2} %, 99 of 100 below {:.2} %; shear up to {:.1}°; \
+         99 of 100 curvatures below {:.0} 1/m\n\
+         contact: smallest distance {smallest}, {} intersections or particles inside{}{}{}",
+        summary.particles,
+        summary.steps,
+        summary.simulated_seconds,
+        summary.wall_seconds,
+        1e3 * summary.speed_max,
+        100.0 * strain.traction_max,
+        100.0 * strain.traction_p99,
+        strain.shear_max.to_degrees(),
+        strain.curvature_p99,
+        contact.intersections,
+        pinched(contact),
+        grown(contact),
+        energy.as_ref().map_or(String::new(), balance),
+    )
+}
+
+/// Describes cloth that bodies pinched.
+fn pinched(contact: &Contacts) -> String {
+    let thinned = match contact.thinned_max {
+        0 => String::new(),
+        count => format!(
+            "; up to {count} particles were pinched, with a tenth of their minimum separation \
+             from bodies"
+        ),
+    };
+    match contact.released_max {
+        0 => thinned,
+        count => format!(
+            "{thinned}; up to {count} particles were pinched and released, where cloth and bodies \
+             may intersect"
+        ),
+    }
+}
+
+/// Describes minimum separations that have grown.
+fn grown(contact: &Contacts) -> String {
+    if contact.grown_from == 1.0 {
+        return String::new();
+    }
+    let [from, to] = [contact.grown_from, contact.grown].map(|part| 100.0 * part);
+    format!("; minimum separations were {from:.2} % at the start and {to:.2} % at the end")
+}
+
+/// Describes the balance of the energy.
+fn balance(energy: &Energy) -> String {
+    format!(
+        "\nenergy: gravity gave {:.4} J; elastic {:+.4} J, kinetic {:.1e} J; lost in the fabric \
+         {:.4} J, on bodies {:.4} J, to the air {:.4} J, in the integration {:.4} J; unaccounted \
+         for {:.0e} J",
+        -energy.gravity,
+        energy.elastic + energy.contact,
+        energy.kinetic,
+        energy.friction_dissipated,
+        energy.body_dissipated,
+        energy.air_dissipated,
+        energy.numerical_dissipated + energy.turning_dissipated,
+        energy.remainder,
+    )
+}
+
+/// Returns the failure that a run ended with, if any, and its remedy.
+pub(crate) fn outcome(summary: Summary) -> Result<(), Failure> {
+    match summary.status {
+        Status::Ok => Ok(()),
+        Status::DidNotSettle => Err(Failure::Solver(format!(
+            "the cloth did not come to rest in {} s: its fastest particle moves at {:.1} mm/s, and \
+             its forces are {:.1e} g out of balance; give it more time (time.end), or accept more \
+             (settle.speed, settle.residual)",
+            summary.simulated_seconds,
+            1e3 * summary.speed_max,
+            summary.imbalance
+        ))),
+        Status::SeamsOpen => Err(Failure::Solver(format!(
+            "{}; something keeps its sides apart, or sew.seconds is too short; the last state was \
+             written",
+            summary.reason.unwrap_or_default()
+        ))),
+        Status::FellOff => Err(Failure::Solver(format!(
+            "{}; pin it, take it in, or raise the friction of the body; the last state was \
+             written",
+            summary.reason.unwrap_or_default()
+        ))),
+        Status::HeldTogether => Err(Failure::Solver(format!(
+            "{}; something presses them together, or contact.grow is too short; the last state \
+             was written",
+            summary.reason.unwrap_or_default()
+        ))),
+        Status::CertificateFailed => Err(Failure::Certificate(format!(
+            "the step after {} s makes surfaces intersect, even at its shortest length; the last \
+             good state was written",
+            summary.simulated_seconds
+        ))),
+        Status::SolverFailed => Err(Failure::Solver(format!(
+            "the step after {} s could not be solved; the last good state was written: {}",
+            summary.simulated_seconds,
+            summary.reason.unwrap_or_default()
+        ))),
+    }
+}

@@ -1,0 +1,68 @@
+//! Sheets that paths of the command line stand for: where they are, what they are called, and their
+//! mistakes.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use drape::input::{Diagnostic, Diagnostics};
+use drape::kes::Sheet;
+
+use crate::failure::Failure;
+
+const SHEET_FILE: &str = "sheet.toml";
+
+/// Deepest folder that is searched, counted from the one that was named: a link back up would never
+/// end.
+const DEEPEST: usize = 8;
+
+/// Returns the sheets that paths stand for: files, folders with a sheet, and sheets in the folders
+/// below.
+pub(crate) fn sheets(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut sheets = Vec::new();
+    for path in paths {
+        if !path.is_dir() || path.join(SHEET_FILE).exists() {
+            sheets.push(path.clone());
+            continue;
+        }
+        let mut found = BTreeSet::new();
+        search(path, DEEPEST, &mut found)?;
+        if found.is_empty() {
+            let message = format!("{} holds no {SHEET_FILE}", path.display());
+            return Err(Failure::Usage(message));
+        }
+        sheets.extend(found);
+    }
+    Ok(sheets)
+}
+
+fn search(folder: &Path, depth: usize, found: &mut BTreeSet<PathBuf>) -> Result<(), Failure> {
+    let unreadable = |error| Failure::Output(format!("cannot read {}: {error}", folder.display()));
+    for entry in std::fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        if path.is_dir() && path.join(SHEET_FILE).exists() {
+            found.insert(path);
+        } else if path.is_dir() && depth > 0 {
+            search(&path, depth - 1, found)?;
+        }
+    }
+    Ok(())
+}
+
+/// Returns the name that the files of a sheet get: its folder's, or the file's.
+pub(crate) fn stem(sheet: &Path) -> String {
+    let named = if sheet.file_name().is_some_and(|name| name == SHEET_FILE) {
+        sheet.parent().filter(|folder| folder.file_name().is_some()).unwrap_or(sheet)
+    } else {
+        sheet
+    };
+    let name = if named.is_dir() { named.file_name() } else { named.file_stem() };
+    name.map_or("fabric".into(), |name| name.to_string_lossy().into_owned())
+}
+
+/// Reads a sheet.
+pub(crate) fn read(path: &Path) -> Result<Sheet, Diagnostics> {
+    Sheet::read(path).map_err(|error| match error {
+        drape::kes::Error::Input(diagnostics) => diagnostics,
+        other => Diagnostic::new(path, other.to_string()).into(),
+    })
+}

@@ -1,0 +1,211 @@
+//! Pages of `drape fabric`: a fabric with the loops that an ideal instrument would draw of it, and
+//! two compared.
+
+use drape::fabric::{
+    BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
+};
+use drape::kes::{Direction, Test};
+use drape::report::plot::OverlayPlot;
+use drape::report::{
+    ComparePage, ComparedValue, FabricName, FitPage, Interval, LawReport, Parameter, Quantity,
+};
+use drape::validate::instrument;
+
+use super::loop_plot::{Loads, loop_plot, trace};
+use super::quantity::DIRECTIONS;
+use super::version::VERSION;
+use super::{kes_value, quantity};
+
+/// Points of a branch of a loop; enough for the trapezoids of WT to be right to a
+/// hundred-thousandth.
+const POINTS: usize = 400;
+
+/// Tests of a fabric, in the order of the pages.
+const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
+
+/// Directions in which a test differs; there is one shear law.
+fn directions(test: Test) -> &'static [Direction] {
+    if test == Test::Shear { &DIRECTIONS[..1] } else { &DIRECTIONS }
+}
+
+/// Returns the page of a fabric, with the loops that an instrument would draw of it.
+pub(crate) fn show_page(fabric: &Fabric) -> FitPage {
+    let given = |name: &str, value: f64, units| Quantity {
+        name: name.into(),
+        value,
+        units,
+        origin: String::new(),
+    };
+    let laws = TESTS.into_iter().flat_map(|test| {
+        directions(test).iter().map(move |&direction| law(fabric, test, direction))
+    });
+    FitPage {
+        name: fabric.name.clone(),
+        source: fabric.source.clone(),
+        provenance: fabric.provenance.as_ref().map_or(String::new(), |p| {
+            format!("from the sheet \"{}\" by {}", p.sheet, p.fitted_by)
+        }),
+        version: VERSION.into(),
+        quantities: vec![
+            given("mass per area", fabric.density, quantity::mass()),
+            given("thickness", fabric.thickness, quantity::thickness()),
+            given("surface friction", fabric.surface_friction, quantity::ratio()),
+        ],
+        laws: laws.collect(),
+        values: DIRECTIONS
+            .iter()
+            .flat_map(|&direction| kes_value::of_fabric(fabric, direction))
+            .collect(),
+        assumed: fabric.provenance.as_ref().map_or(Vec::new(), |p| p.assumed.clone()),
+        ..FitPage::default()
+    }
+}
+
+fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
+    let curve = instrument::ideal(fabric, test, direction, POINTS);
+    let title = match test {
+        Test::Shear => test.name().to_owned(),
+        _ => format!("{}, {}", test.name(), direction.name()),
+    };
+    let parameter = |parameter: NamedValue| {
+        let named = quantity::parameter(test, parameter.name);
+        Parameter {
+            name: named.words.into(),
+            symbol: named.symbol.into(),
+            value: parameter.value,
+            units: named.units,
+            standard_error: None,
+            interval: Interval::Fixed { reason: String::new() },
+            incidental: named.incidental,
+        }
+    };
+    LawReport {
+        plots: vec![loop_plot(title.clone(), &curve, |i| Loads {
+            fitted: Some(curve.load()[i]),
+            ..Loads::default()
+        })],
+        parameters: parameters(fabric, test, direction).into_iter().map(parameter).collect(),
+        title,
+        ..LawReport::default()
+    }
+}
+
+/// Parameter of a law under the name that a fit gives it.
+struct NamedValue {
+    name: &'static str,
+    value: f64,
+}
+
+fn named<const N: usize>(values: [(&'static str, f64); N]) -> Vec<NamedValue> {
+    values.map(|(name, value)| NamedValue { name, value }).into()
+}
+
+/// Returns the parameters of a law: of its backbone, then of its friction.
+fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<NamedValue> {
+    let laws = match direction {
+        Direction::Warp => &fabric.warp,
+        Direction::Weft => &fabric.weft,
+    };
+    let (mut all, friction) = match test {
+        Test::Tensile => {
+            let backbone = match laws.traction.backbone {
+                TractionBackbone::Primed(primed) => named([
+                    ("stiffness", primed.stiffness),
+                    ("toe_ratio", primed.toe_ratio),
+                    ("toe_strain", primed.toe_strain),
+                    ("toe_growth", primed.toe_strain_after / primed.toe_strain),
+                ]),
+                TractionBackbone::Polynomial(p) => {
+                    named([("quadratic", p.quadratic), ("quartic", p.quartic)])
+                }
+            };
+            (backbone, &laws.traction.friction)
+        }
+        Test::Bending | Test::LoopBending => {
+            let backbone = match laws.bending.backbone {
+                BendingBackbone::Linear { rigidity } => named([("rigidity", rigidity)]),
+                BendingBackbone::Piecewise(p) => piecewise(&p),
+            };
+            (backbone, &laws.bending.friction)
+        }
+        Test::Shear => {
+            let mut backbone = match fabric.shear.backbone {
+                ShearBackbone::Linear { stiffness } => named([("stiffness", stiffness)]),
+                ShearBackbone::Piecewise(p) => piecewise(&p),
+            };
+            backbone.push(NamedValue { name: "growth", value: fabric.shear.growth });
+            (backbone, &fabric.shear.friction)
+        }
+    };
+    all.extend(elements(friction));
+    all
+}
+
+fn piecewise(law: &Piecewise) -> Vec<NamedValue> {
+    named([("slope", law.slope), ("intercept", law.intercept), ("knot", law.knot)])
+}
+
+/// Returns the elements of a friction; those of the second have names of their own.
+fn elements(friction: &BlimanSorine) -> Vec<NamedValue> {
+    let names = [["plateau", "length"], ["second plateau", "second length"]];
+    let pairs = friction.elements.iter().zip(names).filter(|(element, _)| element.plateau != 0.0);
+    pairs
+        .flat_map(|(element, [plateau, length])| {
+            named([(plateau, element.plateau), (length, element.length)])
+        })
+        .collect()
+}
+
+/// Returns the page of two fabrics: their loops overlaid, their values side by side.
+pub(crate) fn compare_page(fabrics: [&Fabric; 2]) -> ComparePage {
+    let names = fabrics.map(|fabric| fabric.name.clone());
+    let overlay = |test: Test| {
+        let [deformation, load] = quantity::axes(test);
+        let directions = directions(test);
+        let trace_of = |fabric: &Fabric, direction: Direction| {
+            let label = if test == Test::Shear { "shear" } else { direction.name() };
+            trace(label, &instrument::ideal(fabric, test, direction, POINTS))
+        };
+        OverlayPlot {
+            title: test.name().into(),
+            deformation,
+            load,
+            fabrics: names.clone(),
+            traces: fabrics.map(|fabric| directions.iter().map(|&d| trace_of(fabric, d)).collect()),
+        }
+    };
+    let given = |symbol: &str, name: &str, units, value: fn(&Fabric) -> f64| ComparedValue {
+        symbol: symbol.into(),
+        name: name.into(),
+        direction: String::new(),
+        units,
+        values: fabrics.map(|fabric| Some(value(fabric))),
+    };
+    let mut values = vec![
+        given("W", "mass per area", quantity::mass(), |fabric| fabric.density),
+        given("T", "thickness", quantity::thickness(), |fabric| fabric.thickness),
+        given("µ", "surface friction", quantity::ratio(), |fabric| fabric.surface_friction),
+    ];
+    for direction in DIRECTIONS {
+        let [first, second] = fabrics.map(|fabric| kes_value::of_fabric(fabric, direction));
+        values.extend(first.into_iter().zip(second).map(|(a, b)| ComparedValue {
+            symbol: a.symbol,
+            name: a.name,
+            direction: a.direction,
+            units: a.units,
+            values: [a.law, b.law],
+        }));
+    }
+    let note = |fabric: &Fabric| {
+        let assumed = fabric.provenance.as_ref().map_or(&[][..], |p| &p.assumed);
+        assumed.iter().map(|text| format!("{}: {text}", fabric.name)).collect::<Vec<_>>()
+    };
+    ComparePage {
+        fabrics: fabrics.map(|f| FabricName { name: f.name.clone(), source: f.source.clone() }),
+        version: VERSION.into(),
+        overlays: TESTS.into_iter().map(overlay).collect(),
+        values,
+        notes: fabrics.into_iter().flat_map(note).collect(),
+        ..ComparePage::default()
+    }
+}

@@ -1,0 +1,56 @@
+//! Page of `drape test`: the loops of simulated specimens overlaid on those of the laws, and their
+//! KES values.
+
+use drape::fabric::Fabric;
+use drape::kes::{Curve, Direction, Test};
+use drape::report::plot::{OverlayPlot, Trace};
+use drape::report::{ComparePage, FabricName};
+use drape::validate::tester::Comparison;
+
+use super::loop_plot::trace;
+pub(crate) use super::quantity::DIRECTIONS;
+use super::version::VERSION;
+use super::{kes_value, quantity};
+
+/// Tests of a specimen, in the order of the page.
+pub(crate) const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
+
+/// A specimen's loop beside the law's.
+pub(crate) struct TestedLoop {
+    pub(crate) test: Test,
+    pub(crate) direction: Direction,
+    pub(crate) comparison: Comparison,
+}
+
+/// Returns the page of the loops of a fabric.
+pub(crate) fn page(fabric: &Fabric, loops: &[TestedLoop]) -> ComparePage {
+    let names = ["Simulated specimens", "Laws"].map(str::to_owned);
+    let overlay = |test: Test| {
+        let [deformation, load] = quantity::axes(test);
+        let traces = |curve: fn(&Comparison) -> &Curve| -> Vec<Trace> {
+            let of_test = loops.iter().filter(|tested| tested.test == test);
+            of_test
+                .map(|tested| trace(tested.direction.name(), curve(&tested.comparison)))
+                .collect()
+        };
+        OverlayPlot {
+            title: test.name().into(),
+            deformation,
+            load,
+            fabrics: names.clone(),
+            traces: [traces(|c| &c.measured), traces(|c| &c.ideal)],
+        }
+    };
+    let values = loops.iter().flat_map(|tested| {
+        let values = tested.comparison.values().into_iter();
+        values.map(|(symbol, values)| kes_value::compared(tested.direction, symbol, values))
+    });
+    let source = format!("{}. {}", fabric.name, fabric.source);
+    ComparePage {
+        fabrics: names.clone().map(|name| FabricName { name, source: source.clone() }),
+        version: VERSION.into(),
+        overlays: TESTS.into_iter().map(overlay).collect(),
+        values: values.collect(),
+        ..ComparePage::default()
+    }
+}

@@ -1,0 +1,78 @@
+//! KES values as pages show them: in SI, with the unit of the laboratory beside it.
+
+use drape::fabric::Fabric;
+use drape::fit::{Settings, ValueRow, compare_values, fabric_values};
+use drape::kes::{Direction, Sheet, Symbol};
+use drape::report::{ComparedValue, KesValue, Units};
+
+use super::quantity;
+
+/// Name of a KES value in words, and its units.
+struct Named {
+    words: &'static str,
+    units: Units,
+}
+
+fn named(symbol: Symbol) -> Named {
+    let (words, units) = match symbol {
+        Symbol::B => ("bending rigidity", quantity::rigidity()),
+        Symbol::TwoHb => ("bending loop width", quantity::moment()),
+        Symbol::G => ("shear stiffness", quantity::shear_stiffness()),
+        Symbol::TwoHg => ("shear loop width at 0.5°", quantity::tension()),
+        Symbol::TwoHg5 => ("shear loop width at 5°", quantity::tension()),
+        Symbol::Lt => ("tensile linearity", quantity::ratio()),
+        Symbol::Wt => ("tensile work", quantity::work()),
+        Symbol::Rt => ("tensile resilience", quantity::percent()),
+        Symbol::Em => ("extension at the largest load", quantity::percent()),
+    };
+    Named { words, units }
+}
+
+/// KES values of a sheet and of the fabric that was fitted to it.
+pub(crate) struct SheetValues {
+    pub(crate) values: Vec<KesValue>,
+    /// Values that disagree with each other, in words.
+    pub(crate) warnings: Vec<String>,
+}
+
+/// Returns the values that a sheet or its curves have, each with that of the fitted fabric.
+pub(crate) fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> SheetValues {
+    let rows = compare_values(sheet, fabric, settings);
+    let warnings = rows.iter().filter_map(ValueRow::warning).collect();
+    let known = rows.into_iter().filter(|row| row.sheet.is_some() || row.curve.is_ok());
+    let value =
+        |row: ValueRow| shown(row.direction, row.symbol, [row.sheet, row.curve.ok(), row.law]);
+    SheetValues { values: known.map(value).collect(), warnings }
+}
+
+/// Returns the values of a fabric in a direction.
+pub(crate) fn of_fabric(fabric: &Fabric, direction: Direction) -> Vec<KesValue> {
+    let reading = Settings::default().reading(&Sheet::default());
+    let values = fabric_values(fabric, direction, &reading);
+    Symbol::ALL.map(|symbol| shown(direction, symbol, [None, None, values.get(symbol)])).into()
+}
+
+/// Returns a value of two fabrics, given in the laboratory's unit.
+pub(crate) fn compared(direction: Direction, symbol: Symbol, numbers: [f64; 2]) -> ComparedValue {
+    let [first, second] = numbers;
+    let KesValue { symbol, name, direction, units, sheet, curve, .. } =
+        shown(direction, symbol, [Some(first), Some(second), None]);
+    ComparedValue { symbol, name, direction, units, values: [sheet, curve] }
+}
+
+/// Returns a value as a page shows it; the numbers, of the sheet, the curve and the law, are in the
+/// laboratory's unit.
+fn shown(direction: Direction, symbol: Symbol, numbers: [Option<f64>; 3]) -> KesValue {
+    let Named { words, units } = named(symbol);
+    let unit = units.kes.as_ref().map_or(1.0, |unit| unit.in_si);
+    let [sheet, curve, law] = numbers.map(|number| number.map(|number| number * unit));
+    KesValue {
+        symbol: symbol.name().into(),
+        name: words.into(),
+        direction: direction.name().into(),
+        units,
+        sheet,
+        curve,
+        law,
+    }
+}

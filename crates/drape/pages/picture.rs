@@ -1,0 +1,89 @@
+//! Pictures of cloth and bodies, with yarn lines or in a colour per particle.
+
+use drape::report::{Colour, Picture, Scene, Surface, View, render};
+use drape::scene::Snapshot;
+
+use crate::failure::Failure;
+
+/// Distance between the yarn lines, in m, for a cloth of a metre.
+const LINE_SPACING: f64 = 0.05;
+
+/// Depth of the floor below the lowest point of cloth and bodies, in m.
+const FLOOR: f64 = 0.01;
+
+/// Azimuths of the pictures of a garment: front, side and back, in degrees.
+const SIDES: [f64; 3] = [0.0, 90.0, 180.0];
+
+/// Elevation of the pictures of a garment, in degrees.
+const ELEVATION: f64 = 6.0;
+
+/// Pixels of each picture of a garment.
+const UPRIGHT: [u32; 2] = [600, 1000];
+
+/// Pixels of a picture that stands alone.
+pub(crate) const SIZE: [u32; 2] = [1200, 900];
+
+/// Draws a garment from the front, the side and the back.
+pub(crate) fn draw_round(snapshot: &Snapshot) -> Result<Picture, Failure> {
+    draw_from(snapshot, &SIDES, None)
+}
+
+/// Draws a garment from some azimuths, in degrees; with its yarn lines, or in a colour per
+/// particle.
+pub(crate) fn draw_from(
+    snapshot: &Snapshot,
+    sides: &[f64],
+    tints: Option<&[Colour]>,
+) -> Result<Picture, Failure> {
+    let side = |azimuth: &f64| {
+        let cloth = Surface::cloth(&snapshot.positions, &snapshot.triangles);
+        let view = [Some(*azimuth), Some(ELEVATION)];
+        match tints {
+            Some(tints) => draw_cloth(snapshot, cloth.with_tints(tints), view, UPRIGHT),
+            None => draw(snapshot, view, UPRIGHT),
+        }
+    };
+    let pictures: Result<Vec<Picture>, Failure> = sides.iter().map(side).collect();
+    Ok(Picture::sheet(&pictures?, sides.len()))
+}
+
+/// Draws a scene, seen from an azimuth and an elevation in degrees, in so many pixels.
+pub(crate) fn draw(
+    snapshot: &Snapshot,
+    view: [Option<f64>; 2],
+    size: [u32; 2],
+) -> Result<Picture, Failure> {
+    let Snapshot { positions, coordinates, triangles, .. } = snapshot;
+    let coordinates: Vec<f64> = coordinates.iter().flatten().copied().collect();
+    let extent = coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
+    let cloth = Surface::cloth(positions, triangles);
+    let cloth = cloth.with_lines(&coordinates, LINE_SPACING * extent.max(0.1));
+    draw_cloth(snapshot, cloth, view, size)
+}
+
+fn draw_cloth(
+    snapshot: &Snapshot,
+    cloth: Surface<'_>,
+    [azimuth, elevation]: [Option<f64>; 2],
+    [width, height]: [u32; 2],
+) -> Result<Picture, Failure> {
+    let Snapshot { positions, bodies, spacing, .. } = snapshot;
+    let bodies_too = bodies.iter().flat_map(|body| &body.positions[..]);
+    let all = positions.iter().chain(bodies_too).skip(1).step_by(3);
+    let lowest = all.copied().fold(f64::INFINITY, f64::min);
+    let scene = Scene {
+        cloths: vec![cloth],
+        bodies: bodies.iter().map(|body| Surface::body(&body.positions, &body.triangles)).collect(),
+        floor: Some(lowest - FLOOR),
+    };
+    let standard = View::default();
+    let view = View {
+        azimuth_deg: azimuth.unwrap_or(standard.azimuth_deg),
+        elevation_deg: elevation.unwrap_or(standard.elevation_deg),
+        body_setback: *spacing,
+        width,
+        height,
+        ..standard
+    };
+    render(&scene, &view).map_err(|error| Failure::Output(error.to_string()))
+}
