@@ -1,6 +1,6 @@
 use drape_implicit::{
-    Error, Explicit, Initial, Integrator, LinearSolver, Method, Motion, Report, Settings, Stepper,
-    System,
+    Error, Explicit, InitialMatrix, Integrator, IntegratorState, LinearSolver, Method, Report,
+    Settings, StepFilter, Stepper, System,
 };
 
 use crate::file::SceneFile;
@@ -37,12 +37,25 @@ impl Integration {
     pub(crate) fn advance(
         &mut self,
         system: &mut dyn System,
-        motion: &mut Motion,
+        motion: &mut IntegratorState,
         dt: f64,
     ) -> Result<Report, Error> {
         match self {
             Self::Implicit(stepper) => stepper.advance(system, motion, dt),
             Self::Explicit(explicit) => explicit.advance(system, motion, dt),
+        }
+    }
+
+    /// The same on steps that a filter limits.
+    pub(crate) fn advance_filtered(
+        &mut self,
+        filter: &mut dyn StepFilter,
+        motion: &mut IntegratorState,
+        dt: f64,
+    ) -> Result<Report, Error> {
+        match self {
+            Self::Implicit(stepper) => stepper.advance_filtered(filter, motion, dt),
+            Self::Explicit(_) => Err(Error::UnfilteredMethod),
         }
     }
 }
@@ -69,8 +82,8 @@ impl Reader<'_> {
         let methods = [
             ("broyden", Method::Broyden),
             ("newton", Method::Newton),
-            ("textbook-mass", Method::Textbook { initial: Initial::Mass }),
-            ("textbook-diagonal", Method::Textbook { initial: Initial::Diagonal }),
+            ("textbook-mass", Method::Textbook { initial: InitialMatrix::Mass }),
+            ("textbook-diagonal", Method::Textbook { initial: InitialMatrix::Diagonal }),
         ];
         let linear = [
             ("conjugate-gradient", LinearSolver::ConjugateGradient),

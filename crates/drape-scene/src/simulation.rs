@@ -7,7 +7,7 @@ mod rest;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use drape_implicit::{Error, ErrorEstimate, Motion, Report};
+use drape_implicit::{Error, ErrorEstimate, IntegratorState, Report};
 
 use self::rest::Accuracy;
 use crate::SceneError;
@@ -35,7 +35,7 @@ const GRAVITY: f64 = 9.81;
 #[derive(Debug)]
 pub struct Simulation {
     pub(crate) world: World,
-    motion: Motion,
+    motion: IntegratorState,
     scheme: Scheme,
     integration: Integration,
     /// What makes sewn nodes one, once they are sewn.
@@ -165,9 +165,9 @@ impl Simulation {
         };
         let strides = if sewn.is_empty() { settle } else { Some(phases::strides(spacing)) };
         Ok(Self {
-            motion: Motion {
+            motion: IntegratorState {
                 velocities: world.state.velocities.clone(),
-                ..Motion::at_rest(world.state.positions.clone())
+                ..IntegratorState::at_rest(world.state.positions.clone())
             },
             estimate: ErrorEstimate::new(world.cloth.particles()),
             world,
