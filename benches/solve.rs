@@ -8,7 +8,7 @@ use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
 use drape_dynamics::{Scheme, Simulation};
-use drape_implicit::{Initial, LinearSolver, Method, Settings};
+use drape_implicit::{InitialMatrix, LinearSolver, Method, Settings};
 use drape_scene::Scene;
 
 /// Particles along a side of the square sheet.
@@ -37,7 +37,7 @@ fn methods() -> [(&'static str, Settings); 3] {
     [("broyden", Settings::default()), ("newton", newton), ("newton-cholesky", factorised)]
 }
 
-fn textbook(initial: Initial) -> Settings {
+fn textbook(initial: InitialMatrix) -> Settings {
     let max_iterations = 2000;
     Settings { method: Method::Textbook { initial }, max_iterations, ..Settings::default() }
 }
@@ -126,8 +126,8 @@ fn steps(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements((SMALL_SIDE * SMALL_SIDE) as u64));
     let methods = [
         ("broyden", Settings::default()),
-        ("textbook-diagonal", textbook(Initial::Diagonal)),
-        ("textbook-mass", textbook(Initial::Mass)),
+        ("textbook-diagonal", textbook(InitialMatrix::Diagonal)),
+        ("textbook-mass", textbook(InitialMatrix::Mass)),
     ];
     for (name, settings) in methods {
         group.bench_function(BenchmarkId::new(name, SMALL_SIDE), |bencher| {

@@ -7,7 +7,6 @@ use std::process::ExitCode;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
 use drape::report::ReportError;
-use drape::verify::VerifyError;
 
 /// Failure that ends a command, with its exit code.
 pub(crate) enum Failure {
@@ -18,7 +17,7 @@ pub(crate) enum Failure {
     /// Exit code 3: a sheet gives no fabric.
     Fit(drape::fit::Error),
     /// Exit code 3: saved frames cannot be read.
-    Frames(VerifyError),
+    Frames(drape::verify::Error),
     /// Exit code 3: some sheets of a batch failed; each was reported.
     Batch,
     /// Exit code 4: surfaces intersect.
@@ -88,8 +87,8 @@ impl fmt::Display for Failure {
     }
 }
 
-impl From<VerifyError> for Failure {
-    fn from(error: VerifyError) -> Self {
+impl From<drape::verify::Error> for Failure {
+    fn from(error: drape::verify::Error) -> Self {
         Self::Frames(error)
     }
 }

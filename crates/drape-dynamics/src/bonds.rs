@@ -1,5 +1,5 @@
 use drape_cloth::{Breen, Cloth, SeamBending, SeamState, Sparsity, State, Workspace};
-use drape_implicit::{BlockMatrix, Pattern as Coupling};
+use drape_implicit::{BlockMatrix, Sparsity as Coupling};
 
 /// What holds the particles of a cloth together.
 #[derive(Debug)]
@@ -18,16 +18,16 @@ pub(crate) struct Bonds {
 }
 
 /// Row and column of each block of a cloth's connectors.
-fn blocks(pattern: &Sparsity) -> impl Iterator<Item = (usize, usize)> {
+fn blocks(pattern: &Sparsity) -> impl Iterator<Item = [usize; 2]> {
     (0..pattern.offsets.len() - 1).flat_map(|row| {
         let columns = &pattern.columns[pattern.offsets[row]..pattern.offsets[row + 1]];
-        columns.iter().map(move |&column| (row, column))
+        columns.iter().map(move |&column| [row, column])
     })
 }
 
 /// The coupling of a cloth's connectors and of some more pairs.
 fn coupling(pattern: &Sparsity, more: &[[u32; 2]]) -> Coupling {
-    let more = more.iter().map(|&[a, b]| (a as usize, b as usize));
+    let more = more.iter().map(|pair| pair.map(|particle| particle as usize));
     let particles = pattern.offsets.len() - 1;
     let pairs = blocks(pattern).chain(more);
     Coupling::from_pairs(particles, pairs).expect("pairs are of the cloth's particles")
@@ -35,7 +35,7 @@ fn coupling(pattern: &Sparsity, more: &[[u32; 2]]) -> Coupling {
 
 /// Room for a matrix of the connectors alone, and where its blocks go in a coupling that has more.
 fn spread(pattern: &Sparsity, coupling: &Coupling) -> (Vec<f64>, Vec<usize>) {
-    let slots = blocks(pattern).filter_map(|(row, column)| coupling.slot(row, column));
+    let slots = blocks(pattern).filter_map(|[row, column]| coupling.slot(row, column));
     (vec![0.0; 9 * pattern.blocks()], slots.collect())
 }
 
@@ -156,7 +156,7 @@ impl Bonds {
         };
         breen.stiffness(positions, definite, &mut |[a, b], block| {
             let (row, column) = (a as usize, b as usize);
-            match matrix.pattern().slot(row, column) {
+            match matrix.sparsity().slot(row, column) {
                 Some(slot) => matrix.add_block(slot, block),
                 None => {
                     let against = block.map(|entry| -entry);
@@ -233,14 +233,14 @@ bending.rigidity = 0.8e-5
         let fill = |bonds: &mut Bonds| {
             let mut matrix = BlockMatrix::zeros(bonds.coupling().clone());
             bonds.add_stiffness(&cloth, &state, (&place(0.008), true), &mut matrix);
-            assert_eq!(matrix.stray(), None);
+            assert_eq!(matrix.outside_sparsity(), None);
             matrix
         };
         let (before, alone) = (bonds.version(), fill(&mut bonds));
         bonds.couple(&cloth, &place(0.008));
         assert_eq!(bonds.version(), before + 1);
         let whole = fill(&mut bonds);
-        assert!(whole.pattern().blocks() > alone.pattern().blocks());
+        assert!(whole.sparsity().blocks() > alone.sparsity().blocks());
         // Sheets that near each other by a length of one each: the coupled matrix has them pull four times as much as
         // sheets that move as one, which it does not feel at all.
         let count = cloth.particles();

@@ -1,6 +1,6 @@
 use drape_implicit::{
-    Error, Explicit, Initial, Integrator, LinearSolver, Method, Motion, Report, Settings, Stepper,
-    System,
+    Error, Explicit, InitialMatrix, Integrator, IntegratorState, LinearSolver, Method, Report,
+    Settings, StepFilter, Stepper, System,
 };
 use drape_scene::Scene;
 
@@ -33,9 +33,9 @@ impl Scheme {
         let method = match solver.method {
             drape_scene::Method::Broyden => Method::Broyden,
             drape_scene::Method::Newton => Method::Newton,
-            drape_scene::Method::TextbookMass => Method::Textbook { initial: Initial::Mass },
+            drape_scene::Method::TextbookMass => Method::Textbook { initial: InitialMatrix::Mass },
             drape_scene::Method::TextbookDiagonal => {
-                Method::Textbook { initial: Initial::Diagonal }
+                Method::Textbook { initial: InitialMatrix::Diagonal }
             }
         };
         let linear_solver = match solver.linear_solver {
@@ -66,12 +66,25 @@ impl Integration {
     pub(crate) fn advance(
         &mut self,
         system: &mut dyn System,
-        motion: &mut Motion,
+        motion: &mut IntegratorState,
         dt: f64,
     ) -> Result<Report, Error> {
         match self {
             Self::Implicit(stepper) => stepper.advance(system, motion, dt),
             Self::Explicit(explicit) => explicit.advance(system, motion, dt),
+        }
+    }
+
+    /// The same on steps that a filter limits.
+    pub(crate) fn advance_filtered(
+        &mut self,
+        filter: &mut dyn StepFilter,
+        motion: &mut IntegratorState,
+        dt: f64,
+    ) -> Result<Report, Error> {
+        match self {
+            Self::Implicit(stepper) => stepper.advance_filtered(filter, motion, dt),
+            Self::Explicit(_) => Err(Error::UnfilteredMethod),
         }
     }
 }

@@ -7,7 +7,7 @@ mod rest;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use drape_implicit::{ErrorEstimate, Motion, Report};
+use drape_implicit::{ErrorEstimate, IntegratorState, Report};
 use drape_scene::{Clock, Panel, Scene, Settle, Stitching};
 
 use self::rest::Accuracy;
@@ -31,7 +31,7 @@ const GRAVITY: f64 = 9.81;
 #[derive(Debug)]
 pub struct Simulation {
     pub(crate) world: World,
-    motion: Motion,
+    motion: IntegratorState,
     scheme: Scheme,
     integration: Integration,
     /// What makes sewn nodes one, once they are sewn.
@@ -174,9 +174,9 @@ impl Simulation {
         };
         let strides = if sewn.is_empty() { settle } else { Some(phases::strides(spacing)) };
         Ok(Self {
-            motion: Motion {
+            motion: IntegratorState {
                 velocities: world.state.velocities.clone(),
-                ..Motion::at_rest(world.state.positions.clone())
+                ..IntegratorState::at_rest(world.state.positions.clone())
             },
             estimate: ErrorEstimate::new(world.cloth.particles()),
             world,

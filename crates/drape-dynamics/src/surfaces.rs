@@ -2,7 +2,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use drape_collide::{Error, Shape, SurfaceContact, SurfaceStep};
-use drape_implicit::Way;
+use drape_implicit::{StepLimit, TrialStep};
 use drape_scene::{Course, Growth, Inflation, Scene, StartSurfaces};
 
 /// Part of the distance that surfaces keep by which a body's vertex may stray from its straight way within a step; what
@@ -110,19 +110,24 @@ impl Surfaces {
         self.contact.begin(positions, &ends);
     }
 
-    /// Shortens a way to what keeps all surfaces apart; see [`drape_implicit::System::allow`].
-    pub(crate) fn allow(&mut self, way: Way<'_>) -> bool {
-        self.contact.limit_step(SurfaceStep {
-            from: way.from,
-            displacements: way.step,
+    /// Limits a step to a part that keeps all surfaces apart.
+    pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+        let TrialStep { start, displacements, obstacle_time, mut obstacle_advance } = step;
+        let whole = self.contact.limit_step(SurfaceStep {
+            from: start,
+            displacements,
             held: &self.held,
-            progress: way.progress,
-            advance: way.advance,
-        })
+            progress: obstacle_time,
+            advance: &mut obstacle_advance,
+        });
+        match whole {
+            true => StepLimit::Whole,
+            false => StepLimit::Shortened { obstacle_advance },
+        }
     }
 
-    /// Whether no surface crosses another at these positions.
-    pub(crate) fn certify(&mut self, positions: &[f64]) -> bool {
+    /// Whether no surface intersects another at these positions.
+    pub(crate) fn is_intersection_free(&mut self, positions: &[f64]) -> bool {
         match self.contact.intersections(positions) {
             Ok(crossings) => {
                 self.crossings += crossings.len();

@@ -1,7 +1,7 @@
 mod share;
 mod system;
 
-use drape_implicit::{BlockMatrix, Error, Motion, Pattern, Report, System};
+use drape_implicit::{BlockMatrix, Error, IntegratorState, Report, Sparsity, System};
 use drape_scene::Stitching;
 
 use crate::scheme::{Integration, Scheme};
@@ -29,7 +29,7 @@ pub(crate) struct Weld {
     /// The stiffness of the nodes, and where each of its blocks goes.
     matrix: BlockMatrix,
     goals: Vec<Goal>,
-    pattern: Pattern,
+    sparsity: Sparsity,
 }
 
 /// Where a block of the nodes' matrix goes in that of the particles.
@@ -61,7 +61,7 @@ impl Weld {
         let places_of = places_of(world.particles(), sewn);
         let masses = masses_of(&places_of, world.masses());
         let count = masses.len();
-        let nodes = world.pattern();
+        let nodes = world.sparsity();
         // The first block of a row of nodes is that of a node with itself.
         let blocks = (0..nodes.particles()).flat_map(|row| {
             let start = nodes.row(row).start;
@@ -76,9 +76,9 @@ impl Weld {
                 goals.push(([a, b], goal));
             }
         }
-        let pattern = Pattern::from_pairs(count, goals.iter().map(|&([a, b], _)| (a, b)))?;
+        let sparsity = Sparsity::from_pairs(count, goals.iter().map(|&(pair, _)| pair))?;
         let goals = goals.into_iter().map(|([a, b], goal)| {
-            let slot = pattern.slot(a, b).unwrap_or_default() as u32;
+            let slot = sparsity.slot(a, b).unwrap_or_default() as u32;
             Goal { slot, ..goal }
         });
         let numbers = 3 * places_of.len();
@@ -91,7 +91,7 @@ impl Weld {
             places: vec![0.0; numbers],
             others: vec![0.0; numbers],
             matrix: BlockMatrix::zeros(nodes),
-            pattern,
+            sparsity,
         })
     }
 
@@ -108,21 +108,26 @@ impl Weld {
     pub(crate) fn advance(
         &mut self,
         (world, integration): (&mut World, &mut Integration),
-        motion: &mut Motion,
+        motion: &mut IntegratorState,
         dt: f64,
     ) -> Result<Report, Error> {
-        let previous = motion.previous.as_ref().map(|previous| drape_implicit::Previous {
+        let previous = motion.previous.as_ref().map(|previous| drape_implicit::PreviousState {
             dt: previous.dt,
             positions: self.narrow(&previous.positions),
             velocities: self.narrow(&previous.velocities),
         });
-        let mut own = Motion {
+        let mut own = IntegratorState {
             time: motion.time,
             positions: self.narrow(&motion.positions),
             velocities: self.narrow(&motion.velocities),
             previous,
         };
-        let report = integration.advance(&mut Sewn { world, weld: self }, &mut own, dt);
+        let filtered = world.surfaces.is_some();
+        let mut sewn = Sewn { world, weld: self };
+        let report = match filtered {
+            true => integration.advance_filtered(&mut sewn, &mut own, dt),
+            false => integration.advance(&mut sewn, &mut own, dt),
+        };
         // Also a step that failed has moved on by the parts that were made.
         motion.time = own.time;
         self.widen(&own.positions, &mut motion.positions);
@@ -133,7 +138,7 @@ impl Weld {
                 self.widen(values, &mut wide);
                 wide
             };
-            drape_implicit::Previous {
+            drape_implicit::PreviousState {
                 dt: previous.dt,
                 positions: widen(&previous.positions),
                 velocities: widen(&previous.velocities),

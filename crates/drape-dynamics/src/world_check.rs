@@ -1,7 +1,7 @@
 //! The world as a system: its forces against its potential, and the formula's loss against the work of
 //! its forces.
 
-use drape_implicit::{Integrator, Motion, Settings, Stepper, System, check_system};
+use drape_implicit::{Integrator, IntegratorState, Settings, Stepper, System, check_system};
 use drape_input::Document;
 use drape_scene::Scene;
 
@@ -54,12 +54,16 @@ end = 1.0
 }
 
 /// Moves the world by a few steps, so that everything has velocities and memories.
-fn moved(world: &mut World) -> Motion {
+fn moved(world: &mut World) -> IntegratorState {
     let settings = Settings { integrator: Integrator::BackwardEuler, ..Settings::default() };
-    let mut motion = Motion::at_rest(world.state.positions.clone());
+    let mut motion = IntegratorState::at_rest(world.state.positions.clone());
     let mut stepper = Stepper::new(world, settings).expect("good settings");
     for _ in 0..5 {
-        stepper.advance(world, &mut motion, 0.005).expect("solvable");
+        let report = match world.surfaces.is_some() {
+            true => stepper.advance_filtered(world, &mut motion, 0.005),
+            false => stepper.advance(world, &mut motion, 0.005),
+        };
+        report.expect("solvable");
     }
     motion
 }

@@ -41,6 +41,7 @@ impl Simulation {
         let Self { integration, world, motion, .. } = self;
         let report = match &mut self.weld {
             Some(weld) => weld.advance((world, integration), motion, dt),
+            None if world.surfaces.is_some() => integration.advance_filtered(world, motion, dt),
             None => integration.advance(world, motion, dt),
         };
         if let (Err(_), Some(ledger), Some(made)) =
@@ -78,7 +79,7 @@ impl Simulation {
         solver.energy_left_max = solver.energy_left_max.max(report.energy_left);
         solver.force_evaluations += report.force_evaluations;
         solver.linear_iterations += report.linear_iterations;
-        solver.tangents += report.tangents;
+        solver.tangents += report.stiffness_assemblies;
         solver.potential_evaluations += report.potential_evaluations;
         self.iterations += report.iterations;
     }

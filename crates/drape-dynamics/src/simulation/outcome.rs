@@ -50,7 +50,7 @@ impl Simulation {
     /// Takes note of why a step could not be made.
     pub(super) fn fail(&mut self, error: &Error) {
         self.status = match error {
-            Error::NotConverged { stop: Stop::Certificate, .. } => Status::CertificateFailed,
+            Error::NotConverged { stop: Stop::Intersection, .. } => Status::CertificateFailed,
             _ => Status::SolverFailed,
         };
         let tight = self.tightest().map(|place| format!("; {place}")).unwrap_or_default();

@@ -1,4 +1,4 @@
-use drape_implicit::{Error, Integrator, Motion};
+use drape_implicit::{Error, Integrator, IntegratorState};
 use drape_scene::Settle;
 
 use super::Simulation;
@@ -110,7 +110,8 @@ impl Simulation {
 
     /// Goes on from rest as the world now moves.
     fn go_on(&mut self, positions: Vec<f64>) -> Result<(), Error> {
-        self.motion = Motion { time: self.motion.time, ..Motion::at_rest(positions) };
+        self.motion =
+            IntegratorState { time: self.motion.time, ..IntegratorState::at_rest(positions) };
         let creeps = self.world.creeps.then_some(Accuracy::CREEPING);
         let (scheme, accuracy) = self.scheme.on_the_way(creeps);
         self.integration = self.start(&scheme)?;

@@ -1,4 +1,4 @@
-use drape_implicit::{Error, Integrator, Method, Motion, Settings};
+use drape_implicit::{Error, Integrator, IntegratorState, Method, Settings};
 
 use super::Simulation;
 use crate::scheme::Scheme;
@@ -46,7 +46,7 @@ impl Simulation {
     /// Root-mean-square acceleration of the free particles in the last step, in m/s². A creeping cloth
     /// began it at rest.
     pub(super) fn acceleration(&self, dt: f64) -> f64 {
-        let Motion { velocities, previous, .. } = &self.motion;
+        let IntegratorState { velocities, previous, .. } = &self.motion;
         let Some(previous) = previous else { return 0.0 };
         // The step may have been made in parts; the last one is as long as it says.
         let dt = if previous.dt < dt { previous.dt } else { dt };
@@ -124,14 +124,14 @@ fn creeping(settings: &Settings, accuracy: Accuracy) -> Scheme {
     let Accuracy { tolerance, energy: energy_tolerance } = accuracy;
     let newton_forcing = CREEP_FORCING;
     let integrator = Integrator::BackwardEuler;
-    let goes_on = true;
+    let begin_at_prediction = true;
     Scheme::Implicit(Settings {
         method,
         tolerance,
         energy_tolerance,
         newton_forcing,
         integrator,
-        goes_on,
+        begin_at_prediction,
         ..settings.clone()
     })
 }

@@ -1,4 +1,6 @@
-use drape_implicit::{BlockMatrix, Pattern, Stiffness, System, Way};
+use drape_implicit::{
+    BlockMatrix, Coupling, Sparsity, StepFilter, StepLimit, Stiffness, System, TrialStep,
+};
 
 use super::share::{couples, interpolate};
 use super::{Sewn, Weld};
@@ -87,55 +89,25 @@ impl System for Sewn<'_> {
                 matrix.add_block(slot, &block);
             }
         }
-        for (row, column, block) in nodes.beyond() {
-            for ([row, column], weight) in couples([row, column].map(|n| &places_of[n]), false) {
+        for Coupling { row, column, block } in nodes.couplings() {
+            let ends = [row, column].map(|node| &places_of[*node as usize]);
+            for ([row, column], weight) in couples(ends, false) {
                 let block = block.map(|entry| weight * entry);
-                matrix.couple(row, column, &block);
+                matrix.add_coupling(row, column, &block);
                 if row == column {
-                    matrix.couple(row, column, &transposed(&block));
+                    matrix.add_coupling(row, column, &transposed(&block));
                 }
             }
         }
-        if nodes.stray().is_some() {
+        if nodes.outside_sparsity().is_some() {
             // No particle has such a number: the step ends with an error.
             matrix.add(usize::MAX, usize::MAX, &[0.0; 9]);
         }
         self.weld.places = places;
     }
 
-    fn pattern(&self) -> Pattern {
-        self.weld.pattern.clone()
-    }
-
-    fn is_straight(&self, start: f64, end: f64) -> bool {
-        self.world.is_straight(start, end)
-    }
-
-    fn guards(&self) -> bool {
-        self.world.guards()
-    }
-
-    fn allow(&mut self, way: Way<'_>) -> bool {
-        let mut steps = std::mem::take(&mut self.weld.others);
-        self.weld.widen(way.step, &mut steps);
-        let Way { from, step, progress, advance } = way;
-        let whole = self.at(from, |world, places| {
-            world.allow(Way { from: places, step: &mut steps, progress, advance })
-        });
-        // Any part of a way that is allowed is allowed too: the shortest is all nodes'.
-        if !whole {
-            self.weld.shorten(&steps, step);
-        }
-        self.weld.others = steps;
-        whole
-    }
-
-    fn arrive(&mut self, progress: f64) {
-        self.world.arrive(progress);
-    }
-
-    fn certify(&mut self, positions: &[f64]) -> bool {
-        self.at(positions, World::certify)
+    fn sparsity(&self) -> Sparsity {
+        self.weld.sparsity.clone()
     }
 
     fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {
@@ -143,6 +115,34 @@ impl System for Sewn<'_> {
         self.weld.widen(velocities, &mut speeds);
         self.at(positions, |world, places| world.accept(places, &speeds, dt));
         self.weld.others = speeds;
+    }
+}
+
+impl StepFilter for Sewn<'_> {
+    fn is_nearly_straight(&self, start: f64, end: f64) -> bool {
+        self.world.is_nearly_straight(start, end)
+    }
+
+    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+        let mut of_nodes = std::mem::take(&mut self.weld.others);
+        self.weld.widen(step.displacements, &mut of_nodes);
+        let limit = self.at(step.start, |world, places| {
+            world.limit_step(TrialStep { start: places, displacements: &mut of_nodes, ..step })
+        });
+        // Any part of a step that is allowed is allowed too: the shortest is all nodes'.
+        if !limit.is_whole() {
+            self.weld.shorten(&of_nodes, step.displacements);
+        }
+        self.weld.others = of_nodes;
+        limit
+    }
+
+    fn set_obstacle_time(&mut self, time: f64) {
+        self.world.set_obstacle_time(time);
+    }
+
+    fn is_intersection_free(&mut self, positions: &[f64]) -> bool {
+        self.at(positions, World::is_intersection_free)
     }
 }
 

@@ -1,4 +1,4 @@
-use drape_implicit::{BlockMatrix, Pattern, Stiffness, System, Way};
+use drape_implicit::{BlockMatrix, Sparsity, StepFilter, StepLimit, Stiffness, System, TrialStep};
 
 use super::World;
 use crate::ledger::Entry;
@@ -14,11 +14,6 @@ impl System for World {
 
     fn held(&self) -> &[bool] {
         &self.held
-    }
-
-    fn is_straight(&self, start: f64, end: f64) -> bool {
-        let times = [start, end].map(|time| self.time_of_motion(time));
-        self.surfaces.as_ref().is_none_or(|surfaces| surfaces.go_straight(times))
     }
 
     fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]) {
@@ -115,44 +110,26 @@ impl System for World {
         self.each_drag(positions, |particle, _, normal| {
             let drag = self.drag[particle];
             let block: [f64; 9] = std::array::from_fn(|k| drag * normal[k / 3] * normal[k % 3]);
-            matrix.add_block(matrix.pattern().row(particle).start, &block);
+            matrix.add_block(matrix.sparsity().row(particle).start, &block);
         });
         match &mut self.surfaces {
             Some(surfaces) => {
                 surfaces.contact.add_stiffness(positions, &mut |[i, j], block| {
-                    matrix.couple(i, j, block);
+                    matrix.add_coupling(i, j, block);
                 });
             }
             None => self.contact.add_stiffness(positions, definite, &mut |particle, block| {
-                matrix.add_block(matrix.pattern().row(particle).start, &block);
+                matrix.add_block(matrix.sparsity().row(particle).start, &block);
             }),
         }
     }
 
-    fn pattern(&self) -> Pattern {
+    fn sparsity(&self) -> Sparsity {
         self.bonds.coupling().clone()
     }
 
-    fn pattern_version(&self) -> u64 {
+    fn sparsity_version(&self) -> u64 {
         self.bonds.version()
-    }
-
-    fn guards(&self) -> bool {
-        self.surfaces.is_some()
-    }
-
-    fn allow(&mut self, way: Way<'_>) -> bool {
-        self.surfaces.as_mut().is_none_or(|surfaces| surfaces.allow(way))
-    }
-
-    fn arrive(&mut self, progress: f64) {
-        if let Some(surfaces) = &mut self.surfaces {
-            surfaces.contact.set_obstacle_time(progress);
-        }
-    }
-
-    fn certify(&mut self, positions: &[f64]) -> bool {
-        self.surfaces.as_mut().is_none_or(|surfaces| surfaces.certify(positions))
     }
 
     fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {
@@ -165,5 +142,29 @@ impl System for World {
             let stored = self.bonds.stored(&self.cloth, &self.state);
             ledger.enter(&Entry { friction: dissipated, stored, ..entry });
         }
+    }
+}
+
+impl StepFilter for World {
+    fn is_nearly_straight(&self, start: f64, end: f64) -> bool {
+        let times = [start, end].map(|time| self.time_of_motion(time));
+        self.surfaces.as_ref().is_none_or(|surfaces| surfaces.go_straight(times))
+    }
+
+    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+        match &mut self.surfaces {
+            Some(surfaces) => surfaces.limit_step(step),
+            None => StepLimit::Whole,
+        }
+    }
+
+    fn set_obstacle_time(&mut self, time: f64) {
+        if let Some(surfaces) = &mut self.surfaces {
+            surfaces.contact.set_obstacle_time(time);
+        }
+    }
+
+    fn is_intersection_free(&mut self, positions: &[f64]) -> bool {
+        self.surfaces.as_mut().is_none_or(|surfaces| surfaces.is_intersection_free(positions))
     }
 }

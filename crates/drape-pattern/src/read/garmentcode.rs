@@ -1,8 +1,8 @@
-//! Patterns of GarmentCode and of its predecessor, the Garment-Pattern-Generator, in JSON.
+//! Reader of patterns of GarmentCode and of its predecessor, the Garment-Pattern-Generator, in JSON.
 //!
-//! The older kind writes a curve as one control point, the newer as a type with parameters. Control points
-//! are relative to the edge: along it, and to its left, in shares of its length. Angles turn about x, then y,
-//! then z.
+//! The predecessor writes a curve as one control point, GarmentCode as a type with parameters. Control
+//! points are relative to the edge: along it, and to its left, as fractions of its length. Rotations are
+//! about x, then y, then z.
 
 use std::collections::BTreeMap;
 
@@ -10,12 +10,13 @@ use drape_input::{Diagnostic, Diagnostics, Document, closest};
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::diagnostic::{diagnostic, syntax, wrong_unit};
+use crate::ease::MAX_EASE;
 use crate::edge::{Curve, Edge};
 use crate::note::Note;
 use crate::panel::Panel;
-use crate::pattern::{EdgeId, MAX_EASE, Pattern, Stitch};
+use crate::pattern::{EdgeId, Pattern, Seam};
 use crate::placement::Placement;
-use crate::read::{diagnostic, unit_slip};
 
 #[derive(Deserialize)]
 struct File {
@@ -53,23 +54,35 @@ struct EdgePart {
     curvature: Option<Value>,
 }
 
-/// What a curve of the file is, with a remedy if it is not one.
-type Curved = Result<Curve, (String, &'static str)>;
+/// Fault of a curve of the file.
+struct CurveFault {
+    message: String,
+    help: &'static str,
+}
 
+/// Reader of one document with the mistakes and notes so far.
 struct Reader<'a> {
     document: &'a Document,
     mistakes: Vec<Diagnostic>,
     notes: Vec<Note>,
+    /// Unit of lengths of the file, in m.
     metres: f64,
+    /// Whether control points are absolute.
     absolute: bool,
 }
 
-/// The pattern of a document that holds one in this format.
+/// Panels of the file with the order in which the pattern has them.
+struct Panels<'a> {
+    file: &'a PatternPart,
+    order: &'a [String],
+}
+
+/// Returns the pattern of a document in this format.
 pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
     let file: File = serde_json::from_str(document.text()).map_err(|error| {
         let help = "a specification has pattern.panels with vertices and edges, pattern.stitches \
                     and properties.units_in_meter";
-        crate::read::syntax(document, &error).help(help)
+        syntax(document, &error).help(help)
     })?;
     let unit = file.properties.units_in_meter;
     let coords = file.properties.curvature_coords.as_deref();
@@ -93,10 +106,12 @@ pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
 }
 
 impl Reader<'_> {
+    /// Adds a mistake.
     fn fail(&mut self, message: impl Into<String>, help: impl Into<String>) {
         self.mistakes.push(Diagnostic::new(self.document.path(), message).help(help));
     }
 
+    /// Returns the pattern of the panels and the seams of the file.
     fn pattern(mut self, mut file: PatternPart) -> Result<Pattern, Diagnostics> {
         let mut order = Vec::new();
         for name in &file.panel_order {
@@ -110,16 +125,18 @@ impl Reader<'_> {
         if order.is_empty() {
             self.fail("pattern.panels is empty", "add a panel");
         }
-        let mut stitches = Vec::new();
-        for (index, sides) in std::mem::take(&mut file.stitches).iter().enumerate() {
-            stitches.extend(self.stitch(&file, &order, (index, sides)));
+        let stitches = std::mem::take(&mut file.stitches);
+        let known = Panels { file: &file, order: &order };
+        let mut seams = Vec::new();
+        for (index, sides) in stitches.iter().enumerate() {
+            seams.extend(self.seam(&known, index, sides));
         }
         let mut panels = Vec::new();
         for name in &order {
             panels.extend(self.panel(name, &file.panels[name]));
         }
         if self.mistakes.is_empty() {
-            match Pattern::new(panels, stitches) {
+            match Pattern::new(panels, seams) {
                 Ok(pattern) => {
                     // The format has no grain.
                     self.notes.push(Note::NoGrain { panels: order });
@@ -131,6 +148,7 @@ impl Reader<'_> {
         Err(Diagnostics(self.mistakes))
     }
 
+    /// Adds the mistake of a panel that does not exist.
     fn no_panel(&mut self, place: &str, name: &str, file: &PatternPart) {
         let known: Vec<&str> = file.panels.keys().map(String::as_str).collect();
         let help = match closest(name, known.iter().copied()) {
@@ -140,6 +158,7 @@ impl Reader<'_> {
         self.fail(format!("{place}: there is no panel \"{name}\""), help);
     }
 
+    /// Returns a panel of the file.
     fn panel(&mut self, name: &str, part: &PanelPart) -> Option<Panel> {
         let before = self.mistakes.len();
         let mut edges = Vec::new();
@@ -160,7 +179,9 @@ impl Reader<'_> {
             match edge.curvature.as_ref().map_or(Ok(Curve::Line), |value| self.curve(&line, value))
             {
                 Ok(curve) => edges.push(line.curved(curve)),
-                Err((message, help)) => self.fail(format!("{place}.curvature {message}"), help),
+                Err(CurveFault { message, help }) => {
+                    self.fail(format!("{place}.curvature {message}"), help);
+                }
             }
         }
         if self.mistakes.len() > before {
@@ -173,7 +194,7 @@ impl Reader<'_> {
                 return None;
             }
         };
-        self.mistakes.extend(unit_slip(&panel).map(|m| diagnostic(self.document, &m)));
+        self.mistakes.extend(wrong_unit(&panel).map(|m| diagnostic(self.document, &m)));
         let angles = part.rotation.unwrap_or_default().map(f64::to_radians);
         let placement = part
             .translation
@@ -186,7 +207,7 @@ impl Reader<'_> {
                 return None;
             }
         };
-        // The right side is the one that the outline runs round anticlockwise.
+        // The right side is the one from which the outline runs anticlockwise.
         if !panel.was_clockwise() {
             return Some(panel);
         }
@@ -194,10 +215,11 @@ impl Reader<'_> {
         Some(panel.turned_over())
     }
 
-    fn curve(&self, edge: &Edge, value: &Value) -> Curved {
+    /// Returns the curve of an edge.
+    fn curve(&self, edge: &Edge, value: &Value) -> Result<Curve, CurveFault> {
         let help =
             "a curve is [x, y], or a type \"quadratic\", \"cubic\" or \"circle\" with params";
-        let wrong = || (format!("is {value}"), help);
+        let wrong = || CurveFault { message: format!("is {value}"), help };
         if value.is_null() {
             return Ok(Curve::Line);
         }
@@ -219,12 +241,13 @@ impl Reader<'_> {
                 };
                 let radius = radius.as_f64().filter(|r| *r > 0.0).ok_or_else(wrong)? * self.metres;
                 // An arc that bulges to the right turns left.
-                Ok(Curve::Arc { sweep: edge.sweep(radius, flag(large)?, flag(right)?) })
+                Ok(Curve::Arc { sweep: edge.arc_sweep(radius, flag(large)?, flag(right)?) })
             }
             _ => Err(wrong()),
         }
     }
 
+    /// Returns a control point in the panel's frame, in m.
     fn control(&self, edge: &Edge, value: &Value) -> Option<[f64; 2]> {
         let [x, y] = value.as_array()?.as_slice() else { return None };
         let (x, y) = (x.as_f64()?, y.as_f64()?);
@@ -238,12 +261,8 @@ impl Reader<'_> {
         ])
     }
 
-    fn stitch(
-        &mut self,
-        file: &PatternPart,
-        order: &[String],
-        (index, sides): (usize, &[Value]),
-    ) -> Option<Stitch> {
+    /// Returns the seam of a stitch of the file.
+    fn seam(&mut self, known: &Panels<'_>, index: usize, sides: &[Value]) -> Option<Seam> {
         let place = format!("pattern.stitches[{index}]");
         let reversed = match sides {
             [_, _] => false,
@@ -255,20 +274,16 @@ impl Reader<'_> {
                 return None;
             }
         };
-        let sides =
-            [0, 1].map(|side| self.side(&format!("{place}[{side}]"), (file, order), &sides[side]));
+        let sides = [0, 1].map(|side| self.side(&format!("{place}[{side}]"), known, &sides[side]));
         let [Some(first), Some(second)] = sides else { return None };
         let (name, sides) = (index.to_string(), [vec![first], vec![second]]);
-        // The format has gathers, and no word for how much of one is meant.
-        Some(Stitch { name, sides, reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 })
+        // The format has gathers, but no word for how much ease is intended.
+        Some(Seam { name, sides, reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 })
     }
 
-    fn side(
-        &mut self,
-        place: &str,
-        (file, order): (&PatternPart, &[String]),
-        value: &Value,
-    ) -> Option<EdgeId> {
+    /// Returns the edge of a side of a stitch.
+    fn side(&mut self, place: &str, known: &Panels<'_>, value: &Value) -> Option<EdgeId> {
+        let Panels { file, order } = known;
         let panel = value.get("panel").and_then(Value::as_str);
         let edge = value.get("edge").and_then(Value::as_u64);
         let (Some(panel), Some(edge)) = (panel, edge) else {

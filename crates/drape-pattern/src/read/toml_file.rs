@@ -1,4 +1,4 @@
-//! Patterns in the project's own format.
+//! Reader of the project's own format, in TOML.
 //!
 //! ```toml
 //! length = "cm"
@@ -22,22 +22,21 @@ use std::collections::BTreeMap;
 use drape_input::{Diagnostic, Diagnostics, Document, closest};
 use serde::Deserialize;
 
+use super::diagnostic::wrong_unit;
+use super::svg_path;
+use crate::ease::DEFAULT_EASE;
 use crate::edge::{Curve, Edge};
 use crate::mistake::{Mistake, Subject};
 use crate::note::Note;
 use crate::panel::{Fold, Panel};
-use crate::pattern::{EdgeId, Pattern, Stitch};
+use crate::pattern::{EdgeId, Pattern, Seam};
 use crate::placement::Placement;
-use crate::read::unit_slip;
 
-/// Largest angle of a fold or a seam, in degrees: beyond it the bending of yarns is not exact.
+/// Largest angle of a fold or a seam, in degrees; beyond it the bending of yarns is not exact.
 const ANGLE_MAX: f64 = 140.0;
 
-/// Widest allowance or hem, in m: beyond it a length in the wrong unit is far more likely.
+/// Widest allowance or hem, in m; beyond it a length in the wrong unit is far more likely.
 const WIDTH_MAX: f64 = 0.3;
-
-/// Ratio of the lengths of a seam's sides that is allowed where the file says nothing.
-const EASE: f64 = 1.1;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -100,14 +99,22 @@ struct SeamFile {
     allowance: f64,
 }
 
+/// Reader of one document with the mistakes and notes so far.
 struct Reader<'a> {
     document: &'a Document,
     mistakes: Vec<Diagnostic>,
     notes: Vec<Note>,
+    /// Unit of lengths of the file, in m.
     metres: f64,
 }
 
-/// The pattern of a document in the project's own format.
+/// Panels of the file, by name; `None` for those with mistakes.
+struct Panels<'a> {
+    names: &'a [&'a str],
+    panels: &'a [Option<Panel>],
+}
+
+/// Returns the pattern of a document in the project's own format.
 pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
     let file: PatternFile = document.decode()?;
     let mut reader = Reader { document, mistakes: vec![], notes: vec![], metres: f64::NAN };
@@ -130,22 +137,23 @@ pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
 }
 
 impl Reader<'_> {
+    /// Adds a mistake at a key.
     fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
         self.mistakes.push(self.document.at(key, message).help(help));
     }
 
-    /// Reports a mistake where it was made.
+    /// Adds a mistake of the pattern at the key of its subject.
     fn mistake(&mut self, mistake: &Mistake) {
         let key = match mistake.subject() {
             Subject::Panel(panel) => format!("panel.{panel}.outline"),
-            Subject::Stitch(stitch) => format!("seam.{stitch}.sides"),
+            Subject::Seam(seam) => format!("seam.{seam}.sides"),
             Subject::Spacing => String::new(),
         };
         self.fail(&key, mistake.to_string(), mistake.help());
     }
 
     fn panels(&mut self, file: &PatternFile) -> Vec<Option<Panel>> {
-        // Without a unit nothing can be said of sizes.
+        // Without a unit the sizes cannot be checked.
         if self.metres.is_nan() {
             return vec![None; file.panel.len()];
         }
@@ -159,6 +167,7 @@ impl Reader<'_> {
         panels
     }
 
+    /// Returns a panel with its grain, folds and place.
     fn panel(&mut self, name: &str, file: &PanelFile) -> Option<Panel> {
         let key = format!("panel.{name}");
         let edges = self.edges(name, file)?;
@@ -169,8 +178,8 @@ impl Reader<'_> {
                 return None;
             }
         };
-        if let Some(slip) = unit_slip(&panel) {
-            self.mistake(&slip);
+        if let Some(mistake) = wrong_unit(&panel) {
+            self.mistake(&mistake);
         }
         if panel.was_clockwise() {
             self.notes.push(Note::Reversed { panel: name.into() });
@@ -206,6 +215,7 @@ impl Reader<'_> {
         }
     }
 
+    /// Returns a panel with its folds.
     fn folded(&mut self, panel: Panel, folds: &[FoldFile]) -> Option<Panel> {
         let key = format!("panel.{}.fold", panel.name());
         for (index, fold) in folds.iter().enumerate() {
@@ -222,7 +232,7 @@ impl Reader<'_> {
         folded.map_err(|_| self.fail(&key, "a fold has no length, or is not finite", help)).ok()
     }
 
-    /// An angle of a fold or a seam, in degrees.
+    /// Checks the angle of a fold or a seam, in degrees.
     fn angle(&mut self, key: &str, angle: f64) {
         if !(angle.abs() <= ANGLE_MAX) {
             let help = "degrees towards the right side of the cloth, from -140 to 140; 0 is flat";
@@ -230,7 +240,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The width of an allowance or a hem, in m.
+    /// Checks the width of an allowance or a hem, and returns it in m.
     fn width(&mut self, key: &str, width: f64) -> f64 {
         let metres = width * self.metres;
         if !(0.0..=WIDTH_MAX).contains(&metres) {
@@ -239,6 +249,7 @@ impl Reader<'_> {
         metres
     }
 
+    /// Returns the edges of a panel, whichever shape it is given by.
     fn edges(&mut self, name: &str, file: &PanelFile) -> Option<Vec<Edge>> {
         let key = format!("panel.{name}");
         let mut edges = match (&file.outline, file.rectangle, &file.path) {
@@ -249,7 +260,7 @@ impl Reader<'_> {
                 let names = ["bottom", "right", "top", "left"];
                 (0..4).map(|k| Edge::line(names[k], corners[k], corners[(k + 1) % 4])).collect()
             }
-            (None, None, Some(path)) => match crate::path::edges(name, path, self.metres) {
+            (None, None, Some(path)) => match svg_path::edges(name, path, self.metres) {
                 Ok(edges) => edges,
                 Err(mistake) => {
                     self.fail(&format!("{key}.path"), mistake.to_string(), mistake.help());
@@ -276,6 +287,7 @@ impl Reader<'_> {
         Some(edges)
     }
 
+    /// Returns the edges of an outline.
     fn outline(
         &mut self,
         key: &str,
@@ -298,7 +310,7 @@ impl Reader<'_> {
                 (None, Some(controls), None) => Some(Curve::Cubic(controls.map(scaled))),
                 (None, None, Some(radius)) => {
                     let (size, left) = ((radius * self.metres).abs(), radius > 0.0);
-                    Some(Curve::Arc { sweep: line.sweep(size, file.large, left) })
+                    Some(Curve::Arc { sweep: line.arc_sweep(size, file.large, left) })
                 }
                 _ => None,
             };
@@ -319,31 +331,33 @@ impl Reader<'_> {
         (self.mistakes.len() == before).then_some(edges)
     }
 
+    /// Returns the pattern of the panels and the seams of the file.
     fn pattern(
         mut self,
         file: &PatternFile,
         panels: Vec<Option<Panel>>,
     ) -> Result<Pattern, Diagnostics> {
         let names: Vec<&str> = file.panel.keys().map(String::as_str).collect();
-        let mut stitches = Vec::new();
+        let known = Panels { names: &names, panels: &panels };
+        let mut seams = Vec::new();
         for (name, seam) in &file.seam {
             let sides = [0, 1].map(|side| {
                 let key = format!("seam.{name}.sides[{side}]");
-                let edge = |word: &String| self.sewn(&key, word, (&names, &panels));
+                let edge = |word: &String| self.sewn_edge(&key, word, &known);
                 seam.sides[side].iter().filter_map(edge).collect::<Vec<EdgeId>>()
             });
             self.angle(&format!("seam.{name}.angle"), seam.angle);
-            stitches.push(Stitch {
+            seams.push(Seam {
                 name: name.clone(),
                 sides,
                 reversed: seam.reversed,
-                max_ease: seam.max_ease.unwrap_or(EASE),
+                max_ease: seam.max_ease.unwrap_or(DEFAULT_EASE),
                 angle: seam.angle.to_radians(),
                 allowance: self.width(&format!("seam.{name}.allowance"), seam.allowance),
             });
         }
         let made = match self.mistakes.is_empty() {
-            true => Pattern::new(panels.into_iter().flatten().collect(), stitches),
+            true => Pattern::new(panels.into_iter().flatten().collect(), seams),
             false => Err(Vec::new()),
         };
         match made {
@@ -355,17 +369,13 @@ impl Reader<'_> {
         }
     }
 
-    /// The edge that a word such as `front.side` names.
-    fn sewn(
-        &mut self,
-        key: &str,
-        word: &str,
-        (names, panels): (&[&str], &[Option<Panel>]),
-    ) -> Option<EdgeId> {
+    /// Returns the edge that a word such as `front.side` names.
+    fn sewn_edge(&mut self, key: &str, word: &str, known: &Panels<'_>) -> Option<EdgeId> {
+        let Panels { names, panels } = known;
         let (panel, edge) = word.rsplit_once('.').unwrap_or((word, ""));
         let Some(number) = names.iter().position(|name| *name == panel) else {
             let help = match closest(panel, names.iter().copied()) {
-                Some(near) => format!("did you mean \"{near}.{edge}\"?"),
+                Some(similar) => format!("did you mean \"{similar}.{edge}\"?"),
                 None => format!("write panel.edge; the panels are: {}", names.join(", ")),
             };
             self.fail(key, format!("\"{word}\": there is no panel \"{panel}\""), help);
@@ -376,7 +386,7 @@ impl Reader<'_> {
         let found = known.iter().position(|name| *name == edge);
         if found.is_none() {
             let help = match closest(edge, known.iter().copied()) {
-                Some(near) => format!("did you mean \"{panel}.{near}\"?"),
+                Some(similar) => format!("did you mean \"{panel}.{similar}\"?"),
                 None => format!("its edges are: {}", known.join(", ")),
             };
             self.fail(key, format!("panel {panel} has no edge \"{edge}\""), help);
@@ -385,7 +395,7 @@ impl Reader<'_> {
     }
 }
 
-/// Mistakes in the order of the text.
+/// Returns the mistakes in the order of the text.
 fn sorted(mistakes: Vec<Diagnostic>) -> Diagnostics {
     match Diagnostics::check(mistakes) {
         Err(all) => all,

@@ -1,90 +1,98 @@
-//! Triangles between the outline and the full cells of the lattice.
+//! Rim: the triangles between the outline and the full cells of the lattice.
+//!
+//! A constrained Delaunay triangulation fills the strip. Where it leaves sharp angles, the lattice is
+//! thinned near the outline, and other phases of the lattice are tried.
 
 use std::collections::BTreeMap;
 
 use spade::handles::FixedFaceHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
+use super::lattice::{LOOSE, Lattice};
 use crate::edge::difference;
-use crate::lattice::{LOOSE, Lattice};
 
-/// Angle of a triangle under which the lattice is thinned to better it, in rad: 22 degrees.
+/// Angle of a triangle below which the lattice is thinned, in rad: 22 degrees.
 const SHARP: f64 = 22.0 * std::f64::consts::PI / 180.0;
 
-/// Most times that the lattice is thinned at one phase. Where twelve do not help, the outline itself is sharp.
+/// Largest number of times that the lattice is thinned at one phase. Where twelve do not help, the outline
+/// itself is sharp.
 const PASSES: usize = 12;
 
-/// A panel's polygon with its lattice and the triangles between them. Lengths are in spacings.
+/// Lattice inside a polygon and the triangles between them. Lengths are in spacings.
 #[derive(Debug, Clone)]
 pub(crate) struct Rim {
     pub lattice: Lattice,
-    /// Corners anticlockwise: numbers of the polygon's corners, then of the lattice's nodes, row by row.
+    /// Corners of the triangles, anticlockwise: numbers of the polygon's corners, then of the lattice's
+    /// nodes, row by row.
     pub triangles: Vec<[u32; 3]>,
-    /// The smallest angle of the triangles that is not one of the polygon's own, in rad.
-    sharpest: f64,
+    /// Smallest angle of the triangles that is not one of the polygon's own corners, in rad.
+    smallest_angle: f64,
 }
 
 impl Rim {
-    /// The rim of a simple polygon that runs anticlockwise, or none if triangulation failed.
+    /// Returns the rim of a simple polygon that runs anticlockwise; `None` if triangulation failed.
     ///
-    /// All phases of the lattice are tried, that with most cells first, until one leaves no sharp angle; if
-    /// none does, the one with the least sharp is taken.
+    /// The phases of the lattice are tried in the order of their numbers of cells until one leaves no sharp
+    /// angle; if none does, the one with the largest smallest angle is taken.
     pub fn new(polygon: &[[f64; 2]]) -> Option<Self> {
         let mut best: Option<Self> = None;
         for phase in Lattice::phases(polygon) {
-            let rim = Self::repaired(polygon, Lattice::new(polygon, phase))?;
-            if best.as_ref().is_none_or(|b| rim.sharpest > b.sharpest) {
+            let rim = Self::thinned(polygon, Lattice::new(polygon, phase))?;
+            if best.as_ref().is_none_or(|b| rim.smallest_angle > b.smallest_angle) {
                 best = Some(rim);
             }
-            if best.as_ref().is_some_and(|b| b.sharpest >= SHARP) {
+            if best.as_ref().is_some_and(|b| b.smallest_angle >= SHARP) {
                 break;
             }
         }
         best
     }
 
-    /// The rim of a lattice that is thinned while that may help.
-    fn repaired(polygon: &[[f64; 2]], lattice: Lattice) -> Option<Self> {
+    /// Returns the rim of a lattice that is thinned as long as that may help.
+    fn thinned(polygon: &[[f64; 2]], lattice: Lattice) -> Option<Self> {
         let mut best = Self::of(polygon, lattice)?;
         let mut rim = best.clone();
         for _ in 0..PASSES {
-            if rim.sharpest >= SHARP || !rim.thin(polygon) {
+            if rim.smallest_angle >= SHARP || !rim.thin(polygon) {
                 break;
             }
             rim = Self::of(polygon, rim.lattice)?;
-            if rim.sharpest > best.sharpest {
+            if rim.smallest_angle > best.smallest_angle {
                 best = rim.clone();
             }
         }
         Some(best)
     }
 
+    /// Returns the rim of a lattice.
     fn of(polygon: &[[f64; 2]], lattice: Lattice) -> Option<Self> {
         let nodes: Vec<[usize; 2]> = lattice.nodes().collect();
         let triangles = triangulate(polygon, &lattice, &nodes)?;
-        let mut rim = Self { lattice, triangles, sharpest: std::f64::consts::PI };
-        let place = |node: u32| rim.place(polygon, &nodes, node);
-        let sharp = rim.triangles.iter().map(|t| freest(polygon.len(), *t, t.map(place)));
-        rim.sharpest = sharp.fold(std::f64::consts::PI, f64::min);
+        let mut rim = Self { lattice, triangles, smallest_angle: std::f64::consts::PI };
+        let position = |node: u32| rim.position(polygon, &nodes, node);
+        let sharp = rim.triangles.iter().map(|t| free_angle(polygon.len(), *t, t.map(position)));
+        rim.smallest_angle = sharp.fold(std::f64::consts::PI, f64::min);
         Some(rim)
     }
 
-    fn place(&self, polygon: &[[f64; 2]], nodes: &[[usize; 2]], node: u32) -> [f64; 2] {
+    /// Returns the position of a corner of the polygon or node of the lattice.
+    fn position(&self, polygon: &[[f64; 2]], nodes: &[[usize; 2]], node: u32) -> [f64; 2] {
         let node = node as usize;
         if node < polygon.len() {
             polygon[node]
         } else {
-            self.lattice.place(nodes[node - polygon.len()])
+            self.lattice.position(nodes[node - polygon.len()])
         }
     }
 
-    /// Drops from each sharp triangle its lattice node nearest to the outline, if that is near.
+    /// Drops from each sharp triangle its lattice node nearest to the outline, if that is loose; returns
+    /// whether any was dropped.
     fn thin(&mut self, polygon: &[[f64; 2]]) -> bool {
         let nodes: Vec<[usize; 2]> = self.lattice.nodes().collect();
         let mut lost = Vec::new();
         for &triangle in &self.triangles {
-            let corners = triangle.map(|node| self.place(polygon, &nodes, node));
-            if freest(polygon.len(), triangle, corners) >= SHARP {
+            let corners = triangle.map(|node| self.position(polygon, &nodes, node));
+            if free_angle(polygon.len(), triangle, corners) >= SHARP {
                 continue;
             }
             let own = triangle
@@ -99,7 +107,7 @@ impl Rim {
     }
 }
 
-/// The angles at the corners of a triangle, in rad.
+/// Returns the angles at the corners of a triangle, in rad.
 pub(crate) fn angles(corners: [[f64; 2]; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| {
         let (u, v) = (
@@ -110,8 +118,9 @@ pub(crate) fn angles(corners: [[f64; 2]; 3]) -> [f64; 3] {
     })
 }
 
-/// The smallest angle of a triangle, but for one between two sides of the polygon, which is the polygon's own.
-fn freest(sides: usize, triangle: [u32; 3], corners: [[f64; 2]; 3]) -> f64 {
+/// Returns the smallest angle of a triangle, except one between two sides of the polygon, which is the
+/// polygon's own.
+fn free_angle(sides: usize, triangle: [u32; 3], corners: [[f64; 2]; 3]) -> f64 {
     let angles = angles(corners);
     let follows = |a: u32, b: u32| {
         (a as usize) < sides && (b as usize) < sides && (a as usize + 1) % sides == b as usize
@@ -123,6 +132,7 @@ fn freest(sides: usize, triangle: [u32; 3], corners: [[f64; 2]; 3]) -> f64 {
     free.map(|k| angles[k]).fold(std::f64::consts::PI, f64::min)
 }
 
+/// Returns the triangles between a polygon and the full cells of a lattice.
 fn triangulate(
     polygon: &[[f64; 2]],
     lattice: &Lattice,
@@ -130,18 +140,18 @@ fn triangulate(
 ) -> Option<Vec<[u32; 3]>> {
     let number: BTreeMap<[usize; 2], usize> =
         nodes.iter().enumerate().map(|(k, &node)| (node, polygon.len() + k)).collect();
-    // Inside the cells there is nothing to triangulate.
+    // Nodes inside the cells take no part.
     let outer = outer_nodes(lattice, nodes);
     let mut vertices: Vec<Point2<f64>> = polygon.iter().map(|p| Point2::new(p[0], p[1])).collect();
     let mut names: Vec<u32> = (0..polygon.len() as u32).collect();
     let mut vertex: BTreeMap<usize, usize> = (0..polygon.len()).map(|k| (k, k)).collect();
     for &node in &outer {
-        let [x, y] = lattice.place(node);
+        let [x, y] = lattice.position(node);
         vertex.insert(number[&node], vertices.len());
         names.push(number[&node] as u32);
         vertices.push(Point2::new(x, y));
     }
-    // Directed so that the rim is on the left.
+    // Directed so that the rim lies on the left.
     let mut sides: Vec<[usize; 2]> =
         (0..polygon.len()).map(|k| [k, (k + 1) % polygon.len()]).collect();
     for [from, to] in cell_sides(lattice) {
@@ -157,24 +167,24 @@ fn triangulate(
     if conflict || triangulation.num_vertices() != count {
         return None;
     }
-    // From the sides inwards, as far as no other side is crossed.
+    // Flood fill from the constraint edges, without crossing another.
     let mut reached = vec![false; triangulation.num_all_faces()];
-    let mut ahead: Vec<FixedFaceHandle<spade::handles::InnerTag>> = Vec::new();
+    let mut front: Vec<FixedFaceHandle<spade::handles::InnerTag>> = Vec::new();
     let handle = spade::handles::FixedVertexHandle::from_index;
     for [from, to] in sides {
         let side = triangulation.get_edge_from_neighbors(handle(from), handle(to))?;
-        ahead.push(side.face().as_inner()?.fix());
+        front.push(side.face().as_inner()?.fix());
     }
     let mut triangles = Vec::new();
-    while let Some(face) = ahead.pop() {
+    while let Some(face) = front.pop() {
         if std::mem::replace(&mut reached[face.index()], true) {
             continue;
         }
         let face = triangulation.face(face);
-        triangles.push(in_order(face.vertices().map(|v| names[v.fix().index()])));
+        triangles.push(lowest_first(face.vertices().map(|v| names[v.fix().index()])));
         for edge in face.adjacent_edges() {
             if !edge.is_constraint_edge() {
-                ahead.push(edge.rev().face().as_inner()?.fix());
+                front.push(edge.rev().face().as_inner()?.fix());
             }
         }
     }
@@ -182,13 +192,13 @@ fn triangulate(
     Some(triangles)
 }
 
-/// A triangle from its lowest corner on.
-fn in_order(triangle: [u32; 3]) -> [u32; 3] {
+/// Returns a triangle with its lowest corner first.
+fn lowest_first(triangle: [u32; 3]) -> [u32; 3] {
     let lowest = (0..3).min_by_key(|&k| triangle[k]).unwrap_or(0);
     [0, 1, 2].map(|k| triangle[(lowest + k) % 3])
 }
 
-/// The nodes that are not between four full cells.
+/// Returns the nodes that are not between four full cells.
 fn outer_nodes(lattice: &Lattice, nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let inner = |&[column, row]: &[usize; 2]| {
         column > 0
@@ -200,7 +210,7 @@ fn outer_nodes(lattice: &Lattice, nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
     nodes.iter().filter(|node| !inner(node)).copied().collect()
 }
 
-/// The sides of full cells that lie at no other, with the cell on the left.
+/// Returns the sides of full cells that belong to one cell only, with the cell on the left.
 fn cell_sides(lattice: &Lattice) -> Vec<[[usize; 2]; 2]> {
     let mut sides = Vec::new();
     for [c, r] in lattice.cells() {

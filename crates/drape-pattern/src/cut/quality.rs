@@ -1,18 +1,20 @@
+//! Quality of a cut: edge lengths, angles, errors of area and outline, and thin parts.
+
 use std::collections::BTreeMap;
 
-use crate::cut::{Cut, CutPattern};
+use super::panel_cut::Cut;
+use super::rim::angles;
 use crate::edge::{difference, distance};
 use crate::note::Note;
 use crate::panel::Panel;
-use crate::rim::angles;
 
-/// Points at which the outline is compared with each chord.
+/// Number of points at which the outline is compared with each chord.
 const SAMPLES: usize = 16;
 
-/// Width under which a part of a panel is thin, in spacings: fewer than three particles across.
+/// Width below which a part of a panel is thin, in spacings: fewer than three particles across.
 const THIN: f64 = 1.5;
 
-/// How good the cut of a panel is.
+/// Quality of the cut of a panel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quality {
     /// Number of nodes.
@@ -22,17 +24,17 @@ pub struct Quality {
     /// Number of triangles of the rim.
     pub triangles: usize,
     /// Length of the shortest edge of a triangle or cell, in spacings.
-    pub shortest: f64,
+    pub shortest_edge: f64,
     /// Length of the longest edge of a triangle or cell, in spacings.
-    pub longest: f64,
+    pub longest_edge: f64,
     /// Smallest angle of the triangles, in rad; a right angle where there are none.
-    pub sharpest: f64,
-    /// Share of the panel's area by which the areas of cells and triangles together are too large.
+    pub smallest_angle: f64,
+    /// Relative error of the area of cells and triangles together, positive if it is too large.
     pub area_error: f64,
     /// Largest distance of the outline from the chords between its nodes, in m.
     pub deviation: f64,
-    /// Share of the area of the cut that is in cells.
-    pub lattice_share: f64,
+    /// Fraction of the area of the cut that is in cells, 0 to 1.
+    pub cell_fraction: f64,
 }
 
 impl Quality {
@@ -41,7 +43,7 @@ impl Quality {
     pub fn new(panel: &Panel, cut: &Cut, spacing: f64) -> Self {
         let at = |node: u32| cut.positions[node as usize];
         let sides = cut.sides().map(|[a, b]| distance(at(a), at(b)) / spacing);
-        let (shortest, longest) =
+        let (shortest_edge, longest_edge) =
             sides.fold((f64::MAX, 0.0), |(low, high), l| (l.min(low), l.max(high)));
         let sharp = cut.triangles.iter().flat_map(|t| angles(t.map(at)));
         let area = |corners: &[u32]| {
@@ -49,61 +51,34 @@ impl Quality {
                 corners.iter().map(|&n| difference(at(n), at(corners[0]))).collect();
             points.windows(2).map(|p| 0.5 * (p[0][0] * p[1][1] - p[0][1] * p[1][0])).sum::<f64>()
         };
-        // The sum of nothing is minus zero.
+        // The sum of no terms is minus zero.
         let in_cells: f64 = 0.0 + cut.quads.iter().map(|q| area(q)).sum::<f64>();
         let whole = in_cells + cut.triangles.iter().map(|t| area(t)).sum::<f64>();
         Self {
             nodes: cut.positions.len(),
             quads: cut.quads.len(),
             triangles: cut.triangles.len(),
-            shortest,
-            longest,
-            sharpest: sharp.fold(std::f64::consts::FRAC_PI_2, f64::min),
+            shortest_edge,
+            longest_edge,
+            smallest_angle: sharp.fold(std::f64::consts::FRAC_PI_2, f64::min),
             area_error: whole / panel.area() - 1.0,
             deviation: deviation(panel, cut),
-            lattice_share: in_cells / whole,
+            cell_fraction: in_cells / whole,
         }
-    }
-}
-
-impl CutPattern {
-    /// Number of particles when all seams are closed and the nodes that are sewn to each other are one; those that are tied have
-    /// no place of their own.
-    #[must_use]
-    pub fn particles(&self) -> usize {
-        let mut first = Vec::new();
-        let mut count = 0;
-        for cut in &self.panels {
-            first.push(count);
-            count += cut.positions.len();
-        }
-        let mut same: Vec<usize> = (0..count).collect();
-        let root = |same: &[usize], mut of: usize| {
-            while same[of] != of {
-                of = same[of];
-            }
-            of
-        };
-        for pair in self.seams.iter().flat_map(|seam| &seam.pairs) {
-            let [a, b] = pair.map(|id| root(&same, first[id.panel] + id.node as usize));
-            same[a.max(b)] = a.min(b);
-        }
-        let tied = self.seams.iter().map(|seam| seam.ties.len()).sum::<usize>();
-        same.iter().enumerate().filter(|(k, of)| k == *of).count() - tied
     }
 }
 
 impl Cut {
-    /// The sides of all cells and triangles, those between two of them twice.
+    /// Returns the sides of all cells and triangles; those between two of them twice.
     fn sides(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         let quads = self.quads.iter().flat_map(|q| (0..4).map(|k| [q[k], q[(k + 1) % 4]]));
         let triangles = self.triangles.iter().flat_map(|t| (0..3).map(|k| [t[k], t[(k + 1) % 3]]));
         quads.chain(triangles)
     }
 
-    /// The narrowest part of the panel, if it is thin: the shortest way across the cloth between nodes of the
-    /// outline that are far apart along it, straight or past one node.
-    pub(crate) fn thin(&self, spacing: f64) -> Option<Note> {
+    /// Returns a note on the narrowest part of the panel if it is thin: the shortest distance between nodes
+    /// of the outline that are far apart along it and joined by one edge, or by two through one node.
+    pub(crate) fn thin_part(&self, spacing: f64) -> Option<Note> {
         let n = self.outline.len();
         let mut along = vec![None; self.positions.len()];
         for (k, &node) in self.outline.iter().enumerate() {
@@ -119,20 +94,20 @@ impl Cut {
         let width = |a: u32, b: u32| {
             let steps = along[a as usize]?.abs_diff(along[b as usize]?);
             let width = distance(at(a), at(b));
-            // Nearer along the outline, it is the side of a corner.
+            // Closer along the outline it is the side of a corner.
             (steps.min(n - steps) > 3 && width < THIN * spacing).then_some((width, a))
         };
-        let straight = beside.iter().flat_map(|(&a, all)| all.iter().map(move |&b| (a, b)));
+        let direct = beside.iter().flat_map(|(&a, all)| all.iter().map(move |&b| (a, b)));
         let inner = beside.iter().filter(|(a, _)| along[**a as usize].is_none());
-        let past = inner
+        let through = inner
             .flat_map(|(_, all)| all.iter().flat_map(move |&a| all.iter().map(move |&b| (a, b))));
-        let ways = straight.chain(past).filter_map(|(a, b)| width(a, b));
-        let (width, node) = ways.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let widths = direct.chain(through).filter_map(|(a, b)| width(a, b));
+        let (width, node) = widths.min_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(Note::Thin { panel: self.panel.clone(), width, at: at(node), spacing })
     }
 }
 
-/// Largest distance between points of the outline and the chords of the cut that stand for them, in m.
+/// Returns the largest distance between points of the outline and the chords of the cut, in m.
 fn deviation(panel: &Panel, cut: &Cut) -> f64 {
     let n = cut.outline.len();
     let mut along = vec![0; cut.positions.len()];
@@ -142,22 +117,23 @@ fn deviation(panel: &Panel, cut: &Cut) -> f64 {
     let at = |k: usize| cut.positions[cut.outline[k % n] as usize];
     let mut most: f64 = 0.0;
     for (edge, nodes) in panel.outline().iter().zip(&cut.edges) {
-        // One chord more at both ends: they may be no nodes.
+        // One chord more at both ends: the ends may be no nodes.
         let first = along[nodes[0] as usize] + n - 1;
         let chords = nodes.len() + 1;
         let samples = SAMPLES * chords;
         for k in 0..=samples {
             let point = edge.at(k as f64 / samples as f64);
-            // The chord at the same share of the edge, but for what its ends are off, and its neighbours.
-            let near =
+            // The chord at the same fraction of the edge, and its neighbours, since the ends may be no nodes.
+            let close =
                 (k * chords / samples).saturating_sub(2)..(k * chords / samples + 3).min(chords);
-            let apart = near.map(|c| from_segment(point, at(first + c), at(first + c + 1)));
+            let apart = close.map(|c| from_segment(point, at(first + c), at(first + c + 1)));
             most = most.max(apart.fold(f64::MAX, f64::min));
         }
     }
     most
 }
 
+/// Returns the distance of a point from a segment.
 fn from_segment(point: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (side, arm) = (difference(b, a), difference(point, a));
     let square = side[0] * side[0] + side[1] * side[1];

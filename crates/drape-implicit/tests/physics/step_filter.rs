@@ -1,8 +1,8 @@
-//! A particle over a floor that it must not pass, on the way to a solution neither.
+//! A step filter: a particle over a floor that it must not pass, in trial steps neither.
 
 use drape_implicit::{
-    BlockMatrix, Error, Explicit, Initial, Method, Motion, Pattern, Settings, Stepper, Stiffness,
-    Stop, System, Way,
+    BlockMatrix, Error, InitialMatrix, IntegratorState, Method, Settings, Sparsity, StepFilter,
+    StepLimit, Stepper, Stiffness, Stop, System, TrialStep,
 };
 
 /// Height at which the floor begins to push, m.
@@ -18,7 +18,6 @@ struct Floor {
     now: f64,
     /// Least distance ever evaluated.
     nearest: f64,
-    guarded: bool,
     /// Longest step whose solution is certified.
     certified: f64,
     dt: f64,
@@ -32,7 +31,6 @@ impl Floor {
             ends: [0.0; 2],
             now: 0.0,
             nearest: f64::INFINITY,
-            guarded: true,
             certified: f64::INFINITY,
             dt: 0.0,
             accepted: Vec::new(),
@@ -93,34 +91,8 @@ impl System for Floor {
         matrix.values_mut()[4] = if gap < REACH { STIFFNESS * (REACH / gap).powi(2) } else { 0.0 };
     }
 
-    fn pattern(&self) -> Pattern {
-        Pattern::from_pairs(1, []).unwrap()
-    }
-
-    fn guards(&self) -> bool {
-        self.guarded
-    }
-
-    fn allow(&mut self, way: Way<'_>) -> bool {
-        // A tenth of the gap is kept.
-        let closing = (self.ends[1] - self.ends[0]) * *way.advance - way.step[1];
-        let room = 0.9 * (way.from[1] - self.now);
-        if closing <= room {
-            return true;
-        }
-        let part = room / closing;
-        *way.advance *= part;
-        way.step.iter_mut().for_each(|step| *step *= part);
-        false
-    }
-
-    fn arrive(&mut self, progress: f64) {
-        let [start, end] = self.ends;
-        self.now = if progress == 1.0 { end } else { start + progress * (end - start) };
-    }
-
-    fn certify(&mut self, _: &[f64]) -> bool {
-        self.dt <= self.certified
+    fn sparsity(&self) -> Sparsity {
+        Sparsity::from_pairs(1, []).unwrap()
     }
 
     fn accept(&mut self, positions: &[f64], _: &[f64], dt: f64) {
@@ -129,10 +101,33 @@ impl System for Floor {
     }
 }
 
-fn falling(height: f64, speed: f64) -> Motion {
-    let mut motion = Motion::at_rest(vec![0.0, height, 0.0]);
-    motion.velocities[1] = -speed;
-    motion
+impl StepFilter for Floor {
+    fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+        // A tenth of the gap is kept.
+        let closing = (self.ends[1] - self.ends[0]) * step.obstacle_advance - step.displacements[1];
+        let room = 0.9 * (step.start[1] - self.now);
+        if closing <= room {
+            return StepLimit::Whole;
+        }
+        let part = room / closing;
+        step.displacements.iter_mut().for_each(|displacement| *displacement *= part);
+        StepLimit::Shortened { obstacle_advance: step.obstacle_advance * part }
+    }
+
+    fn set_obstacle_time(&mut self, time: f64) {
+        let [start, end] = self.ends;
+        self.now = if time == 1.0 { end } else { start + time * (end - start) };
+    }
+
+    fn is_intersection_free(&mut self, _: &[f64]) -> bool {
+        self.dt <= self.certified
+    }
+}
+
+fn falling(height: f64, speed: f64) -> IntegratorState {
+    let mut state = IntegratorState::at_rest(vec![0.0, height, 0.0]);
+    state.velocities[1] = -speed;
+    state
 }
 
 fn settings() -> Settings {
@@ -141,35 +136,37 @@ fn settings() -> Settings {
 
 #[test]
 fn a_bullet_does_not_pass_a_floor_thinner_than_its_step() {
-    for (method, goes_on) in
+    for (method, begin_at_prediction) in
         [(Method::Broyden, false), (Method::Newton, false), (Method::Newton, true)]
     {
         let mut floor = Floor::new(0.0);
-        let settings = Settings { method, goes_on, ..settings() };
+        let settings = Settings { method, begin_at_prediction, ..settings() };
         let mut stepper = Stepper::new(&floor, settings).unwrap();
-        let mut motion = falling(0.5, 100.0);
+        let mut state = falling(0.5, 100.0);
         let mut height: f64 = 0.5;
         for _ in 0..40 {
-            stepper.advance(&mut floor, &mut motion, 0.01).unwrap();
-            height = height.max(motion.positions[1]);
+            stepper.advance_filtered(&mut floor, &mut state, 0.01).unwrap();
+            height = height.max(state.positions[1]);
         }
         assert!(floor.nearest > 0.0, "evaluated at {:e} m", floor.nearest);
         // A bullet's energy at the start is 5 kJ, that at the top no more.
         assert!(9.81 * height <= 5000.0 + 9.81 * 0.5, "bounced to {height} m");
-        assert!(motion.positions[1] > 0.0);
+        assert!(state.positions[1] > 0.0);
     }
 }
 
 #[test]
 fn what_goes_on_does_not_look_back_unless_something_is_in_its_way() {
-    let evaluations = |height: f64, goes_on: bool| {
+    let evaluations = |height: f64, begin_at_prediction: bool| {
         let mut floor = Floor::new(0.0);
-        let mut stepper = Stepper::new(&floor, Settings { goes_on, ..settings() }).unwrap();
-        let mut motion = falling(height, 1.0);
-        let report = stepper.advance(&mut floor, &mut motion, 0.01).unwrap();
-        (report.force_evaluations, motion.positions[1])
+        let mut stepper =
+            Stepper::new(&floor, Settings { begin_at_prediction, ..settings() }).unwrap();
+        let mut state = falling(height, 1.0);
+        let report = stepper.advance_filtered(&mut floor, &mut state, 0.01).unwrap();
+        (report.force_evaluations, state.positions[1])
     };
-    let [(looking, way), (going, same)] = [false, true].map(|goes_on| evaluations(0.5, goes_on));
+    let [(looking, way), (going, same)] =
+        [false, true].map(|begin_at_prediction| evaluations(0.5, begin_at_prediction));
     assert_eq!((looking - going, way), (1, same));
     assert_eq!(evaluations(0.01, false), evaluations(0.01, true));
 }
@@ -178,30 +175,30 @@ fn what_goes_on_does_not_look_back_unless_something_is_in_its_way() {
 fn a_floor_that_rises_by_many_times_its_reach_carries_the_particle() {
     let mut floor = Floor::new(1.0);
     let mut stepper = Stepper::new(&floor, settings()).unwrap();
-    let mut motion = falling(REACH, 0.0);
+    let mut state = falling(REACH, 0.0);
     for _ in 0..20 {
-        stepper.advance(&mut floor, &mut motion, 0.01).unwrap();
-        assert!(motion.positions[1] > motion.time, "{:?} at {}", motion.positions, motion.time);
+        stepper.advance_filtered(&mut floor, &mut state, 0.01).unwrap();
+        assert!(state.positions[1] > state.time, "{:?} at {}", state.positions, state.time);
     }
     assert!(floor.nearest > 0.0);
     // It flies at most as an elastic collision would throw it.
-    assert!(motion.velocities[1] <= 2.0 + 1e-9, "{:?}", motion.velocities);
+    assert!(state.velocities[1] <= 2.0 + 1e-9, "{:?}", state.velocities);
 }
 
 #[test]
 fn a_solution_that_is_not_certified_is_tried_in_halves() {
     let mut floor = Floor { certified: 0.003, ..Floor::new(0.0) };
     let mut stepper = Stepper::new(&floor, settings()).unwrap();
-    let mut motion = falling(1.0, 0.0);
-    let report = stepper.advance(&mut floor, &mut motion, 0.01).unwrap();
+    let mut state = falling(1.0, 0.0);
+    let report = stepper.advance_filtered(&mut floor, &mut state, 0.01).unwrap();
     assert!(floor.accepted.iter().all(|&dt| dt <= 0.003), "{:?}", floor.accepted);
-    assert!(report.rejected >= 2 && (motion.time - 0.01).abs() < 1e-15);
+    assert!(report.rejected >= 2 && (state.time - 0.01).abs() < 1e-15);
 
     floor.certified = 0.0;
-    let before = motion.positions.clone();
-    let error = stepper.advance(&mut floor, &mut motion, 0.01).unwrap_err();
-    assert!(matches!(error, Error::NotConverged { stop: Stop::Certificate, .. }), "{error}");
-    assert_eq!(motion.positions, before);
+    let before = state.positions.clone();
+    let error = stepper.advance_filtered(&mut floor, &mut state, 0.01).unwrap_err();
+    assert!(matches!(error, Error::NotConverged { stop: Stop::Intersection, .. }), "{error}");
+    assert_eq!(state.positions, before);
 }
 
 #[test]
@@ -210,19 +207,17 @@ fn a_floor_that_rises_too_fast_blocks_the_step() {
     let mut floor = Floor::new(1000.0);
     let settings = Settings { max_halvings: 0, ..settings() };
     let mut stepper = Stepper::new(&floor, settings).unwrap();
-    let mut motion = falling(1e-6, 0.0);
-    let error = stepper.advance(&mut floor, &mut motion, 0.01).unwrap_err();
+    let mut state = falling(1e-6, 0.0);
+    let error = stepper.advance_filtered(&mut floor, &mut state, 0.01).unwrap_err();
     assert!(matches!(error, Error::NotConverged { stop: Stop::Blocked, .. }), "{error}");
-    assert_eq!(motion.positions[1], 1e-6);
+    assert_eq!(state.positions[1], 1e-6);
 }
 
 #[test]
-fn what_cannot_guard_is_refused() {
+fn textbook_broyden_refuses_a_step_filter() {
     let mut floor = Floor::new(0.0);
-    let method = Method::Textbook { initial: Initial::Mass };
+    let method = Method::Textbook { initial: InitialMatrix::Mass };
     let mut stepper = Stepper::new(&floor, Settings { method, ..settings() }).unwrap();
-    let refused = stepper.advance(&mut floor, &mut falling(1.0, 0.0), 0.001);
-    assert_eq!(refused.unwrap_err(), Error::Unguarded);
-    let refused = Explicit::new(&floor).advance(&mut floor, &mut falling(1.0, 0.0), 0.001);
-    assert_eq!(refused.unwrap_err(), Error::Unguarded);
+    let refused = stepper.advance_filtered(&mut floor, &mut falling(1.0, 0.0), 0.001);
+    assert_eq!(refused.unwrap_err(), Error::UnfilteredMethod);
 }

@@ -5,19 +5,19 @@ use crate::Error;
 /// Only the upper half is kept. Row `i` lists its own column first (the diagonal block), then the columns
 /// `j > i` that are coupled to it, ascending. The position of a block in this list is its *slot*.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Pattern {
+pub struct Sparsity {
     offsets: Vec<usize>,
     columns: Vec<u32>,
 }
 
-impl Pattern {
+impl Sparsity {
     /// Takes over row offsets (one more than there are particles, starting at 0) and block columns.
     ///
     /// # Errors
-    /// [`Error::Pattern`] if a row does not start with its diagonal, is not ascending, or leaves the matrix.
+    /// [`Error::Sparsity`] if a row does not start with its diagonal, is not ascending, or leaves the matrix.
     pub fn new(offsets: Vec<usize>, columns: Vec<u32>) -> Result<Self, Error> {
         let rows = offsets.len().saturating_sub(1);
-        let fault = |row, fault| Err(Error::Pattern { row, fault });
+        let fault = |row, fault| Err(Error::Sparsity { row, fault });
         if offsets.first() != Some(&0) {
             return fault(0, "the first row offset must be 0");
         }
@@ -45,20 +45,20 @@ impl Pattern {
         Ok(Self { offsets, columns })
     }
 
-    /// Builds the pattern from the pairs of particles that act on each other, in any order, repeats allowed.
+    /// Builds the sparsity from the pairs of particles that act on each other, in any order, repeats allowed.
     ///
     /// # Errors
-    /// [`Error::Pattern`] if a pair names a particle that does not exist.
+    /// [`Error::Sparsity`] if a pair names a particle that does not exist.
     pub fn from_pairs(
         particles: usize,
-        pairs: impl IntoIterator<Item = (usize, usize)>,
+        pairs: impl IntoIterator<Item = [usize; 2]>,
     ) -> Result<Self, Error> {
         let mut rows: Vec<Vec<u32>> = vec![Vec::new(); particles];
-        for (i, j) in pairs {
+        for [i, j] in pairs {
             let (low, high) = (i.min(j), i.max(j));
             let fault = "a pair names a particle that does not exist";
             let column = u32::try_from(high).ok().filter(|_| high < particles);
-            let column = column.ok_or(Error::Pattern { row: high, fault })?;
+            let column = column.ok_or(Error::Sparsity { row: high, fault })?;
             if low < high {
                 rows[low].push(column);
             }
@@ -104,7 +104,7 @@ impl Pattern {
         self.offsets[row]..self.offsets[row + 1]
     }
 
-    /// The slot that couples two particles, whichever comes first; `None` if the pattern has none.
+    /// The slot that couples two particles, whichever comes first; `None` if the sparsity has none.
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
         let (low, high) = (i.min(j), i.max(j));
         if high >= self.particles() {
@@ -122,13 +122,13 @@ mod tests {
 
     #[test]
     fn pairs_in_any_order_give_the_sorted_upper_half() {
-        let pattern = Pattern::from_pairs(4, [(2, 0), (0, 1), (3, 2), (0, 2), (1, 1)]).unwrap();
-        assert_eq!(pattern.offsets(), [0, 3, 4, 6, 7]);
-        assert_eq!(pattern.columns(), [0, 1, 2, 1, 2, 3, 3]);
-        assert_eq!(pattern.slot(2, 0), Some(2));
-        assert_eq!(pattern.slot(3, 3), Some(6));
-        assert_eq!(pattern.slot(1, 3), None);
-        assert_eq!(pattern.slot(1, 9), None);
+        let sparsity = Sparsity::from_pairs(4, [[2, 0], [0, 1], [3, 2], [0, 2], [1, 1]]).unwrap();
+        assert_eq!(sparsity.offsets(), [0, 3, 4, 6, 7]);
+        assert_eq!(sparsity.columns(), [0, 1, 2, 1, 2, 3, 3]);
+        assert_eq!(sparsity.slot(2, 0), Some(2));
+        assert_eq!(sparsity.slot(3, 3), Some(6));
+        assert_eq!(sparsity.slot(1, 3), None);
+        assert_eq!(sparsity.slot(1, 9), None);
     }
 
     #[test]
@@ -143,19 +143,19 @@ mod tests {
             (&[0, 2], &[0, 1], 0),
         ];
         for (offsets, columns, expected) in cases {
-            match Pattern::new(offsets.to_vec(), columns.to_vec()) {
-                Err(Error::Pattern { row, .. }) => {
+            match Sparsity::new(offsets.to_vec(), columns.to_vec()) {
+                Err(Error::Sparsity { row, .. }) => {
                     assert_eq!(row, expected, "{offsets:?} {columns:?}")
                 }
                 other => panic!("{offsets:?} {columns:?} gave {other:?}"),
             }
         }
-        assert!(Pattern::from_pairs(2, [(0, 2)]).is_err());
+        assert!(Sparsity::from_pairs(2, [[0, 2]]).is_err());
     }
 
     #[test]
     fn an_empty_system_has_an_empty_pattern() {
-        let pattern = Pattern::from_pairs(0, []).unwrap();
-        assert_eq!((pattern.particles(), pattern.blocks()), (0, 0));
+        let sparsity = Sparsity::from_pairs(0, []).unwrap();
+        assert_eq!((sparsity.particles(), sparsity.blocks()), (0, 0));
     }
 }

@@ -1,60 +1,62 @@
+//! Reader of the frames: Wavefront OBJ as a run writes it.
+
 use std::io::Read;
 use std::path::Path;
 
-use crate::error::VerifyError;
+use crate::error::Error;
 
-/// Longest file that is read, in bytes: 4 million particles take a quarter of it.
+/// Longest file that is read, in bytes; 4 million particles take a quarter of it.
 const BYTES_MAX: u64 = 1 << 32;
 
-/// Largest coordinate, in m: what a run can have.
+/// Largest coordinate that a run can have, in m.
 const COORDINATE_MAX: f64 = 1e6;
 
-/// A file of vertices and triangles as a run writes it: Wavefront OBJ of `v`, `vt`, `f`, `o` and comments only.
+/// File of vertices and triangles as a run writes it: `v`, `vt`, `f`, `o` and comments only.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Wavefront {
-    /// Three coordinates each, in m.
+pub(crate) struct Obj {
+    /// Position of each vertex, in m.
     pub(crate) vertices: Vec<[f64; 3]>,
-    /// Two material coordinates each, in m.
+    /// Material coordinates of each vertex, in m.
     pub(crate) material: Vec<[f64; 2]>,
-    /// Numbers of vertices from 0, not checked against them.
+    /// Vertex numbers of each triangle, from 0; not yet checked against the vertices.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Time, in s, where a comment says `t = … s`.
+    /// Time from the comment `t = … s`, in s.
     pub(crate) time: Option<f64>,
-    /// The file of the bodies, where a comment says `bodies: NAME`.
+    /// Name of the file of the bodies, from the comment `bodies: NAME`.
     pub(crate) bodies: Option<String>,
-    /// Part of the distances that surfaces keep which they kept by then, where a comment says `grown: PART`.
-    pub(crate) grown: Option<f64>,
+    /// Growth fraction of the minimum separation, from the comment `grown: FRACTION`.
+    pub(crate) growth: Option<f64>,
 }
 
-/// The text of a file, which must end its last line.
-pub(crate) fn read_text(path: &Path) -> Result<String, VerifyError> {
+/// Reads the text of a file, whose last line must be complete.
+pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
     let fail = |error: std::io::Error| {
         let reason = error.to_string();
-        VerifyError::Unreadable { path: path.to_owned(), reason }
+        Error::Unreadable { path: path.to_owned(), reason }
     };
     let file = std::fs::File::open(path).map_err(fail)?;
     let bytes = file.metadata().map_err(fail)?.len();
     if bytes > BYTES_MAX {
-        return Err(VerifyError::TooLarge { path: path.to_owned(), bytes, limit: BYTES_MAX });
+        return Err(Error::TooLarge { path: path.to_owned(), bytes, limit: BYTES_MAX });
     }
     let mut text = String::new();
     file.take(BYTES_MAX).read_to_string(&mut text).map_err(fail)?;
     if !text.ends_with('\n') {
         let (line, reason) = (text.lines().count().max(1), "the file is cut off here".to_owned());
-        return Err(VerifyError::Malformed { path: path.to_owned(), line, reason });
+        return Err(Error::Malformed { path: path.to_owned(), line, reason });
     }
     Ok(text)
 }
 
-impl Wavefront {
-    pub(crate) fn read(path: &Path) -> Result<Wavefront, VerifyError> {
-        Wavefront::parse(path, &read_text(path)?)
+impl Obj {
+    pub(crate) fn read(path: &Path) -> Result<Obj, Error> {
+        Obj::parse(path, &read_text(path)?)
     }
 
-    fn parse(path: &Path, text: &str) -> Result<Wavefront, VerifyError> {
-        let mut all = Wavefront::default();
+    fn parse(path: &Path, text: &str) -> Result<Obj, Error> {
+        let mut all = Obj::default();
         for (index, line) in text.lines().enumerate() {
-            all.line(line).map_err(|reason| VerifyError::Malformed {
+            all.line(line).map_err(|reason| Error::Malformed {
                 path: path.to_owned(),
                 line: index + 1,
                 reason,
@@ -80,10 +82,11 @@ impl Wavefront {
         if let Some(name) = text.strip_prefix("bodies: ") {
             self.bodies = Some(name.trim().to_owned());
         }
-        if let Some(part) = text.strip_prefix("grown: ") {
-            let sound = |part: &f64| *part > 0.0 && *part <= 1.0;
-            let part = part.parse().ok().filter(sound);
-            self.grown = Some(part.ok_or_else(|| format!("\"{text}\" is no part of a distance"))?);
+        if let Some(growth) = text.strip_prefix("grown: ") {
+            let valid = |growth: &f64| *growth > 0.0 && *growth <= 1.0;
+            let growth = growth.parse().ok().filter(valid);
+            let wrong = || format!("\"{text}\" is no fraction of a distance");
+            self.growth = Some(growth.ok_or_else(wrong)?);
         }
         if let Some((_, time)) = text.split_once("t = ") {
             self.time = time.strip_suffix(" s").and_then(|time| time.parse().ok());

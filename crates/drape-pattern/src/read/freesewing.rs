@@ -1,23 +1,23 @@
-//! Drafts of FreeSewing, in JSON: parts with paths and named points, in mm, with y down.
+//! Reader of drafts of FreeSewing, in JSON: parts with paths and named points, in mm, with y down.
 //!
-//! The outline of a part is its path `seam`. Its edges are named by the points at their ends; where several
-//! points lie at one place, the first by the alphabet counts. A part that is cut on the fold is unfolded.
+//! The outline of a part is its path `seam`. Its edges are named by the points at their ends; of several
+//! points at one position the first by the alphabet counts. A part that is cut on the fold is unfolded.
 
 use std::collections::BTreeMap;
 
 use drape_input::{Diagnostic, Diagnostics, Document};
 use serde::Deserialize;
 
+use super::diagnostic::{diagnostic, syntax, wrong_unit};
 use crate::edge::{Curve, Edge, difference, distance};
 use crate::note::Note;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
-use crate::read::{diagnostic, syntax, unit_slip};
 
-/// The unit of drafts, in m.
+/// Unit of drafts, in m.
 const UNIT: f64 = 0.001;
 
-/// Places nearer than this are one, in m.
+/// Distance below which two points count as one, in m.
 const SAME: f64 = 1e-6;
 
 #[derive(Deserialize)]
@@ -48,6 +48,7 @@ struct Operation {
     cp2: Option<[f64; 2]>,
 }
 
+/// Reader of one document with the mistakes and notes so far.
 struct Reader<'a> {
     document: &'a Document,
     mistakes: Vec<Diagnostic>,
@@ -55,7 +56,7 @@ struct Reader<'a> {
     grainless: Vec<String>,
 }
 
-/// The pattern of a document that holds a draft. It has no stitches: a draft does not say what is sewn.
+/// Returns the pattern of a draft. It has no seams: a draft does not say which edges are sewn.
 pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
     let draft: Draft = serde_json::from_str(document.text()).map_err(|error| {
         syntax(document, &error).help("a draft has parts with paths, of ops, and points")
@@ -80,12 +81,13 @@ pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
     Err(Diagnostics(reader.mistakes))
 }
 
-/// A point of the draft in the panel's frame, in m.
-fn up([x, y]: [f64; 2]) -> [f64; 2] {
+/// Returns a point of the draft in the panel's frame, in m, with y up.
+fn flipped([x, y]: [f64; 2]) -> [f64; 2] {
     [UNIT * x, -UNIT * y]
 }
 
 impl Reader<'_> {
+    /// Returns the panel of a part.
     fn panel(&mut self, name: &str, part: &Part) -> Option<Panel> {
         let place = format!("parts.{name}.paths");
         let Some(path) = part.paths.get("seam") else {
@@ -107,7 +109,7 @@ impl Reader<'_> {
         let line = |word: &str| {
             let mut all = part.paths.iter().filter(|(key, _)| key.starts_with(word));
             let ops = &all.find(|(key, _)| key.ends_with("_line"))?.1.ops;
-            Some([up(ops.first()?.p?), up(ops.last()?.p?)])
+            Some([flipped(ops.first()?.p?), flipped(ops.last()?.p?)])
         };
         let fold = line("__macro_cutonfold");
         if let Some(edge) = fold.and_then(|fold| unfold(&mut edges, fold)) {
@@ -116,7 +118,7 @@ impl Reader<'_> {
         // The fold lies along the grain where a draft shows no grainline.
         let grain = line("__macro_grainline").or(fold).map(|[from, to]| {
             let along = difference(to, from);
-            // A line has no sense: the warp is within a right angle of the y axis.
+            // The line has no sense: the warp is taken within a right angle of the y axis.
             let up = if along[1] < 0.0 { -1.0 } else { 1.0 };
             (-up * along[0]).atan2(up * along[1])
         });
@@ -130,7 +132,7 @@ impl Reader<'_> {
                 return None;
             }
         };
-        self.mistakes.extend(unit_slip(&panel).map(|m| diagnostic(self.document, &m)));
+        self.mistakes.extend(wrong_unit(&panel).map(|m| diagnostic(self.document, &m)));
         if panel.was_clockwise() {
             self.notes.push(Note::Reversed { panel: name.into() });
         }
@@ -138,13 +140,13 @@ impl Reader<'_> {
     }
 }
 
-/// The edges of a path, or the number of an operation that is none of an outline.
+/// Returns the edges of a path, or the number of the first operation that cannot belong to an outline.
 fn edges(path: &Path, points: &BTreeMap<String, [f64; 2]>) -> Result<Vec<Edge>, usize> {
     let mut edges: Vec<Edge> = Vec::new();
     let mut ends: Option<([f64; 2], [f64; 2])> = None;
     let mut closed = false;
     let mut push = |start: [f64; 2], end: [f64; 2], curve: Curve| {
-        // Drafts have lines that go nowhere.
+        // Drafts contain lines without length.
         if distance(start, end) > SAME {
             let mut name = format!("{}-{}", point_name(points, start), point_name(points, end));
             let same = |e: &&Edge| e.name == name || e.name.starts_with(&format!("{name} "));
@@ -157,7 +159,7 @@ fn edges(path: &Path, points: &BTreeMap<String, [f64; 2]>) -> Result<Vec<Edge>, 
     };
     for (index, operation) in path.ops.iter().enumerate() {
         let Operation { t, p, cp1, cp2 } = operation;
-        let end = p.map(up);
+        let end = p.map(flipped);
         match (t.as_str(), ends, end) {
             _ if closed => return Err(index),
             ("M", None, Some(end)) => ends = Some((end, end)),
@@ -166,7 +168,7 @@ fn edges(path: &Path, points: &BTreeMap<String, [f64; 2]>) -> Result<Vec<Edge>, 
                 ends = Some((start, end));
             }
             ("C", Some((start, at)), Some(end)) => {
-                let controls = [cp1.ok_or(index)?, cp2.ok_or(index)?].map(up);
+                let controls = [cp1.ok_or(index)?, cp2.ok_or(index)?].map(flipped);
                 push(at, end, Curve::Cubic(controls));
                 ends = Some((start, end));
             }
@@ -180,12 +182,12 @@ fn edges(path: &Path, points: &BTreeMap<String, [f64; 2]>) -> Result<Vec<Edge>, 
     Ok(edges)
 }
 
-/// The name of a point at a place: the first by the alphabet of those that a designer gave.
+/// Returns the name of the point at a position: the first by the alphabet that a designer gave.
 fn point_name(points: &BTreeMap<String, [f64; 2]>, at: [f64; 2]) -> String {
-    let here = |p: &[f64; 2]| distance(up(*p), at) < SAME;
+    let here = |p: &[f64; 2]| distance(flipped(*p), at) < SAME;
     let mut names: Vec<&String> =
         points.iter().filter(|(_, p)| here(p)).map(|(name, _)| name).collect();
-    // Points that FreeSewing makes itself come last.
+    // Points that FreeSewing adds itself come last.
     names.sort_by_key(|name| name.starts_with('_') || *name == "gridAnchor");
     match names.first() {
         Some(name) => (*name).clone(),
@@ -193,7 +195,8 @@ fn point_name(points: &BTreeMap<String, [f64; 2]>, at: [f64; 2]) -> String {
     }
 }
 
-/// Mirrors an outline in its edge on a line, and returns that edge's name; nothing if there is none.
+/// Reflects an outline in its edge that lies on a line, and returns the name of that edge; `None` if no
+/// edge does.
 fn unfold(edges: &mut Vec<Edge>, [from, to]: [[f64; 2]; 2]) -> Option<String> {
     let length = distance(from, to);
     let along = difference(to, from).map(|x| x / length);
@@ -210,7 +213,7 @@ fn unfold(edges: &mut Vec<Edge>, [from, to]: [[f64; 2]; 2]) -> Option<String> {
     };
     edges.rotate_left(fold);
     let name = edges.remove(0).name;
-    let other: Vec<Edge> = edges.iter().rev().map(|e| e.reversed().moved(true, mirror)).collect();
+    let other: Vec<Edge> = edges.iter().rev().map(|e| e.reversed().mapped(true, mirror)).collect();
     edges.extend(other.into_iter().map(|e| Edge { name: format!("{} mirrored", e.name), ..e }));
     Some(name)
 }

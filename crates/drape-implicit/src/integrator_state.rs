@@ -3,7 +3,7 @@
 /// A motion written to disk and read back continues as if nothing had happened, to the last bit: a
 /// [`Stepper`](crate::Stepper) has no memory of its own.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
+pub struct IntegratorState {
     /// Time, in s.
     ///
     /// Each call of [`Stepper::advance`](crate::Stepper::advance) adds the step's length. A caller that makes many
@@ -14,12 +14,12 @@ pub struct Motion {
     /// Velocities, three per particle, in m/s.
     pub velocities: Vec<f64>,
     /// The state before the last accepted sub-step, for second-order steps.
-    pub previous: Option<Previous>,
+    pub previous: Option<PreviousState>,
 }
 
 /// The state one sub-step earlier.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Previous {
+pub struct PreviousState {
     /// Length of the sub-step since, in s.
     pub dt: f64,
     /// Positions before it, in m.
@@ -28,7 +28,7 @@ pub struct Previous {
     pub velocities: Vec<f64>,
 }
 
-impl Motion {
+impl IntegratorState {
     /// A motion that starts at time 0 with given positions (m) and velocities (m/s).
     pub fn new(positions: Vec<f64>, velocities: Vec<f64>) -> Self {
         Self { time: 0.0, positions, velocities, previous: None }

@@ -1,4 +1,4 @@
-//! Outlines as the path data of SVG, whose y axis points down.
+//! Reader of outlines in the path data of SVG, whose y axis points down.
 
 use kurbo::{Arc, PathEl, Point, SvgArc, Vec2};
 use svgtypes::{PathParser, PathSegment};
@@ -7,35 +7,36 @@ use crate::edge::{Curve, Edge, distance};
 use crate::mistake::Mistake;
 use crate::panel::Panel;
 
-/// How far the Bézier curves for a part of an ellipse may lie from it, in shares of its larger radius.
+/// Largest distance of the Bézier curves of an elliptical arc from it, over its larger radius.
 const ELLIPSE: f64 = 1e-6;
 
 impl Panel {
-    /// A panel whose outline is the data of one closed SVG path, in units of a length in m.
+    /// Returns a panel whose outline is the data of one closed SVG path, in a unit in m.
     ///
-    /// The path's y axis points down, the panel's up. All commands are known; edges are numbered from 1. Parts of
-    /// circles stay what they are, parts of ellipses become several Bézier curves.
+    /// The y axis of the path points down, that of the panel up. All commands are read; edges are numbered
+    /// from 1. Circular arcs stay arcs, elliptical ones become Bézier curves.
     ///
     /// # Errors
-    /// The first mistake of the grammar, or all of the outline.
+    /// The first mistake of the grammar, or all mistakes of the outline.
     pub fn from_path(name: &str, data: &str, unit: f64) -> Result<Self, Vec<Mistake>> {
         Self::new(name, edges(name, data, unit).map_err(|mistake| vec![mistake])?)
     }
 }
 
-/// Where a path has come to, in its own units.
+/// State of drawing a path, in its own unit.
 #[derive(Default)]
 struct Pen {
     edges: Vec<Edge>,
     start: [f64; 2],
     at: [f64; 2],
-    /// The last control point, of a curve of degree two and of three.
+    /// Last control point of a curve of degree two, and of degree three.
     control: [Option<[f64; 2]>; 2],
 }
 
 impl Pen {
+    /// Draws an edge to a point.
     fn to(&mut self, end: [f64; 2], curve: Curve) {
-        // SVG drops arcs that go nowhere, and drawing programs write lines that do.
+        // SVG drops arcs without length; drawing programs also write lines without length.
         if end != self.at {
             let name = (self.edges.len() + 1).to_string();
             self.edges.push(Edge::line(name, self.at, end).curved(curve));
@@ -43,19 +44,20 @@ impl Pen {
         self.at = end;
     }
 
-    /// The last control point, mirrored in where the pen is.
-    fn mirrored(&self, degree: usize) -> [f64; 2] {
+    /// Returns the last control point, reflected in the current point.
+    fn reflected(&self, degree: usize) -> [f64; 2] {
         let control = self.control[degree].unwrap_or(self.at);
         [2.0 * self.at[0] - control[0], 2.0 * self.at[1] - control[1]]
     }
 
+    /// Draws an arc to a point.
     fn arc(&mut self, end: [f64; 2], arc: &SvgArc) {
         let line = Edge::line("", self.at, end);
         match Arc::from_svg_arc(arc) {
             None => self.to(end, Curve::Line),
             Some(_) if arc.radii.x.abs() == arc.radii.y.abs() => {
-                // Positive angles turn left where y points up, and the other way here.
-                let sweep = line.sweep(arc.radii.x, arc.large_arc, arc.sweep);
+                // A positive angle runs anticlockwise where y points up, and clockwise here.
+                let sweep = line.arc_sweep(arc.radii.x, arc.large_arc, arc.sweep);
                 self.to(end, Curve::Arc { sweep });
             }
             Some(whole) => {
@@ -66,7 +68,7 @@ impl Pen {
                         self.to(pair(to), Curve::Cubic([pair(first), pair(second)]));
                     }
                 }
-                // The last point but for rounding.
+                // Rounding may have moved the last point.
                 if let Some(last) = self.edges.last_mut() {
                     last.end = end;
                 }
@@ -76,7 +78,7 @@ impl Pen {
     }
 }
 
-/// The edges of a path in m, with y up.
+/// Returns the edges of a path, in m, with y up.
 pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mistake> {
     let mut pen = Pen::default();
     let mut closed = false;
@@ -110,7 +112,7 @@ pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mis
             }
             PathSegment::SmoothCurveTo { x2, y2, x, y, .. } => {
                 let second = point(x2, y2);
-                pen.to(point(x, y), Curve::Cubic([pen.mirrored(1), second]));
+                pen.to(point(x, y), Curve::Cubic([pen.reflected(1), second]));
                 control[1] = Some(second);
             }
             PathSegment::Quadratic { x1, y1, x, y, .. } => {
@@ -118,7 +120,7 @@ pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mis
                 control[0] = Some(point(x1, y1));
             }
             PathSegment::SmoothQuadratic { x, y, .. } => {
-                let middle = pen.mirrored(0);
+                let middle = pen.reflected(0);
                 pen.to(point(x, y), Curve::Quadratic(middle));
                 control[0] = Some(middle);
             }
@@ -142,7 +144,7 @@ pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mis
                 pen.arc(end, &arc);
             }
             PathSegment::ClosePath { .. } => {
-                // What is left by the digits of the numbers is no edge.
+                // The rounding of the digits is no edge.
                 if distance(pen.at, pen.start) * unit > 1e-5 {
                     pen.to(pen.start, Curve::Line);
                 }
@@ -151,7 +153,7 @@ pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mis
         }
         pen.control = control;
     }
-    Ok(pen.edges.iter().map(|e| e.moved(true, |[x, y]| [unit * x, -unit * y])).collect())
+    Ok(pen.edges.iter().map(|e| e.mapped(true, |[x, y]| [unit * x, -unit * y])).collect())
 }
 
 #[cfg(test)]
@@ -192,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_outline_is_refused() {
+    fn paths_that_are_no_outline_are_refused() {
         let first = |data: &str| Panel::from_path("p", data, 0.001).expect_err(data).remove(0);
         assert!(matches!(first("M0 0 L1 x"), Mistake::PathSyntax { command: 2, .. }));
         assert!(matches!(first("L10 0"), Mistake::PathSyntax { .. } | Mistake::PathParts { .. }));
