@@ -66,7 +66,7 @@ pub(crate) fn bent((row, cells): (f64, usize), curvature: f64) -> Place {
 
 /// How far the middle of what the second pin holds is beyond a pivot along x, in m.
 pub(crate) fn arm(scene: &Scene, pivot: f64) -> f64 {
-    let held = scene.pins[1].particles.iter().map(|particle| scene.positions[3 * particle]);
+    let held = scene.pins[1].particles.iter().map(|particle| scene.start.positions[3 * particle]);
     held.clone().sum::<f64>() / held.count() as f64 - pivot
 }
 

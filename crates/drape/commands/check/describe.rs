@@ -47,10 +47,10 @@ fn scene(scene: &Scene) -> String {
          steps of {} s to {} s\n",
         scene.name,
         scene.cloth.particles(),
-        scene.held.iter().filter(|held| **held).count(),
+        scene.held_particles().iter().filter(|held| **held).count(),
         scene.bodies.len(),
-        scene.clock.step,
-        scene.clock.end
+        scene.schedule.clock.step,
+        scene.schedule.clock.end
     );
     for panel in &scene.panels {
         let [across, along] = panel.lattice.spacing;
@@ -69,7 +69,7 @@ fn scene(scene: &Scene) -> String {
     }
     if let Some(sewing) = &scene.sewing {
         for seam in &sewing.seams {
-            let gaps: Vec<f64> = seam.stitching.gaps(&scene.positions).collect();
+            let gaps: Vec<f64> = seam.pairs.gaps(&scene.start.positions).collect();
             let _ = writeln!(
                 text,
                 "  seam \"{}\": {} stitches, open by {:.1} mm, {:.1} mm at most",
@@ -80,7 +80,7 @@ fn scene(scene: &Scene) -> String {
             );
         }
     }
-    scene.notes.iter().for_each(|note| {
+    scene.source.notes.iter().for_each(|note| {
         let _ = writeln!(text, "  note: {note}");
     });
     scene.materials.iter().for_each(|material| text += &indent(&fabric(&material.fabric)));
