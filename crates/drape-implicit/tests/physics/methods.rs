@@ -38,8 +38,8 @@ fn every_method_and_linear_solver_finds_the_same_motion() {
             let settings = Settings { method, linear_solver, ..tight.clone() };
             let (state, reports) = swing(8, 500.0, &settings, 2e-3, 30);
             let apart = distance(&state, &reference);
-            // 30 steps with an acceleration error of 1e-8 m/s² each move particles by 1e-11 m, times a
-            // growth of errors that a stiff net is far from.
+            // 30 steps with an acceleration error of 1e-8 m/s² each move particles by 1e-11 m,
+            // times a growth of errors that a stiff net is far from.
             assert!(apart < 1e-9, "{method:?}, {linear_solver:?}: {apart:e} m apart");
             let inner: usize = reports.iter().map(|report| report.linear_iterations).sum();
             assert_eq!(inner == 0, linear_solver == LinearSolver::Cholesky);
@@ -226,8 +226,8 @@ fn a_stiffness_that_claims_to_be_definite_and_is_not_stops_the_step() {
     stepper.advance(&mut system, &mut state, 0.01).unwrap();
 }
 
-/// A stiff sheet that falls from rest in every step: its iterations, and how much energy its steps leave to be gained at
-/// the most, over their kinetic energy.
+/// A stiff sheet that falls from rest in every step: its iterations, and how much energy its steps
+/// leave to be gained at the most, over their kinetic energy.
 fn creep(settings: &Settings) -> (usize, f64) {
     let n = 16;
     let dt = 0.015;
@@ -281,8 +281,8 @@ fn a_step_may_end_when_little_energy_is_left_to_gain() {
     assert_eq!(creep(&patient).0, creep(&cut).0);
 }
 
-/// Soft on both sides of a stiff middle. From −1 m Newton's method leads to 3 m, where the force is smaller and the
-/// energy larger, and from there back again.
+/// Soft on both sides of a stiff middle. From −1 m Newton's method leads to 3 m, where the force is
+/// smaller and the energy larger, and from there back again.
 fn gully(x: f64) -> [f64; 3] {
     let left = |x: f64| [0.125 * (x + 1.0).powi(2) - (x + 1.0), 0.25 * (x + 1.0) - 1.0, 0.25];
     let middle = |x: f64| {

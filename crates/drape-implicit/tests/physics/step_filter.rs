@@ -203,7 +203,8 @@ fn a_solution_that_is_not_certified_is_tried_in_halves() {
 
 #[test]
 fn a_floor_that_rises_too_fast_blocks_the_step() {
-    // It would have to be pushed by 10 m in a step that is allowed no halves, and by a thousandth at a time.
+    // It would have to be pushed by 10 m in a step that is allowed no halves, and by a thousandth
+    // at a time.
     let mut floor = Floor::new(1000.0);
     let settings = Settings { max_halvings: 0, ..settings() };
     let mut stepper = Stepper::new(&floor, settings).unwrap();
