@@ -41,10 +41,10 @@ pub enum Error {
         dt: f64,
     },
     /// Two lengths that must agree do not.
-    #[error("{what}: {found} given for a system that needs {expected}")]
+    #[error("{name}: {found} given for a system that needs {expected}")]
     Dimension {
         /// Name of the list.
-        what: &'static str,
+        name: &'static str,
         /// Length that the number of particles asks for.
         expected: usize,
         /// Length found.

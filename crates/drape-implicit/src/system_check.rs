@@ -77,9 +77,9 @@ pub fn check_system(
     dt: f64,
 ) -> Result<Check, Error> {
     let length = 3 * system.particles();
-    for (what, found) in [("start", start.len()), ("trial", trial.len())] {
+    for (name, found) in [("start", start.len()), ("trial", trial.len())] {
         if found != length {
-            return Err(Error::Dimension { what, expected: length, found });
+            return Err(Error::Dimension { name, expected: length, found });
         }
     }
     let mut target = start.to_vec();
@@ -163,7 +163,7 @@ fn assemble(
     let mut matrix = BlockMatrix::zeros(system.sparsity());
     let (expected, found) = (system.particles(), matrix.sparsity().particles());
     if expected != found {
-        return Err(Error::Dimension { what: "sparsity", expected, found });
+        return Err(Error::Dimension { name: "sparsity", expected, found });
     }
     system.stiffness(positions, kind, &mut matrix);
     match matrix.outside_sparsity() {

@@ -79,14 +79,7 @@ impl Explicit {
         if !(dt > 0.0 && dt.is_finite()) {
             return Err(Error::StepLength { dt });
         }
-        let expected = self.positions.len();
-        for (what, found) in
-            [("positions", state.positions.len()), ("velocities", state.velocities.len())]
-        {
-            if found != expected {
-                return Err(Error::Dimension { what, expected, found });
-            }
-        }
+        state.check(self.positions.len() / 3)?;
         if system.sparsity_version() != self.sparsity_version {
             *self = Self::new(system).with_fraction(self.fraction);
         }

@@ -1,5 +1,7 @@
 //! State that the integrator advances: positions, velocities, time, and the past of the formula.
 
+use crate::error::Error;
+
 /// Positions, velocities and time, with the past that a second-order formula needs.
 ///
 /// Written to disk and read back it continues as if nothing had happened, to the last bit: a
@@ -61,9 +63,28 @@ impl IntegratorState {
         self.previous = None;
     }
 
-    /// Replaces positions and velocities by those at the end of a sub-step, and keeps those at its
-    /// start as the past.
-    pub(crate) fn advance(&mut self, span: Span, positions: &[f64], velocities: &[f64]) {
+    /// Checks that all lists have three numbers per particle, and that the past has a length.
+    pub(crate) fn check(&self, particles: usize) -> Result<(), Error> {
+        check_length("positions", 3 * particles, self.positions.len())?;
+        check_length("velocities", 3 * particles, self.velocities.len())?;
+        if let Some(previous) = &self.previous {
+            if !(previous.dt > 0.0 && previous.dt.is_finite()) {
+                return Err(Error::StepLength { dt: previous.dt });
+            }
+            check_length("previous positions", 3 * particles, previous.positions.len())?;
+            check_length("previous velocities", 3 * particles, previous.velocities.len())?;
+        }
+        Ok(())
+    }
+
+    /// Takes over positions and velocities at the end of a sub-step, and keeps those at its start as
+    /// the past. Buffers are exchanged: the given ones are left with values of no meaning.
+    pub(crate) fn advance(
+        &mut self,
+        span: Span,
+        positions: &mut Vec<f64>,
+        velocities: &mut Vec<f64>,
+    ) {
         let previous = self.previous.get_or_insert_with(|| PreviousState {
             dt: span.dt,
             positions: vec![0.0; positions.len()],
@@ -72,10 +93,19 @@ impl IntegratorState {
         previous.dt = span.dt;
         core::mem::swap(&mut previous.positions, &mut self.positions);
         core::mem::swap(&mut previous.velocities, &mut self.velocities);
-        self.positions.copy_from_slice(positions);
-        self.velocities.copy_from_slice(velocities);
+        core::mem::swap(&mut self.positions, positions);
+        core::mem::swap(&mut self.velocities, velocities);
         self.time = span.end;
     }
+}
+
+/// Checks that a list has the length that the number of particles asks for.
+pub(crate) fn check_length(
+    name: &'static str,
+    expected: usize,
+    found: usize,
+) -> Result<(), Error> {
+    if expected == found { Ok(()) } else { Err(Error::Dimension { name, expected, found }) }
 }
 
 /// Start, end and length of a sub-step, in s.

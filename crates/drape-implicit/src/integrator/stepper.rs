@@ -1,6 +1,6 @@
 //! Stepper: checks its input, divides a step into sub-steps and attempts each.
 
-use super::state::{IntegratorState, Span};
+use super::state::{IntegratorState, Span, check_length};
 use super::step_control::StepControl;
 use super::sub_step::SubStepper;
 use crate::error::{Error, Quantity};
@@ -224,29 +224,14 @@ fn check_lengths(
     if !(dt > 0.0 && dt.is_finite()) {
         return Err(Error::StepLength { dt });
     }
-    let agree = |what, expected, found| {
-        if expected == found { Ok(()) } else { Err(Error::Dimension { what, expected, found }) }
-    };
-    agree("particles", particles, system.particles())?;
-    agree("masses", particles, system.masses().len())?;
-    agree("held", particles, system.held().len())?;
-    agree("positions", 3 * particles, state.positions.len())?;
-    agree("velocities", 3 * particles, state.velocities.len())?;
-    if let Some(previous) = &state.previous {
-        if !(previous.dt > 0.0 && previous.dt.is_finite()) {
-            return Err(Error::StepLength { dt: previous.dt });
-        }
-        agree("previous positions", 3 * particles, previous.positions.len())?;
-        agree("previous velocities", 3 * particles, previous.velocities.len())?;
-    }
-    Ok(())
+    check_length("particles", particles, system.particles())?;
+    check_length("masses", particles, system.masses().len())?;
+    check_length("held", particles, system.held().len())?;
+    state.check(particles)
 }
 
 fn solver_for(system: &dyn System, settings: &Settings) -> Result<NonlinearSolver, Error> {
     let sparsity = system.sparsity();
-    let (expected, found) = (system.particles(), sparsity.particles());
-    if expected != found {
-        return Err(Error::Dimension { what: "sparsity", expected, found });
-    }
+    check_length("sparsity", system.particles(), sparsity.particles())?;
     Ok(NonlinearSolver::new(SystemMatrix::new(sparsity, settings)?, settings))
 }

@@ -1,8 +1,8 @@
 //! Attempt at one sub-step: prediction, solution, velocities and energy balance.
 
 use super::formula::Formula;
-use super::state::{IntegratorState, Span};
-use crate::error::{Error, Quantity};
+use super::state::{IntegratorState, Span, check_length};
+use crate::error::Quantity;
 use crate::linear::block::triples;
 use crate::linear::vector::dot;
 use crate::nonlinear::equations::StepEquations;
@@ -69,13 +69,7 @@ impl SubStepper {
         self.base.copy_from_slice(&state.positions);
         system.system().begin(span.end, span.dt, &state.positions, &mut self.base);
         let held = system.system().held();
-        if held.len() != self.held.len() {
-            return Err(Halt::Fatal(Error::Dimension {
-                what: "held",
-                expected: self.held.len(),
-                found: held.len(),
-            }));
-        }
+        check_length("held", self.held.len(), held.len()).map_err(Halt::Fatal)?;
         self.held.copy_from_slice(held);
         self.predict(state, formula, span.dt, system.is_filtered())?;
         let unit = self.residual_unit();
@@ -114,10 +108,10 @@ impl SubStepper {
             report.potential_evaluations += 1;
             *report.energy.get_or_insert_default() += energy;
         }
-        let end = &self.solver.search.current;
+        let end = &mut self.solver.search.current;
         report.residual = report.residual.max(relative(end.norm, unit));
         system.system().accept(&end.positions, &self.velocities, span.dt);
-        state.advance(span, &end.positions, &self.velocities);
+        state.advance(span, &mut end.positions, &mut self.velocities);
         Ok(())
     }
 

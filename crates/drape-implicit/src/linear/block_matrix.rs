@@ -1,4 +1,4 @@
-//! Symmetric sparse matrix of 3x3 blocks: what a system assembles its stiffness into.
+//! Symmetric sparse matrix of 3x3 blocks, which a system assembles its stiffness into.
 
 use crate::linear::block::{self, Block};
 use crate::linear::sparsity::Sparsity;

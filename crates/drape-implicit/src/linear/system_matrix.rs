@@ -44,7 +44,7 @@ impl SystemMatrix {
         })
     }
 
-    /// Forgets what the preconditioner knows of the last matrix, for one that is not like it.
+    /// Forgets which shift the last preconditioner needed, for a matrix that is not like the last.
     pub(crate) fn forget(&mut self) {
         if let Some(iterative) = &mut self.iterative {
             iterative.factor.forget();

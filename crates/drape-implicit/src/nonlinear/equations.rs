@@ -12,7 +12,7 @@ use crate::report::Report;
 use crate::step_filter::{StepLimit, SystemRef, TrialStep};
 use crate::system::Stiffness;
 
-/// Iterate: deviations and what follows from them.
+/// Iterate: deviations, and the positions, residual and energy that follow from them.
 #[derive(Clone, Debug)]
 pub(crate) struct Iterate {
     /// Deviations `d` from free flight, in m.

@@ -73,7 +73,7 @@ struct NewtonDirection {
     solved: bool,
 }
 
-/// Newton's and Broyden's methods: the matrix and what the iterations have learnt of it.
+/// Newton's and Broyden's methods: the system matrix, its updates, and how well it has worked.
 #[derive(Debug)]
 pub(crate) struct Newton {
     matrix: SystemMatrix,

@@ -179,7 +179,7 @@ fn a_swinging_sheet_loses_the_energy_that_is_reported_and_bdf2_a_fifth_of_it() {
         -energy
     };
     let (first, second) = (loss(Integrator::BackwardEuler), loss(Integrator::Bdf2));
-    // Of the 1 J that the fall releases. What is left of the second order's loss is in waves of a
+    // Of the 1 J that the fall releases. The rest of the second order's loss is in waves of a
     // few steps' length.
     assert!(first > 0.1, "{first} J");
     assert!(second > 0.0 && second < 0.2 * first, "{second} J against {first} J");

@@ -1,4 +1,4 @@
-//! Fill that a factor without fill drops, and what is put on the diagonal in its place.
+//! Fill that a factor without fill drops, and its replacement on the diagonal.
 
 use crate::linear::lane_block::{
     Blocks, SymmetricBlocks, lane_of, symmetric_part, transposed_times,
@@ -16,7 +16,7 @@ pub(crate) enum DroppedFill {
     /// particles, 0.95 took 27 % and 39 % fewer iterations than 0; on 40 000 particles that swing,
     /// steps took 54, 51, 50, 79 and 157 iterations with 0.95, 0.97, 0.98, 0.99 and 1.
     Compensated(f64),
-    /// This fraction of what makes up for the dropped updates is added to the diagonal.
+    /// This fraction of a bound of the dropped updates is added to the diagonal.
     ///
     /// With all of it the matrix that is factorised is the given one plus a positive one, and the
     /// pivots of a definite matrix are positive (\[AJ84\], for scalars).

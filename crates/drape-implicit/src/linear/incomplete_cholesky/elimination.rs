@@ -43,13 +43,13 @@ pub(crate) struct Elimination {
 struct BatchWork {
     /// Blocks that its diagonals subtract from the pivots of their columns.
     squares: Vec<Square<Single>>,
-    /// The same with what stands for dropped updates.
+    /// The same blocks, with the replacements of dropped updates.
     subtracted: Vec<SymmetricBlocks<Single>>,
     /// Blocks that its irregular entries subtract from the pivots of their columns.
     irregular_squares: Vec<Square<f32>>,
 }
 
-/// Batch of a run, and what its elimination needs to know.
+/// Batch of a run that is being eliminated.
 #[derive(Clone, Copy)]
 struct Batch<'a> {
     schedule: &'a LevelSchedule,

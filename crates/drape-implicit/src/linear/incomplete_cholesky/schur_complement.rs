@@ -1,4 +1,4 @@
-//! Schur complement: what is left of a matrix while it is factorised.
+//! Schur complement: the part of a matrix that is not factorised yet.
 
 use crate::linear::lane_block::Blocks;
 use crate::linear::lanes::{Double, LANES, Number, Single, narrowed};
