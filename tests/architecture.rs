@@ -20,7 +20,6 @@ const LEFT: &[&str] = &[
     "drape-fabric",
     "drape-fit",
     "drape-hysteresis",
-    "drape-implicit",
     "drape-input",
     "drape-kes",
     "drape-pattern",
