@@ -135,7 +135,8 @@ fn a_reversed_sign_is_turned_and_told() {
     let sheet = read("tensile", ("%", GF), &both).expect("safe to repair");
     says(&sheet.warnings()[0], &["deformation and load have the opposite sign"]);
     assert!(
-        sheet.curves[0].load_range().0 >= 0.0 && sheet.curves[0].deformation_range().0 >= -1e-15
+        sheet.curves[0].load_range().low >= 0.0
+            && sheet.curves[0].deformation_range().low >= -1e-15
     );
 }
 

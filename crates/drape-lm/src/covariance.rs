@@ -62,8 +62,8 @@ pub enum Undetermined {
 /// `$K = 1 + \frac{p}{n}\,\mathrm{var}(\psi')/\overline{\psi'}^2$` \[Hub81, §7.6\].
 ///
 /// It holds for residuals that are independent and of one variance after weighting, and for a model
-/// that is nearly linear over the errors; [`profile`](fn@crate::profile) shows where it is not. Where
-/// a model misses its data systematically the errors come out too small.
+/// that is nearly linear over the errors; `profile` shows where it is not. Where a model misses its
+/// data systematically the errors come out too small.
 ///
 /// ```
 /// # use drape_lm::{Covariance, Loss, Parameter, Problem, Settings, minimise};
