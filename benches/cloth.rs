@@ -8,10 +8,10 @@ use criterion::measurement::WallTime;
 use criterion::{
     BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
 };
-use drape_cloth::{Cloth, Lattice, Reference, State, Workspace};
+use drape_cloth::{Cloth, Lattice, Reference, State, Trial, Workspace};
 use drape_fabric::{
-    BendingBackbone, BendingLaw, BlimanSorine, Buckling, Direction, Fabric, Locking, Primed,
-    SURFACE_FRICTION, ShearBackbone, ShearLaw, TractionBackbone, TractionLaw,
+    BendingBackbone, BendingLaw, BlimanSorine, Buckling, Fabric, Locking, Primed, SURFACE_FRICTION,
+    ShearBackbone, ShearLaw, TractionBackbone, TractionLaw, YarnLaws,
 };
 use rayon::ThreadPoolBuilder;
 
@@ -20,7 +20,7 @@ const SIDES: [usize; 6] = [20, 50, 70, 100, 141, 200];
 
 /// A 200 g/m² fabric with friction in every law, each of one element.
 fn fabric() -> Fabric {
-    let direction = |rigidity: f64| Direction {
+    let direction = |rigidity: f64| YarnLaws {
         traction: TractionLaw {
             backbone: TractionBackbone::Primed(Primed {
                 stiffness: 5000.0,
@@ -81,8 +81,7 @@ impl Sheet {
             lattice.coordinates.iter().flat_map(fold).collect()
         };
         let mut state = cloth.state(shape(0.0)).expect("it fits");
-        let start = (state.positions.as_slice(), state.normals());
-        let mut reference = Reference::new(&panels, cloth.pattern(), start);
+        let mut reference = Reference::new(&panels, cloth.sparsity(), &state);
         let rest = vec![0.0; 3 * cloth.particles()];
         for time in [0.1, 0.2] {
             cloth.commit(&mut state, &shape(time), &rest);
@@ -93,6 +92,10 @@ impl Sheet {
 
     fn particles(&self) -> usize {
         self.cloth.particles()
+    }
+
+    fn trial(&self) -> Trial<'_> {
+        self.cloth.trial(&self.state, &self.trial)
     }
 
     /// Room for as many threads as asked for.
@@ -137,7 +140,7 @@ fn forces(criterion: &mut Criterion) {
             let mut forces = vec![0.0; 3 * sheet.particles()];
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
-                    workspace.add_forces(&sheet.cloth, &sheet.state, &sheet.trial, &mut forces);
+                    workspace.add_forces(sheet.trial(), &mut forces);
                 });
             });
         },
@@ -157,7 +160,7 @@ fn potential(criterion: &mut Criterion) {
         |group, id, sheet, mut workspace| {
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
-                    let potential = workspace.potential(&sheet.cloth, &sheet.state, &sheet.trial);
+                    let potential = workspace.potential(sheet.trial());
                     black_box(potential)
                 });
             });
@@ -175,16 +178,15 @@ fn stiffness(criterion: &mut Criterion) {
         criterion,
         "stiffness",
         |group, id, sheet, mut workspace| {
-            let mut values = vec![0.0; 9 * sheet.cloth.pattern().blocks()];
+            let mut values = vec![0.0; 9 * sheet.cloth.sparsity().blocks()];
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
-                    let trial = (sheet.trial.as_slice(), false);
-                    workspace.add_stiffness(&sheet.cloth, &sheet.state, trial, &mut values);
+                    workspace.add_stiffness(sheet.trial(), false, &mut values);
                 });
             });
         },
         |group, id, sheet| {
-            let mut values = vec![0.0; 9 * sheet.cloth.pattern().blocks()];
+            let mut values = vec![0.0; 9 * sheet.cloth.sparsity().blocks()];
             group.bench_function(id, |bencher| {
                 bencher.iter(|| sheet.reference.add_stiffness(&sheet.trial, false, &mut values));
             });
@@ -203,7 +205,7 @@ fn commit(criterion: &mut Criterion) {
             group.bench_function(id, |bencher| {
                 bencher.iter(|| {
                     for shape in [&sheet.trial, &start] {
-                        workspace.commit(&sheet.cloth, &mut state, (shape, &rest));
+                        workspace.commit(&sheet.cloth, &mut state, shape, &rest);
                     }
                 });
             });

@@ -1,4 +1,4 @@
-//! Contact between surfaces: finding near pairs, their energies, the filter of steps and the exact
+//! ParticleContact between surfaces: finding near pairs, their energies, the filter of steps and the exact
 //! test, of a flat sheet and of one that hangs in folds over a ball.
 
 use std::hint::black_box;
@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use drape_collide::{
-    Body, Detector, Filter, Gap, Pose, Shape, Skin, Surface, SurfaceParts, crossings,
+    Body, CcdFilter, ContactDistances, Detector, Gap, Pose, Shape, Surface, SurfaceParts,
+    intersections,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -16,9 +17,9 @@ const SIDES: [usize; 3] = [50, 100, 200];
 const SPACING: f64 = 5e-3;
 
 /// Half of a cloth of 0.6 mm, and of what is left of it under load.
-const SKIN: Skin = Skin { reach: 3e-4, separation: 1e-4 };
+const SKIN: ContactDistances = ContactDistances { activation_distance: 3e-4, min_separation: 1e-4 };
 
-/// How much farther than the reach pairs are found, in m.
+/// How much farther than the activation_distance pairs are found, in m.
 const MARGIN: f64 = 6e-4;
 
 struct Sheet {
@@ -33,16 +34,16 @@ impl Sheet {
         let vertices = side * side;
         let place = |v: usize| [v % side, v / side].map(|k| SPACING * k as f64 - half);
         let mut parts = SurfaceParts {
-            rest: (0..vertices).flat_map(|v| [place(v)[0], 0.0, place(v)[1]]).collect(),
+            rest_positions: (0..vertices).flat_map(|v| [place(v)[0], 0.0, place(v)[1]]).collect(),
             triangles: grid(side),
             areas: vec![SPACING * SPACING; vertices],
-            group: vec![0; vertices],
-            skins: vec![SKIN; 2],
-            free: vertices,
-            twins: Vec::new(),
+            groups: vec![0; vertices],
+            distances: vec![SKIN; 2],
+            free_vertices: vertices,
+            seam_pairs: Vec::new(),
             ties: Vec::new(),
         };
-        let mut positions = parts.rest.clone();
+        let mut positions = parts.rest_positions.clone();
         if draped {
             let radius = 0.4 * half;
             // The facets of a ball lie inside it, so the cloth is just out of touch.
@@ -51,8 +52,8 @@ impl Sheet {
             let ball = Body::new("ball", Shape::Sphere { radius }, Pose::default());
             let ball = ball.triangulate().expect("a ball");
             parts.areas.extend(vec![0.0; ball.vertices.len()]);
-            parts.group.extend(vec![1; ball.vertices.len()]);
-            parts.rest.extend(ball.vertices.as_flattened());
+            parts.groups.extend(vec![1; ball.vertices.len()]);
+            parts.rest_positions.extend(ball.vertices.as_flattened());
             positions.extend(ball.vertices.as_flattened());
             let first = vertices as u32;
             parts.triangles.extend(ball.triangles.iter().map(|t| t.map(|v| first + v)));
@@ -62,7 +63,7 @@ impl Sheet {
 
     /// A way of some tenths of a millimetre of each cloth vertex, up and down.
     fn way(&self) -> Vec<f64> {
-        let free = 3 * self.surface.free();
+        let free = 3 * self.surface.free_count();
         let ripple = |(k, x): (usize, &f64)| if k < free { 3e-4 * (900.0 * x).sin() } else { 0.0 };
         self.positions.iter().enumerate().map(ripple).collect()
     }
@@ -118,7 +119,8 @@ fn contact(criterion: &mut Criterion) {
                     pool.install(|| bencher.iter(detect));
                 });
                 group.bench_function(id("crossings"), |bencher| {
-                    let test = || black_box(crossings(surface, positions).expect("a test").len());
+                    let test =
+                        || black_box(intersections(surface, positions).expect("a test").len());
                     pool.install(|| bencher.iter(test));
                 });
             }
@@ -151,10 +153,10 @@ fn pairs(criterion: &mut Criterion) {
         let hessian = |pair| Gap::new(pair, positions).hessian(1e8)[0][0];
         bencher.iter(|| list.iter().map(hessian).sum::<f64>());
     });
-    let mut filter = Filter::default();
+    let mut filter = CcdFilter::default();
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     group.bench_function("scalar filter", |bencher| {
-        let mut share = || filter.scalar(pairs, positions, &way).expect("a share").value;
+        let mut share = || filter.common_fraction(pairs, positions, &way).expect("a share").value;
         pool.install(|| bencher.iter(&mut share));
     });
     group.bench_function("truncating filter", |bencher| {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Output;
 
 use assert_cmd::Command;
-use drape::collide::{Skin, Surface, SurfaceParts, crossings};
+use drape::collide::{ContactDistances, Surface, SurfaceParts, intersections};
 use drape::verify::Recording;
 use serde_json::Value;
 use tempfile::TempDir;
@@ -230,24 +230,26 @@ fn sheet(side: usize, height: f64, turn: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) 
 fn two_tests_that_share_no_code_find_the_same_pairs() {
     let sheets: Vec<_> = (0..4).map(|k| sheet(24, 0.002 * k as f64, 0.3 * k as f64)).collect();
     let mut parts = SurfaceParts {
-        rest: Vec::new(),
+        rest_positions: Vec::new(),
         triangles: Vec::new(),
         areas: vec![1e-4; 4 * 576],
-        group: (0..4).flat_map(|k| [k; 576]).collect(),
-        skins: vec![Skin { reach: 1e-3, separation: 1e-4 }; 4],
-        free: 4 * 576,
-        twins: Vec::new(),
+        groups: (0..4).flat_map(|k| [k; 576]).collect(),
+        distances: vec![ContactDistances { activation_distance: 1e-3, min_separation: 1e-4 }; 4],
+        free_vertices: 4 * 576,
+        seam_pairs: Vec::new(),
         ties: Vec::new(),
     };
     let mut places = Vec::new();
     let mut text = String::new();
     for (k, (vertices, triangles)) in sheets.iter().enumerate() {
-        parts.rest.extend(sheet(24, 0.0, 0.0).0.iter().flat_map(|[x, _, z]| [*x, *z, 0.0]));
+        parts
+            .rest_positions
+            .extend(sheet(24, 0.0, 0.0).0.iter().flat_map(|[x, _, z]| [*x, *z, 0.0]));
         parts.triangles.extend(triangles.iter().map(|t| t.map(|v| v + 576 * k as u32)));
         places.extend(vertices.iter().flatten().copied());
     }
     places.chunks(3).for_each(|p| text += &format!("v {:?} {:?} {:?}\n", p[0], p[1], p[2]));
-    parts.rest.chunks(3).for_each(|p| text += &format!("vt {:?} {:?}\n", p[0], p[1]));
+    parts.rest_positions.chunks(3).for_each(|p| text += &format!("vt {:?} {:?}\n", p[0], p[1]));
     parts
         .triangles
         .iter()
@@ -265,7 +267,7 @@ fn two_tests_that_share_no_code_find_the_same_pairs() {
 
     // An edge that meets a triangle makes a pair of each triangle that has the edge.
     let surface = Surface::new(parts).expect("a right surface");
-    let found = crossings(&surface, &places).expect("right places");
+    let found = intersections(&surface, &places).expect("right places");
     let triangles = surface.triangles();
     let mut pairs: Vec<[u32; 2]> = Vec::new();
     for crossing in found {

@@ -2,7 +2,16 @@
 
 use std::collections::BTreeSet;
 
-use crate::{ClothError, Lattice};
+use crate::{Error, Lattice};
+
+/// Cloth that lies folded back along part of a panel's outline: the allowance of a seam, or a hem.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Allowance {
+    /// Particles along the outline, in order.
+    pub line: Vec<u32>,
+    /// Width of the strip of cloth, in m.
+    pub width: f64,
+}
 
 impl Lattice {
     /// The panel with strips of its cloth along parts of its outline, each along a line of particles with a width, in m.
@@ -13,24 +22,24 @@ impl Lattice {
     ///
     /// # Errors
     /// When a width is negative or not finite, or a particle does not exist.
-    pub fn with_allowances(mut self, lines: &[(Vec<u32>, f64)]) -> Result<Self, ClothError> {
+    pub fn with_allowances(mut self, allowances: &[Allowance]) -> Result<Self, Error> {
         let particles = self.coordinates.len();
-        for (line, width) in lines {
+        for Allowance { line, width } in allowances {
             if !(*width >= 0.0 && width.is_finite()) {
-                return Err(ClothError::Width { width: *width });
+                return Err(Error::Width { width: *width });
             }
             if let Some(&node) = line.iter().find(|&&node| node as usize >= particles) {
                 let (part, index) = ("node", node as usize);
                 let what = "has an allowance and does not exist";
-                return Err(ClothError::Mesh { part, index, what });
+                return Err(Error::Mesh { part, index, what });
             }
         }
-        if lines.iter().all(|(_, width)| *width == 0.0) {
+        if allowances.iter().all(|allowance| allowance.width == 0.0) {
             return Ok(self);
         }
         let outline: BTreeSet<[u32; 2]> = self.outline().into_iter().collect();
         self.allowances.resize(particles, 0.0);
-        for (line, width) in lines {
+        for Allowance { line, width } in allowances {
             for pair in line.windows(2) {
                 let [a, b] = [pair[0], pair[1]];
                 if outline.contains(&[a.min(b), a.max(b)]) {
@@ -71,6 +80,10 @@ traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_st
 bending.rigidity = 0.8e-5
 "#;
 
+    fn allowance(line: &[u32], width: f64) -> Allowance {
+        Allowance { line: line.to_vec(), width }
+    }
+
     fn masses(lattice: &Lattice) -> Vec<f64> {
         let fabric = Fabric::from_document(&Document::new("plain.toml", FABRIC)).expect("right");
         let cloth = Cloth::new(&[(lattice, &fabric)]);
@@ -86,7 +99,7 @@ bending.rigidity = 0.8e-5
     fn allowances_weigh_on_their_line_and_nowhere_else() {
         // 5 × 3 particles.
         let plain = Lattice::rectangle(0.4, 0.2, 0.1).expect("a rectangle");
-        let lines = [(vec![0, 1, 2, 3, 4], 0.02), (vec![4, 9, 14], 0.01)];
+        let lines = [allowance(&[0, 1, 2, 3, 4], 0.02), allowance(&[4, 9, 14], 0.01)];
         let sewn = plain.clone().with_allowances(&lines).expect("lines of its outline");
         let (before, after) = (masses(&plain), masses(&sewn));
         let added: Vec<f64> = after.iter().zip(&before).map(|(new, old)| new - old).collect();
@@ -104,7 +117,7 @@ bending.rigidity = 0.8e-5
     fn a_leap_from_one_part_of_the_outline_to_another_adds_nothing() {
         let plain = Lattice::rectangle(0.4, 0.2, 0.1).expect("a rectangle");
         // Over the corner, inwards, and back.
-        let leaps = [(vec![3, 9, 7, 2], 0.02)];
+        let leaps = [allowance(&[3, 9, 7, 2], 0.02)];
         let sewn = plain.clone().with_allowances(&leaps).expect("they are particles");
         assert_eq!(masses(&sewn), masses(&plain));
     }
@@ -114,13 +127,14 @@ bending.rigidity = 0.8e-5
         let mesh = Mesh {
             spacing: [0.01; 2],
             coordinates: vec![[0.0, 0.0], [0.01, 0.0], [0.0, 0.01], [0.01, 0.01], [0.005, 0.018]],
-            places: vec![[0, 0], [1, 0], [0, 1], [1, 1]],
+            grid: vec![[0, 0], [1, 0], [0, 1], [1, 1]],
             cells: vec![[0, 1, 3, 2]],
             triangles: vec![[2, 3, 4]],
         };
-        let plain = Lattice::with_rim(mesh, Grain::default()).expect("a panel");
+        let plain = Lattice::from_mesh(mesh, Grain::default()).expect("a panel");
         // The last pair is the side of the cell, with cloth on both sides.
-        let sewn = plain.clone().with_allowances(&[(vec![3, 4, 2, 3], 0.004)]).expect("a line");
+        let sewn =
+            plain.clone().with_allowances(&[allowance(&[3, 4, 2, 3], 0.004)]).expect("a line");
         let [before, after] = [&plain, &sewn].map(|l| masses(l).iter().sum::<f64>());
         let added = 0.2 * 0.004 * 2.0 * 0.005_f64.hypot(0.008);
         assert!(((after - before) / added - 1.0).abs() < 1e-12, "{after} {before} {added}");
@@ -129,10 +143,11 @@ bending.rigidity = 0.8e-5
     #[test]
     fn widths_that_are_none_are_refused_and_zero_leaves_the_panel_as_it_is() {
         let plain = Lattice::rectangle(0.4, 0.2, 0.1).expect("a rectangle");
-        let with = |line: Vec<u32>, width| plain.clone().with_allowances(&[(line, width)]);
+        let with =
+            |line: Vec<u32>, width| plain.clone().with_allowances(&[allowance(&line, width)]);
         assert_eq!(with(vec![0, 1], 0.0), Ok(plain.clone()));
-        assert!(matches!(with(vec![0, 1], -0.01), Err(ClothError::Width { .. })));
-        assert!(matches!(with(vec![0, 1], f64::NAN), Err(ClothError::Width { .. })));
-        assert!(matches!(with(vec![0, 15], 0.01), Err(ClothError::Mesh { index: 15, .. })));
+        assert!(matches!(with(vec![0, 1], -0.01), Err(Error::Width { .. })));
+        assert!(matches!(with(vec![0, 1], f64::NAN), Err(Error::Width { .. })));
+        assert!(matches!(with(vec![0, 15], 0.01), Err(Error::Mesh { index: 15, .. })));
     }
 }

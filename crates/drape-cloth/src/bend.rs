@@ -1,6 +1,6 @@
 #![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
-use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes, Remembered, Responses};
+use drape_fabric::{BatchLaw, BendingBackbone, LANES, Lanes, MemoryBatch, Responses};
 
 use crate::angle::Angle;
 use crate::field::{Batch, Vector, add, dot, scale, set, subtract};
@@ -67,7 +67,7 @@ impl Bend<'_> {
 
     /// Derivatives of the potential with respect to the bows, times a factor.
     #[inline(always)]
-    pub(crate) fn moments(&self, memory: &Remembered<'_>, factor: f64) -> [Lanes; 3] {
+    pub(crate) fn moments(&self, memory: &MemoryBatch<'_>, factor: f64) -> [Lanes; 3] {
         match self.yarns.bending.law().backbone {
             BendingBackbone::Linear { rigidity } => self.moments_of(memory, factor, |_| rigidity),
             BendingBackbone::Piecewise(piecewise) => {
@@ -80,7 +80,7 @@ impl Bend<'_> {
     #[inline(always)]
     fn moments_of(
         &self,
-        memory: &Remembered<'_>,
+        memory: &MemoryBatch<'_>,
         factor: f64,
         secant: impl Fn(f64) -> f64,
     ) -> [Lanes; 3] {
@@ -88,7 +88,7 @@ impl Bend<'_> {
         let rest = yarns.rest_bow;
         let bends = self.bends();
         let mut friction = Responses::default();
-        yarns.bending.slide::<false>(memory, &bends.curvature, &mut friction);
+        yarns.bending.add_friction::<false>(memory, &bends.curvature, &mut friction);
         let mut moments = [[0.0; LANES]; 3];
         for lane in 0..LANES {
             let normal = self.normals.at(lane);
@@ -111,7 +111,7 @@ impl Bend<'_> {
     #[inline(always)]
     pub(crate) fn blocks(
         &self,
-        memory: &Remembered<'_>,
+        memory: &MemoryBatch<'_>,
         factor: f64,
         definite: bool,
     ) -> [Lanes; 6] {
@@ -134,7 +134,7 @@ impl Bend<'_> {
     #[inline(always)]
     fn blocks_of(
         &self,
-        memory: &Remembered<'_>,
+        memory: &MemoryBatch<'_>,
         (factor, definite): (f64, bool),
         stiffness: impl Fn(f64) -> (f64, f64),
     ) -> [Lanes; 6] {
@@ -142,7 +142,7 @@ impl Bend<'_> {
         let rest = yarns.rest_bow;
         let bends = self.bends();
         let mut friction = Responses::default();
-        yarns.bending.slide::<true>(memory, &bends.curvature, &mut friction);
+        yarns.bending.add_friction::<true>(memory, &bends.curvature, &mut friction);
         let mut blocks = [[0.0; LANES]; 6];
         for lane in 0..LANES {
             let normal = self.normals.at(lane);

@@ -11,7 +11,7 @@ use crate::breen::near::Near;
 use crate::breen::well::Well;
 use crate::connectors::{segments, triples};
 use crate::field::{Vector, scale, subtract};
-use crate::{ClothError, Lattice};
+use crate::{Error, Lattice};
 
 /// Block of a pair of particles: second derivatives of the energy, in N/m, row by row.
 pub type Block = [f64; 9];
@@ -22,7 +22,7 @@ pub type Block = [f64; 9];
 /// particles apart that come nearer than the spacing, wherever they are in the cloth; both rise with the fifth power
 /// [eqs. 3.2–3.5], so that a cloth under its own weight hardly stretches and does not meet itself. **Bending** is of the
 /// angle of three particles along a yarn [eqs. 5.4, 5.5], **trellising** of the angle between the two lines through the
-/// neighbours of a particle [eq. 5.7]; their curves are the first branches of the fabric's ([`BreenWork::of`]).
+/// neighbours of a particle [eq. 5.7]; their curves are the first branches of the fabric's ([`BreenWork::from_laws`]).
 ///
 /// Read otherwise than printed, besides what [`BreenWork`] says:
 /// * Eqs. 3.2 and 3.3 have one factor for energies of different units. In lengths counted in spacings both are energies,
@@ -62,13 +62,13 @@ impl Breen {
     ///
     /// # Errors
     /// When a panel has a rim of triangles, or folds.
-    pub fn new(panels: &[(&Lattice, &Fabric)]) -> Result<Self, ClothError> {
+    pub fn new(panels: &[(&Lattice, &Fabric)]) -> Result<Self, Error> {
         if panels.iter().any(|(lattice, _)| !lattice.rim.is_empty()) {
-            return Err(ClothError::Rim);
+            return Err(Error::Rim);
         }
         if panels.iter().any(|(lattice, _)| !lattice.folds().is_empty()) {
             let what = "is unknown to the model of Breen, House & Wozny";
-            return Err(ClothError::Fold { fold: 0, what });
+            return Err(Error::Fold { fold: 0, what });
         }
         let (mut edges, mut hinges, mut works) = (Vec::new(), Vec::new(), Vec::new());
         let mut wells = Vec::new();
@@ -86,7 +86,7 @@ impl Breen {
                 [(&fabric.warp, along), (&fabric.weft, across)].into_iter().enumerate()
             {
                 let work = works.len() as u32;
-                works.push(BreenWork::of(&laws.bending, &fabric.shear));
+                works.push(BreenWork::from_laws(&laws.bending, &fabric.shear));
                 for (ends, area) in segments(lattice, &lines[direction], direction) {
                     let particles = ends.map(|end| first + end);
                     edges.push(Edge { particles, well: Well { spacing, energy: depth * area } });
@@ -115,7 +115,7 @@ impl Breen {
 
     /// Pairs of particles that are near each other in space and not tied by a yarn, the first less than the second: those
     /// nearer than the spacing, and those that are so soon.
-    pub fn near(&mut self, positions: &[f64]) -> &[[u32; 2]] {
+    pub fn close_pairs(&mut self, positions: &[f64]) -> &[[u32; 2]] {
         self.near.find(positions)
     }
 

@@ -6,7 +6,8 @@ use crate::panel::{Panel, Strip};
 use crate::rim::{Near, Rim};
 use crate::state::{History, State};
 use crate::tangent::{Tangent, tangents};
-use crate::{ClothError, Lattice, Pattern, Tie, Workspace};
+use crate::workspace::Trial;
+use crate::{Error, Lattice, Sparsity, Tie, Workspace};
 
 /// A cloth: particles joined by traction, shearing and bending connectors. Constant in time.
 ///
@@ -30,7 +31,7 @@ pub struct Cloth {
     pub(crate) panels: Vec<Panel>,
     pub(crate) strips: Vec<Strip>,
     pub(crate) rims: Vec<Rim>,
-    pattern: Pattern,
+    sparsity: Sparsity,
 }
 
 /// Area that the connectors of each kind stand for, in m²; each is the area of the cloth.
@@ -57,13 +58,6 @@ pub struct Strains {
     pub curvature_p99: f64,
 }
 
-/// What a step has cost.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Committed {
-    /// Energy lost in the fabric's friction, in J.
-    pub dissipated: f64,
-}
-
 impl Cloth {
     /// A cloth of panels, each with its fabric; the particles are numbered panel by panel.
     #[must_use]
@@ -77,17 +71,17 @@ impl Cloth {
             panels: Vec::new(),
             strips: Vec::new(),
             rims: Vec::new(),
-            pattern: Pattern::default(),
+            sparsity: Sparsity::default(),
         };
         panels.iter().for_each(|(lattice, fabric)| cloth.add_panel(lattice, fabric));
         let pairs = cloth.panels.iter().flat_map(Panel::pairs);
         let pairs = pairs.chain(cloth.rims.iter().flat_map(Rim::pairs));
-        cloth.pattern = Pattern::new(cloth.particles(), pairs);
+        cloth.sparsity = Sparsity::new(cloth.particles(), pairs);
         for (index, panel) in cloth.panels.iter_mut().enumerate() {
-            panel.connect(&cloth.pattern);
-            panel.cut(index, &cloth.pattern, &mut cloth.strips);
+            panel.connect(&cloth.sparsity);
+            panel.cut(index, &cloth.sparsity, &mut cloth.strips);
         }
-        cloth.rims.iter_mut().for_each(|rim| rim.connect(&cloth.pattern));
+        cloth.rims.iter_mut().for_each(|rim| rim.connect(&cloth.sparsity));
         cloth
     }
 
@@ -113,12 +107,13 @@ impl Cloth {
         self.areas.extend(areas);
     }
 
-    /// The cloth with the masses of tied particles at those that they lie between: their sum and its middle stay.
+    /// Returns the cloth with the masses of tied particles moved to the two particles that each lies
+    /// between; their sum and their centre stay.
     #[must_use]
-    pub fn tied<'a>(mut self, ties: impl IntoIterator<Item = &'a Tie>) -> Self {
-        for &Tie { particle, ends, share } in ties {
+    pub fn with_ties<'a>(mut self, ties: impl IntoIterator<Item = &'a Tie>) -> Self {
+        for &Tie { particle, ends, fraction } in ties {
             let mass = std::mem::take(&mut self.masses[particle as usize]);
-            for (end, part) in ends.into_iter().zip([1.0 - share, share]) {
+            for (end, part) in ends.into_iter().zip([1.0 - fraction, fraction]) {
                 self.masses[end as usize] += part * mass;
             }
         }
@@ -157,8 +152,8 @@ impl Cloth {
 
     /// Which pairs of particles the connectors couple.
     #[must_use]
-    pub fn pattern(&self) -> &Pattern {
-        &self.pattern
+    pub fn sparsity(&self) -> &Sparsity {
+        &self.sparsity
     }
 
     /// Area that the connectors of each kind stand for, in m².
@@ -183,10 +178,10 @@ impl Cloth {
     ///
     /// # Errors
     /// When there are not three numbers for every particle.
-    pub fn state(&self, positions: Vec<f64>) -> Result<State, ClothError> {
+    pub fn state(&self, positions: Vec<f64>) -> Result<State, Error> {
         let particles = self.particles();
         if positions.len() != 3 * particles {
-            return Err(ClothError::Positions { found: positions.len(), particles });
+            return Err(Error::Positions { found: positions.len(), particles });
         }
         let mut state = State {
             velocities: vec![0.0; positions.len()],
@@ -199,6 +194,12 @@ impl Cloth {
         Ok(state)
     }
 
+    /// Returns trial positions of this cloth from a state, for a [`Workspace`].
+    #[must_use]
+    pub fn trial<'a>(&'a self, state: &'a State, positions: &'a [f64]) -> Trial<'a> {
+        Trial { cloth: self, state, positions }
+    }
+
     /// Room for evaluating this cloth again and again without allocating.
     #[must_use]
     pub fn workspace(&self) -> Workspace {
@@ -208,29 +209,29 @@ impl Cloth {
     /// Adds the forces of all connectors at trial positions, in N. See [`Workspace`] for doing it
     /// often.
     pub fn add_forces(&self, state: &State, trial: &[f64], forces: &mut [f64]) {
-        self.workspace().add_forces(self, state, trial, forces);
+        self.workspace().add_forces(self.trial(state, trial), forces);
     }
 
     /// Potential of the connectors within a step, in J: its negative derivative with respect to the
     /// trial positions is [`Cloth::add_forces`]. Only differences at one state mean anything.
     #[must_use]
     pub fn potential(&self, state: &State, trial: &[f64]) -> f64 {
-        self.workspace().potential(self, state, trial)
+        self.workspace().potential(self.trial(state, trial))
     }
 
     /// Adds the derivative of the forces with respect to the trial positions, negated, in N/m, to
-    /// the blocks of [`Cloth::pattern`].
+    /// the blocks of [`Cloth::sparsity`].
     ///
     /// With `definite`, parts that make the matrix indefinite are left out: compression across a
     /// segment, and the turning of the shear's gradient.
     pub fn add_stiffness(&self, state: &State, trial: &[f64], definite: bool, values: &mut [f64]) {
-        let kind = (trial, definite);
-        self.workspace().add_stiffness(self, state, kind, values);
+        self.workspace().add_stiffness(self.trial(state, trial), definite, values);
     }
 
-    /// Accepts a step: moves positions, velocities and all memories on. Nothing else writes memory.
-    pub fn commit(&self, state: &mut State, positions: &[f64], velocities: &[f64]) -> Committed {
-        self.workspace().commit(self, state, (positions, velocities))
+    /// Accepts a step: advances positions, velocities and all memories, which nothing else writes.
+    /// Returns the energy dissipated by the fabric's friction, in J.
+    pub fn commit(&self, state: &mut State, positions: &[f64], velocities: &[f64]) -> f64 {
+        self.workspace().commit(self, state, positions, velocities)
     }
 
     /// Energy that the connectors can give back, in J.

@@ -4,35 +4,35 @@ use drape_fabric::{BatchLaw, LANES, Lanes};
 
 use crate::field::{Field, lanes};
 use crate::panel::{Panel, Strip};
-use crate::scratch::{Scratch, Trial};
+use crate::scratch::{Scratch, StripTrial};
 use crate::state::{History, Moving};
 
 /// Potential of a strip's connectors within a step, in J.
 #[inline(always)]
-pub(crate) fn potential(scratch: &mut Scratch, trial: &Trial<'_>) -> f64 {
-    let Trial { panel, history, strip, positions } = *trial;
+pub(crate) fn potential(scratch: &mut Scratch, trial: &StripTrial<'_>) -> f64 {
+    let StripTrial { panel, history, strip, positions } = *trial;
     scratch.lay((panel, strip), positions);
     let mut sums = [0.0; LANES];
     for start in own(panel, strip) {
         let place = strip.offset + start;
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let memory = history.traction[direction].from(place);
+            let memory = history.traction[direction].batch(place);
             let strains = scratch.strains(yarns, direction, (start, strip));
             let mut works = [0.0; LANES];
-            yarns.traction.work(&memory, &strains, &mut works);
+            yarns.traction.add_work(&memory, &strains, &mut works);
             weigh(&mut sums, &works, (&yarns.segment_areas, strip, start));
 
-            let memory = history.bending[direction].from(place);
+            let memory = history.bending[direction].batch(place);
             let bend = scratch.bend(yarns, &history.normals, (start, strip));
             let mut works = bend.energies();
-            yarns.bending.slide_work(&memory, &bend.bends().curvature, &mut works);
+            yarns.bending.add_friction_work(&memory, &bend.bends().curvature, &mut works);
             weigh(&mut sums, &works, (&yarns.triple_areas, strip, start));
         }
         for (corner, areas) in panel.corners.iter().enumerate() {
-            let memory = history.shear[corner].from(place);
+            let memory = history.shear[corner].batch(place);
             let sines = scratch.sines(panel, corner, (start, strip));
             let mut works = [0.0; LANES];
-            panel.shear.work(&memory, &sines, &mut works);
+            panel.shear.add_work(&memory, &sines, &mut works);
             weigh(&mut sums, &works, (areas, strip, start));
         }
     }
@@ -85,39 +85,39 @@ pub(crate) fn start(
         let place = strip.offset + start;
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let strains = scratch.strains(yarns, direction, (start, strip));
-            history.traction[direction].start(&yarns.traction, place, &strains);
+            yarns.traction.start(&mut history.traction[direction], place, &strains);
             let along = scratch.bend(yarns, &history.normals, (start, strip)).bends().curvature;
-            history.bending[direction].start(&yarns.bending, place, &along);
+            yarns.bending.start(&mut history.bending[direction], place, &along);
         }
         for (corner, memories) in history.shear.iter_mut().enumerate() {
             let sines = scratch.sines(panel, corner, (start, strip));
-            memories.start(&panel.shear, place, &sines);
+            panel.shear.start(memories, place, &sines);
         }
     }
 }
 
 /// Energy that a strip's connectors can give back, in J.
-pub(crate) fn stored(scratch: &mut Scratch, trial: &Trial<'_>) -> f64 {
-    let Trial { panel, history, strip, positions } = *trial;
+pub(crate) fn stored(scratch: &mut Scratch, trial: &StripTrial<'_>) -> f64 {
+    let StripTrial { panel, history, strip, positions } = *trial;
     scratch.lay((panel, strip), positions);
     let mut sums = [0.0; LANES];
     for start in own(panel, strip) {
         let place = strip.offset + start;
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let mut energies = [0.0; LANES];
-            let memory = history.traction[direction].from(place);
-            yarns.traction.stored(&memory, &mut energies);
+            let memory = history.traction[direction].batch(place);
+            yarns.traction.add_stored(&memory, &mut energies);
             weigh(&mut sums, &energies, (&yarns.segment_areas, strip, start));
 
             let mut energies = scratch.bend(yarns, &history.normals, (start, strip)).energies();
-            let memory = history.bending[direction].from(place);
-            yarns.bending.slide_stored(&memory, &mut energies);
+            let memory = history.bending[direction].batch(place);
+            yarns.bending.add_friction_stored(&memory, &mut energies);
             weigh(&mut sums, &energies, (&yarns.triple_areas, strip, start));
         }
         for (corner, areas) in panel.corners.iter().enumerate() {
             let mut energies = [0.0; LANES];
-            let memory = history.shear[corner].from(place);
-            panel.shear.stored(&memory, &mut energies);
+            let memory = history.shear[corner].batch(place);
+            panel.shear.add_stored(&memory, &mut energies);
             weigh(&mut sums, &energies, (areas, strip, start));
         }
     }

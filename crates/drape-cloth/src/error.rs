@@ -1,7 +1,7 @@
 /// Why a cloth cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum ClothError {
+pub enum Error {
     /// A length that must be greater than 0 is not.
     #[error("{what} is {value} m; it must be greater than 0")]
     Length {

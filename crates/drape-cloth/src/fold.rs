@@ -5,7 +5,7 @@ use drape_fabric::BendingBackbone;
 use crate::angle::Angle;
 use crate::bend::HALF;
 use crate::field::{Vector, add, dot, scale, subtract};
-use crate::{ClothError, Lattice};
+use crate::{Error, Lattice};
 
 /// Largest part of a line's length across a yarn that counts as along it: rounding.
 const ALONG: f64 = 1e-6;
@@ -132,9 +132,9 @@ impl Lattice {
     /// # Errors
     /// When a fold has no length or no number, its angle is beyond [`Fold::ANGLE_MAX`], or nothing of the panel is on
     /// both sides of it; and when folds add up to more at a node.
-    pub fn with_folds(mut self, folds: &[Fold]) -> Result<Self, ClothError> {
+    pub fn with_folds(mut self, folds: &[Fold]) -> Result<Self, Error> {
         for (fold, line) in folds.iter().enumerate() {
-            let wrong = |what| Err(ClothError::Fold { fold, what });
+            let wrong = |what| Err(Error::Fold { fold, what });
             if !line.ends.iter().flatten().chain([&line.angle]).all(|x| x.is_finite()) {
                 return wrong("has a number that is not finite");
             }

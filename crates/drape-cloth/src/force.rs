@@ -3,14 +3,14 @@
 use drape_fabric::{BatchLaw, LANES, Lanes, Responses};
 
 use crate::field::{add, dot, lanes, put, scale, set, subtract};
-use crate::scratch::{Edges, Scratch, Trial};
+use crate::scratch::{Edges, Scratch, StripTrial};
 
 /// Adds the forces on a strip's particles, three numbers for each.
 ///
 /// All energy but that of bending is a function of the edges as vectors, and the bending's is one of
 /// their differences: the derivative `$P_e$` with respect to an edge pulls at its two ends.
 #[inline(always)]
-pub(crate) fn add_forces(scratch: &mut Scratch, trial: &Trial<'_>, forces: &mut [f64]) {
+pub(crate) fn add_forces(scratch: &mut Scratch, trial: &StripTrial<'_>, forces: &mut [f64]) {
     scratch.lay((trial.panel, trial.strip), trial.positions);
     for direction in 0..2 {
         tensions(scratch, trial, direction);
@@ -26,12 +26,12 @@ pub(crate) fn add_forces(scratch: &mut Scratch, trial: &Trial<'_>, forces: &mut 
 }
 
 #[inline(always)]
-fn tensions(scratch: &mut Scratch, trial: &Trial<'_>, direction: usize) {
-    let Trial { panel, strip, .. } = *trial;
+fn tensions(scratch: &mut Scratch, trial: &StripTrial<'_>, direction: usize) {
+    let StripTrial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
     let places = panel.margin - panel.stride..panel.margin + strip.points.len();
     for start in places.step_by(LANES) {
-        let memory = trial.history.traction[direction].from(strip.offset + start);
+        let memory = trial.history.traction[direction].batch(strip.offset + start);
         let strains = scratch.strains(yarns, direction, (start, strip));
         let mut responses = Responses::default();
         yarns.traction.respond::<false>(&memory, &strains, &mut responses);
@@ -46,11 +46,11 @@ fn tensions(scratch: &mut Scratch, trial: &Trial<'_>, direction: usize) {
 }
 
 #[inline(always)]
-fn corners(scratch: &mut Scratch, trial: &Trial<'_>, corner: usize) {
-    let Trial { panel, strip, .. } = *trial;
+fn corners(scratch: &mut Scratch, trial: &StripTrial<'_>, corner: usize) {
+    let StripTrial { panel, strip, .. } = *trial;
     let places = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
     for start in places.step_by(LANES) {
-        let memory = trial.history.shear[corner].from(strip.offset + start);
+        let memory = trial.history.shear[corner].batch(strip.offset + start);
         let sines = scratch.sines(panel, corner, (start, strip));
         let mut responses = Responses::default();
         panel.shear.respond::<false>(&memory, &sines, &mut responses);
@@ -64,13 +64,13 @@ fn corners(scratch: &mut Scratch, trial: &Trial<'_>, corner: usize) {
 }
 
 #[inline(always)]
-fn moments(scratch: &mut Scratch, trial: &Trial<'_>, direction: usize) {
-    let Trial { panel, strip, .. } = *trial;
+fn moments(scratch: &mut Scratch, trial: &StripTrial<'_>, direction: usize) {
+    let StripTrial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
     let inverse_square = 1.0 / (yarns.length * yarns.length);
     let places = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
     for start in places.step_by(LANES) {
-        let memory = trial.history.bending[direction].from(strip.offset + start);
+        let memory = trial.history.bending[direction].batch(strip.offset + start);
         let bend = scratch.bend(yarns, &trial.history.normals, (start, strip));
         let moments = bend.moments(&memory, inverse_square);
         scratch.moments[direction].put(start, &moments);
@@ -79,8 +79,8 @@ fn moments(scratch: &mut Scratch, trial: &Trial<'_>, direction: usize) {
 
 /// Derivatives with respect to the edges, from tension and from the corners that they are part of.
 #[inline(always)]
-fn pulls(scratch: &mut Scratch, trial: &Trial<'_>, direction: usize) {
-    let Trial { panel, strip, .. } = *trial;
+fn pulls(scratch: &mut Scratch, trial: &StripTrial<'_>, direction: usize) {
+    let StripTrial { panel, strip, .. } = *trial;
     let [warp, weft] = &scratch.edges;
     let (edges, other) = if direction == 0 { (warp, weft) } else { (weft, warp) };
     let step = panel.yarns[direction].step;
@@ -118,8 +118,8 @@ fn turned(edges: &Edges, start: usize, tensions: &Lanes, across: &[Lanes; 3]) ->
 }
 
 #[inline(always)]
-fn gather(scratch: &mut Scratch, trial: &Trial<'_>, forces: &mut [f64]) {
-    let Trial { panel, strip, .. } = *trial;
+fn gather(scratch: &mut Scratch, trial: &StripTrial<'_>, forces: &mut [f64]) {
+    let StripTrial { panel, strip, .. } = *trial;
     let mut forces = forces.chunks_exact_mut(3);
     let occupied = &panel.occupied[strip.points.clone()];
     for (batch, occupied) in occupied.chunks(LANES).enumerate() {

@@ -35,13 +35,13 @@ impl Grain {
 
     /// Place in the panel's own frame of material coordinates (u along the weft, v along the warp).
     #[must_use]
-    pub fn place(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+    pub fn to_panel(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         [u * self.cos - v * self.sin, u * self.sin + v * self.cos]
     }
 
     /// Material coordinates of a place in the panel's own frame.
     #[must_use]
-    pub fn coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub fn to_material(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [x * self.cos + y * self.sin, y * self.cos - x * self.sin]
     }
 
@@ -64,12 +64,12 @@ mod tests {
     fn the_warp_turns_from_the_height_anticlockwise() {
         let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-15;
         let half = std::f64::consts::FRAC_1_SQRT_2;
-        assert!(near(Grain::from_degrees(45.0).place([0.0, 1.0]), [-half, half]));
-        assert!(near(Grain::from_degrees(45.0).place([1.0, 0.0]), [half, half]));
-        assert!(near(Grain::from_degrees(-30.0).place([0.0, 1.0]), [0.5, 0.75_f64.sqrt()]));
+        assert!(near(Grain::from_degrees(45.0).to_panel([0.0, 1.0]), [-half, half]));
+        assert!(near(Grain::from_degrees(45.0).to_panel([1.0, 0.0]), [half, half]));
+        assert!(near(Grain::from_degrees(-30.0).to_panel([0.0, 1.0]), [0.5, 0.75_f64.sqrt()]));
         for angle in [-200.0, -45.0, 10.0, 135.0, 300.0] {
             let grain = Grain::from_degrees(angle);
-            assert!(near(grain.coordinates(grain.place([0.3, -0.2])), [0.3, -0.2]), "{angle}");
+            assert!(near(grain.to_material(grain.to_panel([0.3, -0.2])), [0.3, -0.2]), "{angle}");
         }
     }
 
@@ -78,7 +78,7 @@ mod tests {
         assert_eq!(Grain::from_degrees(0.0), Grain::default());
         for (angle, warp) in [(90.0, [-1.0, 0.0]), (180.0, [0.0, -1.0]), (-90.0, [1.0, 0.0])] {
             let grain = Grain::from_degrees(angle);
-            assert_eq!(grain.place([0.0, 1.0]), warp, "{angle}");
+            assert_eq!(grain.to_panel([0.0, 1.0]), warp, "{angle}");
             assert!(grain.is_straight());
         }
     }

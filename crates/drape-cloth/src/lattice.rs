@@ -1,5 +1,5 @@
 use crate::clip::area_within;
-use crate::{ClothError, Fold, Grain};
+use crate::{Error, Fold, Grain};
 
 /// Most particles of one panel; beyond it a spacing in the wrong unit is far more likely.
 pub(crate) const PARTICLES_MAX: f64 = 4e6;
@@ -64,7 +64,7 @@ impl Lattice {
     ///
     /// # Errors
     /// As for [`Lattice::rectangle_at`].
-    pub fn rectangle(width: f64, height: f64, spacing: f64) -> Result<Self, ClothError> {
+    pub fn rectangle(width: f64, height: f64, spacing: f64) -> Result<Self, Error> {
         Self::rectangle_at(Grain::default(), [0.0; 2], [width, height], spacing)
     }
 
@@ -83,17 +83,17 @@ impl Lattice {
         grid: [f64; 2],
         size: [f64; 2],
         spacing: f64,
-    ) -> Result<Self, ClothError> {
+    ) -> Result<Self, Error> {
         let [width, height] = size;
         check("the width", width)?;
         check("the height", height)?;
         check("the spacing", spacing)?;
         let cells = size.map(|side| (side / spacing).round());
         if cells.iter().any(|cells| *cells < 2.0) {
-            return Err(ClothError::Spacing { spacing, size: width.min(height) });
+            return Err(Error::Spacing { spacing, size: width.min(height) });
         }
         let corners = [[0.0, 0.0], [width, 0.0], size, [0.0, height]];
-        let outline = corners.map(|corner| grain.coordinates(corner));
+        let outline = corners.map(|corner| grain.to_material(corner));
         if !grain.is_straight() {
             let lattice = Self::ragged(&outline, on_grid(grid, spacing)?, spacing)?;
             return Ok(lattice.of_size(grain, size));
@@ -109,7 +109,7 @@ impl Lattice {
 
     /// The cells of a grid that lie, or parts of them, in a rectangle with the given corners; `grid` is the place of a
     /// particle from its middle.
-    fn ragged(outline: &[[f64; 2]; 4], grid: [f64; 2], spacing: f64) -> Result<Self, ClothError> {
+    fn ragged(outline: &[[f64; 2]; 4], grid: [f64; 2], spacing: f64) -> Result<Self, Error> {
         let middle = [0, 1].map(|axis| 0.5 * (outline[0][axis] + outline[2][axis]));
         let reach = [0, 1].map(|axis| middle[axis] - lowest(outline, axis));
         let half = reach.map(|reach| (reach / spacing + 0.5).ceil());
@@ -131,7 +131,7 @@ impl Lattice {
     ///
     /// # Errors
     /// As for [`Lattice::disc_on`].
-    pub fn disc(radius: f64, spacing: f64) -> Result<Self, ClothError> {
+    pub fn disc(radius: f64, spacing: f64) -> Result<Self, Error> {
         Self::disc_on([0.0; 2], radius, spacing)
     }
 
@@ -142,11 +142,11 @@ impl Lattice {
     ///
     /// # Errors
     /// When a length is not positive, or fewer than 3 particles would lie across the disc.
-    pub fn disc_on(grid: [f64; 2], radius: f64, spacing: f64) -> Result<Self, ClothError> {
+    pub fn disc_on(grid: [f64; 2], radius: f64, spacing: f64) -> Result<Self, Error> {
         check("the radius", radius)?;
         check("the spacing", spacing)?;
         if radius < spacing {
-            return Err(ClothError::Spacing { spacing, size: 2.0 * radius });
+            return Err(Error::Spacing { spacing, size: 2.0 * radius });
         }
         Self::round(grid, [0.0, radius], spacing)
     }
@@ -155,19 +155,19 @@ impl Lattice {
     ///
     /// # Errors
     /// When a length is not positive, or fewer than 3 particles would lie across the ring.
-    pub fn ring_on(grid: [f64; 2], radii: [f64; 2], spacing: f64) -> Result<Self, ClothError> {
+    pub fn ring_on(grid: [f64; 2], radii: [f64; 2], spacing: f64) -> Result<Self, Error> {
         let [hole, radius] = radii;
         check("the radius of the hole", hole)?;
         check("the radius", radius)?;
         check("the spacing", spacing)?;
         if radius - hole < 2.0 * spacing {
-            return Err(ClothError::Spacing { spacing, size: radius - hole });
+            return Err(Error::Spacing { spacing, size: radius - hole });
         }
         Self::round(grid, radii, spacing)
     }
 
     /// The cells of a grid that lie, or parts of them, between two circles.
-    fn round(grid: [f64; 2], [hole, radius]: [f64; 2], spacing: f64) -> Result<Self, ClothError> {
+    fn round(grid: [f64; 2], [hole, radius]: [f64; 2], spacing: f64) -> Result<Self, Error> {
         let grid = on_grid(grid, spacing)?;
         let half = (radius / spacing + 0.5).ceil();
         let start = grid.map(|place| place - half * spacing);
@@ -197,11 +197,11 @@ impl Lattice {
         start: [f64; 2],
         cells: [f64; 2],
         quadrants: impl Fn(f64, f64) -> [f64; 4],
-    ) -> Result<Self, ClothError> {
+    ) -> Result<Self, Error> {
         let particles = (cells[0] + 1.0) * (cells[1] + 1.0);
         if particles > PARTICLES_MAX {
             let spacing = spacing[0].min(spacing[1]);
-            return Err(ClothError::TooMany { spacing, particles, limit: PARTICLES_MAX });
+            return Err(Error::TooMany { spacing, particles, limit: PARTICLES_MAX });
         }
         let [across, along] = cells.map(|n| n as usize);
         let columns = across + 1;
@@ -274,15 +274,15 @@ impl Lattice {
     /// Places of the particles in the panel's own frame, in m: from the lower left corner of a rectangle, from the
     /// middle of a disc, as it was given for a panel that was cut elsewhere.
     #[must_use]
-    pub fn places(&self) -> Vec<[f64; 2]> {
-        self.coordinates.iter().map(|&coordinates| self.grain.place(coordinates)).collect()
+    pub fn panel_coordinates(&self) -> Vec<[f64; 2]> {
+        self.coordinates.iter().map(|&coordinates| self.grain.to_panel(coordinates)).collect()
     }
 
     /// How far each particle is inside a side of the panel, in spacings: 0 on it, negative beyond it. The side is that
     /// at the low (−1) or the high end (1) of an axis of the panel's own frame; other panels have their outermost particles there.
     #[must_use]
     pub fn depths(&self, axis: usize, end: f64) -> Vec<f64> {
-        let places = self.places();
+        let places = self.panel_coordinates();
         let outermost = || places.iter().map(|place| end * place[axis]).fold(f64::MIN, f64::max);
         let side =
             self.size.map_or_else(outermost, |size| if end > 0.0 { size[axis] } else { 0.0 });
@@ -340,18 +340,18 @@ fn shared(areas: [f64; 4]) -> [f64; 4] {
 }
 
 /// The place of the particle nearest to where a grid is counted from.
-fn on_grid(grid: [f64; 2], spacing: f64) -> Result<[f64; 2], ClothError> {
+fn on_grid(grid: [f64; 2], spacing: f64) -> Result<[f64; 2], Error> {
     let grid = grid.map(|place| place - spacing * (place / spacing).round());
     let lost = grid.into_iter().find(|place| !place.is_finite());
-    lost.map_or(Ok(grid), |value| Err(ClothError::Length { what: "the place of the grid", value }))
+    lost.map_or(Ok(grid), |value| Err(Error::Length { what: "the place of the grid", value }))
 }
 
 fn lowest(outline: &[[f64; 2]; 4], axis: usize) -> f64 {
     outline.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min)
 }
 
-fn check(what: &'static str, value: f64) -> Result<(), ClothError> {
-    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(ClothError::Length { what, value }) }
+fn check(what: &'static str, value: f64) -> Result<(), Error> {
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(Error::Length { what, value }) }
 }
 
 /// Signed area of the disc about the origin in the rectangle with the corners (0, 0) and (u, v).
@@ -425,10 +425,10 @@ mod tests {
 
     #[test]
     fn sizes_that_make_no_panel_are_refused() {
-        assert!(matches!(Lattice::rectangle(-1.0, 1.0, 0.1), Err(ClothError::Length { .. })));
-        assert!(matches!(Lattice::rectangle(1.0, 1.0, f64::NAN), Err(ClothError::Length { .. })));
-        assert!(matches!(Lattice::rectangle(1.0, 1.0, 3.0), Err(ClothError::Spacing { .. })));
-        assert!(matches!(Lattice::rectangle(1.0, 1.0, 1e-5), Err(ClothError::TooMany { .. })));
-        assert!(matches!(Lattice::disc(0.1, 0.2), Err(ClothError::Spacing { .. })));
+        assert!(matches!(Lattice::rectangle(-1.0, 1.0, 0.1), Err(Error::Length { .. })));
+        assert!(matches!(Lattice::rectangle(1.0, 1.0, f64::NAN), Err(Error::Length { .. })));
+        assert!(matches!(Lattice::rectangle(1.0, 1.0, 3.0), Err(Error::Spacing { .. })));
+        assert!(matches!(Lattice::rectangle(1.0, 1.0, 1e-5), Err(Error::TooMany { .. })));
+        assert!(matches!(Lattice::disc(0.1, 0.2), Err(Error::Spacing { .. })));
     }
 }

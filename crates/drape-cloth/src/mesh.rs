@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use crate::lattice::{Cell, PARTICLES_MAX};
-use crate::{ClothError, Grain, Lattice};
+use crate::{Error, Grain, Lattice};
 
 /// How far a node of the lattice may lie from its place in the grid, in spacings: rounding.
 const EXACT: f64 = 1e-6;
@@ -17,7 +17,7 @@ pub struct Mesh {
     /// Material coordinates of all nodes, in m.
     pub coordinates: Vec<[f64; 2]>,
     /// Column and row of each node of the lattice. The nodes after them are the outline's.
-    pub places: Vec<[u32; 2]>,
+    pub grid: Vec<[u32; 2]>,
     /// Full cells by their nodes (u, v) = (0, 0), (1, 0), (1, 1), (0, 1).
     pub cells: Vec<[u32; 4]>,
     /// Triangles of the rim by their nodes, anticlockwise.
@@ -28,20 +28,20 @@ impl Mesh {
     /// Columns and rows that its lattice covers, and the lowest of both.
     fn extent(&self) -> ([usize; 2], [u32; 2]) {
         let ends = |k: usize| {
-            let all = self.places.iter().map(|place| place[k]);
+            let all = self.grid.iter().map(|place| place[k]);
             (all.clone().min().unwrap_or(0), all.max().unwrap_or(0))
         };
         let ends = [ends(0), ends(1)];
         (ends.map(|(low, high)| (high - low) as usize + 1), ends.map(|(low, _)| low))
     }
 
-    fn check(&self) -> Result<(), ClothError> {
-        let wrong = |part, index, what| Err(ClothError::Mesh { part, index, what });
+    fn check(&self) -> Result<(), Error> {
+        let wrong = |part, index, what| Err(Error::Mesh { part, index, what });
         for (what, value) in [("the spacing along the weft", 0), ("the spacing along the warp", 1)]
         {
             let value = self.spacing[value];
             if !(value > 0.0 && value.is_finite()) {
-                return Err(ClothError::Length { what, value });
+                return Err(Error::Length { what, value });
             }
         }
         if self.cells.is_empty() && self.triangles.is_empty() {
@@ -51,9 +51,9 @@ impl Mesh {
         let particles = (columns as f64 * rows as f64).max(self.coordinates.len() as f64);
         if particles > PARTICLES_MAX {
             let spacing = self.spacing[0].min(self.spacing[1]);
-            return Err(ClothError::TooMany { spacing, particles, limit: PARTICLES_MAX });
+            return Err(Error::TooMany { spacing, particles, limit: PARTICLES_MAX });
         }
-        if self.places.len() > self.coordinates.len() {
+        if self.grid.len() > self.coordinates.len() {
             return wrong(
                 "node",
                 self.coordinates.len(),
@@ -64,25 +64,25 @@ impl Mesh {
             return wrong("node", node, "has a coordinate that is no number");
         }
         let row_major = |pair: &[[u32; 2]]| [pair[0][1], pair[0][0]] >= [pair[1][1], pair[1][0]];
-        if let Some(node) = self.places.windows(2).position(row_major) {
+        if let Some(node) = self.grid.windows(2).position(row_major) {
             return wrong("node", node + 1, "of the lattice is out of order; give them row by row");
         }
         let off = |&(place, c): &(&[u32; 2], &[f64; 2])| {
-            let steps = |k: usize| f64::from(place[k]) - f64::from(self.places[0][k]);
+            let steps = |k: usize| f64::from(place[k]) - f64::from(self.grid[0][k]);
             let at = |k: usize| (c[k] - self.coordinates[0][k]) / self.spacing[k] - steps(k);
             at(0).abs().max(at(1).abs()) > EXACT
         };
-        let nodes = self.places.iter().zip(&self.coordinates);
+        let nodes = self.grid.iter().zip(&self.coordinates);
         if let Some((node, _)) = nodes.enumerate().find(|(_, node)| off(node)) {
             return wrong("node", node, "of the lattice is not at its place in the grid");
         }
         for (index, cell) in self.cells.iter().enumerate() {
-            let Some(first) = self.places.get(cell[0] as usize) else {
+            let Some(first) = self.grid.get(cell[0] as usize) else {
                 return wrong("cell", index, "has a corner that is not of the lattice");
             };
             let steps = [[0, 0], [1, 0], [1, 1], [0, 1]];
             let full = cell.iter().zip(steps).all(|(&node, step)| {
-                self.places.get(node as usize) == Some(&[first[0] + step[0], first[1] + step[1]])
+                self.grid.get(node as usize) == Some(&[first[0] + step[0], first[1] + step[1]])
             });
             if !full {
                 return wrong("cell", index, "is not a full cell of the grid");
@@ -113,23 +113,23 @@ impl Lattice {
     ///
     /// # Errors
     /// When indices, areas or the order of the nodes are not as [`Mesh`] says, or a node is part of nothing.
-    pub fn with_rim(mesh: Mesh, grain: Grain) -> Result<Self, ClothError> {
+    pub fn from_mesh(mesh: Mesh, grain: Grain) -> Result<Self, Error> {
         mesh.check()?;
         let ([columns, rows], low) = mesh.extent();
         let quarter = 0.25 * mesh.spacing[0] * mesh.spacing[1];
         let mut grid = vec![None; columns * rows];
-        for (node, place) in mesh.places.iter().enumerate() {
+        for (node, place) in mesh.grid.iter().enumerate() {
             let [column, row] = [0, 1].map(|k| (place[k] - low[k]) as usize);
             grid[row * columns + column] = Some(node as u32);
         }
         let mut cells = mesh.cells;
         cells.sort_unstable();
         let cell = |corners: [u32; 4]| {
-            let [column, row] = mesh.places[corners[0] as usize];
+            let [column, row] = mesh.grid[corners[0] as usize];
             let even = (column - low[0] + row - low[1]).is_multiple_of(2);
             Cell { corners, quadrants: [quarter; 4], even }
         };
-        let places = mesh.coordinates.iter().map(|&coordinates| grain.place(coordinates));
+        let places = mesh.coordinates.iter().map(|&coordinates| grain.to_panel(coordinates));
         let mut ends = [[f64::MAX, f64::MIN]; 2];
         for place in places {
             for (end, x) in ends.iter_mut().zip(place) {

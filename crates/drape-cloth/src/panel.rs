@@ -4,7 +4,7 @@ use drape_fabric::{BendingBatch, Fabric, LANES, ShearBatch, TractionBatch};
 
 use crate::angle::bow_of;
 use crate::connectors::{Bending, segments};
-use crate::{Lattice, Pattern};
+use crate::{Lattice, Sparsity};
 
 /// Particles of a strip, about: fewer cost more seams between strips, more leave the cache.
 const STRIP_POINTS: usize = 1024;
@@ -170,14 +170,14 @@ impl Panel {
     }
 
     /// Looks up the places of the panel's blocks.
-    pub(crate) fn connect(&mut self, pattern: &Pattern) {
+    pub(crate) fn connect(&mut self, sparsity: &Sparsity) {
         let steps = self.block_steps();
         let slot = |point: usize, step: usize| {
             let place = self.margin + point;
             let other = point + step;
             let there = self.occupied[point] && other < self.points && self.occupied[other];
             let [row, column] = [place, place + step].map(|place| self.particles[place]);
-            let block = there.then(|| pattern.block(row, column)).flatten();
+            let block = there.then(|| sparsity.block(row, column)).flatten();
             block.map_or(NO_BLOCK, |block| block as u32)
         };
         self.slots = (0..self.points).map(|point| steps.map(|step| slot(point, step))).collect();
@@ -245,7 +245,7 @@ impl Panel {
 
     /// Cuts the points into strips of about the same length, and puts them to those of other panels: one, or an even
     /// number, which two threads share alike, of three quarters of the wanted length at the least.
-    pub(crate) fn cut(&self, panel: usize, pattern: &Pattern, strips: &mut Vec<Strip>) {
+    pub(crate) fn cut(&self, panel: usize, sparsity: &Sparsity, strips: &mut Vec<Strip>) {
         let wanted = STRIP_POINTS.max(STRIP_ROWS * self.stride);
         let pairs = (self.points as f64 / (2 * wanted) as f64 + 0.25) as usize;
         let count = (2 * pairs).max(1);
@@ -260,7 +260,7 @@ impl Panel {
                 index: strips.len(),
                 panel,
                 offset: self.base + start,
-                blocks: pattern.offsets[particles.start]..pattern.offsets[particles.end],
+                blocks: sparsity.offsets[particles.start]..sparsity.offsets[particles.end],
                 points,
                 particles,
             });

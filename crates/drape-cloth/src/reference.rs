@@ -10,7 +10,7 @@ use crate::reference::bend::{bend, curvature, folded};
 use crate::reference::block::{Block, one, outer, sum, transposed};
 use crate::reference::rim::{Fitted, Membrane};
 use crate::rim::Near;
-use crate::{Lattice, Pattern};
+use crate::{Lattice, Sparsity, State};
 
 /// The connectors of a cloth one by one through the scalar laws, by the textbook.
 ///
@@ -24,7 +24,7 @@ pub struct Reference {
     triples: Vec<Connector<BendingLaw, 3>>,
     membranes: Vec<Membrane>,
     fitted: Vec<Fitted>,
-    pattern: Pattern,
+    sparsity: Sparsity,
     /// Unit normals at the particles.
     normals: Vec<f64>,
 }
@@ -121,10 +121,10 @@ impl Connector<ShearLaw, 3> {
 }
 
 impl<L, const N: usize> Connector<L, N> {
-    fn new(law: L, particles: [u32; N], (measure, area): (f64, f64), pattern: &Pattern) -> Self {
+    fn new(law: L, particles: [u32; N], (measure, area): (f64, f64), sparsity: &Sparsity) -> Self {
         let block = |(i, j): (usize, usize)| {
             let pair = (particles.get(i)?, particles.get(j)?);
-            pattern.block(*pair.0.min(pair.1), *pair.0.max(pair.1))
+            sparsity.block(*pair.0.min(pair.1), *pair.0.max(pair.1))
         };
         Self {
             law,
@@ -185,21 +185,18 @@ fn move_on(law: &impl Law, memory: &mut Memory, to: f64) -> f64 {
 }
 
 impl Reference {
-    /// The connectors of panels in a given shape, with no friction in any of them. The pattern and
+    /// The connectors of panels in a given shape, with no friction in any of them. The sparsity and
     /// the normals are those of the cloth and its state.
     #[must_use]
-    pub fn new(
-        panels: &[(&Lattice, &Fabric)],
-        pattern: &Pattern,
-        (positions, normals): (&[f64], &[f64]),
-    ) -> Self {
+    pub fn new(panels: &[(&Lattice, &Fabric)], sparsity: &Sparsity, state: &State) -> Self {
+        let (positions, normals) = (state.positions.as_slice(), state.normals());
         let mut all = Self {
             segments: Vec::new(),
             corners: Vec::new(),
             triples: Vec::new(),
             membranes: Vec::new(),
             fitted: Vec::new(),
-            pattern: pattern.clone(),
+            sparsity: sparsity.clone(),
             normals: normals.to_vec(),
         };
         let mut first = 0;
@@ -227,14 +224,14 @@ impl Reference {
     }
 
     fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric, first: u32) {
-        let Self { pattern, .. } = self;
+        let Self { sparsity, .. } = self;
         for (cell, areas) in lattice.cells.iter().zip(lattice.sheared()) {
             let [a, b, c, d] = cell.corners;
             // Corner, neighbour along the warp (v), neighbour along the weft (u), sign.
             let around = [(a, d, b, 1.0), (b, c, a, -1.0), (c, b, d, 1.0), (d, a, c, -1.0)];
             for ((corner, warp, weft, sign), area) in around.into_iter().zip(areas) {
                 let particles = [corner, warp, weft].map(|p| first + p);
-                let corner = Connector::new(fabric.shear, particles, (sign, area), pattern);
+                let corner = Connector::new(fabric.shear, particles, (sign, area), sparsity);
                 self.corners.push(corner);
             }
         }
@@ -250,12 +247,12 @@ impl Reference {
             let (laws, measure) = sides[direction];
             for (ends, area) in segments(lattice, yarns, direction) {
                 let (ends, size) = (ends.map(|p| first + p), (measure, area));
-                self.segments.push(Connector::new(laws.traction, ends, size, pattern));
+                self.segments.push(Connector::new(laws.traction, ends, size, sparsity));
             }
             for (triple, area) in &bending[direction].triples {
                 let fold = bending[direction].folded.get(triple[1] as usize);
                 let (triple, size) = (triple.map(|p| first + p), (measure, *area));
-                let connector = Connector::new(laws.bending, triple, size, pattern);
+                let connector = Connector::new(laws.bending, triple, size, sparsity);
                 self.triples.push(Connector { fold: fold.copied().unwrap_or(0.0), ..connector });
             }
         }
@@ -349,7 +346,7 @@ impl Reference {
             }
         }
         let mut put = |[row, column]: [u32; 2], block: Block| {
-            let slot = self.pattern.block(row, column).unwrap_or(usize::MAX);
+            let slot = self.sparsity.block(row, column).unwrap_or(usize::MAX);
             let values = &mut values[9 * slot..][..9];
             for (value, entry) in values.iter_mut().zip(block.as_flattened()) {
                 *value += entry;

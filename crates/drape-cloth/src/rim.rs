@@ -18,7 +18,7 @@ use crate::mesh::twice_area;
 use crate::panel::{NO_BLOCK, Panel};
 use crate::rim::fit::Fit;
 use crate::state::History;
-use crate::{Cloth, Lattice, Pattern, State};
+use crate::{Cloth, Lattice, Sparsity, State};
 
 pub(crate) use energy::{Course, commit, potential, start, stored};
 pub(crate) use force::add_forces;
@@ -184,10 +184,10 @@ impl Rim {
     }
 
     /// Looks up the places of its blocks.
-    pub(crate) fn connect(&mut self, pattern: &Pattern) {
-        self.blocks = pattern.offsets[self.particles.start]..pattern.offsets[self.particles.end];
+    pub(crate) fn connect(&mut self, sparsity: &Sparsity) {
+        self.blocks = sparsity.offsets[self.particles.start]..sparsity.offsets[self.particles.end];
         let slot = |row: u32, column: u32| {
-            pattern.block(row, column).map_or(NO_BLOCK, |block| block as u32)
+            sparsity.block(row, column).map_or(NO_BLOCK, |block| block as u32)
         };
         let three = |&[a, b, c]: &[u32; 3]| {
             [(a, a), (a, b), (a, c), (b, b), (b, c), (c, c)].map(|(row, column)| slot(row, column))

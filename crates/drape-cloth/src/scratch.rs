@@ -52,14 +52,14 @@ pub(crate) struct Edges {
 
 /// A strip of a panel, its state, and the trial that is evaluated.
 #[derive(Clone, Copy)]
-pub(crate) struct Trial<'a> {
+pub(crate) struct StripTrial<'a> {
     pub(crate) panel: &'a Panel,
     pub(crate) history: &'a History,
     pub(crate) strip: &'a Strip,
     pub(crate) positions: &'a [f64],
 }
 
-impl<'a> Trial<'a> {
+impl<'a> StripTrial<'a> {
     pub(crate) fn new(
         cloth: &'a Cloth,
         state: &'a State,

@@ -5,12 +5,11 @@ mod pieces;
 use drape_fabric::{BendingLaw, Fabric, Law, Memory};
 
 use crate::angle::Angle;
-use crate::cloth::Committed;
 use crate::field::{Vector, add, dot, scale, subtract};
 use crate::reference::bend::{bend, curvature};
 use crate::reference::block::{Block, outer, sum};
 use crate::seam::pieces::Pieces;
-use crate::{ClothError, Lattice};
+use crate::{Error, Lattice};
 
 /// A seam: the nodes that are sewn to each other, and how it bends.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,8 +31,8 @@ pub struct Tie {
     pub particle: u32,
     /// The two that it lies between: of two pairs that follow each other in a seam those of the other side.
     pub ends: [u32; 2],
-    /// Part of the way from the first of them to the second.
-    pub share: f64,
+    /// Position between them: 0 at the first, 1 at the second.
+    pub fraction: f64,
 }
 
 /// Bending of seams, besides that of the panels, whose own connectors end at their outlines.
@@ -177,11 +176,11 @@ impl SeamBending {
     /// # Errors
     /// When a seam has less than two pairs, a particle does not exist, neighbours on a side are not on one side of the
     /// outline, a particle is tied to others than those of the other side, or stiffness or angle are out of bounds.
-    pub fn new(panels: &[(&Lattice, &Fabric)], seams: &[Seam]) -> Result<Self, ClothError> {
+    pub fn new(panels: &[(&Lattice, &Fabric)], seams: &[Seam]) -> Result<Self, Error> {
         let pieces = Pieces::of(panels);
         let mut bows = Vec::new();
         for (index, seam) in seams.iter().enumerate() {
-            let wrong = |(pair, what)| ClothError::Seam { seam: index, pair, what };
+            let wrong = |(pair, what)| Error::Seam { seam: index, pair, what };
             pieces.sew(seam, &mut bows).map_err(wrong)?;
         }
         Ok(Self { bows, particles: pieces.particles() })
@@ -191,10 +190,10 @@ impl SeamBending {
     ///
     /// # Errors
     /// When there are not three numbers for every particle.
-    pub fn state(&self, positions: &[f64]) -> Result<SeamState, ClothError> {
+    pub fn state(&self, positions: &[f64]) -> Result<SeamState, Error> {
         if positions.len() != 3 * self.particles {
             let (found, particles) = (positions.len(), self.particles);
-            return Err(ClothError::Positions { found, particles });
+            return Err(Error::Positions { found, particles });
         }
         let normals: Vec<Vector> = self.bows.iter().map(|bow| bow.normal(positions)).collect();
         let memory = |(bow, normal): (&Bow, &Vector)| {
@@ -253,7 +252,8 @@ impl SeamBending {
     pub fn add_stiffness(
         &self,
         state: &SeamState,
-        (trial, definite): (&[f64], bool),
+        trial: &[f64],
+        definite: bool,
         mut put: impl FnMut(u32, u32, [f64; 9]),
     ) {
         for (bow, memory, normal) in self.each(state) {
@@ -268,8 +268,9 @@ impl SeamBending {
         }
     }
 
-    /// Accepts a step: moves all memories and normals on. Nothing else writes memory.
-    pub fn commit(&self, state: &mut SeamState, positions: &[f64]) -> Committed {
+    /// Accepts a step: advances all memories and normals, which nothing else writes. Returns the energy
+    /// dissipated by friction, in J.
+    pub fn commit(&self, state: &mut SeamState, positions: &[f64]) -> f64 {
         let mut dissipated = 0.0;
         let memories = state.memories.iter_mut().zip(&mut state.normals);
         for (bow, (memory, normal)) in self.bows.iter().zip(memories) {
@@ -280,7 +281,7 @@ impl SeamBending {
             dissipated += bow.area * (bow.law.work(memory, to) - gained);
             *memory = after;
         }
-        Committed { dissipated }
+        dissipated
     }
 
     /// Energy that the seams can give back, in J; the positions are those of the last accepted step.

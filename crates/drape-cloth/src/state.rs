@@ -1,4 +1,4 @@
-use drape_fabric::{Memories, Memory};
+use drape_fabric::{BatchLaw, Memories, Memory};
 
 use crate::field::Field;
 use crate::panel::Panel;
@@ -48,9 +48,9 @@ pub(crate) struct RimHistory {
 
 /// The memories of some strips, to be moved on.
 pub(crate) struct Moving<'a> {
-    pub(crate) traction: [drape_fabric::Moving<'a>; 2],
-    pub(crate) shear: [drape_fabric::Moving<'a>; 4],
-    pub(crate) bending: [drape_fabric::Moving<'a>; 2],
+    pub(crate) traction: [drape_fabric::MemoriesMut<'a>; 2],
+    pub(crate) shear: [drape_fabric::MemoriesMut<'a>; 4],
+    pub(crate) bending: [drape_fabric::MemoriesMut<'a>; 2],
 }
 
 impl History {
@@ -66,21 +66,21 @@ impl History {
         for panel in panels {
             let length = panel.length();
             for (direction, yarns) in panel.yarns.iter().enumerate() {
-                history.traction[direction].extend(&yarns.traction, length);
-                history.bending[direction].extend(&yarns.bending, length);
+                yarns.traction.append_memories(&mut history.traction[direction], length);
+                yarns.bending.append_memories(&mut history.bending[direction], length);
             }
             for memories in &mut history.shear {
-                memories.extend(&panel.shear, length);
+                panel.shear.append_memories(memories, length);
             }
         }
         for rim in rims {
             let panel = &panels[rim.panel];
             let (triangles, stencils) = (rim.triangles.areas.len(), rim.stencils.middles.len());
             for (direction, yarns) in panel.yarns.iter().enumerate() {
-                history.rim.traction[direction].extend(&yarns.traction, triangles);
-                history.rim.bending[direction].extend(&yarns.bending, stencils);
+                yarns.traction.append_memories(&mut history.rim.traction[direction], triangles);
+                yarns.bending.append_memories(&mut history.rim.bending[direction], stencils);
             }
-            history.rim.shear.extend(&panel.shear, triangles);
+            panel.shear.append_memories(&mut history.rim.shear, triangles);
         }
         history
     }
@@ -88,9 +88,9 @@ impl History {
     /// All memories from a place on, to be moved on, and the normals.
     pub(crate) fn moving(&mut self, start: usize) -> (Moving<'_>, &Field) {
         let moving = Moving {
-            traction: self.traction.each_mut().map(|m| m.moving(start)),
-            shear: self.shear.each_mut().map(|m| m.moving(start)),
-            bending: self.bending.each_mut().map(|m| m.moving(start)),
+            traction: self.traction.each_mut().map(|m| m.from_mut(start)),
+            shear: self.shear.each_mut().map(|m| m.from_mut(start)),
+            bending: self.bending.each_mut().map(|m| m.from_mut(start)),
         };
         (moving, &self.normals)
     }
@@ -100,9 +100,9 @@ impl RimHistory {
     /// All memories, to be moved on.
     pub(crate) fn course(&mut self) -> Course<'_> {
         Course {
-            traction: self.traction.each_mut().map(|m| m.moving(0)),
-            shear: self.shear.moving(0),
-            bending: self.bending.each_mut().map(|m| m.moving(0)),
+            traction: self.traction.each_mut().map(|m| m.from_mut(0)),
+            shear: self.shear.from_mut(0),
+            bending: self.bending.each_mut().map(|m| m.from_mut(0)),
         }
     }
 }

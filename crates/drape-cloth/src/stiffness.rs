@@ -5,7 +5,7 @@ use drape_fabric::{BatchLaw, LANES, Lanes, Responses};
 use crate::bend::HALF;
 use crate::field::{dot, lanes, put};
 use crate::panel::{BLOCKS, NO_BLOCK};
-use crate::scratch::{Scratch, Trial};
+use crate::scratch::{Scratch, StripTrial};
 
 /// Place of a full block's entry, row by row, in the upper half.
 const IN_HALF: [usize; 9] = [0, 1, 2, 1, 3, 4, 2, 4, 5];
@@ -21,7 +21,7 @@ const TRANSPOSED: [usize; 9] = [0, 3, 6, 1, 4, 7, 2, 5, 8];
 #[inline(always)]
 pub(crate) fn add_stiffness(
     scratch: &mut Scratch,
-    trial: &Trial<'_>,
+    trial: &StripTrial<'_>,
     definite: bool,
     values: &mut [f64],
 ) {
@@ -47,12 +47,12 @@ pub(crate) fn add_stiffness(
 ///
 /// where `$g$` and `$t$` are load and slope times the area. Without `$g$` it is definite.
 #[inline(always)]
-fn turns(scratch: &mut Scratch, trial: &Trial<'_>, (corner, definite): (usize, bool)) {
-    let Trial { panel, strip, .. } = *trial;
+fn turns(scratch: &mut Scratch, trial: &StripTrial<'_>, (corner, definite): (usize, bool)) {
+    let StripTrial { panel, strip, .. } = *trial;
     let places = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
     let (to_warp, to_weft) = panel.corner_edges(corner);
     for start in places.step_by(LANES) {
-        let memory = trial.history.shear[corner].from(strip.offset + start);
+        let memory = trial.history.shear[corner].batch(strip.offset + start);
         let sines = scratch.sines(panel, corner, (start, strip));
         let mut responses = Responses::default();
         panel.shear.respond::<true>(&memory, &sines, &mut responses);
@@ -94,13 +94,13 @@ fn turns(scratch: &mut Scratch, trial: &Trial<'_>, (corner, definite): (usize, b
 }
 
 #[inline(always)]
-fn rigidities(scratch: &mut Scratch, trial: &Trial<'_>, (direction, definite): (usize, bool)) {
-    let Trial { panel, strip, .. } = *trial;
+fn rigidities(scratch: &mut Scratch, trial: &StripTrial<'_>, (direction, definite): (usize, bool)) {
+    let StripTrial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
     let inverse_square = 1.0 / (yarns.length * yarns.length);
     let places = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
     for start in places.step_by(LANES) {
-        let memory = trial.history.bending[direction].from(strip.offset + start);
+        let memory = trial.history.bending[direction].batch(strip.offset + start);
         let bend = scratch.bend(yarns, &trial.history.normals, (start, strip));
         let blocks = bend.blocks(&memory, inverse_square, definite);
         scratch.rigidities[direction].put(start, &blocks);
@@ -116,14 +116,14 @@ fn rigidities(scratch: &mut Scratch, trial: &Trial<'_>, (direction, definite): (
 #[inline(always)]
 fn edge_blocks(
     scratch: &Scratch,
-    trial: &Trial<'_>,
+    trial: &StripTrial<'_>,
     (direction, definite): (usize, bool),
     start: usize,
 ) -> [Lanes; 6] {
-    let Trial { panel, strip, .. } = *trial;
+    let StripTrial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
     let (edges, other) = (&scratch.edges[direction], &scratch.edges[1 - direction]);
-    let memory = trial.history.traction[direction].from(strip.offset + start);
+    let memory = trial.history.traction[direction].batch(strip.offset + start);
     let strains = scratch.strains(yarns, direction, (start, strip));
     let mut responses = Responses::default();
     yarns.traction.respond::<true>(&memory, &strains, &mut responses);
@@ -175,8 +175,12 @@ fn edge_blocks(
 
 /// Blocks of neighbours along a yarn.
 #[inline(always)]
-fn along_yarns(scratch: &mut Scratch, trial: &Trial<'_>, (direction, definite): (usize, bool)) {
-    let Trial { panel, strip, .. } = *trial;
+fn along_yarns(
+    scratch: &mut Scratch,
+    trial: &StripTrial<'_>,
+    (direction, definite): (usize, bool),
+) {
+    let StripTrial { panel, strip, .. } = *trial;
     let step = panel.yarns[direction].step;
     let places = panel.margin - step..panel.margin + strip.points.len();
     for start in places.step_by(LANES) {
@@ -214,8 +218,8 @@ fn along_yarns(scratch: &mut Scratch, trial: &Trial<'_>, (direction, definite): 
 /// Blocks of the particles across a cell: of its first with its third, and of its second with its
 /// fourth.
 #[inline(always)]
-fn across_cells(scratch: &mut Scratch, trial: &Trial<'_>) {
-    let Trial { panel, strip, .. } = *trial;
+fn across_cells(scratch: &mut Scratch, trial: &StripTrial<'_>) {
+    let StripTrial { panel, strip, .. } = *trial;
     let places = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
     for start in places.step_by(LANES) {
         let [first, second, third, fourth] = &scratch.turns;
@@ -237,8 +241,8 @@ fn across_cells(scratch: &mut Scratch, trial: &Trial<'_>) {
 /// Adds the blocks to the rows of the strip's particles. A row adds up to nothing, because nothing
 /// depends on where the cloth as a whole is: that gives its first block.
 #[inline(always)]
-fn gather(scratch: &Scratch, trial: &Trial<'_>, values: &mut [f64]) {
-    let Trial { panel, strip, .. } = *trial;
+fn gather(scratch: &Scratch, trial: &StripTrial<'_>, values: &mut [f64]) {
+    let StripTrial { panel, strip, .. } = *trial;
     let stride = panel.stride;
     let [warp, weft, third, second] = &scratch.blocks;
     let [warp_bends, weft_bends] = &scratch.rigidities;

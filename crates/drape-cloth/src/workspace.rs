@@ -1,10 +1,9 @@
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::cloth::Committed;
 use crate::field::Field;
 use crate::panel::{Panel, Strip};
 use crate::rim::{Course, Rim, RimTrial};
-use crate::scratch::{Scratch, Trial};
+use crate::scratch::{Scratch, StripTrial};
 use crate::share::{Scratches, share};
 use crate::state::Moving;
 use crate::{Cloth, State, energy, force, rim, stiffness};
@@ -24,6 +23,17 @@ pub struct Workspace {
     arch: Arch,
 }
 
+/// Trial positions at which a cloth is evaluated, and the state whose memory its laws start from.
+#[derive(Debug, Clone, Copy)]
+pub struct Trial<'a> {
+    /// The cloth.
+    pub cloth: &'a Cloth,
+    /// State at the start of the step.
+    pub state: &'a State,
+    /// Trial positions, three numbers for each particle, in m.
+    pub positions: &'a [f64],
+}
+
 impl Workspace {
     pub(crate) fn new(cloth: &Cloth) -> Self {
         let margin = |strip: &Strip| cloth.panels[strip.panel].margin;
@@ -38,7 +48,8 @@ impl Workspace {
     }
 
     /// See [`Cloth::add_forces`].
-    pub fn add_forces(&mut self, cloth: &Cloth, state: &State, trial: &[f64], forces: &mut [f64]) {
+    pub fn add_forces(&mut self, trial: Trial<'_>, forces: &mut [f64]) {
+        let Trial { cloth, state, positions } = trial;
         let arch = self.arch;
         share(
             (&cloth.strips, &self.scratches),
@@ -47,7 +58,7 @@ impl Workspace {
                 forces.split_at_mut(3 * (to.particles.start - from.particles.start))
             },
             &|strip, scratch, forces| {
-                let trial = Trial::new(cloth, state, (strip, trial));
+                let trial = StripTrial::new(cloth, state, (strip, positions));
                 arch.dispatch(AddForces(scratch, trial, forces));
             },
         );
@@ -59,14 +70,15 @@ impl Workspace {
                 forces.split_at_mut(3 * (to.particles.start - from.particles.start))
             },
             &|rim, _, forces| {
-                arch.dispatch(AddRimForces(RimTrial::new(cloth, state, (rim, trial)), forces));
+                arch.dispatch(AddRimForces(RimTrial::new(cloth, state, (rim, positions)), forces));
             },
         );
     }
 
     /// See [`Cloth::potential`].
     #[must_use]
-    pub fn potential(&mut self, cloth: &Cloth, state: &State, trial: &[f64]) -> f64 {
+    pub fn potential(&mut self, trial: Trial<'_>) -> f64 {
+        let Trial { cloth, state, positions } = trial;
         let arch = self.arch;
         let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
         share(
@@ -74,7 +86,7 @@ impl Workspace {
             sums,
             &|sums, from, to| sums.split_at_mut(to.index - from.index),
             &|strip, scratch, sums| {
-                let trial = Trial::new(cloth, state, (strip, trial));
+                let trial = StripTrial::new(cloth, state, (strip, positions));
                 sums[0] = arch.dispatch(Potential(scratch, trial));
             },
         );
@@ -83,27 +95,23 @@ impl Workspace {
             rim_sums,
             &|sums, from, to| sums.split_at_mut(to.index - from.index),
             &|rim, _, sums| {
-                sums[0] = arch.dispatch(RimPotential(RimTrial::new(cloth, state, (rim, trial))));
+                sums[0] =
+                    arch.dispatch(RimPotential(RimTrial::new(cloth, state, (rim, positions))));
             },
         );
         self.sums.iter().sum()
     }
 
-    /// See [`Cloth::add_stiffness`]; the trial and whether to be definite come together.
-    pub fn add_stiffness(
-        &mut self,
-        cloth: &Cloth,
-        state: &State,
-        (trial, definite): (&[f64], bool),
-        values: &mut [f64],
-    ) {
+    /// See [`Cloth::add_stiffness`].
+    pub fn add_stiffness(&mut self, trial: Trial<'_>, definite: bool, values: &mut [f64]) {
+        let Trial { cloth, state, positions } = trial;
         let arch = self.arch;
         share(
             (&cloth.strips, &self.scratches),
             &mut *values,
             &|values, from, to| values.split_at_mut(9 * (to.blocks.start - from.blocks.start)),
             &|strip, scratch, values| {
-                let trial = Trial::new(cloth, state, (strip, trial));
+                let trial = StripTrial::new(cloth, state, (strip, positions));
                 arch.dispatch(AddStiffness(scratch, trial, definite, values));
             },
         );
@@ -113,19 +121,20 @@ impl Workspace {
             &mut values[9 * first.blocks.start..],
             &|values, from, to| values.split_at_mut(9 * (to.blocks.start - from.blocks.start)),
             &|rim, _, values| {
-                let trial = RimTrial::new(cloth, state, (rim, trial));
+                let trial = RimTrial::new(cloth, state, (rim, positions));
                 arch.dispatch(AddRimStiffness(trial, definite, values));
             },
         );
     }
 
-    /// See [`Cloth::commit`]; positions and velocities come together.
+    /// See [`Cloth::commit`].
     pub fn commit(
         &mut self,
         cloth: &Cloth,
         state: &mut State,
-        (positions, velocities): (&[f64], &[f64]),
-    ) -> Committed {
+        positions: &[f64],
+        velocities: &[f64],
+    ) -> f64 {
         state.positions.copy_from_slice(positions);
         state.velocities.copy_from_slice(velocities);
         cloth.turn_normals(state);
@@ -161,13 +170,13 @@ impl Workspace {
                 sums[0] = arch.dispatch(CommitRim(own, course, shape));
             },
         );
-        Committed { dissipated: self.sums.iter().sum() }
+        self.sums.iter().sum()
     }
 
     /// See [`Cloth::stored`].
     #[must_use]
     pub fn stored(&mut self, cloth: &Cloth, state: &State) -> f64 {
-        let trial = |strip| Trial::new(cloth, state, (strip, &state.positions));
+        let trial = |strip| StripTrial::new(cloth, state, (strip, &state.positions));
         let scratch = self.scratches.any();
         let strips = cloth.strips.iter();
         let strips: f64 = strips.map(|strip| energy::stored(scratch, &trial(strip))).sum();
@@ -192,7 +201,7 @@ impl Workspace {
 
 // What is dispatched to the machine's vector instructions: everything below is inlined into it.
 
-struct AddForces<'a>(&'a mut Scratch, Trial<'a>, &'a mut [f64]);
+struct AddForces<'a>(&'a mut Scratch, StripTrial<'a>, &'a mut [f64]);
 
 impl WithSimd for AddForces<'_> {
     type Output = ();
@@ -203,7 +212,7 @@ impl WithSimd for AddForces<'_> {
     }
 }
 
-struct Potential<'a>(&'a mut Scratch, Trial<'a>);
+struct Potential<'a>(&'a mut Scratch, StripTrial<'a>);
 
 impl WithSimd for Potential<'_> {
     type Output = f64;
@@ -214,7 +223,7 @@ impl WithSimd for Potential<'_> {
     }
 }
 
-struct AddStiffness<'a>(&'a mut Scratch, Trial<'a>, bool, &'a mut [f64]);
+struct AddStiffness<'a>(&'a mut Scratch, StripTrial<'a>, bool, &'a mut [f64]);
 
 impl WithSimd for AddStiffness<'_> {
     type Output = ();
@@ -321,12 +330,12 @@ mod tests {
             let mut workspace = Workspace { arch, ..cloth.workspace() };
             let mut state = cloth.state(place(0.0)).expect("it fits");
             let zeros = vec![0.0; 3 * cloth.particles()];
-            let lost = workspace.commit(&cloth, &mut state, (&place(0.5), &zeros));
+            let lost = workspace.commit(&cloth, &mut state, &place(0.5), &zeros);
             let (mut forces, trial) = (zeros, place(0.3));
-            workspace.add_forces(&cloth, &state, &trial, &mut forces);
-            let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
-            workspace.add_stiffness(&cloth, &state, (&trial, false), &mut values);
-            let potential = workspace.potential(&cloth, &state, &trial);
+            workspace.add_forces(cloth.trial(&state, &trial), &mut forces);
+            let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
+            workspace.add_stiffness(cloth.trial(&state, &trial), false, &mut values);
+            let potential = workspace.potential(cloth.trial(&state, &trial));
             (state, lost, forces, values, potential)
         };
         let (wide, narrow) = (run(Arch::new()), run(Arch::Scalar));

@@ -21,7 +21,7 @@ fn fabric() -> Fabric {
 }
 
 fn laws(fabric: &Fabric) -> [BreenWork; 2] {
-    [&fabric.warp, &fabric.weft].map(|laws| BreenWork::of(&laws.bending, &fabric.shear))
+    [&fabric.warp, &fabric.weft].map(|laws| BreenWork::from_laws(&laws.bending, &fabric.shear))
 }
 
 /// Positions of a lattice's particles as a function of weft and warp.
@@ -108,7 +108,7 @@ fn forces_are_the_fall_of_the_energy() {
         let [p, q] = [a, b].map(|particle| lattice.coordinates[particle as usize]);
         (p[0] - q[0]).hypot(p[1] - q[1]) > 0.03
     };
-    let met = breen.near(&crumpled).iter().filter(far).count();
+    let met = breen.close_pairs(&crumpled).iter().filter(far).count();
     assert!(met > 20, "{met} pairs");
     for positions in [crumpled, rolled(&lattice)] {
         let found = forces(&mut breen, &positions);

@@ -1,6 +1,6 @@
 //! Panels cut at an angle to the yarns.
 
-use drape_cloth::{ClothError, Grain, Lattice};
+use drape_cloth::{Error, Grain, Lattice};
 
 /// Rectangles at many angles, sizes and places of the grid, with what they are.
 fn rectangles() -> Vec<(String, [f64; 2], Lattice)> {
@@ -33,7 +33,7 @@ fn its_particles_are_on_the_yarns_and_within_a_cell_of_it() {
             let rows = [(place[0] - u) / 0.01, (place[1] - v) / 0.01];
             assert!(rows.iter().all(|row| (row - row.round()).abs() < 1e-9), "{what}: {rows:?}");
         }
-        for place in lattice.places() {
+        for place in lattice.panel_coordinates() {
             let beyond = [0, 1].map(|axis| (-place[axis]).max(place[axis] - size[axis]));
             let farthest = beyond[0].max(beyond[1]);
             assert!(farthest < 0.01 * 2.0_f64.sqrt(), "{what}: {place:?}");
@@ -79,7 +79,7 @@ fn a_quarter_of_a_circle_exchanges_the_sides() {
     assert_eq!(turned.spacing, straight.spacing);
     assert_eq!(turned.cells, straight.cells);
     // The lower left corner of the one is the lower right of the other.
-    for (place, [x, y]) in turned.places().iter().zip(straight.places()) {
+    for (place, [x, y]) in turned.panel_coordinates().iter().zip(straight.panel_coordinates()) {
         assert!((place[0] - (0.05 - y)).hypot(place[1] - x) < 1e-15, "{place:?} {x} {y}");
     }
     assert_eq!(straight, Lattice::rectangle(0.2, 0.05, 0.01).expect("a panel"));
@@ -92,7 +92,7 @@ fn depths_count_from_the_sides() {
         let lattice = Lattice::rectangle_at(grain, [0.0; 2], [0.1, 0.2], 0.01).expect("a panel");
         let sides = [(0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0)];
         let depths = sides.map(|(axis, end)| lattice.depths(axis, end));
-        for (k, [x, y]) in lattice.places().into_iter().enumerate() {
+        for (k, [x, y]) in lattice.panel_coordinates().into_iter().enumerate() {
             let expected = [x, 0.1 - x, y, 0.2 - y].map(|depth| depth / 0.01);
             for (found, expected) in depths.iter().zip(expected) {
                 assert!((found[k] - expected).abs() < 1e-9, "{angle}°: {} {expected}", found[k]);
@@ -105,8 +105,8 @@ fn depths_count_from_the_sides() {
 fn what_is_no_panel_is_refused() {
     let grain = Grain::from_degrees(45.0);
     let cut = |grid, size, spacing| Lattice::rectangle_at(grain, grid, size, spacing);
-    assert!(matches!(cut([0.0; 2], [0.1, -0.1], 0.01), Err(ClothError::Length { .. })));
-    assert!(matches!(cut([f64::NAN, 0.0], [0.1, 0.1], 0.01), Err(ClothError::Length { .. })));
-    assert!(matches!(cut([0.0; 2], [0.1, 0.01], 0.01), Err(ClothError::Spacing { .. })));
-    assert!(matches!(cut([0.0; 2], [0.1, 0.1], 1e-5), Err(ClothError::TooMany { .. })));
+    assert!(matches!(cut([0.0; 2], [0.1, -0.1], 0.01), Err(Error::Length { .. })));
+    assert!(matches!(cut([f64::NAN, 0.0], [0.1, 0.1], 0.01), Err(Error::Length { .. })));
+    assert!(matches!(cut([0.0; 2], [0.1, 0.01], 0.01), Err(Error::Spacing { .. })));
+    assert!(matches!(cut([0.0; 2], [0.1, 0.1], 1e-5), Err(Error::TooMany { .. })));
 }

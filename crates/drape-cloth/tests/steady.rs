@@ -48,19 +48,19 @@ fn evaluate(cloth: &Cloth, workspace: &mut Workspace, numbers: &mut Numbers, sha
     let (state, sum, forces, values) = numbers;
     for pair in shapes.windows(2) {
         for trial in pair {
-            workspace.add_forces(cloth, state, trial, forces);
-            *sum += workspace.potential(cloth, state, trial);
-            workspace.add_stiffness(cloth, state, (trial, false), values);
+            workspace.add_forces(cloth.trial(state, trial), forces);
+            *sum += workspace.potential(cloth.trial(state, trial));
+            workspace.add_stiffness(cloth.trial(state, trial), false, values);
         }
         let rest = &pair[0];
-        *sum += workspace.commit(cloth, state, (&pair[1], rest)).dissipated;
+        *sum += workspace.commit(cloth, state, &pair[1], rest);
     }
 }
 
 fn numbers(cloth: &Cloth, shapes: &[Vec<f64>]) -> Numbers {
     let state = cloth.state(shapes[0].clone()).expect("it fits");
     let forces = vec![0.0; 3 * cloth.particles()];
-    (state, 0.0, forces, vec![0.0; 9 * cloth.pattern().blocks()])
+    (state, 0.0, forces, vec![0.0; 9 * cloth.sparsity().blocks()])
 }
 
 #[test]

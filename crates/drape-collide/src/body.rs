@@ -1,8 +1,8 @@
-use crate::error::{CollideError, check};
+use crate::error::{Error, check};
 use crate::mesh::Mesh;
 use crate::pose::{Frame, Pose};
 use crate::primitive;
-use crate::proximity::Proximity;
+use crate::proximity::SignedDistance;
 use crate::vector::Vector;
 
 /// The form of a body in its own frame.
@@ -65,12 +65,12 @@ impl Body {
     /// Exact to rounding for all shapes, inside and outside; where several points of the surface
     /// are equally near, the normal is that of one of them. A point that is not finite gets an
     /// answer of NaN throughout. The body is checked each time: for many points use
-    /// [`Contact`](crate::Contact).
-    pub fn proximity(&self, point: [f64; 3]) -> Result<Proximity, CollideError> {
-        Ok(Solid::new(self)?.proximity(point))
+    /// [`ParticleContact`](crate::ParticleContact).
+    pub fn signed_distance(&self, point: [f64; 3]) -> Result<SignedDistance, Error> {
+        Ok(Solid::new(self)?.signed_distance(point))
     }
 
-    pub(crate) fn check(&self) -> Result<Frame, CollideError> {
+    pub(crate) fn check(&self) -> Result<Frame, Error> {
         let name = &self.name;
         let length = |what: &str, value: f64| {
             check(format!("{what} of the body `{name}`"), value, "a length above 0 m", value > 0.0)
@@ -118,13 +118,13 @@ pub(crate) struct Solid {
 
 /// Whether a particle can touch a body.
 pub(crate) enum Reach {
-    Near(Proximity),
+    Near(SignedDistance),
     /// Farther off than asked, and at least this far, in m.
     Clear(f64),
 }
 
 impl Solid {
-    pub(crate) fn new(body: &Body) -> Result<Solid, CollideError> {
+    pub(crate) fn new(body: &Body) -> Result<Solid, Error> {
         Ok(Solid { frame: body.check()?, shape: body.shape.clone(), friction: body.friction })
     }
 
@@ -132,10 +132,10 @@ impl Solid {
         matches!(self.shape, Shape::Mesh(_))
     }
 
-    pub(crate) fn proximity(&self, point: Vector) -> Proximity {
+    pub(crate) fn signed_distance(&self, point: Vector) -> SignedDistance {
         // Comparisons and `max` would lose a NaN on the way.
         if !point.iter().all(|value| value.is_finite()) {
-            return Proximity::UNKNOWN;
+            return SignedDistance::UNKNOWN;
         }
         let local = self.frame.to_local(point);
         let proximity = match &self.shape {
@@ -148,24 +148,24 @@ impl Solid {
                 let core = [radius - edge_radius, half_height - edge_radius];
                 primitive::cylinder(local, core, *edge_radius)
             }
-            Shape::Plane => Proximity::flat(local[1], [0.0, 1.0, 0.0]),
-            Shape::Mesh(mesh) => mesh.proximity(local),
+            Shape::Plane => SignedDistance::flat(local[1], [0.0, 1.0, 0.0]),
+            Shape::Mesh(mesh) => mesh.signed_distance(local),
         };
         proximity.to_world(&self.frame)
     }
 
-    /// The proximity if the distance is below `reach`, else how far off the body surely is.
-    pub(crate) fn reach(&self, point: Vector, reach: f64) -> Reach {
+    /// The proximity if the distance is below `activation_distance`, else how far off the body surely is.
+    pub(crate) fn distance_within(&self, point: Vector, activation_distance: f64) -> Reach {
         let finite = point.iter().all(|value| value.is_finite());
         if let (Shape::Mesh(mesh), true) = (&self.shape, finite) {
             let bound = mesh.distance_to_box(self.frame.to_local(point));
-            if bound >= reach {
+            if bound >= activation_distance {
                 return Reach::Clear(bound);
             }
         }
-        let proximity = self.proximity(point);
+        let proximity = self.signed_distance(point);
         // Written so that NaN counts as near.
-        if proximity.distance >= reach {
+        if proximity.distance >= activation_distance {
             Reach::Clear(proximity.distance)
         } else {
             Reach::Near(proximity)

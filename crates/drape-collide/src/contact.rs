@@ -1,22 +1,22 @@
 use crate::barrier::Barrier;
 use crate::body::{Body, Solid};
 use crate::detect::{Chunk, Touch};
-use crate::error::{CollideError, check};
+use crate::error::{Error, check};
 use crate::friction::Friction;
 use crate::pose::Pose;
-use crate::proximity::Proximity;
+use crate::proximity::SignedDistance;
 use crate::vector::{Vector, at, combine, dot, outer};
 use rayon::prelude::*;
 
 /// How stiff contact is and where it begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct ParticleSettings {
     /// Distance `$r$` from a body at which contact begins, in m.
     ///
     /// The middle surface of the cloth rests just inside it: half the cloth's thickness plus what
     /// the picture or the spacing of the particles asks for. Default 1 mm.
-    pub offset: f64,
-    /// Contact stiffness `$k_A$` per area of cloth, in N/m³.
+    pub activation_distance: f64,
+    /// ParticleContact stiffness `$k_A$` per area of cloth, in N/m³.
     ///
     /// The contact pressure is `$-k_A b'(g)$`: `$k_A r/2$` at half the offset, `$2.5\,k_A r$` at a
     /// tenth of it, `$5\,k_A r$` at the surface itself. The default 2·10⁶ N/m³ with the default
@@ -31,43 +31,43 @@ pub struct Settings {
     pub slip_speed: f64,
 }
 
-impl Default for Settings {
-    fn default() -> Settings {
-        Settings { offset: 1e-3, stiffness: 2e6, slip_speed: 1e-3 }
+impl Default for ParticleSettings {
+    fn default() -> ParticleSettings {
+        ParticleSettings { activation_distance: 1e-3, stiffness: 2e6, slip_speed: 1e-3 }
     }
 }
 
-impl Settings {
-    /// Contact pressure at a distance from a body, in Pa.
+impl ParticleSettings {
+    /// ParticleContact pressure at a distance from a body, in Pa.
     pub fn pressure(&self, distance: f64) -> f64 {
-        -self.stiffness * Barrier::new(self.offset).slope(distance)
+        -self.stiffness * Barrier::new(self.activation_distance).slope(distance)
     }
 
-    fn check(&self) -> Result<(), CollideError> {
+    fn check(&self) -> Result<(), Error> {
         let positive = |what: &str, value: f64| check(what, value, "above 0", value > 0.0);
-        positive("the contact offset (m)", self.offset)?;
+        positive("the contact offset (m)", self.activation_distance)?;
         positive("the contact stiffness (N/m³)", self.stiffness)?;
         positive("the slip speed (m/s)", self.slip_speed)
     }
 }
 
-/// Contact of cloth particles with rigid bodies: forces, their potential and their derivative.
+/// ParticleContact of cloth particles with rigid bodies: forces, their potential and their derivative.
 ///
 /// Each pair of a particle `$i$` and a body within the offset adds the energy
 /// `$k_A A_i b(d)$`, with the lumped area `$A_i$` of the particle, its distance `$d$` and the
-/// two-stage barrier `$b$`, and the friction of the step that [`begin`](Contact::begin) opened.
-/// The forces are exactly the negative gradient of [`potential`](Contact::potential).
+/// two-stage barrier `$b$`, and the friction of the step that [`begin`](ParticleContact::begin) opened.
+/// The forces are exactly the negative gradient of [`potential`](ParticleContact::potential).
 ///
 /// Only particles are tested: a triangle or a yarn between two particles can cut through a convex
 /// edge of a body by about its length squared over eight radii of the edge.
 ///
 /// A position that is not finite gives NaN for its force, its stiffness and the potential, so that
-/// no solver can take it for a place out of reach.
+/// no solver can take it for a place out of activation_distance.
 #[derive(Debug, Clone)]
-pub struct Contact {
+pub struct ParticleContact {
     bodies: Vec<Body>,
     solids: Vec<Solid>,
-    settings: Settings,
+    settings: ParticleSettings,
     areas: Vec<f64>,
     has_mesh: bool,
     chunks: Vec<Chunk>,
@@ -78,20 +78,20 @@ pub struct Contact {
     stick: f64,
 }
 
-impl Contact {
-    /// Contact of as many particles as there are lumped areas, in m².
+impl ParticleContact {
+    /// ParticleContact of as many particles as there are lumped areas, in m².
     pub fn new(
         bodies: Vec<Body>,
-        settings: Settings,
+        settings: ParticleSettings,
         areas: Vec<f64>,
-    ) -> Result<Contact, CollideError> {
+    ) -> Result<ParticleContact, Error> {
         settings.check()?;
         let bad = |(_, area): &(usize, &f64)| !area.is_finite() || **area < 0.0;
         if let Some((particle, &area)) = areas.iter().enumerate().find(bad) {
-            return Err(CollideError::BadArea { particle, area });
+            return Err(Error::InvalidArea { particle, area });
         }
         let solids = bodies.iter().map(Solid::new).collect::<Result<Vec<_>, _>>()?;
-        Ok(Contact {
+        Ok(ParticleContact {
             has_mesh: solids.iter().any(Solid::is_mesh),
             chunks: Chunk::cover(areas.len(), bodies.len()),
             seen: Vec::new(),
@@ -110,7 +110,7 @@ impl Contact {
     }
 
     /// The settings.
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &ParticleSettings {
         &self.settings
     }
 
@@ -149,7 +149,7 @@ impl Contact {
     ///
     /// # Errors
     /// A pose that is none.
-    pub fn place(&mut self, body: usize, pose: Pose) -> Result<(), CollideError> {
+    pub fn move_body(&mut self, body: usize, pose: Pose) -> Result<(), Error> {
         if self.bodies[body].pose == pose {
             return Ok(());
         }
@@ -166,7 +166,7 @@ impl Contact {
     }
 
     /// Work that the bodies have done by friction on the cloth in the open step, in J.
-    pub fn friction_drive(&self, positions: &[f64]) -> f64 {
+    pub fn body_friction_work(&self, positions: &[f64]) -> f64 {
         let works = self.frictions.iter().map(|friction| {
             let force = friction.force(at(positions, friction.particle), self.stick);
             dot(force, friction.carried)
@@ -187,7 +187,7 @@ impl Contact {
     /// Energy of contact plus the friction potential of the step, in J.
     pub fn potential(&mut self, positions: &[f64]) -> f64 {
         self.detect(positions);
-        let barrier = Barrier::new(self.settings.offset);
+        let barrier = Barrier::new(self.settings.activation_distance);
         let contact: f64 = self
             .touches()
             .map(|touch| self.areas[touch.particle] * barrier.energy(touch.proximity.distance))
@@ -195,7 +195,7 @@ impl Contact {
         self.settings.stiffness * contact + self.friction_potential(positions)
     }
 
-    /// The part of the step's friction in [`potential`](Contact::potential), in J.
+    /// The part of the step's friction in [`potential`](ParticleContact::potential), in J.
     pub fn friction_potential(&self, positions: &[f64]) -> f64 {
         self.frictions.iter().map(|f| f.energy(at(positions, f.particle), self.stick)).sum()
     }
@@ -212,9 +212,9 @@ impl Contact {
         add: &mut dyn FnMut(usize, [f64; 9]),
     ) {
         self.detect(positions);
-        let barrier = Barrier::new(self.settings.offset);
+        let barrier = Barrier::new(self.settings.activation_distance);
         for touch in self.touches() {
-            let Proximity { distance, normal, curvature } = &touch.proximity;
+            let SignedDistance { distance, normal, curvature } = &touch.proximity;
             let scale = self.settings.stiffness * self.areas[touch.particle];
             let bend = if definite { 0.0 } else { barrier.slope(*distance) };
             let push = barrier.curvature(*distance);
@@ -259,14 +259,14 @@ impl Contact {
         }
         self.seen.clear();
         self.seen.extend_from_slice(positions);
-        let (solids, reach) = (&self.solids, self.settings.offset);
+        let (solids, activation_distance) = (&self.solids, self.settings.activation_distance);
         if self.has_mesh {
             let chunks = self.chunks.par_iter_mut();
-            chunks.for_each(|chunk| chunk.scan(solids, reach, positions));
+            chunks.for_each(|chunk| chunk.scan(solids, activation_distance, positions));
         } else {
             // A primitive takes some nanoseconds, less than another thread needs to wake up.
             let chunks = self.chunks.iter_mut();
-            chunks.for_each(|chunk| chunk.scan(solids, reach, positions));
+            chunks.for_each(|chunk| chunk.scan(solids, activation_distance, positions));
         }
     }
 

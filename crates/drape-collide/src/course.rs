@@ -1,32 +1,32 @@
-use crate::pair::Kind;
+use crate::pair::PairKind;
 use crate::vector::{Vector, at, dot, scale, subtract};
 
 /// Where the vertices of a surface may go from the positions at which its pairs are detected.
 ///
 /// Ways are flat, one for each vertex, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Course<'a> {
+pub enum Sweep<'a> {
     /// They stay.
     Still,
     /// All go the same share of their straight ways. What they have in common brings no two of
     /// them nearer.
-    Together(&'a [f64]),
+    Common(&'a [f64]),
     /// Each goes its own share of its straight way.
-    Each(&'a [f64]),
+    Individual(&'a [f64]),
 }
 
-impl<'a> Course<'a> {
+impl<'a> Sweep<'a> {
     /// The ways, unless they stay.
     pub(crate) fn ways(self) -> Option<&'a [f64]> {
         match self {
-            Course::Still => None,
-            Course::Together(ways) | Course::Each(ways) => Some(ways),
+            Sweep::Still => None,
+            Sweep::Common(ways) | Sweep::Individual(ways) => Some(ways),
         }
     }
 
     /// The mean way of the first vertices of those that go together.
     pub(crate) fn drift(self, free: usize) -> Vector {
-        let Course::Together(ways) = self else { return [0.0; 3] };
+        let Sweep::Common(ways) = self else { return [0.0; 3] };
         let mut sum = [0.0; 3];
         for way in ways.chunks_exact(3).take(free) {
             sum = [0, 1, 2].map(|k| sum[k] + way[k]);
@@ -38,13 +38,13 @@ impl<'a> Course<'a> {
     ///
     /// Two points of them move against each other by no more than their vertices do, and that is
     /// largest at the ends of the ways.
-    pub(crate) fn approach(self, kind: Kind, vertices: [u32; 4]) -> f64 {
+    pub(crate) fn approach(self, kind: PairKind, vertices: [u32; 4]) -> f64 {
         let Some(flat) = self.ways() else { return 0.0 };
         let ways = vertices.map(|vertex| at(flat, vertex as usize));
         let square = |way: Vector| dot(way, way);
         let (first, second) = ways.split_at(match kind {
-            Kind::VertexFace => 1,
-            Kind::EdgeEdge => 2,
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
         });
         let mut most: f64 = 0.0;
         for a in first {
@@ -52,7 +52,7 @@ impl<'a> Course<'a> {
                 most = most.max(square(subtract(*a, *b)));
             }
         }
-        if let Course::Each(_) = self {
+        if let Sweep::Individual(_) = self {
             most = ways.into_iter().map(square).fold(most, f64::max);
         }
         most.sqrt()

@@ -1,5 +1,5 @@
 use crate::detector::array;
-use crate::error::CollideError;
+use crate::error::Error;
 use crate::order::Run;
 use crate::predicate::segment_meets_triangle;
 use crate::surface::Surface;
@@ -12,7 +12,7 @@ const CHUNK: usize = 64;
 
 /// An edge and a triangle that meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Crossing {
+pub struct Intersection {
     /// The edge, by number in the surface.
     pub edge: u32,
     /// The triangle, by number in the surface.
@@ -30,7 +30,7 @@ pub struct Crossing {
 /// # Errors
 ///
 /// If there are not three coordinates for each vertex, or one is not finite or beyond 1000 km.
-pub fn crossings(surface: &Surface, positions: &[f64]) -> Result<Vec<Crossing>, CollideError> {
+pub fn intersections(surface: &Surface, positions: &[f64]) -> Result<Vec<Intersection>, Error> {
     surface.check_positions(positions)?;
     let place = |vertex: u32| at(positions, vertex as usize);
     let order = &surface.triangle_order;
@@ -55,7 +55,7 @@ pub fn crossings(surface: &Surface, positions: &[f64]) -> Result<Vec<Crossing>, 
                 let corners = surface.triangles()[triangle as usize].map(place);
                 let joined = surface.sewn.joins(&classes[k], &surface.triangle_classes[slot]);
                 if !joined && segment_meets_triangle(segment(k), corners) {
-                    found.push(Crossing { edge: run.first + k as u32, triangle });
+                    found.push(Intersection { edge: run.first + k as u32, triangle });
                 }
             });
             found[first..].sort_unstable();
@@ -63,6 +63,6 @@ pub fn crossings(surface: &Surface, positions: &[f64]) -> Result<Vec<Crossing>, 
         found
     };
     let chunks = surface.edge_runs.par_chunks(CHUNK).with_max_len(1).map(runs);
-    let chunks: Vec<Vec<Crossing>> = chunks.collect();
+    let chunks: Vec<Vec<Intersection>> = chunks.collect();
     Ok(chunks.concat())
 }

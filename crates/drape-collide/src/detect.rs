@@ -1,5 +1,5 @@
 use crate::body::{Reach, Solid};
-use crate::proximity::Proximity;
+use crate::proximity::SignedDistance;
 use crate::vector::{Vector, at, norm, subtract};
 
 /// Particles that one thread looks after at a time.
@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1e-9;
 pub(crate) struct Touch {
     pub(crate) particle: usize,
     pub(crate) body: usize,
-    pub(crate) proximity: Proximity,
+    pub(crate) proximity: SignedDistance,
 }
 
 /// What is known of one particle and one body: a place and the distance from the body there.
@@ -66,18 +66,18 @@ impl Chunk {
         self.known.iter_mut().skip(body).step_by(bodies).for_each(|k| *k = Known::NOTHING);
     }
 
-    /// Finds the particles nearer than `reach` to a solid.
-    pub(crate) fn scan(&mut self, solids: &[Solid], reach: f64, positions: &[f64]) {
+    /// Finds the particles nearer than `activation_distance` to a solid.
+    pub(crate) fn scan(&mut self, solids: &[Solid], activation_distance: f64, positions: &[f64]) {
         self.touches.clear();
         for (k, known) in self.known.chunks_mut(solids.len().max(1)).enumerate() {
             let particle = self.first + k;
             let point = at(positions, particle);
             for (body, (solid, known)) in solids.iter().zip(known).enumerate() {
                 // A point of NaN has no bound, and so is asked for.
-                if known.bound(point) >= reach {
+                if known.bound(point) >= activation_distance {
                     continue;
                 }
-                match solid.reach(point, reach) {
+                match solid.distance_within(point, activation_distance) {
                     Reach::Clear(distance) => {
                         *known = Known { place: point, distance };
                     }
@@ -102,7 +102,7 @@ impl Chunk {
             for (body, (solid, known)) in solids.iter().zip(known).enumerate() {
                 let limit = best.map_or(f64::INFINITY, |(distance, ..)| distance);
                 if known.bound(point) < limit {
-                    let distance = solid.proximity(point).distance;
+                    let distance = solid.signed_distance(point).distance;
                     if distance < limit {
                         best = Some((distance, particle, body));
                     }

@@ -1,15 +1,15 @@
-use crate::course::Course;
-use crate::error::CollideError;
+use crate::course::Sweep;
+use crate::error::Error;
 use crate::order::Run;
-use crate::pair::{Kind, Pair, closest, distance};
-use crate::pairs::Pairs;
+use crate::pair::{Pair, PairKind, closest, distance};
+use crate::pairs::CandidatePairs;
 use crate::surface::Surface;
 use crate::tree::{Bounds, Probe, Tree, WIDTH};
 use crate::vector::{Vector, add, at, subtract};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Pairs that a list may hold unless told otherwise.
+/// CandidatePairs that a list may hold unless told otherwise.
 ///
 /// A hundred for each of half a million vertices, and 4 GB: more is a mistake of the input.
 const CAPACITY: usize = 50_000_000;
@@ -19,7 +19,7 @@ const CAPACITY: usize = 50_000_000;
 /// A constant, so that no result depends on the number of threads.
 const CHUNK: usize = 64;
 
-/// Smallest reach of a pair that lies close at rest, in m: a thousand times the rounding of
+/// Smallest activation distance of a pair that lies close at rest, in m: a thousand times the rounding of
 /// coordinates of 1 m, and far below any cloth.
 const LEAST: f64 = 1e-9;
 
@@ -30,9 +30,9 @@ const PARALLEL: f64 = 1e-3;
 /// Two primitives of a group that lie close at rest, with their distances.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Close {
-    key: (Kind, [u32; 2]),
-    reach: f64,
-    separation: f64,
+    key: (PairKind, [u32; 2]),
+    activation_distance: f64,
+    min_separation: f64,
 }
 
 /// Finds all pairs of primitives that are near each other.
@@ -44,7 +44,7 @@ pub struct Detector {
     triangles: Tree,
     edges: Tree,
     chunks: Vec<Chunk>,
-    pairs: Pairs,
+    pairs: CandidatePairs,
     capacity: usize,
 }
 
@@ -54,7 +54,7 @@ impl Default for Detector {
             triangles: Tree::default(),
             edges: Tree::default(),
             chunks: Vec::new(),
-            pairs: Pairs::default(),
+            pairs: CandidatePairs::default(),
             capacity: CAPACITY,
         }
     }
@@ -67,11 +67,11 @@ impl Detector {
     }
 
     /// The pairs of the last detection that succeeded.
-    pub fn pairs(&self) -> &Pairs {
+    pub fn pairs(&self) -> &CandidatePairs {
         &self.pairs
     }
 
-    /// Finds every pair whose distance is below its reach plus a margin in m, at flat positions.
+    /// Finds every pair whose distance is below its activation_distance plus a margin in m, at flat positions.
     ///
     /// Left out are pairs that share a vertex, directly or through what is sewn, and pairs without a free
     /// vertex. On an error the pairs of the detection before stay.
@@ -85,48 +85,48 @@ impl Detector {
         surface: &Surface,
         positions: &[f64],
         margin: f64,
-    ) -> Result<&Pairs, CollideError> {
-        self.detect_along(surface, (positions, Course::Still), margin)
+    ) -> Result<&CandidatePairs, Error> {
+        self.detect_swept(surface, (positions, Sweep::Still), margin)
     }
 
-    /// Finds every pair whose distance falls below its reach plus a margin in m somewhere on a
+    /// Finds every pair whose distance falls below its activation_distance plus a margin in m somewhere on a
     /// course from flat positions, and perhaps some that stay a little farther.
     ///
     /// # Errors
     ///
     /// As of [`detect`](Detector::detect).
-    pub fn detect_along(
+    pub fn detect_swept(
         &mut self,
         surface: &Surface,
-        (positions, course): (&[f64], Course<'_>),
+        (positions, course): (&[f64], Sweep<'_>),
         margin: f64,
-    ) -> Result<&Pairs, CollideError> {
+    ) -> Result<&CandidatePairs, Error> {
         surface.check_positions(positions)?;
         if let Some(ways) = course.ways() {
             surface.check_positions(ways)?;
         }
         crate::error::check("the margin of contact (m)", margin, "above 0", margin > 0.0)?;
-        let drift = course.drift(surface.free());
+        let drift = course.drift(surface.free_count());
         let query = Query { surface, positions, limit: Limit::Margin(margin, course), drift };
         self.scan(&query)?;
         let found = self.chunks.iter().map(|chunk| &chunk.pairs[..]);
-        self.pairs.replace(found, (positions, course), (margin, surface.free()));
+        self.pairs.replace(found, (positions, course), (margin, surface.free_count()));
         Ok(&self.pairs)
     }
 
     /// Moves the pairs along their course to where it comes nearest to flat positions, from where a
-    /// [`Filter`](crate::Filter) then takes further steps.
+    /// [`CcdFilter`](crate::CcdFilter) then takes further steps.
     pub fn follow(&mut self, positions: &[f64]) {
         self.pairs.follow(positions);
     }
 
     /// Drops the pairs, for their distances are no longer those to keep.
     pub(crate) fn forget(&mut self) {
-        self.pairs = Pairs::default();
+        self.pairs = CandidatePairs::default();
     }
 
     /// Leaves what the query asks for in the chunks.
-    fn scan(&mut self, query: &Query<'_>) -> Result<(), CollideError> {
+    fn scan(&mut self, query: &Query<'_>) -> Result<(), Error> {
         let surface = query.surface;
         let Detector { triangles, edges, chunks, .. } = self;
         triangles.fit(&surface.triangle_order, |triangle| {
@@ -141,14 +141,14 @@ impl Detector {
         let scan = |(k, chunk): (usize, &mut Chunk)| {
             chunk.pairs.clear();
             let (kind, runs) = match k.checked_sub(vertex_chunks) {
-                None => (Kind::VertexFace, surface.vertex_runs.chunks(CHUNK).nth(k)),
-                Some(k) => (Kind::EdgeEdge, surface.edge_runs.chunks(CHUNK).nth(k)),
+                None => (PairKind::VertexFace, surface.vertex_runs.chunks(CHUNK).nth(k)),
+                Some(k) => (PairKind::EdgeEdge, surface.edge_runs.chunks(CHUNK).nth(k)),
             };
             for &run in runs.unwrap_or_default() {
                 let before = chunk.pairs.len();
                 match kind {
-                    Kind::VertexFace => chunk.scan_vertices(query, triangles, run),
-                    Kind::EdgeEdge => chunk.scan_edges(query, edges, run),
+                    PairKind::VertexFace => chunk.scan_vertices(query, triangles, run),
+                    PairKind::EdgeEdge => chunk.scan_edges(query, edges, run),
                 }
                 let more = chunk.pairs.len() - before;
                 if found.fetch_add(more, Ordering::Relaxed) + more > capacity {
@@ -160,33 +160,33 @@ impl Detector {
         // One by one: folds gather in few of them.
         chunks.par_iter_mut().enumerate().with_max_len(1).for_each(scan);
         if found.into_inner() > capacity {
-            return Err(CollideError::TooManyPairs { capacity });
+            return Err(Error::TooManyPairs { capacity });
         }
         Ok(())
     }
 }
 
-/// Pairs of primitives that lie close at rest, within twice their reach.
+/// CandidatePairs of primitives that lie close at rest, within twice their activation_distance.
 ///
 /// They push below half of their distance at rest, so a fine mesh does not push itself apart, and
 /// keep a quarter.
-pub(crate) fn close_at_rest(surface: &Surface, rest: &[f64]) -> Result<Vec<Close>, CollideError> {
+pub(crate) fn close_at_rest(surface: &Surface, rest: &[f64]) -> Result<Vec<Close>, Error> {
     let mut detector = Detector::default();
     let query = Query { surface, positions: rest, limit: Limit::Rest, drift: [0.0; 3] };
     detector.scan(&query)?;
     let mut close = Vec::new();
     for pair in detector.chunks.iter().flat_map(|chunk| &chunk.pairs) {
-        let reach = pair.reach.min(0.5 * pair.distance);
-        let separation = pair.separation.min(0.25 * pair.distance);
+        let activation_distance = pair.activation_distance.min(0.5 * pair.distance);
+        let min_separation = pair.min_separation.min(0.25 * pair.distance);
         // Written so that NaN fails.
-        if !(separation >= LEAST) {
-            return Err(CollideError::TouchingAtRest {
+        if !(min_separation >= LEAST) {
+            return Err(Error::ContactAtRest {
                 vertices: pair.vertices,
                 distance: pair.distance,
                 least: 4.0 * LEAST,
             });
         }
-        close.push(Close { key: pair.key(), reach, separation });
+        close.push(Close { key: pair.key(), activation_distance, min_separation });
     }
     Ok(close)
 }
@@ -194,9 +194,9 @@ pub(crate) fn close_at_rest(surface: &Surface, rest: &[f64]) -> Result<Vec<Close
 /// How near two primitives must be.
 #[derive(Debug, Clone, Copy)]
 enum Limit<'a> {
-    /// Below their reach and so much more in m, somewhere on a course.
-    Margin(f64, Course<'a>),
-    /// Below twice their reach, and of one group.
+    /// Below their activation_distance and so much more in m, somewhere on a course.
+    Margin(f64, Sweep<'a>),
+    /// Below twice their activation_distance, and of one group.
     Rest,
 }
 
@@ -211,13 +211,13 @@ struct Query<'a> {
 
 impl Query<'_> {
     fn bounds<const N: usize>(&self, vertices: [u32; N]) -> Bounds {
-        let skin = self.surface.skins()[self.surface.group(vertices[0]) as usize];
+        let skin = self.surface.group_distances()[self.surface.group(vertices[0]) as usize];
         let places = vertices.map(|vertex| at(self.positions, vertex as usize));
         // Half of how near two must be, in each of two boxes that then overlap.
         match self.limit {
-            Limit::Rest => Bounds::around(places, 2.0 * skin.reach),
+            Limit::Rest => Bounds::around(places, 2.0 * skin.activation_distance),
             Limit::Margin(margin, course) => {
-                let around = skin.reach + 0.5 * margin;
+                let around = skin.activation_distance + 0.5 * margin;
                 let Some(ways) = course.ways() else { return Bounds::around(places, around) };
                 let way = |vertex: u32| subtract(at(ways, vertex as usize), self.drift);
                 let ends = places.into_iter().zip(vertices);
@@ -228,13 +228,13 @@ impl Query<'_> {
     }
 
     /// The pair of two primitives that share no vertex, if they are near enough.
-    fn pair(&self, kind: Kind, features: [u32; 2], vertices: [u32; 4]) -> Option<Pair> {
+    fn pair(&self, kind: PairKind, features: [u32; 2], vertices: [u32; 4]) -> Option<Pair> {
         let surface = self.surface;
         let other = match kind {
-            Kind::VertexFace => vertices[1],
-            Kind::EdgeEdge => vertices[2],
+            PairKind::VertexFace => vertices[1],
+            PairKind::EdgeEdge => vertices[2],
         };
-        let mut skin = surface.distances(vertices[0], other);
+        let mut skin = surface.pair_distances(vertices[0], other);
         let same_group = surface.group(vertices[0]) == surface.group(other);
         let places = vertices.map(|vertex| at(self.positions, vertex as usize));
         let distance = distance(&closest(kind, places));
@@ -243,9 +243,9 @@ impl Query<'_> {
         let limit = match self.limit {
             Limit::Margin(margin, course) => {
                 nearer = course.approach(kind, vertices);
-                skin.reach + margin + nearer
+                skin.activation_distance + margin + nearer
             }
-            Limit::Rest if same_group => 2.0 * skin.reach,
+            Limit::Rest if same_group => 2.0 * skin.activation_distance,
             Limit::Rest => return None,
         };
         if !(distance < limit) {
@@ -254,27 +254,37 @@ impl Query<'_> {
         if same_group && !surface.close.is_empty() {
             let close = &surface.close;
             if let Ok(place) = close.binary_search_by_key(&(kind, features), |close| close.key) {
-                let Close { reach, separation, .. } = close[place];
-                (skin.reach, skin.separation) = (surface.grown * reach, surface.grown * separation);
+                let Close { activation_distance, min_separation, .. } = close[place];
+                (skin.activation_distance, skin.min_separation) =
+                    (surface.grown * activation_distance, surface.grown * min_separation);
                 if let Limit::Margin(margin, _) = self.limit
-                    && !(distance < skin.reach + margin + nearer)
+                    && !(distance < skin.activation_distance + margin + nearer)
                 {
                     return None;
                 }
             }
         }
-        skin.separation *= surface.share(&vertices)?;
+        skin.min_separation *= surface.share(&vertices)?;
         let [a, b] = features.map(|feature| feature as usize);
         let (area, parallel) = match kind {
-            Kind::VertexFace => (surface.vertex_face_area(a, b), 0.0),
-            Kind::EdgeEdge => {
+            PairKind::VertexFace => (surface.vertex_face_area(a, b), 0.0),
+            PairKind::EdgeEdge => {
                 let lengths = surface.edge_length_squared(a) * surface.edge_length_squared(b);
                 (surface.edge_edge_area(a, b), PARALLEL * lengths)
             }
         };
-        let (reach, separation) = (skin.reach, skin.separation);
+        let (activation_distance, min_separation) = (skin.activation_distance, skin.min_separation);
         let distance = distance - nearer;
-        Some(Pair { kind, features, vertices, reach, separation, area, parallel, distance })
+        Some(Pair {
+            kind,
+            features,
+            vertices,
+            activation_distance,
+            min_separation,
+            area,
+            parallel,
+            distance,
+        })
     }
 }
 
@@ -308,7 +318,7 @@ impl Chunk {
             near.sort_unstable();
             let pairs = near.iter().filter_map(|&triangle| {
                 let [a, b, c] = surface.triangles()[triangle as usize];
-                query.pair(Kind::VertexFace, [vertex(k), triangle], [vertex(k), a, b, c])
+                query.pair(PairKind::VertexFace, [vertex(k), triangle], [vertex(k), a, b, c])
             });
             self.pairs.extend(pairs);
         }
@@ -337,7 +347,7 @@ impl Chunk {
             let [a, b] = ends(k);
             let pairs = near.iter().filter_map(|&other| {
                 let [c, d] = surface.edges()[other as usize];
-                query.pair(Kind::EdgeEdge, [edge(k), other], [a, b, c, d])
+                query.pair(PairKind::EdgeEdge, [edge(k), other], [a, b, c, d])
             });
             self.pairs.extend(pairs);
         }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 /// Every variant names one remedy and carries the values that led to it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum CollideError {
+pub enum Error {
     /// A length of a shape, a friction coefficient or a setting is outside its range.
     #[error("{what} is {value}, but it must be {range}")]
     OutOfRange {
@@ -22,7 +22,7 @@ pub enum CollideError {
         "{what}: the coordinates {place:?} are not usable; each must be a finite number of at most \
          {limit:e} m in size (is the unit right?)"
     )]
-    BadPlace {
+    InvalidPosition {
         /// Whose position, in words.
         what: String,
         /// The coordinates as given, in m.
@@ -34,9 +34,9 @@ pub enum CollideError {
     /// A rotation is not a unit quaternion.
     #[error(
         "body `{body}`: the rotation {rotation:?} has length {length}; give a unit quaternion \
-         (x, y, z, w) or build the pose with `Pose::turned`"
+         (x, y, z, w) or build the pose with `Pose::rotated`"
     )]
-    BadRotation {
+    InvalidRotation {
         /// Name of the body.
         body: String,
         /// The quaternion as given, scalar last.
@@ -47,7 +47,7 @@ pub enum CollideError {
 
     /// A mesh file cannot be opened or read.
     #[error("mesh file {}: {reason}; check the path and the permissions", path.display())]
-    Unreadable {
+    UnreadableFile {
         /// The file.
         path: PathBuf,
         /// What the operating system answered.
@@ -63,7 +63,7 @@ pub enum CollideError {
 
     /// A file is longer than any that is read.
     #[error("{} has {bytes} bytes, and at most {limit} are read; simplify the mesh or shorten the motion", path.display())]
-    LongFile {
+    FileTooLong {
         /// The file.
         path: PathBuf,
         /// Its length.
@@ -74,7 +74,7 @@ pub enum CollideError {
 
     /// A mesh file is not well-formed.
     #[error("mesh file {}: {reason}; export it again", path.display())]
-    Malformed {
+    MalformedFile {
         /// The file.
         path: PathBuf,
         /// What the parser says.
@@ -93,7 +93,7 @@ pub enum CollideError {
         "triangle {triangle} refers to vertex {index}, but the mesh has {vertices} vertices \
          (numbered from 0)"
     )]
-    NoSuchVertex {
+    MissingVertex {
         /// The triangle, from 0.
         triangle: usize,
         /// The vertex that it names.
@@ -130,7 +130,7 @@ pub enum CollideError {
         "the mesh is not manifold: {edges} edges have more than two triangles, one of them at \
          {place:?} has {triangles}; remove inner faces and doubled ones"
     )]
-    NotManifold {
+    NonManifoldMesh {
         /// Number of such edges.
         edges: usize,
         /// Triangles of one of them.
@@ -144,7 +144,7 @@ pub enum CollideError {
         "the mesh has {edges} edges whose triangles do not agree on inside and outside, one of \
          them at {place:?}; make its normals consistent"
     )]
-    Inconsistent {
+    InconsistentOrientation {
         /// Number of such edges.
         edges: usize,
         /// Middle of one of them, in m.
@@ -160,7 +160,7 @@ pub enum CollideError {
 
     /// The lumped area of a particle is negative or not finite.
     #[error("the area of particle {particle} is {area}; it must be finite and not negative")]
-    BadArea {
+    InvalidArea {
         /// The particle, from 0.
         particle: usize,
         /// The area as given, in m².
@@ -179,19 +179,21 @@ pub enum CollideError {
     },
 
     /// A vertex is of a group that has no skin.
-    #[error("vertex {vertex} is of group {group}, but there are {skins} skins (numbered from 0)")]
-    NoSuchSkin {
+    #[error(
+        "vertex {vertex} is of group {group}, but there are distances of {groups} groups (numbered from 0)"
+    )]
+    MissingGroup {
         /// The vertex, from 0.
         vertex: usize,
         /// Its group.
         group: u32,
-        /// Number of skins.
-        skins: usize,
+        /// Number of distances.
+        groups: usize,
     },
 
     /// Two sewn vertices include one that does not exist.
     #[error("vertex {index} is sewn, but the surface has {vertices} vertices (numbered from 0)")]
-    NoSuchTwin {
+    MissingSeamVertex {
         /// The vertex that is named.
         index: u32,
         /// Number of vertices.
@@ -210,7 +212,7 @@ pub enum CollideError {
     /// A triangle of a surface joins two groups, or free and prescribed vertices.
     #[error(
         "triangle {triangle} has the corners {corners:?}, which are not all of one group or not \
-         all free; sew panels with twins instead"
+         all free; sew panels with seam_pairs instead"
     )]
     MixedTriangle {
         /// The triangle, from 0.
@@ -224,7 +226,7 @@ pub enum CollideError {
         "the vertices {vertices:?} of one group are {distance:e} m apart at rest and share no \
          triangle; contact needs at least {least:e} m"
     )]
-    TouchingAtRest {
+    ContactAtRest {
         /// The vertices of the two primitives.
         vertices: [u32; 4],
         /// Their distance at rest, in m.
@@ -236,7 +238,7 @@ pub enum CollideError {
     /// More pairs are close to each other than the list may hold.
     #[error(
         "more than {capacity} pairs of primitives are near each other; is the cloth crushed, or \
-         the reach far larger than the triangles?"
+         the activation distance far larger than the triangles?"
     )]
     TooManyPairs {
         /// How many the list may hold.
@@ -248,7 +250,7 @@ pub enum CollideError {
         "vertex {vertex} is {moved:e} m from where its pairs were detected, but they hold for \
          {budget:e} m only; detect again before so long a way"
     )]
-    OutOfBudget {
+    DriftBudgetExceeded {
         /// The vertex, from 0.
         vertex: usize,
         /// The way from the place of detection, in m.
@@ -264,11 +266,11 @@ pub(crate) fn check(
     value: f64,
     range: &'static str,
     holds: bool,
-) -> Result<(), CollideError> {
+) -> Result<(), Error> {
     if value.is_finite() && holds {
         return Ok(());
     }
-    Err(CollideError::OutOfRange { what: what.into(), value, range })
+    Err(Error::OutOfRange { what: what.into(), value, range })
 }
 
 /// Largest coordinate that a body may have, in m.
@@ -278,19 +280,16 @@ pub(crate) fn check(
 const MAX_COORDINATE: f64 = 1e6;
 
 /// Checks a position: finite and not absurdly far.
-pub(crate) fn check_place(
-    what: impl FnOnce() -> String,
-    place: [f64; 3],
-) -> Result<(), CollideError> {
+pub(crate) fn check_place(what: impl FnOnce() -> String, place: [f64; 3]) -> Result<(), Error> {
     // Written so that NaN fails.
     if place.iter().all(|value| value.abs() <= MAX_COORDINATE) {
         return Ok(());
     }
-    Err(CollideError::BadPlace { what: what(), place, limit: MAX_COORDINATE })
+    Err(Error::InvalidPosition { what: what(), place, limit: MAX_COORDINATE })
 }
 
 /// Checks flat positions, three numbers each.
-pub(crate) fn check_places(what: &str, positions: &[f64]) -> Result<(), CollideError> {
+pub(crate) fn check_places(what: &str, positions: &[f64]) -> Result<(), Error> {
     for (k, place) in positions.chunks_exact(3).enumerate() {
         check_place(|| format!("{what} {k}"), [place[0], place[1], place[2]])?;
     }

@@ -1,19 +1,19 @@
-use crate::error::{CollideError, check_places};
+use crate::error::{Error, check_places};
 use crate::guards::Guards;
 use crate::pair::Pair;
-use crate::pairs::Pairs;
+use crate::pairs::CandidatePairs;
 use crate::plane::{Planes, Slab};
 use crate::vector::{Vector, add, at, dot, norm, scale, subtract};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Pairs that one thread looks after at a time; a constant, as all bounds of parallel work.
+/// CandidatePairs that one thread looks after at a time; a constant, as all bounds of parallel work.
 pub(crate) const CHUNK: usize = 2048;
 
 /// Share of the margin that a vertex may move by from where the pairs were detected.
 ///
 /// Two such ways take less than the margin off the distance of a pair that was not listed, so it
-/// stays above its reach by a tenth of the margin. More moves farther on one detection and leaves
+/// stays above its activation_distance by a tenth of the margin. More moves farther on one detection and leaves
 /// less for rounding.
 pub(crate) const BUDGET: f64 = 0.45;
 
@@ -22,7 +22,7 @@ pub(crate) const BUDGET: f64 = 0.45;
 /// The tenth that stays keeps the energy finite and the next step from starting frozen.
 pub(crate) const CLOSED: f64 = 0.9;
 
-/// Smallest opening at which a pair may still close, in m; at a micrometre of separation, a
+/// Smallest opening at which a pair may still close, in m; at a micrometre of min_separation, a
 /// thousandth.
 const SMALLEST: f64 = 1e-9;
 
@@ -41,36 +41,36 @@ const UPWARDS: f64 = 1.0 + 1e-12;
 
 /// What kept a step from its full length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Limit {
+pub enum StepLimit {
     /// Nothing did.
     None,
     /// Two primitives come near each other.
     Contact,
     /// A vertex gets as far from where the pairs were detected as they allow: detect again.
-    Budget,
+    DriftBudget,
 }
 
 /// The share of a step that is proved safe for all vertices together.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fraction {
+pub struct StepFraction {
     /// From 0 to 1.
     pub value: f64,
     /// What kept it below 1.
-    pub limit: Limit,
+    pub limit: StepLimit,
 }
 
-/// Shortens steps such that no two primitives come nearer than their separation.
+/// Shortens steps such that no two primitives come nearer than their min_separation.
 ///
 /// Positions and displacements are flat, for all vertices of the surface, bodies included. The
 /// answers are proofs for the straight way of each vertex from `x` to `x + dx` as rounded: every
-/// listed pair keeps a twentieth of its opening, and every other pair stays beyond its reach as
+/// listed pair keeps a twentieth of its opening, and every other pair stays beyond its activation_distance as
 /// long as no vertex moves farther than 0.45 margins from where the pairs were detected, or from the
 /// course along which they were. The filter holds to that; it fails if the positions have gone
 /// farther already.
 ///
 /// It keeps its memory between calls.
 #[derive(Debug, Default)]
-pub struct Filter {
+pub struct CcdFilter {
     /// How far each vertex is from where the pairs were detected, in m.
     pub(crate) moved: Vec<f64>,
     /// How far each vertex is to move, in m.
@@ -99,7 +99,7 @@ impl Step<'_> {
     }
 }
 
-impl Filter {
+impl CcdFilter {
     /// The largest share of a step that conservative advancement proves safe for all vertices.
     ///
     /// Keeps the direction of the step. Each listed pair keeps a tenth of its opening.
@@ -108,12 +108,12 @@ impl Filter {
     ///
     /// If a list has the wrong length, a number is not finite or beyond 1000 km, or the positions
     /// have gone beyond the budget of the pairs.
-    pub fn scalar(
+    pub fn common_fraction(
         &mut self,
-        pairs: &Pairs,
+        pairs: &CandidatePairs,
         positions: &[f64],
         displacements: &[f64],
-    ) -> Result<Fraction, CollideError> {
+    ) -> Result<StepFraction, Error> {
         let step = self.begin(pairs, (positions, displacements), true)?;
         let budget = (0..self.moved.len())
             .map(|vertex| self.budget_share(pairs, &step, vertex))
@@ -131,29 +131,29 @@ impl Filter {
         });
         let value = f64::from_bits(least.into_inner());
         let limit = if value < budget {
-            Limit::Contact
+            StepLimit::Contact
         } else if value < 1.0 {
-            Limit::Budget
+            StepLimit::DriftBudget
         } else {
-            Limit::None
+            StepLimit::None
         };
-        Ok(Fraction { value, limit })
+        Ok(StepFraction { value, limit })
     }
 
     /// Checks a step, and measures how far the vertices are from their detection and how far they
     /// are to move, all the same share of their ways or each its own.
     pub(crate) fn begin<'a>(
         &mut self,
-        pairs: &Pairs,
+        pairs: &CandidatePairs,
         (positions, displacements): (&'a [f64], &'a [f64]),
         together: bool,
-    ) -> Result<Step<'a>, CollideError> {
+    ) -> Result<Step<'a>, Error> {
         let needed = pairs.positions().len();
         for (what, found) in
             [("positions", positions.len()), ("displacements", displacements.len())]
         {
             if found != needed {
-                return Err(CollideError::WrongLength { what, found, needed });
+                return Err(Error::WrongLength { what, found, needed });
             }
         }
         check_places("vertex", positions)?;
@@ -168,7 +168,7 @@ impl Filter {
         for vertex in 0..needed / 3 {
             let moved = norm(subtract(at(positions, vertex), at(detected, vertex))) * UPWARDS;
             if self.guards.budget && moved > most {
-                return Err(CollideError::OutOfBudget { vertex, moved, budget });
+                return Err(Error::DriftBudgetExceeded { vertex, moved, budget });
             }
             self.moved.push(moved);
             self.lengths.push(norm(at(displacements, vertex)) * UPWARDS);
@@ -181,7 +181,12 @@ impl Filter {
     }
 
     /// Largest share of its way that keeps a vertex within the budget.
-    pub(crate) fn budget_share(&self, pairs: &Pairs, step: &Step<'_>, vertex: usize) -> f64 {
+    pub(crate) fn budget_share(
+        &self,
+        pairs: &CandidatePairs,
+        step: &Step<'_>,
+        vertex: usize,
+    ) -> f64 {
         let budget = BUDGET * pairs.margin();
         let astray = at(&self.astray, vertex);
         if !self.guards.budget || self.moved[vertex] + norm(astray) * UPWARDS <= budget {
@@ -194,7 +199,7 @@ impl Filter {
     /// Whether a pair keeps a tenth of its opening by the lengths of the ways alone, however they
     /// are shortened.
     pub(crate) fn stays_apart(&self, pair: &Pair, step: &Step<'_>) -> bool {
-        let opening = pair.distance - pair.separation - pair.most(&self.moved);
+        let opening = pair.distance - pair.min_separation - pair.most(&self.moved);
         opening > step.smallest && pair.most(&self.lengths) < 0.9 * CLOSED * opening
     }
 }
@@ -229,7 +234,7 @@ fn advance(pair: &Pair, step: &Step<'_>, limit: f64) -> f64 {
     for _ in 0..ROUNDS {
         let now = std::array::from_fn(|k| add(places[k], scale(ways[k], share)));
         let slab = Slab::new(pair, now);
-        let opening = slab.opening(pair.separation);
+        let opening = slab.opening(pair.min_separation);
         let approaches = slab.approaches(pair, ways);
         let (first, second) = approaches.split_at(pair.first());
         let fastest = |list: &[f64]| list.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -10,12 +10,21 @@ pub type Gradient = [f64; 12];
 /// Second derivatives by the twelve coordinates, row by row.
 pub type Hessian = [[f64; 12]; 12];
 
+/// Positive semi-definite part `$c\,D D^T$` of a second derivative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GaussNewton {
+    /// `$c$`, in N/m; never negative.
+    pub factor: f64,
+    /// `$D$`, the gradient of the distance, without unit.
+    pub distance_gradient: Gradient,
+}
+
 /// Squared sine of an angle between edges that a difference of their coordinates still resolves.
 const PARALLEL: f64 = 1e-28;
 
 /// How the two primitives of a [`Pair`] lie to each other, and the energy of their contact.
 ///
-/// With the distance `$d$`, the separation `$\xi$`, the reach `$r$` and the area `$A$` of the pair,
+/// With the distance `$d$`, the min_separation `$\xi$`, the activation_distance `$r$` and the area `$A$` of the pair,
 ///
 /// ```math
 /// E = k\,A\,m\,b(d - \xi), \qquad
@@ -33,7 +42,7 @@ pub struct Gap {
     closest: Closest,
     distance: f64,
     normal: [f64; 3],
-    separation: f64,
+    min_separation: f64,
     area: f64,
     barrier: Barrier,
     mollifier: Mollifier,
@@ -46,7 +55,7 @@ impl Gap {
     ///
     /// # Panics
     ///
-    /// If the positions do not reach as far as the pair's vertices.
+    /// If the positions do not activation_distance as far as the pair's vertices.
     pub fn new(pair: &Pair, positions: &[f64]) -> Gap {
         let places = pair.places(positions);
         let closest = closest(pair.kind, places);
@@ -56,9 +65,9 @@ impl Gap {
         Gap {
             distance,
             normal,
-            separation: pair.separation,
+            min_separation: pair.min_separation,
             area: pair.area,
-            barrier: Barrier::strict(pair.reach - pair.separation),
+            barrier: Barrier::strict(pair.activation_distance - pair.min_separation),
             mollifier: Mollifier::new(places, pair.parallel),
             edges: closest.slides.map(edge),
             closest,
@@ -70,9 +79,9 @@ impl Gap {
         self.distance
     }
 
-    /// Distance above the separation, `$g = d - \xi$`, in m.
-    pub fn opening(&self) -> f64 {
-        self.distance - self.separation
+    /// Distance above the min_separation, `$g = d - \xi$`, in m.
+    pub fn clearance(&self) -> f64 {
+        self.distance - self.min_separation
     }
 
     /// Unit vector from the closest point of the second primitive to that of the first; zero if
@@ -94,24 +103,24 @@ impl Gap {
         if fade == 0.0 {
             return 0.0;
         }
-        stiffness * self.area * fade * self.barrier.energy(self.opening())
+        stiffness * self.area * fade * self.barrier.energy(self.clearance())
     }
 
     /// Force in N with which the two push along the normal, without the share that turns edges
     /// from being parallel: the load that friction goes by.
     pub fn normal_force(&self, stiffness: f64) -> f64 {
-        -stiffness * self.area * self.mollifier.value() * self.barrier.slope(self.opening())
+        -stiffness * self.area * self.mollifier.value() * self.barrier.slope(self.clearance())
     }
 
     /// Gradient of the energy in N: the negative of the forces on the four vertices.
     pub fn gradient(&self, stiffness: f64) -> Gradient {
-        let opening = self.opening();
+        let opening = self.clearance();
         if opening >= self.barrier.range() {
             return [0.0; 12];
         }
         let scaled = stiffness * self.area;
         let slope = scaled * self.mollifier.value() * self.barrier.slope(opening);
-        let mut gradient = self.direction().map(|component| slope * component);
+        let mut gradient = self.distance_gradient().map(|component| slope * component);
         if self.mollifier.is_active() {
             let energy = scaled * self.barrier.energy(opening);
             for (sum, part) in gradient.iter_mut().zip(self.mollifier.gradient()) {
@@ -126,14 +135,14 @@ impl Gap {
     /// Where the closest points change from one kind of feature to another it jumps, and this is
     /// one of the two.
     pub fn hessian(&self, stiffness: f64) -> Hessian {
-        let opening = self.opening();
+        let opening = self.clearance();
         let mut hessian = [[0.0; 12]; 12];
         if opening >= self.barrier.range() {
             return hessian;
         }
         let scaled = stiffness * self.area;
         let fade = scaled * self.mollifier.value();
-        let direction = self.direction();
+        let direction = self.distance_gradient();
         add_outer(&mut hessian, fade * self.barrier.curvature(opening), &direction, &direction);
         self.add_curvature(&mut hessian, fade * self.barrier.slope(opening));
         if self.mollifier.is_active() {
@@ -150,18 +159,21 @@ impl Gap {
     /// `$c = k A m b''$` in N/m and `$D = w \otimes n$`, the gradient of the distance.
     ///
     /// The Gauss–Newton part: it leaves out that the normal turns and that edges become parallel.
-    pub fn definite(&self, stiffness: f64) -> (f64, Gradient) {
-        let curvature = self.barrier.curvature(self.opening());
-        (stiffness * self.area * self.mollifier.value() * curvature, self.direction())
+    pub fn gauss_newton(&self, stiffness: f64) -> GaussNewton {
+        let curvature = self.barrier.curvature(self.clearance());
+        GaussNewton {
+            factor: stiffness * self.area * self.mollifier.value() * curvature,
+            distance_gradient: self.distance_gradient(),
+        }
     }
 
     /// Gradient of the distance, `$w \otimes n$`, without unit.
-    pub fn direction(&self) -> Gradient {
+    pub fn distance_gradient(&self) -> Gradient {
         std::array::from_fn(|k| self.closest.weights[k / 3] * self.normal[k % 3])
     }
 
     /// Second derivative of the distance, in 1/m.
-    pub fn curvature(&self) -> Hessian {
+    pub fn distance_hessian(&self) -> Hessian {
         let mut hessian = [[0.0; 12]; 12];
         self.add_curvature(&mut hessian, 1.0);
         hessian

@@ -1,6 +1,6 @@
 //! Surfaces that start nearer to each other than they keep, and come to keep their whole distances.
 
-use crate::error::CollideError;
+use crate::error::Error;
 use crate::surface_contact::{SurfaceContact, Touching};
 
 /// Part of the distance of the nearest pair that it may come to keep in a step: what is left keeps its force finite, and
@@ -13,19 +13,20 @@ const WHOLE: f64 = 1.0 - 1e-9;
 impl SurfaceContact {
     /// Part of their distances that surfaces keep since the last step, from 0 to 1: of those at which they push, and of
     /// those that they always keep.
-    pub fn grown(&self) -> f64 {
+    pub fn growth_fraction(&self) -> f64 {
         self.grown
     }
 
     /// Lets surfaces keep so little of their distances that no two push each other at the free vertices' positions, in m.
     ///
-    /// The part is the distance of the nearest pair over the reach of that pair; 1 if none is within its reach.
+    /// The part is the distance of the nearest pair over the activation_distance of that pair; 1 if none is within its activation_distance.
     ///
     /// # Errors
     /// Positions that are none, or too many pairs.
-    pub fn shrink(&mut self, positions: &[f64]) -> Result<(), CollideError> {
-        self.survey(positions)?;
-        let part = |touching: &Touching| touching.gap.distance() / touching.pair.reach;
+    pub fn shrink_distances(&mut self, positions: &[f64]) -> Result<(), Error> {
+        self.summary_at(positions)?;
+        let part =
+            |touching: &Touching| touching.gap.distance() / touching.pair.activation_distance;
         self.grown = self.touching().map(part).fold(self.grown, f64::min);
         self.keep(self.grown);
         Ok(())
@@ -33,7 +34,7 @@ impl SurfaceContact {
 
     /// Lets surfaces keep so much more of their distances in a step from the free vertices' positions, in m, that is then
     /// to be opened: as much of it as the nearest pair leaves room for, and never less than they kept in the last step.
-    pub fn grow(&mut self, start: &[f64], more: f64) {
+    pub fn grow_distances(&mut self, start: &[f64], more: f64) {
         self.growth_work = 0.0;
         if self.grown >= 1.0 {
             return;
@@ -48,7 +49,7 @@ impl SurfaceContact {
         let wanted = if wanted > WHOLE { 1.0 } else { wanted };
         self.keep(wanted);
         self.look(start);
-        let room = LEFT * self.nearness().min_ratio;
+        let room = LEFT * self.summary().min_ratio;
         if room < 1.0 {
             self.keep((room * wanted).max(self.grown));
             self.look(start);

@@ -6,7 +6,7 @@ pub struct Guards {
     pub freeze: bool,
     /// No vertex goes farther than the pairs that were detected allow.
     pub budget: bool,
-    /// Pairs are detected along a way that those at hand do not cover.
+    /// CandidatePairs are detected along a way that those at hand do not cover.
     pub cover: bool,
     /// Ways are shortened.
     pub filter: bool,
@@ -25,9 +25,10 @@ impl Default for Guards {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Detector, Filter, Skin, Surface, SurfaceParts, crossings};
+    use crate::{CcdFilter, ContactDistances, Detector, Surface, SurfaceParts, intersections};
 
-    const SKIN: Skin = Skin { reach: 1e-3, separation: 1e-4 };
+    const SKIN: ContactDistances =
+        ContactDistances { activation_distance: 1e-3, min_separation: 1e-4 };
     const MARGIN: f64 = 4e-3;
 
     /// Two parallel triangles of 0.1 m so far apart, the upper one to the side by a third.
@@ -37,13 +38,13 @@ mod tests {
         let positions: Vec<f64> =
             flat.iter().enumerate().flat_map(|(k, [x, y])| [*x, *y, height(k)]).collect();
         let surface = Surface::new(SurfaceParts {
-            rest: positions.clone(),
+            rest_positions: positions.clone(),
             triangles: vec![[0, 1, 2], [3, 4, 5]],
             areas: vec![1e-3; 6],
-            group: vec![0, 0, 0, 1, 1, 1],
-            skins: vec![SKIN; 2],
-            free: 6,
-            twins: Vec::new(),
+            groups: vec![0, 0, 0, 1, 1, 1],
+            distances: vec![SKIN; 2],
+            free_vertices: 6,
+            seam_pairs: Vec::new(),
             ties: Vec::new(),
         });
         (surface.unwrap(), positions)
@@ -63,19 +64,20 @@ mod tests {
             let mut detector = Detector::default();
             let mut pairs = detector.detect(&surface, &positions, margin).unwrap().clone();
             pairs.margin = told;
-            let mut filter = Filter { guards, ..Filter::default() };
+            let mut filter = CcdFilter { guards, ..CcdFilter::default() };
             let mut met = false;
             for _ in 0..steps {
                 let mut displacement = vec![0.0; positions.len()];
                 displacement[11] = -way;
                 if scalar {
-                    let share = filter.scalar(&pairs, &positions, &displacement).unwrap().value;
+                    let share =
+                        filter.common_fraction(&pairs, &positions, &displacement).unwrap().value;
                     displacement[11] *= share;
                 } else {
                     filter.truncate(&pairs, &positions, &mut displacement).unwrap();
                 }
                 positions[11] += displacement[11];
-                met |= !crossings(&surface, &positions).unwrap().is_empty();
+                met |= !intersections(&surface, &positions).unwrap().is_empty();
             }
             (positions[11], met)
         })
@@ -83,11 +85,11 @@ mod tests {
 
     #[test]
     fn a_pair_without_room_is_frozen_or_it_crosses() {
-        let separation = 2.0 * SKIN.separation;
+        let min_separation = 2.0 * SKIN.min_separation;
         // Half a nanometre of room, and a way that ends just behind the other triangle.
-        let drop = (separation + 5e-10, 1.1 * separation, 1);
+        let drop = (min_separation + 5e-10, 1.1 * min_separation, 1);
         for (height, met) in drop_corner(Guards::default(), drop, (MARGIN, MARGIN)) {
-            assert!(height >= separation && !met, "at {height}, met {met}");
+            assert!(height >= min_separation && !met, "at {height}, met {met}");
         }
         let unguarded = Guards { freeze: false, ..Guards::default() };
         let [(height, met), _] = drop_corner(unguarded, drop, (MARGIN, MARGIN));
@@ -97,9 +99,9 @@ mod tests {
     #[test]
     fn a_pair_that_was_far_is_kept_apart_by_the_budget_or_it_crosses() {
         // Just out of the list, and ten steps of half a margin.
-        let drop = (2.0 * SKIN.reach + 1.001 * MARGIN, 0.5 * MARGIN, 10);
+        let drop = (2.0 * SKIN.activation_distance + 1.001 * MARGIN, 0.5 * MARGIN, 10);
         for (height, met) in drop_corner(Guards::default(), drop, (MARGIN, MARGIN)) {
-            assert!(height >= 2.0 * SKIN.reach && !met, "at {height}, met {met}");
+            assert!(height >= 2.0 * SKIN.activation_distance && !met, "at {height}, met {met}");
         }
         let unguarded = Guards { budget: false, ..Guards::default() };
         for (height, met) in drop_corner(unguarded, drop, (MARGIN, MARGIN)) {
@@ -110,9 +112,9 @@ mod tests {
     #[test]
     fn pairs_are_detected_with_the_whole_margin_or_they_cross() {
         // Within the margin, but not within a hundredth of it.
-        let drop = (2.0 * SKIN.reach + 0.1 * MARGIN, MARGIN, 2);
+        let drop = (2.0 * SKIN.activation_distance + 0.1 * MARGIN, MARGIN, 2);
         for (height, met) in drop_corner(Guards::default(), drop, (MARGIN, 3.0 * MARGIN)) {
-            assert!(height >= 2.0 * SKIN.separation && !met, "at {height}, met {met}");
+            assert!(height >= 2.0 * SKIN.min_separation && !met, "at {height}, met {met}");
         }
         for (height, met) in drop_corner(Guards::default(), drop, (0.01 * MARGIN, 3.0 * MARGIN)) {
             assert!(height < 0.0 && met, "at {height}, met {met}");

@@ -1,9 +1,9 @@
 //! How much farther than they push pairs are looked for.
 
-/// Pairs for each vertex above which a list is too long: a solver goes through all of it at every place that it tries.
+/// CandidatePairs for each vertex above which a list is too long: a solver goes through all of it at every place that it tries.
 const CROWDED: f64 = 6.0;
 
-/// Pairs for each vertex below which a list has room for more.
+/// CandidatePairs for each vertex below which a list has room for more.
 const SPARSE: f64 = 2.0;
 
 /// Change of the margin at a time.
@@ -15,7 +15,7 @@ const MOST: f64 = 0.5;
 /// The margin of a detection, in m, which follows how crowded the surfaces are.
 ///
 /// A wide one lets vertices go far before pairs are to be found again, and a narrow one keeps the list short. A square
-/// metre of 2600 particles on a cube is detected a third as often as with a margin of its reach, and a band that is twisted
+/// metre of 2600 particles on a cube is detected a third as often as with a margin of its activation_distance, and a band that is twisted
 /// a tenth as often, in half of the time; a stack of sheets keeps the narrow one. The forces do not depend on it; how far
 /// vertices go that are stopped one by one may, for pairs farther off are then heeded too.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +27,12 @@ pub(crate) struct Margin {
 
 impl Margin {
     /// A margin that begins at the distance at which surfaces push, for edges of some length, both in m.
-    pub(crate) fn new(reach: f64, edge: f64) -> Margin {
-        Margin { least: reach, most: reach.max(MOST * edge), value: reach }
+    pub(crate) fn new(activation_distance: f64, edge: f64) -> Margin {
+        Margin {
+            least: activation_distance,
+            most: activation_distance.max(MOST * edge),
+            value: activation_distance,
+        }
     }
 
     /// The margin of the next detection, in m.
@@ -61,7 +65,7 @@ mod tests {
         assert_eq!(margin.value(), 0.01, "neither crowded nor sparse");
         (0..20).for_each(|_| margin.follow(7000, 1000));
         assert_eq!(margin.value(), 1e-3);
-        // Edges shorter than the reach: there is nothing to choose.
+        // Edges shorter than the activation_distance: there is nothing to choose.
         let mut narrow = Margin::new(1e-3, 1e-3);
         narrow.follow(0, 1000);
         assert_eq!(narrow.value(), 1e-3);

@@ -1,5 +1,5 @@
-use crate::error::{CollideError, check_place};
-use crate::proximity::Proximity;
+use crate::error::{Error, check_place};
+use crate::proximity::SignedDistance;
 use crate::vector::{Vector, across, combine, cross, dot, norm, outer, scale, subtract};
 use parry3d_f64::math::Vector as ParryVector;
 use parry3d_f64::query::PointQueryWithLocation;
@@ -36,7 +36,7 @@ const UPRIGHT: f64 = 1.0 - 1e-12;
 pub struct Mesh {
     surface: Arc<TriMesh>,
     /// The first of the vertices as given that became each vertex.
-    origins: Arc<[u32]>,
+    source_vertices: Arc<[u32]>,
     was_inside_out: bool,
 }
 
@@ -56,14 +56,14 @@ impl Mesh {
     /// Vertices at the very same place become one, triangles that lose a corner by it are left
     /// out, and a surface that is inside out as a whole is turned
     /// ([`was_inside_out`](Mesh::was_inside_out) tells).
-    pub fn new(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Mesh, CollideError> {
-        let ((vertices, mut triangles), origins) = welded(vertices, triangles)?;
+    pub fn new(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Mesh, Error> {
+        let ((vertices, mut triangles), source_vertices) = welded(vertices, triangles)?;
         check_closed(&vertices, &triangles)?;
         let volume = volume(&vertices, &triangles);
         let extent = (0..3).map(|k| extent(&vertices, k)).fold(0.0, f64::max);
         let solid = volume.abs() > HOLLOW * extent.powi(3);
         if !solid {
-            return Err(CollideError::NoVolume { volume });
+            return Err(Error::NoVolume { volume });
         }
         if volume < 0.0 {
             for [_, b, c] in &mut triangles {
@@ -74,10 +74,10 @@ impl Mesh {
         let points = vertices.iter().map(|v| ParryVector::new(v[0], v[1], v[2])).collect();
         // Without the flag every point would silently count as outside.
         let surface = TriMesh::with_flags(points, triangles, TriMeshFlags::ORIENTED)
-            .map_err(|_| CollideError::EmptyMesh { vertices: count })?;
+            .map_err(|_| Error::EmptyMesh { vertices: count })?;
         Ok(Mesh {
             surface: Arc::new(surface),
-            origins: origins.into(),
+            source_vertices: source_vertices.into(),
             was_inside_out: volume < 0.0,
         })
     }
@@ -94,8 +94,8 @@ impl Mesh {
     }
 
     /// The first of the vertices as given that became each vertex.
-    pub fn origins(&self) -> &[u32] {
-        &self.origins
+    pub fn source_vertices(&self) -> &[u32] {
+        &self.source_vertices
     }
 
     /// The triangles, counter-clockwise from outside.
@@ -116,7 +116,7 @@ impl Mesh {
     }
 
     /// The nearest point of the whole surface; the point must be finite.
-    pub(crate) fn proximity(&self, point: Vector) -> Proximity {
+    pub(crate) fn signed_distance(&self, point: Vector) -> SignedDistance {
         let query = ParryVector::new(point[0], point[1], point[2]);
         // `solid` would move interior points onto themselves.
         let (projection, (triangle, location)) =
@@ -128,7 +128,7 @@ impl Mesh {
         let gap = subtract(point, foot);
         let length = norm(gap);
         let side = if projection.is_inside { -1.0 } else { 1.0 };
-        let flat = Proximity::flat(dot(face, gap), face);
+        let flat = SignedDistance::flat(dot(face, gap), face);
         let edge = match location {
             TrianglePointLocation::OnFace(..) | TrianglePointLocation::OnSolid => return flat,
             TrianglePointLocation::OnEdge(edge, _) => Some(edge as usize),
@@ -136,7 +136,7 @@ impl Mesh {
         };
         if length < TOUCHING {
             let normal = self.mean_normal(triangle as usize, location).unwrap_or(face);
-            return Proximity::flat(side * length, normal);
+            return SignedDistance::flat(side * length, normal);
         }
         let normal = scale(gap, side / length);
         if dot(normal, face) > UPRIGHT {
@@ -152,7 +152,7 @@ impl Mesh {
             None => across(normal),
         };
         let distance = side * length;
-        Proximity { distance, normal, curvature: round.map(|c| c / distance) }
+        SignedDistance { distance, normal, curvature: round.map(|c| c / distance) }
     }
 
     fn corners(&self, triangle: usize) -> [Vector; 3] {
@@ -186,35 +186,28 @@ pub(crate) type Surface = (Vec<Vector>, Vec<[u32; 3]>);
 
 /// The surface with one vertex for those at the very same place and without triangles that lost a
 /// corner by it.
-pub(crate) fn weld(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<Surface, CollideError> {
+pub(crate) fn weld(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<Surface, Error> {
     welded(vertices, triangles).map(|(surface, _)| surface)
 }
 
 /// The same with the first of the vertices as given that became each.
-fn welded(
-    vertices: &[Vector],
-    triangles: &[[u32; 3]],
-) -> Result<(Surface, Vec<u32>), CollideError> {
+fn welded(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<(Surface, Vec<u32>), Error> {
     let mut number_at = BTreeMap::new();
     let mut kept = Vec::new();
-    let mut origins = Vec::new();
+    let mut source_vertices = Vec::new();
     let mut faces = Vec::with_capacity(triangles.len());
     for (t, triangle) in triangles.iter().enumerate() {
         let mut face = [0; 3];
         for (corner, &index) in face.iter_mut().zip(triangle) {
             let Some(&place) = vertices.get(index as usize) else {
-                return Err(CollideError::NoSuchVertex {
-                    triangle: t,
-                    index,
-                    vertices: vertices.len(),
-                });
+                return Err(Error::MissingVertex { triangle: t, index, vertices: vertices.len() });
             };
             check_place(|| format!("vertex {index} of the mesh"), place)?;
             // Adding zero makes -0 the same place as 0.
             let key = place.map(|value| (value + 0.0).to_bits());
             *corner = *number_at.entry(key).or_insert_with(|| {
                 kept.push(place);
-                origins.push(index);
+                source_vertices.push(index);
                 kept.len() as u32 - 1
             });
         }
@@ -227,18 +220,18 @@ fn welded(
         let longest = sides.iter().map(|s| dot(*s, *s)).fold(0.0, f64::max);
         let proper = area > FLAT * longest;
         if !proper {
-            return Err(CollideError::FlatTriangle { triangle: t, place: a, area });
+            return Err(Error::FlatTriangle { triangle: t, place: a, area });
         }
         faces.push(face);
     }
     if faces.is_empty() {
-        return Err(CollideError::EmptyMesh { vertices: vertices.len() });
+        return Err(Error::EmptyMesh { vertices: vertices.len() });
     }
-    Ok(((kept, faces), origins))
+    Ok(((kept, faces), source_vertices))
 }
 
 /// Every edge must be run through once in each direction.
-fn check_closed(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<(), CollideError> {
+fn check_closed(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<(), Error> {
     let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(3 * triangles.len());
     for [a, b, c] in triangles {
         for (from, to) in [(*a, *b), (*b, *c), (*c, *a)] {
@@ -261,13 +254,13 @@ fn check_closed(vertices: &[Vector], triangles: &[[u32; 3]]) -> Result<(), Colli
     }
     if let Some(&(first, triangles)) = crowded.first() {
         let (edges, place) = (crowded.len(), middle(first));
-        return Err(CollideError::NotManifold { edges, triangles, place });
+        return Err(Error::NonManifoldMesh { edges, triangles, place });
     }
     if let Some(&first) = bad.first() {
-        return Err(CollideError::Inconsistent { edges: bad.len(), place: middle(first) });
+        return Err(Error::InconsistentOrientation { edges: bad.len(), place: middle(first) });
     }
     if let Some(&first) = open.first() {
-        return Err(CollideError::OpenMesh { edges: open.len(), place: middle(first) });
+        return Err(Error::OpenMesh { edges: open.len(), place: middle(first) });
     }
     Ok(())
 }

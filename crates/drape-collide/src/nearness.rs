@@ -1,17 +1,32 @@
-use crate::crossing::{Crossing, crossings};
-use crate::error::CollideError;
+use crate::crossing::{Intersection, intersections};
+use crate::error::Error;
 use crate::pair::Pair;
 use crate::surface_contact::{SurfaceContact, Touching};
 
 /// How the surfaces lie to each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearness {
-    /// Pairs within their reach.
+pub struct SurfaceSummary {
+    /// CandidatePairs within their activation_distance.
     pub touching: usize,
     /// Smallest distance of a pair; infinite if none is near, in m.
     pub min_distance: f64,
-    /// Smallest distance over the separation that its pair keeps.
+    /// Smallest distance over the min_separation that its pair keeps.
     pub min_ratio: f64,
+}
+
+/// A pair and its distance at the positions of the last evaluation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairDistance<'a> {
+    /// The pair.
+    pub pair: &'a Pair,
+    /// Distance of its primitives, in m.
+    pub distance: f64,
+}
+
+impl<'a> PairDistance<'a> {
+    fn of(touching: &'a Touching) -> PairDistance<'a> {
+        PairDistance { pair: &touching.pair, distance: touching.gap.distance() }
+    }
 }
 
 impl SurfaceContact {
@@ -20,9 +35,10 @@ impl SurfaceContact {
     ///
     /// # Errors
     /// Positions that are none.
-    pub fn crossings(&self, positions: &[f64]) -> Result<Vec<Crossing>, CollideError> {
-        let mut found = self.intersections(positions)?;
-        let kept = |crossing: &Crossing| self.surface.share(&self.vertices_of(*crossing)).is_some();
+    pub fn intersections(&self, positions: &[f64]) -> Result<Vec<Intersection>, Error> {
+        let mut found = self.intersections_with_released(positions)?;
+        let kept =
+            |crossing: &Intersection| self.surface.share(&self.vertices_of(*crossing)).is_some();
         found.retain(|crossing| self.filter.guards.exact && kept(crossing));
         Ok(found)
     }
@@ -31,12 +47,15 @@ impl SurfaceContact {
     ///
     /// # Errors
     /// Positions that are none.
-    pub fn intersections(&self, positions: &[f64]) -> Result<Vec<Crossing>, CollideError> {
-        crossings(&self.surface, &self.all(positions, self.progress))
+    pub fn intersections_with_released(
+        &self,
+        positions: &[f64],
+    ) -> Result<Vec<Intersection>, Error> {
+        intersections(&self.surface, &self.all(positions, self.progress))
     }
 
     /// The vertices of an edge and a triangle that cross.
-    pub(crate) fn vertices_of(&self, crossing: Crossing) -> [u32; 5] {
+    pub(crate) fn vertices_of(&self, crossing: Intersection) -> [u32; 5] {
         let [a, b] = self.surface.edges()[crossing.edge as usize];
         let [c, d, e] = self.surface.triangles()[crossing.triangle as usize];
         [a, b, c, d, e]
@@ -46,35 +65,35 @@ impl SurfaceContact {
     ///
     /// # Errors
     /// Positions that are none, or too many pairs.
-    pub fn survey(&mut self, positions: &[f64]) -> Result<Nearness, CollideError> {
+    pub fn summary_at(&mut self, positions: &[f64]) -> Result<SurfaceSummary, Error> {
         self.look(positions);
-        self.failure.clone().map_or_else(|| Ok(self.nearness()), Err)
+        self.failure.clone().map_or_else(|| Ok(self.summary()), Err)
     }
 
     /// How near the surfaces are to each other at the places looked at last.
-    pub fn nearness(&self) -> Nearness {
-        let mut nearness = Nearness {
+    pub fn summary(&self) -> SurfaceSummary {
+        let mut nearness = SurfaceSummary {
             touching: self.touching().count(),
             min_distance: f64::INFINITY,
             min_ratio: f64::INFINITY,
         };
         for Touching { pair, gap } in self.touching() {
             nearness.min_distance = nearness.min_distance.min(gap.distance());
-            nearness.min_ratio = nearness.min_ratio.min(gap.distance() / pair.separation);
+            nearness.min_ratio = nearness.min_ratio.min(gap.distance() / pair.min_separation);
         }
         nearness
     }
 
     /// The pair that is nearest to what it keeps at the places looked at last, with its distance, in m.
-    pub fn tightest(&self) -> Option<(&Pair, f64)> {
-        let ratio = |touching: &&Touching| touching.gap.distance() / touching.pair.separation;
+    pub fn closest_pair(&self) -> Option<PairDistance<'_>> {
+        let ratio = |touching: &&Touching| touching.gap.distance() / touching.pair.min_separation;
         let least = self.touching().min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
-        least.map(|touching| (&touching.pair, touching.gap.distance()))
+        least.map(PairDistance::of)
     }
 
     /// The pairs that are nearer than they keep at the places looked at last, each with its distance, in m.
-    pub fn too_near(&self) -> impl Iterator<Item = (&Pair, f64)> {
-        let near = self.touching().map(|touching| (&touching.pair, touching.gap.distance()));
-        near.filter(|(pair, distance)| !(*distance >= pair.separation))
+    pub fn pairs_below_min_separation(&self) -> impl Iterator<Item = PairDistance<'_>> {
+        let near = self.touching().map(PairDistance::of);
+        near.filter(|PairDistance { pair, distance }| !(*distance >= pair.min_separation))
     }
 }

@@ -1,7 +1,7 @@
-use crate::mesh_file::MeshFile;
+use crate::triangulate::Triangulation;
 
 /// The vertices and triangles of a Wavefront OBJ text.
-pub(crate) fn parse(bytes: &[u8]) -> Result<MeshFile, String> {
+pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     let (text, count) = surface_lines(&String::from_utf8_lossy(bytes));
     let options = tobj::LoadOptions {
         triangulate: true,
@@ -35,7 +35,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<MeshFile, String> {
             triangles.push([a, b, c]);
         }
     }
-    Ok(MeshFile { vertices, triangles })
+    Ok(Triangulation { vertices, triangles })
 }
 
 /// The vertices and faces of an OBJ text, the faces without normals and texture coordinates; and how many vertices

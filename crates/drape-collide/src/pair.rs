@@ -3,7 +3,7 @@ use crate::vector::{at, dot};
 
 /// Which primitives a pair is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Kind {
+pub enum PairKind {
     /// A vertex and a triangle.
     VertexFace,
     /// Two edges.
@@ -14,17 +14,17 @@ pub enum Kind {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
     /// Which primitives these are.
-    pub kind: Kind,
+    pub kind: PairKind,
     /// The vertex and the triangle, or the two edges, the lower first, by number in the surface.
     ///
-    /// Kind and features together name a pair; lists of pairs are sorted by them.
+    /// PairKind and features together name a pair; lists of pairs are sorted by them.
     pub features: [u32; 2],
     /// The vertex and the three corners, or the two ends of one edge and the two of the other.
     pub vertices: [u32; 4],
     /// Distance `$r$` below which the two push each other, in m.
-    pub reach: f64,
+    pub activation_distance: f64,
     /// Distance `$\xi$` that the two always keep, in m.
-    pub separation: f64,
+    pub min_separation: f64,
     /// Area that the contact of the two stands for, in m².
     pub area: f64,
     /// Square of the sine times the lengths at rest below which two edges count as parallel, in
@@ -35,16 +35,16 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// Kind and features: the order in a list.
-    pub fn key(&self) -> (Kind, [u32; 2]) {
+    /// PairKind and features: the order in a list.
+    pub fn key(&self) -> (PairKind, [u32; 2]) {
         (self.kind, self.features)
     }
 
     /// Vertices of the first primitive: one, or two.
     pub(crate) fn first(&self) -> usize {
         match self.kind {
-            Kind::VertexFace => 1,
-            Kind::EdgeEdge => 2,
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
         }
     }
 
@@ -52,8 +52,8 @@ impl Pair {
     pub(crate) fn most(&self, list: &[f64]) -> f64 {
         let [a, b, c, d] = self.vertices.map(|vertex| list[vertex as usize]);
         match self.kind {
-            Kind::VertexFace => a + b.max(c).max(d),
-            Kind::EdgeEdge => a.max(b) + c.max(d),
+            PairKind::VertexFace => a + b.max(c).max(d),
+            PairKind::EdgeEdge => a.max(b) + c.max(d),
         }
     }
 
@@ -69,10 +69,10 @@ impl Pair {
 }
 
 /// The closest points of two primitives of a kind.
-pub(crate) fn closest(kind: Kind, places: [[f64; 3]; 4]) -> Closest {
+pub(crate) fn closest(kind: PairKind, places: [[f64; 3]; 4]) -> Closest {
     match kind {
-        Kind::VertexFace => vertex_face(places),
-        Kind::EdgeEdge => edge_edge(places),
+        PairKind::VertexFace => vertex_face(places),
+        PairKind::EdgeEdge => edge_edge(places),
     }
 }
 

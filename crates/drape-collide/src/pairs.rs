@@ -1,4 +1,4 @@
-use crate::course::{Course, nearest};
+use crate::course::{Sweep, nearest};
 use crate::pair::Pair;
 use std::ops::Range;
 
@@ -6,9 +6,9 @@ use std::ops::Range;
 /// there.
 ///
 /// As long as no vertex is farther than half of the margin from the course, no other pair is within
-/// its reach.
+/// its activation_distance.
 #[derive(Debug, Clone, Default)]
-pub struct Pairs {
+pub struct CandidatePairs {
     list: Vec<Pair>,
     /// The place on the course that is looked at, of each vertex.
     positions: Vec<f64>,
@@ -20,7 +20,7 @@ pub struct Pairs {
     together: bool,
 }
 
-impl Pairs {
+impl CandidatePairs {
     /// The pairs, sorted by kind and features.
     pub fn as_slice(&self) -> &[Pair] {
         &self.list
@@ -32,7 +32,7 @@ impl Pairs {
         &self.positions
     }
 
-    /// By how much each pair's distance could exceed its reach, in m.
+    /// By how much each pair's distance could exceed its activation_distance, in m.
     pub fn margin(&self) -> f64 {
         self.margin
     }
@@ -41,7 +41,7 @@ impl Pairs {
     pub(crate) fn replace<'a>(
         &mut self,
         found: impl Iterator<Item = &'a [Pair]>,
-        (positions, course): (&[f64], Course<'_>),
+        (positions, course): (&[f64], Sweep<'_>),
         (margin, free): (f64, usize),
     ) {
         self.list.clear();
@@ -54,7 +54,7 @@ impl Pairs {
         let ways = course.ways().unwrap_or_default();
         fill(&mut self.start, if ways.is_empty() { &[] } else { positions });
         fill(&mut self.ways, ways);
-        self.together = matches!(course, Course::Together(_));
+        self.together = matches!(course, Sweep::Common(_));
         (self.margin, self.free) = (margin, free);
     }
 

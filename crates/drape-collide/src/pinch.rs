@@ -8,14 +8,23 @@ use crate::vector::{Vector, add, at, dot, scale, subtract};
 
 /// What becomes of cloth that bodies pinch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Pinch {
+pub enum PinchPolicy {
     /// Nothing: no step leads there.
     #[default]
     Error,
-    /// There it keeps [`Pinch::THINNED`] of the distance that it keeps from bodies elsewhere.
+    /// There it keeps [`PinchPolicy::THINNED_FRACTION`] of the distance that it keeps from bodies elsewhere.
     Thin,
     /// There the body that comes passes through it, and touches it again when it has come out.
     Release,
+}
+
+/// Numbers of free vertices that bodies pinch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PinchedVertices {
+    /// Vertices that keep a fraction of their distances from bodies.
+    pub thinned: usize,
+    /// Vertices that have let a body through.
+    pub released: usize,
 }
 
 /// How a vertex of cloth meets bodies.
@@ -53,25 +62,25 @@ struct Side {
     coming: f64,
     distance: f64,
     /// What is kept of that.
-    separation: f64,
+    min_separation: f64,
 }
 
-impl Pinch {
+impl PinchPolicy {
     /// Part of the distance between cloth and bodies that cloth keeps where it is thinned.
-    pub const THINNED: f64 = 0.1;
+    pub const THINNED_FRACTION: f64 = 0.1;
 }
 
 impl Surface {
-    /// Part of its separation that a pair keeps, if it is kept apart at all.
+    /// Part of its min_separation that a pair keeps, if it is kept apart at all.
     pub(crate) fn share(&self, vertices: &[u32]) -> Option<f64> {
-        let free = |vertex: u32| (vertex as usize) < self.free();
+        let free = |vertex: u32| (vertex as usize) < self.free_count();
         let body = vertices.iter().copied().find(|&vertex| !free(vertex));
         let (false, Some(body)) = (self.grips.is_empty(), body) else { return Some(1.0) };
         let group = self.group(body);
         let mut share = 1.0;
         for &vertex in vertices.iter().filter(|&&vertex| free(vertex)) {
             match self.grips[vertex as usize] {
-                Grip::Thin => share = Pinch::THINNED,
+                Grip::Thin => share = PinchPolicy::THINNED_FRACTION,
                 Grip::Released(other) if other == group => return None,
                 Grip::Whole | Grip::Released(_) => {}
             }
@@ -82,21 +91,21 @@ impl Surface {
 
 impl SurfaceContact {
     /// Part of its distance from bodies that cloth keeps wherever they pinch it.
-    pub fn thinned(&self) -> f64 {
-        if self.settings.pinch == Pinch::Thin { Pinch::THINNED } else { 1.0 }
+    pub fn thinned_fraction(&self) -> f64 {
+        if self.settings.pinch == PinchPolicy::Thin { PinchPolicy::THINNED_FRACTION } else { 1.0 }
     }
 
     /// How many vertices of cloth keep less of their distance from bodies since the last step, and how many have let a
     /// body through.
-    pub fn pinched(&self) -> [usize; 2] {
-        let thin = self.grips.iter().filter(|grip| **grip == Grip::Thin).count();
+    pub fn pinched_vertices(&self) -> PinchedVertices {
+        let thinned = self.grips.iter().filter(|grip| **grip == Grip::Thin).count();
         let whole = self.grips.iter().filter(|grip| **grip == Grip::Whole).count();
-        [thin, self.grips.len() - thin - whole]
+        PinchedVertices { thinned, released: self.grips.len() - thinned - whole }
     }
 
     /// Finds what bodies pinch in the step that is open, and what they no longer do.
     pub(crate) fn grip(&mut self, start: &[f64]) {
-        if self.settings.pinch == Pinch::Error {
+        if self.settings.pinch == PinchPolicy::Error {
             return;
         }
         self.hold(Vec::new());
@@ -106,7 +115,7 @@ impl SurfaceContact {
         }
         let sides = self.sides();
         let mut grips = self.grips.clone();
-        grips.resize(self.surface.free(), Grip::Whole);
+        grips.resize(self.surface.free_count(), Grip::Whole);
         let caught = self.caught(start, (&grips, &sides));
         for (vertex, grip) in grips.iter_mut().enumerate() {
             let near = sides.get(&(vertex as u32)).map_or(&[][..], |sides| sides);
@@ -114,7 +123,7 @@ impl SurfaceContact {
                 (Grip::Released(group), _, _) if caught.contains(&(vertex as u32)) => {
                     Grip::Released(group)
                 }
-                (_, Some(side), Pinch::Release) => Grip::Released(side.group),
+                (_, Some(side), PinchPolicy::Release) => Grip::Released(side.group),
                 (_, Some(_), _) => Grip::Thin,
                 (Grip::Thin, None, _) if near.iter().any(Side::is_close) => Grip::Thin,
                 _ => Grip::Whole,
@@ -138,7 +147,7 @@ impl SurfaceContact {
 
     /// The faces of bodies near each vertex of cloth.
     fn sides(&self) -> BTreeMap<u32, Vec<Side>> {
-        let free = self.surface.free();
+        let free = self.surface.free_count();
         let [start, end] = &self.bodies;
         let mut sides: BTreeMap<u32, Vec<Side>> = BTreeMap::new();
         for Touching { pair, gap } in self.touching() {
@@ -161,7 +170,7 @@ impl SurfaceContact {
                 place,
                 coming: dot(direction, way),
                 distance: gap.distance(),
-                separation: self.surface.distances(a, b).separation,
+                min_separation: self.surface.pair_distances(a, b).min_separation,
             };
             for k in (0..4).filter(|&k| !of_body[k]) {
                 sides.entry(pair.vertices[k]).or_default().push(side);
@@ -185,7 +194,7 @@ impl SurfaceContact {
         if !grips.iter().any(|grip| matches!(grip, Grip::Released(_))) {
             return caught;
         }
-        for crossing in self.intersections(start).unwrap_or_default() {
+        for crossing in self.intersections_with_released(start).unwrap_or_default() {
             let vertices = self.vertices_of(crossing);
             let of = |vertex: u32| self.surface.group(vertex);
             let crosses = |group| vertices.iter().any(|&other| of(other) == group);
@@ -205,7 +214,7 @@ impl SurfaceContact {
 
 impl Side {
     fn is_close(&self) -> bool {
-        !(self.distance > REGAINED * self.separation)
+        !(self.distance > REGAINED * self.min_separation)
     }
 }
 
@@ -217,7 +226,8 @@ fn pinching(sides: &[Side]) -> Option<Side> {
             // Less than nothing where the cloth is about a body and not between two.
             let room = dot(subtract(other.place, one.place), one.direction);
             let left = room - one.coming - other.coming;
-            if opposed && room > 0.0 && left < CLOSED * (one.separation + other.separation) {
+            if opposed && room > 0.0 && left < CLOSED * (one.min_separation + other.min_separation)
+            {
                 let first = (one.coming, one.group) > (other.coming, other.group);
                 return Some(if first { *one } else { *other });
             }
@@ -237,7 +247,7 @@ mod tests {
             place: [0.0, height, 0.0],
             coming,
             distance: height.abs(),
-            separation: 1e-4,
+            min_separation: 1e-4,
         }
     }
 

@@ -57,15 +57,15 @@ impl Slab {
         Slab { normal, heights, low, high }
     }
 
-    /// A sure lower bound of the distance above the separation, in m; not above 0 if there is none.
-    pub(crate) fn opening(&self, separation: f64) -> f64 {
+    /// A sure lower bound of the distance above the min_separation, in m; not above 0 if there is none.
+    pub(crate) fn opening(&self, min_separation: f64) -> f64 {
         let distance = (self.low - self.high) * (1.0 - UNIT - f64::EPSILON);
-        distance - separation * (1.0 + f64::EPSILON)
+        distance - min_separation * (1.0 + f64::EPSILON)
     }
 
-    /// Whether a sum of the heights' sides keeps two planes apart by the separation.
-    pub(crate) fn holds(low: f64, high: f64, separation: f64) -> bool {
-        (low - high) * (1.0 - UNIT - f64::EPSILON) > separation * (1.0 + f64::EPSILON)
+    /// Whether a sum of the heights' sides keeps two planes apart by the min_separation.
+    pub(crate) fn holds(low: f64, high: f64, min_separation: f64) -> bool {
+        (low - high) * (1.0 - UNIT - f64::EPSILON) > min_separation * (1.0 + f64::EPSILON)
     }
 
     /// Speeds at which the vertices approach the other primitive, for displacements in m.

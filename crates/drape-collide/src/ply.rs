@@ -1,4 +1,4 @@
-use crate::mesh_file::MeshFile;
+use crate::triangulate::Triangulation;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 use std::io::Cursor;
@@ -44,7 +44,7 @@ impl PropertyAccess for Element {
 }
 
 /// The vertices and triangles of a PLY file.
-pub(crate) fn parse(bytes: &[u8]) -> Result<MeshFile, String> {
+pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     let parser = Parser::<Element>::new();
     let mut reader = Reader::new(Cursor::new(bytes));
     let header = parser.read_header(&mut reader).map_err(said)?;
@@ -78,7 +78,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<MeshFile, String> {
         }
         triangles.extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]));
     }
-    Ok(MeshFile { vertices: vertices?, triangles })
+    Ok(Triangulation { vertices: vertices?, triangles })
 }
 
 /// What the parser says, in one line.

@@ -1,4 +1,4 @@
-use crate::error::CollideError;
+use crate::error::Error;
 use crate::mesh_file::read_bytes;
 use std::path::Path;
 
@@ -23,10 +23,10 @@ impl PointCache {
     ///
     /// # Errors
     /// A file that is none, is cut off, or has a coordinate that is not finite.
-    pub fn read(path: impl AsRef<Path>) -> Result<PointCache, CollideError> {
+    pub fn read(path: impl AsRef<Path>) -> Result<PointCache, Error> {
         let path = path.as_ref();
         let bytes = read_bytes(path, BYTES_MAX)?;
-        parse(&bytes).map_err(|reason| CollideError::Malformed { path: path.to_path_buf(), reason })
+        parse(&bytes).map_err(|reason| Error::MalformedFile { path: path.to_path_buf(), reason })
     }
 }
 

@@ -1,4 +1,4 @@
-use crate::error::{CollideError, check_place};
+use crate::error::{Error, check_place};
 use crate::vector::{Block, Vector, add, subtract, times, transposed_times};
 
 /// How far the length of a quaternion may be from 1 and still be taken for a rotation.
@@ -34,7 +34,7 @@ impl Pose {
     ///
     /// The axis needs no unit length. An axis of no length gives no valid rotation: it is refused
     /// where the pose is used.
-    pub fn turned(self, axis: [f64; 3], angle: f64) -> Pose {
+    pub fn rotated(self, axis: [f64; 3], angle: f64) -> Pose {
         let length = (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]).sqrt();
         let (sine, cosine) = (0.5 * angle).sin_cos();
         let [bx, by, bz] = axis.map(|a| a / length * sine);
@@ -59,12 +59,12 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    pub(crate) fn new(pose: &Pose, body: &str) -> Result<Frame, CollideError> {
+    pub(crate) fn new(pose: &Pose, body: &str) -> Result<Frame, Error> {
         check_place(|| format!("position of the body `{body}`"), pose.position)?;
         let length = pose.rotation.iter().map(|q| q * q).sum::<f64>().sqrt();
         // A length of NaN is in no range.
         if !(1.0 - UNIT_TOLERANCE..=1.0 + UNIT_TOLERANCE).contains(&length) {
-            return Err(CollideError::BadRotation {
+            return Err(Error::InvalidRotation {
                 body: body.to_string(),
                 rotation: pose.rotation,
                 length,
@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn a_quarter_turn_about_z_takes_x_to_y() {
-        let pose = Pose::new([1.0, 2.0, 3.0]).turned([0.0, 0.0, 5.0], FRAC_PI_2);
+        let pose = Pose::new([1.0, 2.0, 3.0]).rotated([0.0, 0.0, 5.0], FRAC_PI_2);
         let frame = Frame::new(&pose, "test").unwrap();
         let point = frame.to_world([1.0, 0.0, 0.0]);
         let miss = norm(subtract(point, [1.0, 3.0, 3.0]));
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn turns_follow_each_other_in_world_axes() {
         let pose =
-            Pose::default().turned([0.0, 0.0, 1.0], FRAC_PI_2).turned([1.0, 0.0, 0.0], FRAC_PI_2);
+            Pose::default().rotated([0.0, 0.0, 1.0], FRAC_PI_2).rotated([1.0, 0.0, 0.0], FRAC_PI_2);
         let frame = Frame::new(&pose, "test").unwrap();
         // x goes to y by the first turn, and y to z by the second.
         let point = frame.turn([1.0, 0.0, 0.0]);
@@ -131,13 +131,13 @@ mod tests {
 
     #[test]
     fn rotations_that_are_none_are_refused() {
-        let axisless = Pose::default().turned([0.0; 3], 1.0);
+        let axisless = Pose::default().rotated([0.0; 3], 1.0);
         let long = Pose { rotation: [0.0, 0.0, 1.0, 1.0], ..Pose::default() };
         for pose in [axisless, long] {
             let answer = Frame::new(&pose, "cube");
-            assert!(matches!(answer, Err(CollideError::BadRotation { .. })), "{answer:?}");
+            assert!(matches!(answer, Err(Error::InvalidRotation { .. })), "{answer:?}");
         }
         let lost = Frame::new(&Pose::new([0.0, f64::NAN, 0.0]), "cube");
-        assert!(matches!(lost, Err(CollideError::BadPlace { .. })), "{lost:?}");
+        assert!(matches!(lost, Err(Error::InvalidPosition { .. })), "{lost:?}");
     }
 }

@@ -4,20 +4,24 @@
 //! radius on all sides. The rounded solid is the set of points within the edge radius of the
 //! core, so its distance is the core's less the radius, inside as well as outside.
 
-use crate::proximity::Proximity;
+use crate::proximity::SignedDistance;
 use crate::vector::{Vector, across, combine, norm, outer, scale};
 
-pub(crate) fn sphere(point: Vector, radius: f64) -> Proximity {
+pub(crate) fn sphere(point: Vector, radius: f64) -> SignedDistance {
     let length = norm(point);
     if length == 0.0 {
         // All directions are equally good at the centre.
-        return Proximity::flat(-radius, [0.0, 1.0, 0.0]);
+        return SignedDistance::flat(-radius, [0.0, 1.0, 0.0]);
     }
     let normal = scale(point, 1.0 / length);
-    Proximity { distance: length - radius, normal, curvature: across(normal).map(|c| c / length) }
+    SignedDistance {
+        distance: length - radius,
+        normal,
+        curvature: across(normal).map(|c| c / length),
+    }
 }
 
-pub(crate) fn cuboid(point: Vector, core: Vector, edge_radius: f64) -> Proximity {
+pub(crate) fn cuboid(point: Vector, core: Vector, edge_radius: f64) -> SignedDistance {
     let sign = point.map(|p| if p < 0.0 { -1.0 } else { 1.0 });
     let excess: Vector = std::array::from_fn(|k| point[k].abs() - core[k]);
     let beyond = excess.map(|e| e > 0.0);
@@ -25,7 +29,7 @@ pub(crate) fn cuboid(point: Vector, core: Vector, edge_radius: f64) -> Proximity
         let nearest = (1..3).fold(0, |best, k| if excess[k] > excess[best] { k } else { best });
         let mut normal = [0.0; 3];
         normal[nearest] = sign[nearest];
-        return Proximity::flat(excess[nearest] - edge_radius, normal);
+        return SignedDistance::flat(excess[nearest] - edge_radius, normal);
     }
     let away: Vector = std::array::from_fn(|k| if beyond[k] { sign[k] * excess[k] } else { 0.0 });
     let length = norm(away);
@@ -36,11 +40,11 @@ pub(crate) fn cuboid(point: Vector, core: Vector, edge_radius: f64) -> Proximity
             curvature[4 * k] += 1.0 / length;
         }
     }
-    Proximity { distance: length - edge_radius, normal, curvature }
+    SignedDistance { distance: length - edge_radius, normal, curvature }
 }
 
 /// `core` holds the radius and the half height of the core; the axis is y.
-pub(crate) fn cylinder(point: Vector, core: [f64; 2], edge_radius: f64) -> Proximity {
+pub(crate) fn cylinder(point: Vector, core: [f64; 2], edge_radius: f64) -> SignedDistance {
     let [x, y, z] = point;
     let radius = x.hypot(z);
     let radial = if radius > 0.0 { [x / radius, 0.0, z / radius] } else { [1.0, 0.0, 0.0] };
@@ -49,7 +53,7 @@ pub(crate) fn cylinder(point: Vector, core: [f64; 2], edge_radius: f64) -> Proxi
     let [side, cap] = [radius - core[0], y.abs() - core[1]];
     let (out, up) = if side <= 0.0 && cap <= 0.0 {
         if side <= cap {
-            return Proximity::flat(cap - edge_radius, axial);
+            return SignedDistance::flat(cap - edge_radius, axial);
         }
         (1.0, 0.0)
     } else {
@@ -67,5 +71,5 @@ pub(crate) fn cylinder(point: Vector, core: [f64; 2], edge_radius: f64) -> Proxi
         curvature = combine(&curvature, 1.0, &outer(over), 1.0 / length);
     }
     let distance = if side <= 0.0 && cap <= 0.0 { side } else { length };
-    Proximity { distance: distance - edge_radius, normal, curvature }
+    SignedDistance { distance: distance - edge_radius, normal, curvature }
 }

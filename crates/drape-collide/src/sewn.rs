@@ -1,4 +1,4 @@
-use crate::topology::classes;
+use crate::topology::equivalence_classes;
 
 /// What is sewn together in a surface, so that it touches without a contact.
 #[derive(Debug, Clone)]
@@ -10,8 +10,8 @@ pub(crate) struct Sewn {
 }
 
 impl Sewn {
-    pub(crate) fn new(vertices: usize, twins: &[[u32; 2]], ties: &[[u32; 3]]) -> Sewn {
-        let class = classes(vertices, twins);
+    pub(crate) fn new(vertices: usize, seam_pairs: &[[u32; 2]], ties: &[[u32; 3]]) -> Sewn {
+        let class = equivalence_classes(vertices, seam_pairs);
         let tie = |tie: &[u32; 3]| {
             let [own, a, b] = tie.map(|vertex| class[vertex as usize]);
             (own, [a, b])

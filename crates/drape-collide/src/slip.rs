@@ -1,5 +1,5 @@
 use crate::gap::{Gap, Gradient};
-use crate::pair::{Kind, Pair};
+use crate::pair::{Pair, PairKind};
 use crate::vector::{Block, Vector, across, add, at, combine, dot, norm, outer, scale, subtract};
 
 /// Coulomb friction of a pair of primitives during one step, with what it remembers of those before.
@@ -19,7 +19,7 @@ use crate::vector::{Block, Vector, across, add, at, combine, dot, norm, outer, s
 /// friction that needs a speed to act, it lets nothing creep.
 #[derive(Debug, Clone)]
 pub(crate) struct Slip {
-    key: (Kind, [u32; 2]),
+    key: (PairKind, [u32; 2]),
     pub(crate) vertices: [u32; 4],
     pub(crate) weights: [f64; 4],
     normal: Vector,
@@ -29,10 +29,19 @@ pub(crate) struct Slip {
     limit: f64,
 }
 
+/// Energies of friction in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FrictionEnergy {
+    /// Potential of friction, the dissipated part included, in J.
+    pub potential: f64,
+    /// Part of the potential that is lost if the step ends here, in J.
+    pub dissipated: f64,
+}
+
 /// What is left of a pair's stretch between two steps, in m.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Anchor {
-    key: (Kind, [u32; 2]),
+    key: (PairKind, [u32; 2]),
     stretch: Vector,
 }
 
@@ -75,13 +84,16 @@ impl Slip {
         subtract(moved, scale(self.normal, dot(moved, self.normal)))
     }
 
-    /// Potential in J, and the part of it that is lost when the step ends here.
-    pub(crate) fn energy(&self, places: &[f64], stick: f64) -> [f64; 2] {
+    /// Energies of the friction if the step ends at these positions.
+    pub(crate) fn energy(&self, places: &[f64], stick: f64) -> FrictionEnergy {
         let length = norm(self.stretch(places));
         let over = (length - stick).max(0.0);
         let held = length - over;
         let lost = self.limit * over;
-        [0.5 * self.limit * held * held / stick + lost, lost]
+        FrictionEnergy {
+            potential: 0.5 * self.limit * held * held / stick + lost,
+            dissipated: lost,
+        }
     }
 
     /// Gradient of the potential, in N.

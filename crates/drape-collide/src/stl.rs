@@ -1,4 +1,4 @@
-use crate::mesh_file::MeshFile;
+use crate::triangulate::Triangulation;
 use std::io::Cursor;
 
 /// Bytes of a binary file before its triangles, and of each of these.
@@ -6,7 +6,7 @@ const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
 /// The triangles of an STL file, each with three vertices of its own.
-pub(crate) fn parse(bytes: &[u8]) -> Result<MeshFile, String> {
+pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     let count = bytes.get(80..HEADER).and_then(|count| count.try_into().ok());
     let count = count.map_or(0, u32::from_le_bytes) as usize;
     let binary = bytes.len() >= HEADER && bytes.len() - HEADER == TRIANGLE.saturating_mul(count);
@@ -39,5 +39,5 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<MeshFile, String> {
         vertices.extend(triangle.vertices.map(|vertex| vertex.0.map(f64::from)));
         triangles.push([first, first + 1, first + 2]);
     }
-    Ok(MeshFile { vertices, triangles })
+    Ok(Triangulation { vertices, triangles })
 }

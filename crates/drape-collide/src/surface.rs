@@ -1,5 +1,5 @@
 use crate::detector::{Close, close_at_rest};
-use crate::error::{CollideError, check, check_places};
+use crate::error::{Error, check, check_places};
 use crate::order::{Entry, Order, Run};
 use crate::pinch::Grip;
 use crate::sewn::Sewn;
@@ -8,14 +8,14 @@ use crate::vector::{at, dot, subtract};
 
 /// Half of the distances at which a surface touches.
 ///
-/// A pair of primitives of two groups has the sum of both: it pushes below the reach `$r$` and is
-/// kept above the separation `$\xi$`.
+/// A pair of primitives of two groups has the sum of both: it pushes below the activation_distance `$r$` and is
+/// kept above the min_separation `$\xi$`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Skin {
+pub struct ContactDistances {
     /// Half of the distance `$r$` below which two such surfaces push each other, in m.
-    pub reach: f64,
-    /// Half of the distance `$\xi$` that two such surfaces always keep, in m; below the reach.
-    pub separation: f64,
+    pub activation_distance: f64,
+    /// Half of the distance `$\xi$` that two such surfaces always keep, in m; below the activation_distance.
+    pub min_separation: f64,
 }
 
 /// What a [`Surface`] is made of: `n` vertices, of which the first `free` are cloth.
@@ -24,21 +24,21 @@ pub struct SurfaceParts {
     /// Three coordinates per vertex at rest, in m; of cloth, its flat panel.
     ///
     /// Distances at rest are taken within a group only, so groups may lie over each other.
-    pub rest: Vec<f64>,
+    pub rest_positions: Vec<f64>,
     /// Three vertices each, all of one group.
     pub triangles: Vec<[u32; 3]>,
     /// Area of cloth that each vertex stands for, in m²; that of a body's vertex is not used.
     pub areas: Vec<f64>,
     /// Which skin each vertex has; a panel or a body is a group.
-    pub group: Vec<u32>,
+    pub groups: Vec<u32>,
     /// One per group.
-    pub skins: Vec<Skin>,
+    pub distances: Vec<ContactDistances>,
     /// The vertices below this number move freely; those from it on belong to bodies and move as
-    /// prescribed. Pairs without a free vertex are never made.
-    pub free: usize,
-    /// Pairs of vertices that are sewn together: primitives that share a vertex through them do
+    /// prescribed. CandidatePairs without a free vertex are never made.
+    pub free_vertices: usize,
+    /// CandidatePairs of vertices that are sewn together: primitives that share a vertex through them do
     /// not touch.
-    pub twins: Vec<[u32; 2]>,
+    pub seam_pairs: Vec<[u32; 2]>,
     /// Vertices that are sewn to a place between two others, and these: such a vertex does not touch primitives with
     /// both.
     pub ties: Vec<[u32; 3]>,
@@ -53,7 +53,7 @@ pub struct Surface {
     triangles: Vec<[u32; 3]>,
     edges: Vec<[u32; 2]>,
     group: Vec<u32>,
-    skins: Vec<Skin>,
+    distances: Vec<ContactDistances>,
     free: usize,
     vertex_areas: Vec<f64>,
     edge_areas: Vec<f64>,
@@ -81,11 +81,20 @@ impl Surface {
     ///
     /// If a list has the wrong length, an index is out of range, a coordinate is not finite or
     /// beyond 1000 km, a triangle has no area, names a vertex twice or spans two groups, an area is
-    /// negative, a skin is not positive or its separation not below its reach, or two primitives
+    /// negative, a skin is not positive or its min_separation not below its activation_distance, or two primitives
     /// of one group that share no vertex touch at rest.
-    pub fn new(parts: SurfaceParts) -> Result<Surface, CollideError> {
+    pub fn new(parts: SurfaceParts) -> Result<Surface, Error> {
         check_parts(&parts)?;
-        let SurfaceParts { rest, triangles, areas, group, skins, free, twins, ties } = parts;
+        let SurfaceParts {
+            rest_positions: rest,
+            triangles,
+            areas,
+            groups: group,
+            distances,
+            free_vertices: free,
+            seam_pairs,
+            ties,
+        } = parts;
         let topology = Topology::new(&triangles);
         let triangle_areas = topology::areas_of_triangles(&rest, &triangles);
         // A body's vertices stand for the area of their triangles.
@@ -110,8 +119,8 @@ impl Surface {
         let edges: Vec<Entry> = topology.edges.iter().map(|edge| entry(edge)).collect();
         let faces: Vec<Entry> = triangles.iter().map(|triangle| entry(triangle)).collect();
         let lengths: Vec<f64> = topology.edges.iter().map(length_squared).collect();
-        let sizes = run_sizes(&edges, &lengths, skins.len());
-        let sewn = Sewn::new(areas.len(), &twins, &ties);
+        let sizes = run_sizes(&edges, &lengths, distances.len());
+        let sewn = Sewn::new(areas.len(), &seam_pairs, &ties);
         let edge_order = Order::new(&edges);
         let triangle_order = Order::new(&faces);
         let mut surface = Surface {
@@ -129,7 +138,7 @@ impl Surface {
             triangle_areas,
             triangles,
             group,
-            skins,
+            distances,
             free,
             close: Vec::new(),
             grips: Vec::new(),
@@ -140,12 +149,12 @@ impl Surface {
     }
 
     /// Number of vertices.
-    pub fn vertices(&self) -> usize {
+    pub fn vertex_count(&self) -> usize {
         self.group.len()
     }
 
     /// Number of free vertices, which come first.
-    pub fn free(&self) -> usize {
+    pub fn free_count(&self) -> usize {
         self.free
     }
 
@@ -162,7 +171,7 @@ impl Surface {
     /// Median length of the free edges at rest, in m; 0 without any.
     ///
     /// The edges of bodies do not count: those of a rounded box may be a hundred times shorter.
-    pub fn median_edge(&self) -> f64 {
+    pub fn median_edge_length(&self) -> f64 {
         let free = self.edges.iter().zip(&self.edge_lengths_squared);
         let free = free.filter(|(edge, _)| self.is_free(&edge[..]));
         let mut squares: Vec<f64> = free.map(|(_, square)| *square).collect();
@@ -171,8 +180,8 @@ impl Surface {
     }
 
     /// Half distances per group.
-    pub fn skins(&self) -> &[Skin] {
-        &self.skins
+    pub fn group_distances(&self) -> &[ContactDistances] {
+        &self.distances
     }
 
     /// Group of a vertex, and so of all primitives at it.
@@ -180,22 +189,22 @@ impl Surface {
         self.group[vertex as usize]
     }
 
-    /// Reach and separation of a pair of vertices or of primitives at them, in m, without regard
+    /// Reach and min_separation of a pair of vertices or of primitives at them, in m, without regard
     /// to their distance at rest.
-    pub fn distances(&self, a: u32, b: u32) -> Skin {
-        let [a, b] = [a, b].map(|v| self.skins[self.group(v) as usize]);
-        let (reach, separation) = (a.reach + b.reach, a.separation + b.separation);
-        Skin { reach: self.grown * reach, separation: self.grown * separation }
+    pub fn pair_distances(&self, a: u32, b: u32) -> ContactDistances {
+        let [a, b] = [a, b].map(|v| self.distances[self.group(v) as usize]);
+        let (activation_distance, min_separation) =
+            (a.activation_distance + b.activation_distance, a.min_separation + b.min_separation);
+        ContactDistances {
+            activation_distance: self.grown * activation_distance,
+            min_separation: self.grown * min_separation,
+        }
     }
 
-    pub(crate) fn check_positions(&self, positions: &[f64]) -> Result<(), CollideError> {
-        let needed = 3 * self.vertices();
+    pub(crate) fn check_positions(&self, positions: &[f64]) -> Result<(), Error> {
+        let needed = 3 * self.vertex_count();
         if positions.len() != needed {
-            return Err(CollideError::WrongLength {
-                what: "positions",
-                found: positions.len(),
-                needed,
-            });
+            return Err(Error::WrongLength { what: "positions", found: positions.len(), needed });
         }
         check_places("vertex", positions)
     }
@@ -248,66 +257,71 @@ fn classes_of<const N: usize>(order: &Order, items: &[[u32; N]], sewn: &Sewn) ->
     order.items.iter().map(classes).collect()
 }
 
-fn check_parts(parts: &SurfaceParts) -> Result<(), CollideError> {
+fn check_parts(parts: &SurfaceParts) -> Result<(), Error> {
     let vertices = parts.areas.len();
     let length = |what, found: usize, needed: usize| {
         if found == needed {
             return Ok(());
         }
-        Err(CollideError::WrongLength { what, found, needed })
+        Err(Error::WrongLength { what, found, needed })
     };
-    length("rest coordinates", parts.rest.len(), 3 * vertices)?;
-    length("groups", parts.group.len(), vertices)?;
-    let free = parts.free as f64;
-    check("the number of free vertices", free, "at most all", parts.free <= vertices)?;
-    check_places("rest position of vertex", &parts.rest)?;
-    for (k, skin) in parts.skins.iter().enumerate() {
-        let Skin { reach, separation } = *skin;
-        check(format!("the reach of skin {k} (m)"), reach, "above 0", reach > 0.0)?;
-        let what = format!("the separation of skin {k} (m)");
+    length("rest coordinates", parts.rest_positions.len(), 3 * vertices)?;
+    length("groups", parts.groups.len(), vertices)?;
+    let free = parts.free_vertices as f64;
+    check("the number of free vertices", free, "at most all", parts.free_vertices <= vertices)?;
+    check_places("rest position of vertex", &parts.rest_positions)?;
+    for (k, skin) in parts.distances.iter().enumerate() {
+        let ContactDistances { activation_distance, min_separation } = *skin;
+        check(
+            format!("the activation distance of group {k} (m)"),
+            activation_distance,
+            "above 0",
+            activation_distance > 0.0,
+        )?;
+        let what = format!("the minimum separation of group {k} (m)");
         check(
             what,
-            separation,
-            "above 0 and below its reach",
-            separation > 0.0 && separation < reach,
+            min_separation,
+            "above 0 and below its activation distance",
+            min_separation > 0.0 && min_separation < activation_distance,
         )?;
     }
-    for (vertex, &group) in parts.group.iter().enumerate() {
-        if group as usize >= parts.skins.len() {
-            return Err(CollideError::NoSuchSkin { vertex, group, skins: parts.skins.len() });
+    for (vertex, &group) in parts.groups.iter().enumerate() {
+        if group as usize >= parts.distances.len() {
+            return Err(Error::MissingGroup { vertex, group, groups: parts.distances.len() });
         }
     }
     let bad = |(_, area): &(usize, &f64)| !area.is_finite() || **area < 0.0;
     if let Some((particle, &area)) = parts.areas.iter().enumerate().find(bad) {
-        return Err(CollideError::BadArea { particle, area });
+        return Err(Error::InvalidArea { particle, area });
     }
     let out = |vertex: &&u32| **vertex as usize >= vertices;
-    let mut sewn = parts.twins.iter().flatten().chain(parts.ties.iter().flatten());
+    let mut sewn = parts.seam_pairs.iter().flatten().chain(parts.ties.iter().flatten());
     if let Some(&index) = sewn.find(out) {
-        return Err(CollideError::NoSuchTwin { index, vertices });
+        return Err(Error::MissingSeamVertex { index, vertices });
     }
     for (triangle, corners) in parts.triangles.iter().enumerate() {
         if let Some(&index) = corners.iter().find(out) {
-            return Err(CollideError::NoSuchVertex { triangle, index, vertices });
+            return Err(Error::MissingVertex { triangle, index, vertices });
         }
         check_triangle(parts, triangle)?;
     }
     Ok(())
 }
 
-fn check_triangle(parts: &SurfaceParts, triangle: usize) -> Result<(), CollideError> {
+fn check_triangle(parts: &SurfaceParts, triangle: usize) -> Result<(), Error> {
     let corners = parts.triangles[triangle];
     let [a, b, c] = corners;
     if a == b || b == c || c == a {
-        return Err(CollideError::RepeatedVertex { triangle, corners });
+        return Err(Error::RepeatedVertex { triangle, corners });
     }
-    let kind = |v: u32| (parts.group[v as usize], (v as usize) < parts.free);
+    let kind = |v: u32| (parts.groups[v as usize], (v as usize) < parts.free_vertices);
     if kind(a) != kind(b) || kind(b) != kind(c) {
-        return Err(CollideError::MixedTriangle { triangle, corners });
+        return Err(Error::MixedTriangle { triangle, corners });
     }
-    let places = corners.map(|v| at(&parts.rest, v as usize));
+    let places = corners.map(|v| at(&parts.rest_positions, v as usize));
     match topology::doubled_area(places) {
         Ok(_) => Ok(()),
-        Err(area) => Err(CollideError::FlatTriangle { triangle, place: places[0], area }),
+        Err(area) => Err(Error::FlatTriangle { triangle, place: places[0], area }),
     }
 }

@@ -1,24 +1,24 @@
 use rayon::prelude::*;
 
-use crate::course::Course;
+use crate::course::Sweep;
 use crate::detector::Detector;
-use crate::error::{CollideError, check};
-use crate::filter::Filter;
+use crate::error::{Error, check};
+use crate::filter::CcdFilter;
 use crate::gap::{Gap, Gradient};
 use crate::guards::Guards;
 use crate::margin::Margin;
 use crate::pair::Pair;
 use crate::pinch::Grip;
-use crate::slip::{Anchor, Slip};
+use crate::slip::{Anchor, FrictionEnergy, Slip};
 use crate::surface::Surface;
 use crate::surface_settings::SurfaceSettings;
 use crate::vector::{Block, at, norm, outer, subtract};
 use crate::way::longest_ways;
 
-/// Pairs that are looked at as one, whatever the number of threads.
+/// CandidatePairs that are looked at as one, whatever the number of threads.
 const CHUNK: usize = 256;
 
-/// Contact of a surface with itself and with bodies: barrier and friction, their forces and derivatives, and a guard
+/// ParticleContact of a surface with itself and with bodies: barrier and friction, their forces and derivatives, and a guard
 /// of the ways on which it moves.
 ///
 /// The free vertices are the caller's; those of the bodies lie behind them and go straight from where they are at the
@@ -28,7 +28,7 @@ pub struct SurfaceContact {
     pub(crate) surface: Surface,
     pub(crate) settings: SurfaceSettings,
     pub(crate) detector: Detector,
-    pub(crate) filter: Filter,
+    pub(crate) filter: CcdFilter,
     /// Where the bodies' vertices are at the start and at the end of the step, in m.
     pub(crate) bodies: [Vec<f64>; 2],
     pub(crate) progress: f64,
@@ -36,7 +36,7 @@ pub struct SurfaceContact {
     pub(crate) places: Vec<f64>,
     /// How far each vertex is there from where it was detected, in m.
     pub(crate) moved: Vec<f64>,
-    /// The pairs within their reach, of every chunk of the list.
+    /// The pairs within their activation_distance, of every chunk of the list.
     pub(crate) touching: Vec<Vec<Touching>>,
     /// How the free vertices met bodies when the last step was closed; empty if all did as usual.
     pub(crate) grips: Vec<Grip>,
@@ -47,7 +47,7 @@ pub struct SurfaceContact {
     slips: Vec<Slip>,
     anchors: Vec<Anchor>,
     /// What kept the last detection from being made.
-    pub(crate) failure: Option<CollideError>,
+    pub(crate) failure: Option<Error>,
     /// What of a step leads off the course of the pairs, in m.
     pub(crate) astray: Vec<f64>,
     pub(crate) margin: Margin,
@@ -55,7 +55,7 @@ pub struct SurfaceContact {
     pub(crate) longest: [f64; 2],
 }
 
-/// A pair within its reach.
+/// A pair within its activation_distance.
 #[derive(Debug, Clone)]
 pub(crate) struct Touching {
     pub(crate) pair: Pair,
@@ -73,38 +73,42 @@ pub struct SurfaceMemory {
 }
 
 impl SurfaceContact {
-    /// Contact of a surface whose bodies are at flat positions, in m.
+    /// ParticleContact of a surface whose bodies are at flat positions, in m.
     ///
     /// # Errors
-    /// Settings that are none, or bodies with another number of vertices.
+    /// ParticleSettings that are none, or bodies with another number of vertices.
     pub fn new(
         surface: Surface,
         settings: SurfaceSettings,
         bodies: Vec<f64>,
-    ) -> Result<SurfaceContact, CollideError> {
+    ) -> Result<SurfaceContact, Error> {
         let positive = |what: &str, value: f64| check(what, value, "above 0", value > 0.0);
         positive("the contact stiffness (N/m³)", settings.stiffness)?;
-        positive("the way before sliding (m)", settings.stick)?;
-        let groups = surface.skins().len();
-        let prescribed = 3 * (surface.vertices() - surface.free());
+        positive("the way before sliding (m)", settings.sticking_displacement)?;
+        let groups = surface.group_distances().len();
+        let prescribed = 3 * (surface.vertex_count() - surface.free_count());
         for (what, needed, found) in [
-            ("coefficients of friction", groups * groups, settings.friction.len()),
+            ("coefficients of friction", groups * groups, settings.friction_coefficients.len()),
             ("coordinates of bodies", prescribed, bodies.len()),
         ] {
             if needed != found {
-                return Err(CollideError::WrongLength { what, found, needed });
+                return Err(Error::WrongLength { what, found, needed });
             }
         }
-        for &coefficient in &settings.friction {
+        for &coefficient in &settings.friction_coefficients {
             check("a coefficient of friction", coefficient, "0 or more", coefficient >= 0.0)?;
         }
-        let reach = surface.skins().iter().map(|skin| skin.reach).fold(0.0, f64::max);
-        let edge = surface.median_edge();
+        let activation_distance = surface
+            .group_distances()
+            .iter()
+            .map(|skin| skin.activation_distance)
+            .fold(0.0, f64::max);
+        let edge = surface.median_edge_length();
         Ok(SurfaceContact {
             surface,
             settings,
             detector: Detector::default(),
-            filter: Filter::default(),
+            filter: CcdFilter::default(),
             bodies: [bodies.clone(), bodies],
             progress: 1.0,
             places: Vec::new(),
@@ -117,8 +121,8 @@ impl SurfaceContact {
             anchors: Vec::new(),
             failure: None,
             astray: Vec::new(),
-            margin: Margin::new(reach, edge),
-            longest: longest_ways(edge, reach),
+            margin: Margin::new(activation_distance, edge),
+            longest: longest_ways(edge, activation_distance),
         })
     }
 
@@ -134,12 +138,12 @@ impl SurfaceContact {
     }
 
     /// Where the vertices of the bodies were when the last step was closed, in m.
-    pub fn bodies(&self) -> &[f64] {
+    pub fn body_positions(&self) -> &[f64] {
         &self.bodies[0]
     }
 
     /// What kept the last detection from being made: forces are then NaN.
-    pub fn failure(&self) -> Option<&CollideError> {
+    pub fn failure(&self) -> Option<&Error> {
         self.failure.as_ref()
     }
 
@@ -153,12 +157,12 @@ impl SurfaceContact {
         self.slips.clear();
         self.grip(start);
         self.look(start);
-        let groups = self.surface.skins().len();
+        let groups = self.surface.group_distances().len();
         let mut slips = std::mem::take(&mut self.slips);
         for Touching { pair, gap } in self.touching() {
             let [a, b] = [pair.vertices[0], pair.vertices[3]];
             let [a, b] = [a, b].map(|vertex| self.surface.group(vertex) as usize);
-            let coefficient = self.settings.friction[a * groups + b];
+            let coefficient = self.settings.friction_coefficients[a * groups + b];
             let limit = coefficient * gap.normal_force(self.settings.stiffness);
             if limit > 0.0 {
                 slips.push(Slip::new(pair, (gap, &self.places), limit, &self.anchors));
@@ -168,7 +172,7 @@ impl SurfaceContact {
     }
 
     /// Puts the bodies to a part of their way in the open step, from 0 to 1.
-    pub fn arrive(&mut self, progress: f64) {
+    pub fn set_obstacle_time(&mut self, progress: f64) {
         self.progress = progress;
     }
 
@@ -176,7 +180,7 @@ impl SurfaceContact {
     pub fn commit(&mut self, positions: &[f64]) {
         self.progress = 1.0;
         self.look(positions);
-        let stick = self.settings.stick;
+        let stick = self.settings.sticking_displacement;
         self.anchors.clear();
         self.anchors.extend(self.slips.iter().map(|slip| slip.kept(&self.places, stick)));
         let [start, end] = &mut self.bodies;
@@ -227,7 +231,7 @@ impl SurfaceContact {
     /// their way.
     pub fn body_work(&mut self, positions: &[f64]) -> f64 {
         self.look(positions);
-        let free = 3 * self.surface.free();
+        let free = 3 * self.surface.free_count();
         let [start, end] = &self.bodies;
         let mut work = 0.0;
         self.each_gradient(|vertices, gradient| {
@@ -252,7 +256,10 @@ impl SurfaceContact {
             visit(&touching.pair.vertices, gradient);
         }
         for slip in &self.slips {
-            visit(&slip.vertices, &slip.gradient(&self.places, self.settings.stick));
+            visit(
+                &slip.vertices,
+                &slip.gradient(&self.places, self.settings.sticking_displacement),
+            );
         }
     }
 
@@ -262,7 +269,7 @@ impl SurfaceContact {
         if self.failure.is_some() {
             return f64::NAN;
         }
-        self.barrier() + self.friction()[0]
+        self.barrier() + self.friction_energy().potential
     }
 
     /// Energy of the barriers at the places looked at last, in J.
@@ -273,10 +280,14 @@ impl SurfaceContact {
 
     /// Potential of friction at the places looked at last, and the part of it that is lost if the step ends there,
     /// in J.
-    pub fn friction(&self) -> [f64; 2] {
-        self.slips.iter().fold([0.0; 2], |[sum, lost], slip| {
-            let [energy, more] = slip.energy(&self.places, self.settings.stick);
-            [sum + energy, lost + more]
+    pub fn friction_energy(&self) -> FrictionEnergy {
+        let stick = self.settings.sticking_displacement;
+        self.slips.iter().fold(FrictionEnergy::default(), |sum, slip| {
+            let FrictionEnergy { potential, dissipated } = slip.energy(&self.places, stick);
+            FrictionEnergy {
+                potential: sum.potential + potential,
+                dissipated: sum.dissipated + dissipated,
+            }
         })
     }
 
@@ -286,7 +297,7 @@ impl SurfaceContact {
     /// It is the part without negative eigenvalues: with the exact one a stack of sheets took no fewer iterations.
     pub fn add_stiffness(&mut self, positions: &[f64], add: &mut dyn FnMut([usize; 2], &[f64; 9])) {
         self.look(positions);
-        let free = self.surface.free();
+        let free = self.surface.free_count();
         // Both are blocks times the weights of two vertices.
         let mut hand_over = |vertices: [u32; 4], weights: [f64; 4], block: &Block| {
             for a in 0..4 {
@@ -300,12 +311,12 @@ impl SurfaceContact {
             }
         };
         for Touching { pair, gap } in self.touching() {
-            let curvature = gap.definite(self.settings.stiffness).0;
+            let curvature = gap.gauss_newton(self.settings.stiffness).factor;
             let block = outer(gap.normal()).map(|entry| curvature * entry);
             hand_over(pair.vertices, gap.weights(), &block);
         }
         for slip in &self.slips {
-            let block = slip.stiffness(&self.places, self.settings.stick);
+            let block = slip.stiffness(&self.places, self.settings.sticking_displacement);
             hand_over(slip.vertices, slip.weights, &block);
         }
     }
@@ -330,9 +341,9 @@ impl SurfaceContact {
         self.failure = None;
         self.touching.iter_mut().for_each(Vec::clear);
         self.detector.follow(&places);
-        // Within half of the margin to both sides no pair comes into reach that was not found.
+        // Within half of the margin to both sides no pair comes into activation_distance that was not found.
         if !(self.stray(&places) <= 0.5 * self.detector.pairs().margin()) {
-            self.failure = self.detect(&places, Course::Still).err();
+            self.failure = self.detect(&places, Sweep::Still).err();
             self.moved.fill(0.0);
         }
         self.places = places;
@@ -342,12 +353,12 @@ impl SurfaceContact {
         let (places, moved) = (&self.places, &self.moved);
         let barrier = self.filter.guards.barrier;
         let near = |pair: &Pair| {
-            if pair.distance - pair.most(moved) >= pair.reach || !barrier {
+            if pair.distance - pair.most(moved) >= pair.activation_distance || !barrier {
                 return None;
             }
             let gap = Gap::new(pair, places);
             // Written so that NaN counts as near.
-            (!(gap.distance() >= pair.reach)).then_some(Touching { pair: *pair, gap })
+            (!(gap.distance() >= pair.activation_distance)).then_some(Touching { pair: *pair, gap })
         };
         let chunks = self.detector.pairs().as_slice().par_chunks(CHUNK);
         self.touching.resize_with(chunks.len(), Vec::new);
@@ -355,20 +366,16 @@ impl SurfaceContact {
         chunks.zip(lists).for_each(|(pairs, list)| list.extend(pairs.iter().filter_map(near)));
     }
 
-    /// The pairs within their reach at the places looked at last.
+    /// The pairs within their activation_distance at the places looked at last.
     pub(crate) fn touching(&self) -> impl Iterator<Item = &Touching> {
         self.touching.iter().flatten()
     }
 
     /// Detects the pairs that are near each other at places or on a course from there, and how widely to look next.
-    pub(crate) fn detect(
-        &mut self,
-        places: &[f64],
-        course: Course<'_>,
-    ) -> Result<(), CollideError> {
+    pub(crate) fn detect(&mut self, places: &[f64], course: Sweep<'_>) -> Result<(), Error> {
         let margin = self.margin.value();
-        let found = self.detector.detect_along(&self.surface, (places, course), margin)?;
-        self.margin.follow(found.as_slice().len(), self.surface.vertices());
+        let found = self.detector.detect_swept(&self.surface, (places, course), margin)?;
+        self.margin.follow(found.as_slice().len(), self.surface.vertex_count());
         Ok(())
     }
 

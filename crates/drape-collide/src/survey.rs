@@ -1,8 +1,8 @@
-use crate::contact::Contact;
+use crate::contact::ParticleContact;
 
 /// How the cloth lies to the bodies.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Survey {
+pub struct ParticleSummary {
     /// Number of particles within the offset of at least one body.
     pub touching: usize,
     /// Number of particles inside at least one body.
@@ -12,18 +12,27 @@ pub struct Survey {
     /// Smallest signed distance of a particle from a body, in m; infinite if there is none.
     pub min_distance: f64,
     /// The particle and the body of the smallest distance.
-    pub nearest: Option<(usize, usize)>,
+    pub nearest: Option<NearestParticle>,
     /// Force of the cloth on each body, friction of the open step included, in N.
     pub loads: Vec<[f64; 3]>,
 }
 
-impl Contact {
+/// The particle with the smallest distance from a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NearestParticle {
+    /// The particle, from 0.
+    pub particle: usize,
+    /// The body, in the order in which they were given.
+    pub body: usize,
+}
+
+impl ParticleContact {
     /// Counts, distances and loads at given positions.
     ///
     /// # Panics
     ///
     /// If there are not three coordinates per particle.
-    pub fn survey(&self, positions: &[f64]) -> Survey {
+    pub fn summary(&self, positions: &[f64]) -> ParticleSummary {
         let mut current = self.clone();
         current.detect(positions);
         let (mut touching, mut inside) = (Counter::default(), Counter::default());
@@ -47,12 +56,12 @@ impl Contact {
         });
         let finite = |point: &&[f64]| point.iter().all(|value| value.is_finite());
         let points = positions.chunks(3);
-        Survey {
+        ParticleSummary {
             touching: touching.total,
             inside: inside.total,
             invalid: points.len() - points.filter(finite).count(),
             min_distance: best.map_or(f64::INFINITY, |(distance, ..)| distance),
-            nearest: best.map(|(_, particle, body)| (particle, body)),
+            nearest: best.map(|(_, particle, body)| NearestParticle { particle, body }),
             loads,
         }
     }

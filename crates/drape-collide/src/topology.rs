@@ -90,12 +90,12 @@ pub(crate) fn middle(rest: &[f64], vertices: &[u32]) -> Vector {
     scale(sum, 1.0 / vertices.len() as f64)
 }
 
-/// The smallest vertex of those that twins join, directly or through others, for each vertex.
+/// The smallest vertex of those that seam_pairs join, directly or through others, for each vertex.
 ///
 /// # Panics
 /// If a twin is not among the vertices.
 #[must_use]
-pub fn classes(vertices: usize, twins: &[[u32; 2]]) -> Vec<u32> {
+pub fn equivalence_classes(vertices: usize, seam_pairs: &[[u32; 2]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..vertices as u32).collect();
     let root = |parent: &[u32], mut vertex: u32| {
         while parent[vertex as usize] != vertex {
@@ -103,7 +103,7 @@ pub fn classes(vertices: usize, twins: &[[u32; 2]]) -> Vec<u32> {
         }
         vertex
     };
-    for &[a, b] in twins {
+    for &[a, b] in seam_pairs {
         let (a, b) = (root(&parent, a), root(&parent, b));
         parent[a.max(b) as usize] = a.min(b);
     }

@@ -1,10 +1,17 @@
 use crate::body::{Body, Shape};
-use crate::error::CollideError;
+use crate::error::Error;
 use crate::mesh::{Surface, weld};
 use crate::vector::{Vector, add, cross, norm, scale, subtract};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
-impl Outline {
+impl Triangulation {
+    /// The same with coordinates multiplied by a factor, such as m per unit of a file.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Triangulation {
+        self.vertices.iter_mut().flatten().for_each(|value| *value *= factor);
+        self
+    }
+
     /// Unit normals of the vertices, outward: of each the mean of those of its triangles, by their area.
     #[must_use]
     pub fn normals(&self) -> Vec<[f64; 3]> {
@@ -29,7 +36,7 @@ const PLANE_HALF: f64 = 2.0;
 
 /// The surface of a body as triangles.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Outline {
+pub struct Triangulation {
     /// Vertices, in m.
     pub vertices: Vec<[f64; 3]>,
     /// Three vertex numbers each, counter-clockwise from outside.
@@ -41,7 +48,7 @@ impl Body {
     ///
     /// A mesh gives its own triangles. Curved surfaces are inscribed: their vertices lie on the
     /// body. Of a plane there is a square of 4 m about the body's position.
-    pub fn triangulate(&self) -> Result<Outline, CollideError> {
+    pub fn triangulate(&self) -> Result<Triangulation, Error> {
         let frame = self.check()?;
         let (vertices, triangles) = match &self.shape {
             Shape::Sphere { radius } => cuboid([0.0; 3], *radius)?,
@@ -59,7 +66,7 @@ impl Body {
             Shape::Mesh(mesh) => (mesh.vertices(), mesh.triangles().to_vec()),
         };
         let placed = vertices.into_iter().map(|v| frame.to_world(v)).collect();
-        Ok(Outline { vertices: placed, triangles })
+        Ok(Triangulation { vertices: placed, triangles })
     }
 }
 
@@ -84,7 +91,7 @@ fn lines(extent: f64, edge_radius: f64) -> Vec<Line> {
 }
 
 /// A box with rounded edges, or a ball if its core is a point: six sides of a grid each.
-fn cuboid(core: Vector, edge_radius: f64) -> Result<Surface, CollideError> {
+fn cuboid(core: Vector, edge_radius: f64) -> Result<Surface, Error> {
     let mut vertices: Vec<Vector> = Vec::new();
     let mut triangles = Vec::new();
     for axis in 0..3 {
@@ -110,7 +117,7 @@ fn cuboid(core: Vector, edge_radius: f64) -> Result<Surface, CollideError> {
 }
 
 /// A cylinder as a profile in the plane of radius and height, turned about y.
-fn cylinder(core: [f64; 2], edge_radius: f64) -> Result<Surface, CollideError> {
+fn cylinder(core: [f64; 2], edge_radius: f64) -> Result<Surface, Error> {
     let rim = |k: usize| {
         let (sine, cosine) = (FRAC_PI_2 * k as f64 / QUARTER as f64).sin_cos();
         (core[0] + edge_radius * sine, core[1] + edge_radius * cosine)

@@ -1,7 +1,7 @@
-use crate::error::CollideError;
-use crate::filter::{CHUNK, CLOSED, Filter, Step};
+use crate::error::Error;
+use crate::filter::{CHUNK, CLOSED, CcdFilter, Step};
 use crate::pair::Pair;
-use crate::pairs::Pairs;
+use crate::pairs::CandidatePairs;
 use crate::plane::{Planes, Slab};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -16,35 +16,35 @@ const ROUNDED: f64 = 0.95;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Truncation {
     /// Share of their way that the bodies go, all alike.
-    pub bodies: f64,
+    pub body_fraction: f64,
     /// The smallest share of its way that a vertex goes.
-    pub least: f64,
+    pub least_fraction: f64,
     /// Vertices that do not go all their way.
     pub shortened: usize,
     /// Vertices that the budget holds back: detect again before the next step.
-    pub exhausted: usize,
-    /// Pairs so near their separation that their vertices may not approach.
+    pub at_drift_budget: usize,
+    /// CandidatePairs so near their min_separation that their vertices may not approach.
     pub frozen: usize,
 }
 
-impl Filter {
+impl CcdFilter {
     /// Shortens the way of each vertex by as much as its own pairs ask for, in place.
     ///
     /// Divide and truncate: two parallel planes between the closest points of a pair, as far apart
-    /// as the separation, divide the room between them by how fast either side approaches. Each
+    /// as the min_separation, divide the room between them by how fast either side approaches. Each
     /// vertex stays on its side of all its planes, so what one does cannot hurt the proof of
     /// another, and the step loses its direction only where something is near. The vertices of
     /// bodies go the same share of their way.
     ///
     /// # Errors
     ///
-    /// As of [`scalar`](Filter::scalar).
+    /// As of [`scalar`](CcdFilter::common_fraction).
     pub fn truncate(
         &mut self,
-        pairs: &Pairs,
+        pairs: &CandidatePairs,
         positions: &[f64],
         displacements: &mut [f64],
-    ) -> Result<Truncation, CollideError> {
+    ) -> Result<Truncation, Error> {
         let vertices = positions.len() / 3;
         let step = self.begin(pairs, (positions, displacements), false)?;
         self.shares.resize_with(vertices, AtomicU64::default);
@@ -72,10 +72,10 @@ impl Filter {
         self.take_back(pairs, positions, displacements);
         let shares = (0..vertices).map(|vertex| self.share(vertex));
         Ok(Truncation {
-            bodies: self.least(pairs.free..vertices),
-            least: self.least(0..vertices),
+            body_fraction: self.least(pairs.free..vertices),
+            least_fraction: self.least(0..vertices),
             shortened: shares.filter(|share| *share < 1.0).count(),
-            exhausted,
+            at_drift_budget: exhausted,
             frozen,
         })
     }
@@ -103,7 +103,7 @@ impl Filter {
         }
         let places = pair.places(step.positions);
         let slab = Slab::new(pair, places);
-        let opening = slab.opening(pair.separation);
+        let opening = slab.opening(pair.min_separation);
         let approaches = slab.approaches(pair, step.ways(pair));
         let first = pair.first();
         let fastest = |list: &[f64]| list.iter().fold(0.0, |a: f64, b| a.max(*b));
@@ -120,7 +120,8 @@ impl Filter {
             high: slab.high + ROUNDED * room[1],
         };
         // Written so that NaN freezes.
-        let open = opening > step.smallest && Slab::holds(planes.low, planes.high, pair.separation);
+        let open =
+            opening > step.smallest && Slab::holds(planes.low, planes.high, pair.min_separation);
         if !open {
             self.freeze(pair, &slab, (planes, approaches));
             return true;
@@ -156,7 +157,7 @@ impl Filter {
     /// Takes vertices back that are not surely on their side of a plane where they end.
     ///
     /// The planes hold at the start, so going back hurts no other pair.
-    fn take_back(&self, pairs: &Pairs, positions: &[f64], displacements: &mut [f64]) {
+    fn take_back(&self, pairs: &CandidatePairs, positions: &[f64], displacements: &mut [f64]) {
         let chunks = pairs.as_slice().par_chunks(CHUNK).zip(self.planes.par_chunks(CHUNK));
         chunks.for_each(|(pairs, planes)| {
             for (pair, planes) in pairs.iter().zip(planes).filter(|(_, planes)| !planes.is_none()) {

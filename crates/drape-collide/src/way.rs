@@ -1,7 +1,7 @@
 //! How far a step of surfaces may go.
 
-use crate::course::Course;
-use crate::error::CollideError;
+use crate::course::Sweep;
+use crate::error::Error;
 use crate::filter::BUDGET;
 use crate::surface_contact::SurfaceContact;
 use crate::vector::{at, norm, scale};
@@ -15,8 +15,23 @@ const LONGEST: [f64; 2] = [4.0, 0.5];
 const LOCKED: f64 = 0.2;
 
 /// The longest ways of a step for edges of a length and the distance at which surfaces push, in m; see [`LONGEST`].
-pub(crate) fn longest_ways(edge: f64, reach: f64) -> [f64; 2] {
-    LONGEST.map(|edges| (edges * edge).max(reach))
+pub(crate) fn longest_ways(edge: f64, activation_distance: f64) -> [f64; 2] {
+    LONGEST.map(|edges| (edges * edge).max(activation_distance))
+}
+
+/// A step that a solver is about to take, of the free vertices and of the bodies.
+#[derive(Debug)]
+pub struct SurfaceStep<'a> {
+    /// Positions of the free vertices, in m.
+    pub from: &'a [f64],
+    /// Their displacements, in m.
+    pub displacements: &'a mut [f64],
+    /// The free vertices that move by prescription, as the bodies do.
+    pub held: &'a [usize],
+    /// Fraction of the bodies' motion in the open step that is done, from 0 to 1.
+    pub progress: f64,
+    /// Fraction of it that the step adds.
+    pub advance: &'a mut f64,
 }
 
 impl SurfaceContact {
@@ -25,12 +40,8 @@ impl SurfaceContact {
     ///
     /// The step is shortened for all vertices alike or, where that would leave little of it, vertex by vertex. The
     /// bodies and the free vertices that are held go a common share of their way.
-    pub fn allow(
-        &mut self,
-        (from, step): (&[f64], &mut [f64]),
-        held: &[usize],
-        (progress, advance): (f64, &mut f64),
-    ) -> bool {
+    pub fn limit_step(&mut self, step: SurfaceStep<'_>) -> bool {
+        let SurfaceStep { from, displacements: step, held, progress, advance } = step;
         if !self.filter.guards.filter {
             return true;
         }
@@ -59,10 +70,10 @@ impl SurfaceContact {
         places: &[f64],
         moves: &mut [f64],
         held: &[usize],
-    ) -> Result<Option<f64>, CollideError> {
+    ) -> Result<Option<f64>, Error> {
         let whole = moves.to_vec();
         let shared = self.cover(places, moves, true)?;
-        let fraction = self.filter.scalar(self.detector.pairs(), places, moves)?.value;
+        let fraction = self.filter.common_fraction(self.detector.pairs(), places, moves)?.value;
         if fraction >= 1.0 {
             return Ok((shared < 1.0).then_some(shared));
         }
@@ -73,12 +84,12 @@ impl SurfaceContact {
         moves.copy_from_slice(&whole);
         self.cover(places, moves, false)?;
         self.filter.truncate(self.detector.pairs(), places, moves)?;
-        let free = 3 * self.surface.free();
+        let free = 3 * self.surface.free_count();
         let went = |vertex: usize| {
             let [after, before] = [norm(at(moves, vertex)), norm(at(&whole, vertex))];
             if before > 0.0 { after / before } else { 1.0 }
         };
-        let bodies = self.surface.free()..moves.len() / 3;
+        let bodies = self.surface.free_count()..moves.len() / 3;
         let share = held.iter().copied().chain(bodies).map(went).fold(1.0, f64::min);
         // Less of a safe way is safe too.
         let prescribed = held.iter().flat_map(|vertex| 3 * vertex..3 * vertex + 3);
@@ -90,12 +101,7 @@ impl SurfaceContact {
 
     /// Detects the pairs that can meet on the ways of all vertices, if those at hand do not do. Shortens ways that are
     /// too long for that, together or each by itself; returns the share that is left of the longest.
-    fn cover(
-        &mut self,
-        places: &[f64],
-        moves: &mut [f64],
-        together: bool,
-    ) -> Result<f64, CollideError> {
+    fn cover(&mut self, places: &[f64], moves: &mut [f64], together: bool) -> Result<f64, Error> {
         let farthest = longest(moves);
         let most = self.longest[usize::from(!together)];
         let share = if farthest > most { most / farthest } else { 1.0 };
@@ -109,7 +115,7 @@ impl SurfaceContact {
         // Written so that NaN detects anew.
         let near = self.stray(places) + farthest <= BUDGET * self.detector.pairs().margin();
         if !near && self.filter.guards.cover {
-            let course = if together { Course::Together(moves) } else { Course::Each(moves) };
+            let course = if together { Sweep::Common(moves) } else { Sweep::Individual(moves) };
             self.detect(places, course)?;
         }
         Ok(share)

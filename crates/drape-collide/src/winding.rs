@@ -19,9 +19,9 @@ impl Surface {
 impl SurfaceContact {
     /// Whether a free vertex is in a body, for the free vertices' positions, in m.
     #[must_use]
-    pub fn is_inside(&self, vertex: usize, positions: &[f64]) -> bool {
+    pub fn is_inside_body(&self, vertex: usize, positions: &[f64]) -> bool {
         let places = self.all(positions, self.progress);
-        let bodies = self.surface.free()..self.surface.vertices();
+        let bodies = self.surface.free_count()..self.surface.vertex_count();
         let mut groups: Vec<u32> = bodies.map(|v| self.surface.group(v as u32)).collect();
         groups.dedup();
         groups.iter().any(|&group| self.surface.encloses(group, at(&places, vertex), &places))

@@ -4,13 +4,14 @@
 
 mod support;
 
-use drape_collide::{Body, Contact, Pose, Settings, Shape};
+use drape_collide::{Body, NearestParticle, ParticleContact, ParticleSettings, Pose, Shape};
 use support::{Dice, derivative, meshed, norm, primitives};
 
 const AREA: f64 = 4e-4;
 
 /// Slip of 1 mm at a step of 10 ms, so that one difference step suits barrier and friction.
-const SLIPPERY: Settings = Settings { offset: 1e-3, stiffness: 2e6, slip_speed: 0.1 };
+const SLIPPERY: ParticleSettings =
+    ParticleSettings { activation_distance: 1e-3, stiffness: 2e6, slip_speed: 0.1 };
 
 /// A particle at each of several distances over a random place of the surface.
 fn near(body: &Body, seed: u64) -> Vec<f64> {
@@ -18,24 +19,24 @@ fn near(body: &Body, seed: u64) -> Vec<f64> {
     let mut positions = Vec::new();
     for distance in [9e-4, 7e-4, 3e-4, 1.5e-4, 5e-5, -4e-4] {
         let point = dice.point(0.5);
-        let proximity = body.proximity(point).unwrap();
+        let proximity = body.signed_distance(point).unwrap();
         let way = distance - proximity.distance;
         positions.extend([0, 1, 2].map(|k| point[k] + way * proximity.normal[k]));
     }
     positions
 }
 
-fn forces(contact: &mut Contact, positions: &[f64]) -> Vec<f64> {
+fn forces(contact: &mut ParticleContact, positions: &[f64]) -> Vec<f64> {
     let mut forces = vec![0.0; positions.len()];
     contact.add_forces(positions, &mut forces);
     forces
 }
 
-/// Contact of a body with the particles of `near`, in a step in which they slipped.
-fn slipping(body: &Body, seed: u64) -> (Contact, Vec<f64>) {
+/// ParticleContact of a body with the particles of `near`, in a step in which they slipped.
+fn slipping(body: &Body, seed: u64) -> (ParticleContact, Vec<f64>) {
     let start = near(body, seed);
     let mut contact =
-        Contact::new(vec![body.clone()], SLIPPERY, vec![AREA; start.len() / 3]).unwrap();
+        ParticleContact::new(vec![body.clone()], SLIPPERY, vec![AREA; start.len() / 3]).unwrap();
     contact.begin(&start, 0.01);
     let mut dice = Dice::new(seed + 100);
     // From a tenth of the sticking slip to three times it.
@@ -49,7 +50,7 @@ fn slipping(body: &Body, seed: u64) -> (Contact, Vec<f64>) {
 fn all_bodies() -> Vec<Body> {
     let mut bodies = primitives();
     let ball = meshed(Shape::Sphere { radius: 0.3 });
-    let pose = Pose::new([0.05, 0.0, 0.0]).turned([0.3, 1.0, 0.0], 0.4);
+    let pose = Pose::new([0.05, 0.0, 0.0]).rotated([0.3, 1.0, 0.0], 0.4);
     bodies.push(Body::new("meshed ball", Shape::Mesh(ball), pose).with_friction(0.3));
     bodies
 }
@@ -128,7 +129,7 @@ fn the_definite_stiffness_never_softens() {
 fn energy_and_force_do_not_jump_across_features() {
     // A circle around each body through the middle of the gap crosses faces, edges and corners.
     for body in all_bodies() {
-        let mut contact = Contact::new(vec![body.clone()], SLIPPERY, vec![AREA]).unwrap();
+        let mut contact = ParticleContact::new(vec![body.clone()], SLIPPERY, vec![AREA]).unwrap();
         let mut last: Option<([f64; 3], f64, Vec<f64>)> = None;
         for k in 0..20_000 {
             let angle = k as f64 * 1e-3;
@@ -136,7 +137,7 @@ fn energy_and_force_do_not_jump_across_features() {
             // Down to half the offset by the distance itself.
             let mut point = far;
             for _ in 0..10 {
-                let proximity = body.proximity(point).unwrap();
+                let proximity = body.signed_distance(point).unwrap();
                 let way = 5e-4 - proximity.distance;
                 point = [0, 1, 2].map(|k| point[k] + way * proximity.normal[k]);
             }
@@ -160,22 +161,22 @@ fn energy_and_force_do_not_jump_across_features() {
 
 #[test]
 fn a_resting_load_of_five_kilopascal_stays_outside() {
-    let settings = Settings::default();
-    let depth = 0.1 * settings.offset;
+    let settings = ParticleSettings::default();
+    let depth = 0.1 * settings.activation_distance;
     let pressure = settings.pressure(depth);
     assert!((pressure - 5000.0).abs() < 1e-6, "{pressure} Pa at a tenth of the gap");
     let last = settings.pressure(0.0);
     assert!((last - 10_000.0).abs() < 1e-6, "{last} Pa at the surface");
-    assert_eq!(settings.pressure(settings.offset), 0.0);
+    assert_eq!(settings.pressure(settings.activation_distance), 0.0);
 }
 
 #[test]
 fn nothing_acts_out_of_reach() {
     for body in all_bodies() {
-        let proximity = body.proximity([1.0, 1.0, 1.0]).unwrap();
+        let proximity = body.signed_distance([1.0, 1.0, 1.0]).unwrap();
         let way = 1.0001e-3 - proximity.distance;
         let point = [0, 1, 2].map(|k| 1.0 + way * proximity.normal[k]);
-        let mut contact = Contact::new(vec![body], SLIPPERY, vec![AREA]).unwrap();
+        let mut contact = ParticleContact::new(vec![body], SLIPPERY, vec![AREA]).unwrap();
         contact.begin(&point, 0.01);
         assert_eq!(forces(&mut contact, &point), [0.0; 3]);
         assert_eq!(contact.potential(&point), 0.0);
@@ -188,47 +189,47 @@ fn what_the_cloth_gets_the_bodies_give() {
         Body::new("floor", Shape::Plane, Pose::default()).with_friction(0.5),
         Body::new("ball", Shape::Sphere { radius: 0.1 }, Pose::new([0.0, 0.1, 0.0])),
     ];
-    let mut contact = Contact::new(bodies, SLIPPERY, vec![AREA; 4]).unwrap();
+    let mut contact = ParticleContact::new(bodies, SLIPPERY, vec![AREA; 4]).unwrap();
     // On the floor, on the ball, below the floor, far off.
     let mut positions = vec![0.5, 5e-4, 0.0, 0.0, 0.2005, 0.0, 0.3, -1e-3, 0.2, 0.0, 3.0, 0.0];
     contact.begin(&positions, 0.01);
     positions[0] += 3e-4;
     positions[6] -= 2e-3;
     let all = forces(&mut contact, &positions);
-    let survey = contact.survey(&positions);
-    assert_eq!((survey.touching, survey.inside, survey.invalid), (3, 1, 0));
-    assert_eq!(survey.nearest, Some((2, 0)));
-    assert!((survey.min_distance + 1e-3).abs() < 1e-15, "{}", survey.min_distance);
+    let summary = contact.summary(&positions);
+    assert_eq!((summary.touching, summary.inside, summary.invalid), (3, 1, 0));
+    assert_eq!(summary.nearest, Some(NearestParticle { particle: 2, body: 0 }));
+    assert!((summary.min_distance + 1e-3).abs() < 1e-15, "{}", summary.min_distance);
     for axis in 0..3 {
-        let given: f64 = survey.loads.iter().map(|load| load[axis]).sum();
+        let given: f64 = summary.loads.iter().map(|load| load[axis]).sum();
         let taken: f64 = all.iter().skip(axis).step_by(3).sum();
         let size: f64 = all.iter().map(|f| f.abs()).sum();
         let miss = (given + taken).abs() / size;
         assert!(miss < 1e-15, "axis {axis}: {given} given, {taken} taken");
     }
-    assert!(survey.loads[0][0].abs() > 0.0, "friction must load the floor");
+    assert!(summary.loads[0][0].abs() > 0.0, "friction must load the floor");
 }
 
 #[test]
-fn a_survey_without_touch_finds_the_nearest() {
+fn a_summary_without_touch_finds_the_nearest() {
     let bodies = all_bodies();
-    let contact = Contact::new(bodies.clone(), SLIPPERY, vec![AREA; 50]).unwrap();
+    let contact = ParticleContact::new(bodies.clone(), SLIPPERY, vec![AREA; 50]).unwrap();
     let mut dice = Dice::new(9);
     let positions: Vec<f64> = (0..50).flat_map(|_| dice.point(1.0).map(|x| x + 3.0)).collect();
-    let survey = contact.survey(&positions);
+    let summary = contact.summary(&positions);
     let all = positions.chunks(3).flat_map(|p| {
         let point = [p[0], p[1], p[2]];
-        bodies.iter().map(move |body| body.proximity(point).unwrap().distance)
+        bodies.iter().map(move |body| body.signed_distance(point).unwrap().distance)
     });
     let least = all.fold(f64::INFINITY, f64::min);
-    assert_eq!(survey.min_distance, least);
-    assert_eq!(survey.touching, 0);
+    assert_eq!(summary.min_distance, least);
+    assert_eq!(summary.touching, 0);
 }
 
 #[test]
 fn a_lost_position_is_never_taken_for_free_space() {
     for body in all_bodies() {
-        let mut contact = Contact::new(vec![body], SLIPPERY, vec![AREA; 2]).unwrap();
+        let mut contact = ParticleContact::new(vec![body], SLIPPERY, vec![AREA; 2]).unwrap();
         let mut positions = vec![5.0; 6];
         contact.begin(&positions, 0.01);
         positions[4] = f64::NAN;
@@ -243,8 +244,8 @@ fn a_lost_position_is_never_taken_for_free_space() {
             lost |= particle == 1 && block.iter().all(|b| b.is_nan());
         });
         assert!(lost, "the stiffness hides it");
-        let survey = contact.survey(&positions);
-        assert_eq!((survey.invalid, survey.touching, survey.inside), (1, 0, 0));
+        let summary = contact.summary(&positions);
+        assert_eq!((summary.invalid, summary.touching, summary.inside), (1, 0, 0));
     }
 }
 
@@ -266,7 +267,8 @@ fn the_way_to_a_place_and_the_threads_do_not_change_a_bit() {
     let run = |threads: usize, moves: std::ops::Range<i32>| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let mut contact = Contact::new(bodies.clone(), SLIPPERY, vec![AREA; n]).unwrap();
+            let mut contact =
+                ParticleContact::new(bodies.clone(), SLIPPERY, vec![AREA; n]).unwrap();
             for k in moves {
                 contact.begin(&swarm(k), 0.01);
             }
@@ -284,9 +286,9 @@ fn the_way_to_a_place_and_the_threads_do_not_change_a_bit() {
 #[test]
 fn bad_bodies_and_settings_are_named() {
     let ball = |radius: f64| Body::new("ball", Shape::Sphere { radius }, Pose::default());
-    let good = Settings::default();
-    let build = |body: Body, settings: Settings, area: f64| {
-        Contact::new(vec![body], settings, vec![AREA, area])
+    let good = ParticleSettings::default();
+    let build = |body: Body, settings: ParticleSettings, area: f64| {
+        ParticleContact::new(vec![body], settings, vec![AREA, area])
             .map(|_| ())
             .map_err(|error| error.to_string())
     };
@@ -297,9 +299,15 @@ fn bad_bodies_and_settings_are_named() {
         (build(ball(f64::NAN), good, AREA), "NaN"),
         (build(ball(1.0).with_friction(-0.1), good, AREA), "friction coefficient"),
         (build(Body::new("box", thick, Pose::default()), good, AREA), "edge radius"),
-        (build(ball(1.0), Settings { offset: 0.0, ..good }, AREA), "contact offset"),
-        (build(ball(1.0), Settings { stiffness: f64::INFINITY, ..good }, AREA), "stiffness"),
-        (build(ball(1.0), Settings { slip_speed: -1.0, ..good }, AREA), "slip speed"),
+        (
+            build(ball(1.0), ParticleSettings { activation_distance: 0.0, ..good }, AREA),
+            "contact offset",
+        ),
+        (
+            build(ball(1.0), ParticleSettings { stiffness: f64::INFINITY, ..good }, AREA),
+            "stiffness",
+        ),
+        (build(ball(1.0), ParticleSettings { slip_speed: -1.0, ..good }, AREA), "slip speed"),
         (build(ball(1.0), good, f64::NAN), "particle 1"),
     ];
     for (answer, words) in cases {

@@ -8,7 +8,7 @@ use drape_collide::{Body, Mesh, Pose, Shape};
 use support::{Dice, derivative, meshed, norm, primitives, sub};
 
 fn distance(body: &Body, point: [f64; 3]) -> f64 {
-    body.proximity(point).unwrap().distance
+    body.signed_distance(point).unwrap().distance
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn normal_and_curvature_are_the_derivatives_of_the_distance() {
         for place in PLACES {
             // The pose is a rotation about the origin and a shift: place the point by hand.
             let point = turned_by(pose, place);
-            let here = body.proximity(point).unwrap();
+            let here = body.signed_distance(point).unwrap();
             assert!((norm(here.normal) - 1.0).abs() < 1e-14);
             for axis in 0..3 {
                 let [slope] =
@@ -104,7 +104,7 @@ fn normal_and_curvature_are_the_derivatives_of_the_distance() {
                 // Fourth order: (1e-4)^4 over the cube of the smallest radius, 1e-2 m.
                 assert!(miss < 1e-9, "{} at {place:?}: normal off by {miss:e}", body.name);
                 let column = derivative(&point, axis, 1e-4, &mut |x| {
-                    body.proximity([x[0], x[1], x[2]]).unwrap().normal
+                    body.signed_distance([x[0], x[1], x[2]]).unwrap().normal
                 });
                 for row in 0..3 {
                     let miss = (column[row] - here.curvature[3 * row + axis]).abs();
@@ -134,14 +134,15 @@ fn turned_by(pose: Pose, place: [f64; 3]) -> [f64; 3] {
 #[test]
 fn a_box_of_triangles_is_the_box() {
     let shape = Shape::Box { half_extents: [0.2, 0.3, 0.25], edge_radius: 0.0 };
-    let pose = Pose::new([0.1, -0.2, 0.3]).turned([1.0, 2.0, -0.5], 0.7);
+    let pose = Pose::new([0.1, -0.2, 0.3]).rotated([1.0, 2.0, -0.5], 0.7);
     let exact = Body::new("box", shape.clone(), pose);
     let meshed = Body::new("mesh", Shape::Mesh(meshed(shape)), pose);
     let mut dice = Dice::new(2);
     let mut inside = 0;
     for _ in 0..5000 {
         let point = dice.point(0.6);
-        let (a, b) = (exact.proximity(point).unwrap(), meshed.proximity(point).unwrap());
+        let (a, b) =
+            (exact.signed_distance(point).unwrap(), meshed.signed_distance(point).unwrap());
         inside += usize::from(a.distance < 0.0);
         let miss = (a.distance - b.distance).abs();
         assert!(miss < 1e-14, "{point:?}: distance off by {miss:e}");
@@ -193,7 +194,7 @@ fn a_point_that_is_no_point_gets_no_distance() {
             for axis in 0..3 {
                 let mut point = [0.3, 0.2, 0.1];
                 point[axis] = bad;
-                let answer = body.proximity(point).unwrap();
+                let answer = body.signed_distance(point).unwrap();
                 assert!(answer.distance.is_nan(), "{}: {answer:?}", body.name);
                 assert!(answer.normal.iter().all(|n| n.is_nan()), "{answer:?}");
             }

@@ -4,7 +4,7 @@
 
 mod support;
 
-use drape_collide::{Body, CollideError, Mesh, Pose, Shape};
+use drape_collide::{Body, Error, Mesh, Pose, Shape};
 use std::path::PathBuf;
 use support::meshed;
 
@@ -16,7 +16,7 @@ fn cube() -> Triangles {
     (outline.vertices, outline.triangles)
 }
 
-fn refusal(change: impl FnOnce(&mut Triangles)) -> CollideError {
+fn refusal(change: impl FnOnce(&mut Triangles)) -> Error {
     let mut cube = cube();
     change(&mut cube);
     let error = Mesh::new(&cube.0, &cube.1).expect_err("refused");
@@ -26,20 +26,20 @@ fn refusal(change: impl FnOnce(&mut Triangles)) -> CollideError {
 
 #[test]
 fn a_surface_that_is_none_is_refused_with_its_place() {
-    use CollideError as E;
+    use Error as E;
     let error = refusal(|(_, triangles)| triangles[3][1] = 99);
-    let expected = E::NoSuchVertex { triangle: 3, index: 99, vertices: 8 };
+    let expected = E::MissingVertex { triangle: 3, index: 99, vertices: 8 };
     assert_eq!(error, expected);
 
     let error = refusal(|(_, triangles)| triangles.truncate(11));
     assert!(matches!(error, E::OpenMesh { edges: 3, .. }), "{error:?}");
 
     let error = refusal(|(_, triangles)| triangles[0].swap(0, 1));
-    assert!(matches!(error, E::Inconsistent { edges: 3, .. }), "{error:?}");
+    assert!(matches!(error, E::InconsistentOrientation { edges: 3, .. }), "{error:?}");
 
     for bad in [f64::NAN, f64::INFINITY, 1e300] {
         let error = refusal(|(vertices, _)| vertices[2][1] = bad);
-        assert!(matches!(error, E::BadPlace { .. }), "{error:?}");
+        assert!(matches!(error, E::InvalidPosition { .. }), "{error:?}");
     }
 
     let error = refusal(|(_, triangles)| triangles.clear());
@@ -69,7 +69,7 @@ fn an_inverted_surface_is_turned_and_says_so() {
     let mesh = Mesh::new(&vertices, &triangles).unwrap();
     assert!(mesh.was_inside_out());
     let body = Body::new("cube", Shape::Mesh(mesh), Pose::default());
-    let inner = body.proximity([0.0, 0.4, 0.1]).unwrap();
+    let inner = body.signed_distance([0.0, 0.4, 0.1]).unwrap();
     assert!((inner.distance + 0.1).abs() < 1e-15, "{inner:?}");
     assert_eq!(inner.normal, [0.0, 1.0, 0.0]);
 }
@@ -133,7 +133,7 @@ fn a_file_with_groups_is_one_body() {
     let mesh = Mesh::load(&file.0, 0.01).unwrap();
     assert_eq!((mesh.vertices().len(), mesh.triangles().len()), (8, 12));
     let body = Body::new("cube", Shape::Mesh(mesh), Pose::default());
-    let above = body.proximity([0.002, 0.015, 0.001]).unwrap();
+    let above = body.signed_distance([0.002, 0.015, 0.001]).unwrap();
     assert!((above.distance - 0.005).abs() < 1e-15, "{above:?}");
 }
 
@@ -142,7 +142,7 @@ fn bad_files_are_refused_without_a_panic() {
     let missing = Mesh::load("no/such/file.obj", 1.0).expect_err("missing");
     assert!(missing.to_string().contains("no/such/file.obj"), "{missing}");
     let scale = Mesh::load("no/such/file.obj", 0.0).expect_err("scale");
-    assert!(matches!(scale, CollideError::OutOfRange { .. }), "{scale:?}");
+    assert!(matches!(scale, Error::OutOfRange { .. }), "{scale:?}");
     let texts: [&[u8]; 9] = [
         b"",
         b"v 0 0 0\nv 1 0 0\n",
@@ -176,7 +176,7 @@ fn a_ball_of_triangles_is_near_the_ball() {
     let mut dice = support::Dice::new(4);
     for _ in 0..1000 {
         let point = dice.point(0.5);
-        let (a, b) = (exact.proximity(point).unwrap(), mesh.proximity(point).unwrap());
+        let (a, b) = (exact.signed_distance(point).unwrap(), mesh.signed_distance(point).unwrap());
         // Facets of at most 6° lie up to 0.3 m (1 - cos 4.3°) = 0.84 mm under the ball.
         let miss = b.distance - a.distance;
         assert!((-1e-12..8.4e-4).contains(&miss), "{point:?}: {miss:e}");

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_collide::{CollideError, Mesh, MeshFile};
+use drape_collide::{Error, Mesh, read_mesh};
 use std::path::{Path, PathBuf};
 
 /// Corners of a pyramid 2 wide and 1 high, and its triangles.
@@ -126,7 +126,7 @@ fn every_format_gives_the_same_body() {
     let folder = Folder::new("formats");
     for (k, (extension, content)) in files().iter().enumerate() {
         let path = folder.write(extension, content);
-        let file = MeshFile::read(&path).unwrap();
+        let file = read_mesh(&path).unwrap();
         let corners: Vec<[f64; 3]> = CORNERS.iter().map(|corner| corner.map(f64::from)).collect();
         if extension.to_lowercase() == "stl" {
             assert_eq!((file.vertices.len(), file.triangles.len()), (18, 6), "file {k}");
@@ -135,7 +135,7 @@ fn every_format_gives_the_same_body() {
         }
         let mesh = Mesh::load(&path, 0.01).unwrap();
         let mut vertices = mesh.vertices();
-        for (vertex, &origin) in vertices.iter().zip(mesh.origins()) {
+        for (vertex, &origin) in vertices.iter().zip(mesh.source_vertices()) {
             let given = file.vertices[origin as usize].map(|value| 0.01 * value);
             assert_eq!(*vertex, given, "file {k}");
         }
@@ -231,9 +231,9 @@ fn what_is_wrong_is_said() {
     }
     let empty = ply_header("ascii", "float").replace(" 5", " 0").into_bytes();
     let error = Mesh::load(folder.write("ply", &empty), 1.0).expect_err("empty");
-    assert_eq!(error, CollideError::EmptyMesh { vertices: 0 });
+    assert_eq!(error, Error::EmptyMesh { vertices: 0 });
     let unknown = Mesh::load(folder.write("fbx", b""), 1.0).expect_err("unknown");
-    assert!(matches!(unknown, CollideError::UnknownMeshFormat { .. }), "{unknown}");
+    assert!(matches!(unknown, Error::UnknownMeshFormat { .. }), "{unknown}");
     let device = Path::new("/dev/stdin");
     if device.exists() {
         let path = folder.0.join("pipe.stl");

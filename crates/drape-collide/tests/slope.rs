@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_collide::{Body, Contact, Pose, Settings, Shape};
+use drape_collide::{Body, ParticleContact, ParticleSettings, Pose, Shape};
 
 const GRAVITY: f64 = 9.81;
 const AREA: f64 = 1e-2;
@@ -10,7 +10,7 @@ const MASS: f64 = 0.1;
 const DT: f64 = 2e-3;
 
 struct Block {
-    contact: Contact,
+    contact: ParticleContact,
     position: [f64; 3],
     velocity: [f64; 3],
     angle: f64,
@@ -19,12 +19,13 @@ struct Block {
 impl Block {
     /// At rest on a plane that falls towards +x at the angle.
     fn on_slope(angle: f64, friction: f64) -> Block {
-        let pose = Pose::default().turned([0.0, 0.0, 1.0], -angle);
+        let pose = Pose::default().rotated([0.0, 0.0, 1.0], -angle);
         let plane = Body::new("slope", Shape::Plane, pose).with_friction(friction);
-        let settings = Settings::default();
-        let contact = Contact::new(vec![plane], settings, vec![AREA]).unwrap();
+        let settings = ParticleSettings::default();
+        let contact = ParticleContact::new(vec![plane], settings, vec![AREA]).unwrap();
         // The gap at which contact carries the block's weight.
-        let gap = settings.offset - MASS * GRAVITY * angle.cos() / (settings.stiffness * AREA);
+        let gap = settings.activation_distance
+            - MASS * GRAVITY * angle.cos() / (settings.stiffness * AREA);
         Block {
             contact,
             position: [gap * angle.sin(), gap * angle.cos(), 0.0],
@@ -111,7 +112,7 @@ fn below_the_friction_angle_a_block_stays() {
     // f1 = 0.91, which is at 0.70 of it.
     let speed = block.descent() / (500.0 * DT);
     assert!((6e-4..8e-4).contains(&speed), "creeps at {speed} m/s");
-    let gap = block.contact.survey(&block.position).min_distance;
+    let gap = block.contact.summary(&block.position).min_distance;
     assert!(gap > 0.9e-3, "sank to {gap} m");
 }
 

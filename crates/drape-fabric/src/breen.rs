@@ -1,25 +1,28 @@
-//! Breen's derivation of work curves from the first branches of KES loops.
+//! Work curves of Breen, House & Wozny, derived from the laws of a fabric. `drape-cloth`'s particles
+//! after Breen evaluate them.
 
 use std::f64::consts::FRAC_PI_4;
 
 use drape_hysteresis::BlimanSorine;
 
-use crate::{BendingBackbone, BendingLaw, Locking, Piecewise, ShearBackbone, ShearLaw};
+use crate::laws::bending::{BendingBackbone, BendingLaw};
+use crate::laws::piecewise::Piecewise;
+use crate::laws::shear::{Locking, ShearBackbone, ShearLaw};
 
-/// Angle of shear at which Breen's work has its pole, in rad: cloth does not shear to about 60°.
+/// Shear angle at which the work has its pole, in rad: it keeps the shear below about 60°.
 const SHEAR_LIMIT: f64 = 1.05;
 
-/// Curvature of three particles with mean spacing `$h$` and the inner angle `$\theta$` between their segments
-/// (`$\pi$`: straight), in 1/m [Breen, House & Wozny 1994, eq. 5.5].
+/// Returns the curvature of three particles with mean spacing `$h$` and the inner angle `$\theta$`
+/// between their segments (`$\pi$`: straight), in 1/m \[BHW94, eq. 5.5\].
 ///
 /// ```math
 /// K = \frac2h\cos\frac\theta2\;(\theta > \tfrac\pi4), \qquad
 /// K = \left(\frac\pi4\right)^2\frac{\beta}{\theta} + \alpha - \frac\pi4\beta\;(\theta \le \tfrac\pi4)
 /// ```
 ///
-/// with `$\alpha = \frac2h\cos\frac\pi8$` and `$\beta = \frac1h\sin\frac\pi8$`. The paper prints the second line
-/// with signs that make a folded cloth infinitely limp; with these it is infinitely stiff, and value and slope
-/// meet at `$\pi/4$`.
+/// with `$\alpha = \frac2h\cos\frac\pi8$` and `$\beta = \frac1h\sin\frac\pi8$`. The signs printed in
+/// the paper for small angles let the curvature fall to `$-\infty$` and break the slope at `$\pi/4$`;
+/// with these it rises to `$+\infty$`, and value and slope are continuous.
 #[must_use]
 pub fn breen_curvature(spacing: f64, angle: f64) -> f64 {
     if angle > FRAC_PI_4 {
@@ -30,48 +33,74 @@ pub fn breen_curvature(spacing: f64, angle: f64) -> f64 {
     FRAC_PI_4 * FRAC_PI_4 * beta / angle + alpha - FRAC_PI_4 * beta
 }
 
-/// Work of bending and shearing per area, from a quadratic and a line for each [Breen, House & Wozny 1994, §5].
+/// Work of bending and shearing per area, from a quadratic and a line for each \[BHW94, §5\].
 ///
-/// The paper's eq. 5.4 has the work of a bent beam, `$MK/2$`, which is right for a straight line alone; cloth of that
-/// work would not return the moment that was measured. Here it is `$\int M\,\mathrm{d}K$`, as the paper has it of
-/// shearing.
+/// Eq. 5.4 of the paper has the work of a bent beam, `$MK/2$`, which is right for a moment proportional
+/// to the curvature only: cloth of that work would not return the measured moment. Here it is
+/// `$\int M\,\mathrm{d}K$`, as in the paper for shearing.
+///
+/// ```
+/// use drape_fabric::{
+///     BendingBackbone, BendingLaw, BlimanSorine, BreenWork, ShearBackbone, ShearLaw,
+/// };
+///
+/// let rigidity = 1.2e-5;
+/// let bending = BendingLaw {
+///     backbone: BendingBackbone::Linear { rigidity },
+///     rest_curvature: 0.0,
+///     friction: BlimanSorine::none(),
+/// };
+/// let shear = ShearLaw {
+///     backbone: ShearBackbone::Linear { stiffness: 35.0 },
+///     friction: BlimanSorine::none(),
+///     growth: 0.0,
+///     locking: None,
+/// };
+/// let work = BreenWork::from_laws(&bending, &shear);
+/// // Without friction the work of bending is ½BK².
+/// let curvature = drape_fabric::breen_curvature(0.005, 3.0);
+/// let exact = 0.5 * rigidity * curvature * curvature;
+/// assert!((work.bending(0.005, 3.0) / exact - 1.0).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BreenWork {
     /// Moment per width against curvature, from the first branch of a bending test.
     pub bending: Piecewise,
     /// Force per length against the sine of the shear angle, from the first branch of a shear test.
     pub shear: Piecewise,
-    /// Shear angle where the test ends and the continuation begins, in rad; below 1.05.
+    /// Shear angle where the test ends and the continuation with a pole begins, in rad; below 1.05.
     pub shear_end: f64,
 }
 
-/// Work per area at a deformation, in J/m², and its derivatives with respect to the deformation.
+/// Work per area at a deformation and its derivatives with respect to the deformation.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Work {
-    /// The work, in J/m².
+    /// Work, in J/m².
     pub work: f64,
-    /// Its first derivative, in J/m² per deformation.
+    /// First derivative, in J/m² per deformation.
     pub first: f64,
-    /// Its second derivative, in J/m² per deformation squared.
+    /// Second derivative, in J/m² per deformation squared.
     pub second: f64,
 }
 
 impl BreenWork {
-    /// The first branches of two laws: what each answers to a fabric that was never deformed.
+    /// Returns the work of the first branches of two laws: of their loads on a fabric that was never
+    /// deformed.
     ///
-    /// Of a line with friction the outer part is the line plus the friction's plateau. The knot is where the quadratic
-    /// has to begin for the work beyond to be the law's; where friction overshoots its plateau, no quadratic has that
-    /// work, and the knot is that of the fast element alone. Breen's curves are even: a rest curvature is left out.
+    /// The line is the law's backbone plus the plateau of its friction. The knot is chosen so that the
+    /// work beyond it equals the law's. Where the friction overshoots its plateau no quadratic has that
+    /// work; the knot is then that of the fast element alone. The curves are even: a rest curvature is
+    /// ignored.
     #[must_use]
-    pub fn of(bending: &BendingLaw, shear: &ShearLaw) -> Self {
+    pub fn from_laws(bending: &BendingLaw, shear: &ShearLaw) -> Self {
         let backbone = match bending.backbone {
-            BendingBackbone::Linear { rigidity } => [rigidity, 0.0, 0.0],
-            BendingBackbone::Piecewise(piecewise) => outline(&piecewise),
+            BendingBackbone::Linear { rigidity } => Asymptote::line(rigidity),
+            BendingBackbone::Piecewise(piecewise) => Asymptote::piecewise(&piecewise),
         };
         let bending = branch(backbone, &bending.friction, 0.0);
         let backbone = match shear.backbone {
-            ShearBackbone::Linear { stiffness } => [stiffness, 0.0, 0.0],
-            ShearBackbone::Piecewise(piecewise) => outline(&piecewise),
+            ShearBackbone::Linear { stiffness } => Asymptote::line(stiffness),
+            ShearBackbone::Piecewise(piecewise) => Asymptote::piecewise(&piecewise),
         };
         let end = shear.locking.unwrap_or_default().onset.min(Locking::default().limit);
         Self {
@@ -81,15 +110,17 @@ impl BreenWork {
         }
     }
 
-    /// Work of bending to an inner angle of segments of a spacing, in J/m²: `$\int_0^K M\,\mathrm{d}K$`.
+    /// Returns the work of bending segments of a spacing to an inner angle,
+    /// `$\int_0^K M\,\mathrm{d}K$`, in J/m².
     #[must_use]
     pub fn bending(&self, spacing: f64, angle: f64) -> f64 {
         self.bending.energy(breen_curvature(spacing, angle))
     }
 
-    /// Work of shearing to an angle, in J/m²: `$\int_0^\varphi F\cos\varphi\,\mathrm{d}\varphi$` up to the end of
-    /// the test [eq. 5.7], and `$a/(1.05-\varphi)+b$` beyond, with the same value and slope; infinite from
-    /// 1.05 rad on.
+    /// Returns the work of shearing to an angle, in J/m².
+    ///
+    /// It is `$\int_0^\varphi F\cos\varphi\,\mathrm{d}\varphi$` up to the end of the test \[BHW94, eq. 5.7\]
+    /// and `$a/(1.05-\varphi)+b$` beyond, with the same value and slope; infinite from 1.05 rad on.
     #[must_use]
     pub fn shearing(&self, angle: f64) -> f64 {
         let (angle, end) = (angle.abs(), self.shear_end);
@@ -104,8 +135,9 @@ impl BreenWork {
         self.shear.energy(end.sin()) + pole * (1.0 / (SHEAR_LIMIT - angle) - 1.0 / left)
     }
 
-    /// The work of bending as a function of the chord, the difference of the directions of two segments of a spacing:
-    /// `$2\cos\frac\theta2$` for the inner angle `$\theta$`, 0 for a straight yarn, 2 for a folded one.
+    /// Returns the work of bending as a function of the chord: the length of the difference of the unit
+    /// directions of two segments, `$2\cos\frac\theta2$` for the inner angle `$\theta$`, 0 for a straight
+    /// yarn, 2 for a folded one.
     #[must_use]
     pub fn of_chord(&self, spacing: f64, chord: f64) -> Work {
         let [curvature, first, second] = curvature_of_chord(spacing, chord);
@@ -117,7 +149,7 @@ impl BreenWork {
         }
     }
 
-    /// The work of shearing as a function of the sine of the angle, even.
+    /// Returns the work of shearing as a function of the sine of the angle; it is even.
     #[must_use]
     pub fn of_sine(&self, sine: f64) -> Work {
         let (size, end) = (sine.abs(), self.shear_end);
@@ -138,7 +170,7 @@ impl BreenWork {
     }
 }
 
-/// Curvature at a chord, and its two derivatives with respect to it [eq. 5.5].
+/// Returns the curvature at a chord and its first two derivatives \[BHW94, eq. 5.5\].
 fn curvature_of_chord(spacing: f64, chord: f64) -> [f64; 3] {
     let half = 0.5 * chord;
     // cos(θ/2) at θ = π/4.
@@ -153,29 +185,40 @@ fn curvature_of_chord(spacing: f64, chord: f64) -> [f64; 3] {
     [breen_curvature(spacing, angle), first, second]
 }
 
-/// Slope and intercept of the line of a curve, and the work by which it stays below the line's.
-fn outline(piecewise: &Piecewise) -> [f64; 3] {
-    let Piecewise { slope, intercept, knot } = *piecewise;
-    [slope, intercept, intercept * knot / 3.0]
+/// Line to which a curve tends, and the work by which the curve is below it.
+#[derive(Debug, Clone, Copy)]
+struct Asymptote {
+    slope: f64,
+    intercept: f64,
+    deficit: f64,
 }
 
-/// The first branch of a curve with friction whose plateau grows.
+impl Asymptote {
+    /// Returns the asymptote of a line through the origin: itself.
+    fn line(slope: f64) -> Self {
+        Self { slope, intercept: 0.0, deficit: 0.0 }
+    }
+
+    fn piecewise(curve: &Piecewise) -> Self {
+        let Piecewise { slope, intercept, knot } = *curve;
+        Self { slope, intercept, deficit: intercept * knot / 3.0 }
+    }
+}
+
+/// Returns the first branch of a backbone with friction whose plateau grows.
 ///
 /// Along it an element of plateau `$F$`, length `$\ell$` and growth `$\gamma$` has the load
 /// `$F(1 + \gamma(s - \ell)) - F(1 - \gamma\ell)e^{-s/\ell}$`.
-fn branch(
-    [mut slope, mut intercept, mut below]: [f64; 3],
-    friction: &BlimanSorine,
-    growth: f64,
-) -> Piecewise {
+fn branch(backbone: Asymptote, friction: &BlimanSorine, growth: f64) -> Piecewise {
+    let Asymptote { mut slope, mut intercept, mut deficit } = backbone;
     for element in &friction.elements {
         let outer = element.plateau * (1.0 - growth * element.length);
         slope += element.plateau * growth;
         intercept += outer;
-        below += outer * element.length;
+        deficit += outer * element.length;
     }
     let fast = 3.0 * friction.elements[0].length;
-    let knot = 3.0 * below / intercept;
+    let knot = 3.0 * deficit / intercept;
     let knot = if knot > 0.0 && knot.is_finite() { knot } else { fast };
     Piecewise { slope, intercept: intercept.max(-0.5 * slope * knot), knot }
 }
@@ -306,7 +349,7 @@ mod tests {
             growth: 6.0,
             locking: Some(Locking::default()),
         };
-        let found = BreenWork::of(&law, &shear);
+        let found = BreenWork::from_laws(&law, &shear);
         // Beyond the knot the load is the law's to the exponential's tail, and so is the work.
         let (virgin, far) = (law.virgin(), 150.0);
         let (load, work) = (law.respond(&virgin, far).load, law.work(&virgin, far));
@@ -323,11 +366,11 @@ mod tests {
             friction: BlimanSorine::none(),
             ..law
         };
-        let twice = BreenWork::of(&again, &shear).bending;
+        let twice = BreenWork::from_laws(&again, &shear).bending;
         assert!((twice.knot / found.bending.knot - 1.0).abs() < 1e-12, "{twice:?}");
         // Friction that overshoots has a knot all the same.
         let stiction = BlimanSorine::second_order(6e-4, 5e-4, 0.1, 4.0);
-        let found = BreenWork::of(&BendingLaw { friction: stiction, ..law }, &shear).bending;
+        let found = BreenWork::from_laws(&BendingLaw { friction: stiction, ..law }, &shear).bending;
         assert!(found.knot > 0.0 && found.intercept > 0.0, "{found:?}");
     }
 

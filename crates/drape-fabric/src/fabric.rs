@@ -1,22 +1,47 @@
+//! The fabric: mass, thickness and laws. A fit or a file makes it; a cloth is made of it.
+
 use std::collections::BTreeMap;
 
 use drape_hysteresis::BlimanSorine;
 
-use crate::{
-    BendingBackbone, BendingLaw, Locking, Piecewise, ShearBackbone, ShearLaw, TOE_RATIO_MIN,
-    TractionBackbone, TractionLaw,
-};
+use crate::laws::bending::BendingLaw;
+use crate::laws::shear::ShearLaw;
+use crate::laws::traction::TractionLaw;
 
-/// Coefficient of friction assumed for a surface that was not measured (KES MIU of apparel fabrics
-/// lies between about 0.1 and 0.3).
+/// Coefficient of friction of a surface that was not measured, a ratio. KES MIU of apparel fabrics
+/// lies between about 0.1 and 0.3.
 pub const SURFACE_FRICTION: f64 = 0.2;
 
-/// A woven fabric: everything the simulation knows of the material, in SI units.
+/// Woven fabric: all material data of a simulation, in SI units.
+///
+/// ```
+/// use drape_fabric::Fabric;
+/// use drape_input::Document;
+///
+/// let text = r#"
+///     name = "plain weave"
+///     density = 0.12
+///     thickness = 0.0003
+///     shear = { stiffness = 35.0, friction = [{ plateau = 0.5, length = 0.004 }] }
+///     [warp]
+///     traction.polynomial = { quadratic = 8.4e4, quartic = 1.2e7 }
+///     bending.rigidity = 1.2e-5
+///     [weft]
+///     traction.polynomial = { quadratic = 6.0e4, quartic = 1.0e7 }
+///     bending.rigidity = 0.8e-5
+/// "#;
+/// let fabric = Fabric::from_document(&Document::new("plain.toml", text))?;
+/// assert!(fabric.problems().is_empty());
+/// // Written and read again it is the same to the bit.
+/// let again = Fabric::from_document(&Document::new("again.toml", fabric.to_toml()))?;
+/// assert_eq!(again, fabric);
+/// # Ok::<(), drape_input::Diagnostics>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fabric {
     /// Name, for people.
     pub name: String,
-    /// Who measured it and when, and under which licence the numbers are.
+    /// Source of the numbers: who measured them and when, and their licence.
     pub source: String,
     /// Mass per area, in kg/m².
     pub density: f64,
@@ -27,62 +52,55 @@ pub struct Fabric {
     /// Coefficient of friction of the surface, a ratio.
     pub surface_friction: f64,
     /// Laws along the warp yarns.
-    pub warp: Direction,
+    pub warp: YarnLaws,
     /// Laws along the weft yarns.
-    pub weft: Direction,
-    /// Law of the angle between warp and weft.
+    pub weft: YarnLaws,
+    /// Law of shear between warp and weft.
     pub shear: ShearLaw,
-    /// How the numbers came about, if they were fitted.
+    /// Provenance of the numbers, if they were fitted.
     pub provenance: Option<Provenance>,
 }
 
-/// The laws of one yarn system.
+/// Laws of one yarn system, warp or weft.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Direction {
-    /// Tension against strain.
+pub struct YarnLaws {
+    /// Tension per width against strain.
     pub traction: TractionLaw,
-    /// Moment against curvature.
+    /// Moment per width against curvature.
     pub bending: BendingLaw,
 }
 
-/// Where fitted numbers come from.
+/// Provenance of fitted numbers.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// Sheet that was fitted.
+    /// Sheet whose curves and values were fitted.
     pub sheet: String,
-    /// Digest of the sheet's numbers, to know them again.
+    /// Digest of the numbers of the sheet, which tells whether they have changed.
     #[serde(default)]
     pub digest: String,
-    /// Program and version that fitted it.
+    /// Program and version of the fit.
     pub fitted_by: String,
-    /// What was assumed because the sheet does not have it.
+    /// Assumptions made where the sheet has no value.
     #[serde(default)]
     pub assumed: Vec<String>,
-    /// Standard errors of the fitted numbers, in their units, by key path as in `warp.bending.rigidity`.
+    /// Standard errors of the fitted numbers, in their units, by key path such as
+    /// `warp.bending.rigidity`.
     #[serde(default)]
     pub standard_errors: BTreeMap<String, f64>,
-    /// Largest deformation at which each law was measured, by key path as in `warp.traction`: a strain, a curvature in
-    /// 1/m, the sine of a shear angle.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub reach: BTreeMap<String, f64>,
-}
-
-/// A value that no fabric has.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Problem {
-    /// Key path of the value, such as `warp.bending.rigidity`.
-    pub key: String,
-    /// What is wrong, with the value.
-    pub message: String,
-    /// What to do about it.
-    pub help: String,
+    /// Largest deformation at which each law was measured, by key path such as `warp.traction`: a
+    /// strain, a curvature in 1/m, the sine of a shear angle. Its table in the file is `reach`.
+    #[serde(rename = "reach", default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub measured_range: BTreeMap<String, f64>,
 }
 
 impl Fabric {
-    /// The same fabric without friction in any of its laws.
+    /// Pressure of [`Fabric::thickness_under_pressure`], in Pa: 50 gf/cm².
+    pub const PRESSURE: f64 = 4903.325;
+
+    /// Returns the fabric without friction in any of its laws.
     #[must_use]
-    pub fn elastic(&self) -> Self {
+    pub fn without_friction(&self) -> Self {
         let mut fabric = self.clone();
         for laws in [&mut fabric.warp, &mut fabric.weft] {
             laws.traction.friction = BlimanSorine::default();
@@ -92,173 +110,10 @@ impl Fabric {
         fabric
     }
 
-    /// Pressure under which the thickness is [`under_pressure`](Self::under_pressure), in Pa: 50 gf/cm².
-    pub const PRESSURE: f64 = 4903.325;
-
-    /// Thickness under [`PRESSURE`](Self::PRESSURE), in m. Where it was not measured, 0.7 of the thickness: that of
-    /// apparel weaves is 0.6 to 0.8.
+    /// Thickness under [`Fabric::PRESSURE`], in m. Where it was not measured, 0.7 of the thickness;
+    /// apparel weaves have 0.6 to 0.8.
     #[must_use]
-    pub fn under_pressure(&self) -> f64 {
+    pub fn thickness_under_pressure(&self) -> f64 {
         self.pressed_thickness.unwrap_or(0.7 * self.thickness)
-    }
-
-    /// Everything about the numbers that cannot be: empty for a usable fabric.
-    #[must_use]
-    pub fn problems(&self) -> Vec<Problem> {
-        let mut check = Check(Vec::new());
-        check.within(
-            "density",
-            self.density,
-            (0.005, 5.0),
-            "mass per area in kg/m²; a fabric of 120 g/m² has 0.12",
-        );
-        check.within("thickness", self.thickness, (1e-6, 0.02), "in m; 0.3 mm is 0.0003");
-        if let Some(pressed) = self.pressed_thickness {
-            let help = "in m, under 4.9 kPa: no more than the thickness";
-            check.within("pressed_thickness", pressed, (1e-6, self.thickness), help);
-        }
-        check.within("surface_friction", self.surface_friction, (0.0, 5.0), "a ratio such as 0.2");
-        for (name, direction) in [("warp", &self.warp), ("weft", &self.weft)] {
-            check.traction(&format!("{name}.traction"), &direction.traction);
-            check.bending(&format!("{name}.bending"), &direction.bending);
-        }
-        check.shear(&self.shear);
-        check.0
-    }
-}
-
-struct Check(Vec<Problem>);
-
-impl Check {
-    fn fail(&mut self, key: &str, message: String, help: &str) {
-        self.0.push(Problem { key: key.into(), message, help: help.into() });
-    }
-
-    /// Bounds are inclusive, so that 0 is allowed where it stands as the lower one.
-    fn within(&mut self, key: &str, value: f64, (low, high): (f64, f64), help: &str) {
-        if !(value >= low && value <= high) {
-            self.fail(key, format!("{value} is not between {low} and {high}"), help);
-        }
-    }
-
-    fn positive(&mut self, key: &str, value: f64, help: &str) {
-        if !(value > 0.0 && value.is_finite()) {
-            self.fail(key, format!("{value} is not greater than 0"), help);
-        }
-    }
-
-    fn traction(&mut self, key: &str, law: &TractionLaw) {
-        match &law.backbone {
-            TractionBackbone::Primed(primed) => {
-                let key = format!("{key}.primed");
-                self.within(
-                    &format!("{key}.stiffness"),
-                    primed.stiffness,
-                    (1.0, 1e7),
-                    "tension per width and strain in N/m; woven fabrics have 1e3 to 1e5",
-                );
-                self.within(
-                    &format!("{key}.toe_ratio"),
-                    primed.toe_ratio,
-                    (TOE_RATIO_MIN, 1.0),
-                    "F1/(k_t ε1); outside this range the curve is not monotone",
-                );
-                self.within(
-                    &format!("{key}.toe_strain"),
-                    primed.toe_strain,
-                    (1e-6, 1.0),
-                    "a ratio; 1.5 % is 0.015",
-                );
-                self.within(
-                    &format!("{key}.toe_strain_after"),
-                    primed.toe_strain_after,
-                    (primed.toe_strain, 2.0 * primed.toe_strain),
-                    "from toe_strain to twice toe_strain",
-                );
-            }
-            TractionBackbone::Polynomial(polynomial) => {
-                let key = format!("{key}.polynomial");
-                let help = "in N/m, not negative, so that the curve rises";
-                self.within(&format!("{key}.quadratic"), polynomial.quadratic, (0.0, 1e12), help);
-                self.within(&format!("{key}.quartic"), polynomial.quartic, (0.0, 1e15), help);
-            }
-        }
-        let buckling = &law.buckling;
-        self.within(&format!("{key}.buckling.strain"), buckling.strain, (1e-5, 0.1), "a ratio");
-        let help = "in N/m, not negative";
-        self.within(&format!("{key}.buckling.stiffness"), buckling.stiffness, (0.0, 1e6), help);
-        self.friction(&format!("{key}.friction"), &law.friction);
-    }
-
-    fn bending(&mut self, key: &str, law: &BendingLaw) {
-        let rigidity = |check: &mut Self, key: &str, value: f64| {
-            check.within(
-                key,
-                value,
-                (1e-7, 1e-3),
-                "moment per width and curvature in N·m; KES B in gf·cm²/cm times 9.80665e-5",
-            );
-        };
-        match &law.backbone {
-            BendingBackbone::Linear { rigidity: value } => {
-                rigidity(self, &format!("{key}.rigidity"), *value);
-            }
-            BendingBackbone::Piecewise(piecewise) => {
-                rigidity(self, &format!("{key}.piecewise.slope"), piecewise.slope);
-                self.piecewise(&format!("{key}.piecewise"), piecewise);
-            }
-        }
-        let help = "a curvature in 1/m";
-        self.within(&format!("{key}.rest_curvature"), law.rest_curvature, (-1e4, 1e4), help);
-        self.friction(&format!("{key}.friction"), &law.friction);
-    }
-
-    fn shear(&mut self, law: &ShearLaw) {
-        match &law.backbone {
-            ShearBackbone::Linear { stiffness } => {
-                let help = "in N/m; KES G in gf/(cm·deg) times 56.19";
-                self.within("shear.stiffness", *stiffness, (0.01, 1e5), help);
-            }
-            ShearBackbone::Piecewise(piecewise) => {
-                self.piecewise("shear.piecewise", piecewise);
-            }
-        }
-        self.within("shear.growth", law.growth, (0.0, 1e3), "per unit of the sine, not negative");
-        if let Some(Locking { onset, limit }) = law.locking {
-            self.within("shear.locking.onset", onset, (0.01, 0.99), "a sine; 8° is 0.139");
-            let help = "a sine larger than the onset; 60° is 0.866";
-            self.within("shear.locking.limit", limit, (onset + 1e-3, 1.0), help);
-        }
-        self.friction("shear.friction", &law.friction);
-    }
-
-    fn piecewise(&mut self, key: &str, piecewise: &Piecewise) {
-        self.positive(&format!("{key}.slope"), piecewise.slope, "the curve must rise");
-        self.positive(&format!("{key}.knot"), piecewise.knot, "in the unit of the deformation");
-        let rising = -0.5 * piecewise.slope * piecewise.knot;
-        let help = "at least −slope·knot/2, so that the curve rises from the origin";
-        self.within(&format!("{key}.intercept"), piecewise.intercept, (rising, 1e9), help);
-    }
-
-    fn friction(&mut self, key: &str, friction: &BlimanSorine) {
-        let [first, second] = friction.elements;
-        for (index, element) in [first, second].iter().enumerate() {
-            if element.plateau != 0.0 || element.length != 1.0 {
-                let key = format!("{key}[{index}].length");
-                self.positive(&key, element.length, "in the unit of the deformation");
-            }
-        }
-        let help = "not negative; the first element is the fast one of a second-order model";
-        self.within(&format!("{key}[0].plateau"), first.plateau, (0.0, 1e9), help);
-        if !(second.plateau >= -first.plateau) {
-            let message = format!("{} outweighs the first element", second.plateau);
-            let help = "a negative second plateau must be smaller than the first one";
-            self.fail(&format!("{key}[1].plateau"), message, help);
-        }
-        if second.plateau < 0.0 && !(second.length > first.length) {
-            let message = format!("{} is not longer than the first element's", second.length);
-            let help = "the negative element of a second-order model is the slow, long one";
-            self.fail(&format!("{key}[1].length"), message, help);
-        }
     }
 }

@@ -1,4 +1,5 @@
-//! The TOML form of a fabric.
+//! The TOML form of a fabric: its mirror, and the conversions in both directions. The only module
+//! that knows the keys of the file.
 
 use std::path::Path;
 
@@ -6,10 +7,12 @@ use drape_hysteresis::{BlimanSorine, Dahl};
 use drape_input::{Diagnostic, Diagnostics, Document};
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    BendingBackbone, BendingLaw, Buckling, Direction, Fabric, Locking, Piecewise, Polynomial,
-    Primed, Provenance, SURFACE_FRICTION, ShearBackbone, ShearLaw, TractionBackbone, TractionLaw,
-};
+use crate::check::Problem;
+use crate::fabric::{Fabric, Provenance, SURFACE_FRICTION, YarnLaws};
+use crate::laws::bending::{BendingBackbone, BendingLaw};
+use crate::laws::piecewise::Piecewise;
+use crate::laws::shear::{Locking, ShearBackbone, ShearLaw};
+use crate::laws::traction::{Buckling, Polynomial, Primed, TractionBackbone, TractionLaw};
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -23,8 +26,8 @@ struct FabricFile {
     pressed_thickness: Option<f64>,
     #[serde(default = "surface_friction")]
     surface_friction: f64,
-    warp: DirectionFile,
-    weft: DirectionFile,
+    warp: YarnFile,
+    weft: YarnFile,
     shear: ShearFile,
     #[serde(skip_serializing_if = "Option::is_none")]
     provenance: Option<Provenance>,
@@ -36,7 +39,7 @@ fn surface_friction() -> f64 {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct DirectionFile {
+struct YarnFile {
     traction: TractionFile,
     bending: BendingFile,
 }
@@ -136,7 +139,7 @@ impl Fabric {
         Self::from_document(&Document::read(path)?)
     }
 
-    /// The fabric that a TOML document describes.
+    /// Returns the fabric that a TOML document describes.
     ///
     /// # Errors
     /// Every mistake of the document, each with its line and a remedy.
@@ -147,13 +150,13 @@ impl Fabric {
             mistakes.push(document.at(key, message).help(help));
         });
         let problems = fabric.problems();
-        let located = |p: &crate::Problem| document.at(&p.key, p.message.clone()).help(&p.help);
+        let located = |p: &Problem| document.at(&p.key, p.message.clone()).help(&p.help);
         mistakes.extend(problems.iter().map(located).collect::<Vec<Diagnostic>>());
         Diagnostics::check(mistakes)?;
         Ok(fabric)
     }
 
-    /// The fabric as TOML, which [`Fabric::read`] reads back exactly.
+    /// Returns the fabric as TOML, which [`Fabric::read`] reads back exactly.
     #[must_use]
     pub fn to_toml(&self) -> String {
         toml::to_string_pretty(&FabricFile::from(self))
@@ -165,8 +168,8 @@ type Report<'a> = dyn FnMut(&str, &str, &str) + 'a;
 
 impl FabricFile {
     fn fabric(self, report: &mut Report<'_>) -> Fabric {
-        let warp = self.warp.direction("warp", report);
-        let weft = self.weft.direction("weft", report);
+        let warp = self.warp.laws("warp", report);
+        let weft = self.weft.laws("weft", report);
         let shear = self.shear.law(report);
         Fabric {
             name: self.name,
@@ -183,8 +186,8 @@ impl FabricFile {
     }
 }
 
-impl DirectionFile {
-    fn direction(self, key: &str, report: &mut Report<'_>) -> Direction {
+impl YarnFile {
+    fn laws(self, key: &str, report: &mut Report<'_>) -> YarnLaws {
         let traction_key = format!("{key}.traction");
         let backbone = match (self.traction.primed, self.traction.polynomial) {
             (Some(p), None) => TractionBackbone::Primed(Primed {
@@ -228,7 +231,7 @@ impl DirectionFile {
         };
         let rest_curvature = self.bending.rest_curvature;
         let friction = self::friction(&self.bending.friction, &bending_key, report);
-        Direction { traction, bending: BendingLaw { backbone, rest_curvature, friction } }
+        YarnLaws { traction, bending: BendingLaw { backbone, rest_curvature, friction } }
     }
 }
 
@@ -306,9 +309,9 @@ impl From<&Fabric> for FabricFile {
     }
 }
 
-impl From<&Direction> for DirectionFile {
-    fn from(direction: &Direction) -> Self {
-        let Direction { traction, bending } = direction;
+impl From<&YarnLaws> for YarnFile {
+    fn from(laws: &YarnLaws) -> Self {
+        let YarnLaws { traction, bending } = laws;
         let (mut primed, mut polynomial) = (None, None);
         match &traction.backbone {
             TractionBackbone::Primed(p) => {

@@ -1,33 +1,44 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Modules
+//!
+//! Measured curves become a [`Fabric`] (`drape-fit`) or a file does; a cloth (`drape-cloth`) evaluates
+//! its laws at thousands of connectors.
+//!
+//! * `laws`: the one-dimensional laws of traction, bending and shear, one connector at a time. They are
+//!   the definition; everything else is held to them by test.
+//! * `batch`: the same laws for many connectors side by side, in loops that are vectorised.
+//! * `fabric`, `check`, `file`: the fabric, the range of each of its numbers, its TOML.
+//! * `breen`: the work curves of Breen, House & Wozny, derived from the laws.
 
+// The laws: for one connector, and for many side by side.
 mod batch;
-mod bending;
-mod bending_batch;
-mod breen;
+mod laws;
+
+// The fabric and its file.
+mod check;
 mod fabric;
 mod file;
-mod law;
-mod memories;
-mod path;
-mod piecewise;
-mod shear;
-mod shear_batch;
-mod traction;
-mod traction_batch;
 
-pub use batch::{BatchLaw, LANES, Lanes, Responses, Sliders};
-pub use bending::{BendingBackbone, BendingLaw};
-pub use bending_batch::BendingBatch;
+// Another model of the same fabric.
+mod breen;
+
+pub use batch::batch_law::{BatchLaw, Knot, Responses};
+pub use batch::bending::BendingBatch;
+pub use batch::friction::PreparedFriction;
+pub use batch::lanes::{LANES, Lanes};
+pub use batch::memories::{LaneMemory, Memories, MemoriesMut, MemoryBatch, Toe};
+pub use batch::shear::ShearBatch;
+pub use batch::traction::TractionBatch;
 pub use breen::{BreenWork, Work, breen_curvature};
-pub use drape_hysteresis::{BlimanSorine, Dahl};
-pub use fabric::{Direction, Fabric, Problem, Provenance, SURFACE_FRICTION};
-pub use law::{Law, Memory, Response, drive};
-pub use memories::{Lane, Memories, Moving, Remembered};
-pub use piecewise::Piecewise;
-pub use shear::{Locking, ShearBackbone, ShearLaw};
-pub use shear_batch::ShearBatch;
-pub use traction::{
+pub use check::Problem;
+pub use drape_hysteresis::{BlimanSorine, Dahl, Loads, PreparedDahl, Response, Stroke};
+pub use fabric::{Fabric, Provenance, SURFACE_FRICTION, YarnLaws};
+pub use laws::bending::{BendingBackbone, BendingLaw};
+pub use laws::law::{Law, Memory, drive};
+pub use laws::piecewise::Piecewise;
+pub use laws::shear::{Locking, ShearBackbone, ShearLaw};
+pub use laws::traction::{
     BUCKLING_STRAIN, Buckling, POST_BUCKLING_STIFFNESS, Polynomial, Primed, TOE_RATIO_MIN,
     TractionBackbone, TractionLaw,
 };
-pub use traction_batch::TractionBatch;

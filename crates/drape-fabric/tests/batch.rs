@@ -2,7 +2,7 @@
 
 use drape_fabric::{
     BatchLaw, BendingBackbone, BendingBatch, BendingLaw, BlimanSorine, Buckling, Dahl, LANES,
-    Lanes, Law, Locking, Memories, Memory, Piecewise, Polynomial, Primed, Responses, ShearBackbone,
+    Lanes, Law, Locking, Memory, Piecewise, Polynomial, Primed, Responses, ShearBackbone,
     ShearBatch, ShearLaw, TractionBackbone, TractionBatch, TractionLaw,
 };
 
@@ -18,7 +18,7 @@ fn random(state: &mut u64) -> f64 {
 /// come back to exactly, so that knots are met, left and passed.
 fn compare<L: Law, B: BatchLaw>(law: &L, batch: &B, range: (f64, f64), places: &[f64]) {
     let mut state = 5_u64;
-    let mut together = Memories::new(batch, LANES);
+    let mut together = batch.memories(LANES);
     let mut apart = [law.virgin(); LANES];
     let mut scales = [0.0_f64; 4];
     let mut errors = [0.0_f64; 4];
@@ -37,23 +37,23 @@ fn compare<L: Law, B: BatchLaw>(law: &L, batch: &B, range: (f64, f64), places: &
             } else if pick < 0.15 {
                 apart[lane].position
             } else {
-                let way = narrow * (range.1 - range.0) * (random(&mut state) - 0.5);
-                (apart[lane].position + way).clamp(range.0, range.1)
+                let step = narrow * (range.1 - range.0) * (random(&mut state) - 0.5);
+                (apart[lane].position + step).clamp(range.0, range.1)
             };
         }
-        let memory = together.from(0);
+        let memory = together.batch(0);
         let mut responses = Responses::default();
         batch.respond::<true>(&memory, &trial, &mut responses);
         let mut loads = Responses::default();
         batch.respond::<false>(&memory, &trial, &mut loads);
         assert_eq!(responses.load, loads.load, "with tangents and without");
         let (mut end, mut start) = ([0.0; LANES], [0.0; LANES]);
-        batch.work(&memory, &trial, &mut end);
+        batch.add_work(&memory, &trial, &mut end);
         let positions = apart.map(|memory| memory.position);
-        batch.work(&memory, &positions, &mut start);
-        let lost = batch.commit(&mut together.moving(0), 0, &trial);
+        batch.add_work(&memory, &positions, &mut start);
+        let lost = batch.commit(&mut together.from_mut(0), 0, &trial);
         let mut stored = [0.0; LANES];
-        batch.stored(&together.from(0), &mut stored);
+        batch.add_stored(&together.batch(0), &mut stored);
         for lane in 0..LANES {
             let (before, trial) = (apart[lane], trial[lane]);
             let context = format!("round {round}, {before:?} to {trial}");
@@ -151,10 +151,10 @@ fn a_trial_that_is_no_number_gives_none() {
         locking: Some(Locking::default()),
     };
     let batch = ShearBatch::new(law);
-    let memories = Memories::new(&batch, LANES);
+    let memories = batch.memories(LANES);
     let mut responses = Responses::default();
-    batch.respond::<true>(&memories.from(0), &[f64::NAN; LANES], &mut responses);
+    batch.respond::<true>(&memories.batch(0), &[f64::NAN; LANES], &mut responses);
     let mut works = [0.0; LANES];
-    batch.work(&memories.from(0), &[f64::NAN; LANES], &mut works);
+    batch.add_work(&memories.batch(0), &[f64::NAN; LANES], &mut works);
     assert!(responses.load.iter().chain(&works).all(|x| x.is_nan()));
 }

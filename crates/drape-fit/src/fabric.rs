@@ -5,11 +5,12 @@
 //! of `curves` in parallel, fills the rest from `values`, and checks the fabric.
 //!
 //! * `laws`: each law from curves or values, with notes.
-//! * `keys`, `extent`: provenance: standard errors by key, and the largest measured deformations.
+//! * `keys`, `measured_range`: provenance: standard errors by key, and the largest measured deformations.
 //! * `identify`: one sheet; `batch`: many.
 
 pub(crate) mod batch;
-pub(crate) mod extent;
+
 pub(crate) mod identify;
 pub(crate) mod keys;
 pub(crate) mod laws;
+pub(crate) mod measured_range;

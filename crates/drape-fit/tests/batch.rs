@@ -44,7 +44,7 @@ fn each_fabric_of_a_batch_is_as_if_alone_and_a_bad_one_stops_nothing() {
         &seeds,
         &Settings::default(),
         |&seed| Ok::<_, Error>(sheet(seed, good(seed))),
-        |&seed, result| (seed, result.map(|(_, fit)| fit.clone()).map_err(|e| e.to_string())),
+        |&seed, result| (seed, result.map(|fitted| fitted.fit.clone()).map_err(|e| e.to_string())),
     );
     assert_eq!(summaries.len(), seeds.len());
     for (place, (seed, summary)) in summaries.into_iter().enumerate() {
@@ -73,7 +73,7 @@ fn ten_thousand_sheets_take_the_memory_of_a_few() {
             &seeds,
             &Settings::default(),
             |&seed| Ok::<_, Error>(sheet(seed, true)),
-            |_, result| result.map_or(f64::NAN, |(_, fit)| fit.curves[0].misfit),
+            |_, result| result.map_or(f64::NAN, |fitted| fitted.fit.curves[0].misfit),
         );
         assert!(misfits.iter().all(|misfit| *misfit < 0.03), "{misfits:?}");
         peaks.push(peak_memory());

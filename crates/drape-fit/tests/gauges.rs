@@ -37,10 +37,10 @@ fn print(fit: &CurveFit) {
         "{}: residual {:.2} %, {:.0} independent points",
         fit.name,
         100.0 * fit.misfit,
-        fit.independent
+        fit.effective_points
     );
     for estimate in &fit.parameters {
-        match &estimate.error {
+        match &estimate.standard_error {
             Ok(error) => {
                 println!("    {:12} {:11.4e} ± {error:.1e}", estimate.name, estimate.value)
             }
@@ -77,7 +77,7 @@ fn strips_of_two_lengths_agree_to_the_scatter_of_specimens() {
             .iter()
             .map(|curve| {
                 let found = identify_tensile(curve, &settings).expect("identified");
-                println!("load to {:.1} N/m", curve.load_range().1);
+                println!("load to {:.1} N/m", curve.load_range().high);
                 print(&found.fit);
                 found.law
             })

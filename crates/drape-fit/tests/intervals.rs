@@ -134,9 +134,9 @@ fn cases() -> Vec<Case> {
 
 /// For each parameter whether its interval contains the truth, or is missing.
 fn trial(case: &Case, (noise, intervals): (f64, Intervals), seed: u64) -> Vec<[usize; 2]> {
-    let (low, high) = case.curve.load_range();
+    let span = case.curve.load_range().span();
     let mut random = Random(seed);
-    let load = case.curve.load().iter().map(|f| f + noise * (high - low) * random.normal());
+    let load = case.curve.load().iter().map(|f| f + noise * span * random.normal());
     let q = case.curve.deformation().to_vec();
     let curve = Curve::new(case.curve.test, Direction::Warp, q, load.collect()).expect("a curve");
     let fit = case.fit(&curve, intervals);
@@ -191,9 +191,9 @@ fn the_band_contains_the_true_law_at_each_point_in_95_of_100_trials() {
         let inside: Vec<f64> = (0..TRIALS)
             .into_par_iter()
             .map(|seed| {
-                let (low, high) = case.curve.load_range();
+                let span = case.curve.load_range().span();
                 let mut random = Random(seed << 32);
-                let noise = case.curve.load().iter().map(|_| 0.01 * (high - low) * random.normal());
+                let noise = case.curve.load().iter().map(|_| 0.01 * span * random.normal());
                 let load = case.curve.load().iter().zip(noise).map(|(f, noise)| f + noise);
                 let q = case.curve.deformation().to_vec();
                 let curve = Curve::new(case.curve.test, Direction::Warp, q, load.collect());

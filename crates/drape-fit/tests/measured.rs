@@ -27,9 +27,9 @@ fn print(fit: &CurveFit) {
         fit.name,
         100.0 * fit.misfit,
         100.0 * fit.weighted_misfit,
-        fit.determination,
+        fit.r_squared,
         fit.autocorrelation,
-        fit.independent,
+        fit.effective_points,
         fit.iterations,
         fit.evaluations,
         fit.stop
@@ -45,7 +45,7 @@ fn print(fit: &CurveFit) {
     for estimate in &fit.parameters {
         println!(
             "    {:12} {:12.5e} ± {:?} unweighted {:.5e}",
-            estimate.name, estimate.value, estimate.error, estimate.unweighted
+            estimate.name, estimate.value, estimate.standard_error, estimate.unweighted
         );
     }
 }

@@ -68,7 +68,7 @@ fn round_trips(trials: u64) {
         sheet.t = random.coin().then(|| random.logarithmic(0.1, 1.5));
         let fit =
             identify(&sheet).unwrap_or_else(|error| panic!("trial {trial}: {error}; {sheet:?}"));
-        let reading = Settings::default().reading(&sheet);
+        let reading = Settings::default().evaluation_points(&sheet);
         for direction in [Direction::Warp, Direction::Weft] {
             let found = fabric_values(&fit.fabric, direction, &reading);
             for symbol in Symbol::ALL {
@@ -124,22 +124,22 @@ fn sets_that_contradict_themselves_are_refused_with_the_reason() {
     };
     let (text, error) = refused(Values { rt: Some(120.0), ..Values::default() });
     assert!(
-        matches!(error, Error::Resilience { .. }) && text.contains("weft: RT is 120.0 %"),
+        matches!(error, Error::InvalidResilience { .. }) && text.contains("weft: RT is 120.0 %"),
         "{text}"
     );
     // Three times the work of a straight line.
     let (text, error) = refused(Values { wt: Some(37.5), em: Some(5.0), ..Values::default() });
-    assert!(matches!(error, Error::Linearity { .. }), "{text}");
+    assert!(matches!(error, Error::InvalidLinearity { .. }), "{text}");
     assert!(text.contains("weft: LT is 3.000, made by WT and EM"), "{text}");
     let (text, error) =
         refused(Values { lt: Some(0.3), rt: Some(40.0), em: Some(5.0), ..Values::default() });
-    assert!(matches!(error, Error::Unreachable { .. }), "{text}");
+    assert!(matches!(error, Error::IncompatibleValues { .. }), "{text}");
     assert!(text.contains("weft: no law here has a linearity LT of 0.300"), "{text}");
 }
 
 #[test]
 fn a_sheet_that_disagrees_with_its_curve_is_named() {
-    let law = drape_fit::bending_from_values(1e-5, 6e-4);
+    let law = drape_fit::bending_from_values(&drape_kes::BendingValues { rigidity: 1e-5, loop_width: 6e-4 });
     let turns = [0.0, 250.0, -250.0, 250.0];
     let mut path = vec![0.0];
     for ends in turns.windows(2) {

@@ -1,16 +1,31 @@
-use crate::{Dahl, Slip};
+//! Friction of one or two elements: the Bliman–Sorine model, which the laws of a fabric use.
 
-/// Loads of the two elements of a [`BlimanSorine`] friction: its memory, in the unit of the load.
+use crate::dahl::Dahl;
+use crate::response::Response;
+use crate::slip::Slip;
+
+/// Loads of the two elements of a [`BlimanSorine`] friction, in the unit of the load: its memory.
 pub type Loads = [f64; 2];
 
 /// Bliman–Sorine friction: one or two [`Dahl`] elements in parallel.
 ///
 /// * First order: one element.
-/// * Second order [Bliman & Sorine 1995; Ngo Ngoc & Boivin 2004, eq. 2]: a fast element of plateau
-///   `$f_1$` and length `$\eta x_f$` less a slow one of plateau `$f_2$` and length `$x_f$`. The load
-///   overshoots (stiction) and settles to `$f_1 - f_2$` (the Stribeck drop).
+/// * Second order \[BS95; NB04, eq. 2\]: a fast element of plateau `$f_1$` and length `$\eta x_f$` and
+///   a slow, negative one of plateau `$-f_2$` and length `$x_f$`, with `$f_1 > f_2 \ge 0$` and
+///   `$0 < \eta < 1$`. From rest the load is
+///   `$F = f_1\left(1 - e^{-u/\eta x_f}\right) - f_2\left(1 - e^{-u/x_f}\right)$`: it overshoots
+///   (stiction) and settles at `$f_1 - f_2$` (the Stribeck drop).
 /// * Two positive elements: loops whose width depends on their amplitude, as fabrics show at small
 ///   deformation.
+///
+/// ```
+/// use drape_hysteresis::BlimanSorine;
+///
+/// let friction = BlimanSorine::second_order(1.0, 0.4, 0.2, 0.1);
+/// let load = |slip: f64| friction.respond([0.0, 0.0], slip).load;
+/// assert!(load(0.05) > friction.plateau(), "the load overshoots");
+/// assert!((load(10.0) - 0.6).abs() < 1e-12, "and settles");
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlimanSorine {
     /// The elements; one with a plateau of zero is absent.
@@ -24,27 +39,27 @@ impl Default for BlimanSorine {
 }
 
 impl BlimanSorine {
-    /// No friction.
+    /// Returns a friction without elements, whose load is zero.
     #[must_use]
     pub fn none() -> Self {
         Self::parallel(Dahl::NONE, Dahl::NONE)
     }
 
-    /// One element with the given plateau (unit of the load) and pre-sliding length (unit of the
-    /// deformation).
+    /// Returns one element with the given plateau (unit of the load) and pre-sliding length (unit of
+    /// the deformation).
     #[must_use]
     pub fn first_order(plateau: f64, length: f64) -> Self {
         Self::parallel(Dahl::new(plateau, length), Dahl::NONE)
     }
 
-    /// The fast element less the slow one: plateaus `fast_plateau` > `slow_plateau` ≥ 0 (unit of the
-    /// load), lengths `ratio × length` and `length` (unit of the deformation), 0 < `ratio` < 1.
+    /// Returns a fast element less a slow one: plateaus `fast_plateau` > `slow_plateau` ≥ 0 (unit of
+    /// the load), lengths `ratio × length` and `length` (unit of the deformation), 0 < `ratio` < 1.
     #[must_use]
     pub fn second_order(fast_plateau: f64, slow_plateau: f64, ratio: f64, length: f64) -> Self {
         Self::parallel(Dahl::new(fast_plateau, ratio * length), Dahl::new(-slow_plateau, length))
     }
 
-    /// Two elements side by side.
+    /// Returns two elements in parallel.
     #[must_use]
     pub fn parallel(first: Dahl, second: Dahl) -> Self {
         Self { elements: [first, second] }
@@ -56,7 +71,7 @@ impl BlimanSorine {
         self.elements[0].plateau + self.elements[1].plateau
     }
 
-    /// Loads of the elements at the end of a piece, in the unit of the load.
+    /// Returns the loads of the elements at the end of a piece, in the unit of the load.
     #[must_use]
     pub fn advance(&self, loads: Loads, slip: impl Into<Slip>) -> Loads {
         let slip = slip.into();
@@ -64,17 +79,18 @@ impl BlimanSorine {
         [first.advance(loads[0], slip), second.advance(loads[1], slip)]
     }
 
-    /// Total load at the end of a piece and its derivative with respect to the amount of the piece,
-    /// in the unit of the load and in load per deformation. See [`Dahl::respond`] for a reversal.
+    /// Returns the total load at the end of a piece and its derivative with respect to the amount of
+    /// the piece, in the unit of the load and in load per deformation. See [`Dahl::respond`] for a
+    /// reversal.
     #[must_use]
-    pub fn respond(&self, loads: Loads, slip: impl Into<Slip>) -> (f64, f64) {
+    pub fn respond(&self, loads: Loads, slip: impl Into<Slip>) -> Response {
         let slip = slip.into();
         let [first, second] = self.elements;
         let (first, second) = (first.respond(loads[0], slip), second.respond(loads[1], slip));
-        (first.0 + second.0, first.1 + second.1)
+        Response { load: first.load + second.load, tangent: first.tangent + second.tangent }
     }
 
-    /// Work of the total load over a piece, in load times deformation. See [`Dahl::work`].
+    /// Returns the work of the total load over a piece, in load times deformation. See [`Dahl::work`].
     #[must_use]
     pub fn work(&self, loads: Loads, slip: impl Into<Slip>) -> f64 {
         let slip = slip.into();
@@ -82,13 +98,14 @@ impl BlimanSorine {
         first.work(loads[0], slip) + second.work(loads[1], slip)
     }
 
-    /// Energy that the elements give back when unloaded, in load times deformation.
+    /// Energy that the elements return when unloaded, in load times deformation.
     #[must_use]
     pub fn stored(&self, loads: Loads) -> f64 {
         self.elements[0].stored(loads[0]) + self.elements[1].stored(loads[1])
     }
 
-    /// Work lost over a piece, in load times deformation. See [`Dahl::dissipated`].
+    /// Returns the energy dissipated over a piece, in load times deformation. See
+    /// [`Dahl::dissipated`].
     #[must_use]
     pub fn dissipated(&self, loads: Loads, slip: impl Into<Slip>) -> f64 {
         let slip = slip.into();

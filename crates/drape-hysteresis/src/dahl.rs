@@ -1,48 +1,66 @@
-use crate::Slip;
+//! Friction of one element: the Dahl model, which is Bliman–Sorine friction of first order.
 
-/// A Dahl friction element: the load follows the deformation like a spring, then slides at a plateau.
+use crate::response::Response;
+use crate::slip::Slip;
+
+/// Dahl friction element: the load rises like that of a spring and saturates at a plateau.
 ///
-/// Along a path of length `$u = \int|\mathrm{d}q|$` in the direction `$\sigma = \pm 1$`
+/// Along a path of length `$u = \int|\mathrm{d}q|$` in the direction `$\sigma = \pm 1$`, with the
+/// plateau `$F_c$`, the pre-sliding length `$x_f$` and the weight `$w$` of the plateau,
 ///
 /// ```math
 /// \frac{\mathrm{d}F}{\mathrm{d}u} = \frac{\sigma F_c\,w(u) - F}{x_f}
 /// ```
 ///
-/// which is the Bliman–Sorine model of first order and Dahl's with exponent one [Ngo Ngoc &
-/// Boivin 2004, eq. 1]; Tagawa's rate model [Tagawa et al. 2003, eq. 3] is the same with
-/// `$D_1 = 2F_c$` and `$\alpha = 1/x_f$`. Every result is the exact solution for a weight `$w$`
-/// that is linear along the piece, so two half steps equal one step and nothing depends on how the
-/// path is cut.
+/// This is Dahl's model with exponent one \[Dahl68\], the first-order model of \[BS95\] and eq. 1 of
+/// \[NB04\]; the rate model of \[THK03, eq. 3\] is the same with `$D_1 = 2F_c$` and
+/// `$\alpha = 1/x_f$`. Every method returns the exact solution for a weight that is linear along the
+/// piece; for `$w = 1$` and a slip `$\Delta q$`
 ///
-/// The unit of the load and of the deformation is the caller's: N/m and a ratio for a yarn's
-/// tension, N and 1/m for a bending moment per width.
+/// ```math
+/// F_1 = \sigma F_c + (F_0 - \sigma F_c)\,e^{-|\Delta q|/x_f}
+/// ```
+///
+/// so two half steps equal one step, and the result does not depend on how a path is cut.
+///
+/// The caller chooses the units of load and deformation: N/m and a ratio for the tension of a yarn, N
+/// and 1/m for a bending moment per width.
+///
+/// ```
+/// use drape_hysteresis::Dahl;
+///
+/// let element = Dahl::new(6e-4, 4.0);
+/// let half = element.advance(element.advance(0.0, 1.0), 1.0);
+/// assert!((half - element.advance(0.0, 2.0)).abs() < 1e-18);
+/// assert!((element.advance(0.0, 200.0) - 6e-4).abs() < 1e-18);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Dahl {
     /// Coulomb plateau `$F_c$`, in the unit of the load. Zero switches the element off; it is
-    /// negative only in the slow part of a second-order model.
+    /// negative only in the slow element of a second-order model.
     pub plateau: f64,
     /// Pre-sliding length `$x_f$`, in the unit of the deformation, greater than 0.
     pub length: f64,
 }
 
-/// What is left of a load after a piece, and how far the exponential lags behind a ramp.
+/// Factors of the load at the start that are kept and lost over a piece.
 struct Decay {
     kept: f64,
     lost: f64,
 }
 
 impl Dahl {
-    /// No friction.
+    /// Element without friction.
     pub const NONE: Self = Self { plateau: 0.0, length: 1.0 };
 
-    /// An element with the given plateau (unit of the load) and pre-sliding length (unit of the
-    /// deformation).
+    /// Returns an element with the given plateau (unit of the load) and pre-sliding length (unit of
+    /// the deformation).
     #[must_use]
     pub fn new(plateau: f64, length: f64) -> Self {
         Self { plateau, length }
     }
 
-    /// Stiffness of the element at the start of a loading, `$F_c/x_f$`, in load per deformation.
+    /// Stiffness at the start of a loading, `$F_c/x_f$`, in load per deformation.
     #[must_use]
     pub fn presliding_stiffness(&self) -> f64 {
         self.plateau / self.length
@@ -53,7 +71,7 @@ impl Dahl {
         Decay { kept: 1.0 - lost, lost }
     }
 
-    /// Load at the end of a piece that began with `load`, in the unit of the load.
+    /// Returns the load at the end of a piece that began with `load`, in the unit of the load.
     #[must_use]
     pub fn advance(&self, load: f64, slip: impl Into<Slip>) -> f64 {
         let slip = slip.into();
@@ -67,25 +85,26 @@ impl Dahl {
         load * kept + plateau * (slip.weight_from * lost + ramp * lag)
     }
 
-    /// Load at the end of a piece and its derivative with respect to the amount of the piece, in the
-    /// unit of the load and in load per deformation.
+    /// Returns the load at the end of a piece and its derivative with respect to the amount of the
+    /// piece, in the unit of the load and in load per deformation.
     ///
-    /// At a reversal the derivative has two sides: a piece of amount `+0.0` gives the one for an
+    /// At a reversal the derivative has two values: an amount of `+0.0` gives the one for an
     /// increasing deformation, `-0.0` the other.
     #[must_use]
-    pub fn respond(&self, load: f64, slip: impl Into<Slip>) -> (f64, f64) {
+    pub fn respond(&self, load: f64, slip: impl Into<Slip>) -> Response {
         let slip = slip.into();
         if self.plateau == 0.0 {
-            return (load, 0.0);
+            return Response { load, tangent: 0.0 };
         }
         let end = self.advance(load, slip);
-        (end, (self.plateau * slip.weight_to - slip.amount.signum() * end) / self.length)
+        let tangent = (self.plateau * slip.weight_to - slip.amount.signum() * end) / self.length;
+        Response { load: end, tangent }
     }
 
-    /// Work of the load over a piece, `$\int F\,\mathrm{d}q$`, in load times deformation.
+    /// Returns the work of the load over a piece, `$\int F\,\mathrm{d}q$`, in load times deformation.
     ///
-    /// With the load at the start of a time step held fixed this is the potential of the element
-    /// within the step: its derivative with respect to the amount is [`Dahl::advance`].
+    /// With the load at the start of a time step held fixed it is the potential of the element within
+    /// the step: its derivative with respect to the amount is [`Dahl::advance`].
     #[must_use]
     pub fn work(&self, load: f64, slip: impl Into<Slip>) -> f64 {
         let slip = slip.into();
@@ -102,17 +121,18 @@ impl Dahl {
         magnitude.copysign(magnitude * slip.amount)
     }
 
-    /// Energy that the element gives back when it is unloaded, `$F^2 x_f / 2F_c$`, in load times
+    /// Energy that the element returns when it is unloaded, `$F^2 x_f / 2F_c$`, in load times
     /// deformation.
     #[must_use]
     pub fn stored(&self, load: f64) -> f64 {
         if self.plateau == 0.0 { 0.0 } else { 0.5 * load * load * self.length / self.plateau }
     }
 
-    /// Work lost over a piece: [`Dahl::work`] less the change of [`Dahl::stored`].
+    /// Returns the energy dissipated over a piece, [`Dahl::work`] less the change of
+    /// [`Dahl::stored`], in load times deformation.
     ///
-    /// It is `$\int F^2/F_c\,\mathrm{d}u \ge 0$` when the weight is one. Under a varying weight it
-    /// may be negative for part of a cycle; over every closed cycle it is positive.
+    /// With a weight of one it is `$\int F^2/F_c\,\mathrm{d}u \ge 0$`. Under a varying weight it may be
+    /// negative over part of a cycle; over every closed cycle it is positive.
     #[must_use]
     pub fn dissipated(&self, load: f64, slip: impl Into<Slip>) -> f64 {
         let slip = slip.into();
@@ -196,7 +216,7 @@ mod tests {
             let force = slope(&|s| ELEMENT.work(load, s));
             assert!((force - ELEMENT.advance(load, slip)).abs() < 1e-9, "{load} {slip:?}: {force}");
             let tangent = slope(&|s| ELEMENT.advance(load, s));
-            let exact = ELEMENT.respond(load, slip).1;
+            let exact = ELEMENT.respond(load, slip).tangent;
             assert!((tangent - exact).abs() < 1e-7, "{load} {slip:?}: {tangent} against {exact}");
         }
     }
@@ -209,7 +229,7 @@ mod tests {
                 assert!(change.abs() < 1e-6, "{load}: jumped by {change}");
             }
             let stiffness = ELEMENT.presliding_stiffness();
-            let (up, down) = (ELEMENT.respond(load, 0.0).1, ELEMENT.respond(load, -0.0).1);
+            let [up, down] = [0.0, -0.0].map(|amount| ELEMENT.respond(load, amount).tangent);
             assert!((up + down - 2.0 * stiffness).abs() < 1e-12, "{load}: {up} {down}");
         }
     }

@@ -1,28 +1,31 @@
-/// Below this the result is −1 to the last bit.
+//! Exponential in straight arithmetic, for the SIMD loops of the prepared elements.
+
+/// Argument below which the result is −1 to the last bit.
 const LEAST: f64 = -40.0;
 
-/// 1.5 · 2⁵², which pushes an integer into the last bits of a number, plus the bias of an exponent.
+/// 1.5 · 2⁵², whose sum with a number has the rounded number in its last bits, plus the bias of an
+/// exponent.
 const ROUNDER: f64 = 6_755_399_441_055_744.0 + 1023.0;
 
-/// The natural logarithm of 2 in two parts; the first has zeros enough for its multiples to be exact.
+/// Natural logarithm of 2 in two parts; the first ends in enough zeros for its multiples to be exact.
 const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
-/// `$e^x - 1$` for `$x \le 0$`, in straight arithmetic that compilers turn into vector instructions.
+/// Returns `$e^x - 1$` for `$x \le 0$`, without branches, so that a loop over it is vectorised.
 ///
-/// With `$x = k\ln 2 + r$` and `$|r| \le \tfrac12\ln 2$` it is `$2^k(e^r - 1) + (2^k - 1)$`; Taylor's
-/// polynomial of order 13 is off by `$2\times10^{-17}$` of `$e^r - 1$` at most. The result is within
-/// `$5\times10^{-16}$` of its own size, near zero too. NaN stays NaN.
+/// With `$x = k\ln 2 + r$` and `$|r| \le \tfrac12\ln 2$` the result is `$2^k(e^r - 1) + (2^k - 1)$`. The
+/// Taylor polynomial of order 13 is off by at most `$2\times10^{-17}$` of `$e^r - 1$`; the relative error
+/// of the result is below `$5\times10^{-16}$`, also near zero. NaN stays NaN.
 #[inline(always)]
 #[must_use]
 pub fn exp_m1(x: f64) -> f64 {
-    // Written so that NaN passes.
+    // Not `max`, so that NaN stays NaN.
     let x = if x < LEAST { LEAST } else { x };
     let shifted = x * std::f64::consts::LOG2_E + ROUNDER;
     let k = shifted - ROUNDER;
     let r = (x - k * LN_2_HIGH) - k * LN_2_LOW;
     let power = f64::from_bits(shifted.to_bits() << 52);
-    // 1/2!, 1/3!, … with the even and the odd ones apart, so that two chains run side by side.
+    // 1/2!, 1/3!, …: even and odd coefficients apart, so that two chains run in parallel.
     let s = r * r;
     let even = 1.0 / 2.0
         + s * (1.0 / 24.0

@@ -1,9 +1,21 @@
-/// One monotone piece of a deformation path, with the weight that the friction carries along it.
+//! Monotone piece of a deformation path, the argument of every friction element.
+
+/// Monotone piece of a deformation path, with the weight that multiplies the plateau along it.
 ///
-/// The weight multiplies the plateau of the friction and runs linearly from `weight_from` to
-/// `weight_to` over the piece. A constant weight of one is plain Bliman–Sorine friction; a weight
-/// that grows with the shear angle widens the loop (KES 2HG5 > 2HG), and one that starts below one
-/// is the priming zone of a yarn [Ngo Ngoc & Boivin 2004, §4.3.1].
+/// The weight runs linearly from `weight_from` to `weight_to`. A constant weight of one is plain
+/// Bliman–Sorine friction. A weight that grows with the shear angle widens the loop (KES 2HG5 > 2HG);
+/// one that starts below one describes the priming zone of a yarn \[NB04, §4.3.1\].
+///
+/// ```
+/// use drape_hysteresis::{Dahl, Slip};
+///
+/// let element = Dahl::new(0.5, 0.01);
+/// // A number is a slip of weight one.
+/// assert_eq!(element.advance(0.0, 0.02), element.advance(0.0, Slip::weighted(0.02, 1.0, 1.0)));
+/// // Half of the weight gives half of the load.
+/// let half = element.advance(0.0, Slip::weighted(0.02, 0.5, 0.5));
+/// assert!((half / element.advance(0.0, 0.02) - 0.5).abs() < 1e-15);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slip {
     /// Signed change of the deformation over the piece, in the unit of the deformation.
@@ -15,7 +27,7 @@ pub struct Slip {
 }
 
 impl Slip {
-    /// A piece along which the plateau is weighted from `weight_from` to `weight_to`.
+    /// Returns a piece along which the weight of the plateau runs from `weight_from` to `weight_to`.
     #[must_use]
     pub fn weighted(amount: f64, weight_from: f64, weight_to: f64) -> Self {
         Self { amount, weight_from, weight_to }
@@ -23,7 +35,7 @@ impl Slip {
 }
 
 impl From<f64> for Slip {
-    /// A piece of constant weight one.
+    /// Returns a piece of constant weight one.
     fn from(amount: f64) -> Self {
         Self::weighted(amount, 1.0, 1.0)
     }

@@ -12,7 +12,7 @@ impl Reader<'_> {
     ) -> Option<Lattice> {
         let grain = lattice.grain;
         let fold = |(ends, angle): ([[f64; 2]; 2], f64)| Fold {
-            ends: ends.map(|end| grain.coordinates(end)),
+            ends: ends.map(|end| grain.to_material(end)),
             angle,
         };
         let folds: Vec<Fold> = folds.map(fold).collect();

@@ -1,7 +1,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use drape_cloth::{ClothError, Grain, Lattice, Mesh, Tie};
+use drape_cloth::{Allowance, Grain, Lattice, Mesh, Tie};
 use drape_input::Diagnostic;
 use drape_pattern::{Cut, CutPattern, Cutter, Error, NodeId, Pattern, Placement};
 
@@ -143,11 +143,11 @@ impl Reader<'_> {
             let (first, number) = &numbers[id.panel];
             *first as u32 + number[id.node as usize]
         };
-        let seams = pattern.stitches().iter().zip(&cut.seams).map(|(stitch, nodes)| {
+        let seams = pattern.seams().iter().zip(&cut.seams).map(|(stitch, nodes)| {
             let tie = |tie: &drape_pattern::Tie| Tie {
                 particle: node(tie.node),
                 ends: nodes.ends(tie).map(node),
-                share: tie.share,
+                fraction: tie.fraction,
             };
             let pairs = nodes.pairs.iter().map(|pair| pair.map(node)).collect();
             let stitching = Stitching { pairs, ties: nodes.ties.iter().map(tie).collect() };
@@ -289,7 +289,7 @@ fn lattice(
     cut: &Cut,
     (grain, number): (f64, &[u32]),
     allowances: &[(Vec<u32>, f64)],
-) -> Result<Lattice, ClothError> {
+) -> Result<Lattice, drape_cloth::Error> {
     let mut coordinates = vec![[0.0; 2]; number.len()];
     let mut places = vec![None; number.len()];
     for (node, &own) in number.iter().enumerate() {
@@ -300,13 +300,14 @@ fn lattice(
     let mesh = Mesh {
         spacing: cut.spacing,
         coordinates,
-        places,
+        grid: places,
         cells: cut.quads.iter().map(|quad| quad.map(|node| number[node as usize])).collect(),
         triangles: cut.triangles.iter().map(|t| t.map(|node| number[node as usize])).collect(),
     };
-    let own = |(line, width): &(Vec<u32>, f64)| {
-        (line.iter().map(|&node| number[node as usize]).collect(), *width)
+    let own = |(line, width): &(Vec<u32>, f64)| Allowance {
+        line: line.iter().map(|&node| number[node as usize]).collect(),
+        width: *width,
     };
-    let allowances: Vec<(Vec<u32>, f64)> = allowances.iter().map(own).collect();
-    Lattice::with_rim(mesh, Grain::from_degrees(grain.to_degrees()))?.with_allowances(&allowances)
+    let allowances: Vec<Allowance> = allowances.iter().map(own).collect();
+    Lattice::from_mesh(mesh, Grain::from_degrees(grain.to_degrees()))?.with_allowances(&allowances)
 }

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use drape_cloth::{ClothError, Grain, Lattice};
+use drape_cloth::{Grain, Lattice};
 use drape_input::Diagnostic;
 
 use crate::file::{FoldFile, PanelFile, SceneFile};
@@ -175,15 +175,17 @@ impl Reader<'_> {
             }
         };
         let place = match &lattice {
-            Err(ClothError::Spacing { .. } | ClothError::TooMany { .. }) if own => {
+            Err(drape_cloth::Error::Spacing { .. } | drape_cloth::Error::TooMany { .. }) if own => {
                 format!("{key}.spacing")
             }
-            Err(ClothError::Spacing { .. } | ClothError::TooMany { .. }) => "spacing".into(),
+            Err(drape_cloth::Error::Spacing { .. } | drape_cloth::Error::TooMany { .. }) => {
+                "spacing".into()
+            }
             _ if entry.hole.is_some_and(|hole| !(hole > 0.0)) => format!("{key}.hole"),
             _ if entry.disc.is_some() => format!("{key}.disc"),
             _ => format!("{key}.rectangle"),
         };
-        let report = |error: ClothError| {
+        let report = |error: drape_cloth::Error| {
             let help = "lengths are in the file's unit, set by length = \"m\", \"cm\" or \"mm\"";
             self.fail(&place, format!("panel \"{}\": {error}", entry.name), help);
         };

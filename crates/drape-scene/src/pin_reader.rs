@@ -105,7 +105,7 @@ impl Reader<'_> {
 
     /// The particles nearest to the places that a pin names, or all within its radius of them.
     fn points(&mut self, key: &str, pin: &PinFile, panel: &Panel, unit: f64) -> Vec<usize> {
-        let coordinates = panel.lattice.places();
+        let coordinates = panel.lattice.panel_coordinates();
         let [across, along] = panel.lattice.spacing;
         let mut particles = Vec::new();
         for (number, point) in pin.points.iter().enumerate() {

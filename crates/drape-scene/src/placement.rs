@@ -45,7 +45,7 @@ impl Placement {
     /// Positions of a panel's particles: in the panel's own frame the width is x, the height y and the
     /// right side z; the middle of the panel is turned and brought to the centre.
     pub(crate) fn positions(&self, lattice: &Lattice) -> Vec<f64> {
-        let places = lattice.places();
+        let places = lattice.panel_coordinates();
         let left = places.iter().map(|place| place[0]).fold(f64::INFINITY, f64::min);
         let middle = lattice.middle;
         let mut noise = self.noise.clone();

@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use drape_collide::{CollideError, Mesh, MeshFile, PointCache};
+use drape_collide::{Mesh, PointCache, Triangulation, read_mesh};
 
 use crate::file::MeshBodyFile;
 
@@ -27,13 +27,13 @@ pub struct Shapes {
 #[derive(Debug)]
 pub(crate) enum ShapesError {
     /// A file is not one.
-    File(CollideError),
+    File(drape_collide::Error),
     /// Something does not fit together.
     Fit(String),
 }
 
-impl From<CollideError> for ShapesError {
-    fn from(error: CollideError) -> Self {
+impl From<drape_collide::Error> for ShapesError {
+    fn from(error: drape_collide::Error) -> Self {
         Self::File(error)
     }
 }
@@ -55,7 +55,7 @@ impl Shapes {
         (rate, start): (f64, f64),
         place: impl Fn([f64; 3]) -> [f64; 3],
     ) -> Result<(Mesh, Shapes), ShapesError> {
-        let of_mesh = MeshFile::read(folder.join(&file.file))?;
+        let of_mesh = read_mesh(folder.join(&file.file))?;
         let frames = match (file.point_cache(), &file.frames) {
             (Some(cache), None) => {
                 let path = folder.join(cache);
@@ -93,7 +93,7 @@ impl Shapes {
             })?;
         }
         let kept = |sample: &Vec<[f64; 3]>| {
-            mesh.origins().iter().flat_map(|&origin| sample[origin as usize]).collect()
+            mesh.source_vertices().iter().flat_map(|&origin| sample[origin as usize]).collect()
         };
         let places: Vec<Vec<f64>> = samples.iter().map(kept).collect();
         let times = (0..places.len()).map(|k| start + k as f64 * frames.stride / rate).collect();
@@ -135,7 +135,7 @@ impl Shapes {
 }
 
 /// The meshes of a sequence of files, `*` in whose name stands for their numbers.
-fn sequence(folder: &Path, pattern: &str, of_mesh: &MeshFile) -> Result<Frames, ShapesError> {
+fn sequence(folder: &Path, pattern: &str, of_mesh: &Triangulation) -> Result<Frames, ShapesError> {
     let pattern = folder.join(pattern);
     let name = pattern.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let Some((before, after)) = name.split_once('*') else {
@@ -146,7 +146,7 @@ fn sequence(folder: &Path, pattern: &str, of_mesh: &MeshFile) -> Result<Frames, 
     let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
     let entries = std::fs::read_dir(parent).map_err(|error| {
         let reason = error.to_string();
-        CollideError::Unreadable { path: parent.to_path_buf(), reason }
+        drape_collide::Error::UnreadableFile { path: parent.to_path_buf(), reason }
     })?;
     let mut numbered: Vec<(u64, PathBuf)> = Vec::new();
     for path in entries.flatten().map(|entry| entry.path()) {
@@ -174,7 +174,7 @@ fn sequence(folder: &Path, pattern: &str, of_mesh: &MeshFile) -> Result<Frames, 
     }
     let mut samples = Vec::new();
     for (_, path) in &numbered {
-        let frame = MeshFile::read(path)?;
+        let frame = read_mesh(path)?;
         if frame.vertices.len() == of_mesh.vertices.len() && frame.triangles != of_mesh.triangles {
             let message = format!("{} has other triangles than the body", path.display());
             return Err(ShapesError::Fit(message));

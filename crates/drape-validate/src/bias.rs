@@ -7,7 +7,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use drape_scene::Simulation;
+use drape_dynamics::Simulation;
 
 use crate::reference::bias_stiffness;
 use crate::stage::{ALONE, scene};
@@ -57,7 +57,7 @@ fn stiffness(angle: f64, cells: usize) -> Result<f64, ValidationError> {
         LENGTH * WIDTH
     );
     let scene = scene(text, fabric)?;
-    let places = scene.panels[0].lattice.places();
+    let places = scene.panels[0].lattice.panel_coordinates();
     let starts: Vec<f64> = scene.positions.chunks_exact(3).map(|place| place[1]).collect();
     let mut simulation = Simulation::new(scene)?;
     finish(&mut simulation)?;

@@ -61,7 +61,7 @@ fn drapemeter(
         Check::at_most(what("half of its width, points"), 0.5 * (high - low), HALF_WIDTH),
     ]);
     graphs.push(shadows(&fabric.name, &meter, &found));
-    let elastic = meter.study(&fabric.elastic(), resolution, &told)?;
+    let elastic = meter.study(&fabric.without_friction(), resolution, &told)?;
     checks.push(Check::told(what("without friction, %"), points(&elastic)));
     checks.push(Check::told(what("nodes as measured"), nodes));
     for (count, times) in found.fitted.nodes() {

@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use drape_scene::Simulation;
+use drape_dynamics::Simulation;
 
 use crate::stage::{ALONE, scene};
 use crate::{Axis, Check, Findings, Graph, Layout, Source, ValidationError, finish};
@@ -52,7 +52,7 @@ fn folded(angle: f64, slant: f64) -> Result<Folded, ValidationError> {
         0.5 * width
     );
     let scene = scene(text, FABRIC.into())?;
-    let places = scene.panels[0].lattice.places();
+    let places = scene.panels[0].lattice.panel_coordinates();
     let mut simulation = Simulation::new(scene)?;
     finish(&mut simulation)?;
     let positions = simulation.frame().positions;

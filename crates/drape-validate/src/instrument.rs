@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use drape_fabric::{Direction as Laws, Fabric, Law, TractionLaw, drive};
+use drape_fabric::{Fabric, Law, TractionLaw, YarnLaws, drive};
 use drape_kes::{Curve, Direction, Test};
 
 /// Load of the standard tensile test: 500 gf/cm in N/m.
@@ -150,7 +150,7 @@ pub(crate) fn curve(
 }
 
 /// The laws of a direction.
-pub(crate) fn laws(fabric: &Fabric, direction: Direction) -> &Laws {
+pub(crate) fn laws(fabric: &Fabric, direction: Direction) -> &YarnLaws {
     match direction {
         Direction::Warp => &fabric.warp,
         Direction::Weft => &fabric.weft,

@@ -56,7 +56,7 @@ impl Factor {
 
 fn friction((_, fabric): &mut Setting, end: usize) {
     if end == 0 {
-        *fabric = fabric.elastic();
+        *fabric = fabric.without_friction();
     }
 }
 

@@ -193,14 +193,14 @@ fn energy(
     (spacing, grain): (f64, f64),
     shape: impl Fn([f64; 2]) -> [f64; 3],
 ) -> Result<f64, ValidationError> {
-    let fabric = fabric(CUPRO)?.elastic();
+    let fabric = fabric(CUPRO)?.without_friction();
     let text = format!(
         "{ALONE}spacing = {spacing:e}\nfabric.sheet.file = \"fabric.toml\"\n[[panel]]\nname = \"sheet\"\n\
          fabric = \"sheet\"\nrectangle = [{SIDE}, {SIDE}]\ngrain = {grain}\n\
          [time]\nstep = 0.01\nend = 1\n"
     );
     let scene = scene(text, fabric.to_toml())?;
-    let places = scene.panels[0].lattice.places();
+    let places = scene.panels[0].lattice.panel_coordinates();
     let state = scene.cloth.state(places.into_iter().flat_map(shape).collect());
     let state = state.expect("a scene's panels place every particle");
     Ok(scene.cloth.stored(&state) / (SIDE * SIDE))

@@ -5,8 +5,8 @@
 //! true of any such experiment: without friction in the fabric nothing slows the strip, with it the fabric does, and the
 //! way of the strip does not depend on the grid.
 
+use drape_dynamics::Simulation;
 use drape_fabric::Fabric;
-use drape_scene::Simulation;
 
 use crate::shipped::{TAGAWA, fabric};
 use crate::stage::{ALONE, simulation};
@@ -98,7 +98,7 @@ fn middle(simulation: &Simulation) -> Vec<[f64; 2]> {
 /// Both experiments.
 pub fn tagawa() -> Result<Findings, ValidationError> {
     let fabric = fabric(TAGAWA)?;
-    let rest = fabric.elastic();
+    let rest = fabric.without_friction();
     let mass = fabric.density * LENGTH * WIDTH;
     let swung = mass * GRAVITY * 0.5 * LENGTH * (1.0 - ANGLE.to_radians().cos());
     // The first mode of a hanging strip, whose bending is small beside its weight.

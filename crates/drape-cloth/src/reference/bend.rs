@@ -23,9 +23,10 @@ pub(crate) fn bend(
         (elastic.load * first, elastic.tangent * first * first + elastic.load * second);
     let along = dot(bow, normal);
     let slip = curvature(bow, normal, spacing) - memory.position;
-    let (friction, slope) = law.friction.respond(memory.friction, slip);
+    let friction = law.friction.respond(memory.friction, slip);
     let (first, second) = Angle::of(along * along, spacing).derivatives(along);
-    let (friction, slope) = (friction * first, slope * first * first + friction * second);
+    let slope = friction.tangent * first * first + friction.load * second;
+    let friction = friction.load * first;
     let slope = if definite { slope.max(0.0) } else { slope };
     let (secant, unit) =
         if length > 0.0 { (load / length, scale(excess, 1.0 / length)) } else { (tangent, excess) };

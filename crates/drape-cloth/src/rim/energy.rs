@@ -1,6 +1,6 @@
 #![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
 
-use drape_fabric::{BatchLaw, LANES, Lanes, Moving};
+use drape_fabric::{BatchLaw, LANES, Lanes, MemoriesMut};
 
 use crate::field::lanes;
 use crate::panel::Panel;
@@ -11,9 +11,9 @@ use crate::state::RimHistory;
 
 /// The memories of some rims, to be moved on.
 pub(crate) struct Course<'a> {
-    pub(crate) traction: [Moving<'a>; 2],
-    pub(crate) shear: Moving<'a>,
-    pub(crate) bending: [Moving<'a>; 2],
+    pub(crate) traction: [MemoriesMut<'a>; 2],
+    pub(crate) shear: MemoriesMut<'a>,
+    pub(crate) bending: [MemoriesMut<'a>; 2],
 }
 
 impl Course<'_> {
@@ -40,19 +40,19 @@ pub(crate) fn potential(trial: &RimTrial<'_>) -> f64 {
         let strain = Strain::of(triangles, start, trial.positions);
         let mut works = [0.0; LANES];
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let memory = history.traction[direction].from(place);
-            yarns.traction.work(&memory, &strain.strains[direction], &mut works);
+            let memory = history.traction[direction].batch(place);
+            yarns.traction.add_work(&memory, &strain.strains[direction], &mut works);
         }
-        panel.shear.work(&history.shear.from(place), &strain.sines, &mut works);
+        panel.shear.add_work(&history.shear.batch(place), &strain.sines, &mut works);
         weigh(&mut sums, &works, lanes(&triangles.areas, start));
     }
     for start in (0..stencils.middles.len()).step_by(LANES) {
         let bowed = Bowed::of(stencils, start, (trial.positions, trial.normals));
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let memory = history.bending[direction].from(stencils.base + start);
+            let memory = history.bending[direction].batch(stencils.base + start);
             let bend = bowed.bend(yarns, (stencils, start, direction));
             let mut works = bend.energies();
-            yarns.bending.slide_work(&memory, &bend.bends().curvature, &mut works);
+            yarns.bending.add_friction_work(&memory, &bend.bends().curvature, &mut works);
             weigh(&mut sums, &works, bend.areas);
         }
     }
@@ -103,16 +103,16 @@ pub(crate) fn start(
         let strain = Strain::of(triangles, start, shape.0);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let memories = &mut history.traction[direction];
-            memories.start(&yarns.traction, place, &strain.strains[direction]);
+            yarns.traction.start(memories, place, &strain.strains[direction]);
         }
-        history.shear.start(&panel.shear, place, &strain.sines);
+        panel.shear.start(&mut history.shear, place, &strain.sines);
     }
     for start in (0..stencils.middles.len()).step_by(LANES) {
         let bowed = Bowed::of(stencils, start, shape);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let bends = bowed.bend(yarns, (stencils, start, direction)).bends();
             let memories = &mut history.bending[direction];
-            memories.start(&yarns.bending, stencils.base + start, &bends.curvature);
+            yarns.bending.start(memories, stencils.base + start, &bends.curvature);
         }
     }
 }
@@ -126,18 +126,18 @@ pub(crate) fn stored(trial: &RimTrial<'_>) -> f64 {
         let place = triangles.base + start;
         let mut energies = [0.0; LANES];
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            yarns.traction.stored(&history.traction[direction].from(place), &mut energies);
+            yarns.traction.add_stored(&history.traction[direction].batch(place), &mut energies);
         }
-        panel.shear.stored(&history.shear.from(place), &mut energies);
+        panel.shear.add_stored(&history.shear.batch(place), &mut energies);
         weigh(&mut sums, &energies, lanes(&triangles.areas, start));
     }
     for start in (0..stencils.middles.len()).step_by(LANES) {
         let bowed = Bowed::of(stencils, start, (trial.positions, trial.normals));
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let memory = history.bending[direction].from(stencils.base + start);
+            let memory = history.bending[direction].batch(stencils.base + start);
             let bend = bowed.bend(yarns, (stencils, start, direction));
             let mut energies = bend.energies();
-            yarns.bending.slide_stored(&memory, &mut energies);
+            yarns.bending.add_friction_stored(&memory, &mut energies);
             weigh(&mut sums, &energies, bend.areas);
         }
     }

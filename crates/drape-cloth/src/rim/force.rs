@@ -35,7 +35,7 @@ pub(crate) fn add_forces(trial: &RimTrial<'_>, forces: &mut [f64]) {
         let bowed = Bowed::of(stencils, start, (trial.positions, trial.normals));
         let moments = [0, 1].map(|direction| {
             let yarns = &trial.panel.yarns[direction];
-            let memory = trial.history.rim.bending[direction].from(stencils.base + start);
+            let memory = trial.history.rim.bending[direction].batch(stencils.base + start);
             bowed.bend(yarns, (stencils, start, direction)).moments(&memory, 1.0)
         });
         for lane in 0..LANES.min(stencils.count - start) {
@@ -57,11 +57,11 @@ fn pulls(trial: &RimTrial<'_>, start: usize) -> [[[f64; LANES]; 3]; 2] {
     let strain = Strain::of(triangles, start, trial.positions);
     let areas = lanes(&triangles.areas, start);
     let mut shear = Responses::default();
-    trial.panel.shear.respond::<false>(&history.shear.from(place), &strain.sines, &mut shear);
+    trial.panel.shear.respond::<false>(&history.shear.batch(place), &strain.sines, &mut shear);
     let mut pulls = [[[0.0; LANES]; 3]; 2];
     for direction in 0..2 {
         let mut tension = Responses::default();
-        let memory = history.traction[direction].from(place);
+        let memory = history.traction[direction].batch(place);
         let yarns = &trial.panel.yarns[direction];
         yarns.traction.respond::<false>(&memory, &strain.strains[direction], &mut tension);
         for lane in 0..LANES {

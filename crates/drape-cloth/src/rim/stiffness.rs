@@ -33,7 +33,7 @@ pub(crate) fn add_stiffness(trial: &RimTrial<'_>, definite: bool, values: &mut [
         let bowed = Bowed::of(stencils, start, (trial.positions, trial.normals));
         let halves = [0, 1].map(|direction| {
             let yarns = &trial.panel.yarns[direction];
-            let memory = trial.history.rim.bending[direction].from(stencils.base + start);
+            let memory = trial.history.rim.bending[direction].batch(stencils.base + start);
             bowed.bend(yarns, (stencils, start, direction)).blocks(&memory, 1.0, definite)
         });
         for lane in 0..LANES.min(stencils.count - start) {
@@ -74,7 +74,7 @@ fn second(trial: &RimTrial<'_>, (start, definite): (usize, bool)) -> ([[Lanes; 6
     let areas = lanes(&triangles.areas, start);
     let positive = |x: f64| if definite && x < 0.0 { 0.0 } else { x };
     let mut shear = Responses::default();
-    trial.panel.shear.respond::<true>(&history.shear.from(place), &strain.sines, &mut shear);
+    trial.panel.shear.respond::<true>(&history.shear.batch(place), &strain.sines, &mut shear);
     let (mut loads, mut slopes) = ([0.0; LANES], [0.0; LANES]);
     for lane in 0..LANES {
         loads[lane] = if definite { 0.0 } else { shear.load[lane] * areas[lane] };
@@ -83,7 +83,7 @@ fn second(trial: &RimTrial<'_>, (start, definite): (usize, bool)) -> ([[Lanes; 6
     let mut own = [[[0.0; LANES]; 6]; 2];
     for direction in 0..2 {
         let mut tension = Responses::default();
-        let memory = history.traction[direction].from(place);
+        let memory = history.traction[direction].batch(place);
         let yarns = &trial.panel.yarns[direction];
         yarns.traction.respond::<true>(&memory, &strain.strains[direction], &mut tension);
         for lane in 0..LANES {

@@ -48,10 +48,10 @@ pub fn outline(lattice: &Lattice) -> Vec<[u32; 2]> {
 fn stretched(degrees: f64, spacing: f64) -> f64 {
     let lattice = rectangle(STRIP, degrees, spacing);
     let cloth = Cloth::new(&[(&lattice, &fabric(LINEAR))]);
-    let places = lattice.places();
+    let places = lattice.panel_coordinates();
     let flat: Vec<f64> = places.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
     let state = cloth.state(flat.clone()).expect("it fits");
-    let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
+    let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
     cloth.add_stiffness(&state, &flat, false, &mut values);
     let mut load = vec![0.0; flat.len()];
     for [a, b] in outline(&lattice) {
@@ -125,7 +125,7 @@ impl Rolled<'_> {
         for _ in 0..30 {
             let trial = self.positions(&places);
             let mut forces = vec![0.0; trial.len()];
-            let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
+            let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
             cloth.add_forces(&state, &trial, &mut forces);
             cloth.add_stiffness(&state, &trial, true, &mut values);
             let apply = |way: &[f64]| {
@@ -164,7 +164,7 @@ fn a_specimen_bent_on_the_bias_has_the_moment_of_both_yarns() {
             [("grid", grid.expect("a panel")), ("rim", rectangle(size, 45.0, spacing))]
         {
             let cloth = Cloth::new(&[(&lattice, &fabric)]);
-            let rolled = Rolled { cloth: &cloth, radius, places: lattice.places() };
+            let rolled = Rolled { cloth: &cloth, radius, places: lattice.panel_coordinates() };
             let part = rolled.settle() / exact;
             println!("bent at 45°, {name}, {spacing} m: energy over the closed form {part:.4}");
             parts.push(part);

@@ -1,6 +1,6 @@
 //! Forces and tangents against differences, conservation, the connectors one by one, and bits.
 
-use drape_cloth::{Breen, Cloth, ClothError, Fold, Grain, Lattice, Mesh, Reference, State};
+use drape_cloth::{Breen, Cloth, Error, Fold, Grain, Lattice, Mesh, Reference, State};
 use drape_fabric::Fabric;
 
 use crate::panels::{LINEN, RICH, fabric, rectangle, shape};
@@ -86,7 +86,7 @@ fn forces_are_the_derivative_of_the_potential() {
 fn the_stiffness_is_the_derivative_of_the_forces() {
     for (name, lattice, fabric) in cases() {
         let (cloth, state, trial) = tried(&lattice, &fabric, (1e-3, 0.07));
-        let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
+        let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
         cloth.add_stiffness(&state, &trial, false, &mut values);
         let mut random = Random(11);
         let mut worst = 0.0_f64;
@@ -118,7 +118,7 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
 fn the_definite_stiffness_has_no_negative_direction() {
     for (name, lattice, fabric) in cases() {
         let (cloth, state, trial) = tried(&lattice, &fabric, (3e-3, 0.07));
-        let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
+        let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
         cloth.add_stiffness(&state, &trial, true, &mut values);
         let mut random = Random(5);
         for _ in 0..300 {
@@ -176,8 +176,7 @@ fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
     let panels: Vec<_> = lattices.iter().map(|lattice| (lattice, &rich)).collect();
     let cloth = Cloth::new(&panels);
     let mut state = cloth.state(wave(&cloth, 0.0)).expect("it fits");
-    let start = (state.positions.as_slice(), state.normals());
-    let mut reference = Reference::new(&panels, cloth.pattern(), start);
+    let mut reference = Reference::new(&panels, cloth.sparsity(), &state);
     let rest = vec![0.0; 3 * cloth.particles()];
     let mut random = Random(3);
     for step in 0..6 {
@@ -190,7 +189,7 @@ fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
         let work = cloth.potential(&state, &positions) - cloth.potential(&state, &state.positions);
         let exact = reference.potential(&positions) - before;
         assert!((work - exact).abs() < TOLERANCE * exact.abs(), "{step}: work {work}, {exact}");
-        let lost = cloth.commit(&mut state, &positions, &rest).dissipated;
+        let lost = cloth.commit(&mut state, &positions, &rest);
         let exact = reference.commit(&positions, state.normals());
         assert!((lost - exact).abs() < TOLERANCE * exact.abs(), "{step}: lost {lost}, {exact}");
         let trial = place(time + 0.1);
@@ -200,7 +199,7 @@ fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
         let error = distance(&found, &exact);
         assert!(error < TOLERANCE, "{step}: forces {error:e}");
         for definite in [false, true] {
-            let mut found = vec![0.0; 9 * cloth.pattern().blocks()];
+            let mut found = vec![0.0; 9 * cloth.sparsity().blocks()];
             let mut exact = found.clone();
             cloth.add_stiffness(&state, &trial, definite, &mut found);
             reference.add_stiffness(&trial, definite, &mut exact);
@@ -215,13 +214,13 @@ fn numbers(cloth: &Cloth) -> (State, Vec<f64>, Vec<f64>, Vec<f64>) {
     let mut state = cloth.state(wave(cloth, 0.0)).expect("it fits");
     let mut sums = Vec::new();
     let mut forces = vec![0.0; 3 * cloth.particles()];
-    let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
+    let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
     for step in 1..5 {
         let trial = wave(cloth, 0.2 * f64::from(step));
         cloth.add_forces(&state, &trial, &mut forces);
         cloth.add_stiffness(&state, &trial, step % 2 == 0, &mut values);
         sums.push(cloth.potential(&state, &trial));
-        sums.push(cloth.commit(&mut state, &trial, &vec![0.0; trial.len()]).dissipated);
+        sums.push(cloth.commit(&mut state, &trial, &vec![0.0; trial.len()]));
         sums.push(cloth.stored(&state));
     }
     (state, forces, values, sums)
@@ -255,7 +254,7 @@ fn grid(columns: u32, rows: u32, spacing: f64) -> Mesh {
     Mesh {
         spacing: [spacing; 2],
         coordinates: places.iter().map(|place| place.map(|k| f64::from(k) * spacing)).collect(),
-        places,
+        grid: places,
         cells: cells.map(corners).collect(),
         triangles: Vec::new(),
     }
@@ -265,11 +264,14 @@ fn grid(columns: u32, rows: u32, spacing: f64) -> Mesh {
 fn a_panel_that_is_all_grid_is_a_rectangle_to_the_bit() {
     let rich = fabric(RICH);
     let rectangle = Lattice::rectangle(0.25, 0.5, 0.015625).expect("a rectangle");
-    let cut = Lattice::with_rim(grid(16, 32, 0.015625), Grain::default()).expect("a panel");
+    let cut = Lattice::from_mesh(grid(16, 32, 0.015625), Grain::default()).expect("a panel");
     assert_eq!((&cut.cells, &cut.coordinates), (&rectangle.cells, &rectangle.coordinates));
-    assert_eq!((cut.middle, cut.places()), (rectangle.middle, rectangle.places()));
+    assert_eq!(
+        (cut.middle, cut.panel_coordinates()),
+        (rectangle.middle, rectangle.panel_coordinates())
+    );
     let [one, other] = [&rectangle, &cut].map(|lattice| Cloth::new(&[(lattice, &rich)]));
-    assert_eq!(one.pattern(), other.pattern());
+    assert_eq!(one.sparsity(), other.sparsity());
     assert!(numbers(&one) == numbers(&other));
 }
 
@@ -279,32 +281,32 @@ fn what_is_no_panel_is_refused() {
     let refused = |change: &dyn Fn(&mut Mesh)| {
         let mut mesh = mesh.clone();
         change(&mut mesh);
-        Lattice::with_rim(mesh, Grain::default()).expect_err("it is wrong")
+        Lattice::from_mesh(mesh, Grain::default()).expect_err("it is wrong")
     };
-    let part = |error: ClothError| match error {
-        ClothError::Mesh { part, index, .. } => (part, index),
+    let part = |error: Error| match error {
+        Error::Mesh { part, index, .. } => (part, index),
         other => panic!("{other}"),
     };
-    assert!(matches!(refused(&|mesh| mesh.spacing[1] = 0.0), ClothError::Length { .. }));
+    assert!(matches!(refused(&|mesh| mesh.spacing[1] = 0.0), Error::Length { .. }));
     assert_eq!(
         part(refused(&|mesh| *mesh = Mesh { spacing: [1.0; 2], ..Mesh::default() })),
         ("panel", 0)
     );
     assert_eq!(part(refused(&|mesh| mesh.cells[2].swap(0, 1))), ("cell", 2));
     assert_eq!(part(refused(&|mesh| mesh.cells[1][3] = 99)), ("cell", 1));
-    assert_eq!(part(refused(&|mesh| mesh.places.swap(4, 5))), ("node", 5));
+    assert_eq!(part(refused(&|mesh| mesh.grid.swap(4, 5))), ("node", 5));
     assert_eq!(part(refused(&|mesh| mesh.coordinates[3][0] += 1e-3)), ("node", 3));
     assert_eq!(part(refused(&|mesh| mesh.coordinates[3][0] = f64::NAN)), ("node", 3));
     assert_eq!(part(refused(&|mesh| mesh.coordinates.push([0.1, 0.1]))), ("node", 12));
     assert_eq!(part(refused(&|mesh| mesh.triangles.push([0, 4, 1]))), ("triangle", 0));
     assert_eq!(part(refused(&|mesh| mesh.triangles.push([0, 1, 77]))), ("triangle", 0));
-    let far = |mesh: &mut Mesh| mesh.places[11] = [u32::MAX, u32::MAX];
-    assert!(matches!(refused(&far), ClothError::TooMany { .. }));
+    let far = |mesh: &mut Mesh| mesh.grid[11] = [u32::MAX, u32::MAX];
+    assert!(matches!(refused(&far), Error::TooMany { .. }));
 }
 
 #[test]
 fn breens_particles_are_on_grids_alone() {
     let (_, lattice) = panels().remove(0);
     let breen = Breen::new(&[(&lattice, &fabric(RICH))]);
-    assert_eq!(breen.err(), Some(ClothError::Rim));
+    assert_eq!(breen.err(), Some(Error::Rim));
 }

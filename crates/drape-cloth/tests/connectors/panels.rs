@@ -84,7 +84,7 @@ pub fn mesh(cut: &Cut) -> (Mesh, Vec<u32>) {
     let mesh = Mesh {
         spacing: cut.spacing,
         coordinates: order.iter().map(|&k| cut.yarns[k]).collect(),
-        places: order.iter().filter_map(|&k| cut.lattice[k]).collect(),
+        grid: order.iter().filter_map(|&k| cut.lattice[k]).collect(),
         cells: cut.quads.iter().map(|quad| quad.map(|k| number[k as usize])).collect(),
         triangles: cut.triangles.iter().map(|three| three.map(|k| number[k as usize])).collect(),
     };
@@ -111,7 +111,7 @@ pub fn garment(file: &str) -> (Vec<Lattice>, Vec<Seam>) {
 }
 
 pub fn lattice(cut: &Cut, degrees: f64) -> Lattice {
-    Lattice::with_rim(mesh(cut).0, Grain::from_degrees(degrees)).expect("a panel")
+    Lattice::from_mesh(mesh(cut).0, Grain::from_degrees(degrees)).expect("a panel")
 }
 
 /// A panel of one outline in millimetres, its warp at an angle in degrees from its height.
@@ -142,7 +142,7 @@ fn garments() -> Vec<(String, Lattice)> {
                 panel.clone().with_grain(grain).expect("an angle")
             };
             let panels = pattern.panels().iter().map(turned).collect();
-            let pattern = Pattern::new(panels, pattern.stitches().to_vec()).expect("as before");
+            let pattern = Pattern::new(panels, pattern.seams().to_vec()).expect("as before");
             let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
             for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
                 let name = format!("{file} {} {turn}°", panel.name());

@@ -1,6 +1,6 @@
 //! Bending of seams.
 
-use drape_cloth::{Cloth, ClothError, Lattice, Seam, SeamBending, SeamState, Tie};
+use drape_cloth::{Cloth, Error, Lattice, Seam, SeamBending, SeamState, Tie};
 
 use crate::bias::{dot, outline, solve};
 use crate::panels::{LINEAR, RICH, fabric, garment, rectangle, shape};
@@ -20,7 +20,11 @@ impl Sewn {
     fn new(panels: [Lattice; 2], shift: [f64; 2]) -> Self {
         let shifts = [[0.0; 2], shift];
         let place = |(panel, shift): (&Lattice, [f64; 2])| -> Vec<[f64; 2]> {
-            panel.places().into_iter().map(|[x, y]| [x + shift[0], y + shift[1]]).collect()
+            panel
+                .panel_coordinates()
+                .into_iter()
+                .map(|[x, y]| [x + shift[0], y + shift[1]])
+                .collect()
         };
         let places: Vec<Vec<[f64; 2]>> = panels.iter().zip(shifts).map(place).collect();
         let first = places[0].len() as u32;
@@ -49,13 +53,13 @@ impl Sewn {
             let between = |node: &u32| -> Option<Tie> {
                 let place = places[1][*node as usize];
                 let [x, y] = [place[0] - p[0], place[1] - p[1]];
-                let share = (x * (q[0] - p[0]) + y * (q[1] - p[1])) / (length * length);
-                let off = x.hypot(y) - share * length;
-                let inside = share > 1e-9 && share < 1.0 - 1e-9 && off.abs() < 1e-9;
-                inside.then_some(Tie { particle: first + node, ends, share })
+                let fraction = (x * (q[0] - p[0]) + y * (q[1] - p[1])) / (length * length);
+                let off = x.hypot(y) - fraction * length;
+                let inside = fraction > 1e-9 && fraction < 1.0 - 1e-9 && off.abs() < 1e-9;
+                inside.then_some(Tie { particle: first + node, ends, fraction })
             };
             let mut own: Vec<Tie> = outer[1].iter().filter_map(between).collect();
-            own.sort_by(|a, b| a.share.total_cmp(&b.share));
+            own.sort_by(|a, b| a.fraction.total_cmp(&b.fraction));
             ties.extend(own);
         }
         Self { places: places.concat(), panels, pairs, ties }
@@ -120,7 +124,7 @@ fn worn(sewn: &Sewn, text: &str, rest_angle: f64) -> (SeamBending, SeamState, Ve
     };
     let mut state = bending.state(&bent(0.4)).expect("it fits");
     for radius in [0.05, 0.1] {
-        let lost = bending.commit(&mut state, &bent(radius)).dissipated;
+        let lost = bending.commit(&mut state, &bent(radius));
         assert!(lost >= 0.0, "{lost}");
     }
     let trial = bent(0.06);
@@ -159,7 +163,7 @@ fn forces_and_stiffness_are_derivatives_of_the_potential() {
             let error = (dot(&push, &way) + slope) / (size(&push) * (way.len() as f64).sqrt());
             assert!(error.abs() < 1e-7, "{name}: force {error:e}");
             let mut product = vec![0.0; trial.len()];
-            bending.add_stiffness(&state, (&trial, false), |row, column, block| {
+            bending.add_stiffness(&state, &trial, false, |row, column, block| {
                 for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
                     let (row, column) = (3 * row as usize + i, 3 * column as usize + j);
                     product[row] += block[3 * i + j] * way[column];
@@ -176,7 +180,7 @@ fn forces_and_stiffness_are_derivatives_of_the_potential() {
                 assert!(error.abs() < 1e-6, "{name}: stiffness {error:e}");
             }
             let mut energy = 0.0;
-            bending.add_stiffness(&state, (&trial, true), |row, column, block| {
+            bending.add_stiffness(&state, &trial, true, |row, column, block| {
                 let twice = if row == column { 1.0 } else { 2.0 };
                 for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
                     let ends = way[3 * row as usize + i] * way[3 * column as usize + j];
@@ -279,7 +283,7 @@ fn drop((panels, places): (&[Lattice], &[[f64; 2]]), seam: Option<(&Sewn, f64)>)
     let cloth = Cloth::new(&panels);
     let flat: Vec<f64> = places.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
     let state = cloth.state(flat.clone()).expect("it fits");
-    let mut values = vec![0.0; 9 * cloth.pattern().blocks()];
+    let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
     cloth.add_stiffness(&state, &flat, false, &mut values);
     let mut blocks = Vec::new();
     // Heights alone; the nodes of a pair have one height.
@@ -287,7 +291,7 @@ fn drop((panels, places): (&[Lattice], &[[f64; 2]]), seam: Option<(&Sewn, f64)>)
     if let Some((sewn, stiffness)) = seam {
         let bending = sewn.bending(LINEAR, |seam| seam.stiffness = stiffness);
         let state = bending.state(&flat).expect("it fits");
-        bending.add_stiffness(&state, (&flat, false), |row, column, block| {
+        bending.add_stiffness(&state, &flat, false, |row, column, block| {
             blocks.push((row as usize, column as usize, block[8]));
         });
         sewn.pairs.iter().for_each(|&[a, b]| master[b as usize] = a as usize);
@@ -322,7 +326,7 @@ fn a_sewn_strip_bends_nearly_as_one_that_is_not() {
     let (size, radius) = ([0.1, 0.05], 0.1);
     let wide = [2.0 * size[0], size[1]];
     let whole = Lattice::rectangle(wide[0], wide[1], 0.01).expect("a rectangle");
-    let unsewn = drop((std::slice::from_ref(&whole), &whole.places()), None);
+    let unsewn = drop((std::slice::from_ref(&whole), &whole.panel_coordinates()), None);
     let one = shape("M0 0 L90 0 L110 -50 L0 -50 Z", 0.0, 0.01);
     let other = shape("M90 0 L200 0 L200 -50 L110 -50 Z", 0.0, 0.01);
     // A slanted seam sees only the part of the curvature that is across it.
@@ -399,14 +403,14 @@ fn what_is_no_seam_is_refused() {
         change(&mut seam);
         let good = Seam::new(sewn.pairs.clone());
         match SeamBending::new(&panels, &[good, seam]).expect_err("it is wrong") {
-            ClothError::Seam { seam, pair, .. } => (seam, pair),
+            Error::Seam { seam, pair, .. } => (seam, pair),
             other => panic!("{other}"),
         }
     };
     assert_eq!(refused(&|seam| seam.pairs.truncate(1)), (1, 0));
     assert_eq!(refused(&|seam| seam.pairs[2][1] = 9999), (1, 2));
     assert_eq!(refused(&|seam| seam.pairs.swap(3, 4)), (1, 2));
-    let tie = Tie { particle: sewn.pairs[3][1], ends: [sewn.pairs[2][0]; 2], share: 0.5 };
+    let tie = Tie { particle: sewn.pairs[3][1], ends: [sewn.pairs[2][0]; 2], fraction: 0.5 };
     assert_eq!(refused(&|seam| seam.ties.push(tie)), (1, 0));
     assert_eq!(refused(&|seam| seam.stiffness = -1.0), (1, 0));
     assert_eq!(refused(&|seam| seam.rest_angle = f64::NAN), (1, 0));

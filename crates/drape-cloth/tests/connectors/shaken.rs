@@ -44,11 +44,11 @@ pub fn tried(
 
 /// Multiplies the symmetric block matrix with a vector.
 pub fn multiply(cloth: &Cloth, values: &[f64], vector: &[f64]) -> Vec<f64> {
-    let pattern = cloth.pattern();
+    let sparsity = cloth.sparsity();
     let mut product = vec![0.0; vector.len()];
     for row in 0..cloth.particles() {
-        for slot in pattern.offsets[row]..pattern.offsets[row + 1] {
-            let column = pattern.columns[slot];
+        for slot in sparsity.offsets[row]..sparsity.offsets[row + 1] {
+            let column = sparsity.columns[slot];
             for i in 0..3 {
                 for j in 0..3 {
                     let value = values[9 * slot + 3 * i + j];

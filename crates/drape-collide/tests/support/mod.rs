@@ -63,7 +63,7 @@ pub fn derivative<const N: usize>(
 
 /// One body of each primitive form, some with rounded edges, all at a skew pose.
 pub fn primitives() -> Vec<Body> {
-    let pose = Pose::new([0.1, -0.2, 0.3]).turned([1.0, 2.0, -0.5], 0.7);
+    let pose = Pose::new([0.1, -0.2, 0.3]).rotated([1.0, 2.0, -0.5], 0.7);
     let half_extents = [0.2, 0.3, 0.25];
     let shapes = [
         ("ball", Shape::Sphere { radius: 0.3 }),

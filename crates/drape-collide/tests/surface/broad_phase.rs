@@ -2,11 +2,11 @@
 
 use crate::sheets::{SKIN, sheets, soup, surface};
 use crate::support::{Dice, norm, sub};
-use drape_collide::{CollideError, Course, Detector, Kind, Skin, Surface, SurfaceParts};
+use drape_collide::{ContactDistances, Detector, Error, PairKind, Surface, SurfaceParts, Sweep};
 use std::collections::BTreeSet;
 
 type Place = [f64; 3];
-type Key = (Kind, [u32; 2]);
+type Key = (PairKind, [u32; 2]);
 
 fn dot(a: Place, b: Place) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -49,9 +49,10 @@ fn brute_force(
     parts: &SurfaceParts,
     (x, query): (&[f64], f64),
 ) -> BTreeSet<Key> {
-    let SurfaceParts { twins, ties, .. } = parts;
+    let SurfaceParts { seam_pairs, ties, .. } = parts;
     let place = |v: u32| [0, 1, 2].map(|k| x[3 * v as usize + k]);
-    let same = |a: u32, b: u32| a == b || twins.contains(&[a, b]) || twins.contains(&[b, a]);
+    let same =
+        |a: u32, b: u32| a == b || seam_pairs.contains(&[a, b]) || seam_pairs.contains(&[b, a]);
     let has = |list: &[u32], v: u32| list.iter().any(|&w| same(v, w));
     let lies = |v: u32, list: &[u32]| {
         ties.iter().any(|&[tied, a, b]| same(tied, v) && has(list, a) && has(list, b))
@@ -59,15 +60,15 @@ fn brute_force(
     let joined = |one: &[u32], other: &[u32]| {
         one.iter().any(|&v| has(other, v) || lies(v, other)) || other.iter().any(|&v| lies(v, one))
     };
-    let free = |list: &[u32]| list.iter().any(|&v| (v as usize) < surface.free());
+    let free = |list: &[u32]| list.iter().any(|&v| (v as usize) < surface.free_count());
     let mut keys = BTreeSet::new();
-    for vertex in 0..surface.vertices() as u32 {
+    for vertex in 0..surface.vertex_count() as u32 {
         for (t, corners) in surface.triangles().iter().enumerate() {
             if !joined(&[vertex], corners)
                 && (free(&[vertex]) || free(corners))
                 && vertex_face(place(vertex), corners.map(place)) < query
             {
-                keys.insert((Kind::VertexFace, [vertex, t as u32]));
+                keys.insert((PairKind::VertexFace, [vertex, t as u32]));
             }
         }
     }
@@ -77,7 +78,7 @@ fn brute_force(
                 && (free(a) || free(b))
                 && edge_edge(a.map(place), b.map(place)) < query
             {
-                keys.insert((Kind::EdgeEdge, [e as u32, f as u32]));
+                keys.insert((PairKind::EdgeEdge, [e as u32, f as u32]));
             }
         }
     }
@@ -92,7 +93,7 @@ fn compare(parts: &SurfaceParts, positions: &[f64], margin: f64) -> usize {
     assert!(keys.is_sorted(), "the list is sorted");
     let found: BTreeSet<Key> = keys.iter().copied().collect();
     assert_eq!(found.len(), keys.len(), "no pair is there twice");
-    let all = brute_force(&surface, parts, (positions, 2.0 * SKIN.reach + margin));
+    let all = brute_force(&surface, parts, (positions, 2.0 * SKIN.activation_distance + margin));
     let missing: Vec<_> = all.difference(&found).collect();
     let extra: Vec<_> = found.difference(&all).collect();
     assert!(missing.is_empty() && extra.is_empty(), "missing {missing:?}, extra {extra:?}");
@@ -106,7 +107,8 @@ fn random_meshes_have_the_pairs_of_brute_force() {
     for case in 0..300 {
         let size = [0.05, 0.2, 1.0][case % 3];
         let parts = soup(&mut dice, 4 + case % 37, size);
-        let positions: Vec<f64> = parts.rest.iter().map(|x| x + 0.1 * dice.roll()).collect();
+        let positions: Vec<f64> =
+            parts.rest_positions.iter().map(|x| x + 0.1 * dice.roll()).collect();
         let margin = 10f64.powf(-2.0 + 1.5 * dice.roll());
         pairs += compare(&parts, &positions, margin);
     }
@@ -121,15 +123,15 @@ fn folded_sheets_have_the_pairs_of_brute_force() {
         let mut parts = sheets(layers, side, spacing);
         let last = (side * side) as u32 - 1;
         if layers > 1 && case % 2 == 0 {
-            parts.twins = vec![[0, last + 1], [last, 2 * last + 1]];
+            parts.seam_pairs = vec![[0, last + 1], [last, 2 * last + 1]];
             // Of the second sheet's side three vertices lie on the first two edges of the first sheet's.
             let tie = |own: u32, first: u32| [last + 1 + own, first, first + 1];
             parts.ties = vec![tie(1, 0), tie(3, 1), tie(2, 0)];
         }
         let mut positions = Vec::new();
-        for (v, place) in parts.rest.chunks(3).enumerate() {
+        for (v, place) in parts.rest_positions.chunks(3).enumerate() {
             // Rolled up about a line across, with the layers just apart.
-            let radius = 0.008 + 0.0007 * parts.group[v] as f64;
+            let radius = 0.008 + 0.0007 * parts.groups[v] as f64;
             let angle = 120.0 * (place[0] + 0.3 * place[1]);
             let rough = dice.point(2e-4);
             positions.extend([
@@ -149,12 +151,15 @@ fn what_comes_into_reach_on_a_course_is_found() {
     let (mut met, mut found) = (0, [0; 3]);
     for case in 0..200 {
         let mut parts = soup(&mut dice, 8 + case % 23, 0.3);
-        let reach = 0.03;
-        parts.skins.fill(Skin { reach, separation: 0.5 * reach });
+        let activation_distance = 0.03;
+        parts.distances.fill(ContactDistances {
+            activation_distance,
+            min_separation: 0.5 * activation_distance,
+        });
         let surface = surface(&parts);
         let common = dice.point(1.0);
         let margin = 0.02;
-        let vertices = surface.vertices();
+        let vertices = surface.vertex_count();
         let ways: Vec<f64> = (0..vertices)
             .flat_map(|_| {
                 let own = dice.point(0.2);
@@ -163,14 +168,15 @@ fn what_comes_into_reach_on_a_course_is_found() {
             .collect();
         let mut detector = Detector::default();
         let together = case % 2 == 0;
-        let course = if together { Course::Together(&ways) } else { Course::Each(&ways) };
-        let pairs = detector.detect_along(&surface, (&parts.rest, course), margin).unwrap();
+        let course = if together { Sweep::Common(&ways) } else { Sweep::Individual(&ways) };
+        let pairs =
+            detector.detect_swept(&surface, (&parts.rest_positions, course), margin).unwrap();
         let listed: BTreeSet<Key> = pairs.as_slice().iter().map(|pair| pair.key()).collect();
         found[case % 2] += listed.len();
         found[2] += vertices * surface.triangles().len();
         for _ in 0..10 {
             let all = 0.5 + dice.roll();
-            let mut there = parts.rest.clone();
+            let mut there = parts.rest_positions.clone();
             for vertex in 0..vertices {
                 let share = if together { all } else { 0.5 + dice.roll() }.clamp(0.0, 1.0);
                 let beside = dice.direction();
@@ -179,7 +185,7 @@ fn what_comes_into_reach_on_a_course_is_found() {
                     there[3 * vertex + k] += way;
                 }
             }
-            let near = brute_force(&surface, &parts, (&there, 2.0 * reach));
+            let near = brute_force(&surface, &parts, (&there, 2.0 * activation_distance));
             met += near.len();
             let missing: Vec<_> = near.difference(&listed).collect();
             assert!(missing.is_empty(), "case {case}: missing {missing:?}");
@@ -195,12 +201,12 @@ fn a_fine_mesh_does_not_push_itself_at_rest() {
     let parts = sheets(1, 8, 4e-4);
     let surface = surface(&parts);
     let mut detector = Detector::default();
-    let pairs = detector.detect(&surface, &parts.rest, 1e-3).unwrap();
-    // Neighbours but one are 0.28 or 0.4 mm apart, less than the reach of 0.6 mm.
+    let pairs = detector.detect(&surface, &parts.rest_positions, 1e-3).unwrap();
+    // Neighbours but one are 0.28 or 0.4 mm apart, less than the activation_distance of 0.6 mm.
     assert!(!pairs.as_slice().is_empty());
     for pair in pairs.as_slice() {
         let half = 0.5 * pair.distance;
-        assert!(pair.reach <= half && pair.separation <= 0.5 * half, "{pair:?}");
+        assert!(pair.activation_distance <= half && pair.min_separation <= 0.5 * half, "{pair:?}");
     }
 }
 
@@ -208,20 +214,20 @@ fn a_fine_mesh_does_not_push_itself_at_rest() {
 fn what_cannot_be_detected_is_an_error() {
     let parts = sheets(2, 4, 0.01);
     let surface = surface(&parts);
-    let mut positions = parts.rest.clone();
+    let mut positions = parts.rest_positions.clone();
     let mut detector = Detector::with_capacity(3);
     let many = detector.detect(&surface, &positions, 1e-3);
-    assert!(matches!(many, Err(CollideError::TooManyPairs { capacity: 3 })));
+    assert!(matches!(many, Err(Error::TooManyPairs { capacity: 3 })));
     let short = detector.detect(&surface, &positions[3..], 1e-3);
-    assert!(matches!(short, Err(CollideError::WrongLength { found: 93, needed: 96, .. })));
+    assert!(matches!(short, Err(Error::WrongLength { found: 93, needed: 96, .. })));
     for bad in [f64::NAN, f64::INFINITY, 1e300] {
         positions[7] = bad;
         let bad = detector.detect(&surface, &positions, 1e-3);
-        assert!(matches!(bad, Err(CollideError::BadPlace { .. })));
+        assert!(matches!(bad, Err(Error::InvalidPosition { .. })));
     }
     for margin in [0.0, -1.0, f64::NAN] {
-        let bad = detector.detect(&surface, &parts.rest, margin);
-        assert!(matches!(bad, Err(CollideError::OutOfRange { .. })));
+        let bad = detector.detect(&surface, &parts.rest_positions, margin);
+        assert!(matches!(bad, Err(Error::OutOfRange { .. })));
     }
     assert!(detector.pairs().as_slice().is_empty());
 }

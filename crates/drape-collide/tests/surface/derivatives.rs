@@ -1,23 +1,23 @@
 //! Energies, gradients and second derivatives of pairs.
 
 use crate::support::{Dice, derivative, norm};
-use drape_collide::{Gap, Kind, Pair};
+use drape_collide::{Gap, Pair, PairKind};
 
 const STIFFNESS: f64 = 1e9;
 
 /// Of the differences, in m.
 const STEP: f64 = 2e-4;
 
-/// A pair of four vertices with a reach of half a metre, near 1 m in size.
-fn pair(kind: Kind) -> Pair {
+/// A pair of four vertices with a activation_distance of half a metre, near 1 m in size.
+fn pair(kind: PairKind) -> Pair {
     Pair {
         kind,
         features: [0, 1],
         vertices: [0, 1, 2, 3],
-        reach: 0.5,
-        separation: 0.05,
+        activation_distance: 0.5,
+        min_separation: 0.05,
         area: 1e-3,
-        parallel: if kind == Kind::EdgeEdge { 1e-3 } else { 0.0 },
+        parallel: if kind == PairKind::EdgeEdge { 1e-3 } else { 0.0 },
         distance: 0.0,
     }
 }
@@ -35,7 +35,7 @@ fn feature(gap: &Gap) -> [usize; 2] {
 /// The second derivative jumps at the one, the third at the other.
 fn is_smooth(pair: &Pair, positions: &[f64], gap: &Gap) -> bool {
     let lies_on = |gap: &Gap| gap.weights().map(|w| w != 0.0);
-    let joint = pair.separation + 0.5 * (pair.reach - pair.separation);
+    let joint = pair.min_separation + 0.5 * (pair.activation_distance - pair.min_separation);
     if (gap.distance() - joint).abs() < 4.0 * STEP {
         return false;
     }
@@ -46,8 +46,8 @@ fn is_smooth(pair: &Pair, positions: &[f64], gap: &Gap) -> bool {
     })
 }
 
-/// Many random pairs within reach, with the kinds of feature that came up.
-fn sample(kind: Kind, count: usize, mut check: impl FnMut(&Pair, &[f64], &Gap)) {
+/// Many random pairs within activation_distance, with the kinds of feature that came up.
+fn sample(kind: PairKind, count: usize, mut check: impl FnMut(&Pair, &[f64], &Gap)) {
     let mut dice = Dice::new(21);
     let pair = pair(kind);
     let mut features = std::collections::BTreeMap::new();
@@ -66,8 +66,8 @@ fn sample(kind: Kind, count: usize, mut check: impl FnMut(&Pair, &[f64], &Gap)) 
         checked += 1;
     }
     let kinds = match kind {
-        Kind::VertexFace => vec![[1, 1], [1, 2], [1, 3]],
-        Kind::EdgeEdge => vec![[1, 1], [1, 2], [2, 1], [2, 2]],
+        PairKind::VertexFace => vec![[1, 1], [1, 2], [1, 3]],
+        PairKind::EdgeEdge => vec![[1, 1], [1, 2], [2, 1], [2, 2]],
     };
     assert_eq!(features.keys().copied().collect::<Vec<_>>(), kinds, "{features:?}");
     assert!(features.values().all(|times| *times > count / 100), "{features:?}");
@@ -83,7 +83,7 @@ fn near(what: &str, exact: &[f64], differences: &[f64], tolerance: f64) {
 
 #[test]
 fn the_gradient_is_the_derivative_of_the_energy() {
-    for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         sample(kind, 2000, |pair, positions, gap| {
             let differences: Vec<f64> = (0..12)
                 .map(|k| {
@@ -98,7 +98,7 @@ fn the_gradient_is_the_derivative_of_the_energy() {
 
 #[test]
 fn the_hessian_is_the_derivative_of_the_gradient() {
-    for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         sample(kind, 2000, |pair, positions, gap| {
             let hessian = gap.hessian(STIFFNESS).concat();
             let mut differences = Vec::new();
@@ -113,7 +113,7 @@ fn the_hessian_is_the_derivative_of_the_gradient() {
 
 #[test]
 fn forces_balance_and_do_not_turn() {
-    for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         sample(kind, 2000, |_, positions, gap| {
             let gradient = gap.gradient(STIFFNESS);
             let size = gradient.iter().fold(0.0, |size: f64, v| size.max(v.abs()));

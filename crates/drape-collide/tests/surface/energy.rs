@@ -2,22 +2,33 @@
 
 use crate::sheets::{sheets, surface};
 use crate::support::{Dice, derivative};
-use drape_collide::{Detector, Gap, Kind, Pair, Skin, SurfaceSettings};
+use drape_collide::{
+    ContactDistances, Detector, Gap, GaussNewton, Pair, PairKind, SurfaceSettings,
+};
 
 const STIFFNESS: f64 = 1e6;
 
-fn pair(kind: Kind, vertices: [u32; 4]) -> Pair {
-    let (reach, separation, area) = (0.5, 0.05, 1e-3);
-    let parallel = if kind == Kind::EdgeEdge { 0.1 } else { 0.0 };
-    Pair { kind, features: [0, 1], vertices, reach, separation, area, parallel, distance: 0.0 }
+fn pair(kind: PairKind, vertices: [u32; 4]) -> Pair {
+    let (activation_distance, min_separation, area) = (0.5, 0.05, 1e-3);
+    let parallel = if kind == PairKind::EdgeEdge { 0.1 } else { 0.0 };
+    Pair {
+        kind,
+        features: [0, 1],
+        vertices,
+        activation_distance,
+        min_separation,
+        area,
+        parallel,
+        distance: 0.0,
+    }
 }
 
-fn energy(kind: Kind, positions: &[f64]) -> f64 {
+fn energy(kind: PairKind, positions: &[f64]) -> f64 {
     Gap::new(&pair(kind, [0, 1, 2, 3]), positions).energy(STIFFNESS)
 }
 
-/// Random places of a pair within reach but not within the separation.
-fn places(dice: &mut Dice, kind: Kind) -> Vec<f64> {
+/// Random places of a pair within activation_distance but not within the min_separation.
+fn places(dice: &mut Dice, kind: PairKind) -> Vec<f64> {
     loop {
         let positions: Vec<f64> = (0..12).map(|_| 0.5 * dice.roll()).collect();
         let gap = Gap::new(&pair(kind, [0, 1, 2, 3]), &positions);
@@ -31,7 +42,7 @@ fn places(dice: &mut Dice, kind: Kind) -> Vec<f64> {
 fn the_energy_is_continuous_with_its_gradient_along_any_path() {
     let mut dice = Dice::new(61);
     let mut changes = 0;
-    for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         for _ in 0..100 {
             // A straight path on which the closest points wander over all features.
             let (from, to) = (places(&mut dice, kind), places(&mut dice, kind));
@@ -50,7 +61,7 @@ fn the_energy_is_continuous_with_its_gradient_along_any_path() {
                     let middle = 0.5 * (low + high);
                     if feature(middle) == feature(low) { low = middle } else { high = middle }
                 }
-                if gap(low).opening() < 0.01 {
+                if gap(low).clearance() < 0.01 {
                     continue;
                 }
                 changes += 1;
@@ -91,26 +102,26 @@ fn edges_fade_out_as_they_become_parallel() {
                 0.1,
             ]
         };
-        let at_rest = energy(Kind::EdgeEdge, &turned(0.0));
+        let at_rest = energy(PairKind::EdgeEdge, &turned(0.0));
         assert_eq!(at_rest, 0.0);
         for angle in [1e-9, 1e-6, 1e-3] {
-            let now = energy(Kind::EdgeEdge, &turned(angle));
-            let other = energy(Kind::EdgeEdge, &turned(-angle));
+            let now = energy(PairKind::EdgeEdge, &turned(angle));
+            let other = energy(PairKind::EdgeEdge, &turned(-angle));
             // Quadratic in the angle: 2 sin² / 0.1 of the whole.
-            let whole = energy(Kind::EdgeEdge, &turned(1.0));
+            let whole = energy(PairKind::EdgeEdge, &turned(1.0));
             let share = 20.0 * angle.powi(2);
             assert!((now / whole / share - 1.0).abs() < 1e-3, "{now} of {whole} at {angle}");
             assert!((now - other).abs() <= 1e-9 * whole * share, "{now} and {other}");
         }
-        let mut value = |x: &[f64]| [energy(Kind::EdgeEdge, x)];
-        let gap = Gap::new(&pair(Kind::EdgeEdge, [0, 1, 2, 3]), &turned(1e-2));
+        let mut value = |x: &[f64]| [energy(PairKind::EdgeEdge, x)];
+        let gap = Gap::new(&pair(PairKind::EdgeEdge, [0, 1, 2, 3]), &turned(1e-2));
         let gradient = gap.gradient(STIFFNESS);
         for k in 0..12 {
             let slope = derivative(&turned(1e-2), k, 1e-6, &mut value)[0];
             let size = gradient.iter().fold(0.0, |size: f64, g| size.max(g.abs()));
             assert!((slope - gradient[k]).abs() < 1e-5 * size, "{slope} against {}", gradient[k]);
         }
-        let gap = Gap::new(&pair(Kind::EdgeEdge, [0, 1, 2, 3]), &turned(1e-12));
+        let gap = Gap::new(&pair(PairKind::EdgeEdge, [0, 1, 2, 3]), &turned(1e-12));
         assert!(gap.hessian(STIFFNESS).as_flattened().iter().all(|entry| entry.is_finite()));
     }
 }
@@ -118,7 +129,7 @@ fn edges_fade_out_as_they_become_parallel() {
 #[test]
 fn a_rigid_motion_changes_nothing_but_the_axes() {
     let mut dice = Dice::new(62);
-    for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         for _ in 0..300 {
             let positions = places(&mut dice, kind);
             // Rotation by a quaternion, and a shift.
@@ -156,8 +167,8 @@ fn a_rigid_motion_changes_nothing_but_the_axes() {
 fn the_names_of_vertices_and_sides_do_not_matter() {
     let mut dice = Dice::new(63);
     let swaps = [
-        (Kind::VertexFace, vec![[0, 2, 3, 1], [0, 3, 2, 1]]),
-        (Kind::EdgeEdge, vec![[2, 3, 0, 1], [1, 0, 2, 3], [3, 2, 1, 0]]),
+        (PairKind::VertexFace, vec![[0, 2, 3, 1], [0, 3, 2, 1]]),
+        (PairKind::EdgeEdge, vec![[2, 3, 0, 1], [1, 0, 2, 3], [3, 2, 1, 0]]),
     ];
     for (kind, orders) in swaps {
         for _ in 0..300 {
@@ -183,10 +194,10 @@ fn the_names_of_vertices_and_sides_do_not_matter() {
 fn the_definite_part_is_what_stays_on_a_straight_approach() {
     let mut dice = Dice::new(64);
     for _ in 0..100 {
-        let positions = places(&mut dice, Kind::VertexFace);
-        let gap = Gap::new(&pair(Kind::VertexFace, [0, 1, 2, 3]), &positions);
-        let (curvature, direction) = gap.definite(STIFFNESS);
-        assert!(curvature >= 0.0);
+        let positions = places(&mut dice, PairKind::VertexFace);
+        let gap = Gap::new(&pair(PairKind::VertexFace, [0, 1, 2, 3]), &positions);
+        let GaussNewton { factor, distance_gradient } = gap.gauss_newton(STIFFNESS);
+        assert!(factor >= 0.0);
         // The vertex goes along the normal: the distance changes evenly, the normal does not.
         let normal = gap.normal();
         let hessian = gap.hessian(STIFFNESS);
@@ -197,8 +208,8 @@ fn the_definite_part_is_what_stays_on_a_straight_approach() {
                 whole += along(i) * along(j) * entry;
             }
         }
-        let slope: f64 = (0..12).map(|k| along(k) * direction[k]).sum();
-        let part = curvature * slope * slope;
+        let slope: f64 = (0..12).map(|k| along(k) * distance_gradient[k]).sum();
+        let part = factor * slope * slope;
         assert!((slope - 1.0).abs() < 1e-12, "{slope}");
         assert!((whole - part).abs() < 1e-8 * part, "{whole} against {part}");
     }
@@ -207,7 +218,11 @@ fn the_definite_part_is_what_stays_on_a_straight_approach() {
 #[test]
 fn the_pressure_between_sheets_does_not_depend_on_the_mesh() {
     let pressure = |sides: [usize; 2], body: bool| {
-        pressure((sides, body), (4e-4, Skin { reach: 3e-4, separation: 1e-4 }), STIFFNESS)
+        pressure(
+            (sides, body),
+            (4e-4, ContactDistances { activation_distance: 3e-4, min_separation: 1e-4 }),
+            STIFFNESS,
+        )
     };
     for body in [false, true] {
         let even = pressure([21, 21], body);
@@ -224,9 +239,15 @@ fn the_pressure_between_sheets_does_not_depend_on_the_mesh() {
 #[test]
 fn a_pressed_pile_is_as_thick_as_the_stiffness_was_asked_for() {
     for (thickness, pressed) in [(5e-4, 3.5e-4), (5e-4, 4.5e-4), (1e-3, 3e-4)] {
-        let skin = Skin { reach: 0.5 * thickness, separation: 0.25 * pressed };
-        let ends = [2.0 * skin.reach, 2.0 * skin.separation];
-        let stiffness = SurfaceSettings::stiffness_under(4900.0, pressed, ends);
+        let skin = ContactDistances {
+            activation_distance: 0.5 * thickness,
+            min_separation: 0.25 * pressed,
+        };
+        let of_pair = ContactDistances {
+            activation_distance: 2.0 * skin.activation_distance,
+            min_separation: 2.0 * skin.min_separation,
+        };
+        let stiffness = SurfaceSettings::stiffness_for_pressure(4900.0, pressed, of_pair);
         let found = pressure(([61, 61], false), (pressed, skin), stiffness);
         // What of the sheets does not lie over the other is a fiftieth of them.
         assert!((found / 4900.0 - 1.0).abs() < 0.05, "{found} Pa");
@@ -237,20 +258,20 @@ fn a_pressed_pile_is_as_thick_as_the_stiffness_was_asked_for() {
 /// which the second may be a body; off by some of a cell, so that each point of either stands for the same area.
 fn pressure(
     (sides, body): ([usize; 2], bool),
-    (distance, skin): (f64, Skin),
+    (distance, skin): (f64, ContactDistances),
     stiffness: f64,
 ) -> f64 {
     let mut parts = sheets(1, sides[0], 0.5 / (sides[0] - 1) as f64);
     let other = sheets(1, sides[1], 0.5 / (sides[1] - 1) as f64);
     let first = parts.areas.len();
-    parts.rest.extend(&other.rest);
+    parts.rest_positions.extend(&other.rest_positions);
     let lifted = |t: &[u32; 3]| t.map(|v| v + first as u32);
     parts.triangles.extend(other.triangles.iter().map(lifted));
     parts.areas.extend(&other.areas);
-    parts.group.extend(vec![1; other.areas.len()]);
-    parts.skins = vec![skin; 2];
-    parts.free = if body { first } else { parts.areas.len() };
-    let mut positions = parts.rest.clone();
+    parts.groups.extend(vec![1; other.areas.len()]);
+    parts.distances = vec![skin; 2];
+    parts.free_vertices = if body { first } else { parts.areas.len() };
+    let mut positions = parts.rest_positions.clone();
     for place in positions[3 * first..].chunks_mut(3) {
         place[2] = distance;
         (place[0], place[1]) = (place[0] + 1.7e-3, place[1] + 2.9e-3);

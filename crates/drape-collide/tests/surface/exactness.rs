@@ -3,7 +3,7 @@
 use crate::exact::{Motion, apart};
 use crate::sheets::{SKIN, surface};
 use crate::support::{Dice, norm};
-use drape_collide::{Crossing, Gap, Kind, Pair, SurfaceParts, crossings};
+use drape_collide::{Gap, Intersection, Pair, PairKind, SurfaceParts, intersections};
 use std::collections::BTreeSet;
 
 /// Triangles on a small lattice, seen from afar: most meet, touch or lie in one plane.
@@ -17,18 +17,18 @@ fn compare(places: &[[i64; 3]], scale: f64, shift: f64) -> [usize; 2] {
     // At rest they are all the same, in groups of their own.
     let rest = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     let surface = surface(&SurfaceParts {
-        rest: rest.iter().copied().cycle().take(3 * places.len()).collect(),
+        rest_positions: rest.iter().copied().cycle().take(3 * places.len()).collect(),
         triangles: (0..triangles as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
         areas: vec![1.0; places.len()],
-        group: (0..places.len() as u32).map(|v| v / 3).collect(),
-        skins: vec![SKIN; triangles],
-        free: places.len(),
-        twins: Vec::new(),
+        groups: (0..places.len() as u32).map(|v| v / 3).collect(),
+        distances: vec![SKIN; triangles],
+        free_vertices: places.len(),
+        seam_pairs: Vec::new(),
         ties: Vec::new(),
     });
     let positions: Vec<f64> =
         places.as_flattened().iter().map(|&x| scale * x as f64 + shift).collect();
-    let found = crossings(&surface, &positions).unwrap();
+    let found = intersections(&surface, &positions).unwrap();
     assert!(found.is_sorted(), "{found:?}");
     let place = |v: u32| places[v as usize].map(i128::from);
     let mut all = BTreeSet::new();
@@ -36,7 +36,7 @@ fn compare(places: &[[i64; 3]], scale: f64, shift: f64) -> [usize; 2] {
         for (t, corners) in surface.triangles().iter().enumerate() {
             let own = ends.iter().any(|end| corners.contains(end));
             if !own && !apart(&ends.map(place), &corners.map(place)) {
-                all.insert(Crossing { edge: e as u32, triangle: t as u32 });
+                all.insert(Intersection { edge: e as u32, triangle: t as u32 });
             }
         }
     }
@@ -68,16 +68,16 @@ fn a_last_place_decides() {
         let other = [[0.3, 0.3, end], [0.3, 0.3, 1.0], [5.0, 5.0, 1.0]];
         let positions: Vec<f64> = square.iter().chain(&other).flatten().copied().collect();
         let surface = surface(&SurfaceParts {
-            rest: positions.clone(),
+            rest_positions: positions.clone(),
             triangles: vec![[0, 1, 2], [3, 4, 5]],
             areas: vec![1.0; 6],
-            group: vec![0, 0, 0, 1, 1, 1],
-            skins: vec![SKIN; 2],
-            free: 3,
-            twins: Vec::new(),
+            groups: vec![0, 0, 0, 1, 1, 1],
+            distances: vec![SKIN; 2],
+            free_vertices: 3,
+            seam_pairs: Vec::new(),
             ties: Vec::new(),
         });
-        let found = crossings(&surface, &positions).unwrap();
+        let found = intersections(&surface, &positions).unwrap();
         assert_eq!(!found.is_empty(), meets, "the edge ends at {end}: {found:?}");
     }
 }
@@ -88,7 +88,7 @@ fn a_last_place_decides() {
 fn distances_of_slivers_and_nearly_parallel_edges_are_exact() {
     let mut dice = Dice::new(52);
     for case in 0..2_000 {
-        let kind = if case % 2 == 0 { Kind::VertexFace } else { Kind::EdgeEdge };
+        let kind = if case % 2 == 0 { PairKind::VertexFace } else { PairKind::EdgeEdge };
         let tiny = 10f64.powf(-8.0 + 8.0 * dice.roll());
         let mut x: [[f64; 3]; 4] = std::array::from_fn(|_| dice.point(1.0));
         // The last place is all but on the line of the second and the third, or the second edge
@@ -96,7 +96,7 @@ fn distances_of_slivers_and_nearly_parallel_edges_are_exact() {
         let share = 2.0 * dice.roll();
         let rough = dice.point(tiny);
         match kind {
-            Kind::VertexFace => {
+            PairKind::VertexFace => {
                 x[3] = [0, 1, 2].map(|k| x[1][k] + share * (x[2][k] - x[1][k]) + rough[k]);
                 // Over the sliver itself or beside it.
                 let over = dice.roll();
@@ -109,7 +109,7 @@ fn distances_of_slivers_and_nearly_parallel_edges_are_exact() {
                 let away = if case % 4 == 0 { up.map(|c| 1e-2 * c / norm(up)) } else { beside };
                 x[0] = [0, 1, 2].map(|k| x[1][k] + over * u[k] + 0.3 * rough[k] + away[k]);
             }
-            Kind::EdgeEdge => {
+            PairKind::EdgeEdge => {
                 let away = dice.point(1e-2);
                 x[2] = [0, 1, 2].map(|k| x[0][k] + 0.5 * share * (x[1][k] - x[0][k]) + away[k]);
                 x[3] = [0, 1, 2].map(|k| x[2][k] + (x[1][k] - x[0][k]) + rough[k]);
@@ -119,8 +119,8 @@ fn distances_of_slivers_and_nearly_parallel_edges_are_exact() {
             kind,
             features: [0, 1],
             vertices: [0, 1, 2, 3],
-            reach: 1.0,
-            separation: 1e-9,
+            activation_distance: 1.0,
+            min_separation: 1e-9,
             area: 1.0,
             parallel: 0.0,
             distance: 0.0,
@@ -128,7 +128,7 @@ fn distances_of_slivers_and_nearly_parallel_edges_are_exact() {
         let positions = x.as_flattened();
         let gap = Gap::new(&pair, positions);
         let (distance, weights) = (gap.distance(), gap.weights());
-        let first = if kind == Kind::VertexFace { 1 } else { 2 };
+        let first = if kind == PairKind::VertexFace { 1 } else { 2 };
         let sums = [&weights[..first], &weights[first..]].map(|list| list.iter().sum::<f64>());
         assert!((sums[0] - 1.0).abs() < 1e-14 && (sums[1] + 1.0).abs() < 1e-14, "{weights:?}");
         let way: [f64; 3] = [0, 1, 2].map(|k| (0..4).map(|i| weights[i] * x[i][k]).sum());

@@ -2,19 +2,21 @@
 
 use crate::sheets::{sheets, surface};
 use crate::support::Dice;
-use drape_collide::{Course, Detector, Filter, Kind, Skin, Surface, SurfaceParts, crossings};
+use drape_collide::{
+    CcdFilter, ContactDistances, Detector, PairKind, Surface, SurfaceParts, Sweep, intersections,
+};
 
 const SPACING: f64 = 5e-3;
 const LAYER_GAP: f64 = 4e-4;
-const SKIN: Skin = Skin { reach: 2e-4, separation: 1e-4 };
+const SKIN: ContactDistances = ContactDistances { activation_distance: 2e-4, min_separation: 1e-4 };
 /// Room for ways of 1 mm on one detection.
 const MARGIN: f64 = 2.4e-3;
 
 fn stack(layers: usize, side: usize) -> (SurfaceParts, Vec<f64>) {
     let mut parts = sheets(layers, side, SPACING);
-    parts.skins.fill(SKIN);
-    let mut positions = parts.rest.clone();
-    for (place, group) in positions.chunks_mut(3).zip(&parts.group) {
+    parts.distances.fill(SKIN);
+    let mut positions = parts.rest_positions.clone();
+    for (place, group) in positions.chunks_mut(3).zip(&parts.groups) {
         place[2] = LAYER_GAP * f64::from(*group);
     }
     (parts, positions)
@@ -35,13 +37,13 @@ fn random_move(dice: &mut Dice, kind: usize, positions: &[f64]) -> Vec<f64> {
 
 fn smallest(detector: &mut Detector, surface: &Surface, positions: &[f64]) -> f64 {
     let pairs = detector.detect(surface, positions, MARGIN).unwrap().as_slice();
-    pairs.iter().map(|pair| pair.distance / pair.separation).fold(f64::INFINITY, f64::min)
+    pairs.iter().map(|pair| pair.distance / pair.min_separation).fold(f64::INFINITY, f64::min)
 }
 
 fn shake(layers: usize, side: usize, moves: usize) {
     let (parts, mut positions) = stack(layers, side);
     let surface = surface(&parts);
-    let (mut detector, mut filter) = (Detector::default(), Filter::default());
+    let (mut detector, mut filter) = (Detector::default(), CcdFilter::default());
     let mut dice = Dice::new(31);
     let (mut gone, mut shortened) = (0.0f64, 0);
     let mut nearest = f64::INFINITY;
@@ -49,7 +51,7 @@ fn shake(layers: usize, side: usize, moves: usize) {
         let mut way = random_move(&mut dice, k % 5, &positions);
         let pairs = detector.detect(&surface, &positions, MARGIN).unwrap();
         if k % 3 == 2 {
-            let share = filter.scalar(pairs, &positions, &way).unwrap().value;
+            let share = filter.common_fraction(pairs, &positions, &way).unwrap().value;
             way.iter_mut().for_each(|component| *component *= share);
         } else {
             let truncation = filter.truncate(pairs, &positions, &mut way).unwrap();
@@ -57,10 +59,10 @@ fn shake(layers: usize, side: usize, moves: usize) {
         }
         gone += way.iter().map(|w| w * w).sum::<f64>().sqrt();
         positions.iter_mut().zip(&way).for_each(|(x, w)| *x += w);
-        let met = crossings(&surface, &positions).unwrap();
+        let met = intersections(&surface, &positions).unwrap();
         assert!(met.is_empty(), "after move {k}: {met:?}");
         nearest = nearest.min(smallest(&mut detector, &surface, &positions));
-        assert!(nearest >= 1.0 - 1e-9, "after move {k}: {nearest} of the separation");
+        assert!(nearest >= 1.0 - 1e-9, "after move {k}: {nearest} of the min_separation");
     }
     let size = (positions.len() as f64).sqrt();
     // The moves are not all zero, and they do bring the sheets together.
@@ -73,13 +75,13 @@ fn five_small_sheets_never_cross() {
     shake(5, 14, 60);
 }
 
-/// Pairs are detected along the whole way, with little margin; a second, shorter way then goes on from where the filter
+/// CandidatePairs are detected along the whole way, with little margin; a second, shorter way then goes on from where the filter
 /// let the first end.
 #[test]
 fn sheets_never_cross_on_courses() {
     let (parts, mut positions) = stack(5, 14);
     let surface = surface(&parts);
-    let (mut detector, mut filter) = (Detector::default(), Filter::default());
+    let (mut detector, mut filter) = (Detector::default(), CcdFilter::default());
     let mut dice = Dice::new(32);
     let margin = 2e-4;
     let (mut gone, mut nearest) = (0.0f64, f64::INFINITY);
@@ -89,14 +91,14 @@ fn sheets_never_cross_on_courses() {
             let mut way: Vec<f64> = way.iter().map(|w| size * w).collect();
             let together = k % 3 == 2;
             if turn == 0 {
-                let course = if together { Course::Together(&way) } else { Course::Each(&way) };
-                detector.detect_along(&surface, (&positions, course), margin).unwrap();
+                let course = if together { Sweep::Common(&way) } else { Sweep::Individual(&way) };
+                detector.detect_swept(&surface, (&positions, course), margin).unwrap();
             } else {
                 detector.follow(&positions);
             }
             let pairs = detector.pairs();
             if together {
-                let share = filter.scalar(pairs, &positions, &way).unwrap().value;
+                let share = filter.common_fraction(pairs, &positions, &way).unwrap().value;
                 // As a line search may.
                 let share = if k % 2 == 0 { share } else { 0.5 * share };
                 way.iter_mut().for_each(|component| *component *= share);
@@ -105,12 +107,12 @@ fn sheets_never_cross_on_courses() {
             }
             gone += way.iter().map(|w| w * w).sum::<f64>().sqrt();
             positions.iter_mut().zip(&way).for_each(|(x, w)| *x += w);
-            let met = crossings(&surface, &positions).unwrap();
+            let met = intersections(&surface, &positions).unwrap();
             assert!(met.is_empty(), "after move {k}: {met:?}");
             let list = Detector::default().detect(&surface, &positions, margin).unwrap().clone();
-            let ratios = list.as_slice().iter().map(|pair| pair.distance / pair.separation);
+            let ratios = list.as_slice().iter().map(|pair| pair.distance / pair.min_separation);
             nearest = ratios.fold(nearest, f64::min);
-            assert!(nearest >= 1.0 - 1e-9, "after move {k}: {nearest} of the separation");
+            assert!(nearest >= 1.0 - 1e-9, "after move {k}: {nearest} of the min_separation");
         }
     }
     let size = (positions.len() as f64).sqrt();
@@ -128,14 +130,14 @@ fn one_unfiltered_move_crosses_many_times() {
     let (parts, positions) = stack(5, 14);
     let way = random_move(&mut Dice::new(31), 0, &positions);
     let moved: Vec<f64> = positions.iter().zip(&way).map(|(x, w)| x + w).collect();
-    let met = crossings(&surface(&parts), &moved).unwrap();
+    let met = intersections(&surface(&parts), &moved).unwrap();
     assert!(met.len() > 300, "only {} crossings", met.len());
 }
 
 #[test]
 fn a_body_goes_on_as_one_piece() {
     let (mut parts, mut positions) = stack(2, 10);
-    parts.free = 100;
+    parts.free_vertices = 100;
     // The upper sheet is a body that drops 5 mm on the lower, a corner of it tilted further.
     let mut way = vec![0.0; positions.len()];
     for v in 100..200 {
@@ -144,14 +146,14 @@ fn a_body_goes_on_as_one_piece() {
     let full = way.clone();
     let surface = surface(&parts);
     let mut detector = Detector::default();
-    let mut filter = Filter::default();
+    let mut filter = CcdFilter::default();
     let pairs = detector.detect(&surface, &positions, MARGIN).unwrap();
     assert!(pairs.as_slice().iter().all(|pair| pair.vertices.iter().any(|v| *v < 100)));
-    assert!(pairs.as_slice().iter().any(|pair| pair.kind == Kind::EdgeEdge));
+    assert!(pairs.as_slice().iter().any(|pair| pair.kind == PairKind::EdgeEdge));
     let truncation = filter.truncate(pairs, &positions, &mut way).unwrap();
-    assert!(truncation.bodies > 0.02 && truncation.bodies < 0.04, "{truncation:?}");
+    assert!(truncation.body_fraction > 0.02 && truncation.body_fraction < 0.04, "{truncation:?}");
     for (shortened, full) in way.iter().zip(&full) {
-        assert_eq!(*shortened, full * truncation.bodies);
+        assert_eq!(*shortened, full * truncation.body_fraction);
     }
     positions.iter_mut().zip(&way).for_each(|(x, w)| *x += w);
     assert!(smallest(&mut detector, &surface, &positions) >= 1.0);

@@ -1,4 +1,4 @@
-//! Contact of surfaces: triangles against triangles, with every pair certified.
+//! ParticleContact of surfaces: triangles against triangles, with every pair certified.
 
 #![allow(clippy::unwrap_used)]
 

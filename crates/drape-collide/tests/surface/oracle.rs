@@ -3,7 +3,7 @@
 use crate::exact::Motion;
 use crate::sheets::surface;
 use crate::support::Dice;
-use drape_collide::{Detector, Filter, Skin, Surface, SurfaceParts};
+use drape_collide::{CcdFilter, ContactDistances, Detector, Surface, SurfaceParts};
 
 type Places = [[f64; 3]; 6];
 
@@ -31,7 +31,7 @@ fn judged() -> Vec<(Vec<usize>, Vec<usize>)> {
 fn two_triangles(size: f64, free: usize) -> Surface {
     let half = |distance: f64| 0.5 * distance * size;
     surface(&SurfaceParts {
-        rest: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+        rest_positions: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
             .iter()
             .cycle()
             .take(6)
@@ -39,10 +39,16 @@ fn two_triangles(size: f64, free: usize) -> Surface {
             .collect(),
         triangles: vec![[0, 1, 2], [3, 4, 5]],
         areas: vec![1e-4; 6],
-        group: vec![0, 0, 0, 1, 1, 1],
-        skins: vec![Skin { reach: half(REACH), separation: half(SEPARATION) }; 2],
-        free,
-        twins: Vec::new(),
+        groups: vec![0, 0, 0, 1, 1, 1],
+        distances: vec![
+            ContactDistances {
+                activation_distance: half(REACH),
+                min_separation: half(SEPARATION)
+            };
+            2
+        ],
+        free_vertices: free,
+        seam_pairs: Vec::new(),
         ties: Vec::new(),
     })
 }
@@ -56,7 +62,7 @@ fn adversary(dice: &mut Dice, kind: usize) -> (Places, Places) {
     let mut x: Places = std::array::from_fn(|_| dice.point(0.6));
     let tiny = 10f64.powf(-6.0 + 6.0 * dice.roll());
     let up = [0.0, 0.0, 1.0];
-    // Some begin within the separation.
+    // Some begin within the min_separation.
     let excess = 10f64.powf(-4.0 + 4.0 * dice.roll());
     let gap = SEPARATION * if dice.roll() > 0.6 { 1.0 - 0.9 * excess } else { 1.0 + excess };
     let mut way: Places = std::array::from_fn(|_| dice.point(0.5));
@@ -140,12 +146,12 @@ fn adversary(dice: &mut Dice, kind: usize) -> (Places, Places) {
 /// What came of some cases.
 #[derive(Debug, Default)]
 struct Tally {
-    /// Motions that would have brought two primitives within the separation, or made them cross.
+    /// Motions that would have brought two primitives within the min_separation, or made them cross.
     dangerous: usize,
     /// Steps that were shortened, and among them those that still go on.
     shortened: usize,
     moving: usize,
-    /// Pairs that were apart by the separation at the start and judged.
+    /// CandidatePairs that were apart by the min_separation at the start and judged.
     proved: usize,
 }
 
@@ -153,7 +159,7 @@ fn run(cases: usize, seed: u64) -> Tally {
     let mut dice = Dice::new(seed);
     let surfaces: Vec<[Surface; 2]> =
         SIZES.iter().map(|&(size, _)| [6, 3].map(|free| two_triangles(size, free))).collect();
-    let (mut detector, mut filter) = (Detector::default(), Filter::default());
+    let (mut detector, mut filter) = (Detector::default(), CcdFilter::default());
     let mut tally = Tally::default();
     for case in 0..cases {
         let (size, far) = SIZES[case % SIZES.len()];
@@ -170,7 +176,7 @@ fn run(cases: usize, seed: u64) -> Tally {
         for round in 0..3 {
             let mut way = full.clone();
             if (case + round) % 2 == 0 {
-                let fraction = filter.scalar(pairs, &positions, &way).unwrap();
+                let fraction = filter.common_fraction(pairs, &positions, &way).unwrap();
                 assert!((0.0..=1.0).contains(&fraction.value));
                 way.iter_mut().for_each(|component| *component *= fraction.value);
             } else {
@@ -203,15 +209,15 @@ fn harmless(motion_of: (&[f64], &[f64]), target: f64) -> bool {
     (0..=16).all(|time| motion.apart_at(&[0, 1, 2], &[3, 4, 5], (time, 4)))
 }
 
-/// Every pair that kept the separation at the start keeps it all the way; every other pair that was
+/// Every pair that kept the min_separation at the start keeps it all the way; every other pair that was
 /// apart stays apart.
-fn judge(tally: &mut Tally, ends: (&[f64], &[f64]), separation: f64, case: (usize, usize)) {
-    // The promise is the separation to a billionth.
-    let target = separation * (1.0 - 1e-9);
+fn judge(tally: &mut Tally, ends: (&[f64], &[f64]), min_separation: f64, case: (usize, usize)) {
+    // The promise is the min_separation to a billionth.
+    let target = min_separation * (1.0 - 1e-9);
     let whole = motion(ends, target);
-    let standing = motion((ends.0, ends.0), separation);
+    let standing = motion((ends.0, ends.0), min_separation);
     for (a, b) in judged() {
-        if standing.keeps(&a, &b, separation) {
+        if standing.keeps(&a, &b, min_separation) {
             assert!(whole.keeps(&a, &b, target), "case {case:?}: {a:?} and {b:?} come too near");
             tally.proved += 1;
         } else if standing.apart_at(&a, &b, (0, 0)) {

@@ -1,28 +1,29 @@
 //! Meshes that the tests share.
 
 use crate::support::Dice;
-use drape_collide::{Skin, Surface, SurfaceParts};
+use drape_collide::{ContactDistances, Surface, SurfaceParts};
 
-pub const SKIN: Skin = Skin { reach: 3e-4, separation: 5e-5 };
+pub const SKIN: ContactDistances =
+    ContactDistances { activation_distance: 3e-4, min_separation: 5e-5 };
 
 /// Parts of sheets of `side` × `side` vertices at a spacing, one group each, alike at rest.
 pub fn sheets(layers: usize, side: usize, spacing: f64) -> SurfaceParts {
     let mut parts = SurfaceParts {
-        rest: Vec::new(),
+        rest_positions: Vec::new(),
         triangles: Vec::new(),
         areas: vec![spacing * spacing; layers * side * side],
-        group: Vec::new(),
-        skins: vec![SKIN; layers],
-        free: layers * side * side,
-        twins: Vec::new(),
+        groups: Vec::new(),
+        distances: vec![SKIN; layers],
+        free_vertices: layers * side * side,
+        seam_pairs: Vec::new(),
         ties: Vec::new(),
     };
     for layer in 0..layers {
         let first = (layer * side * side) as u32;
         for row in 0..side {
             for column in 0..side {
-                parts.rest.extend([column as f64 * spacing, row as f64 * spacing, 0.0]);
-                parts.group.push(layer as u32);
+                parts.rest_positions.extend([column as f64 * spacing, row as f64 * spacing, 0.0]);
+                parts.groups.push(layer as u32);
             }
         }
         for row in 0..side - 1 {
@@ -55,13 +56,13 @@ pub fn soup(dice: &mut Dice, triangles: usize, size: f64) -> SurfaceParts {
         }
     }
     SurfaceParts {
-        rest,
+        rest_positions: rest,
         triangles: (0..triangles as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
         areas: vec![1e-4; 3 * triangles],
-        group: (0..3 * triangles).map(|v| u32::from(v >= free)).collect(),
-        skins: vec![SKIN; 2],
-        free,
-        twins: Vec::new(),
+        groups: (0..3 * triangles).map(|v| u32::from(v >= free)).collect(),
+        distances: vec![SKIN; 2],
+        free_vertices: free,
+        seam_pairs: Vec::new(),
         ties: Vec::new(),
     }
 }

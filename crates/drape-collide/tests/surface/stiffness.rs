@@ -1,7 +1,7 @@
 //! The stiffness of surfaces in contact against differences of their forces.
 
 use crate::sheets::{SKIN, sheets, surface};
-use drape_collide::{Pinch, SurfaceContact, SurfaceSettings};
+use drape_collide::{PinchPolicy, SurfaceContact, SurfaceSettings};
 
 const STICK: f64 = 1e-4;
 
@@ -40,16 +40,17 @@ fn sum_of_blocks(contact: &mut SurfaceContact, positions: &[f64]) -> [f64; 9] {
 fn a_flat_sheet_meets_the_derivative_of_its_forces() {
     let (side, spacing) = (6, 5e-3);
     let mut parts = sheets(2, side, spacing);
-    parts.free = side * side;
-    let bodies = parts.rest[3 * parts.free..].to_vec();
+    parts.free_vertices = side * side;
+    let bodies = parts.rest_positions[3 * parts.free_vertices..].to_vec();
     let settings = SurfaceSettings {
         stiffness: 1e9,
-        stick: STICK,
-        friction: vec![0.4; 4],
-        pinch: Pinch::Error,
+        sticking_displacement: STICK,
+        friction_coefficients: vec![0.4; 4],
+        pinch: PinchPolicy::Error,
     };
-    let height = 2.0 * SKIN.separation + 0.36 * (2.0 * SKIN.reach - 2.0 * SKIN.separation);
-    // No vertex is within reach of an edge that it is not over: all pairs push straight up.
+    let height = 2.0 * SKIN.min_separation
+        + 0.36 * (2.0 * SKIN.activation_distance - 2.0 * SKIN.min_separation);
+    // No vertex is within activation_distance of an edge that it is not over: all pairs push straight up.
     let offset = [0.45 * spacing, 0.2 * spacing, height];
     let start: Vec<f64> = bodies.iter().zip(offset.iter().cycle()).map(|(x, o)| x + o).collect();
     for (slip, slides) in [([0.3 * STICK, -0.2 * STICK], false), ([2.0 * STICK, 1.5 * STICK], true)]
@@ -62,7 +63,7 @@ fn a_flat_sheet_meets_the_derivative_of_its_forces() {
             start.iter().zip(way.iter().cycle()).map(|(x, w)| x + w).collect();
         let stiffness = sum_of_blocks(&mut contact, &positions);
         let size = stiffness[8];
-        assert!(size > 0.0 && contact.nearness().touching > 50);
+        assert!(size > 0.0 && contact.summary().touching > 50);
         for axis in 0..3 {
             let ways =
                 [STEP, -STEP].map(|step| [0, 1, 2].map(|k| if k == axis { step } else { 0.0 }));

@@ -3,7 +3,8 @@
 use crate::sheets::{sheets, surface};
 use crate::support::Dice;
 use drape_collide::{
-    CollideError, Detector, Filter, Limit, Pairs, Skin, Surface, SurfaceParts, crossings,
+    CandidatePairs, CcdFilter, ContactDistances, Detector, Error, StepLimit, Surface, SurfaceParts,
+    intersections,
 };
 use rayon::ThreadPoolBuilder;
 
@@ -16,56 +17,56 @@ fn parts_that_make_no_surface_are_refused() {
         Surface::new(parts).unwrap_err()
     };
     type Change = fn(&mut SurfaceParts);
-    type Expected = fn(&CollideError) -> bool;
+    type Expected = fn(&Error) -> bool;
     let cases: [(Change, Expected); 16] = [
-        (|p| _ = p.rest.pop(), |e| matches!(e, CollideError::WrongLength { .. })),
-        (|p| _ = p.group.pop(), |e| matches!(e, CollideError::WrongLength { .. })),
-        (|p| p.rest[4] = f64::NAN, |e| matches!(e, CollideError::BadPlace { .. })),
-        (|p| p.rest[4] = 1e7, |e| matches!(e, CollideError::BadPlace { .. })),
-        (|p| p.free = 33, |e| matches!(e, CollideError::OutOfRange { .. })),
-        (|p| p.skins[1].reach = 0.0, |e| matches!(e, CollideError::OutOfRange { .. })),
-        (|p| p.skins[1].separation = 0.0, |e| matches!(e, CollideError::OutOfRange { .. })),
-        (|p| p.skins[1].separation = 3e-4, |e| matches!(e, CollideError::OutOfRange { .. })),
-        (|p| p.group[5] = 2, |e| matches!(e, CollideError::NoSuchSkin { vertex: 5, .. })),
-        (|p| p.areas[3] = -1.0, |e| matches!(e, CollideError::BadArea { particle: 3, .. })),
-        (|p| p.twins.push([0, 32]), |e| matches!(e, CollideError::NoSuchTwin { .. })),
-        (|p| p.ties.push([0, 1, 32]), |e| matches!(e, CollideError::NoSuchTwin { .. })),
-        (|p| p.triangles[2][1] = 32, |e| matches!(e, CollideError::NoSuchVertex { .. })),
-        (|p| p.triangles[2] = [1, 2, 1], |e| matches!(e, CollideError::RepeatedVertex { .. })),
-        (|p| p.triangles[2] = [0, 1, 17], |e| matches!(e, CollideError::MixedTriangle { .. })),
-        (|p| p.triangles[2] = [0, 1, 2], |e| matches!(e, CollideError::FlatTriangle { .. })),
+        (|p| _ = p.rest_positions.pop(), |e| matches!(e, Error::WrongLength { .. })),
+        (|p| _ = p.groups.pop(), |e| matches!(e, Error::WrongLength { .. })),
+        (|p| p.rest_positions[4] = f64::NAN, |e| matches!(e, Error::InvalidPosition { .. })),
+        (|p| p.rest_positions[4] = 1e7, |e| matches!(e, Error::InvalidPosition { .. })),
+        (|p| p.free_vertices = 33, |e| matches!(e, Error::OutOfRange { .. })),
+        (|p| p.distances[1].activation_distance = 0.0, |e| matches!(e, Error::OutOfRange { .. })),
+        (|p| p.distances[1].min_separation = 0.0, |e| matches!(e, Error::OutOfRange { .. })),
+        (|p| p.distances[1].min_separation = 3e-4, |e| matches!(e, Error::OutOfRange { .. })),
+        (|p| p.groups[5] = 2, |e| matches!(e, Error::MissingGroup { vertex: 5, .. })),
+        (|p| p.areas[3] = -1.0, |e| matches!(e, Error::InvalidArea { particle: 3, .. })),
+        (|p| p.seam_pairs.push([0, 32]), |e| matches!(e, Error::MissingSeamVertex { .. })),
+        (|p| p.ties.push([0, 1, 32]), |e| matches!(e, Error::MissingSeamVertex { .. })),
+        (|p| p.triangles[2][1] = 32, |e| matches!(e, Error::MissingVertex { .. })),
+        (|p| p.triangles[2] = [1, 2, 1], |e| matches!(e, Error::RepeatedVertex { .. })),
+        (|p| p.triangles[2] = [0, 1, 17], |e| matches!(e, Error::MixedTriangle { .. })),
+        (|p| p.triangles[2] = [0, 1, 2], |e| matches!(e, Error::FlatTriangle { .. })),
     ];
     for (k, (change, expected)) in cases.into_iter().enumerate() {
         let error = refused(change);
         assert!(expected(&error), "case {k}: {error}");
     }
     // A body and cloth in one triangle; two corners of a sheet in one place at rest.
-    let mixed = refused(|p| p.free = 30);
-    assert!(matches!(mixed, CollideError::MixedTriangle { .. }), "{mixed}");
-    let touching = refused(|p| p.rest.copy_within(0..3, 45));
-    assert!(matches!(touching, CollideError::TouchingAtRest { .. }), "{touching}");
+    let mixed = refused(|p| p.free_vertices = 30);
+    assert!(matches!(mixed, Error::MixedTriangle { .. }), "{mixed}");
+    let touching = refused(|p| p.rest_positions.copy_within(0..3, 45));
+    assert!(matches!(touching, Error::ContactAtRest { .. }), "{touching}");
 }
 
 #[test]
 fn the_edges_of_bodies_do_not_count_in_the_median() {
-    let sheet = surface(&sheets(1, 4, 0.01)).median_edge();
+    let sheet = surface(&sheets(1, 4, 0.01)).median_edge_length();
     assert!((sheet - 0.01).abs() < 1e-12, "{sheet}");
     let mut parts = sheets(2, 4, 0.01);
-    parts.free = 16;
+    parts.free_vertices = 16;
     // A finely meshed body.
-    parts.rest[48..].iter_mut().for_each(|x| *x *= 0.01);
-    assert_eq!(surface(&parts).median_edge(), sheet);
+    parts.rest_positions[48..].iter_mut().for_each(|x| *x *= 0.01);
+    assert_eq!(surface(&parts).median_edge_length(), sheet);
 }
 
 /// Two crumpled sheets and a way for them.
 fn crumpled() -> (Surface, Vec<f64>, Vec<f64>) {
     let mut parts = sheets(2, 40, 5e-3);
-    parts.skins.fill(Skin { reach: 3e-4, separation: 1e-4 });
+    parts.distances.fill(ContactDistances { activation_distance: 3e-4, min_separation: 1e-4 });
     let mut dice = Dice::new(71);
     let positions: Vec<f64> = parts
-        .rest
+        .rest_positions
         .chunks(3)
-        .zip(&parts.group)
+        .zip(&parts.groups)
         .flat_map(|(x, group)| {
             let height = 0.02 * (60.0 * x[0]).sin() + 1e-3 * f64::from(*group);
             [0.3 * x[0], x[1], height]
@@ -75,11 +76,11 @@ fn crumpled() -> (Surface, Vec<f64>, Vec<f64>) {
     (surface(&parts), positions, way)
 }
 
-fn filtered(pairs: &Pairs, positions: &[f64], way: &[f64]) -> (Vec<f64>, f64) {
-    let mut filter = Filter::default();
+fn filtered(pairs: &CandidatePairs, positions: &[f64], way: &[f64]) -> (Vec<f64>, f64) {
+    let mut filter = CcdFilter::default();
     let mut shortened = way.to_vec();
     filter.truncate(pairs, positions, &mut shortened).unwrap();
-    (shortened, filter.scalar(pairs, positions, way).unwrap().value)
+    (shortened, filter.common_fraction(pairs, positions, way).unwrap().value)
 }
 
 #[test]
@@ -92,7 +93,7 @@ fn all_answers_have_the_same_bits_for_any_number_of_threads() {
             let pairs = detector.detect(&surface, &positions, 1e-3).unwrap();
             let filtered = filtered(pairs, &positions, &way);
             let met: Vec<f64> = positions.iter().zip(&way).map(|(x, w)| x + w).collect();
-            (pairs.as_slice().to_vec(), filtered, crossings(&surface, &met).unwrap())
+            (pairs.as_slice().to_vec(), filtered, intersections(&surface, &met).unwrap())
         })
     });
     let [(pairs, (_, share), met), ..] = &answers;
@@ -111,11 +112,11 @@ fn a_detector_and_a_filter_forget_what_they_did_before() {
     let (surface, positions, way) = crumpled();
     let (other, flat) = {
         let parts = sheets(3, 9, 1e-3);
-        (crate::sheets::surface(&parts), parts.rest)
+        (crate::sheets::surface(&parts), parts.rest_positions)
     };
     let mut used = Detector::default();
     used.detect(&other, &flat, 5e-4).unwrap();
-    let mut filter = Filter::default();
+    let mut filter = CcdFilter::default();
     filter.truncate(used.pairs(), &flat, &mut vec![1e-5; flat.len()]).unwrap();
     let pairs = used.detect(&surface, &positions, 1e-3).unwrap();
     let mut new = Detector::default();
@@ -153,30 +154,30 @@ fn a_step_beyond_the_pairs_is_limited_or_refused() {
     let margin = 1e-3;
     let mut detector = Detector::default();
     let pairs = detector.detect(&surface, &positions, margin).unwrap();
-    let mut filter = Filter::default();
+    let mut filter = CcdFilter::default();
     // All together, so that only the budget can be in the way.
     let up: Vec<f64> = (0..positions.len()).map(|k| 1e-2 * f64::from(k % 3 == 1)).collect();
-    let fraction = filter.scalar(pairs, &positions, &up).unwrap();
-    assert_eq!(fraction.limit, Limit::Budget);
+    let fraction = filter.common_fraction(pairs, &positions, &up).unwrap();
+    assert_eq!(fraction.limit, StepLimit::DriftBudget);
     assert!((fraction.value - 0.45 * margin / 1e-2).abs() < 1e-9, "{fraction:?}");
     let moved: Vec<f64> = positions.iter().zip(&up).map(|(x, u)| x + fraction.value * u).collect();
-    let fraction = filter.scalar(pairs, &moved, &up).unwrap();
-    assert!(fraction.value < 1e-9 && fraction.limit == Limit::Budget, "{fraction:?}");
+    let fraction = filter.common_fraction(pairs, &moved, &up).unwrap();
+    assert!(fraction.value < 1e-9 && fraction.limit == StepLimit::DriftBudget, "{fraction:?}");
     let back: Vec<f64> = up.iter().map(|u| -0.03 * u).collect();
-    let fraction = filter.scalar(pairs, &moved, &back).unwrap();
-    assert_eq!((fraction.value, fraction.limit), (1.0, Limit::None));
+    let fraction = filter.common_fraction(pairs, &moved, &back).unwrap();
+    assert_eq!((fraction.value, fraction.limit), (1.0, StepLimit::None));
     let truncation = filter.truncate(pairs, &moved, &mut up.clone()).unwrap();
-    assert_eq!(truncation.exhausted, surface.vertices());
+    assert_eq!(truncation.at_drift_budget, surface.vertex_count());
 
     let beyond: Vec<f64> = positions.iter().zip(&up).map(|(x, u)| x + 0.05 * u).collect();
-    let refused = filter.scalar(pairs, &beyond, &up);
-    assert!(matches!(refused, Err(CollideError::OutOfBudget { vertex: 0, .. })), "{refused:?}");
+    let refused = filter.common_fraction(pairs, &beyond, &up);
+    assert!(matches!(refused, Err(Error::DriftBudgetExceeded { vertex: 0, .. })), "{refused:?}");
     let mut bad = up.clone();
     bad[40] = f64::NAN;
     let refused = filter.truncate(pairs, &positions, &mut bad);
-    assert!(matches!(refused, Err(CollideError::BadPlace { .. })), "{refused:?}");
-    let refused = filter.scalar(pairs, &positions, &up[3..]);
-    assert!(matches!(refused, Err(CollideError::WrongLength { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(Error::InvalidPosition { .. })), "{refused:?}");
+    let refused = filter.common_fraction(pairs, &positions, &up[3..]);
+    assert!(matches!(refused, Err(Error::WrongLength { .. })), "{refused:?}");
 }
 
 #[test]
@@ -184,11 +185,11 @@ fn a_second_detection_allocates_nothing() {
     let (surface, positions, way) = crumpled();
     let pool = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     pool.install(|| {
-        let (mut detector, mut filter) = (Detector::default(), Filter::default());
+        let (mut detector, mut filter) = (Detector::default(), CcdFilter::default());
         let mut shortened = way.clone();
         let mut work = || {
             let pairs = detector.detect(&surface, &positions, 1e-3).unwrap();
-            filter.scalar(pairs, &positions, &way).unwrap();
+            filter.common_fraction(pairs, &positions, &way).unwrap();
             shortened.copy_from_slice(&way);
             filter.truncate(pairs, &positions, &mut shortened).unwrap();
         };
@@ -203,25 +204,31 @@ fn a_head_on_approach_of_any_length_leaves_a_tenth_of_the_room() {
     // A small triangle over a large one; they approach straight, alone or each by its share.
     let size = 0.01;
     let flat = [[-4.0, -4.0], [4.0, -4.0], [0.0, 8.0], [-1.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-    let (separation, room) = (1e-4, 2e-4);
+    let (min_separation, room) = (1e-4, 2e-4);
     let rest: Vec<f64> = (0..6)
         .flat_map(|k| {
-            let height = if k < 3 { 0.0 } else { separation + room };
+            let height = if k < 3 { 0.0 } else { min_separation + room };
             [size * flat[k][0], size * flat[k][1], height]
         })
         .collect();
     let surface = surface(&SurfaceParts {
-        rest: rest.clone(),
+        rest_positions: rest.clone(),
         triangles: vec![[0, 1, 2], [3, 4, 5]],
         areas: vec![1e-4; 6],
-        group: vec![0, 0, 0, 1, 1, 1],
-        skins: vec![Skin { reach: 1e-4, separation: 0.5 * separation }; 2],
-        free: 6,
-        twins: Vec::new(),
+        groups: vec![0, 0, 0, 1, 1, 1],
+        distances: vec![
+            ContactDistances {
+                activation_distance: 1e-4,
+                min_separation: 0.5 * min_separation
+            };
+            2
+        ],
+        free_vertices: 6,
+        seam_pairs: Vec::new(),
         ties: Vec::new(),
     });
     let mut detector = Detector::default();
-    let mut filter = Filter::default();
+    let mut filter = CcdFilter::default();
     let pairs = detector.detect(&surface, &rest, 5e-3).unwrap();
     for share in [0.0, 0.02, 0.3, 0.5, 1.0] {
         for length in (1..60).map(|k| 0.05 * f64::from(k) * room) {
@@ -232,9 +239,9 @@ fn a_head_on_approach_of_any_length_leaves_a_tenth_of_the_room() {
                     _ => 0.0,
                 })
                 .collect();
-            let left = |way: &[f64]| (rest[11] + way[11] - way[2] - separation) / room;
+            let left = |way: &[f64]| (rest[11] + way[11] - way[2] - min_separation) / room;
             let wanted = left(&way);
-            let least = filter.scalar(pairs, &rest, &way).unwrap();
+            let least = filter.common_fraction(pairs, &rest, &way).unwrap();
             let scaled: Vec<f64> = way.iter().map(|w| least.value * w).collect();
             let mut shortened = way.clone();
             filter.truncate(pairs, &rest, &mut shortened).unwrap();

@@ -4,7 +4,7 @@ use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
 use drape_kes::{BendingValues, Direction, Sheet};
 
 use crate::error::Error;
-use crate::fabric::extent::largest_deformations;
+use crate::fabric::measured_range::measured_range;
 use crate::fabric::keys::standard_errors;
 use crate::fabric::laws::SheetLaws;
 use crate::regression::curve_fit::CurveFit;
@@ -104,8 +104,8 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         thickness,
         pressed_thickness,
         surface_friction,
-        warp: fabric::Direction { traction: traction.warp, bending: bending.warp },
-        weft: fabric::Direction { traction: traction.weft, bending: bending.weft },
+        warp: fabric::YarnLaws { traction: traction.warp, bending: bending.warp },
+        weft: fabric::YarnLaws { traction: traction.weft, bending: bending.weft },
         shear,
         provenance: Some(Provenance {
             sheet: sheet.name.clone(),
@@ -113,7 +113,7 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
             fitted_by: concat!("drape-fit ", env!("CARGO_PKG_VERSION")).to_owned(),
             assumed: notes.clone(),
             standard_errors: standard_errors(&fits),
-            reach: largest_deformations(sheet),
+            measured_range: measured_range(sheet),
         }),
     };
     if let Some(problem) = fabric.problems().into_iter().next() {

@@ -55,7 +55,7 @@ pub(crate) fn drape(fabric: &Fabric, arguments: &TestArguments) -> Result<(), Fa
     let told = || bar.inc(1);
     let failed = |error: ValidationError| Failure::Solver(error.to_string());
     let prediction = Prediction::of(&meter, fabric, resolution, &told).map_err(failed)?;
-    let elastic = meter.study(&fabric.elastic(), resolution, &told).map_err(failed)?;
+    let elastic = meter.study(&fabric.without_friction(), resolution, &told).map_err(failed)?;
     bar.finish_and_clear();
     let interval = prediction.interval();
     let open = !prediction.ends.is_empty();

@@ -1,0 +1,177 @@
+//! Memories of many connectors, in columns of numbers, and views of a batch of them.
+
+use crate::batch::lanes::{LANES, Lanes};
+use crate::laws::law::Memory;
+
+/// Columns of [`Memories`]: the deformation, the loads of the two friction elements, the largest
+/// deformation, and the two numbers of [`Toe`].
+const COLUMNS: usize = 6;
+const POSITION: usize = 0;
+const FRICTION: [usize; 2] = [1, 2];
+const PEAK: usize = 3;
+const TOE: [usize; 2] = [4, 5];
+
+/// Memories of many connectors, in columns; what [`Memory`] is for one.
+///
+/// [`BatchLaw::memories`](crate::BatchLaw::memories) makes them, and
+/// [`BatchLaw::commit`](crate::BatchLaw::commit) writes them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Memories([Vec<f64>; COLUMNS]);
+
+/// Memories of [`LANES`] neighbouring connectors, to read.
+#[derive(Debug, Clone, Copy)]
+pub struct MemoryBatch<'a>([&'a Lanes; COLUMNS]);
+
+/// Memories of a run of neighbouring connectors, to write.
+#[derive(Debug)]
+pub struct MemoriesMut<'a>([&'a mut [f64]; COLUMNS]);
+
+/// Memory of one lane, without the friction.
+#[derive(Debug, Clone, Copy)]
+pub struct LaneMemory {
+    /// Deformation at the last commit, in the unit of the deformation.
+    pub position: f64,
+    /// Largest deformation so far, in the unit of the deformation.
+    pub peak: f64,
+    /// Priming zone after that deformation.
+    pub toe: Toe,
+}
+
+/// Priming zone of a yarn after its largest elongation: kept with the memory because it takes an
+/// exponential to compute. Laws without one have a constant here.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Toe {
+    /// Deformation where the priming zone ends, in the unit of the deformation.
+    pub end: f64,
+    /// Derivative of the friction's weight in the priming zone, per deformation.
+    pub weight_slope: f64,
+}
+
+/// Deformations and peaks of a batch at a commit, and the loads of its friction elements if present.
+pub(crate) struct CommittedBatch<'a> {
+    pub(crate) positions: &'a Lanes,
+    pub(crate) peaks: &'a Lanes,
+    pub(crate) friction: [Option<&'a Lanes>; 2],
+}
+
+fn lanes(column: &[f64], start: usize) -> &Lanes {
+    column[start..].first_chunk().expect("columns are padded by a batch beyond the last connector")
+}
+
+impl Memories {
+    /// Appends memories of connectors that were never deformed, all with the same toe.
+    pub(crate) fn append(&mut self, count: usize, toe: Toe) {
+        let length = self.0[POSITION].len() + count;
+        let virgin = [0.0, 0.0, 0.0, 0.0, toe.end, toe.weight_slope];
+        for (column, value) in self.0.iter_mut().zip(virgin) {
+            column.resize(length, value);
+        }
+    }
+
+    /// Writes the memory of one connector that has been deformed without friction.
+    pub(crate) fn set_frictionless(&mut self, index: usize, lane: LaneMemory) {
+        let LaneMemory { position, peak, toe } = lane;
+        let memory = [position, 0.0, 0.0, peak, toe.end, toe.weight_slope];
+        for (column, value) in self.0.iter_mut().zip(memory) {
+            column[index] = value;
+        }
+    }
+
+    /// Returns one of the memories.
+    #[must_use]
+    pub fn get(&self, index: usize) -> Memory {
+        Memory {
+            position: self.0[POSITION][index],
+            friction: FRICTION.map(|column| self.0[column][index]),
+            peak: self.0[PEAK][index],
+        }
+    }
+
+    /// Returns all memories in order.
+    pub fn iter(&self) -> impl Iterator<Item = Memory> {
+        (0..self.0[POSITION].len()).map(|index| self.get(index))
+    }
+
+    /// Deformations at the last commit, in the unit of the deformation.
+    #[must_use]
+    pub fn positions(&self) -> &[f64] {
+        &self.0[POSITION]
+    }
+
+    /// Returns the [`LANES`] memories from `start` on, which must exist, to read.
+    #[inline(always)]
+    #[must_use]
+    pub fn batch(&self, start: usize) -> MemoryBatch<'_> {
+        MemoryBatch(self.0.each_ref().map(|column| lanes(column, start)))
+    }
+
+    /// Returns all memories from `start` on, to write.
+    #[must_use]
+    pub fn from_mut(&mut self, start: usize) -> MemoriesMut<'_> {
+        MemoriesMut(self.0.each_mut().map(|column| &mut column[start..]))
+    }
+}
+
+impl MemoriesMut<'_> {
+    /// Splits them into the first `count` memories and the others.
+    #[must_use]
+    pub fn split(self, count: usize) -> (Self, Self) {
+        let [a, b, c, d, e, f] = self.0.map(|column| column.split_at_mut(count));
+        (Self([a.0, b.0, c.0, d.0, e.0, f.0]), Self([a.1, b.1, c.1, d.1, e.1, f.1]))
+    }
+
+    #[inline(always)]
+    pub(crate) fn batch(&self, start: usize) -> MemoryBatch<'_> {
+        MemoryBatch(self.0.each_ref().map(|column| lanes(column, start)))
+    }
+
+    /// Writes the deformations, peaks and friction loads of a batch.
+    #[inline(always)]
+    pub(crate) fn write(&mut self, start: usize, committed: CommittedBatch<'_>) {
+        let mut put = |column: usize, values: &Lanes| {
+            self.0[column][start..start + LANES].copy_from_slice(values);
+        };
+        put(POSITION, committed.positions);
+        put(PEAK, committed.peaks);
+        for (column, loads) in FRICTION.into_iter().zip(committed.friction) {
+            if let Some(loads) = loads {
+                put(column, loads);
+            }
+        }
+    }
+
+    /// Recomputes the toes of a batch from its peaks.
+    #[inline(always)]
+    pub(crate) fn update_toes(&mut self, start: usize, toe: impl Fn(f64) -> Toe) {
+        for index in start..start + LANES {
+            let toe = toe(self.0[PEAK][index]);
+            for (column, value) in TOE.into_iter().zip([toe.end, toe.weight_slope]) {
+                self.0[column][index] = value;
+            }
+        }
+    }
+}
+
+impl<'a> MemoryBatch<'a> {
+    /// Deformations at the last commit.
+    #[inline(always)]
+    pub(crate) fn position(&self) -> &'a Lanes {
+        self.0[POSITION]
+    }
+
+    /// Loads of one of the friction elements.
+    #[inline(always)]
+    pub(crate) fn friction(&self, element: usize) -> &'a Lanes {
+        self.0[FRICTION[element]]
+    }
+
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> LaneMemory {
+        let [end, weight_slope] = TOE.map(|column| self.0[column][lane]);
+        LaneMemory {
+            position: self.0[POSITION][lane],
+            peak: self.0[PEAK][lane],
+            toe: Toe { end, weight_slope },
+        }
+    }
+}

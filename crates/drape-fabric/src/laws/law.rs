@@ -1,0 +1,60 @@
+//! The interface of every law, the memory of a connector, and a law driven along a path.
+
+use drape_hysteresis::{Loads, Response};
+
+/// Memory of a connector: what a law needs to know of the deformation path so far.
+///
+/// The unit of the deformation is the law's (a ratio for traction and shear, 1/m for bending).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Memory {
+    /// Deformation at the last commit, in the unit of the deformation.
+    pub position: f64,
+    /// Loads of the two friction elements, in the unit of the load.
+    pub friction: Loads,
+    /// Largest deformation so far, in the unit of the deformation.
+    pub peak: f64,
+}
+
+/// One-dimensional law of load against deformation with memory, as a KES instrument measures it.
+///
+/// A trial deformation never changes the memory; only [`Law::commit`] makes a new one. Between two
+/// commits the load is a single-valued function of the trial deformation, so it has a potential,
+/// [`Law::work`], in spite of the friction.
+pub trait Law {
+    /// Returns the memory of a fabric that was never deformed.
+    #[must_use]
+    fn virgin(&self) -> Memory {
+        Memory::default()
+    }
+
+    /// Returns load and tangent at a trial deformation.
+    #[must_use]
+    fn respond(&self, memory: &Memory, deformation: f64) -> Response;
+
+    /// Returns the work per area from the committed to a trial deformation, in J/m².
+    #[must_use]
+    fn work(&self, memory: &Memory, deformation: f64) -> f64;
+
+    /// Returns the memory after the deformation has been reached along a straight path.
+    #[must_use]
+    fn commit(&self, memory: &Memory, deformation: f64) -> Memory;
+
+    /// Returns the energy per area that the fabric can return from the remembered state, in J/m².
+    #[must_use]
+    fn stored(&self, memory: &Memory) -> f64;
+}
+
+/// Drives a law from a memory along a deformation history; returns the load at every point, in the
+/// unit of the load. Each point is reached along a straight path.
+#[must_use]
+pub fn drive(law: &impl Law, memory: Memory, history: &[f64]) -> Vec<f64> {
+    let mut memory = memory;
+    history
+        .iter()
+        .map(|&deformation| {
+            let load = law.respond(&memory, deformation).load;
+            memory = law.commit(&memory, deformation);
+            load
+        })
+        .collect()
+}
