@@ -168,7 +168,10 @@ fn a_missing_direction_is_taken_from_the_other() {
 
 #[test]
 fn a_curve_comes_before_the_values() {
-    let law = drape_fit::bending_from_values(&drape_kes::BendingValues { rigidity: 2e-5, loop_width: 1e-3 });
+    let law = drape_fit::bending_from_values(&drape_kes::BendingValues {
+        rigidity: 2e-5,
+        loop_width: 1e-3,
+    });
     let mut sheet = sheet(WARP, WARP);
     sheet.curves.push(cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]));
     let fit = identify(&sheet).expect("identified");
@@ -206,7 +209,10 @@ fn a_work_that_linearity_and_extension_contradict_is_named() {
 
 #[test]
 fn the_number_of_threads_does_not_matter() {
-    let law = drape_fit::bending_from_values(&drape_kes::BendingValues { rigidity: 2e-5, loop_width: 1e-3 });
+    let law = drape_fit::bending_from_values(&drape_kes::BendingValues {
+        rigidity: 2e-5,
+        loop_width: 1e-3,
+    });
     let mut sheet = sheet(WARP, WARP);
     let mut loop_ = cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]);
     // Noise, so that the search does not end where every path ends.
@@ -224,7 +230,10 @@ fn the_number_of_threads_does_not_matter() {
 
 #[test]
 fn a_sheet_asks_for_a_law_and_the_settings_overrule_it() {
-    let law = drape_fit::bending_from_values(&drape_kes::BendingValues { rigidity: 2e-5, loop_width: 1e-3 });
+    let law = drape_fit::bending_from_values(&drape_kes::BendingValues {
+        rigidity: 2e-5,
+        loop_width: 1e-3,
+    });
     let mut sheet = sheet(WARP, WARP);
     sheet.curves.push(cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]));
     sheet.model = Some(Model::Breen1994);

@@ -139,7 +139,10 @@ fn sets_that_contradict_themselves_are_refused_with_the_reason() {
 
 #[test]
 fn a_sheet_that_disagrees_with_its_curve_is_named() {
-    let law = drape_fit::bending_from_values(&drape_kes::BendingValues { rigidity: 1e-5, loop_width: 6e-4 });
+    let law = drape_fit::bending_from_values(&drape_kes::BendingValues {
+        rigidity: 1e-5,
+        loop_width: 6e-4,
+    });
     let turns = [0.0, 250.0, -250.0, 250.0];
     let mut path = vec![0.0];
     for ends in turns.windows(2) {

@@ -41,9 +41,8 @@ impl StraightLine {
         let count = points.clone().count() as f64;
         let [sx, sy] = points.clone().fold([0.0, 0.0], |[sx, sy], [x, y]| [sx + x, sy + y]);
         let (mx, my) = (sx / count, sy / count);
-        let [xx, xy] = points.fold([0.0, 0.0], |[xx, xy], [x, y]| {
-            [xx + (x - mx).powi(2), xy + (x - mx) * (y - my)]
-        });
+        let [xx, xy] = points
+            .fold([0.0, 0.0], |[xx, xy], [x, y]| [xx + (x - mx).powi(2), xy + (x - mx) * (y - my)]);
         let slope = xy / xx;
         slope.is_finite().then_some(Self { slope, intercept: my - slope * mx })
     }

@@ -276,9 +276,7 @@ impl<'a> MeasuredLoop<'a> {
         // Neighbours of a minimum lead to the same end.
         let sum = |i: usize| all[i].as_ref().map_or(f64::INFINITY, |start| start.residual_sum);
         let minimum: Vec<bool> = (0..LENGTHS)
-            .map(|i| {
-                (i == 0 || sum(i) < sum(i - 1)) && (i + 1 == LENGTHS || sum(i) <= sum(i + 1))
-            })
+            .map(|i| (i == 0 || sum(i) < sum(i - 1)) && (i + 1 == LENGTHS || sum(i) <= sum(i + 1)))
             .collect();
         let kept = all.into_iter().zip(minimum);
         kept.filter_map(|(start, minimum)| start.filter(|_| minimum)).collect()

@@ -203,8 +203,8 @@ impl Strips<'_> {
             Parameter::new(0.1 * moment).with_scale(0.01 * moment).between(0.0, 2.0 * moment);
         let plateau = NamedParameter::new("plateau", plateau);
         let start = |part: f64| {
-            let length = Parameter::new(part * curvature)
-                .between(LEAST_LENGTH * curvature, 5.0 * curvature);
+            let length =
+                Parameter::new(part * curvature).between(LEAST_LENGTH * curvature, 5.0 * curvature);
             let shared = [rigidity, plateau, NamedParameter::new("length", length)];
             [&shared, own.as_slice()].concat()
         };

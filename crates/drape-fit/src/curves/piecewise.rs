@@ -59,10 +59,7 @@ fn starts(first: &Curve) -> Result<Vec<Vec<NamedParameter>>, Error> {
         let knot = knot * top;
         let intercept = Parameter::new(intercept).with_scale(load).between(-load, load);
         vec![
-            NamedParameter::new(
-                "slope",
-                Parameter::new(slope).between(1e-3 * slope, 1e3 * slope),
-            ),
+            NamedParameter::new("slope", Parameter::new(slope).between(1e-3 * slope, 1e3 * slope)),
             NamedParameter::new("intercept", intercept),
             NamedParameter::new("knot", Parameter::new(knot).between(1e-3 * top, top)),
         ]

@@ -88,7 +88,8 @@ fn prediction(law: String, curve: &Curve, last: usize, fitted: &Fitted<'_>) -> P
     fitted.forward.loads(fitted.parameters, &mut load);
     let span = curve.load_range().span();
     let error: Vec<f64> = load.iter().zip(curve.load()).map(|(a, b)| a - b).collect();
-    let rms = |error: &[f64]| (error.iter().map(|r| r * r).sum::<f64>() / error.len() as f64).sqrt();
+    let rms =
+        |error: &[f64]| (error.iter().map(|r| r * r).sum::<f64>() / error.len() as f64).sqrt();
     let largest = (last..load.len()).max_by(|&i, &j| curve.load()[i].total_cmp(&curve.load()[j]));
     let peak = largest.expect("a cycle has points");
     Prediction {

@@ -73,11 +73,7 @@ fn linear(
     let options = FitOptions { weights, intervals: settings.intervals };
     let fit = fit_curve(curve, &models, options);
     let LinearLaw { stiffness, growth, friction, .. } = forms[fit.chosen].law(&fit.values());
-    let law = ShearLaw {
-        backbone: ShearBackbone::Linear { stiffness },
-        friction,
-        growth,
-        locking: None,
-    };
+    let law =
+        ShearLaw { backbone: ShearBackbone::Linear { stiffness }, friction, growth, locking: None };
     Ok(Identified { law, fit })
 }

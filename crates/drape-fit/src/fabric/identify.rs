@@ -4,9 +4,9 @@ use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
 use drape_kes::{BendingValues, Direction, Sheet};
 
 use crate::error::Error;
-use crate::fabric::measured_range::measured_range;
 use crate::fabric::keys::standard_errors;
 use crate::fabric::laws::SheetLaws;
+use crate::fabric::measured_range::measured_range;
 use crate::regression::curve_fit::CurveFit;
 use crate::settings::Settings;
 use crate::values::assumed;
@@ -77,17 +77,15 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         SURFACE_FRICTION
     });
     let [warp, weft] = [Direction::Warp, Direction::Weft].map(|direction| laws.traction(direction));
-    let traction = both("traction", [warp?, weft?], &mut notes, |notes| {
-        laws.assumed_traction(notes)
-    })?;
+    let traction =
+        both("traction", [warp?, weft?], &mut notes, |notes| laws.assumed_traction(notes))?;
     let [warp, weft] =
         [Direction::Warp, Direction::Weft].map(|direction| laws.bending(direction, density));
     let bending = both("bending", [warp, weft], &mut notes, |notes| {
         let rigidity = assumed::bending_rigidity(density);
         let law = bending_from_values(&BendingValues { rigidity, loop_width: 0.0 });
-        notes.push(
-            "bending: not measured, a bending length of 20 mm without friction taken".into(),
-        );
+        notes
+            .push("bending: not measured, a bending length of 20 mm without friction taken".into());
         Ok(law)
     })?;
     let shear = laws.shear(&mut notes);

@@ -105,7 +105,10 @@ mod tests {
             let at = |shortening: f64| Arch::new(LENGTH, shortening).curvature;
             let slope = (at(shortening + step) - at(shortening - step)) / (2.0 * step);
             let rotation_rate = Arch::new(LENGTH, shortening).rotation_rate;
-            assert!((slope / rotation_rate - 1.0).abs() < 1e-6, "at {shortening}: {slope}, {rotation_rate}");
+            assert!(
+                (slope / rotation_rate - 1.0).abs() < 1e-6,
+                "at {shortening}: {slope}, {rotation_rate}"
+            );
         }
     }
 }

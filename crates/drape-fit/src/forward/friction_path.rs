@@ -139,7 +139,8 @@ mod tests {
         let friction = FrictionPath::new(&path());
         for length in [0.004, 0.03, 0.5] {
             let step = 1e-5 * length;
-            let (less, more) = (friction.unit_friction(length - step), friction.unit_friction(length + step));
+            let (less, more) =
+                (friction.unit_friction(length - step), friction.unit_friction(length + step));
             let at = friction.unit_friction(length);
             let pairs = [
                 (&at.constant_slope, &less.constant, &more.constant),

@@ -32,11 +32,7 @@ impl LoopLaw for ShearLaw {
 /// Writes the loads of a virgin fabric along a history of deformations.
 ///
 /// The history need not start at zero: the fabric is first deformed monotonically to its first point.
-pub(crate) fn drive_loop(
-    law: &impl LoopLaw,
-    history: impl Iterator<Item = f64>,
-    out: &mut [f64],
-) {
+pub(crate) fn drive_loop(law: &impl LoopLaw, history: impl Iterator<Item = f64>, out: &mut [f64]) {
     let mut memory: Memory = law.virgin();
     for (load, deformation) in out.iter_mut().zip(history) {
         memory = law.commit(&memory, deformation);

@@ -129,11 +129,7 @@ impl<'a> Strip<'a> {
 ///
 /// The history need not start at zero: the fabric is first stretched monotonically to its first
 /// point.
-pub(crate) fn drive_strip(
-    law: &TractionLaw,
-    history: impl Iterator<Item = f64>,
-    out: &mut [f64],
-) {
+pub(crate) fn drive_strip(law: &TractionLaw, history: impl Iterator<Item = f64>, out: &mut [f64]) {
     let strip = Strip::new(law);
     let mut state = strip.virgin();
     for (load, strain) in out.iter_mut().zip(history) {

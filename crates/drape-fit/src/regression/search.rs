@@ -26,11 +26,7 @@ pub(crate) struct SearchResult {
     pub(crate) evaluations: usize,
 }
 
-fn minimise_named(
-    problem: &impl Problem,
-    named: &[NamedParameter],
-    settings: &Settings,
-) -> Report {
+fn minimise_named(problem: &impl Problem, named: &[NamedParameter], settings: &Settings) -> Report {
     let parameters: Vec<Parameter> = named.iter().map(|named| named.parameter).collect();
     minimise(problem, &parameters, settings)
 }

@@ -105,11 +105,7 @@ pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Selection 
 }
 
 /// Returns the number of independent residuals of the law with the smallest residual.
-fn effective_points(
-    curve: &Curve,
-    models: &[CandidateModel<'_>],
-    results: &[SearchResult],
-) -> f64 {
+fn effective_points(curve: &Curve, models: &[CandidateModel<'_>], results: &[SearchResult]) -> f64 {
     let pairs = models.iter().zip(results);
     let best = pairs.min_by(|(_, a), (_, b)| a.report.sum.total_cmp(&b.report.sum));
     let (model, result) = best.expect("there are several models");

@@ -46,11 +46,7 @@ impl ValueComparison {
 
 /// Compares all KES values of a fabric with those of its sheet and of the sheet's curves.
 #[must_use]
-pub fn compare_values(
-    sheet: &Sheet,
-    fabric: &Fabric,
-    settings: &Settings,
-) -> Vec<ValueComparison> {
+pub fn compare_values(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> Vec<ValueComparison> {
     let points = settings.evaluation_points(sheet);
     let rows = |direction: Direction| {
         let law = fabric_values(fabric, direction, &points);

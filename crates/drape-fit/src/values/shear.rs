@@ -132,10 +132,8 @@ impl<'a> UnitValues<'a> {
         let (narrow, wide) = (target.loop_width, target.wide_loop_width);
         let determinant = constant.loop_width * growing.wide_loop_width
             - constant.wide_loop_width * growing.loop_width;
-        let plateau =
-            (narrow * growing.wide_loop_width - wide * growing.loop_width) / determinant;
-        let rise =
-            (constant.loop_width * wide - constant.wide_loop_width * narrow) / determinant;
+        let plateau = (narrow * growing.wide_loop_width - wide * growing.loop_width) / determinant;
+        let rise = (constant.loop_width * wide - constant.wide_loop_width * narrow) / determinant;
         let stiffness =
             (target.stiffness - plateau * constant.stiffness - rise * growing.stiffness)
                 / linear.stiffness;

@@ -35,11 +35,7 @@ const BISECTIONS: usize = 60;
 /// # Ok::<(), drape_fit::Error>(())
 /// ```
 #[must_use]
-pub fn fabric_values(
-    fabric: &Fabric,
-    direction: Direction,
-    points: &EvaluationPoints,
-) -> Values {
+pub fn fabric_values(fabric: &Fabric, direction: Direction, points: &EvaluationPoints) -> Values {
     let laws = match direction {
         Direction::Warp => &fabric.warp,
         Direction::Weft => &fabric.weft,

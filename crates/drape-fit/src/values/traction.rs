@@ -224,7 +224,10 @@ mod tests {
             let target =
                 TensileTarget { maximum_tension: 490.3325, extension: 0.05, linearity, resilience };
             let result = tensile_from_values(&target);
-            assert!(matches!(result, Err(Error::IncompatibleValues { .. })), "{target:?}: {result:?}");
+            assert!(
+                matches!(result, Err(Error::IncompatibleValues { .. })),
+                "{target:?}: {result:?}"
+            );
         }
     }
 }

@@ -24,11 +24,8 @@ const TEST: Choice<'_, Test> = Choice {
     values: &[Test::Tensile, Test::Shear, Test::Bending, Test::LoopBending],
     name: Test::name,
 };
-const DIRECTION: Choice<'_, Direction> = Choice {
-    key: "direction",
-    values: &[Direction::Warp, Direction::Weft],
-    name: Direction::name,
-};
+const DIRECTION: Choice<'_, Direction> =
+    Choice { key: "direction", values: &[Direction::Warp, Direction::Weft], name: Direction::name };
 
 /// Column of one axis, as the sheet names it, with its key paths for messages.
 struct AxisKeys {

@@ -251,8 +251,7 @@ fn energy_gain(curve: &Curve) -> Option<EnergyGain> {
         let to = rising[rising.len() - 1].deformation.min(falling[falling.len() - 1].deformation);
         let gain = |step: u32| {
             let deformation = from + (to - from) * (f64::from(step) + 0.5) / f64::from(GAIN_POINTS);
-            let excess =
-                load_at(&falling, deformation) - load_at(&rising, deformation);
+            let excess = load_at(&falling, deformation) - load_at(&rising, deformation);
             EnergyGain { deformation, excess: excess / span }
         };
         let gains: Vec<EnergyGain> = (0..GAIN_POINTS).map(gain).collect();

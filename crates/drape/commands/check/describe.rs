@@ -128,14 +128,17 @@ fn sheet(file: &Path) -> Result<String, Diagnostics> {
     let mut text =
         format!("sheet \"{}\": {density} kg/m², {} curves\n", sheet.name, sheet.curves.len());
     for curve in &sheet.curves {
-        let ((low, high), (least, most)) = (curve.deformation_range(), curve.load_range());
+        let (deformation, load) = (curve.deformation_range(), curve.load_range());
         let _ = writeln!(
             text,
-            "  {} {}: {} points, deformation {low:.4e} to {high:.4e}, load {least:.4e} to \
-             {most:.4e}",
+            "  {} {}: {} points, deformation {:.4e} to {:.4e}, load {:.4e} to {:.4e}",
             curve.test.name(),
             curve.direction.name(),
-            curve.deformation().len()
+            curve.deformation().len(),
+            deformation.low,
+            deformation.high,
+            load.low,
+            load.high
         );
     }
     sheet.warnings().iter().for_each(|warning| {
