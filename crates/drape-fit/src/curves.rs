@@ -1,6 +1,6 @@
 //! One law from one kind of test: tensile, bending, shear, loop bending.
 //!
-//! A fit goes the same way for every test: features read off the curve, initial guesses by linear
+//! All fits have the same stages: features read off the curve, initial guesses by linear
 //! least squares on a grid of the nonlinear parameters, candidate laws with a forward model each,
 //! and from there the regression. The laws are
 //!

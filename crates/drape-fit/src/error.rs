@@ -77,8 +77,8 @@ pub enum Error {
         /// RT, in percent.
         percent: f64,
     },
-    /// The linearity is not between 0 and 2: the work under a rising curve is less than twice that of
-    /// a straight line.
+    /// The linearity is not between 0 and 2: the work under a rising curve is less than twice that
+    /// of a straight line.
     #[error(
         "{name}: LT is {linearity:.3}, {origin}; a rising curve has more than 0 and less than 2; check LT, WT and EM"
     )]

@@ -8,9 +8,9 @@
 //! F(q) = F_e(q) + F_r(q), \qquad \frac{dF_r}{dq} = \frac{F_c\,\mathrm{sgn}\,\dot q - F_r}{x_f}
 //! ```
 //!
-//! with the elastic load `$F_e$` of the backbone and the friction `$F_r$` of one or two Dahl elements
-//! of plateau `$F_c$` and length `$x_f$` \[Dahl68, BS95\]. The chapter uses the laws and no curve:
-//! histories come as numbers in SI.
+//! with the elastic load `$F_e$` of the backbone and the friction `$F_r$` of one or two Dahl
+//! elements of plateau `$F_c$` and length `$x_f$` \[Dahl68, BS95\]. The chapter uses the laws and
+//! no curve: histories come as numbers in SI.
 //!
 //! * `loop_drive`: a bending or shear law along a hysteresis loop.
 //! * `strip_drive`: a traction law along a strip that may hang slack.

@@ -6,10 +6,12 @@
 //! r_i(p) = \frac{F(q_1 \dots q_i;\,p) - F_i}{\Delta F}, \qquad p^* = \arg\min_p \sum_i w_i r_i^2
 //! ```
 //!
-//! `curves` hands over candidate laws with initial guesses and a forward model each, and gets back a
-//! [`CurveFit`](crate::CurveFit). The minimiser is drape-lm; the chapter knows no law of a fabric.
+//! `curves` hands over candidate laws with initial guesses and a forward model each, and gets back
+//! a [`CurveFit`](crate::CurveFit). The minimiser is drape-lm; the chapter knows no law of a
+//! fabric.
 //!
-//! * `linear`: linear least squares for the initial guesses, with the nonlinear parameters on a grid.
+//! * `linear`: linear least squares for the initial guesses, with the nonlinear parameters on a
+//!   grid.
 //! * `residuals`: forward model and residuals, as a problem of drape-lm.
 //! * `search`: the minimiser from several starts.
 //! * `selection`: which of several laws the data support, by Akaike's criterion.

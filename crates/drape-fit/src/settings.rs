@@ -81,7 +81,7 @@ pub enum Intervals {
     /// From the standard errors: valid where the law is nearly linear over them.
     #[default]
     Wald,
-    /// From the residuals themselves, [`drape_lm::profile`]: valid for curved laws and at bounds, at
-    /// some hundred times the cost.
+    /// From the residuals themselves, [`drape_lm::profile`]: valid for curved laws and at bounds,
+    /// at some hundred times the cost.
     Profile,
 }

@@ -8,9 +8,9 @@
 //! 2HB = F_\uparrow(\kappa_1) - F_\downarrow(\kappa_1)
 //! ```
 //!
-//! `fabric` uses the chapter where a sheet has no curve; `fabric_values` and `compare_values` are for
-//! reports. It uses laws, the minimiser and `forward::friction_path`, and no measured curve but in
-//! `comparison`.
+//! `fabric` uses the chapter where a sheet has no curve; `fabric_values` and `compare_values` are
+//! for reports. It uses laws, the minimiser and `forward::friction_path`, and no measured curve but
+//! in `comparison`.
 //!
 //! * `assumed`: defaults for values that a sheet does not have.
 //! * `matched`: a law with its deviation, or with notes on what was assumed.

@@ -1,4 +1,12 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! * `document`: [`Document`], the text of a TOML file with its path; it decodes the text into a
+//!   structure and locates a key for a message.
+//! * `diagnostic`: [`Diagnostic`], one mistake with its place and remedy, and [`Diagnostics`], the
+//!   error type of this crate: all mistakes of an input.
+//! * `spelling`: [`closest`], the known word nearest to a misspelt one.
 
 mod diagnostic;
 mod document;

@@ -6,7 +6,8 @@ use drape_input::Diagnostics;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The sheet or a file that it names has mistakes: correct them; all that were found are listed.
+    /// The sheet or a file that it names has mistakes: correct them; all that were found are
+    /// listed.
     #[error(transparent)]
     Input(#[from] Diagnostics),
     /// The two columns of a curve differ in length: give one load for each deformation.
@@ -58,10 +59,12 @@ pub enum Error {
         /// Highest deformation measured, in SI.
         high: f64,
     },
-    /// A tensile value needs a strip that was straight at zero strain: measure one under pretension.
+    /// A tensile value needs a strip that was straight at zero strain: measure one under
+    /// pretension.
     #[error("the strip hung slack, so that its strain has no zero of its own")]
     SlackStrip,
-    /// The largest load of the curve is not that of the tensile values: say what the test's was (FM).
+    /// The largest load of the curve is not that of the tensile values: say what the test's was
+    /// (FM).
     #[error("the curve ends at {reached:.1} N/m, and the value is that of {wanted:.1} N/m")]
     OtherMaximumTension {
         /// Largest load of the first loading branch, in N/m.

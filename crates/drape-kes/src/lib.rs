@@ -6,7 +6,8 @@
 //! [`Curve::values`] computes KES values from a curve.
 //!
 //! * `unit`: quantities, their units and factors to SI, in one table.
-//! * `test`, `symbol`, `values`: the nine KES values of one direction, in laboratory units and in SI.
+//! * `test`, `symbol`, `values`: the nine KES values of one direction, in laboratory units and in
+//!   SI.
 //! * `curves`: [`Curve`], its branches, and the KES values read off it at [`EvaluationPoints`].
 //! * `sheets`: [`Sheet`], its TOML and table files, and the checks of what they say.
 

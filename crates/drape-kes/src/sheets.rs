@@ -6,8 +6,8 @@
 //! ```
 //!
 //! Units are converted here and nowhere later. Whatever is wrong is collected, not returned at the
-//! first mistake: each finding has file, line, value and remedy. The chapter uses `unit`, `values` and
-//! `curves`; nothing in the crate uses it.
+//! first mistake: each finding has file, line, value and remedy. The chapter uses `unit`, `values`
+//! and `curves`; nothing in the crate uses it.
 //!
 //! * `findings`: the list of errors and warnings.
 //! * `section`: typed access to a TOML table; `table`: text tables of any spreadsheet.

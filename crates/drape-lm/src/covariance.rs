@@ -91,7 +91,8 @@ pub struct Covariance {
     pub degrees_of_freedom: usize,
     /// Reciprocal condition number of the scaled Jacobian of the free parameters, a ratio.
     pub reciprocal_condition: f64,
-    /// Rise of the sum of the losses, over the variance, where a parameter is one standard error off.
+    /// Rise of the sum of the losses, over the variance, where a parameter is one standard error
+    /// off.
     rise: f64,
     /// Standard errors of the parameters if all others were known.
     conditional: Vec<f64>,
@@ -253,8 +254,8 @@ impl Covariance {
         self.conditional[parameter]
     }
 
-    /// Returns the rise of the sum of the losses where a parameter is one standard error off and the
-    /// others are fitted again.
+    /// Returns the rise of the sum of the losses where a parameter is one standard error off and
+    /// the others are fitted again.
     pub(crate) fn rise_of_one_deviation(&self) -> f64 {
         self.rise * self.residual_deviation.powi(2)
     }

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! with the fast plateau `$P$`, the slow one `$wP$`, the lengths `$\eta x$` and `$x$`, and the unit
-//! friction `$u$` of `forward::friction_path` with the growth `$\gamma$` of the plateau; one element
-//! has `$w = 0$`, `$\eta = 1$`. `bending` and `shear` build their candidates here.
+//! friction `$u$` of `forward::friction_path` with the growth `$\gamma$` of the plateau; one
+//! element has `$w = 0$`, `$\eta = 1$`. `bending` and `shear` build their candidates here.
 
 use drape_fabric::BlimanSorine;
 use drape_kes::Curve;
@@ -87,8 +87,8 @@ pub(crate) fn orders(model: Option<LoopModel>) -> impl Iterator<Item = FrictionO
     FrictionOrder::ALL.into_iter().filter(wanted)
 }
 
-/// Returns the friction with the parameters plateau and length, and for two elements the slow plateau
-/// over the fast one and the fast length over the slow one.
+/// Returns the friction with the parameters plateau and length, and for two elements the slow
+/// plateau over the fast one and the fast length over the slow one.
 pub(crate) fn friction(p: &[f64]) -> BlimanSorine {
     match *p {
         [plateau, length] => BlimanSorine::first_order(plateau, length),

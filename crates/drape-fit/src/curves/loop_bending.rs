@@ -33,23 +33,23 @@ const OWN: usize = 3;
 
 /// Identifies rigidity and friction of bending from the loop-bending curves of one direction.
 ///
-/// Each strip is an arch of an inextensible elastica. Its friction is an element of first order that
-/// slips with the mean curvature `$\bar\kappa$` of the arch, so that the work lost at the clamps is
-/// the friction moment `$M_r$` times the rotation of the strip:
+/// Each strip is an arch of an inextensible elastica. Its friction is an element of first order
+/// that slips with the mean curvature `$\bar\kappa$` of the arch, so that the work lost at the
+/// clamps is the friction moment `$M_r$` times the rotation of the strip:
 ///
 /// ```math
 /// F = F_0 + F_d\,t - P - M_r(\bar\kappa)\,\frac{d(4\theta_{max})}{d\Delta}
 /// ```
 ///
-/// with the compressive force `$P$` and the largest slope angle `$\theta_{max}$` of the arch and the
-/// shortening `$\Delta$` of the clamp distance.
-/// All strips share one law. Each has its own zero `$F_0$` of the force, a steady drift `$F_d$` of
-/// that zero over the test (`$t$` from 0 to 1), and a state of the friction at the start, over its
-/// plateau, because the strip was bent by hand before.
+/// with the compressive force `$P$` and the largest slope angle `$\theta_{max}$` of the arch and
+/// the shortening `$\Delta$` of the clamp distance. All strips share one law. Each has its own zero
+/// `$F_0$` of the force, a steady drift `$F_d$` of that zero over the test (`$t$` from 0 to 1), and
+/// a state of the friction at the start, over its plateau, because the strip was bent by hand
+/// before.
 ///
-/// Weight is neglected. It loads a strip of 0.1 kg/m² and 2 cm with 3 % of its bending force, and one
-/// of 8 cm with more than all of it: use short strips, and arches up as well as down, whose errors
-/// have opposite signs.
+/// Weight is neglected. It loads a strip of 0.1 kg/m² and 2 cm with 3 % of its bending force, and
+/// one of 8 cm with more than all of it: use short strips, and arches up as well as down, whose
+/// errors have opposite signs.
 ///
 /// Each curve comes back with its fit, in the order given; the law is the same in all.
 ///
@@ -236,7 +236,8 @@ mod tests {
 
     const LENGTH: f64 = 0.0208;
 
-    /// Three growing cycles between 7 and 42 % shortening of a strip of 2 cm, as in the measurements.
+    /// Three growing cycles between 7 and 42 % shortening of a strip of 2 cm, as in the
+    /// measurements.
     fn cycles() -> Vec<f64> {
         let ends = [0.07, 0.19, 0.07, 0.3, 0.07, 0.42, 0.07];
         let steps = 25;

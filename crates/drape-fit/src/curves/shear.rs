@@ -16,9 +16,9 @@ use crate::settings::model::{LoopModel, Plateau};
 /// Identifies the shear law from a shear curve.
 ///
 /// The deformation of the law is the sine of the measured angle, to which the measured force is
-/// conjugate \[BHW94, eq. 5.7\]. A linear backbone with friction is fitted to the whole history, and
-/// the zero of the force is fitted too. A [`LoopModel::Piecewise`] is fitted to the first loading
-/// branch. The KES test does not measure locking: it begins where the curve ends.
+/// conjugate \[BHW94, eq. 5.7\]. A linear backbone with friction is fitted to the whole history,
+/// and the zero of the force is fitted too. A [`LoopModel::Piecewise`] is fitted to the first
+/// loading branch. The KES test does not measure locking: it begins where the curve ends.
 ///
 /// # Errors
 /// The curve is of another test, has no load, or does not rise.

@@ -18,11 +18,11 @@ use crate::settings::Settings;
 /// fitted too. A curve without recovery determines neither friction nor how the fabric changes once
 /// it has been stretched: the law then has no friction, and a toe that does not move.
 ///
-/// Where the last cycle goes further than those before it, a law is selected only if it also predicts
-/// that cycle better than the laws of higher preference
-/// ([`predict_last_cycle`](fn@crate::curves::prediction::predict_last_cycle)): a toe that moves fits
-/// any two cycles better, because it makes up for a line that is too straight, and may then miss the
-/// third by more.
+/// Where the last cycle goes further than those before it, a law is selected only if it also
+/// predicts that cycle better than the laws of higher preference
+/// ([`predict_last_cycle`](fn@crate::curves::prediction::predict_last_cycle)): a toe that moves
+/// fits any two cycles better, because it makes up for a line that is too straight, and may then
+/// miss the third by more.
 ///
 /// # Errors
 /// The curve is of another test, has no load, or does not rise.
@@ -73,13 +73,13 @@ mod tests {
 
     /// Three growing cycles of a strip that hangs slack by 2 % between them.
     fn clamps(top: f64) -> Vec<f64> {
-        let turns = [-0.02, 0.6 * top, -0.02, 0.8 * top, -0.02, top, -0.02];
+        let reversals = [-0.02, 0.6 * top, -0.02, 0.8 * top, -0.02, top, -0.02];
         let steps = 60;
         let branch = |ends: &[f64]| {
             let (from, to) = (ends[0], ends[1]);
             (0..steps).map(move |i| from + (to - from) * f64::from(i) / f64::from(steps))
         };
-        turns.windows(2).flat_map(branch).collect()
+        reversals.windows(2).flat_map(branch).collect()
     }
 
     #[test]

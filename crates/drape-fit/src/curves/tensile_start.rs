@@ -5,8 +5,8 @@
 //! ```
 //!
 //! For a given end of the priming zone and friction length the load is linear in stiffness `$k$`,
-//! `$k$` times toe ratio `$r$`, and plateau `$F_c$`, where `$f_r$` is the backbone of unit stiffness
-//! and toe ratio `$r$` and `$u$` the unit friction. Ends and lengths are tried on a grid.
+//! `$k$` times toe ratio `$r$`, and plateau `$F_c$`, where `$f_r$` is the backbone of unit
+//! stiffness and toe ratio `$r$` and `$u$` the unit friction. Ends and lengths are tried on a grid.
 
 use std::ops::Range;
 

@@ -18,14 +18,14 @@ pub struct FittedSheet<'a> {
     pub fit: &'a Fit,
 }
 
-/// Identifies many fabrics on all threads of the current pool, and returns a summary of each in their
-/// order.
+/// Identifies many fabrics on all threads of the current pool, and returns a summary of each in
+/// their order.
 ///
-/// Each thread reads one sheet at a time, identifies and summarises it, and drops both: memory grows
-/// with the summaries, not with the number of sheets. A sheet that cannot be read or identified is
-/// summarised as that error and does not stop the others. `summarise` is called as each fabric is
-/// done, in any order, so it may advance a progress bar too; the returned list is the same for any
-/// number of threads.
+/// Each thread reads one sheet at a time, identifies and summarises it, and drops both: memory
+/// grows with the summaries, not with the number of sheets. A sheet that cannot be read or
+/// identified is summarised as that error and does not stop the others. `summarise` is called as
+/// each fabric is done, in any order, so it may advance a progress bar too; the returned list is
+/// the same for any number of threads.
 ///
 /// ```
 /// use drape_fit::{Error, Settings, identify_all};
@@ -50,8 +50,8 @@ pub fn identify_all<I: Sync, E: From<Error>, T: Send>(
 ) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let summaries = Mutex::new(Vec::with_capacity(inputs.len()));
-    // Each thread runs one loop and takes the next sheet when it has done one. As many small tasks, a
-    // thread that waits for the curves of its sheet would begin another sheet and hold both.
+    // Each thread runs one loop and takes the next sheet when it has done one. As many small tasks,
+    // a thread that waits for the curves of its sheet would begin another sheet and hold both.
     rayon::broadcast(|_| {
         while let Some((index, input)) = {
             let index = next.fetch_add(1, Ordering::Relaxed);

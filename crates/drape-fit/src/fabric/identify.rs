@@ -49,8 +49,8 @@ pub fn identify(sheet: &Sheet) -> Result<Fit, Error> {
 
 /// Identifies a fabric from a sheet.
 ///
-/// Curves come before values, values before defaults, and each default is named. Of several curves of
-/// one test and direction the first gives the law, except that loop-bending curves give one law
+/// Curves come before values, values before defaults, and each default is named. Of several curves
+/// of one test and direction the first gives the law, except that loop-bending curves give one law
 /// together. What is missing of one direction is taken from the other.
 ///
 /// # Errors

@@ -39,8 +39,8 @@ fn law(fit: &CurveFit) -> String {
     }
 }
 
-/// Returns the key of a parameter within its law; `None` for parameters of the test and for those that
-/// enter two numbers.
+/// Returns the key of a parameter within its law; `None` for parameters of the test and for those
+/// that enter two numbers.
 fn key(test: Test, parameter: &str, two_elements: bool) -> Option<&'static str> {
     Some(match (test, parameter) {
         (Test::Tensile, "stiffness") => "primed.stiffness",

@@ -1,5 +1,5 @@
-//! Laws of a sheet: from its curves where there are any, else from its values, with notes on what was
-//! assumed.
+//! Laws of a sheet: from its curves where there are any, else from its values, with notes on what
+//! was assumed.
 
 use drape_fabric::{BendingLaw, ShearLaw, TractionLaw};
 use drape_kes::{BendingValues, Curve, Direction, ShearValues, Sheet, Test, Values};
@@ -137,8 +137,8 @@ impl<'a> SheetLaws<'a> {
         tensile_from_values(&target).map(|found| found.law)
     }
 
-    /// Returns the bending law of the first bending curve of a direction, of its loop-bending curves,
-    /// or of its values.
+    /// Returns the bending law of the first bending curve of a direction, of its loop-bending
+    /// curves, or of its values.
     pub(crate) fn bending(&self, direction: Direction, density: f64) -> Option<Noted<BendingLaw>> {
         let from_loop = self.laws.iter().find_map(|laws| match laws {
             CurveLaw::Bending(found) if found.fit.direction == direction => Some(found.law),

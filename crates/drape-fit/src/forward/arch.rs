@@ -1,7 +1,7 @@
 //! Clamped arch: a strip between parallel clamps that have come closer than its length.
 //!
-//! Half of it is half a wave of the inextensible elastica \[Eul44\]. With the parameter `$m=k^2$`, the
-//! complete integrals `$K(m)$`, `$E(m)$` and the length `$L$` of the strip
+//! Half of it is half a wave of the inextensible elastica \[Eul44\]. With the parameter `$m=k^2$`,
+//! the complete integrals `$K(m)$`, `$E(m)$` and the length `$L$` of the strip
 //!
 //! ```math
 //! \frac{\text{span}}{L} = 2\frac{E}{K}-1,\qquad

@@ -6,8 +6,8 @@ use drape_fabric::{BendingLaw, Law, Memory, ShearBackbone, ShearLaw};
 
 /// Law whose elastic load can be computed without its friction.
 ///
-/// Committing a step already gives the friction at its end, so the load costs nothing more: a history
-/// takes half the time of asking for the response first.
+/// Committing a step already gives the friction at its end, so the load costs nothing more: a
+/// history takes half the time of asking for the response first.
 pub(crate) trait LoopLaw: Law {
     /// Returns the elastic load at a deformation.
     fn elastic_load(&self, deformation: f64) -> f64;
@@ -31,7 +31,8 @@ impl LoopLaw for ShearLaw {
 
 /// Writes the loads of a virgin fabric along a history of deformations.
 ///
-/// The history need not start at zero: the fabric is first deformed monotonically to its first point.
+/// The history need not start at zero: the fabric is first deformed monotonically to its first
+/// point.
 pub(crate) fn drive_loop(law: &impl LoopLaw, history: impl Iterator<Item = f64>, out: &mut [f64]) {
     let mut memory: Memory = law.virgin();
     for (load, deformation) in out.iter_mut().zip(history) {

@@ -48,9 +48,9 @@ impl<'a> Strip<'a> {
 
     /// Returns load and state at a strain that follows a state.
     ///
-    /// With the toe ratio `$r$` the elastic load is `$k\varepsilon((1 - r)\varepsilon/\varepsilon_c +
-    /// 2r - 1)$` up to the end `$\varepsilon_c$` of the priming zone, and
-    /// `$k(\varepsilon - (1 - r)\varepsilon_c)$` beyond \[NB04, eq. 3\].
+    /// With the toe ratio `$r$` the elastic load is
+    /// `$k\varepsilon((1 - r)\varepsilon/\varepsilon_c + 2r - 1)$` up to the end `$\varepsilon_c$`
+    /// of the priming zone, and `$k(\varepsilon - (1 - r)\varepsilon_c)$` beyond \[NB04, eq. 3\].
     fn step(&self, state: &State, strain: f64) -> Step {
         let State { memory, toe } = *state;
         let peak = memory.peak.max(strain);
@@ -141,8 +141,8 @@ pub(crate) fn drive_strip(law: &TractionLaw, history: impl Iterator<Item = f64>,
 /// Writes the loads of a strip between clamps that may come closer than its length.
 ///
 /// A strip carries no compression: where the load of the law would be negative the strip sags. It
-/// then keeps the strain at which its load vanished, and carries load again once the clamps pass that
-/// strain.
+/// then keeps the strain at which its load vanished, and carries load again once the clamps pass
+/// that strain.
 pub(crate) fn drive_slack_strip(
     law: &TractionLaw,
     clamps: impl Iterator<Item = f64>,

@@ -42,8 +42,8 @@ pub struct CurveFit {
     pub misfit: f64,
     /// Root mean square residual, in the unit of the load.
     pub rms: f64,
-    /// Root mean square residual over the range of the measured load, with the weights of the fit; a
-    /// ratio.
+    /// Root mean square residual over the range of the measured load, with the weights of the fit;
+    /// a ratio.
     pub weighted_misfit: f64,
     /// Coefficient of determination `$R^2$`, without weights.
     pub r_squared: f64,
@@ -78,8 +78,8 @@ pub struct CurveFit {
     pub load: Vec<f64>,
     /// Half width of the 95 % band around the load of the law, in SI.
     ///
-    /// It comes from the errors of the parameters that the curve determines. Zero at points that were
-    /// not used.
+    /// It comes from the errors of the parameters that the curve determines. Zero at points that
+    /// were not used.
     pub band: Vec<f64>,
     /// Branch of each point, from zero; a reversal belongs to the branch that it ends.
     pub branches: Vec<usize>,

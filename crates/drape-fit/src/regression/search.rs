@@ -41,10 +41,11 @@ fn restarted(named: &[NamedParameter], report: &Report) -> Vec<NamedParameter> {
     named.iter().zip(&report.parameters).map(restart).collect()
 }
 
-/// Searches from every start for a few iterations, and from the best end until laws can be compared.
+/// Searches from every start for a few iterations, and from the best end until laws can be
+/// compared.
 ///
-/// The starts run in parallel. The first of equally good ones is taken, so the result does not depend
-/// on the number of threads.
+/// The starts run in parallel. The first of equally good ones is taken, so the result does not
+/// depend on the number of threads.
 pub(crate) fn multistart(
     problem: &(impl Problem + Sync),
     starts: &[Vec<NamedParameter>],

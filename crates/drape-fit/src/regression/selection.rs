@@ -32,10 +32,10 @@ pub struct Candidate {
     pub misfit: f64,
     /// Akaike's corrected criterion, [`drape_lm::akaike`]; `None` where the points are too few.
     ///
-    /// Its logarithm counts the independent residuals (`CurveFit::effective_points`) of the candidate
-    /// with the smallest residual, not all: the quasi-likelihood criterion of \[BA02, §2.5\].
-    /// Residuals of a law that misses the curve systematically are correlated, and each would vote
-    /// for any law with more parameters. For independent noise both are the same.
+    /// Its logarithm counts the independent residuals (`CurveFit::effective_points`) of the
+    /// candidate with the smallest residual, not all: the quasi-likelihood criterion of \[BA02,
+    /// §2.5\]. Residuals of a law that misses the curve systematically are correlated, and each
+    /// would vote for any law with more parameters. For independent noise both are the same.
     pub criterion: Option<f64>,
     /// Root mean square error, over the range of the load, of the prediction of the last cycle from
     /// all others; `None` where there is one cycle.
@@ -64,8 +64,8 @@ pub(crate) struct Selection {
     pub(crate) evaluations: usize,
 }
 
-/// Fits every law and selects the first whose criterion is within [`LEAD`] of the smallest, of those
-/// that predict better than all before them.
+/// Fits every law and selects the first whose criterion is within [`LEAD`] of the smallest, of
+/// those that predict better than all before them.
 pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Selection {
     let points = curve.load().len();
     let mut results: Vec<SearchResult> = models

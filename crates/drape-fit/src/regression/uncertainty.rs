@@ -44,8 +44,8 @@ pub(crate) struct Independence {
 }
 
 impl Independence {
-    /// Computes both for residuals in the order of measurement, taken as an autoregressive process of
-    /// first order with correlation `$\rho$`.
+    /// Computes both for residuals in the order of measurement, taken as an autoregressive process
+    /// of first order with correlation `$\rho$`.
     ///
     /// `$n(1-\rho)/(1+\rho)$` of them are independent, and `$n(1-\rho^2)/(1+\rho^2)$` of their
     /// squares \[Bar35\].
@@ -171,8 +171,8 @@ pub(crate) fn uncertainty(
     }
 }
 
-/// Returns the standard errors of the model at each residual, from its Jacobian and the covariance of
-/// the parameters.
+/// Returns the standard errors of the model at each residual, from its Jacobian and the covariance
+/// of the parameters.
 fn band(jacobian: &DMatrix<f64>, covariance: &DMatrix<f64>) -> impl Iterator<Item = f64> {
     let spread = jacobian * covariance;
     let variances = (0..jacobian.nrows()).map(|i| spread.row(i).dot(&jacobian.row(i)));

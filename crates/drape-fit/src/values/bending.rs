@@ -8,8 +8,8 @@ use crate::values::assumed::BENDING_FRICTION_LENGTH;
 /// Returns the bending law that has the values B and 2HB.
 ///
 /// The friction length, which 2HB does not determine, is taken from the one published measurement
-/// \[THK03, fig. 8b\]. The friction has reached its plateau well before the curvatures at which B and
-/// 2HB are read (to `$e^{-37}$`), so B is the rigidity and 2HB twice the plateau.
+/// \[THK03, fig. 8b\]. The friction has reached its plateau well before the curvatures at which B
+/// and 2HB are read (to `$e^{-37}$`), so B is the rigidity and 2HB twice the plateau.
 ///
 /// ```
 /// use drape_fit::bending_from_values;

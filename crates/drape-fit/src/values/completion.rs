@@ -11,7 +11,8 @@ use crate::values::traction::{TensileTarget, VALUE_TOLERANCE, tensile_from_value
 
 /// Relative difference between WT and ½·LT·FM·EM that rounding of printed values does not explain.
 const CONTRADICTION: f64 = 0.05;
-/// Number of steps in which an assumed LT or RT moves towards one until the given values can be met.
+/// Number of steps in which an assumed LT or RT moves towards one until the given values can be
+/// met.
 const STEPS: usize = 20;
 
 /// Returns the traction law of the tensile values, if any is given.

@@ -1,6 +1,7 @@
 //! Law made from values, with its deviation from them or with notes on what was assumed.
 
-/// Relative deviation of a law's values from the sheet's that is reported: a tenth of their scatter.
+/// Relative deviation of a law's values from the sheet's that is reported: a tenth of their
+/// scatter.
 pub(crate) const REPORTED_DEVIATION: f64 = 1e-3;
 
 /// Law from KES values, with the deviation of its own values from them.

@@ -1,7 +1,7 @@
 //! Shear law from G, 2HG and 2HG5.
 //!
-//! For a given friction length the values are linear in the stiffness `$k_s$`, the plateau `$F_c$` and
-//! its growth `$F_c\gamma$`: three values, three equations.
+//! For a given friction length the values are linear in the stiffness `$k_s$`, the plateau `$F_c$`
+//! and its growth `$F_c\gamma$`: three values, three equations.
 
 use drape_fabric::{BlimanSorine, Law, Locking, ShearBackbone, ShearLaw, drive};
 use drape_kes::{Curve, Direction, ShearPoints, ShearValues, Test};
@@ -22,8 +22,8 @@ const BISECTIONS: usize = 60;
 /// Returns the shear law that has the values G, 2HG and 2HG5, read at the given points.
 ///
 /// The friction length is assumed, except for a loop that narrows (2HG5 < 2HG): a plateau cannot
-/// shrink, and the length at which friction has not yet reached its plateau after the reversal at 8°
-/// gives such a loop.
+/// shrink, and the length at which friction has not yet reached its plateau after the reversal at
+/// 8° gives such a loop.
 ///
 /// The deviation is the largest relative deviation of the values: rounding, except for loops that
 /// widen more than tenfold or narrow to less than 0.63, for which the mean of both widths is taken.
@@ -204,7 +204,8 @@ mod tests {
             let Matched { law, deviation } = shear_from_values(&target(widths), &points);
             assert!(deviation < 1e-9, "{widths:?}: {deviation}");
             for (found, exact) in values(&law).into_iter().zip([33.7, widths[0], widths[1]]) {
-                // Interpolation on 0.004° of a bend with radius x_f: (h/x_f)²/8 = 5e-5 of its share.
+                // Interpolation on 0.004° of a bend with radius x_f: (h/x_f)²/8 = 5e-5 of its
+                // share.
                 let error = (found / exact - 1.0).abs();
                 assert!(error < 1e-5, "{widths:?}: {found} where {exact} was asked for");
             }

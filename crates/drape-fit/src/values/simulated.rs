@@ -16,9 +16,9 @@ const BISECTIONS: usize = 60;
 
 /// Returns the KES values of one direction of a fabric, in the laboratory's units.
 ///
-/// Each test is simulated with the fabric's laws from rest, bending and shear to one side, the other,
-/// and the first again, and read as [`Curve::values`] reads measured curves. The tensile values are
-/// left out for a fabric that never carries the load of the tensile test.
+/// Each test is simulated with the fabric's laws from rest, bending and shear to one side, the
+/// other, and the first again, and read as [`Curve::values`] reads measured curves. The tensile
+/// values are left out for a fabric that never carries the load of the tensile test.
 ///
 /// ```
 /// use drape_fit::{Settings, fabric_values, identify};
@@ -60,7 +60,8 @@ pub(crate) fn shear_angles(points: &ShearPoints) -> Vec<f64> {
     cycle(&[low, high, points.width, points.wide], LARGEST_ANGLE)
 }
 
-/// Returns a cycle from rest to one side, the other, and back, with a point wherever a value is read.
+/// Returns a cycle from rest to one side, the other, and back, with a point wherever a value is
+/// read.
 ///
 /// Laws are exact over any distance, so nothing is needed between these points.
 fn cycle(read: &[f64], largest: f64) -> Vec<f64> {

@@ -39,10 +39,10 @@ pub struct TensileTarget {
 
 /// Returns the traction law that has the values EM, LT and RT at the given load.
 ///
-/// A priming zone that ends at EM is made as deep as LT needs: of all priming zones with these values
-/// it leaves the fabric stiffest at rest. For a curve with a lower linearity than that can have (an
-/// elastic LT below 0.67) the even polynomial is taken. How the fabric changes once it has been
-/// stretched is not in the values: the toe does not move.
+/// A priming zone that ends at EM is made as deep as LT needs: of all priming zones with these
+/// values it leaves the fabric stiffest at rest. For a curve with a lower linearity than that can
+/// have (an elastic LT below 0.67) the even polynomial is taken. How the fabric changes once it has
+/// been stretched is not in the values: the toe does not move.
 ///
 /// The deviation is the root mean square of the relative deviations of the values: rounding, except
 /// for the lowest linearity with the widest loops.

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 /// Motion against the branch that counts as a reversal, over the whole range.
 ///
-/// With a smaller one the jitter of a clamp splits a branch; with a larger one small inner loops are
-/// missed. Position sensors jitter below 0.1 % of the range, and the smallest inner loop of a test
-/// worth measuring is some 5 % of it.
+/// With a smaller one the jitter of a clamp splits a branch; with a larger one small inner loops
+/// are missed. Position sensors jitter below 0.1 % of the range, and the smallest inner loop of a
+/// test worth measuring is some 5 % of it.
 const REVERSAL_THRESHOLD: f64 = 0.01;
 
 /// Part of a history on which the deformation rises or falls.

@@ -61,8 +61,8 @@ pub struct Curve {
     pub direction: Direction,
     /// Free length of the specimen between the clamps, if it was given; in metres.
     pub gauge: Option<f64>,
-    /// Whether the strip hung slack at the start: the zeros of strain and force are then unknown, and
-    /// fitted.
+    /// Whether the strip hung slack at the start: the zeros of strain and force are then unknown,
+    /// and fitted.
     pub slack: bool,
     deformation: Vec<f64>,
     load: Vec<f64>,

@@ -41,8 +41,8 @@ pub struct CurveValue {
     pub value: Result<f64, Error>,
 }
 
-/// Relative distance of a curve's largest load from FM up to which its EM, WT, LT and RT are those of
-/// FM.
+/// Relative distance of a curve's largest load from FM up to which its EM, WT, LT and RT are those
+/// of FM.
 ///
 /// Machines overshoot by as much, and EM moves by half of it: less than two specimens differ by.
 const NEAR_MAXIMUM: f64 = 0.05;

@@ -107,7 +107,8 @@ impl Curve {
         })
     }
 
-    /// Returns the slope of the loop's middle line between two deformations, averaged over both sides.
+    /// Returns the slope of the loop's middle line between two deformations, averaged over both
+    /// sides.
     pub(crate) fn loop_slope(&self, between: [f64; 2]) -> Result<f64, Error> {
         let [from, to] = between;
         let middle = |q: f64| self.passages(q).map(|p| 0.5 * (p.rising + p.falling));
@@ -257,8 +258,9 @@ mod tests {
 
     #[test]
     fn a_test_that_starts_from_rest_gives_the_values_of_its_steady_loop() {
-        // 0 → +top → −top → 0: each side is passed rising and falling, the positive one on the first
-        // loading, when a short friction has reached its plateau by the first evaluation point.
+        // 0 → +top → −top → 0: each side is passed rising and falling, the positive one on the
+        // first loading, when a short friction has reached its plateau by the first evaluation
+        // point.
         let exact = bending(5.0);
         let n = 20_000;
         let at = |i: usize| exact.top * i as f64 / n as f64;

@@ -83,7 +83,8 @@ mod tests {
         Curve::new(Test::Tensile, Direction::Warp, strain, load).unwrap()
     }
 
-    /// Trapezoids on `n` steps of a quadratic err by W''h²/12 relative to the work: 1/(2n²) at most here.
+    /// Trapezoids on `n` steps of a quadratic err by W''h²/12 relative to the work: 1/(2n²) at most
+    /// here.
     const STEPS: usize = 4000;
     const TRAPEZOID: f64 = 1.0 / (STEPS * STEPS) as f64;
 

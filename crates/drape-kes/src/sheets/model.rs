@@ -1,7 +1,7 @@
 //! Law that a sheet asks for.
 
-/// Law that the bending and shear loops of a sheet are to be fitted with, in place of the one that the
-/// data support.
+/// Law that the bending and shear loops of a sheet are to be fitted with, in place of the one that
+/// the data support.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Model {
     /// Linear backbone with one friction element.

@@ -10,8 +10,8 @@ use crate::unit::Quantity;
 /// Bending rigidities that a fabric can have, in N·m.
 ///
 /// Published tables are off by a factor of ten after a careless conversion, and that in B changes a
-/// drape beyond recognition: outside this range the sheet is refused. Gauze is near 3e-7, canvas near
-/// 5e-4.
+/// drape beyond recognition: outside this range the sheet is refused. Gauze is near 3e-7, canvas
+/// near 5e-4.
 const BENDING_RIGIDITY: RangeInclusive<f64> = 1e-7..=1e-3;
 
 /// 5th and 95th percentile over 251 measured fabrics: mass per area, in kg/m².
@@ -65,8 +65,8 @@ fn meant(b: &Measured) -> String {
 /// Masses per area that a fabric can have, in kg/m²: from a veil to a carpet.
 const DENSITY: RangeInclusive<f64> = 5e-3..=5.0;
 
-/// Reports a mass per area that no fabric has, with the value that was probably meant, and warns about
-/// one that few have.
+/// Reports a mass per area that no fabric has, with the value that was probably meant, and warns
+/// about one that few have.
 pub(crate) fn density(w: &Measured, findings: &mut Findings<'_>) {
     if !DENSITY.contains(&w.si) {
         let message = format!("{} is {:.3e} kg/m2; no fabric has that", w.written, w.si);

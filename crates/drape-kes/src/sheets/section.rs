@@ -1,7 +1,7 @@
 //! Typed access to the tables of a TOML file, key by key, with all mistakes collected.
 //!
-//! A derived deserialiser stops at the first unknown key. A laboratory's sheet is written by hand, so
-//! all of its mistakes are reported at once.
+//! A derived deserialiser stops at the first unknown key. A laboratory's sheet is written by hand,
+//! so all of its mistakes are reported at once.
 
 use drape_input::closest;
 use toml::de::{DeTable, DeValue};

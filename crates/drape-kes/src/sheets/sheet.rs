@@ -76,8 +76,8 @@ impl Sheet {
     /// Reads a sheet and the curves that it names; a folder means the `sheet.toml` in it.
     ///
     /// # Errors
-    /// The file cannot be read, or it or one of its curve files has mistakes: all that were found are
-    /// in the error, each with file, line, value and remedy.
+    /// The file cannot be read, or it or one of its curve files has mistakes: all that were found
+    /// are in the error, each with file, line, value and remedy.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let document = if path.is_dir() {
@@ -171,8 +171,8 @@ impl Sheet {
 
     /// Returns a digest of the measured numbers, whatever the layout of the files.
     ///
-    /// It is the BLAKE3 hash, in hexadecimal, of all values and of all points of all curves, in SI to
-    /// the last bit. Names and remarks do not count.
+    /// It is the BLAKE3 hash, in hexadecimal, of all values and of all points of all curves, in SI
+    /// to the last bit. Names and remarks do not count.
     #[must_use]
     pub fn digest(&self) -> String {
         let mut hasher = blake3::Hasher::new();
@@ -200,7 +200,8 @@ impl Sheet {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Returns warnings about values that are admissible but that few fabrics have, and about repairs.
+    /// Returns warnings about values that are admissible but that few fabrics have, and about
+    /// repairs.
     #[must_use]
     pub fn warnings(&self) -> &[Diagnostic] {
         &self.warnings

@@ -1,7 +1,7 @@
 //! Checks of a curve: slips that are safe to repair, and curves that cannot be right.
 //!
-//! The last stage of `curve_file`. A repair is a warning; anything else is an error with the reading
-//! that was probably meant.
+//! The last stage of `curve_file`. A repair is a warning; anything else is an error with the
+//! reading that was probably meant.
 
 use std::ops::RangeInclusive;
 
