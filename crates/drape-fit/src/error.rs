@@ -6,33 +6,33 @@ use drape_kes::Test;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The curve is of another test: choose a curve of the right one.
+    /// Curve of another test: choose a curve of the right one.
     #[error("{name}: a {} curve was given where a {} curve is needed", found.name(), wanted.name())]
     WrongTest {
         /// Name of the curve.
         name: String,
-        /// Its test.
+        /// Test of the curve.
         found: Test,
         /// Test that is needed.
         wanted: Test,
     },
-    /// The load of the curve never changes: check the column and the clamps.
+    /// Load that never changes: check the column and the clamps.
     #[error(
         "{name}: the load is {load} throughout; check the column, and that the strip was clamped"
     )]
     ConstantLoad {
         /// Name of the curve.
         name: String,
-        /// That load, in SI.
+        /// Load, in SI.
         load: f64,
     },
-    /// The curve does not rise from its start: check the sign of its columns.
+    /// Load that does not rise from its start: check the signs of the columns.
     #[error("{name}: the load does not rise with the deformation; check the signs of the columns")]
     FallingLoad {
         /// Name of the curve.
         name: String,
     },
-    /// The curve has no second or later cycle that goes further than those before it: measure one.
+    /// Curve without a later cycle that goes further than those before it: measure one.
     #[error(
         "{name}: the last cycle is not a second one that goes further; there is nothing to predict"
     )]
@@ -40,13 +40,13 @@ pub enum Error {
         /// Name of the curve.
         name: String,
     },
-    /// The length of the loop-bending strip is not given: give the gauge.
+    /// Loop-bending strip of unknown length: give the gauge.
     #[error("{name}: the length of the strip is not known; give the gauge of the deformation")]
     MissingGauge {
         /// Name of the curve.
         name: String,
     },
-    /// The loop-bending strip is hardly bent: bring the clamps closer.
+    /// Loop-bending strip that is hardly bent: bring the clamps closer.
     #[error("{name}: the clamps came closer by less than {needed:.0} % of the strip's length")]
     FlatArch {
         /// Name of the curve.
@@ -54,7 +54,7 @@ pub enum Error {
         /// Shortening needed, in percent.
         needed: f64,
     },
-    /// No law has these tensile values: check LT, RT, WT and EM.
+    /// Tensile values that no law has: check LT, RT, WT and EM.
     #[error(
         "{name}: no law here has a linearity LT of {linearity:.3} with a resilience RT of {:.1} %; check LT, RT, WT and EM",
         100.0 * resilience
@@ -67,7 +67,7 @@ pub enum Error {
         /// RT of the values, a ratio.
         resilience: f64,
     },
-    /// The resilience is not between 0 and 100 %: it is the fraction of the work that is recovered.
+    /// Resilience that is not between 0 and 100 %, the fraction of the work that is recovered.
     #[error(
         "{name}: RT is {percent:.1} %; a fabric gives back more than nothing and less than was spent"
     )]
@@ -77,7 +77,7 @@ pub enum Error {
         /// RT, in percent.
         percent: f64,
     },
-    /// The linearity is not between 0 and 2: the work under a rising curve is less than twice that
+    /// Linearity that is not between 0 and 2: the work under a rising curve is less than twice that
     /// of a straight line.
     #[error(
         "{name}: LT is {linearity:.3}, {origin}; a rising curve has more than 0 and less than 2; check LT, WT and EM"
@@ -90,7 +90,7 @@ pub enum Error {
         /// Source of LT, in words.
         origin: &'static str,
     },
-    /// A number of the identified fabric is impossible: check the units of the sheet.
+    /// Impossible number in the identified fabric: check the units of the sheet.
     #[error("the fabric identified has {key} that {message}; check the sheet ({help})")]
     InvalidFabric {
         /// Key path of the number in the fabric.

@@ -6,11 +6,10 @@ use drape_input::Diagnostics;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The sheet or a file that it names has mistakes: correct them; all that were found are
-    /// listed.
+    /// Mistakes in the sheet or in a file that it names, all that were found: correct them.
     #[error(transparent)]
     Input(#[from] Diagnostics),
-    /// The two columns of a curve differ in length: give one load for each deformation.
+    /// Columns of different length: give one load for each deformation.
     #[error("a curve has {deformations} deformations but {loads} loads")]
     UnpairedColumns {
         /// Number of deformations.
@@ -18,29 +17,29 @@ pub enum Error {
         /// Number of loads.
         loads: usize,
     },
-    /// The curve has fewer than two points: measure more.
+    /// Curve of fewer than two points: measure more.
     #[error("a curve needs at least two points; this one has {points}")]
     TooFewPoints {
         /// Number of points.
         points: usize,
     },
-    /// A value of the curve is not a finite number: correct it.
+    /// Value that is not a finite number: correct it.
     #[error("point {index} of a curve is not finite: deformation {deformation}, load {load}")]
     NotFinite {
         /// Index of the point, from 0.
         index: usize,
-        /// Its deformation.
+        /// Deformation at the point.
         deformation: f64,
-        /// Its load.
+        /// Load at the point.
         load: f64,
     },
-    /// All points of the curve have the same deformation: the specimen was not deformed.
+    /// Same deformation at all points: the specimen was not deformed.
     #[error("all points of a curve have the deformation {deformation}: nothing was deformed")]
     ConstantDeformation {
-        /// That deformation.
+        /// Deformation, in SI.
         deformation: f64,
     },
-    /// The curve is of another test than the value: choose a curve of the right one.
+    /// Curve of another test than the value: choose a curve of the right one.
     #[error("a {found} curve was given where a {wanted} curve is needed")]
     WrongTest {
         /// Test of the curve.
@@ -48,8 +47,7 @@ pub enum Error {
         /// Test that is needed.
         wanted: &'static str,
     },
-    /// The curve has no rising and falling branch at an evaluation point: measure further, or move
-    /// the point.
+    /// Evaluation point without a rising and a falling branch: measure further, or move the point.
     #[error("the curve has no loop at a deformation of {deformation}; it spans {low} to {high}")]
     OutOfRange {
         /// Deformation needed, in SI.
@@ -59,12 +57,10 @@ pub enum Error {
         /// Highest deformation measured, in SI.
         high: f64,
     },
-    /// A tensile value needs a strip that was straight at zero strain: measure one under
-    /// pretension.
+    /// Slack strip, whose tensile values have no zero of strain: measure one under pretension.
     #[error("the strip hung slack, so that its strain has no zero of its own")]
     SlackStrip,
-    /// The largest load of the curve is not that of the tensile values: say what the test's was
-    /// (FM).
+    /// Largest load that is not that of the tensile values: give the largest load of the test (FM).
     #[error("the curve ends at {reached:.1} N/m, and the value is that of {wanted:.1} N/m")]
     OtherMaximumTension {
         /// Largest load of the first loading branch, in N/m.
@@ -72,7 +68,7 @@ pub enum Error {
         /// FM, in N/m.
         wanted: f64,
     },
-    /// The tensile curve ends at its largest load: measure the recovery too.
+    /// Tensile curve that ends at its largest load: measure the recovery too.
     #[error("the curve has no way back")]
     NoRecovery,
 }

@@ -10,13 +10,13 @@
 /// | loop bending | clamp distance over specimen length, minus one | force, in N/m |
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Test {
-    /// A strip is stretched along its yarns (KES-FB1).
+    /// Stretching of a strip along its yarns (KES-FB1).
     Tensile,
-    /// A strip is sheared at constant tension (KES-FB1).
+    /// Shearing of a strip at constant tension (KES-FB1).
     Shear,
-    /// A strip is bent to a uniform curvature (KES-FB2).
+    /// Bending of a strip to a uniform curvature (KES-FB2).
     Bending,
-    /// Two parallel clamps approach and the strip between them buckles into an arch.
+    /// Buckling of a strip into an arch between two approaching, parallel clamps.
     LoopBending,
 }
 

@@ -30,21 +30,21 @@ const SVD_ITERATIONS: usize = 10_000;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Undetermined {
-    /// It was held fixed.
+    /// Fixed parameter.
     #[error("the parameter is fixed")]
     Fixed,
-    /// It ended at this bound: the minimum lies beyond, and the error around the bound is not
+    /// Parameter at this bound: the minimum lies beyond, and the error around the bound is not
     /// symmetric.
     #[error("the parameter is at its bound {0:e}")]
     AtBound(f64),
-    /// It can change together with these others (or alone, if there are none) without any effect on
-    /// the residuals: fix one of them, or measure something that separates them.
+    /// Parameter that can change together with these others (or alone, if there are none) without
+    /// any effect on the residuals: fix one of them, or measure something that separates them.
     #[error("the data do not separate the parameter from parameters {0:?}")]
     Unidentifiable(Vec<usize>),
-    /// There are no more residuals than free parameters, or the level is not between 0 and 1.
+    /// No more residuals than free parameters, or a level that is not between 0 and 1.
     #[error("there are too few residuals, or the level is not between 0 and 1")]
     NoDegreesOfFreedom,
-    /// The model has no derivative at the minimum.
+    /// Model without a derivative at the minimum.
     #[error("the model has no derivative at the minimum")]
     NotFinite,
 }

@@ -96,21 +96,21 @@ impl Default for Settings {
 /// Reason why the iteration stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The sum no longer falls.
+    /// Convergence: the sum no longer falls.
     Reduction,
-    /// The parameters no longer move.
+    /// Convergence: the parameters no longer move.
     Step,
-    /// The residuals are orthogonal to every change of the free parameters.
+    /// Convergence: the residuals are orthogonal to every change of the free parameters.
     Gradient,
-    /// All residuals are zero.
+    /// Convergence: all residuals are zero.
     Exact,
-    /// The limit on iterations was reached.
+    /// Limit on the number of iterations.
     Iterations,
-    /// No step, however short, achieved the predicted reduction.
+    /// Failure of all steps, however short, to achieve the predicted reduction.
     Stalled,
-    /// The residuals at the starting values, or the derivatives at the best point, are not finite.
+    /// Residuals at the starting values, or derivatives at the best point, that are not finite.
     NotFinite,
-    /// There are no parameters or no residuals.
+    /// Problem without parameters or without residuals.
     Empty,
 }
 

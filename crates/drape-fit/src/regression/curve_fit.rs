@@ -90,7 +90,7 @@ pub struct CurveFit {
 pub struct Identified<L> {
     /// Identified law.
     pub law: L,
-    /// Its fit to the curve.
+    /// Fit of the law to the curve.
     pub fit: CurveFit,
 }
 

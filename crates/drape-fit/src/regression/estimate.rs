@@ -33,17 +33,18 @@ impl Estimate {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Undetermined {
-    /// It was held fixed.
+    /// Fixed parameter.
     Fixed,
-    /// It ended at this bound, in its unit: the minimum lies beyond.
+    /// Parameter at this bound, in its unit: the minimum lies beyond.
     AtBound(f64),
-    /// It can change together with these others, or alone if there are none, without any effect.
+    /// Parameter that can change together with these others, or alone if there are none, without
+    /// any effect.
     Unidentifiable(Vec<&'static str>),
-    /// There are no more points than parameters.
+    /// No more points than parameters.
     TooFewPoints,
-    /// The law has no derivative by the parameter there.
+    /// Law without a derivative by the parameter there.
     NotSmooth,
-    /// The data set it no end, or its profile could not be followed to the end.
+    /// Interval without an end, or with a profile that could not be followed to the end.
     NoEnd,
 }
 

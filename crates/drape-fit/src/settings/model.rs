@@ -9,7 +9,7 @@ pub enum FrictionOrder {
     /// Two positive elements of different length in parallel: nested loops that grow with their
     /// amplitude.
     Parallel,
-    /// A fast element less a slow one: stiction, and a drop to the plateau \[BS95\].
+    /// Fast element less a slow one: stiction, and a drop to the plateau \[BS95\].
     Second,
 }
 
@@ -31,9 +31,9 @@ impl FrictionOrder {
 /// Whether the plateau of a shear friction grows with the angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Plateau {
-    /// The plateau is the same at all angles \[NB04, eq. 5\].
+    /// Same plateau at all angles \[NB04, eq. 5\].
     Constant,
-    /// The plateau grows with the sine of the angle, because KES loops widen (2HG5 > 2HG).
+    /// Plateau that grows with the sine of the angle, because KES loops widen (2HG5 > 2HG).
     #[default]
     Growing,
 }
@@ -41,9 +41,9 @@ pub enum Plateau {
 /// Law that a bending or a shear loop is fitted with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoopModel {
-    /// A linear backbone with friction, fitted to the whole history \[NB04, eqs. 4–5\].
+    /// Linear backbone with friction, fitted to the whole history \[NB04, eqs. 4–5\].
     Linear(FrictionOrder),
-    /// A parabola that continues as a straight line, without friction, fitted to the first loading
+    /// Parabola that continues as a straight line, without friction, fitted to the first loading
     /// branch \[BHW94, §5.1\].
     Piecewise,
 }
@@ -58,22 +58,22 @@ impl Default for LoopModel {
 /// Elastic load that a tensile curve is fitted with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TractionModel {
-    /// A priming zone that continues as a straight line, with friction \[NB04, eq. 3\].
+    /// Priming zone that continues as a straight line, with friction \[NB04, eq. 3\].
     #[default]
     Primed,
-    /// An even polynomial, with friction \[THK03, fig. 8a\].
+    /// Even polynomial, with friction \[THK03, fig. 8a\].
     Polynomial,
 }
 
 /// Whether the priming zone becomes longer once the fabric has been stretched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Toe {
-    /// The priming zone keeps its length.
+    /// Priming zone of constant length.
     ///
     /// Of the two this predicts the next, larger cycle better: on strips of cupro its peak by 4 to
     /// 13 % too low, with a moving toe by 1 to 19 %.
     #[default]
     Still,
-    /// The end of the priming zone moves with the largest elongation \[NB04, table 1\].
+    /// Priming zone whose end moves with the largest elongation \[NB04, table 1\].
     Moving,
 }

@@ -13,7 +13,7 @@ const HALF_WEIGHT: f64 = 0.2;
 /// Weights of the points of a curve in the fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Weighting {
-    /// A squared residual at the deformation `$q$` has the weight `$1/(|q| + 0.2\,q_m)$`, with the
+    /// Weight `$1/(|q| + 0.2\,q_m)$` of a squared residual at the deformation `$q$`, with the
     /// largest deformation `$q_m$`.
     ///
     /// A fabric drapes at deformations well below the largest of the test. With this weighting the
@@ -21,7 +21,7 @@ pub enum Weighting {
     /// everywhere the weights change nothing but the errors, which grow by a tenth or so.
     #[default]
     LowDeformation,
-    /// All points have the same weight.
+    /// Same weight for all points.
     Even,
 }
 

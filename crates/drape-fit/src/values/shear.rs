@@ -84,11 +84,11 @@ fn shear_law(stiffness: f64, growth: f64, friction: BlimanSorine) -> ShearLaw {
 
 /// Values of the terms of a shear law, each with a coefficient of one.
 struct Terms {
-    /// Those of the linear backbone.
+    /// Values of the linear backbone.
     linear: ShearValues,
-    /// Those of a constant plateau.
+    /// Values of a constant plateau.
     constant: ShearValues,
-    /// Those of a plateau of the size of the sine.
+    /// Values of a plateau of the size of the sine.
     growing: ShearValues,
 }
 
