@@ -1,8 +1,8 @@
 //! Maps of a garment's strains, as one SVG file.
 
 use drape::cloth::TriangleStrain;
+use drape::dynamics::Snapshot;
 use drape::report::{Colour, StrainMap, diverging, strain_svg};
-use drape::scene::Snapshot;
 
 use super::picture::draw_from;
 use crate::failure::Failure;
