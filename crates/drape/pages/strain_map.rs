@@ -1,7 +1,8 @@
 //! Maps of a garment's strains, as one SVG file.
 
 use drape::cloth::TriangleStrain;
-use drape::report::{Colour, StrainMap, diverging, strain_svg};
+use drape::report::plot::{StrainMap, strain_svg};
+use drape::report::{Colour, diverging};
 use drape::scene::Snapshot;
 
 use super::picture::draw_from;
