@@ -7,8 +7,9 @@ use std::time::{Duration, Instant};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
+use drape_dynamics::{Scheme, Simulation};
 use drape_implicit::{InitialMatrix, LinearSolver, Method, Settings};
-use drape_scene::{Scene, Scheme, Simulation};
+use drape_scene::Scene;
 
 /// Particles along a side of the square sheet.
 const SIDES: [usize; 6] = [20, 50, 70, 100, 141, 200];
@@ -85,9 +86,9 @@ fn sheet(side: usize, step: f64, settings: &Settings) -> Simulation {
     let file = folder.path().join("scene.toml");
     write(folder.path().join("fabric.toml"), fabric).expect("a file");
     write(&file, scene).expect("a file");
-    let mut scene = Scene::read(&file).expect("a right scene");
-    scene.scheme = Scheme::Implicit(settings.clone());
-    let mut sheet = Simulation::new(scene).expect("a solver");
+    let scene = Scene::read(&file).expect("a right scene");
+    let scheme = Scheme::Implicit(settings.clone());
+    let mut sheet = Simulation::with_scheme(scene, scheme).expect("a solver");
     while sheet.time() < START {
         sheet.step().expect("it converges");
     }

@@ -6,7 +6,6 @@ use std::process::ExitCode;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
-use drape::scene::SceneError;
 
 /// Failure that ends a command, with its exit code.
 pub(crate) enum Failure {
@@ -106,13 +105,22 @@ impl From<Diagnostics> for Failure {
     }
 }
 
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Self {
+impl From<drape::scene::Error> for Failure {
+    fn from(error: drape::scene::Error) -> Self {
         match error {
-            SceneError::Input(mistakes) => Self::Input(mistakes),
-            SceneError::Tangled(tangle) => Self::Input(tangle.mistakes),
-            SceneError::Occupied { .. } => Self::Usage(error.to_string()),
-            SceneError::Write { .. } => Self::Output(error.to_string()),
+            drape::scene::Error::Input(mistakes) => Self::Input(mistakes),
+            drape::scene::Error::Tangled(tangle) => Self::Input(tangle.mistakes),
+            error => Self::Solver(error.to_string()),
+        }
+    }
+}
+
+impl From<drape::dynamics::Error> for Failure {
+    fn from(error: drape::dynamics::Error) -> Self {
+        use drape::dynamics::Error;
+        match error {
+            Error::Occupied { .. } => Self::Usage(error.to_string()),
+            Error::Write { .. } => Self::Output(error.to_string()),
             error => Self::Solver(error.to_string()),
         }
     }

@@ -1,7 +1,10 @@
 #![doc = include_str!("../../README.md")]
 
+mod scene_fabric;
+
 pub use drape_cloth as cloth;
 pub use drape_collide as collide;
+pub use drape_dynamics as dynamics;
 pub use drape_fabric as fabric;
 pub use drape_fit as fit;
 pub use drape_hysteresis as hysteresis;
@@ -14,3 +17,5 @@ pub use drape_report as report;
 pub use drape_scene as scene;
 pub use drape_validate as validate;
 pub use drape_verify as verify;
+
+pub use scene_fabric::{read_scene, scene_fabric};

@@ -1,7 +1,7 @@
 //! Pictures of cloth and bodies, with yarn lines or in a colour per particle.
 
+use drape::dynamics::Snapshot;
 use drape::report::{Colour, Picture, Scene, Surface, View, render};
-use drape::scene::Snapshot;
 
 use crate::failure::Failure;
 
