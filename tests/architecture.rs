@@ -1,6 +1,8 @@
 //! Rules of the architecture: the map in `crates/README.md` is true, the modules of a crate do not
 //! use each other in a circle, folders and files stay small, and every module has a description.
 
+#[path = "architecture/arguments.rs"]
+mod arguments;
 #[path = "architecture/modules.rs"]
 mod modules;
 #[path = "architecture/tokens.rs"]
@@ -10,6 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use arguments::functions_with_more_arguments;
 use modules::Modules;
 use serde_json::Value;
 
@@ -36,6 +39,9 @@ const FILES_MAX: usize = 14;
 
 /// Largest number of lines of a source file.
 const LINES_MAX: usize = 600;
+
+/// Largest number of arguments of a function, `self` not counted.
+const ARGUMENTS_MAX: usize = 4;
 
 /// Largest number of lines of the map.
 const MAP_MAX: usize = 120;
@@ -187,4 +193,17 @@ fn every_module_has_a_description() {
         .map(|file| short(file))
         .collect();
     assert!(silent.is_empty(), "{} modules have no `//!`: {silent:#?}", silent.len());
+}
+
+#[test]
+fn no_function_takes_too_many_arguments() {
+    let mut long = Vec::new();
+    let tests = |file: &PathBuf| short(file).contains("tests/");
+    for file in sources().into_iter().filter(|file| !tests(file)) {
+        let text = std::fs::read_to_string(&file).expect("a file can be read");
+        let tokens = tokens::without_tests(&tokens::tokens(&text));
+        let found = functions_with_more_arguments(&tokens, ARGUMENTS_MAX);
+        long.extend(found.into_iter().map(|name| format!("{} in {}", name, short(&file))));
+    }
+    assert!(long.is_empty(), "more than {ARGUMENTS_MAX} arguments are a struct: {long:#?}");
 }
