@@ -1,4 +1,5 @@
-//! Identification of whole fabrics. Times are processor times over all threads, the cost of a batch.
+//! Identification of whole fabrics. Times are processor times over all threads, which is the cost
+//! of a batch.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -50,10 +51,11 @@ impl Measurement for Processor {
     }
 }
 
-/// Uniform deviates that are the same on every machine (SplitMix64).
+/// Random numbers, the same on every machine (SplitMix64).
 struct Random(u64);
 
 impl Random {
+    /// Returns a uniform deviate from 0 to 1.
     fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -62,23 +64,24 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Returns a normal deviate, by the method of Box and Muller.
+    /// Returns a normal deviate, by Box and Muller's method.
     fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
         radius * (std::f64::consts::TAU * self.unit()).cos()
     }
 }
 
-/// Test and direction of a curve, with its reversals.
-struct History<'a> {
+/// A test of a specimen.
+struct Protocol<'a> {
     test: Test,
     direction: Direction,
+    /// Deformations at which the test begins, reverses and ends.
     reversals: &'a [f64],
 }
 
-/// Returns the noisy curve of a law along a history, with [`POINTS`] points in equal steps.
-fn curve(history: &History<'_>, law: &impl Law, random: &mut Random) -> Curve {
-    let History { test, direction, reversals } = *history;
+/// Returns the noisy curve of a law in a test, with [`POINTS`] points in even steps.
+fn curve(protocol: &Protocol<'_>, law: &impl Law, random: &mut Random) -> Curve {
+    let &Protocol { test, direction, reversals } = protocol;
     let length: f64 = reversals.windows(2).map(|ends| (ends[1] - ends[0]).abs()).sum();
     let mut q = vec![reversals[0]];
     for ends in reversals.windows(2) {
@@ -122,20 +125,20 @@ fn sheet(seed: u64) -> Sheet {
             rest_curvature: 0.0,
             friction: BlimanSorine::first_order(3e-4, 9.0),
         };
-        let reversals = [0.0, 0.05, 0.0];
-        let history = History { test: Test::Tensile, direction, reversals: &reversals };
-        sheet.curves.push(curve(&history, &traction, &mut random));
-        let reversals = [0.0, 8.0, -8.0, 0.0].map(f64::to_radians);
-        let history = History { test: Test::Shear, direction, reversals: &reversals };
-        sheet.curves.push(curve(&history, &shear, &mut random));
-        let reversals = [0.0, 250.0, -250.0, 0.0];
-        let history = History { test: Test::Bending, direction, reversals: &reversals };
-        sheet.curves.push(curve(&history, &bending, &mut random));
+        let reversals = &[0.0, 0.05, 0.0];
+        let tensile = Protocol { test: Test::Tensile, direction, reversals };
+        sheet.curves.push(curve(&tensile, &traction, &mut random));
+        let reversals = &[0.0, 8.0, -8.0, 0.0].map(f64::to_radians);
+        let shearing = Protocol { test: Test::Shear, direction, reversals };
+        sheet.curves.push(curve(&shearing, &shear, &mut random));
+        let reversals = &[0.0, 250.0, -250.0, 0.0];
+        let bends = Protocol { test: Test::Bending, direction, reversals };
+        sheet.curves.push(curve(&bends, &bending, &mut random));
     }
     sheet
 }
 
-/// Returns settings with one law for each test: no selection.
+/// Returns settings with one law for each test, so that none is chosen.
 fn given() -> Settings {
     Settings {
         traction: Some(TractionModel::Primed),
@@ -153,10 +156,10 @@ fn fits(criterion: &mut Criterion<Processor>) {
     group.sample_size(20).measurement_time(Duration::from_secs(3));
     group.throughput(Throughput::Elements(1));
     for (name, settings) in [("laws chosen", Settings::default()), ("laws given", given())] {
-        let mut next = sheets.iter().cycle();
+        let mut cycle = sheets.iter().cycle();
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
-                let sheet = next.next().expect("a cycle has no end");
+                let sheet = cycle.next().expect("a cycle has no end");
                 identify_with(black_box(sheet), &settings).expect("identified")
             });
         });
