@@ -1,32 +1,34 @@
-use crate::breen::well::Well;
-use crate::breen::{length, place};
-use crate::field::subtract;
+//! Particles that are close in space, wherever they are in the cloth: a list kept while they move little.
 
-/// Pairs are listed up to this part of the spacing beyond the spacing, so that the list holds while particles move.
+use crate::breen::well::Well;
+use crate::measure::vector::{length, subtract, vector_at};
+
+/// Distance beyond the spacing up to which pairs are listed, in spacings, so that the list stays valid
+/// while particles move.
 ///
-/// With more, the list is longer, and with less it is made more often; a settling cloth moves by a quarter of the spacing
-/// in a step at most.
+/// Larger values make the list longer, smaller ones make it anew more often; a settling cloth moves by at
+/// most a quarter of the spacing in a step.
 const MARGIN: f64 = 0.5;
 
-/// A cell of space, by the numbers of its place along the axes.
+/// Cell of space, by its indices along the axes.
 type Cell = [i64; 3];
 
-/// Finds pairs of particles that are near each other in space: particles sorted by the cells of a grid.
+/// Pairs of particles that are close in space, found by sorting the particles into the cells of a grid.
 #[derive(Debug, Clone)]
-pub(crate) struct Near {
-    /// Side of a cell and distance up to which pairs are listed, in m.
-    reach: f64,
-    /// How far a particle may move before the list is made anew, in m.
+pub(crate) struct ClosePairs {
+    /// Distance up to which pairs are listed, and side of a cell, in m.
+    list_distance: f64,
+    /// Distance that a particle may move before the list is made anew, in m.
     slack: f64,
-    /// The neighbours of each particle along its yarns, which are not listed.
-    tied: Vec<[u32; 4]>,
-    /// Where the particles were when the list was made.
+    /// Neighbours of each particle along its yarns, which are not listed.
+    neighbours: Vec<[u32; 4]>,
+    /// Positions when the list was made, in m.
     listed: Vec<f64>,
     pairs: Vec<[u32; 2]>,
     cells: Vec<(Cell, u32)>,
 }
 
-/// The cells after one cell among its 26 neighbours: each pair of cells once.
+/// Half of the 26 neighbours of a cell, so that each pair of cells occurs once.
 const AFTER: [Cell; 13] = [
     [0, 0, 1],
     [0, 1, -1],
@@ -43,29 +45,29 @@ const AFTER: [Cell; 13] = [
     [1, 1, 1],
 ];
 
-impl Near {
-    pub(crate) fn new(wells: &[Well], tied: Vec<[u32; 4]>) -> Self {
+impl ClosePairs {
+    pub(crate) fn new(wells: &[Well], neighbours: Vec<[u32; 4]>) -> Self {
         let spacing = wells.iter().map(|well| well.spacing).fold(0.0, f64::max);
         Self {
-            reach: (1.0 + MARGIN) * spacing,
+            list_distance: (1.0 + MARGIN) * spacing,
             slack: 0.5 * MARGIN * spacing,
-            tied,
+            neighbours,
             listed: Vec::new(),
             pairs: Vec::new(),
             cells: Vec::new(),
         }
     }
 
-    /// All pairs nearer than the spacing, and some that are less near; in rising order.
+    /// Returns all pairs nearer than the spacing, and some that are farther, in rising order.
     ///
-    /// The order, and with it every sum over the pairs, does not depend on when the list was made: pairs beyond the
-    /// spacing count for nothing.
+    /// The order, and with it every sum over the pairs, does not depend on when the list was made: pairs
+    /// beyond the spacing contribute nothing.
     pub(crate) fn find(&mut self, positions: &[f64]) -> &[[u32; 2]] {
         let moved =
             self.listed.chunks_exact(3).zip(positions.chunks_exact(3)).any(|(then, now)| {
-                let way = subtract([now[0], now[1], now[2]], [then[0], then[1], then[2]]);
-                // What is not a number has moved.
-                !(length(way) <= self.slack)
+                let moved = subtract([now[0], now[1], now[2]], [then[0], then[1], then[2]]);
+                // Not `>`, so that NaN counts as moved.
+                !(length(moved) <= self.slack)
             });
         if moved || self.listed.len() != positions.len() {
             self.list(positions);
@@ -77,12 +79,12 @@ impl Near {
         self.listed.clear();
         self.listed.extend_from_slice(positions);
         self.pairs.clear();
-        let side = self.reach;
+        let side = self.list_distance;
         let number = |x: f64| (x / side).floor() as i64;
         self.cells.clear();
-        let places = positions.chunks_exact(3).enumerate();
+        let points = positions.chunks_exact(3).enumerate();
         self.cells.extend(
-            places.map(|(particle, x)| ([0, 1, 2].map(|axis| number(x[axis])), particle as u32)),
+            points.map(|(particle, x)| ([0, 1, 2].map(|axis| number(x[axis])), particle as u32)),
         );
         self.cells.sort_unstable();
         let mut start = 0;
@@ -91,7 +93,7 @@ impl Near {
             let end = start + self.cells[start..].partition_point(|(other, _)| *other == cell);
             for first in start..end {
                 for second in first + 1..end {
-                    self.compare((first, second), positions);
+                    self.list_pair(first, second, positions);
                 }
             }
             for step in AFTER {
@@ -100,7 +102,7 @@ impl Near {
                 let count = self.cells[from..].partition_point(|(cell, _)| *cell == other);
                 for first in start..end {
                     for second in from..from + count {
-                        self.compare((first, second), positions);
+                        self.list_pair(first, second, positions);
                     }
                 }
             }
@@ -109,13 +111,13 @@ impl Near {
         self.pairs.sort_unstable();
     }
 
-    fn compare(&mut self, (first, second): (usize, usize), positions: &[f64]) {
+    fn list_pair(&mut self, first: usize, second: usize, positions: &[f64]) {
         let [a, b] = [self.cells[first].1, self.cells[second].1];
         let pair = [a.min(b), a.max(b)];
-        if self.tied[pair[0] as usize].contains(&pair[1]) {
+        if self.neighbours[pair[0] as usize].contains(&pair[1]) {
             return;
         }
-        if length(subtract(place(positions, b), place(positions, a))) < self.reach {
+        if length(subtract(vector_at(positions, b), vector_at(positions, a))) < self.list_distance {
             self.pairs.push(pair);
         }
     }
@@ -138,21 +140,22 @@ mod tests {
     }
 
     #[test]
-    fn every_near_pair_is_found_wherever_it_is() {
+    fn every_close_pair_is_found_wherever_it_is() {
         let count = 400;
         let wells = vec![Well { spacing: 0.1, energy: 1.0 }; count];
-        let mut tied = vec![[u32::MAX; 4]; count];
-        tied[3] = [4, u32::MAX, u32::MAX, u32::MAX];
-        tied[4] = [u32::MAX, 3, u32::MAX, u32::MAX];
-        let mut near = Near::new(&wells, tied);
+        let mut neighbours = vec![[u32::MAX; 4]; count];
+        neighbours[3] = [4, u32::MAX, u32::MAX, u32::MAX];
+        neighbours[4] = [u32::MAX, 3, u32::MAX, u32::MAX];
+        let mut pairs = ClosePairs::new(&wells, neighbours);
         let mut positions: Vec<f64> = random(3 * count).iter().map(|x| x - 0.5).collect();
-        // Tied ones are together, and are not told.
+        // Neighbours on a yarn are at one point, and are not listed.
         positions.copy_within(9..12, 12);
         for round in 0..3 {
             positions.iter_mut().for_each(|x| *x += 0.02 * f64::from(round));
-            let found: Vec<[u32; 2]> = near.find(&positions).to_vec();
-            let distance =
-                |[a, b]: [u32; 2]| length(subtract(place(&positions, b), place(&positions, a)));
+            let found: Vec<[u32; 2]> = pairs.find(&positions).to_vec();
+            let distance = |[a, b]: [u32; 2]| {
+                length(subtract(vector_at(&positions, b), vector_at(&positions, a)))
+            };
             let all = (0..count as u32).flat_map(|a| (a + 1..count as u32).map(move |b| [a, b]));
             let exact = all.filter(|&pair| distance(pair) < 0.1 && pair != [3, 4]);
             let within: Vec<[u32; 2]> =

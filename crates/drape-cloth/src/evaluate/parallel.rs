@@ -1,75 +1,85 @@
+//! Work on strips or rims on several threads, each with buffers of its own.
+
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
-use crate::scratch::Scratch;
+use crate::kernel::buffers::StripBuffers;
 
-/// A scratch for each thread that can be of use.
+/// Buffers for each thread that can be used.
 #[derive(Debug)]
-pub(crate) struct Scratches(Vec<Mutex<Scratch>>);
+pub(crate) struct BufferPool(Vec<Mutex<StripBuffers>>);
 
-impl Scratches {
-    /// So many, at least one.
-    pub(crate) fn new(scratch: &Scratch, threads: usize) -> Self {
-        Self((0..threads.max(1)).map(|_| Mutex::new(scratch.clone())).collect())
+impl BufferPool {
+    /// Returns buffers for the given number of threads, at least one.
+    pub(crate) fn new(buffers: &StripBuffers, threads: usize) -> Self {
+        Self((0..threads.max(1)).map(|_| Mutex::new(buffers.clone())).collect())
     }
 
-    /// One of them, for whoever has all.
-    pub(crate) fn any(&mut self) -> &mut Scratch {
+    /// Returns buffers for a caller that has the whole pool.
+    pub(crate) fn exclusive(&mut self) -> &mut StripBuffers {
         self.0[0].get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// One for the thread that asks. Nothing is read from a scratch that was not written before for the same strip, so
-    /// a panic in the middle of one leaves nothing wrong in it.
-    fn own(&self) -> MutexGuard<'_, Scratch> {
+    /// Returns buffers for the calling thread. Nothing is read from buffers that was not written before
+    /// for the same strip, so a panic in the middle of one leaves nothing wrong in them.
+    fn own(&self) -> MutexGuard<'_, StripBuffers> {
         self.free().unwrap_or_else(|| self.0[0].lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// One that nobody uses, the same for the same thread if it can be: a pool may have more threads than there are
-    /// scratches, whose numbers then say nothing.
-    fn free(&self) -> Option<MutexGuard<'_, Scratch>> {
+    /// Returns buffers that are not in use, the same for the same thread if possible: a pool may have
+    /// more threads than there are buffers, and the number of a thread is then only a hint.
+    fn free(&self) -> Option<MutexGuard<'_, StripBuffers>> {
         let thread = rayon::current_thread_index().unwrap_or(0) % self.0.len();
         let (before, after) = self.0.split_at(thread);
-        after.iter().chain(before).find_map(|scratch| match scratch.try_lock() {
-            Ok(scratch) => Some(scratch),
+        after.iter().chain(before).find_map(|buffers| match buffers.try_lock() {
+            Ok(buffers) => Some(buffers),
             Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
             Err(TryLockError::WouldBlock) => None,
         })
     }
 }
 
-impl Clone for Scratches {
+impl Clone for BufferPool {
     fn clone(&self) -> Self {
         Self::new(&self.own(), self.0.len())
     }
 }
 
-/// Works through strips or rims, on as many threads as there are scratches, each on its own part of the output: `split`
-/// cuts the output that begins with one of them where another begins. A thread that is done takes over from others.
+/// Strips or rims to work on, and the buffers of the threads.
+pub(crate) struct Parts<'a, P> {
+    pub(crate) parts: &'a [P],
+    pub(crate) pool: &'a BufferPool,
+}
+
+/// Works on strips or rims, on as many threads as there are buffers, each on its own part of the output:
+/// `split` splits the output of consecutive parts, of which the first is given, before another one. A
+/// thread that has finished takes over parts from others.
 ///
-/// What a strip writes depends on nothing but the strip, so neither the number of threads nor their
-/// pace can change a number.
-pub(crate) fn share<P: Sync, O: Send>(
-    (strips, scratches): (&[P], &Scratches),
+/// What a part writes depends on nothing but the part, so neither the number of threads nor their speed
+/// changes a number.
+pub(crate) fn for_each<P: Sync, O: Send>(
+    parts: Parts<'_, P>,
     mut output: O,
     split: &(impl Fn(O, &P, &P) -> (O, O) + Sync),
-    work: &(impl Fn(&P, &mut Scratch, O) + Sync),
+    work: &(impl Fn(&P, &mut StripBuffers, O) + Sync),
 ) {
-    let [.., last] = strips else { return };
-    if scratches.0.len() > 1 && strips.len() > 1 {
-        let (here, there) = strips.split_at(strips.len().div_ceil(2));
+    let Parts { parts, pool } = parts;
+    let [.., last] = parts else { return };
+    if pool.0.len() > 1 && parts.len() > 1 {
+        let (here, there) = parts.split_at(parts.len().div_ceil(2));
         let (output, rest) = split(output, &here[0], &there[0]);
         rayon::join(
-            || share((here, scratches), output, split, work),
-            || share((there, scratches), rest, split, work),
+            || for_each(Parts { parts: here, pool }, output, split, work),
+            || for_each(Parts { parts: there, pool }, rest, split, work),
         );
         return;
     }
-    let mut scratch = scratches.own();
-    for pair in strips.windows(2) {
+    let mut buffers = pool.own();
+    for pair in parts.windows(2) {
         let (own, rest) = split(output, &pair[0], &pair[1]);
-        work(&pair[0], &mut scratch, own);
+        work(&pair[0], &mut buffers, own);
         output = rest;
     }
-    work(last, &mut scratch, output);
+    work(last, &mut buffers, output);
 }
 
 #[cfg(test)]
@@ -77,11 +87,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_scratch_in_use_is_passed_over() {
-        let scratches = Scratches::new(&Scratch::new(1), 2);
-        let (first, second) = (scratches.free(), scratches.free());
-        assert!(first.is_some() && second.is_some() && scratches.free().is_none());
+    fn buffers_in_use_are_passed_over() {
+        let pool = BufferPool::new(&StripBuffers::new(1), 2);
+        let (first, second) = (pool.free(), pool.free());
+        assert!(first.is_some() && second.is_some() && pool.free().is_none());
         drop(first);
-        assert!(scratches.free().is_some());
+        assert!(pool.free().is_some());
     }
 }

@@ -1,29 +1,38 @@
-use pulp::{Arch, Simd, WithSimd};
+//! Workspace: evaluates a cloth many times on all threads, without allocating. Solvers call it.
 
-use crate::field::Field;
-use crate::panel::{Panel, Strip};
-use crate::rim::{Course, Rim, RimTrial};
-use crate::scratch::{Scratch, StripTrial};
-use crate::share::{Scratches, share};
-use crate::state::Moving;
-use crate::{Cloth, State, energy, force, rim, stiffness};
+use pulp::Arch;
 
-/// Room for evaluating one cloth again and again: after it has been made, nothing allocates.
+use crate::cloth::Cloth;
+use crate::evaluate::dispatch::{
+    AddForces, AddRimForces, AddRimStiffness, AddStiffness, Commit, CommitRim, Potential,
+    RimPotential,
+};
+use crate::evaluate::parallel::{BufferPool, Parts, for_each};
+use crate::kernel::buffers::{StripBuffers, StripTrial};
+use crate::kernel::energy::{self, StripCommit, StripShape};
+use crate::layout::strip::Strip;
+use crate::rim;
+use crate::rim::connectors::{Rim, RimShape};
+use crate::rim::stiffness::RimStiffness;
+use crate::state::State;
+
+/// Buffers for evaluating one cloth many times: after it has been made, nothing allocates.
 ///
-/// The methods are those of [`Cloth`]. They use the threads of the pool that the workspace was made
-/// in and the widest vector instructions of the machine; the numbers depend on neither, because the
-/// cloth is cut into the same strips for any number of threads and what the strips sum up is added in
-/// their order.
+/// The methods are those of [`Cloth`]. They use the threads of the pool in which the workspace was made
+/// and the widest vector instructions of the machine. The numbers depend on neither, because the cloth is
+/// cut into the same strips for any number of threads, and the sums of the strips are added in their
+/// order.
 #[derive(Debug, Clone)]
 pub struct Workspace {
-    /// One for each thread that can be of use.
-    scratches: Scratches,
-    /// What each strip and then each rim has summed up.
+    pool: BufferPool,
+    /// Sums of each strip and then of each rim.
     sums: Vec<f64>,
     arch: Arch,
 }
 
 /// Trial positions at which a cloth is evaluated, and the state whose memory its laws start from.
+///
+/// [`Cloth::trial`] makes it.
 #[derive(Debug, Clone, Copy)]
 pub struct Trial<'a> {
     /// The cloth.
@@ -34,100 +43,113 @@ pub struct Trial<'a> {
     pub positions: &'a [f64],
 }
 
+impl<'a> Trial<'a> {
+    fn strip(self, strip: &'a Strip) -> StripTrial<'a> {
+        let Self { cloth, state, positions } = self;
+        let panel = &cloth.panels[strip.panel];
+        StripTrial { panel, strip, memories: &state.grid, positions }
+    }
+
+    fn rim(self, rim: &'a Rim) -> RimShape<'a> {
+        let Self { cloth, state, positions } = self;
+        RimShape { rim, panel: &cloth.panels[rim.panel], normals: &state.normals, positions }
+    }
+}
+
 impl Workspace {
     pub(crate) fn new(cloth: &Cloth) -> Self {
         let margin = |strip: &Strip| cloth.panels[strip.panel].margin;
-        let reach = cloth.strips.iter().map(|strip| strip.reach(margin(strip)));
-        let scratch = Scratch::new(reach.max().unwrap_or(0));
+        let lengths = cloth.strips.iter().map(|strip| strip.buffer_length(margin(strip)));
+        let buffers = StripBuffers::new(lengths.max().unwrap_or(0));
         let threads = rayon::current_num_threads().min(cloth.strips.len());
         Self {
-            scratches: Scratches::new(&scratch, threads),
+            pool: BufferPool::new(&buffers, threads),
             sums: vec![0.0; cloth.strips.len() + cloth.rims.len()],
             arch: Arch::new(),
         }
     }
 
-    /// See [`Cloth::add_forces`].
+    /// Adds the forces; see [`Cloth::add_forces`].
     pub fn add_forces(&mut self, trial: Trial<'_>, forces: &mut [f64]) {
-        let Trial { cloth, state, positions } = trial;
-        let arch = self.arch;
-        share(
-            (&cloth.strips, &self.scratches),
+        let Trial { cloth, state, .. } = trial;
+        let (arch, pool) = (self.arch, &self.pool);
+        for_each(
+            Parts { parts: &cloth.strips, pool },
             &mut *forces,
             &|forces, from, to| {
                 forces.split_at_mut(3 * (to.particles.start - from.particles.start))
             },
-            &|strip, scratch, forces| {
-                let trial = StripTrial::new(cloth, state, (strip, positions));
-                arch.dispatch(AddForces(scratch, trial, forces));
+            &|strip, buffers, forces| {
+                arch.dispatch(AddForces { buffers, trial: trial.strip(strip), forces });
             },
         );
         let Some(first) = cloth.rims.first() else { return };
-        share(
-            (&cloth.rims, &self.scratches),
+        for_each(
+            Parts { parts: &cloth.rims, pool },
             &mut forces[3 * first.particles.start..],
             &|forces, from, to| {
                 forces.split_at_mut(3 * (to.particles.start - from.particles.start))
             },
             &|rim, _, forces| {
-                arch.dispatch(AddRimForces(RimTrial::new(cloth, state, (rim, positions)), forces));
+                let (shape, memories) = (trial.rim(rim), &state.rim);
+                arch.dispatch(AddRimForces { shape, memories, forces });
             },
         );
     }
 
-    /// See [`Cloth::potential`].
+    /// Returns the potential; see [`Cloth::potential`].
     #[must_use]
     pub fn potential(&mut self, trial: Trial<'_>) -> f64 {
-        let Trial { cloth, state, positions } = trial;
-        let arch = self.arch;
+        let Trial { cloth, state, .. } = trial;
+        let (arch, pool) = (self.arch, &self.pool);
         let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
-        share(
-            (&cloth.strips, &self.scratches),
+        for_each(
+            Parts { parts: &cloth.strips, pool },
             sums,
             &|sums, from, to| sums.split_at_mut(to.index - from.index),
-            &|strip, scratch, sums| {
-                let trial = StripTrial::new(cloth, state, (strip, positions));
-                sums[0] = arch.dispatch(Potential(scratch, trial));
+            &|strip, buffers, sums| {
+                sums[0] = arch.dispatch(Potential { buffers, trial: trial.strip(strip) });
             },
         );
-        share(
-            (&cloth.rims, &self.scratches),
+        for_each(
+            Parts { parts: &cloth.rims, pool },
             rim_sums,
             &|sums, from, to| sums.split_at_mut(to.index - from.index),
             &|rim, _, sums| {
-                sums[0] =
-                    arch.dispatch(RimPotential(RimTrial::new(cloth, state, (rim, positions))));
+                let (shape, memories) = (trial.rim(rim), &state.rim);
+                sums[0] = arch.dispatch(RimPotential { shape, memories });
             },
         );
         self.sums.iter().sum()
     }
 
-    /// See [`Cloth::add_stiffness`].
+    /// Adds the stiffness; see [`Cloth::add_stiffness`].
     pub fn add_stiffness(&mut self, trial: Trial<'_>, definite: bool, values: &mut [f64]) {
-        let Trial { cloth, state, positions } = trial;
-        let arch = self.arch;
-        share(
-            (&cloth.strips, &self.scratches),
+        let Trial { cloth, state, .. } = trial;
+        let (arch, pool) = (self.arch, &self.pool);
+        for_each(
+            Parts { parts: &cloth.strips, pool },
             &mut *values,
             &|values, from, to| values.split_at_mut(9 * (to.blocks.start - from.blocks.start)),
-            &|strip, scratch, values| {
-                let trial = StripTrial::new(cloth, state, (strip, positions));
-                arch.dispatch(AddStiffness(scratch, trial, definite, values));
+            &|strip, buffers, values| {
+                let trial = trial.strip(strip);
+                arch.dispatch(AddStiffness { buffers, trial, definite, values });
             },
         );
         let Some(first) = cloth.rims.first() else { return };
-        share(
-            (&cloth.rims, &self.scratches),
+        for_each(
+            Parts { parts: &cloth.rims, pool },
             &mut values[9 * first.blocks.start..],
             &|values, from, to| values.split_at_mut(9 * (to.blocks.start - from.blocks.start)),
             &|rim, _, values| {
-                let trial = RimTrial::new(cloth, state, (rim, positions));
-                arch.dispatch(AddRimStiffness(trial, definite, values));
+                let stiffness =
+                    RimStiffness { shape: trial.rim(rim), memories: &state.rim, definite };
+                arch.dispatch(AddRimStiffness { stiffness, values });
             },
         );
     }
 
-    /// See [`Cloth::commit`].
+    /// Accepts a step and returns the energy dissipated, in J; see [`Cloth::commit`].
     pub fn commit(
         &mut self,
         cloth: &Cloth,
@@ -137,155 +159,68 @@ impl Workspace {
     ) -> f64 {
         state.positions.copy_from_slice(positions);
         state.velocities.copy_from_slice(velocities);
-        cloth.turn_normals(state);
-        let place = |strip: &Strip| strip.offset + cloth.panels[strip.panel].margin;
-        let (moving, normals) = state.history.moving(place(&cloth.strips[0]));
-        let arch = self.arch;
+        cloth.update_normals(state);
+        let State { normals: flat_normals, grid, rim: rim_memories, .. } = state;
+        let first = |strip: &Strip| strip.offset + cloth.panels[strip.panel].margin;
+        let (memories, normals) = grid.from_mut(first(&cloth.strips[0]));
+        let (arch, pool) = (self.arch, &self.pool);
         let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
-        share(
-            (&cloth.strips, &self.scratches),
-            (moving, sums),
-            &|(moving, sums), from, to| {
-                let (moving, others) = moving.split(place(to) - place(from));
+        for_each(
+            Parts { parts: &cloth.strips, pool },
+            (memories, sums),
+            &|(memories, sums), from, to| {
+                let (memories, others) = memories.split(first(to) - first(from));
                 let (sums, more) = sums.split_at_mut(to.index - from.index);
-                ((moving, sums), (others, more))
+                ((memories, sums), (others, more))
             },
-            &|strip, scratch, (moving, sums)| {
+            &|strip, buffers, (memories, sums)| {
                 let panel = &cloth.panels[strip.panel];
-                let shape = (positions, normals);
-                sums[0] = arch.dispatch(Commit(scratch, (panel, strip), moving, shape));
+                let commit = StripCommit { panel, strip, memories, normals, positions };
+                sums[0] = arch.dispatch(Commit { buffers, commit });
             },
         );
-        share(
-            (&cloth.rims, &self.scratches),
-            (state.history.rim.course(), rim_sums),
-            &|(course, sums), from, to| {
-                let (course, others) = course.split(from, to);
+        let flat_normals = flat_normals.as_slice();
+        for_each(
+            Parts { parts: &cloth.rims, pool },
+            (rim_memories.all_mut(), rim_sums),
+            &|(memories, sums), from, to| {
+                let (memories, others) = memories.split(from, to);
                 let (sums, more) = sums.split_at_mut(to.index - from.index);
-                ((course, sums), (others, more))
+                ((memories, sums), (others, more))
             },
-            &|rim, _, (course, sums)| {
-                let shape = (positions, state.normals.as_slice());
-                let own = (rim, &cloth.panels[rim.panel]);
-                sums[0] = arch.dispatch(CommitRim(own, course, shape));
+            &|rim, _, (memories, sums)| {
+                let panel = &cloth.panels[rim.panel];
+                let shape = RimShape { rim, panel, normals: flat_normals, positions };
+                sums[0] = arch.dispatch(CommitRim { shape, memories });
             },
         );
         self.sums.iter().sum()
     }
 
-    /// See [`Cloth::stored`].
+    /// Returns the energy that the connectors can return, in J.
     #[must_use]
     pub fn stored(&mut self, cloth: &Cloth, state: &State) -> f64 {
-        let trial = |strip| StripTrial::new(cloth, state, (strip, &state.positions));
-        let scratch = self.scratches.any();
+        let trial = Trial { cloth, state, positions: &state.positions };
+        let buffers = self.pool.exclusive();
         let strips = cloth.strips.iter();
-        let strips: f64 = strips.map(|strip| energy::stored(scratch, &trial(strip))).sum();
+        let strips: f64 = strips.map(|strip| energy::stored(buffers, &trial.strip(strip))).sum();
         let rims = cloth.rims.iter();
-        let trial = |rim| RimTrial::new(cloth, state, (rim, &state.positions));
-        strips + rims.map(|rim| rim::stored(&trial(rim))).sum::<f64>()
+        strips + rims.map(|rim| rim::energy::stored(&trial.rim(rim), &state.rim)).sum::<f64>()
     }
 
-    /// Memories of a cloth that starts in the shape of the state without friction.
+    /// Writes the memories of a cloth that starts at the positions of the state without friction.
     pub(crate) fn start(&mut self, cloth: &Cloth, state: &mut State) {
+        let State { positions, normals, grid, rim: rim_memories, .. } = state;
+        let buffers = self.pool.exclusive();
         for strip in &cloth.strips {
-            let own = (&cloth.panels[strip.panel], strip);
-            let scratch = self.scratches.any();
-            energy::start(scratch, own, &mut state.history, &state.positions);
+            let panel = &cloth.panels[strip.panel];
+            energy::start(buffers, StripShape { panel, strip, positions }, grid);
         }
         for rim in &cloth.rims {
-            let shape = (state.positions.as_slice(), state.normals.as_slice());
-            rim::start((rim, &cloth.panels[rim.panel]), &mut state.history.rim, shape);
+            let panel = &cloth.panels[rim.panel];
+            let shape = RimShape { rim, panel, normals, positions };
+            rim::energy::start(&shape, rim_memories);
         }
-    }
-}
-
-// What is dispatched to the machine's vector instructions: everything below is inlined into it.
-
-struct AddForces<'a>(&'a mut Scratch, StripTrial<'a>, &'a mut [f64]);
-
-impl WithSimd for AddForces<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        force::add_forces(self.0, &self.1, self.2);
-    }
-}
-
-struct Potential<'a>(&'a mut Scratch, StripTrial<'a>);
-
-impl WithSimd for Potential<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
-        energy::potential(self.0, &self.1)
-    }
-}
-
-struct AddStiffness<'a>(&'a mut Scratch, StripTrial<'a>, bool, &'a mut [f64]);
-
-impl WithSimd for AddStiffness<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        stiffness::add_stiffness(self.0, &self.1, self.2, self.3);
-    }
-}
-
-struct Commit<'a>(&'a mut Scratch, (&'a Panel, &'a Strip), Moving<'a>, (&'a [f64], &'a Field));
-
-impl WithSimd for Commit<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
-        energy::commit(self.0, self.1, self.2, self.3)
-    }
-}
-
-struct AddRimForces<'a>(RimTrial<'a>, &'a mut [f64]);
-
-impl WithSimd for AddRimForces<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        rim::add_forces(&self.0, self.1);
-    }
-}
-
-struct RimPotential<'a>(RimTrial<'a>);
-
-impl WithSimd for RimPotential<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
-        rim::potential(&self.0)
-    }
-}
-
-struct AddRimStiffness<'a>(RimTrial<'a>, bool, &'a mut [f64]);
-
-impl WithSimd for AddRimStiffness<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        rim::add_stiffness(&self.0, self.1, self.2);
-    }
-}
-
-struct CommitRim<'a>((&'a Rim, &'a Panel), Course<'a>, (&'a [f64], &'a [f64]));
-
-impl WithSimd for CommitRim<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
-        rim::commit(self.0, self.1, self.2)
     }
 }
 
@@ -295,7 +230,7 @@ mod tests {
     use drape_input::Document;
 
     use super::*;
-    use crate::Lattice;
+    use crate::panel::lattice::Lattice;
 
     #[test]
     fn the_vector_instructions_change_no_bit() {

@@ -1,45 +1,50 @@
-#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
+//! Buffers of a strip, and the measures at its points: edges, strains, sines, second differences.
+//!
+//! The forces, energy and stiffness kernels share them. The length and the direction of an edge are
+//! computed once and serve traction and shear alike.
+#![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
 use std::ops::Range;
 
 use drape_fabric::{LANES, Lanes};
 
-use crate::bend::{Bend, Bows};
-use crate::field::{Columns, Field, add, dot, lanes, put, scale, set, some_lanes, subtract};
-use crate::panel::{Panel, Strip, Yarns};
-use crate::state::History;
-use crate::{Cloth, State};
+use crate::kernel::bending::BendingLanes;
+use crate::kernel::memories::GridMemories;
+use crate::layout::columns::{Columns, VectorColumns, VectorLanes, lanes, lanes_if_any, put};
+use crate::layout::grid::{CornerEdges, GridPanel, Yarns};
+use crate::layout::strip::{BatchIndex, Strip};
+use crate::measure::vector::{add, dot, scale, subtract};
 
-/// Length below which an edge counts as this long, in m: it has no direction, its forces are huge
-/// but finite, and so are their derivatives.
+/// Length that shorter edges are taken to have, in m: they have no direction; their forces are huge but
+/// finite, and so are the derivatives.
 pub(crate) const EDGE_MIN: f64 = 1e-100;
 
-/// What the evaluation of a strip computes on the way, at its points and a margin around them.
+/// Intermediate columns of a strip: one number per point of the strip and of the margin around it.
 ///
-/// The place of a point here is its place in the panel's columns less the strip's first point.
-/// Every edge's length and direction is computed once and serves traction and shear alike.
+/// The index of a point here is its index in the panel's columns less the strip's first point.
 #[derive(Debug, Clone)]
-pub(crate) struct Scratch {
-    pub(crate) positions: Field,
-    /// Along the warp and the weft, kept at their first point.
+pub(crate) struct StripBuffers {
+    pub(crate) positions: VectorColumns,
+    /// Edges along the warp and the weft, at their first point.
     pub(crate) edges: [Edges; 2],
-    /// Tensions of the edges, in N.
+    /// Tensions of the edges times area over length, in N.
     pub(crate) tensions: [Vec<f64>; 2],
-    /// Loads of the cells' corners times their areas, in J.
-    pub(crate) corners: [Vec<f64>; 4],
-    /// Moments at the points over the segments' lengths squared, in N.
-    pub(crate) moments: [Field; 2],
+    /// Loads of the corners of the cells times their areas, in J.
+    pub(crate) corner_loads: [Vec<f64>; 4],
+    /// Moments at the points times area over the square of the segments' length, in N.
+    pub(crate) moments: [VectorColumns; 2],
     /// Derivatives of the potential with respect to the edges as vectors, in N.
-    pub(crate) pulls: [Field; 2],
-    /// Slopes of the corners' loads times their areas, in J.
-    pub(crate) slopes: [Vec<f64>; 4],
+    pub(crate) edge_gradients: [VectorColumns; 2],
+    /// Tangents of the corners of the cells times their areas, in J.
+    pub(crate) corner_tangents: [Vec<f64>; 4],
     /// Second derivatives of the potential with respect to the warp and the weft edge of a corner.
-    pub(crate) turns: [Columns<9>; 4],
-    /// Second derivatives with respect to the bow at a point, over the length to the fourth.
-    pub(crate) rigidities: [Columns<6>; 2],
-    /// Blocks of each point with the next along the warp and the weft, and with the one across its
+    pub(crate) shear_blocks: [Columns<9>; 4],
+    /// Second derivatives with respect to the second difference at a point, over the fourth power of the
+    /// segments' length.
+    pub(crate) bending_blocks: [Columns<6>; 2],
+    /// Blocks of each point with the next along the warp, along the weft, with the opposite point of its
     /// cell, and of the two other points of its cell.
-    pub(crate) blocks: [Columns<9>; 4],
+    pub(crate) pair_blocks: [Columns<9>; 4],
 }
 
 /// Edges from each point to the next in one direction.
@@ -47,84 +52,78 @@ pub(crate) struct Scratch {
 pub(crate) struct Edges {
     pub(crate) length: Vec<f64>,
     pub(crate) inverse: Vec<f64>,
-    pub(crate) unit: Field,
+    pub(crate) unit: VectorColumns,
 }
 
-/// A strip of a panel, its state, and the trial that is evaluated.
+/// A strip, the memories at the start of the step, and the trial positions to evaluate.
 #[derive(Clone, Copy)]
 pub(crate) struct StripTrial<'a> {
-    pub(crate) panel: &'a Panel,
-    pub(crate) history: &'a History,
+    pub(crate) panel: &'a GridPanel,
     pub(crate) strip: &'a Strip,
+    pub(crate) memories: &'a GridMemories,
     pub(crate) positions: &'a [f64],
-}
-
-impl<'a> StripTrial<'a> {
-    pub(crate) fn new(
-        cloth: &'a Cloth,
-        state: &'a State,
-        (strip, positions): (&'a Strip, &'a [f64]),
-    ) -> Self {
-        Self { panel: &cloth.panels[strip.panel], history: &state.history, strip, positions }
-    }
 }
 
 impl Edges {
     fn new(length: usize) -> Self {
-        Self { length: vec![0.0; length], inverse: vec![0.0; length], unit: Field::new(length) }
+        Self {
+            length: vec![0.0; length],
+            inverse: vec![0.0; length],
+            unit: VectorColumns::new(length),
+        }
     }
 
     #[inline(always)]
-    fn measure(&mut self, positions: &Field, step: usize, places: Range<usize>) {
-        for start in places.step_by(LANES) {
-            let (here, next) = (positions.from(start), positions.from(start + step));
+    fn measure(&mut self, positions: &VectorColumns, step: usize, indices: Range<usize>) {
+        for start in indices.step_by(LANES) {
+            let (here, next) = (positions.batch(start), positions.batch(start + step));
             let mut length = [0.0; LANES];
             let mut inverse = [0.0; LANES];
-            let mut unit = [[0.0; LANES]; 3];
+            let mut unit = VectorLanes::zero();
             for lane in 0..LANES {
-                let span = subtract(next.at(lane), here.at(lane));
+                let span = subtract(next.vector(lane), here.vector(lane));
                 let size = dot(span, span).sqrt();
-                // Written so that NaN stays NaN.
+                // Not `max`, so that NaN stays NaN.
                 let size = if size < EDGE_MIN { EDGE_MIN } else { size };
                 length[lane] = size;
                 inverse[lane] = 1.0 / size;
-                set(&mut unit, lane, scale(span, 1.0 / size));
+                unit.set(lane, scale(span, 1.0 / size));
             }
             put(&mut self.length, start, &length);
             put(&mut self.inverse, start, &inverse);
-            self.unit.put(start, &unit);
+            self.unit.put(start, &unit.0);
         }
     }
 }
 
-impl Scratch {
-    pub(crate) fn new(reach: usize) -> Self {
-        let column = || vec![0.0; reach];
-        let field = || Field::new(reach);
-        let blocks = || Columns::new(reach);
+impl StripBuffers {
+    pub(crate) fn new(length: usize) -> Self {
+        let column = || vec![0.0; length];
+        let vectors = || VectorColumns::new(length);
+        let blocks = || Columns::new(length);
         Self {
-            positions: field(),
-            edges: [Edges::new(reach), Edges::new(reach)],
+            positions: vectors(),
+            edges: [Edges::new(length), Edges::new(length)],
             tensions: [column(), column()],
-            corners: [column(), column(), column(), column()],
-            moments: [field(), field()],
-            pulls: [field(), field()],
-            slopes: [column(), column(), column(), column()],
-            turns: [blocks(), blocks(), blocks(), blocks()],
-            rigidities: [Columns::new(reach), Columns::new(reach)],
-            blocks: [blocks(), blocks(), blocks(), blocks()],
+            corner_loads: [column(), column(), column(), column()],
+            moments: [vectors(), vectors()],
+            edge_gradients: [vectors(), vectors()],
+            corner_tangents: [column(), column(), column(), column()],
+            shear_blocks: [blocks(), blocks(), blocks(), blocks()],
+            bending_blocks: [Columns::new(length), Columns::new(length)],
+            pair_blocks: [blocks(), blocks(), blocks(), blocks()],
         }
     }
 
-    /// Lays out the positions of a strip and measures its edges.
+    /// Copies the positions of a strip and its margin into columns and measures the edges.
     #[inline(always)]
-    pub(crate) fn lay(&mut self, (panel, strip): (&Panel, &Strip), positions: &[f64]) {
+    pub(crate) fn load(&mut self, panel: &GridPanel, strip: &Strip, positions: &[f64]) {
         let count = strip.points.len();
-        let reach = count + 2 * panel.margin + LANES;
-        let particles = &panel.particles[strip.points.start..][..reach];
+        let length = count + 2 * panel.margin + LANES;
+        let particles = &panel.particles[strip.points.start..][..length];
         let [x, y, z] = &mut self.positions.0;
-        let places = x[..reach].iter_mut().zip(&mut y[..reach]).zip(&mut z[..reach]);
-        for (((x, y), z), &particle) in places.zip(particles) {
+        let columns = x[..length].iter_mut().zip(&mut y[..length]).zip(&mut z[..length]);
+        for (((x, y), z), &particle) in columns.zip(particles) {
             let position = &positions[3 * particle as usize..][..3];
             (*x, *y, *z) = (position[0], position[1], position[2]);
         }
@@ -134,16 +133,11 @@ impl Scratch {
         weft.measure(&self.positions, 1, from..to + panel.stride);
     }
 
-    /// Strains of the segments from a place on; of those that do not exist, zero.
+    /// Returns the strains of a batch of segments; of those that do not exist, zero.
     #[inline(always)]
-    pub(crate) fn strains(
-        &self,
-        yarns: &Yarns,
-        direction: usize,
-        (start, strip): (usize, &Strip),
-    ) -> Lanes {
-        let length = lanes(&self.edges[direction].length, start);
-        let areas = lanes(&yarns.segment_areas, strip.points.start + start);
+    pub(crate) fn strains(&self, yarns: &Yarns, direction: usize, at: BatchIndex) -> Lanes {
+        let length = lanes(&self.edges[direction].length, at.buffer);
+        let areas = lanes(&yarns.segment_areas, at.panel);
         let inverse = 1.0 / yarns.length;
         let mut strains = [0.0; LANES];
         for lane in 0..LANES {
@@ -152,54 +146,51 @@ impl Scratch {
         strains
     }
 
-    /// Bows `$(x_a - 2x_c + x_b)/h^2$` at the points from a place on.
+    /// Returns the second differences `$b = (x_a - 2x_c + x_b)/h^2$` at a batch of points.
     #[inline(always)]
-    fn bows(&self, yarns: &Yarns, start: usize) -> Bows {
-        let [before, here, after] =
-            [start - yarns.step, start, start + yarns.step].map(|place| self.positions.from(place));
+    fn second_differences(&self, yarns: &Yarns, start: usize) -> VectorLanes {
+        let [before, here, after] = [start - yarns.step, start, start + yarns.step]
+            .map(|start| self.positions.batch(start));
         let inverse_square = 1.0 / (yarns.length * yarns.length);
-        let mut bows = [[0.0; LANES]; 3];
+        let mut differences = VectorLanes::zero();
         for lane in 0..LANES {
-            let ends = add(before.at(lane), after.at(lane));
-            let bow = subtract(ends, scale(here.at(lane), 2.0));
-            set(&mut bows, lane, scale(bow, inverse_square));
+            let ends = add(before.vector(lane), after.vector(lane));
+            let difference = subtract(ends, scale(here.vector(lane), 2.0));
+            differences.set(lane, scale(difference, inverse_square));
         }
-        Bows(bows)
+        differences
     }
 
-    /// The triples at the points from a place on.
+    /// Returns a batch of triples.
     #[inline(always)]
-    pub(crate) fn bend<'a>(
+    pub(crate) fn triples<'a>(
         &self,
         yarns: &'a Yarns,
-        normals: &'a Field,
-        (start, strip): (usize, &Strip),
-    ) -> Bend<'a> {
-        Bend {
+        normals: &'a VectorColumns,
+        at: BatchIndex,
+    ) -> BendingLanes<'a> {
+        BendingLanes {
             yarns,
-            bows: self.bows(yarns, start),
-            normals: normals.from(strip.offset + start),
-            areas: lanes(&yarns.triple_areas, strip.points.start + start),
-            folds: some_lanes(&yarns.folds, strip.points.start + start),
+            second_differences: self.second_differences(yarns, at.buffer),
+            normals: normals.batch(at.cloth),
+            areas: lanes(&yarns.triple_areas, at.panel),
+            folds: lanes_if_any(&yarns.folds, at.panel),
         }
     }
 
-    /// Sines at one of the four corners of the cells from a place on; of those that do not exist,
-    /// zero.
+    /// Returns the sines of the shear angle at one of the four corners of a batch of cells; of cells that
+    /// do not exist, zero.
+    ///
+    /// The edges point along rising `u` and `v` at all four corners, so the sines have one sign.
     #[inline(always)]
-    pub(crate) fn sines(
-        &self,
-        panel: &Panel,
-        corner: usize,
-        (start, strip): (usize, &Strip),
-    ) -> Lanes {
-        let (warp, weft) = panel.corner_edges(corner);
-        let warp = self.edges[0].unit.from(start + warp);
-        let weft = self.edges[1].unit.from(start + weft);
-        let areas = lanes(&panel.corners[corner], strip.points.start + start);
+    pub(crate) fn sines(&self, panel: &GridPanel, corner: usize, at: BatchIndex) -> Lanes {
+        let CornerEdges { warp, weft } = panel.corner_edges(corner);
+        let warp = self.edges[0].unit.batch(at.buffer + warp);
+        let weft = self.edges[1].unit.batch(at.buffer + weft);
+        let areas = lanes(&panel.corner_areas[corner], at.panel);
         let mut sines = [0.0; LANES];
         for lane in 0..LANES {
-            let sine = dot(warp.at(lane), weft.at(lane));
+            let sine = dot(warp.vector(lane), weft.vector(lane));
             sines[lane] = if areas[lane] == 0.0 { 0.0 } else { sine };
         }
         sines

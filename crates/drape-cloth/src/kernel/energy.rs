@@ -1,138 +1,154 @@
-#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
+//! Potential, commit and stored energy of a strip. Each connector of the strip's own points is counted
+//! once: `$E = \sum_c W_c\,w_c(s_c)$` with the work per area `$w$` of its law.
+#![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
 use drape_fabric::{BatchLaw, LANES, Lanes};
 
-use crate::field::{Field, lanes};
-use crate::panel::{Panel, Strip};
-use crate::scratch::{Scratch, StripTrial};
-use crate::state::{History, Moving};
+use crate::kernel::buffers::{StripBuffers, StripTrial};
+use crate::kernel::memories::{GridMemories, GridMemoriesMut};
+use crate::layout::columns::{VectorColumns, lanes};
+use crate::layout::grid::GridPanel;
+use crate::layout::strip::Strip;
 
-/// Potential of a strip's connectors within a step, in J.
+/// A strip at accepted positions, with the normals there, and its memories to write.
+pub(crate) struct StripCommit<'a> {
+    pub(crate) panel: &'a GridPanel,
+    pub(crate) strip: &'a Strip,
+    pub(crate) memories: GridMemoriesMut<'a>,
+    pub(crate) normals: &'a VectorColumns,
+    pub(crate) positions: &'a [f64],
+}
+
+/// A strip at given positions.
+#[derive(Clone, Copy)]
+pub(crate) struct StripShape<'a> {
+    pub(crate) panel: &'a GridPanel,
+    pub(crate) strip: &'a Strip,
+    pub(crate) positions: &'a [f64],
+}
+
+/// Returns the potential of a strip's connectors within a step, in J.
 #[inline(always)]
-pub(crate) fn potential(scratch: &mut Scratch, trial: &StripTrial<'_>) -> f64 {
-    let StripTrial { panel, history, strip, positions } = *trial;
-    scratch.lay((panel, strip), positions);
+pub(crate) fn potential(buffers: &mut StripBuffers, trial: &StripTrial<'_>) -> f64 {
+    let StripTrial { panel, memories, strip, positions } = *trial;
+    buffers.load(panel, strip, positions);
     let mut sums = [0.0; LANES];
-    for start in own(panel, strip) {
-        let place = strip.offset + start;
+    for start in own_batches(panel, strip) {
+        let at = strip.batch(start);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let memory = history.traction[direction].batch(place);
-            let strains = scratch.strains(yarns, direction, (start, strip));
+            let memory = memories.traction[direction].batch(at.cloth);
+            let strains = buffers.strains(yarns, direction, at);
             let mut works = [0.0; LANES];
             yarns.traction.add_work(&memory, &strains, &mut works);
-            weigh(&mut sums, &works, (&yarns.segment_areas, strip, start));
+            add_weighted(&mut sums, &works, lanes(&yarns.segment_areas, at.panel));
 
-            let memory = history.bending[direction].batch(place);
-            let bend = scratch.bend(yarns, &history.normals, (start, strip));
-            let mut works = bend.energies();
-            yarns.bending.add_friction_work(&memory, &bend.bends().curvature, &mut works);
-            weigh(&mut sums, &works, (&yarns.triple_areas, strip, start));
+            let memory = memories.bending[direction].batch(at.cloth);
+            let triples = buffers.triples(yarns, &memories.normals, at);
+            let mut works = triples.energies();
+            let curvatures = triples.curvatures().value;
+            yarns.bending.add_friction_work(&memory, &curvatures, &mut works);
+            add_weighted(&mut sums, &works, lanes(&yarns.triple_areas, at.panel));
         }
-        for (corner, areas) in panel.corners.iter().enumerate() {
-            let memory = history.shear[corner].batch(place);
-            let sines = scratch.sines(panel, corner, (start, strip));
+        for (corner, areas) in panel.corner_areas.iter().enumerate() {
+            let memory = memories.shear[corner].batch(at.cloth);
+            let sines = buffers.sines(panel, corner, at);
             let mut works = [0.0; LANES];
             panel.shear.add_work(&memory, &sines, &mut works);
-            weigh(&mut sums, &works, (areas, strip, start));
+            add_weighted(&mut sums, &works, lanes(areas, at.panel));
         }
     }
     sums.iter().sum()
 }
 
-/// Moves the memories of a strip on to the given positions and normals; returns the energy lost on
-/// the way, in J.
+/// Advances the memories of a strip to the accepted positions; returns the energy dissipated, in J.
 #[inline(always)]
-pub(crate) fn commit(
-    scratch: &mut Scratch,
-    (panel, strip): (&Panel, &Strip),
-    mut moving: Moving<'_>,
-    (positions, normals): (&[f64], &Field),
-) -> f64 {
-    scratch.lay((panel, strip), positions);
+pub(crate) fn commit(buffers: &mut StripBuffers, commit: StripCommit<'_>) -> f64 {
+    let StripCommit { panel, strip, mut memories, normals, positions } = commit;
+    buffers.load(panel, strip, positions);
     let mut sums = [0.0; LANES];
-    for start in own(panel, strip) {
-        let place = start - panel.margin;
+    for start in own_batches(panel, strip) {
+        let at = strip.batch(start);
+        let index = start - panel.margin;
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let strains = scratch.strains(yarns, direction, (start, strip));
-            let memories = &mut moving.traction[direction];
-            let lost = yarns.traction.commit(memories, place, &strains);
-            weigh(&mut sums, &lost, (&yarns.segment_areas, strip, start));
+            let strains = buffers.strains(yarns, direction, at);
+            let own = &mut memories.traction[direction];
+            let lost = yarns.traction.commit(own, index, &strains);
+            add_weighted(&mut sums, &lost, lanes(&yarns.segment_areas, at.panel));
 
-            let along = scratch.bend(yarns, normals, (start, strip)).bends().curvature;
-            let memories = &mut moving.bending[direction];
-            let lost = yarns.bending.commit(memories, place, &along);
-            weigh(&mut sums, &lost, (&yarns.triple_areas, strip, start));
+            let curvatures = buffers.triples(yarns, normals, at).curvatures().value;
+            let own = &mut memories.bending[direction];
+            let lost = yarns.bending.commit(own, index, &curvatures);
+            add_weighted(&mut sums, &lost, lanes(&yarns.triple_areas, at.panel));
         }
-        for (corner, areas) in panel.corners.iter().enumerate() {
-            let sines = scratch.sines(panel, corner, (start, strip));
-            let memories = &mut moving.shear[corner];
-            let lost = panel.shear.commit(memories, place, &sines);
-            weigh(&mut sums, &lost, (areas, strip, start));
+        for (corner, areas) in panel.corner_areas.iter().enumerate() {
+            let sines = buffers.sines(panel, corner, at);
+            let lost = panel.shear.commit(&mut memories.shear[corner], index, &sines);
+            add_weighted(&mut sums, &lost, lanes(areas, at.panel));
         }
     }
     sums.iter().sum()
 }
 
-/// Writes the memories of a strip that starts in the given shape without friction.
+/// Writes the memories of a strip that starts at the given positions without friction.
+#[inline(always)]
 pub(crate) fn start(
-    scratch: &mut Scratch,
-    (panel, strip): (&Panel, &Strip),
-    history: &mut History,
-    positions: &[f64],
+    buffers: &mut StripBuffers,
+    shape: StripShape<'_>,
+    memories: &mut GridMemories,
 ) {
-    scratch.lay((panel, strip), positions);
-    for start in own(panel, strip) {
-        let place = strip.offset + start;
+    let StripShape { panel, strip, positions } = shape;
+    buffers.load(panel, strip, positions);
+    for start in own_batches(panel, strip) {
+        let at = strip.batch(start);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let strains = scratch.strains(yarns, direction, (start, strip));
-            yarns.traction.start(&mut history.traction[direction], place, &strains);
-            let along = scratch.bend(yarns, &history.normals, (start, strip)).bends().curvature;
-            yarns.bending.start(&mut history.bending[direction], place, &along);
+            let strains = buffers.strains(yarns, direction, at);
+            yarns.traction.start(&mut memories.traction[direction], at.cloth, &strains);
+            let curvatures = buffers.triples(yarns, &memories.normals, at).curvatures().value;
+            yarns.bending.start(&mut memories.bending[direction], at.cloth, &curvatures);
         }
-        for (corner, memories) in history.shear.iter_mut().enumerate() {
-            let sines = scratch.sines(panel, corner, (start, strip));
-            panel.shear.start(memories, place, &sines);
+        for (corner, own) in memories.shear.iter_mut().enumerate() {
+            let sines = buffers.sines(panel, corner, at);
+            panel.shear.start(own, at.cloth, &sines);
         }
     }
 }
 
-/// Energy that a strip's connectors can give back, in J.
-pub(crate) fn stored(scratch: &mut Scratch, trial: &StripTrial<'_>) -> f64 {
-    let StripTrial { panel, history, strip, positions } = *trial;
-    scratch.lay((panel, strip), positions);
+/// Returns the energy that a strip's connectors can return, in J.
+pub(crate) fn stored(buffers: &mut StripBuffers, trial: &StripTrial<'_>) -> f64 {
+    let StripTrial { panel, memories, strip, positions } = *trial;
+    buffers.load(panel, strip, positions);
     let mut sums = [0.0; LANES];
-    for start in own(panel, strip) {
-        let place = strip.offset + start;
+    for start in own_batches(panel, strip) {
+        let at = strip.batch(start);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
             let mut energies = [0.0; LANES];
-            let memory = history.traction[direction].batch(place);
+            let memory = memories.traction[direction].batch(at.cloth);
             yarns.traction.add_stored(&memory, &mut energies);
-            weigh(&mut sums, &energies, (&yarns.segment_areas, strip, start));
+            add_weighted(&mut sums, &energies, lanes(&yarns.segment_areas, at.panel));
 
-            let mut energies = scratch.bend(yarns, &history.normals, (start, strip)).energies();
-            let memory = history.bending[direction].batch(place);
+            let mut energies = buffers.triples(yarns, &memories.normals, at).energies();
+            let memory = memories.bending[direction].batch(at.cloth);
             yarns.bending.add_friction_stored(&memory, &mut energies);
-            weigh(&mut sums, &energies, (&yarns.triple_areas, strip, start));
+            add_weighted(&mut sums, &energies, lanes(&yarns.triple_areas, at.panel));
         }
-        for (corner, areas) in panel.corners.iter().enumerate() {
+        for (corner, areas) in panel.corner_areas.iter().enumerate() {
             let mut energies = [0.0; LANES];
-            let memory = history.shear[corner].batch(place);
+            let memory = memories.shear[corner].batch(at.cloth);
             panel.shear.add_stored(&memory, &mut energies);
-            weigh(&mut sums, &energies, (areas, strip, start));
+            add_weighted(&mut sums, &energies, lanes(areas, at.panel));
         }
     }
     sums.iter().sum()
 }
 
-/// Places of a strip's own points, batch by batch.
-fn own(panel: &Panel, strip: &Strip) -> impl Iterator<Item = usize> {
+/// First indices, in the buffers, of the batches of a strip's own points.
+fn own_batches(panel: &GridPanel, strip: &Strip) -> impl Iterator<Item = usize> {
     (panel.margin..panel.margin + strip.points.len()).step_by(LANES)
 }
 
-/// Adds energies per area times the areas of the connectors from a place on.
+/// Adds energies per area times areas.
 #[inline(always)]
-fn weigh(sums: &mut Lanes, energies: &Lanes, (areas, strip, start): (&[f64], &Strip, usize)) {
-    let areas = lanes(areas, strip.points.start + start);
+pub(crate) fn add_weighted(sums: &mut Lanes, energies: &Lanes, areas: &Lanes) {
     for lane in 0..LANES {
         sums[lane] += energies[lane] * areas[lane];
     }

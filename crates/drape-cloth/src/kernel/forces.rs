@@ -1,124 +1,145 @@
-#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
+//! Forces of a strip.
+//!
+//! ```text
+//!   loads of segments, corners, triples  →  edge gradients P, moments M  →  forces (a sum per point)
+//! ```
+#![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
 use drape_fabric::{BatchLaw, LANES, Lanes, Responses};
 
-use crate::field::{add, dot, lanes, put, scale, set, subtract};
-use crate::scratch::{Edges, Scratch, StripTrial};
+use crate::kernel::buffers::{Edges, StripBuffers, StripTrial};
+use crate::layout::columns::{VectorLanes, lanes, put};
+use crate::layout::grid::CornerAtEdge;
+use crate::measure::vector::{add, dot, scale, subtract};
 
-/// Adds the forces on a strip's particles, three numbers for each.
+/// Adds the forces on the particles of a strip, three numbers for each, in N.
 ///
-/// All energy but that of bending is a function of the edges as vectors, and the bending's is one of
-/// their differences: the derivative `$P_e$` with respect to an edge pulls at its two ends.
+/// All energy but that of bending is a function of the edges as vectors, and that of bending is one of
+/// their differences: the derivative `$P_e$` with respect to an edge acts on both of its ends.
 #[inline(always)]
-pub(crate) fn add_forces(scratch: &mut Scratch, trial: &StripTrial<'_>, forces: &mut [f64]) {
-    scratch.lay((trial.panel, trial.strip), trial.positions);
+pub(crate) fn add_forces(buffers: &mut StripBuffers, trial: &StripTrial<'_>, forces: &mut [f64]) {
+    buffers.load(trial.panel, trial.strip, trial.positions);
     for direction in 0..2 {
-        tensions(scratch, trial, direction);
-        moments(scratch, trial, direction);
+        compute_tensions(buffers, trial, direction);
+        compute_moments(buffers, trial, direction);
     }
     for corner in 0..4 {
-        corners(scratch, trial, corner);
+        compute_corner_loads(buffers, trial, corner);
     }
     for direction in 0..2 {
-        pulls(scratch, trial, direction);
+        compute_edge_gradients(buffers, trial, direction);
     }
-    gather(scratch, trial, forces);
+    sum_forces(buffers, trial, forces);
 }
 
+/// Tensions of the segments times area over length.
 #[inline(always)]
-fn tensions(scratch: &mut Scratch, trial: &StripTrial<'_>, direction: usize) {
+fn compute_tensions(buffers: &mut StripBuffers, trial: &StripTrial<'_>, direction: usize) {
     let StripTrial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
-    let places = panel.margin - panel.stride..panel.margin + strip.points.len();
-    for start in places.step_by(LANES) {
-        let memory = trial.history.traction[direction].batch(strip.offset + start);
-        let strains = scratch.strains(yarns, direction, (start, strip));
+    let indices = panel.margin - panel.stride..panel.margin + strip.points.len();
+    for start in indices.step_by(LANES) {
+        let at = strip.batch(start);
+        let memory = trial.memories.traction[direction].batch(at.cloth);
+        let strains = buffers.strains(yarns, direction, at);
         let mut responses = Responses::default();
         yarns.traction.respond::<false>(&memory, &strains, &mut responses);
-        let areas = lanes(&yarns.segment_areas, strip.points.start + start);
+        let areas = lanes(&yarns.segment_areas, at.panel);
         let inverse = 1.0 / yarns.length;
         let mut tensions = [0.0; LANES];
         for lane in 0..LANES {
             tensions[lane] = responses.load[lane] * areas[lane] * inverse;
         }
-        put(&mut scratch.tensions[direction], start, &tensions);
+        put(&mut buffers.tensions[direction], start, &tensions);
     }
 }
 
+/// Shear loads of one of the four corners of the cells times their areas.
 #[inline(always)]
-fn corners(scratch: &mut Scratch, trial: &StripTrial<'_>, corner: usize) {
+fn compute_corner_loads(buffers: &mut StripBuffers, trial: &StripTrial<'_>, corner: usize) {
     let StripTrial { panel, strip, .. } = *trial;
-    let places = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
-    for start in places.step_by(LANES) {
-        let memory = trial.history.shear[corner].batch(strip.offset + start);
-        let sines = scratch.sines(panel, corner, (start, strip));
+    let indices = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
+    for start in indices.step_by(LANES) {
+        let at = strip.batch(start);
+        let memory = trial.memories.shear[corner].batch(at.cloth);
+        let sines = buffers.sines(panel, corner, at);
         let mut responses = Responses::default();
         panel.shear.respond::<false>(&memory, &sines, &mut responses);
-        let areas = lanes(&panel.corners[corner], strip.points.start + start);
+        let areas = lanes(&panel.corner_areas[corner], at.panel);
         let mut loads = [0.0; LANES];
         for lane in 0..LANES {
             loads[lane] = responses.load[lane] * areas[lane];
         }
-        put(&mut scratch.corners[corner], start, &loads);
+        put(&mut buffers.corner_loads[corner], start, &loads);
     }
 }
 
+/// Derivatives of the potential with respect to the second differences, over `$h^2$`.
 #[inline(always)]
-fn moments(scratch: &mut Scratch, trial: &StripTrial<'_>, direction: usize) {
+fn compute_moments(buffers: &mut StripBuffers, trial: &StripTrial<'_>, direction: usize) {
     let StripTrial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
     let inverse_square = 1.0 / (yarns.length * yarns.length);
-    let places = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
-    for start in places.step_by(LANES) {
-        let memory = trial.history.bending[direction].batch(strip.offset + start);
-        let bend = scratch.bend(yarns, &trial.history.normals, (start, strip));
-        let moments = bend.moments(&memory, inverse_square);
-        scratch.moments[direction].put(start, &moments);
+    let indices = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
+    for start in indices.step_by(LANES) {
+        let at = strip.batch(start);
+        let memory = trial.memories.bending[direction].batch(at.cloth);
+        let triples = buffers.triples(yarns, &trial.memories.normals, at);
+        let moments = triples.moments(&memory, inverse_square);
+        buffers.moments[direction].put(start, &moments.0);
     }
 }
 
-/// Derivatives with respect to the edges, from tension and from the corners that they are part of.
+/// Derivatives of the potential with respect to the edges, from their tension and from the corners that
+/// they belong to.
 #[inline(always)]
-fn pulls(scratch: &mut Scratch, trial: &StripTrial<'_>, direction: usize) {
+fn compute_edge_gradients(buffers: &mut StripBuffers, trial: &StripTrial<'_>, direction: usize) {
     let StripTrial { panel, strip, .. } = *trial;
-    let [warp, weft] = &scratch.edges;
+    let [warp, weft] = &buffers.edges;
     let (edges, other) = if direction == 0 { (warp, weft) } else { (weft, warp) };
     let step = panel.yarns[direction].step;
-    let places = panel.margin - step..panel.margin + strip.points.len();
-    for start in places.step_by(LANES) {
-        let mut across = [[0.0; LANES]; 3];
-        for (corner, cell, edge) in panel.around(direction, start) {
-            let loads = lanes(&scratch.corners[corner], cell);
-            let units = other.unit.from(edge);
+    let indices = panel.margin - step..panel.margin + strip.points.len();
+    for start in indices.step_by(LANES) {
+        let mut shear = [[0.0; LANES]; 3];
+        for CornerAtEdge { corner, cell, other_edge } in panel.corners_at_edge(direction, start) {
+            let loads = lanes(&buffers.corner_loads[corner], cell);
+            let units = other.unit.batch(other_edge);
             for lane in 0..LANES {
                 for axis in 0..3 {
-                    across[axis][lane] += loads[lane] * units.0[axis][lane];
+                    shear[axis][lane] += loads[lane] * units.0[axis][lane];
                 }
             }
         }
-        let tensions = lanes(&scratch.tensions[direction], start);
-        let pulls = turned(edges, start, tensions, &across);
-        scratch.pulls[direction].put(start, &pulls);
+        let tensions = lanes(&buffers.tensions[direction], start);
+        let gradients = edge_gradients(edges, start, tensions, &shear);
+        buffers.edge_gradients[direction].put(start, &gradients.0);
     }
 }
 
-/// Tension along the edges, and what pulls at them less its part along them over their length.
+/// Returns `$P_e = T\hat e + (1 - \hat e\hat e^T)\,q/|e|$` with the tension `$T$` and the sum `$q$` of the
+/// corner loads times the directions of their other edges.
 #[inline(always)]
-fn turned(edges: &Edges, start: usize, tensions: &Lanes, across: &[Lanes; 3]) -> [Lanes; 3] {
-    let units = edges.unit.from(start);
+fn edge_gradients(
+    edges: &Edges,
+    start: usize,
+    tensions: &Lanes,
+    shear: &[Lanes; 3],
+) -> VectorLanes {
+    let units = edges.unit.batch(start);
     let inverse = lanes(&edges.inverse, start);
-    let mut pulls = [[0.0; LANES]; 3];
+    let mut gradients = VectorLanes::zero();
     for lane in 0..LANES {
-        let unit = units.at(lane);
-        let load = [across[0][lane], across[1][lane], across[2][lane]];
-        let turn = scale(subtract(load, scale(unit, dot(load, unit))), inverse[lane]);
-        set(&mut pulls, lane, add(scale(unit, tensions[lane]), turn));
+        let unit = units.vector(lane);
+        let load = [shear[0][lane], shear[1][lane], shear[2][lane]];
+        let across = scale(subtract(load, scale(unit, dot(load, unit))), inverse[lane]);
+        gradients.set(lane, add(scale(unit, tensions[lane]), across));
     }
-    pulls
+    gradients
 }
 
+/// Adds to each particle the gradients of its edges and the second differences of the moments.
 #[inline(always)]
-fn gather(scratch: &mut Scratch, trial: &StripTrial<'_>, forces: &mut [f64]) {
+fn sum_forces(buffers: &mut StripBuffers, trial: &StripTrial<'_>, forces: &mut [f64]) {
     let StripTrial { panel, strip, .. } = *trial;
     let mut forces = forces.chunks_exact_mut(3);
     let occupied = &panel.occupied[strip.points.clone()];
@@ -126,11 +147,12 @@ fn gather(scratch: &mut Scratch, trial: &StripTrial<'_>, forces: &mut [f64]) {
         let start = panel.margin + batch * LANES;
         let mut sums = [[0.0; LANES]; 3];
         for (direction, step) in [(0, panel.stride), (1, 1)] {
-            let (pulls, moments) = (&scratch.pulls[direction], &scratch.moments[direction]);
+            let gradients = &buffers.edge_gradients[direction];
+            let moments = &buffers.moments[direction];
             let [before, here, after] = [start - step, start, start + step];
-            let (from, to) = (pulls.from(before), pulls.from(here));
+            let (from, to) = (gradients.batch(before), gradients.batch(here));
             let (before, here, after) =
-                (moments.from(before), moments.from(here), moments.from(after));
+                (moments.batch(before), moments.batch(here), moments.batch(after));
             for axis in 0..3 {
                 let (from, to) = (from.0[axis], to.0[axis]);
                 let (a, c, b) = (before.0[axis], here.0[axis], after.0[axis]);
@@ -140,8 +162,8 @@ fn gather(scratch: &mut Scratch, trial: &StripTrial<'_>, forces: &mut [f64]) {
                 }
             }
         }
-        let places = occupied.iter().enumerate().filter(|(_, occupied)| **occupied);
-        for ((lane, _), force) in places.zip(&mut forces) {
+        let particles = occupied.iter().enumerate().filter(|(_, occupied)| **occupied);
+        for ((lane, _), force) in particles.zip(&mut forces) {
             for axis in 0..3 {
                 force[axis] += sums[axis][lane];
             }

@@ -1,62 +1,81 @@
-#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
+//! Stiffness of a strip: the blocks of the second derivatives of its potential.
+//!
+//! ```text
+//!   shear blocks of corners, bending blocks of triples  →  blocks of neighbours along the yarns and
+//!   across the cells  →  a row of the matrix per point, its own block from the others' sum
+//!
+//!   pair_blocks of a point A                       bending_blocks at c couple a, c and b:
+//!      D ── C     0: A–D (warp)   2: A–C             a ── c ── b    1, −2, 1
+//!      │    │     1: A–B (weft)   3: B–D
+//!      A ── B
+//! ```
+#![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
 use drape_fabric::{BatchLaw, LANES, Lanes, Responses};
 
-use crate::bend::HALF;
-use crate::field::{dot, lanes, put};
-use crate::panel::{BLOCKS, NO_BLOCK};
-use crate::scratch::{Scratch, StripTrial};
+use crate::kernel::buffers::{StripBuffers, StripTrial};
+use crate::layout::columns::{lanes, put};
+use crate::layout::grid::{BLOCKS, CornerAtEdge, CornerEdges, NO_BLOCK};
+use crate::measure::half::{HALF, IN_HALF, TRANSPOSED};
+use crate::measure::vector::dot;
 
-/// Place of a full block's entry, row by row, in the upper half.
-const IN_HALF: [usize; 9] = [0, 1, 2, 1, 3, 4, 2, 4, 5];
+/// Which stiffness of which direction or corner of a strip is computed.
+#[derive(Clone, Copy)]
+struct Kind {
+    /// Direction of a yarn, or corner of a cell.
+    which: usize,
+    /// Whether parts that make the matrix indefinite are left out.
+    definite: bool,
+}
 
-/// Place of a block's entry in its transpose.
-const TRANSPOSED: [usize; 9] = [0, 3, 6, 1, 4, 7, 2, 5, 8];
-
-/// Adds the derivatives of the forces on a strip's particles, negated, to the blocks of their rows.
+/// Adds the derivatives of the forces on a strip's particles, negated, to the blocks of their rows, in
+/// N/m.
 ///
 /// The potential is a function of the edges as vectors, so its second derivatives belong to an edge,
-/// to the two edges of a corner, or to a triple; each is computed once and then adds up in the
-/// blocks of the particles at the ends.
+/// to the two edges of a corner, or to a triple; each is computed once and then added to the blocks of
+/// the particles at the ends.
 #[inline(always)]
 pub(crate) fn add_stiffness(
-    scratch: &mut Scratch,
+    buffers: &mut StripBuffers,
     trial: &StripTrial<'_>,
     definite: bool,
     values: &mut [f64],
 ) {
-    scratch.lay((trial.panel, trial.strip), trial.positions);
-    for corner in 0..4 {
-        turns(scratch, trial, (corner, definite));
+    buffers.load(trial.panel, trial.strip, trial.positions);
+    for which in 0..4 {
+        compute_shear_blocks(buffers, trial, Kind { which, definite });
     }
-    for direction in 0..2 {
-        rigidities(scratch, trial, (direction, definite));
+    for which in 0..2 {
+        compute_bending_blocks(buffers, trial, Kind { which, definite });
     }
-    for direction in 0..2 {
-        along_yarns(scratch, trial, (direction, definite));
+    for which in 0..2 {
+        compute_yarn_blocks(buffers, trial, Kind { which, definite });
     }
-    across_cells(scratch, trial);
-    gather(scratch, trial, values);
+    compute_cell_blocks(buffers, trial);
+    sum_rows(buffers, trial, values);
 }
 
-/// Loads and slopes of a corner of the cells, and the block of its two edges `$p$`, `$q$`,
+/// Loads and tangents of a corner of the cells, and the block of its two edges of directions `$p$`, `$q$`
+/// and lengths `$l_p$`, `$l_q$`,
 ///
 /// ```math
 /// \frac{1}{l_pl_q}\left[t\,qp^T - (tc+g)(pp^T+qq^T) + (tc^2+gc)\,pq^T + g\right],\qquad c = p\cdot q
 /// ```
 ///
-/// where `$g$` and `$t$` are load and slope times the area. Without `$g$` it is definite.
+/// with load `$g$` and tangent `$t$` times the area. Without `$g$` the stiffness is definite.
 #[inline(always)]
-fn turns(scratch: &mut Scratch, trial: &StripTrial<'_>, (corner, definite): (usize, bool)) {
+fn compute_shear_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind: Kind) {
+    let Kind { which: corner, definite } = kind;
     let StripTrial { panel, strip, .. } = *trial;
-    let places = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
-    let (to_warp, to_weft) = panel.corner_edges(corner);
-    for start in places.step_by(LANES) {
-        let memory = trial.history.shear[corner].batch(strip.offset + start);
-        let sines = scratch.sines(panel, corner, (start, strip));
+    let indices = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
+    let CornerEdges { warp: to_warp, weft: to_weft } = panel.corner_edges(corner);
+    for start in indices.step_by(LANES) {
+        let at = strip.batch(start);
+        let memory = trial.memories.shear[corner].batch(at.cloth);
+        let sines = buffers.sines(panel, corner, at);
         let mut responses = Responses::default();
         panel.shear.respond::<true>(&memory, &sines, &mut responses);
-        let areas = lanes(&panel.corners[corner], strip.points.start + start);
+        let areas = lanes(&panel.corner_areas[corner], at.panel);
         let mut loads = [0.0; LANES];
         let mut slopes = [0.0; LANES];
         for lane in 0..LANES {
@@ -65,13 +84,13 @@ fn turns(scratch: &mut Scratch, trial: &StripTrial<'_>, (corner, definite): (usi
             loads[lane] = if definite { 0.0 } else { responses.load[lane] * areas[lane] };
             slopes[lane] = least * areas[lane];
         }
-        let [warp, weft] = &scratch.edges;
-        let (p, q) = (warp.unit.from(start + to_warp), weft.unit.from(start + to_weft));
+        let [warp, weft] = &buffers.edges;
+        let (p, q) = (warp.unit.batch(start + to_warp), weft.unit.batch(start + to_weft));
         let warp_inverse = lanes(&warp.inverse, start + to_warp);
         let weft_inverse = lanes(&weft.inverse, start + to_weft);
         let mut blocks = [[0.0; LANES]; 9];
         for lane in 0..LANES {
-            let (p, q) = (p.at(lane), q.at(lane));
+            let (p, q) = (p.vector(lane), q.vector(lane));
             let (load, slope, cosine) = (loads[lane], slopes[lane], sines[lane]);
             let size = warp_inverse[lane] * weft_inverse[lane];
             let (load, slope) = (load * size, slope * size);
@@ -80,68 +99,73 @@ fn turns(scratch: &mut Scratch, trial: &StripTrial<'_>, (corner, definite): (usi
             for row in 0..3 {
                 for column in 0..3 {
                     let squares = p[row] * p[column] + q[row] * q[column];
-                    let one = if row == column { load } else { 0.0 };
+                    let diagonal = if row == column { load } else { 0.0 };
                     blocks[3 * row + column][lane] = slope * (q[row] * p[column]) - mixed * squares
                         + back * (p[row] * q[column])
-                        + one;
+                        + diagonal;
                 }
             }
         }
-        put(&mut scratch.corners[corner], start, &loads);
-        put(&mut scratch.slopes[corner], start, &slopes);
-        scratch.turns[corner].put(start, &blocks);
+        put(&mut buffers.corner_loads[corner], start, &loads);
+        put(&mut buffers.corner_tangents[corner], start, &slopes);
+        buffers.shear_blocks[corner].put(start, &blocks);
     }
 }
 
+/// Second derivatives with respect to the second differences, over `$h^4$`.
 #[inline(always)]
-fn rigidities(scratch: &mut Scratch, trial: &StripTrial<'_>, (direction, definite): (usize, bool)) {
+fn compute_bending_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind: Kind) {
+    let Kind { which: direction, definite } = kind;
     let StripTrial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
     let inverse_square = 1.0 / (yarns.length * yarns.length);
-    let places = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
-    for start in places.step_by(LANES) {
-        let memory = trial.history.bending[direction].batch(strip.offset + start);
-        let bend = scratch.bend(yarns, &trial.history.normals, (start, strip));
-        let blocks = bend.blocks(&memory, inverse_square, definite);
-        scratch.rigidities[direction].put(start, &blocks);
+    let indices = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
+    for start in indices.step_by(LANES) {
+        let at = strip.batch(start);
+        let memory = trial.memories.bending[direction].batch(at.cloth);
+        let triples = buffers.triples(yarns, &trial.memories.normals, at);
+        let blocks = triples.blocks(&memory, inverse_square, definite);
+        buffers.bending_blocks[direction].put(start, &blocks);
     }
 }
 
-/// Second derivatives of the potential with respect to the edges: tension, and with
-/// `$a$` the other edges of the corners around an edge `$e$`
+/// Returns the second derivatives of the potential with respect to a batch of edges: that of the tension
+/// and, with the other edges `$a$` of the corners at an edge `$e$` of length `$l$`,
 ///
 /// ```math
 /// \frac{1}{l^2}\sum\left[t\,aa^T - (tc+g)(ae^T+ea^T) + (tc^2+3gc)\,ee^T - gc\right],\qquad c = a\cdot e
 /// ```
 #[inline(always)]
 fn edge_blocks(
-    scratch: &Scratch,
+    buffers: &StripBuffers,
     trial: &StripTrial<'_>,
-    (direction, definite): (usize, bool),
+    kind: Kind,
     start: usize,
 ) -> [Lanes; 6] {
+    let Kind { which: direction, definite } = kind;
     let StripTrial { panel, strip, .. } = *trial;
     let yarns = &panel.yarns[direction];
-    let (edges, other) = (&scratch.edges[direction], &scratch.edges[1 - direction]);
-    let memory = trial.history.traction[direction].batch(strip.offset + start);
-    let strains = scratch.strains(yarns, direction, (start, strip));
+    let (edges, other) = (&buffers.edges[direction], &buffers.edges[1 - direction]);
+    let at = strip.batch(start);
+    let memory = trial.memories.traction[direction].batch(at.cloth);
+    let strains = buffers.strains(yarns, direction, at);
     let mut responses = Responses::default();
     yarns.traction.respond::<true>(&memory, &strains, &mut responses);
-    let areas = lanes(&yarns.segment_areas, strip.points.start + start);
-    let (units, inverse) = (edges.unit.from(start), lanes(&edges.inverse, start));
+    let areas = lanes(&yarns.segment_areas, at.panel);
+    let (units, inverse) = (edges.unit.batch(start), lanes(&edges.inverse, start));
     let rest = 1.0 / yarns.length;
 
-    // Sums over the corners: the matrix, the vector, and the factors of eeᵀ and of one.
+    // Sums over the corners: of aaᵀ, of a, and the factors of eeᵀ and of the identity.
     let mut squares = [[0.0; LANES]; 6];
     let mut mixed = [[0.0; LANES]; 3];
     let mut along = [0.0; LANES];
     let mut across = [0.0; LANES];
-    for (corner, cell, edge) in panel.around(direction, start) {
-        let loads = lanes(&scratch.corners[corner], cell);
-        let slopes = lanes(&scratch.slopes[corner], cell);
-        let others = other.unit.from(edge);
+    for CornerAtEdge { corner, cell, other_edge } in panel.corners_at_edge(direction, start) {
+        let loads = lanes(&buffers.corner_loads[corner], cell);
+        let slopes = lanes(&buffers.corner_tangents[corner], cell);
+        let others = other.unit.batch(other_edge);
         for lane in 0..LANES {
-            let (a, e) = (others.at(lane), units.at(lane));
+            let (a, e) = (others.vector(lane), units.vector(lane));
             let (load, slope, cosine) = (loads[lane], slopes[lane], dot(a, e));
             let both = slope * cosine + load;
             for (sum, (row, column)) in squares.iter_mut().zip(HALF) {
@@ -156,18 +180,19 @@ fn edge_blocks(
     }
     let mut blocks = [[0.0; LANES]; 6];
     for lane in 0..LANES {
-        let e = units.at(lane);
+        let e = units.vector(lane);
         let size = inverse[lane] * inverse[lane];
         let stretch = responses.tangent[lane] * areas[lane] * rest * rest;
-        let turn = responses.load[lane] * areas[lane] * rest * inverse[lane];
+        let rotate = responses.load[lane] * areas[lane] * rest * inverse[lane];
         let positive = |x: f64| if definite && x < 0.0 { 0.0 } else { x };
-        let (stretch, turn) = (positive(stretch), positive(turn));
-        let one = turn - size * across[lane];
-        let unit = stretch - turn + size * along[lane];
+        let (stretch, rotate) = (positive(stretch), positive(rotate));
+        let identity = rotate - size * across[lane];
+        let unit = stretch - rotate + size * along[lane];
         for (k, (row, column)) in HALF.into_iter().enumerate() {
             let mix = mixed[row][lane] * e[column] + e[row] * mixed[column][lane];
-            let on = if row == column { one } else { 0.0 };
-            blocks[k][lane] = size * (squares[k][lane] - mix) + unit * (e[row] * e[column]) + on;
+            let diagonal = if row == column { identity } else { 0.0 };
+            blocks[k][lane] =
+                size * (squares[k][lane] - mix) + unit * (e[row] * e[column]) + diagonal;
         }
     }
     blocks
@@ -175,18 +200,15 @@ fn edge_blocks(
 
 /// Blocks of neighbours along a yarn.
 #[inline(always)]
-fn along_yarns(
-    scratch: &mut Scratch,
-    trial: &StripTrial<'_>,
-    (direction, definite): (usize, bool),
-) {
+fn compute_yarn_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind: Kind) {
+    let direction = kind.which;
     let StripTrial { panel, strip, .. } = *trial;
     let step = panel.yarns[direction].step;
-    let places = panel.margin - step..panel.margin + strip.points.len();
-    for start in places.step_by(LANES) {
-        let edges = edge_blocks(scratch, trial, (direction, definite), start);
-        let rigidities = &scratch.rigidities[direction];
-        let (here, next) = (rigidities.from(start), rigidities.from(start + step));
+    let indices = panel.margin - step..panel.margin + strip.points.len();
+    for start in indices.step_by(LANES) {
+        let edges = edge_blocks(buffers, trial, kind, start);
+        let bending = &buffers.bending_blocks[direction];
+        let (here, next) = (bending.batch(start), bending.batch(start + step));
         let mut blocks = [[0.0; LANES]; 9];
         for (k, block) in blocks.iter_mut().enumerate() {
             let half = IN_HALF[k];
@@ -194,93 +216,94 @@ fn along_yarns(
                 block[lane] = -edges[half][lane] - 2.0 * (here.0[half][lane] + next.0[half][lane]);
             }
         }
-        // The sign of a corner's block, and whether it is turned, follow from which end of its two
-        // edges the corner is at.
-        let turns = |corner: usize, cell: usize| scratch.turns[corner].from(cell);
-        let [less, less_turned, more, more_turned] = if direction == 0 {
+        // The sign of a corner's block, and whether it is transposed, follow from which ends of its two
+        // edges meet at the corner.
+        let shear = |corner: usize, cell: usize| buffers.shear_blocks[corner].batch(cell);
+        let [less, less_transposed, more, more_transposed] = if direction == 0 {
             let left = start - 1;
-            [turns(2, left), turns(0, start), turns(3, start), turns(1, left)]
+            [shear(2, left), shear(0, start), shear(3, start), shear(1, left)]
         } else {
             let below = start - panel.stride;
-            [turns(0, start), turns(2, below), turns(3, below), turns(1, start)]
+            [shear(0, start), shear(2, below), shear(3, below), shear(1, start)]
         };
         for (k, block) in blocks.iter_mut().enumerate() {
-            let turned = TRANSPOSED[k];
+            let transposed = TRANSPOSED[k];
             for lane in 0..LANES {
                 block[lane] += (more.0[k][lane] - less.0[k][lane])
-                    + (more_turned.0[turned][lane] - less_turned.0[turned][lane]);
+                    + (more_transposed.0[transposed][lane] - less_transposed.0[transposed][lane]);
             }
         }
-        scratch.blocks[direction].put(start, &blocks);
+        buffers.pair_blocks[direction].put(start, &blocks);
     }
 }
 
 /// Blocks of the particles across a cell: of its first with its third, and of its second with its
 /// fourth.
 #[inline(always)]
-fn across_cells(scratch: &mut Scratch, trial: &StripTrial<'_>) {
+fn compute_cell_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>) {
     let StripTrial { panel, strip, .. } = *trial;
-    let places = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
-    for start in places.step_by(LANES) {
-        let [first, second, third, fourth] = &scratch.turns;
-        let (first, second) = (first.from(start), second.from(start));
-        let (third, fourth) = (third.from(start), fourth.from(start));
+    let indices = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
+    for start in indices.step_by(LANES) {
+        let [first, second, third, fourth] = &buffers.shear_blocks;
+        let (first, second) = (first.batch(start), second.batch(start));
+        let (third, fourth) = (third.batch(start), fourth.batch(start));
         let mut blocks = [[[0.0; LANES]; 9]; 2];
         for k in 0..9 {
-            let turned = TRANSPOSED[k];
+            let transposed = TRANSPOSED[k];
             for lane in 0..LANES {
-                blocks[0][k][lane] = -second.0[turned][lane] - fourth.0[k][lane];
-                blocks[1][k][lane] = first.0[turned][lane] + third.0[k][lane];
+                blocks[0][k][lane] = -second.0[transposed][lane] - fourth.0[k][lane];
+                blocks[1][k][lane] = first.0[transposed][lane] + third.0[k][lane];
             }
         }
-        scratch.blocks[2].put(start, &blocks[0]);
-        scratch.blocks[3].put(start, &blocks[1]);
+        buffers.pair_blocks[2].put(start, &blocks[0]);
+        buffers.pair_blocks[3].put(start, &blocks[1]);
     }
 }
 
-/// Adds the blocks to the rows of the strip's particles. A row adds up to nothing, because nothing
-/// depends on where the cloth as a whole is: that gives its first block.
+/// Adds the blocks to the rows of the strip's particles. The blocks of a row sum to zero, because a
+/// translation of the whole cloth changes nothing: that gives the first block of the row.
 #[inline(always)]
-fn gather(scratch: &Scratch, trial: &StripTrial<'_>, values: &mut [f64]) {
+fn sum_rows(buffers: &StripBuffers, trial: &StripTrial<'_>, values: &mut [f64]) {
     let StripTrial { panel, strip, .. } = *trial;
     let stride = panel.stride;
-    let [warp, weft, third, second] = &scratch.blocks;
-    let [warp_bends, weft_bends] = &scratch.rigidities;
+    let [warp, weft, third, second] = &buffers.pair_blocks;
+    let [warp_bending, weft_bending] = &buffers.bending_blocks;
     for (batch, slots) in panel.slots[strip.points.clone()].chunks(LANES).enumerate() {
         let start = panel.margin + batch * LANES;
-        let next = [weft.from(start), second.from(start - 1), warp.from(start), third.from(start)];
+        let next =
+            [weft.batch(start), second.batch(start - 1), warp.batch(start), third.batch(start)];
         let before = [
-            weft.from(start - 1),
-            second.from(start - stride),
-            warp.from(start - stride),
-            third.from(start - stride - 1),
+            weft.batch(start - 1),
+            second.batch(start - stride),
+            warp.batch(start - stride),
+            third.batch(start - stride - 1),
         ];
-        let far = [weft_bends.from(start + 1), warp_bends.from(start + stride)];
-        let far_before = [weft_bends.from(start - 1), warp_bends.from(start - stride)];
+        let far = [weft_bending.batch(start + 1), warp_bending.batch(start + stride)];
+        let far_before = [weft_bending.batch(start - 1), warp_bending.batch(start - stride)];
         let mut own = [[0.0; LANES]; 6];
         for (k, (row, column)) in HALF.into_iter().enumerate() {
-            let (entry, turned) = (3 * row + column, 3 * column + row);
+            let (entry, transposed) = (3 * row + column, 3 * column + row);
             let [a, b, c, d] = &next;
             let (a, b, c, d) = (a.0[entry], b.0[entry], c.0[entry], d.0[entry]);
             let [e, f, g, h] = &before;
-            let (e, f, g, h) = (e.0[turned], f.0[turned], g.0[turned], h.0[turned]);
+            let [e, f, g, h] = [e, f, g, h].map(|block| block.0[transposed]);
             let (i, j) = (far[0].0[k], far[1].0[k]);
             let (l, m) = (far_before[0].0[k], far_before[1].0[k]);
             for lane in 0..LANES {
-                let near = (a[lane] + e[lane]) + (b[lane] + f[lane]);
-                let cell = (c[lane] + g[lane]) + (d[lane] + h[lane]);
-                let bends = (i[lane] + l[lane]) + (j[lane] + m[lane]);
-                own[k][lane] = -(near + cell + bends);
+                let pairs = (a[lane] + e[lane]) + (b[lane] + f[lane]);
+                let others = (c[lane] + g[lane]) + (d[lane] + h[lane]);
+                let bending = (i[lane] + l[lane]) + (j[lane] + m[lane]);
+                own[k][lane] = -(pairs + others + bending);
             }
         }
-        let [near, slant, up, over] = &next;
+        let [right, up_left, up, up_right] = &next;
         let rows: [[&Lanes; 9]; BLOCKS] = [
             whole(own.each_ref()),
-            near.0,
+            right.0,
             whole(far[0].0),
-            slant.0,
+            up_left.0,
             up.0,
-            over.0,
+            up_right.0,
             whole(far[1].0),
         ];
         for (lane, slots) in slots.iter().enumerate() {
@@ -296,7 +319,7 @@ fn gather(scratch: &Scratch, trial: &StripTrial<'_>, values: &mut [f64]) {
     }
 }
 
-/// A symmetric block from its upper half.
+/// Returns a symmetric block from its upper half.
 #[inline(always)]
 fn whole(half: [&Lanes; 6]) -> [&Lanes; 9] {
     let [a, b, c, d, e, f] = half;

@@ -1,53 +1,60 @@
-use std::ops::Range;
+//! A panel on the points of its grid: columns of areas, and the steps from a point to its neighbours.
 
 use drape_fabric::{BendingBatch, Fabric, LANES, ShearBatch, TractionBatch};
 
-use crate::angle::bow_of;
-use crate::connectors::{Bending, segments};
-use crate::{Lattice, Sparsity};
+use crate::layout::connectors::{BendingConnectors, Segment, Triple, segments};
+use crate::layout::sparsity::Sparsity;
+use crate::measure::turning_angle::second_difference_of;
+use crate::panel::lattice::Lattice;
 
-/// Particles of a strip, about: fewer cost more seams between strips, more leave the cache.
-const STRIP_POINTS: usize = 1024;
-
-/// Rows of a strip at least: two rows at each of its sides are computed twice.
-const STRIP_ROWS: usize = 16;
-
-/// Blocks in a row of the matrix at most.
+/// Largest number of blocks in a row of the upper half of the matrix.
 pub(crate) const BLOCKS: usize = 7;
 
-/// Stands for a block that does not exist.
+/// Slot of a block that does not exist.
 pub(crate) const NO_BLOCK: u32 = u32::MAX;
 
-/// A panel on the points of its grid, row by row, so that neighbours along a yarn are a fixed step
-/// apart and connectors need no lists.
+/// Panel on the points of its grid, row by row, so that neighbours along a yarn are a fixed step apart
+/// and connectors need no lists.
 ///
-/// Columns are one number per point, with a margin of two rows and a batch at both ends. A point
-/// without a particle stands where the panel's first particle stands, and a connector that does not
-/// exist, such as an edge from the end of a row to the start of the next, has an area of zero.
+/// A column has one number per point, with a margin of two rows and one point before the first, and the
+/// same margin and a batch after the last:
+///
+/// ```text
+///  index  0        margin              margin + points            length
+///         │ margin │ row 0 │ row 1 │ … │ last row │ margin │ LANES │
+///         2·stride + 1                             2·stride + 1
+///
+///  point p = row · stride + column;  next along the weft: p + 1,  along the warp: p + stride
+/// ```
+///
+/// The margin lets a kernel read the neighbours of every point, two rows up and down, without a branch.
+/// A point without a particle has the position of the panel's first particle, and a connector that does
+/// not exist, such as a segment from the end of a row to the start of the next, has an area of zero.
 #[derive(Debug, Clone)]
-pub(crate) struct Panel {
-    /// Points of the grid.
+pub(crate) struct GridPanel {
+    /// Number of points of the grid.
     pub(crate) points: usize,
     /// Step to the next point along the warp; along the weft it is 1.
     pub(crate) stride: usize,
-    /// Place of the first point in a column.
+    /// Index of the first point in a column.
     pub(crate) margin: usize,
     /// Number of its first particle.
     pub(crate) first: usize,
     /// Column of the particles.
     pub(crate) particles: Vec<u32>,
-    /// Whether a particle is at the point, without margins.
+    /// Whether a particle is at each point, without margins.
     pub(crate) occupied: Vec<bool>,
-    /// Along the warp and along the weft.
+    /// Connectors along the warp and along the weft.
     pub(crate) yarns: [Yarns; 2],
     pub(crate) shear: ShearBatch,
-    /// Columns of the areas of each cell's corners (0, 0), (1, 0), (1, 1), (0, 1), kept at the first.
-    pub(crate) corners: [Vec<f64>; 4],
-    /// Places of the cells in a column.
+    /// Columns of the areas of each cell's corners (0, 0), (1, 0), (1, 1), (0, 1), at the index of the
+    /// first corner, in m².
+    pub(crate) corner_areas: [Vec<f64>; 4],
+    /// Indices of the cells in a column.
     pub(crate) cells: Vec<usize>,
-    /// Place of the panel's columns in those of the cloth.
+    /// Index of the panel's columns in those of the cloth.
     pub(crate) base: usize,
-    /// Blocks of each point with those at [`Panel::block_steps`], or [`NO_BLOCK`].
+    /// Blocks of each point with those at [`GridPanel::block_steps`], or [`NO_BLOCK`].
     pub(crate) slots: Vec<[u32; BLOCKS]>,
 }
 
@@ -56,68 +63,75 @@ pub(crate) struct Panel {
 pub(crate) struct Yarns {
     /// Step to the next point.
     pub(crate) step: usize,
-    /// Rest length of a segment.
+    /// Rest length of a segment, in m.
     pub(crate) length: f64,
     pub(crate) traction: TractionBatch,
     pub(crate) bending: BendingBatch,
-    /// Bow of a triple that has the bending's rest curvature, in m⁻¹.
-    pub(crate) rest_bow: f64,
-    /// Column of the areas of the segments, kept at their first point.
+    /// Second difference at the rest curvature of the bending law, in 1/m.
+    pub(crate) rest_second_difference: f64,
+    /// Column of the areas of the segments, at their first point, in m².
     pub(crate) segment_areas: Vec<f64>,
-    /// Column of the areas of the triples, kept at their middle point.
+    /// Column of the areas of the triples, at their middle point, in m².
     pub(crate) triple_areas: Vec<f64>,
-    /// Column of what folds add to the rest curvature of the triples, kept at their middle point; none without folds.
+    /// Column of the rest curvatures that folds add to the triples, at their middle point, in 1/m; empty
+    /// without folds.
     pub(crate) folds: Vec<f64>,
-    /// Places of the segments in a column.
+    /// Indices of the segments in a column.
     pub(crate) segments: Vec<usize>,
-    /// Places of the triples in a column.
+    /// Indices of the triples in a column.
     pub(crate) triples: Vec<usize>,
 }
 
-/// A run of points that is evaluated as one, whatever the number of threads.
-#[derive(Debug, Clone)]
-pub(crate) struct Strip {
-    /// Place among the strips of the cloth.
-    pub(crate) index: usize,
-    /// Panel that it is part of.
-    pub(crate) panel: usize,
-    /// Place of its first point, less the panel's margin, in the columns of the cloth.
-    pub(crate) offset: usize,
-    /// Points, starting at a multiple of [`LANES`].
-    pub(crate) points: Range<usize>,
-    /// Particles at the points, counted over the cloth. Those of an outline follow the last strip's.
-    pub(crate) particles: Range<usize>,
-    /// Blocks in the rows of the particles.
-    pub(crate) blocks: Range<usize>,
+/// Where a panel begins: its first particle, and its columns in those of the cloth.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PanelStart {
+    pub(crate) particle: u32,
+    pub(crate) base: usize,
 }
 
-impl Panel {
-    /// A panel whose particles are numbered from `first` on and whose columns begin at `base`.
+/// Corner of a cell at an edge: which of the four, the index of its cell, and that of its other edge.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CornerAtEdge {
+    pub(crate) corner: usize,
+    pub(crate) cell: usize,
+    pub(crate) other_edge: usize,
+}
+
+/// Steps from a cell to the warp edge and the weft edge of one of its corners.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CornerEdges {
+    pub(crate) warp: usize,
+    pub(crate) weft: usize,
+}
+
+impl GridPanel {
+    /// Lays out a panel.
     pub(crate) fn new(
         lattice: &Lattice,
         fabric: &Fabric,
-        (first, base): (u32, usize),
-        bending: &[Bending; 2],
+        start: PanelStart,
+        bending: &[BendingConnectors; 2],
     ) -> Self {
+        let first = start.particle;
         let stride = lattice.columns;
         let points = lattice.grid.len();
         let margin = 2 * stride + 1;
         let length = points + 2 * margin + LANES;
-        let mut place_of = vec![0; lattice.coordinates.len()];
+        let mut index_of = vec![0; lattice.coordinates.len()];
         let mut particles = vec![first; length];
         for (point, particle) in lattice.grid.iter().enumerate() {
             if let Some(particle) = particle {
-                place_of[*particle as usize] = margin + point;
+                index_of[*particle as usize] = margin + point;
                 particles[margin + point] = first + particle;
             }
         }
-        let mut corners = [(); 4].map(|()| vec![0.0; length]);
+        let mut corner_areas = [(); 4].map(|()| vec![0.0; length]);
         let mut cells = Vec::new();
-        for (cell, areas) in lattice.cells.iter().zip(lattice.sheared()) {
-            let place = place_of[cell.corners[0] as usize];
-            cells.push(place);
-            for (column, area) in corners.iter_mut().zip(areas) {
-                column[place] = area;
+        for (cell, areas) in lattice.cells.iter().zip(lattice.shear_areas()) {
+            let index = index_of[cell.corners[0] as usize];
+            cells.push(index);
+            for (column, area) in corner_areas.iter_mut().zip(areas) {
+                column[index] = area;
             }
         }
         let lines = lattice.yarns();
@@ -130,25 +144,25 @@ impl Panel {
                 length: rest,
                 traction: TractionBatch::new(laws.traction),
                 bending: BendingBatch::new(laws.bending),
-                rest_bow: bow_of(laws.bending.rest_curvature, rest),
+                rest_second_difference: second_difference_of(laws.bending.rest_curvature, rest),
                 segment_areas: vec![0.0; length],
                 triple_areas: vec![0.0; length],
                 folds: vec![0.0; if lattice.folds.is_empty() { 0 } else { length }],
                 segments: Vec::new(),
                 triples: Vec::new(),
             };
-            for ([start, _], area) in segments(lattice, &lines[direction], direction) {
-                let place = place_of[start as usize];
-                yarns.segments.push(place);
-                yarns.segment_areas[place] = area;
+            for Segment { ends, area } in segments(lattice, &lines[direction], direction) {
+                let index = index_of[ends[0] as usize];
+                yarns.segments.push(index);
+                yarns.segment_areas[index] = area;
             }
-            for ([_, middle, _], area) in &bending[direction].triples {
-                let place = place_of[*middle as usize];
-                yarns.triples.push(place);
-                yarns.triple_areas[place] = *area;
+            for Triple { particles, area } in &bending[direction].triples {
+                let index = index_of[particles[1] as usize];
+                yarns.triples.push(index);
+                yarns.triple_areas[index] = *area;
             }
-            for (node, curvature) in bending[direction].folded.iter().enumerate() {
-                yarns.folds[place_of[node]] += curvature;
+            for (node, curvature) in bending[direction].folds.iter().enumerate() {
+                yarns.folds[index_of[node]] += curvature;
             }
             yarns
         });
@@ -162,78 +176,90 @@ impl Panel {
             occupied,
             yarns,
             shear: ShearBatch::new(fabric.shear),
-            corners,
+            corner_areas,
             cells,
-            base,
+            base: start.base,
             slots: Vec::new(),
         }
     }
 
-    /// Looks up the places of the panel's blocks.
-    pub(crate) fn connect(&mut self, sparsity: &Sparsity) {
+    /// Looks up the slots of the panel's blocks.
+    pub(crate) fn find_slots(&mut self, sparsity: &Sparsity) {
         let steps = self.block_steps();
         let slot = |point: usize, step: usize| {
-            let place = self.margin + point;
+            let index = self.margin + point;
             let other = point + step;
             let there = self.occupied[point] && other < self.points && self.occupied[other];
-            let [row, column] = [place, place + step].map(|place| self.particles[place]);
+            let [row, column] = [index, index + step].map(|index| self.particles[index]);
             let block = there.then(|| sparsity.block(row, column)).flatten();
             block.map_or(NO_BLOCK, |block| block as u32)
         };
         self.slots = (0..self.points).map(|point| steps.map(|step| slot(point, step))).collect();
     }
 
-    /// Steps from a point to those that it has a block with, itself first.
+    /// Steps from a point to those that it has a block with in the upper half of the matrix, itself
+    /// first:
+    ///
+    /// ```text
+    ///      6
+    ///   3  4  5         0: the point itself; 1, 2: along the weft; 4, 6: along the warp;
+    ///      0  1  2      3, 5: across the cells
+    /// ```
     pub(crate) fn block_steps(&self) -> [usize; BLOCKS] {
         let stride = self.stride;
         [0, 1, 2, stride - 1, stride, stride + 1, 2 * stride]
     }
 
-    /// Steps from a cell to the warp and the weft edge of one of its corners.
+    /// Returns the steps from a cell to the two edges of one of its corners.
     #[inline(always)]
-    pub(crate) fn corner_edges(&self, corner: usize) -> (usize, usize) {
+    pub(crate) fn corner_edges(&self, corner: usize) -> CornerEdges {
         match corner {
-            0 => (0, 0),
-            1 => (1, 0),
-            2 => (1, self.stride),
-            _ => (0, self.stride),
+            0 => CornerEdges { warp: 0, weft: 0 },
+            1 => CornerEdges { warp: 1, weft: 0 },
+            2 => CornerEdges { warp: 1, weft: self.stride },
+            _ => CornerEdges { warp: 0, weft: self.stride },
         }
     }
 
-    /// The corners at an edge: which of its cell, the place of the cell, and that of the corner's
-    /// other edge.
+    /// Returns the four corners of cells at the edge of a direction that begins at `index`.
     #[inline(always)]
-    pub(crate) fn around(&self, direction: usize, place: usize) -> [(usize, usize, usize); 4] {
+    pub(crate) fn corners_at_edge(&self, direction: usize, index: usize) -> [CornerAtEdge; 4] {
         let stride = self.stride;
+        let at = |corner, cell, other_edge| CornerAtEdge { corner, cell, other_edge };
         if direction == 0 {
-            let left = place - 1;
+            let left = index - 1;
             [
-                (0, place, place),
-                (3, place, place + stride),
-                (1, left, left),
-                (2, left, left + stride),
+                at(0, index, index),
+                at(3, index, index + stride),
+                at(1, left, left),
+                at(2, left, left + stride),
             ]
         } else {
-            let below = place - stride;
-            [(0, place, place), (1, place, place + 1), (3, below, below), (2, below, below + 1)]
+            let below = index - stride;
+            [
+                at(0, index, index),
+                at(1, index, index + 1),
+                at(3, below, below),
+                at(2, below, below + 1),
+            ]
         }
     }
 
-    /// Pairs of particles that a connector joins.
+    /// Pairs of particles that a connector joins, the first of each less than the second.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> {
-        let pair = |place: usize, (from, to): (usize, usize)| {
-            (self.particles[place + from], self.particles[place + to])
+        let pair = |index: usize, (from, to): (usize, usize)| {
+            (self.particles[index + from], self.particles[index + to])
         };
         let stride = self.stride;
         let [a, b, d, c] = [0, 1, stride, stride + 1];
         let sides = [(a, b), (a, d), (a, c), (b, d), (b, c), (d, c)];
         let cells = self.cells.iter();
-        let cells = cells.flat_map(move |&place| sides.map(|side| pair(place, side)));
+        let cells = cells.flat_map(move |&index| sides.map(|side| pair(index, side)));
         let ends = self.yarns.iter().flat_map(move |yarns| {
-            let places = yarns.triples.iter().map(|place| place - yarns.step);
+            let starts = yarns.triples.iter().map(|index| index - yarns.step);
             // Between triangles of a rim, neighbours on a yarn share no cell.
             let sides = [(0, yarns.step), (yarns.step, 2 * yarns.step), (0, 2 * yarns.step)];
-            places.flat_map(move |place| sides.map(|side| pair(place, side)))
+            starts.flat_map(move |index| sides.map(|side| pair(index, side)))
         });
         cells.chain(ends)
     }
@@ -241,36 +267,5 @@ impl Panel {
     /// Length of a column.
     pub(crate) fn length(&self) -> usize {
         self.points + 2 * self.margin + LANES
-    }
-
-    /// Cuts the points into strips of about the same length, and puts them to those of other panels: one, or an even
-    /// number, which two threads share alike, of three quarters of the wanted length at the least.
-    pub(crate) fn cut(&self, panel: usize, sparsity: &Sparsity, strips: &mut Vec<Strip>) {
-        let wanted = STRIP_POINTS.max(STRIP_ROWS * self.stride);
-        let pairs = (self.points as f64 / (2 * wanted) as f64 + 0.25) as usize;
-        let count = (2 * pairs).max(1);
-        let length = self.points.div_ceil(count).next_multiple_of(LANES);
-        let mut first = self.first;
-        for start in (0..self.points).step_by(length) {
-            let points = start..(start + length).min(self.points);
-            let occupied = self.occupied[points.clone()].iter().filter(|o| **o);
-            let particles = first..first + occupied.count();
-            first = particles.end;
-            strips.push(Strip {
-                index: strips.len(),
-                panel,
-                offset: self.base + start,
-                blocks: sparsity.offsets[particles.start]..sparsity.offsets[particles.end],
-                points,
-                particles,
-            });
-        }
-    }
-}
-
-impl Strip {
-    /// Places of a point and its margins, at most, where the panel's margin is given.
-    pub(crate) fn reach(&self, margin: usize) -> usize {
-        self.points.len() + 2 * margin + LANES
     }
 }

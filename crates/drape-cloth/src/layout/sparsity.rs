@@ -1,4 +1,4 @@
-//! Sparsity of the stiffness matrix: pairs of particles that some connector joins.
+//! Sparsity of the stiffness matrix. The kernels write its blocks; the system of equations takes it over.
 
 /// Block sparsity of the stiffness matrix of a cloth, upper triangle: one 3 × 3 block for each pair
 /// of particles that some connector joins.
@@ -34,8 +34,8 @@ impl Sparsity {
     pub(crate) fn block(&self, row: u32, column: u32) -> Option<usize> {
         let row = row as usize;
         let columns = &self.columns[self.offsets[row]..self.offsets[row + 1]];
-        let place = columns.binary_search(&(column as usize)).ok()?;
-        Some(self.offsets[row] + place)
+        let index = columns.binary_search(&(column as usize)).ok()?;
+        Some(self.offsets[row] + index)
     }
 
     /// Number of blocks.

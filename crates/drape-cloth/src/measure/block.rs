@@ -1,27 +1,33 @@
-use crate::field::{Vector, add, scale};
+//! 3 × 3 blocks of second derivatives, in scalar form.
 
-/// A 3 × 3 block, row by row.
-pub(crate) type Block = [Vector; 3];
+use crate::measure::vector::{Vector, add, scale};
 
-pub(crate) fn outer(a: Vector, b: Vector) -> Block {
+/// Block of the second derivatives of the energy with respect to two particles, in N/m, row by row.
+pub type Block = [f64; 9];
+
+/// 3 × 3 matrix by its rows.
+pub(crate) type Matrix = [Vector; 3];
+
+/// Returns `$ab^T$`.
+pub(crate) fn outer(a: Vector, b: Vector) -> Matrix {
     a.map(|a| b.map(|b| a * b))
 }
 
-pub(crate) fn one() -> Block {
+pub(crate) fn identity() -> Matrix {
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 }
 
-/// Sum of blocks, each with a factor.
-pub(crate) fn sum<const N: usize>(parts: [(f64, Block); N]) -> Block {
+/// Returns the sum of matrices, each with a factor.
+pub(crate) fn sum<const N: usize>(terms: [(f64, Matrix); N]) -> Matrix {
     let mut sum = [[0.0; 3]; 3];
-    for (factor, block) in parts {
-        for (row, part) in sum.iter_mut().zip(block) {
-            *row = add(*row, scale(part, factor));
+    for (factor, matrix) in terms {
+        for (row, term) in sum.iter_mut().zip(matrix) {
+            *row = add(*row, scale(term, factor));
         }
     }
     sum
 }
 
-pub(crate) fn transposed(block: Block) -> Block {
-    [0, 1, 2].map(|row| [block[0][row], block[1][row], block[2][row]])
+pub(crate) fn transposed(matrix: Matrix) -> Matrix {
+    [0, 1, 2].map(|row| [matrix[0][row], matrix[1][row], matrix[2][row]])
 }

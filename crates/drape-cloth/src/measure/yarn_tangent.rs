@@ -1,14 +1,16 @@
-use crate::field::Vector;
+//! Tangents of the yarns and normals of the surface at the particles, which bending is measured about.
 
-/// Direction of a yarn at a particle, as a combination of three positions on the yarn.
+use crate::measure::vector::{Vector, cross, dot};
+
+/// Tangent of a yarn at a particle, as a weighted sum of three positions on the yarn.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Tangent {
+pub(crate) struct YarnTangent {
     particles: [u32; 3],
     weights: [f64; 3],
 }
 
-impl Tangent {
-    /// A vector along the yarn, in the rising direction of its material coordinate.
+impl YarnTangent {
+    /// Returns a vector along the yarn, in the direction of its rising material coordinate.
     pub(crate) fn at(&self, positions: &[f64]) -> Vector {
         let [a, b, c] = self.particles.map(|particle| 3 * particle as usize);
         let [wa, wb, wc] = self.weights;
@@ -16,30 +18,40 @@ impl Tangent {
     }
 }
 
-/// Tangents along the warp and the weft at every particle: central differences, and at the ends of a
-/// yarn the one-sided difference of second order, so that the normals of a cylinder are right at its
-/// edges too. `first` is the number of the panel's first particle.
-pub(crate) fn tangents(
+/// Returns the tangents along warp and weft at every particle of a panel whose first particle is
+/// `first`.
+///
+/// They are central differences, at the ends of a yarn one-sided differences of second order, so that
+/// the normals of a cylinder are right at its edges too.
+pub(crate) fn yarn_tangents(
     yarns: &[Vec<Vec<u32>>; 2],
     first: u32,
     particles: usize,
-) -> Vec<[Tangent; 2]> {
-    let none = Tangent { particles: [0; 3], weights: [0.0; 3] };
+) -> Vec<[YarnTangent; 2]> {
+    let none = YarnTangent { particles: [0; 3], weights: [0.0; 3] };
     let mut tangents = vec![[none; 2]; particles];
     for (direction, yarns) in yarns.iter().enumerate() {
         for yarn in yarns {
             let last = yarn.len() - 1;
             for (index, &particle) in yarn.iter().enumerate() {
-                let (places, weights) = match (index, last) {
+                let (nodes, weights) = match (index, last) {
                     (_, 1) => ([0, 0, 1], [-1.0, 0.0, 1.0]),
                     (0, _) => ([0, 1, 2], [-3.0, 4.0, -1.0]),
                     (i, _) if i == last => ([last - 2, last - 1, last], [1.0, -4.0, 3.0]),
                     (i, _) => ([i - 1, i, i + 1], [-1.0, 0.0, 1.0]),
                 };
-                let particles = places.map(|place| first + yarn[place]);
-                tangents[particle as usize][direction] = Tangent { particles, weights };
+                let particles = nodes.map(|node| first + yarn[node]);
+                tangents[particle as usize][direction] = YarnTangent { particles, weights };
             }
         }
     }
     tangents
+}
+
+/// Returns the unit normal `$u \times v$` of a surface with tangents along warp (`$v$`) and weft
+/// (`$u$`).
+pub(crate) fn surface_normal([v, u]: [Vector; 2]) -> Vector {
+    let across = cross(u, v);
+    let length = dot(across, across).sqrt();
+    if length > 0.0 { across.map(|c| c / length) } else { [0.0, 1.0, 0.0] }
 }

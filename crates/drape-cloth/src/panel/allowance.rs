@@ -1,24 +1,23 @@
-//! Cloth that lies along an outline besides the panel: the allowances of seams, and hems.
+//! Allowances of seams and hems: cloth along an outline that adds mass to the particles there.
 
-use std::collections::BTreeSet;
+use crate::error::Error;
+use crate::panel::lattice::Lattice;
 
-use crate::{Error, Lattice};
-
-/// Cloth that lies folded back along part of a panel's outline: the allowance of a seam, or a hem.
+/// Strip of cloth along part of a panel's outline: the allowance of a seam, or a hem.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Allowance {
-    /// Particles along the outline, in order.
+    /// Consecutive particles along the outline.
     pub line: Vec<u32>,
     /// Width of the strip of cloth, in m.
     pub width: f64,
 }
 
 impl Lattice {
-    /// The panel with strips of its cloth along parts of its outline, each along a line of particles with a width, in m.
+    /// Returns the panel with allowances along parts of its outline.
     ///
-    /// A strip has the length of the line in material coordinates, and weighs on the particles with half of each segment
-    /// on either end; it neither pulls, bends nor meets anything. Where particles that follow each other on a line are no
-    /// neighbours on the outline, as over the mouth of a dart, there is none between them.
+    /// An allowance has the length of its line in material coordinates. Half of the mass of each segment
+    /// is added to either end; it has no connectors and no contact. Where two consecutive particles of a
+    /// line are not neighbours on the outline, as over the mouth of a dart, nothing is added.
     ///
     /// # Errors
     /// When a width is negative or not finite, or a particle does not exist.
@@ -37,7 +36,7 @@ impl Lattice {
         if allowances.iter().all(|allowance| allowance.width == 0.0) {
             return Ok(self);
         }
-        let outline: BTreeSet<[u32; 2]> = self.outline().into_iter().collect();
+        let outline = self.outline();
         self.allowances.resize(particles, 0.0);
         for Allowance { line, width } in allowances {
             for pair in line.windows(2) {
@@ -52,11 +51,12 @@ impl Lattice {
         Ok(self)
     }
 
-    /// Areas that the particles weigh for, in m²: those that they stand for, and their parts of allowances.
-    pub(crate) fn weighed(&self, areas: &[f64]) -> Vec<f64> {
-        let mut weighed = areas.to_vec();
-        weighed.iter_mut().zip(&self.allowances).for_each(|(area, allowance)| *area += allowance);
-        weighed
+    /// Returns the areas whose mass the particles have, in m²: the given ones and their parts of
+    /// allowances.
+    pub(crate) fn areas_of_mass(&self, areas: &[f64]) -> Vec<f64> {
+        let mut sums = areas.to_vec();
+        sums.iter_mut().zip(&self.allowances).for_each(|(area, allowance)| *area += allowance);
+        sums
     }
 }
 

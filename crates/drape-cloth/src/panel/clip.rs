@@ -1,15 +1,17 @@
-/// Area of a convex polygon in the rectangle between two corners; the polygon's corners go anticlockwise.
+//! Area of a polygon within a cell, for panels at an angle to the yarns.
+
+/// Returns the area of a convex polygon, its corners anticlockwise, within a rectangle, in m².
 ///
-/// The polygon is cut off at one side of the rectangle after the other [Sutherland & Hodgman 1974]. Neighbouring
-/// rectangles find the same places on the side between them, so their areas add up to that of both.
+/// The polygon is clipped at one side of the rectangle after the other \[SH74\]. Neighbouring
+/// rectangles find the same points on the side between them, so their areas add up to that of both.
 pub(crate) fn area_within(polygon: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -> f64 {
     let mut part = polygon.to_vec();
     for (axis, bound, sign) in
         [(0, low[0], 1.0), (0, high[0], -1.0), (1, low[1], 1.0), (1, high[1], -1.0)]
     {
-        part = cut_off(&part, axis, |place| sign * (place - bound));
+        part = clipped(&part, axis, |x| sign * (x - bound));
     }
-    // About one of the corners, so that a small part far from the origin keeps its digits.
+    // Relative to one of the corners, so that a small part far from the origin keeps its digits.
     let Some(&[x, y]) = part.first() else { return 0.0 };
     let across = |pair: &[[f64; 2]]| {
         let ([a, b], [c, d]) = (pair[0], pair[1]);
@@ -18,8 +20,8 @@ pub(crate) fn area_within(polygon: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -
     0.5 * part.windows(2).map(across).sum::<f64>()
 }
 
-/// The part of a convex polygon where a function of one coordinate is not negative.
-fn cut_off(polygon: &[[f64; 2]], axis: usize, inside: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+/// Returns the part of a convex polygon where a function of one coordinate is not negative.
+fn clipped(polygon: &[[f64; 2]], axis: usize, inside: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (index, &from) in polygon.iter().enumerate() {
         let to = polygon[(index + 1) % polygon.len()];
@@ -28,8 +30,8 @@ fn cut_off(polygon: &[[f64; 2]], axis: usize, inside: impl Fn(f64) -> f64) -> Ve
             kept.push(from);
         }
         if here * there < 0.0 {
-            let way = here / (here - there);
-            kept.push([0, 1].map(|k| from[k] + way * (to[k] - from[k])));
+            let fraction = here / (here - there);
+            kept.push([0, 1].map(|k| from[k] + fraction * (to[k] - from[k])));
         }
     }
     kept

@@ -1,7 +1,9 @@
-/// How the yarns lie in a panel: a turn from the panel's own frame to theirs.
+//! The rotation between the yarns and a panel's own frame.
+
+/// Rotation from a panel's own frame to its yarns.
 ///
-/// The panel's own frame has its width along x and its height along y, its right side towards the reader.
-/// At an angle `$\gamma$` the warp is turned by it from y and the weft from x, anticlockwise:
+/// The panel's own frame has its width along x and its height along y, its right side towards the
+/// reader. At an angle `$\gamma$` the warp is rotated from y and the weft from x, anticlockwise:
 ///
 /// ```math
 /// \text{weft} = (\cos\gamma, \sin\gamma),\qquad \text{warp} = (-\sin\gamma, \cos\gamma)
@@ -13,14 +15,14 @@ pub struct Grain {
 }
 
 impl Default for Grain {
-    /// The warp along the height.
+    /// Returns the grain with the warp along the height.
     fn default() -> Self {
         Self { cos: 1.0, sin: 0.0 }
     }
 }
 
 impl Grain {
-    /// The yarns turned by an angle in degrees; quarters of a circle are exact.
+    /// Returns the grain of yarns rotated by an angle in degrees; multiples of 90° are exact.
     #[must_use]
     pub fn from_degrees(angle: f64) -> Self {
         let quarters = (angle / 90.0).round();
@@ -33,24 +35,25 @@ impl Grain {
         }
     }
 
-    /// Place in the panel's own frame of material coordinates (u along the weft, v along the warp).
+    /// Returns the point in the panel's own frame that has the given material coordinates.
     #[must_use]
     pub fn to_panel(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         [u * self.cos - v * self.sin, u * self.sin + v * self.cos]
     }
 
-    /// Material coordinates of a place in the panel's own frame.
+    /// Returns the material coordinates of a point in the panel's own frame.
     #[must_use]
     pub fn to_material(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [x * self.cos + y * self.sin, y * self.cos - x * self.sin]
     }
 
-    /// Two lengths along the sides of a panel as lengths along the nearest yarns, weft and warp, and the other way round.
+    /// Returns two lengths along the sides of a panel as lengths along the yarns nearest to them, weft
+    /// and warp; its own inverse.
     pub(crate) fn exchanged(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         if self.sin.abs() > self.cos.abs() { [b, a] } else { [a, b] }
     }
 
-    /// Whether the yarns are parallel to the sides of a rectangle.
+    /// Returns whether the yarns are parallel to the sides of a rectangle.
     pub(crate) fn is_straight(&self) -> bool {
         self.cos == 0.0 || self.sin == 0.0
     }

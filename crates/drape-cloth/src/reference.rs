@@ -1,0 +1,20 @@
+//! The scalar reference: every connector of a cloth one by one through the scalar laws.
+//!
+//! ```math
+//! E = \sum_c W_c \int T_c\,\mathrm{d}s_c,\qquad f = -\frac{\partial E}{\partial x},\qquad
+//! K = \frac{\partial^2 E}{\partial x\,\partial x}
+//! ```
+//!
+//! written as in a textbook: a list of connectors, a loop over it, no batches. It shares with the kernels
+//! which particles a connector joins (`layout::connectors`), the weights of the fits at a rim
+//! (`rim::fits`) and the turning angle (`measure`), and nothing else. `tests/connectors/reference.rs` and
+//! `consistency.rs` hold the kernels to it: forces, potential, stiffness, dissipation, over many steps;
+//! `benches/cloth.rs` measures what the kernels save.
+//!
+//! `connector` holds segments, corners and triples, `triangle` and `stencil` the connectors of a rim,
+//! `cloth` all of them. Called by tests and benches only.
+
+pub(crate) mod cloth;
+pub(crate) mod connector;
+pub(crate) mod stencil;
+pub(crate) mod triangle;
