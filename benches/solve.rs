@@ -1,5 +1,6 @@
-//! Steps of a square metre that swings, hung from two corners, by the solver of the scenes and by the named
-//! baselines. A figure is one step, the mean of a few in the middle of the first swing, on one thread.
+//! Steps of a square metre that swings, hung from two corners, by the solver of the scenes and by
+//! named baselines. A figure is the mean of a few steps in the middle of the first swing, on one
+//! thread.
 
 use std::fs::write;
 use std::time::{Duration, Instant};
@@ -7,41 +8,44 @@ use std::time::{Duration, Instant};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
-use drape_implicit::{Initial, LinearSolver, Method, Settings};
-use drape_scene::{Scene, Scheme, Simulation};
+use drape_dynamics::{Scheme, Simulation};
+use drape_implicit::{InitialMatrix, LinearSolver, Method, Settings};
+use drape_scene::Scene;
 
 /// Particles along a side of the square sheet.
 const SIDES: [usize; 6] = [20, 50, 70, 100, 141, 200];
 
-/// Largest sheet that is solved by factorisation too: beyond, a sample takes minutes.
+/// Side of the largest sheet that is solved by factorisation too: a larger one takes minutes.
 const LARGEST_FACTORISED: usize = 100;
 
-/// Time of motion before the steps that count, s: the sheet has begun to fold.
+/// Time at which the measured steps begin, in s: the sheet has begun to fold.
 const START: f64 = 0.15;
 
-/// Steps that count.
+/// Number of measured steps.
 const STEPS: u32 = 4;
 
-/// Length of a step, s.
+/// Length of a step, in s.
 const STEP: f64 = 0.005;
 
-/// The length that textbook Broyden converges with, s, and the sheet that it does so for.
+/// Length of a step with which textbook Broyden converges, in s.
 const SHORT_STEP: f64 = 0.001;
+
+/// Side of the sheet for which it does.
 const SMALL_SIDE: usize = 20;
 
-/// The default method and those it is compared with.
+/// Returns the default method and its baselines.
 fn methods() -> [(&'static str, Settings); 3] {
     let newton = Settings { method: Method::Newton, ..Settings::default() };
     let factorised = Settings { linear_solver: LinearSolver::Cholesky, ..newton.clone() };
     [("broyden", Settings::default()), ("newton", newton), ("newton-cholesky", factorised)]
 }
 
-fn textbook(initial: Initial) -> Settings {
+fn textbook(initial: InitialMatrix) -> Settings {
     let max_iterations = 2000;
     Settings { method: Method::Textbook { initial }, max_iterations, ..Settings::default() }
 }
 
-/// The sheet when the steps begin that count.
+/// Returns the sheet at the beginning of the measured steps.
 fn sheet(side: usize, step: f64, settings: &Settings) -> Simulation {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let fabric = r#"
@@ -85,16 +89,16 @@ fn sheet(side: usize, step: f64, settings: &Settings) -> Simulation {
     let file = folder.path().join("scene.toml");
     write(folder.path().join("fabric.toml"), fabric).expect("a file");
     write(&file, scene).expect("a file");
-    let mut scene = Scene::read(&file).expect("a right scene");
-    scene.scheme = Scheme::Implicit(settings.clone());
-    let mut sheet = Simulation::new(scene).expect("a solver");
+    let scene = Scene::read(&file).expect("a right scene");
+    let scheme = Scheme::Implicit(settings.clone());
+    let mut sheet = Simulation::with_scheme(scene, scheme).expect("a solver");
     while sheet.time() < START {
         sheet.step().expect("it converges");
     }
     sheet
 }
 
-/// Time of one step, times a number.
+/// Returns the time of one step, times a number.
 fn time(count: u64, mut sheet: Simulation) -> Duration {
     let start = Instant::now();
     for _ in 0..STEPS {
@@ -125,8 +129,8 @@ fn steps(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements((SMALL_SIDE * SMALL_SIDE) as u64));
     let methods = [
         ("broyden", Settings::default()),
-        ("textbook-diagonal", textbook(Initial::Diagonal)),
-        ("textbook-mass", textbook(Initial::Mass)),
+        ("textbook-diagonal", textbook(InitialMatrix::Diagonal)),
+        ("textbook-mass", textbook(InitialMatrix::Mass)),
     ];
     for (name, settings) in methods {
         group.bench_function(BenchmarkId::new(name, SMALL_SIDE), |bencher| {

@@ -1,23 +1,75 @@
-//! The map in `crates/README.md` is held against the manifests.
+//! The house rules that a machine can hold: the map in `crates/README.md` is true, no modules of a
+//! crate use each other in a circle, and no folder or file outgrows its reader.
+
+#[path = "architecture/modules.rs"]
+mod modules;
+#[path = "architecture/tokens.rs"]
+mod tokens;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 use std::process::Command;
+
+use modules::Modules;
+use serde_json::Value;
+
+/// Crates that do not keep all of these rules yet.
+const LEFT: &[&str] = &[
+    "drape-cloth",
+    "drape-collide",
+    "drape-dynamics",
+    "drape-fabric",
+    "drape-fit",
+    "drape-hysteresis",
+    "drape-implicit",
+    "drape-input",
+    "drape-kes",
+    "drape-pattern",
+    "drape-report",
+    "drape-scene",
+    "drape-validate",
+    "drape-verify",
+];
+
+/// Most files of a folder.
+const FILES_MAX: usize = 14;
+
+/// Most lines of a source file.
+const LINES_MAX: usize = 600;
+
+/// Most lines of the map.
+const MAP_MAX: usize = 120;
 
 type Uses = BTreeMap<String, BTreeSet<String>>;
 
-/// The workspace's own crates with those that they use outside their tests.
-fn manifests() -> Uses {
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The workspace's own packages.
+fn packages() -> Vec<Value> {
     let metadata = Command::new(env!("CARGO"))
         .args(["metadata", "--no-deps", "--format-version", "1", "--locked", "--offline"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .current_dir(root())
         .output()
         .expect("cargo runs");
-    let metadata: serde_json::Value =
+    let mut metadata: Value =
         serde_json::from_slice(&metadata.stdout).expect("cargo metadata prints JSON");
-    let packages = metadata["packages"].as_array().expect("there are packages");
-    let name = |value: &serde_json::Value| value["name"].as_str().unwrap_or_default().to_owned();
+    match metadata["packages"].take() {
+        Value::Array(packages) => packages,
+        other => panic!("packages are a list, not {other}"),
+    }
+}
+
+fn name(value: &Value) -> String {
+    value["name"].as_str().unwrap_or_default().to_owned()
+}
+
+/// The crates with those that they use outside their tests.
+fn manifests() -> Uses {
+    let packages = packages();
     let own: BTreeSet<String> = packages.iter().map(name).collect();
-    let uses = |package: &serde_json::Value| {
+    let uses = |package: &Value| {
         let dependencies = package["dependencies"].as_array().expect("a list");
         let normal = dependencies.iter().filter(|d| d["kind"].is_null());
         normal.map(name).filter(|name| own.contains(name)).collect()
@@ -37,6 +89,33 @@ fn map() -> Uses {
     .collect()
 }
 
+/// All source files, of crates, their tests, examples and benches, but of crates that are left.
+fn sources() -> Vec<PathBuf> {
+    let mut sources = Vec::new();
+    let mut open: Vec<PathBuf> = ["crates", "tests", "benches"].map(|f| root().join(f)).into();
+    while let Some(folder) = open.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder can be read") {
+            let path = entry.expect("an entry can be read").path();
+            if path.is_dir() {
+                open.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                sources.push(path);
+            }
+        }
+    }
+    let left =
+        |file: &PathBuf| LEFT.iter().any(|name| file.starts_with(root().join("crates").join(name)));
+    sources.retain(|file| !left(file));
+    sources.sort();
+    sources
+}
+
+/// A path from the root of the repository, with slashes.
+fn short(path: &Path) -> String {
+    let path = path.strip_prefix(root()).expect("it is inside");
+    path.to_string_lossy().replace('\\', "/")
+}
+
 #[test]
 fn the_map_of_the_crates_is_true() {
     let (manifests, mut map) = (manifests(), map());
@@ -48,5 +127,63 @@ fn the_map_of_the_crates_is_true() {
 #[test]
 fn the_map_stays_short() {
     let lines = include_str!("../crates/README.md").lines().count();
-    assert!(lines <= 80, "crates/README.md has {lines} lines");
+    assert!(lines <= MAP_MAX, "crates/README.md has {lines} lines");
+}
+
+#[test]
+fn no_modules_of_a_crate_use_each_other_in_a_circle() {
+    let mut circles = Vec::new();
+    let mut crates = 0;
+    for package in packages() {
+        for target in package["targets"].as_array().expect("a list") {
+            let kinds = target["kind"].as_array().expect("a list");
+            if kinds.iter().any(|kind| kind == "lib" || kind == "bin") {
+                crates += 1;
+                let path = target["src_path"].as_str().expect("a path");
+                let found = Modules::read(Path::new(path)).circles();
+                circles.extend(found.into_iter().map(|circle| (name(&package), circle)));
+            }
+        }
+    }
+    assert!(crates > 10, "{crates} crates were read");
+    circles.retain(|(name, _)| !LEFT.contains(&name.as_str()));
+    let told: Vec<String> = circles.iter().map(|(name, c)| format!("{name}: {c}")).collect();
+    assert!(told.is_empty(), "a circle of modules:\n{}", told.join("\n"));
+}
+
+#[test]
+fn no_folder_of_sources_has_too_many_files() {
+    let folders: BTreeSet<PathBuf> =
+        sources().iter().filter_map(|file| file.parent().map(Path::to_owned)).collect();
+    let files = |folder: &PathBuf| {
+        let entries = std::fs::read_dir(folder).expect("a folder can be read").flatten();
+        entries.filter(|entry| entry.path().is_file()).count()
+    };
+    let counts = folders.iter().map(|folder| (short(folder), files(folder)));
+    let crowded: Vec<_> = counts.filter(|(_, count)| *count > FILES_MAX).collect();
+    assert!(crowded.is_empty(), "more than {FILES_MAX} files are a chapter to divide: {crowded:?}");
+}
+
+#[test]
+fn no_source_file_is_too_long() {
+    let lines = |file: &PathBuf| {
+        let text = std::fs::read_to_string(file).expect("a file can be read");
+        (short(file), text.lines().count())
+    };
+    let long: Vec<_> =
+        sources().iter().map(lines).filter(|(_, count)| *count > LINES_MAX).collect();
+    assert!(long.is_empty(), "files of more than {LINES_MAX} lines: {long:?}");
+}
+
+#[test]
+fn every_module_begins_with_what_it_does() {
+    let silent: Vec<String> = sources()
+        .iter()
+        .filter(|file| {
+            let text = std::fs::read_to_string(file).expect("a file can be read");
+            !text.starts_with("//!") && !text.starts_with("#![doc = include_str!(")
+        })
+        .map(|file| short(file))
+        .collect();
+    assert!(silent.is_empty(), "{} modules have no `//!`: {silent:#?}", silent.len());
 }

@@ -6,9 +6,6 @@ use std::process::ExitCode;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
-use drape::report::ReportError;
-use drape::scene::SceneError;
-use drape::verify::VerifyError;
 
 /// Failure that ends a command, with its exit code.
 pub(crate) enum Failure {
@@ -19,7 +16,7 @@ pub(crate) enum Failure {
     /// Exit code 3: a sheet gives no fabric.
     Fit(drape::fit::Error),
     /// Exit code 3: saved frames cannot be read.
-    Frames(VerifyError),
+    Frames(drape::verify::Error),
     /// Exit code 3: some sheets of a batch failed; each was reported.
     Batch,
     /// Exit code 4: surfaces intersect.
@@ -89,15 +86,15 @@ impl fmt::Display for Failure {
     }
 }
 
-impl From<VerifyError> for Failure {
-    fn from(error: VerifyError) -> Self {
+impl From<drape::verify::Error> for Failure {
+    fn from(error: drape::verify::Error) -> Self {
         Self::Frames(error)
     }
 }
 
-impl From<ReportError> for Failure {
+impl From<drape::report::Error> for Failure {
     /// A name or a number of the input that cannot be shown.
-    fn from(error: ReportError) -> Self {
+    fn from(error: drape::report::Error) -> Self {
         Self::Input(Diagnostic::new("report", error.to_string()).into())
     }
 }
@@ -108,13 +105,22 @@ impl From<Diagnostics> for Failure {
     }
 }
 
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Self {
+impl From<drape::scene::Error> for Failure {
+    fn from(error: drape::scene::Error) -> Self {
         match error {
-            SceneError::Input(mistakes) => Self::Input(mistakes),
-            SceneError::Tangled(tangle) => Self::Input(tangle.mistakes),
-            SceneError::Occupied { .. } => Self::Usage(error.to_string()),
-            SceneError::Write { .. } => Self::Output(error.to_string()),
+            drape::scene::Error::Input(mistakes) => Self::Input(mistakes),
+            drape::scene::Error::Tangled(tangle) => Self::Input(tangle.mistakes),
+            error => Self::Solver(error.to_string()),
+        }
+    }
+}
+
+impl From<drape::dynamics::Error> for Failure {
+    fn from(error: drape::dynamics::Error) -> Self {
+        use drape::dynamics::Error;
+        match error {
+            Error::Occupied { .. } => Self::Usage(error.to_string()),
+            Error::Write { .. } => Self::Output(error.to_string()),
             error => Self::Solver(error.to_string()),
         }
     }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use drape::scene::{Frame, Progress, Recorder, SceneError, Step};
+use drape::dynamics::{Error, Frame, Progress, Recorder, Step};
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Returns a progress bar on stderr, silent where that is no terminal, with a template of indicatif
@@ -45,7 +45,7 @@ impl Progress for Screen<'_> {
         self.bar.set_position(ticks as u64);
     }
 
-    fn frame(&mut self, frame: &Frame) -> Result<(), SceneError> {
+    fn frame(&mut self, frame: &Frame) -> Result<(), Error> {
         self.recorder.frame(frame)?;
         self.last = Some(frame.clone());
         Ok(())

@@ -4,7 +4,7 @@
 use crate::incremental::{Halt, Incremental};
 use crate::solver::Solver;
 use crate::vector::dot;
-use crate::{Stop, block};
+use crate::{StepLimit, Stop, block};
 
 /// Least part of the prescribed motions that one iteration must do. Less, and the iterations that are left would not
 /// do: a shorter step helps sooner.
@@ -25,21 +25,25 @@ impl Solver {
     /// balanced in `current`, evaluated.
     ///
     /// In free flight the guess is exact. Where surfaces touch, going on squeezes them until a step would have to undo
-    /// it: in a stack of five sheets the residual at the start was a hundred times smaller. What `goes_on` begins at the
+    /// it: in a stack of five sheets the residual at the start was a hundred times smaller. What `begin_at_prediction` begins at the
     /// guess all the same, if nothing is in its way.
-    pub(crate) fn approach(&mut self, problem: &mut Incremental<'_>, goes_on: bool) {
+    pub(crate) fn approach(
+        &mut self,
+        problem: &mut Incremental<'_, '_>,
+        begin_at_prediction: bool,
+    ) {
         core::mem::swap(&mut self.current, &mut self.trial);
         self.spare.deviation.copy_from_slice(&self.current.deviation);
         let arrived = self.advance(problem);
-        if arrived && goes_on && self.current.norm.is_finite() {
+        if arrived && begin_at_prediction && self.current.norm.is_finite() {
             return;
         }
         core::mem::swap(&mut self.current, &mut self.spare);
-        self.current.progress = 0.0;
+        self.current.obstacle_time = 0.0;
         problem.locate(&mut self.current);
         let carried = self.carry(problem).is_ok();
         let [held, reached] = [&self.current, &self.spare];
-        let better = held.progress >= reached.progress && held.norm <= reached.norm;
+        let better = held.obstacle_time >= reached.obstacle_time && held.norm <= reached.norm;
         if !(carried && better) {
             core::mem::swap(&mut self.current, &mut self.spare);
             problem.locate(&mut self.current);
@@ -48,9 +52,9 @@ impl Solver {
 
     /// Goes from the start, in `current`, as far as the system allows towards the first guess, in `trial`. Returns whether
     /// it is there at once.
-    fn advance(&mut self, problem: &mut Incremental<'_>) -> bool {
+    fn advance(&mut self, problem: &mut Incremental<'_, '_>) -> bool {
         let Self { current, trial, image, .. } = self;
-        current.progress = 0.0;
+        current.obstacle_time = 0.0;
         problem.locate(current);
         // Nothing else needs the image yet: it keeps what is left of the way.
         let ways = image.iter_mut().zip(&trial.deviation).zip(&current.deviation);
@@ -60,7 +64,7 @@ impl Solver {
         let mut arrived = false;
         for way in 0..APPROACHES {
             self.direction.copy_from_slice(&self.image);
-            let left = 1.0 - self.current.progress;
+            let left = 1.0 - self.current.obstacle_time;
             let whole = self.go(problem, left);
             core::mem::swap(&mut self.current, &mut self.trial);
             arrived = whole && way == 0;
@@ -93,16 +97,16 @@ impl Solver {
     }
 
     /// Moves held particles and bodies on towards their places, as far as the system allows.
-    pub(crate) fn carry(&mut self, problem: &mut Incremental<'_>) -> Result<(), Halt> {
+    pub(crate) fn carry(&mut self, problem: &mut Incremental<'_, '_>) -> Result<(), Halt> {
         let ways = block::triples_mut(&mut self.direction).iter_mut();
         let left = block::triples(&self.current.deviation);
         for ((way, left), &held) in ways.zip(left).zip(problem.held) {
             *way = if held { left.map(|left| -left) } else { [0.0; 3] };
         }
-        let done = self.current.progress;
+        let done = self.current.obstacle_time;
         self.go(problem, 1.0 - done);
         problem.evaluate(&mut self.trial);
-        if !self.trial.norm.is_finite() || self.trial.progress < done + ADVANCE_MIN {
+        if !self.trial.norm.is_finite() || self.trial.obstacle_time < done + ADVANCE_MIN {
             return Err(Halt::Stop(Stop::Blocked));
         }
         self.accept(1.0);
@@ -110,14 +114,16 @@ impl Solver {
     }
 
     /// Moves the trial to the end of what the system allows of the way along the direction; whether that is all of it.
-    fn go(&mut self, problem: &mut Incremental<'_>, advance: f64) -> bool {
-        let mut allowed = advance;
-        let whole = problem.allow(&self.current, &mut self.direction, &mut allowed);
-        let done = self.current.progress;
+    fn go(&mut self, problem: &mut Incremental<'_, '_>, advance: f64) -> bool {
+        let limit = problem.limit_step(&self.current, &mut self.direction, advance);
+        let done = self.current.obstacle_time;
         self.move_trial(1.0);
-        // A part that was not cut ends exactly where it should.
-        self.trial.progress = if whole { done + advance } else { done + allowed };
+        // A whole step ends exactly where it should.
+        self.trial.obstacle_time = match limit {
+            StepLimit::Whole => done + advance,
+            StepLimit::Shortened { obstacle_advance } => done + obstacle_advance,
+        };
         problem.locate(&mut self.trial);
-        whole
+        limit.is_whole()
     }
 }

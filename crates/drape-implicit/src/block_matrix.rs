@@ -1,36 +1,39 @@
-use crate::Pattern;
+use crate::Sparsity;
 use crate::block::{self, Block};
 
 /// A symmetric sparse matrix of 3x3 blocks, upper half stored, in N/m when it is a stiffness.
 ///
-/// Blocks are row-major and lie in the order of the [`Pattern`]; a block above the diagonal stands for
+/// Blocks are row-major and lie in the order of the [`Sparsity`]; a block above the diagonal stands for
 /// itself and for its transpose below. Diagonal blocks are stored whole.
 #[derive(Clone, Debug)]
 pub struct BlockMatrix {
-    pattern: Pattern,
+    sparsity: Sparsity,
     blocks: Vec<Block>,
     couplings: Vec<Coupling>,
-    stray: Option<(usize, usize)>,
+    outside: Option<[usize; 2]>,
 }
 
-/// A block of two different particles that the pattern has no room for.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Coupling {
+/// Block of two different particles that the sparsity has no slot for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    /// Particle of the row.
     pub row: u32,
+    /// Particle of the column.
     pub column: u32,
-    pub block: Block,
+    /// Entries, row-major, in N/m.
+    pub block: [f64; 9],
 }
 
 impl BlockMatrix {
-    /// The matrix of zeros on a pattern.
-    pub fn zeros(pattern: Pattern) -> Self {
-        let blocks = vec![block::ZERO; pattern.blocks()];
-        Self { pattern, blocks, couplings: Vec::new(), stray: None }
+    /// The matrix of zeros on a sparsity.
+    pub fn zeros(sparsity: Sparsity) -> Self {
+        let blocks = vec![block::ZERO; sparsity.blocks()];
+        Self { sparsity, blocks, couplings: Vec::new(), outside: None }
     }
 
     /// Its sparsity.
-    pub fn pattern(&self) -> &Pattern {
-        &self.pattern
+    pub fn sparsity(&self) -> &Sparsity {
+        &self.sparsity
     }
 
     /// The blocks, one per slot.
@@ -57,13 +60,13 @@ impl BlockMatrix {
     pub fn clear(&mut self) {
         self.blocks.fill(block::ZERO);
         self.couplings.clear();
-        self.stray = None;
+        self.outside = None;
     }
 
     /// Adds to the block of a slot.
     ///
     /// # Panics
-    /// If the pattern has no such slot.
+    /// If the sparsity has no such slot.
     pub fn add_block(&mut self, slot: usize, value: &[f64; 9]) {
         for (entry, value) in self.blocks[slot].iter_mut().zip(value) {
             *entry += value;
@@ -72,41 +75,38 @@ impl BlockMatrix {
 
     /// Adds to the block in row `i` and column `j`, and so to its mirror image.
     ///
-    /// Give each pair once, in either order. A block outside the pattern is left out and remembered
-    /// ([`stray`](Self::stray)); a step with one ends in an error.
+    /// Give each pair once, in either order. A block outside the sparsity is left out and remembered
+    /// ([`outside_sparsity`](Self::outside_sparsity)); a step with one ends in an error.
     pub fn add(&mut self, i: usize, j: usize, value: &[f64; 9]) {
-        match self.pattern.slot(i, j) {
+        match self.sparsity.slot(i, j) {
             Some(slot) if i <= j => self.add_block(slot, value),
             Some(slot) => self.add_block(slot, &block::transposed(value)),
-            None => self.stray = self.stray.or(Some((i, j))),
+            None => self.outside = self.outside.or(Some([i, j])),
         }
     }
 
-    /// Adds to the block in row `i` and column `j`, and so to its mirror image, with or without room in the pattern.
+    /// Adds to the block in row `i` and column `j`, and so to its mirror image, with or without room in the sparsity.
     ///
-    /// For couplings that come and go, as those of contact do. Give each pair once, in either order. What the pattern
+    /// For couplings that come and go, as those of contact do. Give each pair once, in either order. What the sparsity
     /// has no room for is part of the matrix, not of what is factorised: conjugate gradients then take more iterations.
-    /// Particles that the matrix does not have make it [`stray`](Self::stray).
-    pub fn couple(&mut self, i: usize, j: usize, value: &[f64; 9]) {
-        let particles = self.pattern.particles();
-        if i >= particles || j >= particles || self.pattern.slot(i, j).is_some() {
+    /// Particles that the matrix does not have make it reported by [`outside_sparsity`](Self::outside_sparsity).
+    pub fn add_coupling(&mut self, i: usize, j: usize, value: &[f64; 9]) {
+        let particles = self.sparsity.particles();
+        if i >= particles || j >= particles || self.sparsity.slot(i, j).is_some() {
             return self.add(i, j, value);
         }
         self.couplings.push(Coupling { row: i as u32, column: j as u32, block: *value });
     }
 
-    /// What was coupled beyond the pattern: rows, columns and their blocks, in the order in which they came.
-    pub fn beyond(&self) -> impl Iterator<Item = (usize, usize, &[f64; 9])> {
-        self.couplings.iter().map(|c| (c.row as usize, c.column as usize, &c.block))
-    }
-
-    pub(crate) fn couplings(&self) -> &[Coupling] {
+    /// Blocks added outside the sparsity, in the order in which they came.
+    pub fn couplings(&self) -> &[Coupling] {
         &self.couplings
     }
 
-    /// The first block since the last [`clear`](Self::clear) that the pattern had no room for.
-    pub fn stray(&self) -> Option<(usize, usize)> {
-        self.stray
+    /// Row and column of the first block since the last [`clear`](Self::clear) that could not be stored.
+    #[must_use]
+    pub fn outside_sparsity(&self) -> Option<[usize; 2]> {
+        self.outside
     }
 
     /// `y = A x`.
@@ -117,13 +117,13 @@ impl BlockMatrix {
         y.fill(0.0);
         let x = block::triples(x);
         let y = block::triples_mut(y);
-        for row in 0..self.pattern.particles() {
-            let slots = self.pattern.row(row);
+        for row in 0..self.sparsity.particles() {
+            let slots = self.sparsity.row(row);
             let own = x[row];
             let mut sum = [0.0; 3];
             block::add_product(&self.blocks[slots.start], &own, &mut sum);
             let beyond = slots.start + 1..slots.end;
-            let columns = &self.pattern.columns()[beyond.clone()];
+            let columns = &self.sparsity.columns()[beyond.clone()];
             for (&column, block) in columns.iter().zip(&self.blocks[beyond]) {
                 let column = column as usize;
                 block::add_product(block, &x[column], &mut sum);
@@ -144,9 +144,9 @@ impl BlockMatrix {
     /// cuts the held particles out, leaving their inertia alone in their rows.
     pub(crate) fn complete(&mut self, inertia: &[f64], held: &[bool]) {
         for (row, (&inertia, &row_held)) in inertia.iter().zip(held).enumerate() {
-            let slots = self.pattern.row(row);
+            let slots = self.sparsity.row(row);
             for slot in slots.clone() {
-                if row_held || held[self.pattern.columns()[slot] as usize] {
+                if row_held || held[self.sparsity.columns()[slot] as usize] {
                     self.blocks[slot] = block::ZERO;
                 }
             }
@@ -165,14 +165,14 @@ mod tests {
     use super::*;
 
     fn sample() -> BlockMatrix {
-        let pattern = Pattern::from_pairs(3, [(0, 1), (0, 2)]).unwrap();
-        let mut matrix = BlockMatrix::zeros(pattern);
+        let sparsity = Sparsity::from_pairs(3, [[0, 1], [0, 2]]).unwrap();
+        let mut matrix = BlockMatrix::zeros(sparsity);
         for (k, value) in matrix.values_mut().iter_mut().enumerate() {
             *value = (k as f64 * 0.7).sin();
         }
         // Diagonal blocks of a symmetric matrix are symmetric.
         for row in 0..3 {
-            let slot = matrix.pattern().row(row).start;
+            let slot = matrix.sparsity().row(row).start;
             let b = matrix.blocks()[slot];
             let t = block::transposed(&b);
             matrix.add_block(slot, &t);
@@ -185,8 +185,8 @@ mod tests {
         let matrix = sample();
         let mut dense = vec![vec![0.0; 9]; 9];
         for row in 0..3 {
-            for slot in matrix.pattern().row(row) {
-                let column = matrix.pattern().columns()[slot] as usize;
+            for slot in matrix.sparsity().row(row) {
+                let column = matrix.sparsity().columns()[slot] as usize;
                 for r in 0..3 {
                     for c in 0..3 {
                         dense[3 * row + r][3 * column + c] = matrix.blocks()[slot][3 * r + c];
@@ -206,36 +206,36 @@ mod tests {
 
     #[test]
     fn a_block_given_below_the_diagonal_lands_transposed_above_it() {
-        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(2, [(0, 1)]).unwrap());
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(2, [[0, 1]]).unwrap());
         let value = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
         matrix.add(1, 0, &value);
         assert_eq!(matrix.blocks()[1], block::transposed(&value));
-        assert_eq!(matrix.stray(), None);
+        assert_eq!(matrix.outside_sparsity(), None);
     }
 
     #[test]
     fn a_block_outside_the_pattern_is_remembered() {
-        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(3, [(0, 1)]).unwrap());
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(3, [[0, 1]]).unwrap());
         matrix.add(2, 1, &[1.0; 9]);
         matrix.add(0, 2, &[1.0; 9]);
-        assert_eq!(matrix.stray(), Some((2, 1)));
+        assert_eq!(matrix.outside_sparsity(), Some([2, 1]));
         matrix.clear();
-        assert_eq!(matrix.stray(), None);
+        assert_eq!(matrix.outside_sparsity(), None);
     }
 
     #[test]
     fn what_is_coupled_beyond_the_pattern_counts_and_is_cut_out_with_the_held() {
-        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(3, [(0, 1)]).unwrap());
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(3, [[0, 1]]).unwrap());
         let value = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
-        matrix.couple(2, 0, &value);
-        matrix.couple(1, 0, &value);
+        matrix.add_coupling(2, 0, &value);
+        matrix.add_coupling(1, 0, &value);
         assert_eq!(matrix.blocks()[1], block::transposed(&value), "has room");
         let x = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         let mut y = [f64::NAN; 9];
         matrix.multiply(&x, &mut y);
         assert_eq!(y, [4.0, 5.0, 6.0, 1.0, 4.0, 7.0, 1.0, 4.0, 7.0]);
-        matrix.couple(0, 3, &value);
-        assert_eq!(matrix.stray(), Some((0, 3)));
+        matrix.add_coupling(0, 3, &value);
+        assert_eq!(matrix.outside_sparsity(), Some([0, 3]));
         matrix.complete(&[0.0; 3], &[false, false, true]);
         assert!(matrix.couplings().is_empty());
     }

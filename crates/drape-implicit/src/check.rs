@@ -33,7 +33,7 @@ pub struct Check {
 /// more. The step is never accepted.
 ///
 /// # Errors
-/// [`Error::Dimension`], [`Error::OutsidePattern`], [`Error::TooLarge`].
+/// [`Error::Dimension`], [`Error::OutsideSparsity`], [`Error::TooLarge`].
 pub fn check_system(
     system: &mut dyn System,
     start: &[f64],
@@ -124,25 +124,25 @@ fn assemble(
     positions: &[f64],
     kind: Stiffness,
 ) -> Result<BlockMatrix, Error> {
-    let mut matrix = BlockMatrix::zeros(system.pattern());
-    let (expected, found) = (system.particles(), matrix.pattern().particles());
+    let mut matrix = BlockMatrix::zeros(system.sparsity());
+    let (expected, found) = (system.particles(), matrix.sparsity().particles());
     if expected != found {
-        return Err(Error::Dimension { what: "pattern", expected, found });
+        return Err(Error::Dimension { what: "sparsity", expected, found });
     }
     system.stiffness(positions, kind, &mut matrix);
-    match matrix.stray() {
-        Some((row, column)) => Err(Error::OutsidePattern { row, column }),
+    match matrix.outside_sparsity() {
+        Some([row, column]) => Err(Error::OutsideSparsity { row, column }),
         None => Ok(matrix),
     }
 }
 
 fn definite_shift(matrix: BlockMatrix) -> Result<f64, Error> {
-    if matrix.pattern().particles() == 0 {
+    if matrix.sparsity().particles() == 0 {
         return Ok(0.0);
     }
     let diagonal =
-        |matrix: &BlockMatrix, row: usize| matrix.blocks()[matrix.pattern().row(row).start];
-    let largest = (0..matrix.pattern().particles())
+        |matrix: &BlockMatrix, row: usize| matrix.blocks()[matrix.sparsity().row(row).start];
+    let largest = (0..matrix.sparsity().particles())
         .flat_map(|row| [0, 4, 8].map(|k| diagonal(&matrix, row)[k]))
         .fold(0.0, f64::max);
     if largest == 0.0 && matrix.values().iter().all(|&x| x == 0.0) {
@@ -151,8 +151,8 @@ fn definite_shift(matrix: BlockMatrix) -> Result<f64, Error> {
     if matrix.values().iter().any(|x| !x.is_finite()) {
         return Ok(f64::INFINITY);
     }
-    let free = vec![false; matrix.pattern().particles()];
-    let mut cholesky = Cholesky::new(matrix.pattern())?;
+    let free = vec![false; matrix.sparsity().particles()];
+    let mut cholesky = Cholesky::new(matrix.sparsity())?;
     for power in -16..=0 {
         let shift = 10_f64.powi(power);
         let mut shifted = matrix.clone();

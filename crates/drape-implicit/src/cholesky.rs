@@ -1,4 +1,4 @@
-//! Sparse Cholesky factorisation by faer: ordered and analysed once per pattern, one thread.
+//! Sparse Cholesky factorisation by faer: ordered and analysed once per sparsity, one thread.
 
 use faer::Conj;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -12,7 +12,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRe
 use faer::{MatMut, Par, Side};
 
 use crate::incomplete::NotDefinite;
-use crate::{BlockMatrix, Error, Pattern};
+use crate::{BlockMatrix, Error, Sparsity};
 
 /// One thread: with the two cores at hand, and with many, faer's own parallel factorisation of matrices of
 /// this kind was never faster, and its global default takes every core of the machine.
@@ -34,13 +34,13 @@ impl core::fmt::Debug for Cholesky {
 }
 
 impl Cholesky {
-    /// Orders and analyses a pattern.
-    pub(crate) fn new(pattern: &Pattern) -> Result<Self, Error> {
-        let blocks = pattern.blocks();
-        let lower = scalar_lower(pattern);
+    /// Orders and analyses a sparsity.
+    pub(crate) fn new(sparsity: &Sparsity) -> Result<Self, Error> {
+        let blocks = sparsity.blocks();
+        let lower = scalar_lower(sparsity);
         let size = lower.nrows();
         let too_large = |_| Error::TooLarge { blocks };
-        let (forward, inverse) = order(pattern).map_err(too_large)?;
+        let (forward, inverse) = order(sparsity).map_err(too_large)?;
         let symbolic = factorize_symbolic_cholesky(
             lower.as_ref(),
             Side::Lower,
@@ -61,7 +61,7 @@ impl Cholesky {
         })
     }
 
-    /// Factorises a matrix on the pattern.
+    /// Factorises a matrix on the sparsity.
     pub(crate) fn factorise(&mut self, matrix: &BlockMatrix) -> Result<(), NotDefinite> {
         fill_lower(matrix, &mut self.entries);
         self.symbolic
@@ -92,13 +92,13 @@ impl Cholesky {
 
 /// Minimum-degree order of the particles, three unknowns each: the same fill as ordering the unknowns, at half
 /// the time.
-fn order(pattern: &Pattern) -> Result<(Vec<usize>, Vec<usize>), faer::sparse::FaerError> {
-    let particles = pattern.particles();
-    let columns: Vec<usize> = pattern.columns().iter().map(|&column| column as usize).collect();
+fn order(sparsity: &Sparsity) -> Result<(Vec<usize>, Vec<usize>), faer::sparse::FaerError> {
+    let particles = sparsity.particles();
+    let columns: Vec<usize> = sparsity.columns().iter().map(|&column| column as usize).collect();
     let graph = SymbolicSparseColMatRef::new_checked(
         particles,
         particles,
-        pattern.offsets(),
+        sparsity.offsets(),
         None,
         &columns,
     );
@@ -115,15 +115,15 @@ fn order(pattern: &Pattern) -> Result<(Vec<usize>, Vec<usize>), faer::sparse::Fa
 }
 
 /// The scalar lower half by columns. A block row of the upper half, read transposed, is three of its columns.
-fn scalar_lower(pattern: &Pattern) -> SymbolicSparseColMat<usize> {
-    let size = 3 * pattern.particles();
+fn scalar_lower(sparsity: &Sparsity) -> SymbolicSparseColMat<usize> {
+    let size = 3 * sparsity.particles();
     let mut offsets = vec![0];
-    let mut rows = Vec::with_capacity(9 * pattern.blocks());
-    for row in 0..pattern.particles() {
+    let mut rows = Vec::with_capacity(9 * sparsity.blocks());
+    for row in 0..sparsity.particles() {
         for component in 0..3 {
             rows.extend(3 * row + component..3 * row + 3);
-            for slot in pattern.row(row).skip(1) {
-                let column = pattern.columns()[slot] as usize;
+            for slot in sparsity.row(row).skip(1) {
+                let column = sparsity.columns()[slot] as usize;
                 rows.extend(3 * column..3 * column + 3);
             }
             offsets.push(rows.len());
@@ -135,9 +135,9 @@ fn scalar_lower(pattern: &Pattern) -> SymbolicSparseColMat<usize> {
 /// Writes the entries in the order of [`scalar_lower`].
 fn fill_lower(matrix: &BlockMatrix, entries: &mut [f64]) {
     let mut entries = entries.iter_mut();
-    for row in 0..matrix.pattern().particles() {
+    for row in 0..matrix.sparsity().particles() {
         for component in 0..3 {
-            for (k, slot) in matrix.pattern().row(row).enumerate() {
+            for (k, slot) in matrix.sparsity().row(row).enumerate() {
                 let first = if k == 0 { component } else { 0 };
                 let part = &matrix.blocks()[slot][3 * component + first..3 * component + 3];
                 for (value, entry) in part.iter().zip(entries.by_ref()) {
@@ -154,12 +154,12 @@ mod tests {
 
     /// A band matrix with unsymmetric blocks off the diagonal, dominated by its diagonal or not.
     fn band(own: f64) -> BlockMatrix {
-        let pairs = (1..12).map(|i| (i - 1, i)).chain((4..12).map(|i| (i - 4, i)));
-        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(12, pairs.clone()).unwrap());
+        let pairs = (1..12).map(|i| [i - 1, i]).chain((4..12).map(|i| [i - 4, i]));
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(12, pairs.clone()).unwrap());
         for i in 0..12 {
             matrix.add(i, i, &[own, 0.2, 0.1, 0.2, own, -0.3, 0.1, -0.3, own]);
         }
-        for (k, (i, j)) in pairs.enumerate() {
+        for (k, [i, j]) in pairs.enumerate() {
             let value = core::array::from_fn(|entry| (k as f64 + 1.3 * entry as f64).sin());
             matrix.add(i, j, &value);
         }
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn the_factor_undoes_the_multiplication() {
         let matrix = band(10.0);
-        let mut cholesky = Cholesky::new(matrix.pattern()).unwrap();
+        let mut cholesky = Cholesky::new(matrix.sparsity()).unwrap();
         assert_eq!(cholesky.factorise(&matrix), Ok(()));
         let expected: Vec<f64> = (0..36).map(|k| (k as f64).cos()).collect();
         let mut x = vec![0.0; 36];
@@ -183,7 +183,7 @@ mod tests {
     #[test]
     fn an_indefinite_matrix_is_reported() {
         let matrix = band(0.5);
-        let mut cholesky = Cholesky::new(matrix.pattern()).unwrap();
+        let mut cholesky = Cholesky::new(matrix.sparsity()).unwrap();
         assert_eq!(cholesky.factorise(&matrix), Err(NotDefinite));
     }
 }

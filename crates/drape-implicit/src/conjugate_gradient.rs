@@ -182,22 +182,22 @@ fn turn(d: &mut [f64], factor: f64, (image, scale): (&[f32], f64)) {
 mod tests {
     use super::*;
     use crate::vector::norm;
-    use crate::{BlockMatrix, Pattern};
+    use crate::{BlockMatrix, Sparsity};
 
     /// The Laplacian of an n × n grid, shifted: its incomplete factor is not exact.
     fn grid(n: usize, shift: f64) -> BlockMatrix {
         let cells = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-        let pairs: Vec<(usize, usize)> = cells
+        let pairs: Vec<[usize; 2]> = cells
             .flat_map(|(i, j)| [(i, j, i, j + 1), (i, j, i + 1, j)])
             .filter(|&(.., i, j)| i < n && j < n)
-            .map(|(a, b, c, d)| (a * n + b, c * n + d))
+            .map(|(a, b, c, d)| [a * n + b, c * n + d])
             .collect();
-        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(n * n, pairs.clone()).unwrap());
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(n * n, pairs.clone()).unwrap());
         let scaled = |s: f64| [s, 0.0, 0.0, 0.0, s, 0.0, 0.0, 0.0, s];
         for i in 0..n * n {
             matrix.add(i, i, &scaled(4.0 + shift));
         }
-        for (i, j) in pairs {
+        for [i, j] in pairs {
             matrix.add(i, j, &scaled(-1.0));
         }
         matrix
@@ -205,9 +205,9 @@ mod tests {
 
     /// With a right side that has so much of a turn from one number to the next.
     fn solve(matrix: &BlockMatrix, turn: f64, limit: usize) -> (f64, usize, Ending) {
-        let size = 3 * matrix.pattern().particles();
+        let size = 3 * matrix.sparsity().particles();
         let b: Vec<f64> = (0..size).map(|k| (1.0 + k as f64 * turn).sin()).collect();
-        let waves = Waves::new(matrix.pattern());
+        let waves = Waves::new(matrix.sparsity());
         let mut packed = Packed::new(&waves);
         let mut incomplete = Incomplete::new(&waves);
         incomplete.factorise(&waves, matrix, &mut packed).unwrap();

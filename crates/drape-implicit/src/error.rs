@@ -71,17 +71,17 @@ pub enum Error {
         /// The range it must lie in, in words.
         range: &'static str,
     },
-    /// A sparsity pattern is malformed.
-    #[error("row {row} of the pattern: {fault}")]
-    Pattern {
+    /// A sparsity sparsity is malformed.
+    #[error("row {row} of the sparsity: {fault}")]
+    Sparsity {
         /// The row concerned.
         row: usize,
         /// What is wrong with it.
         fault: &'static str,
     },
-    /// The system's stiffness couples two particles that its pattern does not.
-    #[error("the stiffness couples particles {row} and {column}, which the pattern does not")]
-    OutsidePattern {
+    /// The system's stiffness couples two particles that its sparsity does not.
+    #[error("the stiffness couples particles {row} and {column}, which the sparsity does not")]
+    OutsideSparsity {
         /// One particle.
         row: usize,
         /// The other.
@@ -92,11 +92,11 @@ pub enum Error {
         "the system guards the solver's ways, which textbook Broyden and the explicit scheme do not let it; \
          use Broyden's or Newton's method"
     )]
-    Unguarded,
+    UnfilteredMethod,
     /// The sparse factorisation does not fit into memory; conjugate gradients need far less.
     #[error("no memory to factorise a matrix of {blocks} blocks; use conjugate gradients")]
     TooLarge {
-        /// Blocks of the pattern.
+        /// Blocks of the sparsity.
         blocks: usize,
     },
 }

@@ -1,4 +1,4 @@
-use crate::{Integrator, Motion};
+use crate::{Integrator, IntegratorState};
 
 /// Estimates the error that a step makes in the positions, from what could have been known before it.
 ///
@@ -26,9 +26,9 @@ impl ErrorEstimate {
     }
 
     /// To be called before a step of length `dt`, in s.
-    pub fn predict(&mut self, motion: &Motion, integrator: Integrator, dt: f64) {
-        let second = motion.previous.as_ref().filter(|_| integrator == Integrator::Bdf2);
-        let now = motion.positions.iter().zip(&motion.velocities);
+    pub fn predict(&mut self, state: &IntegratorState, integrator: Integrator, dt: f64) {
+        let second = state.previous.as_ref().filter(|_| integrator == Integrator::Bdf2);
+        let now = state.positions.iter().zip(&state.velocities);
         for (predicted, (x, v)) in self.predicted.iter_mut().zip(now) {
             *predicted = x + dt * v;
         }
@@ -36,7 +36,7 @@ impl ErrorEstimate {
         if let Some(previous) = second {
             let ratio = dt / previous.dt;
             let weight = 0.5 * dt * ratio;
-            let change = motion.velocities.iter().zip(&previous.velocities);
+            let change = state.velocities.iter().zip(&previous.velocities);
             for (predicted, (v, before)) in self.predicted.iter_mut().zip(change) {
                 *predicted += weight * (v - before);
             }
@@ -46,8 +46,8 @@ impl ErrorEstimate {
     }
 
     /// To be called after the step: the root-mean-square error of the positions over all particles, in m.
-    pub fn estimate(&self, motion: &Motion) -> f64 {
-        let differences = self.predicted.iter().zip(&motion.positions).map(|(p, x)| p - x);
+    pub fn estimate(&self, state: &IntegratorState) -> f64 {
+        let differences = self.predicted.iter().zip(&state.positions).map(|(p, x)| p - x);
         let squares: f64 = differences.map(|d| d * d).sum();
         let particles = (self.predicted.len() / 3).max(1) as f64;
         self.share * (squares / particles).sqrt()

@@ -2,7 +2,9 @@
 
 use crate::error::Quantity;
 use crate::incremental::first_not_finite;
-use crate::{BlockMatrix, Energy, Error, Motion, Previous, Report, Stiffness, System};
+use crate::{
+    BlockMatrix, Energy, Error, IntegratorState, PreviousState, Report, Stiffness, System,
+};
 
 /// Part of the largest stable step that is taken: the bound holds for the stiffness where a call starts, and a
 /// system may stiffen within it. Smaller costs in proportion.
@@ -41,8 +43,8 @@ impl Explicit {
         let length = 3 * system.particles();
         Self {
             fraction: SAFETY,
-            stiffness: BlockMatrix::zeros(system.pattern()),
-            version: system.pattern_version(),
+            stiffness: BlockMatrix::zeros(system.sparsity()),
+            version: system.sparsity_version(),
             positions: vec![0.0; length],
             velocities: vec![0.0; length],
             forces: vec![0.0; length],
@@ -61,41 +63,38 @@ impl Explicit {
     /// formula lost (or, negative, made).
     ///
     /// # Errors
-    /// [`Error::NotFinite`] where the motion blows up, [`Error::Unguarded`], and others for input that no step can be made with.
+    /// [`Error::NotFinite`] where the motion blows up, and others for input that no step can be made with.
     pub fn advance(
         &mut self,
         system: &mut dyn System,
-        motion: &mut Motion,
+        state: &mut IntegratorState,
         dt: f64,
     ) -> Result<Report, Error> {
         if !(dt > 0.0 && dt.is_finite()) {
             return Err(Error::StepLength { dt });
         }
-        if system.guards() {
-            return Err(Error::Unguarded);
-        }
         let expected = self.positions.len();
         for (what, found) in
-            [("positions", motion.positions.len()), ("velocities", motion.velocities.len())]
+            [("positions", state.positions.len()), ("velocities", state.velocities.len())]
         {
             if found != expected {
                 return Err(Error::Dimension { what, expected, found });
             }
         }
-        if system.pattern_version() != self.version {
+        if system.sparsity_version() != self.version {
             *self = Self::new(system).with_fraction(self.fraction);
         }
-        let mut report = Report { tangents: 1, ..Report::default() };
-        let stable = self.stable_step(system, motion, dt)?;
+        let mut report = Report { stiffness_assemblies: 1, ..Report::default() };
+        let stable = self.stable_step(system, state, dt)?;
         let wanted = (dt / (self.fraction * stable)).ceil().max(1.0);
         if !(wanted <= MAX_SUB_STEPS) {
-            let (quantity, time) = (Quantity::Stiffness, motion.time);
+            let (quantity, time) = (Quantity::Stiffness, state.time);
             return Err(Error::NotFinite { quantity, particle: 0, time, dt });
         }
-        let (count, origin) = (wanted as usize, motion.time);
+        let (count, origin) = (wanted as usize, state.time);
         for step in 1..=count {
             let end = origin + dt * (step as f64 / count as f64);
-            let energy = self.sub_step(system, motion, (end, dt / count as f64))?;
+            let energy = self.sub_step(system, state, (end, dt / count as f64))?;
             *report.energy.get_or_insert_default() += energy;
         }
         report.sub_steps = count;
@@ -108,25 +107,25 @@ impl Explicit {
     /// magnitudes in a row of `M⁻¹K` (Gershgorin's circles). Infinite without stiffness.
     ///
     /// # Errors
-    /// [`Error::OutsidePattern`].
+    /// [`Error::OutsideSparsity`].
     pub fn stable_step(
         &mut self,
         system: &mut dyn System,
-        motion: &Motion,
+        state: &IntegratorState,
         dt: f64,
     ) -> Result<f64, Error> {
-        self.positions.copy_from_slice(&motion.positions);
-        system.begin(motion.time + dt, dt, &motion.positions, &mut self.positions);
+        self.positions.copy_from_slice(&state.positions);
+        system.begin(state.time + dt, dt, &state.positions, &mut self.positions);
         self.stiffness.clear();
-        system.stiffness(&motion.positions, Stiffness::Exact, &mut self.stiffness);
-        if let Some((row, column)) = self.stiffness.stray() {
-            return Err(Error::OutsidePattern { row, column });
+        system.stiffness(&state.positions, Stiffness::Exact, &mut self.stiffness);
+        if let Some([row, column]) = self.stiffness.outside_sparsity() {
+            return Err(Error::OutsideSparsity { row, column });
         }
         self.rows.fill(0.0);
-        let pattern = self.stiffness.pattern();
-        for row in 0..pattern.particles() {
-            for slot in pattern.row(row) {
-                let column = pattern.columns()[slot] as usize;
+        let sparsity = self.stiffness.sparsity();
+        for row in 0..sparsity.particles() {
+            for slot in sparsity.row(row) {
+                let column = sparsity.columns()[slot] as usize;
                 let entries = self.stiffness.blocks()[slot];
                 for (k, entry) in entries.iter().enumerate() {
                     self.rows[3 * row + k / 3] += entry.abs();
@@ -150,15 +149,15 @@ impl Explicit {
     fn sub_step(
         &mut self,
         system: &mut dyn System,
-        motion: &mut Motion,
+        state: &mut IntegratorState,
         (end, dt): (f64, f64),
     ) -> Result<Energy, Error> {
         let Self { positions, velocities, forces, .. } = self;
-        positions.copy_from_slice(&motion.positions);
-        system.begin(end, dt, &motion.positions, positions);
-        let before = system.potential(&motion.positions);
+        positions.copy_from_slice(&state.positions);
+        system.begin(end, dt, &state.positions, positions);
+        let before = system.potential(&state.positions);
         let held = system.held();
-        let moving = motion.positions.iter().zip(&motion.velocities);
+        let moving = state.positions.iter().zip(&state.velocities);
         for (k, (end, (start, velocity))) in positions.iter_mut().zip(moving).enumerate() {
             if !held[k / 3] {
                 *end = start + dt * velocity;
@@ -169,7 +168,7 @@ impl Explicit {
             return Err(Error::NotFinite {
                 quantity: Quantity::Force,
                 particle,
-                time: motion.time,
+                time: state.time,
                 dt,
             });
         }
@@ -177,30 +176,30 @@ impl Explicit {
         for (particle, (mass, held)) in system.masses().iter().zip(system.held()).enumerate() {
             let range = 3 * particle..3 * particle + 3;
             for k in range.clone() {
-                let start = motion.velocities[k];
-                let moved = positions[k] - motion.positions[k];
+                let start = state.velocities[k];
+                let moved = positions[k] - state.positions[k];
                 velocities[k] = if *held { moved / dt } else { start + dt * forces[k] / mass };
                 if *held {
                     energy.work += (mass * (velocities[k] - start) / dt - forces[k]) * moved;
                 }
             }
             let speed = |v: &[f64]| v[range.clone()].iter().map(|v| v * v).sum::<f64>();
-            energy.kinetic += 0.5 * mass * (speed(velocities) - speed(&motion.velocities));
+            energy.kinetic += 0.5 * mass * (speed(velocities) - speed(&state.velocities));
         }
         energy.potential = system.potential(positions) - before;
         energy.numerical_dissipation = energy.work - energy.kinetic - energy.potential;
         system.accept(positions, velocities, dt);
-        let previous = motion.previous.get_or_insert_with(|| Previous {
+        let previous = state.previous.get_or_insert_with(|| PreviousState {
             dt,
             positions: vec![0.0; positions.len()],
             velocities: vec![0.0; velocities.len()],
         });
         previous.dt = dt;
-        previous.positions.copy_from_slice(&motion.positions);
-        previous.velocities.copy_from_slice(&motion.velocities);
-        motion.positions.copy_from_slice(positions);
-        motion.velocities.copy_from_slice(velocities);
-        motion.time = end;
+        previous.positions.copy_from_slice(&state.positions);
+        previous.velocities.copy_from_slice(&state.velocities);
+        state.positions.copy_from_slice(positions);
+        state.velocities.copy_from_slice(velocities);
+        state.time = end;
         Ok(energy)
     }
 }

@@ -1,6 +1,6 @@
 //! The formulas of backward differentiation.
 
-use crate::{Integrator, Motion, Previous};
+use crate::{Integrator, IntegratorState, PreviousState};
 
 /// Largest ratio of a second-order step to the one before it: below 1 + √2, where the formula ceases to be stable.
 const MAX_GROWTH: f64 = 2.0;
@@ -18,8 +18,8 @@ pub(crate) struct Formula {
 }
 
 impl Formula {
-    pub(crate) fn new(integrator: Integrator, motion: &Motion, dt: f64) -> Self {
-        match (integrator, &motion.previous) {
+    pub(crate) fn new(integrator: Integrator, state: &IntegratorState, dt: f64) -> Self {
+        match (integrator, &state.previous) {
             (Integrator::Bdf2, Some(previous)) if grows_gently(dt, previous) => {
                 let ratio = dt / previous.dt;
                 let whole = 1.0 + 2.0 * ratio;
@@ -35,6 +35,6 @@ impl Formula {
 }
 
 /// Whether a second-order step may follow the previous one.
-pub(crate) fn grows_gently(dt: f64, previous: &Previous) -> bool {
+pub(crate) fn grows_gently(dt: f64, previous: &PreviousState) -> bool {
     dt <= MAX_GROWTH * (1.0 + GROWTH_ROUNDING) * previous.dt
 }

@@ -43,7 +43,7 @@ const ATTEMPTS: [Attempt; 7] = [
     Attempt { fill: Fill::Stabilised(1.0), shift: 4.096 },
 ];
 
-/// The factor `Uᵀ D U` of a matrix, `U` unit upper triangular on the matrix's own pattern.
+/// The factor `Uᵀ D U` of a matrix, `U` unit upper triangular on the matrix's own sparsity.
 ///
 /// All but the inverses of pivots is in single precision, which a preconditioner does not need more than: it is bound by
 /// memory. Both sweeps use the same `U`, so the product stays symmetric and positive.
@@ -339,14 +339,14 @@ mod tests {
     use faer::linalg::solvers::DenseSolveCore;
 
     use super::*;
-    use crate::Pattern;
+    use crate::Sparsity;
     use crate::vector::dot;
     use crate::waves::tests::rimmed;
 
     /// A chain: its exact factor has no fill, so the incomplete one is exact.
     fn chain(particles: usize, own: f64, coupling: f64) -> BlockMatrix {
-        let pairs = (1..particles).map(|i| (i - 1, i));
-        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(particles, pairs).unwrap());
+        let pairs = (1..particles).map(|i| [i - 1, i]);
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(particles, pairs).unwrap());
         let symmetric = [own, 0.3, -0.2, 0.3, own, 0.1, -0.2, 0.1, own];
         let skewed = [coupling, 0.1, 0.0, -0.2, coupling, 0.3, 0.0, 0.4, coupling];
         for i in 0..particles {
@@ -365,7 +365,7 @@ mod tests {
     }
 
     fn factorise(matrix: &BlockMatrix) -> Factored {
-        let waves = Waves::new(matrix.pattern());
+        let waves = Waves::new(matrix.sparsity());
         let mut incomplete = Incomplete::new(&waves);
         let failed = incomplete.factorise(&waves, matrix, &mut Packed::new(&waves));
         Factored { waves, incomplete, failed }
@@ -400,17 +400,17 @@ mod tests {
     fn batches_may_lead_beyond_the_last_row_with_zeros() {
         // Runs of many batches of which one couples to the last particle, another to the first of the last.
         for pairs in [
-            vec![(0, 40), (1, 41)],
-            vec![(6, 40), (7, 41), (3, 40)],
-            vec![(0, 40), (1, 41), (33, 42), (34, 43)],
-            vec![(0, 40), (33, 41)],
+            vec![[0, 40], [1, 41]],
+            vec![[6, 40], [7, 41], [3, 40]],
+            vec![[0, 40], [1, 41], [33, 42], [34, 43]],
+            vec![[0, 40], [33, 41]],
         ] {
-            let last = pairs.iter().map(|pair| pair.1).max().unwrap();
+            let last = pairs.iter().map(|pair| pair[1]).max().unwrap();
             let mut matrix =
-                BlockMatrix::zeros(Pattern::from_pairs(last + 1, pairs.clone()).unwrap());
+                BlockMatrix::zeros(Sparsity::from_pairs(last + 1, pairs.clone()).unwrap());
             let block = |size: f64| [size, 0.1, 0.0, 0.1, size, 0.0, 0.0, 0.0, size];
             (0..=last).for_each(|own| matrix.add(own, own, &block(3.0)));
-            pairs.iter().for_each(|&(a, b)| matrix.add(a, b, &block(-1.0)));
+            pairs.iter().for_each(|&[a, b]| matrix.add(a, b, &block(-1.0)));
             let mut factored = factorise(&matrix);
             assert_eq!(factored.failed, Ok(0));
             let b: Vec<f64> = (0..3 * (last + 1)).map(|k| (k as f64).sin()).collect();
@@ -424,17 +424,17 @@ mod tests {
 
     #[test]
     fn without_compensation_the_factor_is_the_matrix_on_its_pattern() {
-        let pattern = rimmed(7);
-        let count = pattern.particles();
-        let mut matrix = BlockMatrix::zeros(pattern.clone());
+        let sparsity = rimmed(7);
+        let count = sparsity.particles();
+        let mut matrix = BlockMatrix::zeros(sparsity.clone());
         for i in 0..count {
             matrix.add(i, i, &[9.0, 0.3, -0.2, 0.3, 9.5, 0.1, -0.2, 0.1, 8.0]);
-            for slot in pattern.row(i).skip(1) {
+            for slot in sparsity.row(i).skip(1) {
                 let entry = |k: usize| ((9 * slot + k) as f64 * 0.7).sin();
                 matrix.add_block(slot, &core::array::from_fn(entry));
             }
         }
-        let waves = Waves::new(&pattern);
+        let waves = Waves::new(&sparsity);
         assert!(!waves.stray_updates.is_empty(), "nothing of this goes astray");
         let mut packed = Packed::new(&waves);
         let mut incomplete = Incomplete::new(&waves);
@@ -456,7 +456,7 @@ mod tests {
         for (i, j) in (0..count).flat_map(|i| (i..count).map(move |j| (i, j))) {
             for k in 0..9 {
                 let entry = factor[(3 * i + k / 3, 3 * j + k % 3)];
-                match pattern.slot(i, j) {
+                match sparsity.slot(i, j) {
                     Some(slot) => {
                         let expected = matrix.blocks()[slot][k];
                         let error = (entry - expected).abs();
@@ -489,16 +489,16 @@ mod tests {
     fn rods(across: usize, seed: usize) -> BlockMatrix {
         let cells = (0..across).flat_map(|i| (0..across).map(move |j| (i, j)));
         let steps = [(0, 1), (1, 0), (1, 1)];
-        let pairs: Vec<(usize, usize)> = cells
+        let pairs: Vec<[usize; 2]> = cells
             .flat_map(|(i, j)| steps.map(|(down, right)| (i, j, i + down, j + right)))
             .filter(|&(.., i, j)| i < across && j < across)
-            .map(|(a, b, c, d)| (a * across + b, c * across + d))
+            .map(|(a, b, c, d)| [a * across + b, c * across + d])
             .collect();
         let count = across * across;
-        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(count, pairs.clone()).unwrap());
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(count, pairs.clone()).unwrap());
         let small = [1e-2, 0.0, 0.0, 0.0, 1e-2, 0.0, 0.0, 0.0, 1e-2];
         (0..count).for_each(|own| matrix.add(own, own, &small));
-        for (k, (i, j)) in pairs.into_iter().enumerate() {
+        for (k, [i, j]) in pairs.into_iter().enumerate() {
             let number = |phase: f64| (1e3 * (k as f64 + seed as f64 + phase).sin()).sin();
             let n = [0.1, 0.2, 0.3].map(number);
             let rod: [f64; 9] = core::array::from_fn(|e| n[e / 3] * n[e % 3]);
@@ -514,7 +514,7 @@ mod tests {
         let mut collapsed = 0;
         for seed in 0..50 {
             let matrix = rods(12, seed);
-            let waves = Waves::new(matrix.pattern());
+            let waves = Waves::new(matrix.sparsity());
             let mut packed = Packed::new(&waves);
             let mut incomplete = Incomplete::new(&waves);
             let mut holds = |fill: Fill| {

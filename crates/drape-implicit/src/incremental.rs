@@ -5,8 +5,9 @@
 //! for `x` keeps the inertia exact however short the step is.
 
 use crate::error::Quantity;
+use crate::step_filter::SystemRef;
 use crate::tangent::Tangent;
-use crate::{Error, Report, Stiffness, Stop, System, Way, block, vector};
+use crate::{Error, Report, StepLimit, Stiffness, Stop, TrialStep, block, vector};
 
 /// Why an attempt at a sub-step ends without a solution.
 #[derive(Clone, Debug)]
@@ -32,8 +33,8 @@ pub(crate) struct Point {
     pub norm: f64,
     /// The energy, J, if it has been asked for.
     energy: Option<f64>,
-    /// Part of the prescribed motions that is done: all of them but on the ways of a system that guards.
-    pub progress: f64,
+    /// Fraction of the prescribed motions that is done; below 1 only on the way to it with a step filter.
+    pub obstacle_time: f64,
 }
 
 impl Point {
@@ -45,7 +46,7 @@ impl Point {
             residual: zeros(),
             norm: f64::NAN,
             energy: None,
-            progress: 1.0,
+            obstacle_time: 1.0,
         }
     }
 
@@ -56,8 +57,8 @@ impl Point {
 }
 
 /// One sub-step's equations and the counters of the work done on them.
-pub(crate) struct Incremental<'a> {
-    pub system: &'a mut dyn System,
+pub(crate) struct Incremental<'a, 'b> {
+    pub system: &'a mut SystemRef<'b>,
     /// `m/h²` per particle, N/m.
     pub inertia: &'a [f64],
     pub held: &'a [bool],
@@ -67,17 +68,15 @@ pub(crate) struct Incremental<'a> {
     pub start: &'a [f64],
     /// The norm of `φ` at which the step is solved, N.
     pub limit: f64,
-    /// Whether the system watches the solver's ways.
-    pub guarded: bool,
     pub report: &'a mut Report,
 }
 
-impl Incremental<'_> {
+impl Incremental<'_, '_> {
     /// Fills in what follows from the deviations.
     pub(crate) fn evaluate(&mut self, point: &mut Point) {
         self.locate(point);
         let Point { deviation, positions, residual, norm, .. } = point;
-        self.system.forces(positions, residual);
+        self.system.system().forces(positions, residual);
         self.report.force_evaluations += 1;
         let triples = block::triples_mut(residual).iter_mut().zip(block::triples(deviation));
         for (((phi, d), inertia), &held) in triples.zip(self.inertia).zip(self.held) {
@@ -94,16 +93,18 @@ impl Incremental<'_> {
         for ((x, base), d) in point.positions.iter_mut().zip(self.base).zip(&point.deviation) {
             *x = base + d;
         }
-        if self.guarded {
-            self.system.arrive(point.progress);
-        }
+        self.system.set_obstacle_time(point.obstacle_time);
     }
 
-    /// Shortens the way from a point to what the system allows; see [`System::allow`].
-    pub(crate) fn allow(&mut self, point: &Point, step: &mut [f64], advance: &mut f64) -> bool {
-        let Point { positions, progress, .. } = point;
-        !self.guarded
-            || self.system.allow(Way { from: positions, step, progress: *progress, advance })
+    /// Limits the step from a point; see [`StepFilter::limit_step`](crate::StepFilter::limit_step).
+    pub(crate) fn limit_step(
+        &mut self,
+        point: &Point,
+        displacements: &mut [f64],
+        obstacle_advance: f64,
+    ) -> StepLimit {
+        let (start, obstacle_time) = (&point.positions[..], point.obstacle_time);
+        self.system.limit_step(TrialStep { start, displacements, obstacle_time, obstacle_advance })
     }
 
     /// The energy of an evaluated point, J.
@@ -116,11 +117,11 @@ impl Incremental<'_> {
         for (d, inertia) in block::triples(&point.deviation).iter().zip(self.inertia) {
             kinetic += 0.5 * inertia * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         }
-        *point.energy.insert(kinetic + self.system.potential(&point.positions))
+        *point.energy.insert(kinetic + self.system.system().potential(&point.positions))
     }
 
     /// The kinetic energy of going straight to a point, `½ Σ m |x − x₀|²/h²`, J.
-    pub(crate) fn motion(&self, point: &Point) -> f64 {
+    pub(crate) fn kinetic(&self, point: &Point) -> f64 {
         let ways = block::triples(&point.positions).iter().zip(block::triples(self.start));
         let mut sum = 0.0;
         for (((x, start), inertia), &held) in ways.zip(self.inertia).zip(self.held) {
@@ -139,12 +140,12 @@ impl Incremental<'_> {
         kind: Stiffness,
         tangent: &mut Tangent,
     ) -> Result<(), Halt> {
-        self.report.tangents += 1;
+        self.report.stiffness_assemblies += 1;
         let matrix = &mut tangent.matrix;
         matrix.clear();
-        self.system.stiffness(&point.positions, kind, matrix);
-        if let Some((row, column)) = matrix.stray() {
-            return Err(Halt::Fatal(Error::OutsidePattern { row, column }));
+        self.system.system().stiffness(&point.positions, kind, matrix);
+        if let Some([row, column]) = matrix.outside_sparsity() {
+            return Err(Halt::Fatal(Error::OutsideSparsity { row, column }));
         }
         matrix.complete(self.inertia, self.held);
         Ok(())

@@ -26,7 +26,7 @@ pub(crate) struct Packed {
     pub strays: Vec<Blocks<f32>>,
     /// Upper halves by row. Rows without a particle have the identity.
     own: [Vec<f64>; 6],
-    /// What the pattern had no room for, between rows.
+    /// What the sparsity had no room for, between rows.
     couplings: Vec<Coupling>,
 }
 
@@ -173,19 +173,19 @@ fn pick<'a>(blocks: &'a [Block], slot: u32, none: &'a Block) -> &'a Block {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Pattern;
+    use crate::Sparsity;
 
     /// Springs between the points of a lattice, with numbers that single precision has to round, and no springs to
     /// anything else.
     fn lattice(n: usize) -> BlockMatrix {
         let cells = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-        let pairs: Vec<(usize, usize)> = cells
+        let pairs: Vec<[usize; 2]> = cells
             .flat_map(|(i, j)| [(i, j, i, j + 1), (i, j, i + 1, j), (i, j, i + 1, j + 1)])
             .filter(|&(.., i, j)| i < n && j < n)
-            .map(|(a, b, c, d)| (a * n + b, c * n + d))
+            .map(|(a, b, c, d)| [a * n + b, c * n + d])
             .collect();
-        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(n * n, pairs.clone()).unwrap());
-        for (k, (i, j)) in pairs.into_iter().enumerate() {
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(n * n, pairs.clone()).unwrap());
+        for (k, [i, j]) in pairs.into_iter().enumerate() {
             let [x, y, z] = [0.1, 0.2, 0.3].map(|phase| (k as f64 + phase).sin());
             let spring = [x * x, x * y, x * z, x * y, y * y, y * z, x * z, y * z, z * z];
             matrix.add(i, i, &spring);
@@ -196,7 +196,7 @@ mod tests {
     }
 
     fn multiply(matrix: &BlockMatrix, x: impl Fn(usize) -> f64) -> Vec<f64> {
-        let waves = Waves::new(matrix.pattern());
+        let waves = Waves::new(matrix.sparsity());
         let mut packed = Packed::new(&waves);
         packed.pack(&waves, matrix);
         let (mut columns, mut product) = (Columns::new(waves.rows), Columns::new(waves.rows));

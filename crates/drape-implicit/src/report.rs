@@ -15,7 +15,7 @@ pub struct Report {
     /// Evaluations of the potential.
     pub potential_evaluations: usize,
     /// Assemblies of the stiffness.
-    pub tangents: usize,
+    pub stiffness_assemblies: usize,
     /// Linear systems solved.
     pub linear_solves: usize,
     /// Conjugate-gradient iterations in them.
@@ -27,7 +27,7 @@ pub struct Report {
     /// Exact tangents given up for definite ones, because a direction of negative curvature was met at once.
     pub negative_curvatures: usize,
     /// Shortenings in line searches.
-    pub cuts: usize,
+    pub backtracks: usize,
     /// Largest final residual of the accepted sub-steps, relative as
     /// [`Settings::tolerance`](crate::Settings::tolerance) is.
     pub residual: f64,
@@ -46,13 +46,13 @@ impl AddAssign<&Report> for Report {
         self.iterations += other.iterations;
         self.force_evaluations += other.force_evaluations;
         self.potential_evaluations += other.potential_evaluations;
-        self.tangents += other.tangents;
+        self.stiffness_assemblies += other.stiffness_assemblies;
         self.linear_solves += other.linear_solves;
         self.linear_iterations += other.linear_iterations;
         self.linear_truncations += other.linear_truncations;
         self.pivot_shifts += other.pivot_shifts;
         self.negative_curvatures += other.negative_curvatures;
-        self.cuts += other.cuts;
+        self.backtracks += other.backtracks;
         self.residual = self.residual.max(other.residual);
         self.energy_left = self.energy_left.max(other.energy_left);
         if let Some(energy) = other.energy {
@@ -96,7 +96,7 @@ pub enum Stop {
     /// What moves by prescription was not allowed to go on.
     Blocked,
     /// The system did not certify the solution.
-    Certificate,
+    Intersection,
 }
 
 impl core::fmt::Display for Stop {
@@ -106,7 +106,7 @@ impl core::fmt::Display for Stop {
             Self::LineSearch => "no progress along the last direction",
             Self::Indefinite => "the stiffness given as definite is not",
             Self::Blocked => "what moves by prescription is blocked",
-            Self::Certificate => "the solution was not certified",
+            Self::Intersection => "the solution was not certified",
         })
     }
 }

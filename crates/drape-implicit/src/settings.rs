@@ -10,10 +10,10 @@ pub enum Integrator {
     /// `1/√(1 + ω²dt²)` per step for an oscillation of angular frequency `ω`.
     BackwardEuler,
     /// Second-order backward differentiation with variable step, `β = 2/3` for equal steps. Damps a slow
-    /// oscillation by `1 − (ω dt)⁴/4` per step only. The first step and those after [`Motion::restart`] are backward
+    /// oscillation by `1 − (ω dt)⁴/4` per step only. The first step and those after [`IntegratorState::restart`] are backward
     /// Euler; a step is at most twice as long as the one before it, so a longer one is built up to in sub-steps.
     ///
-    /// [`Motion::restart`]: crate::Motion::restart
+    /// [`IntegratorState::restart`]: crate::IntegratorState::restart
     #[default]
     Bdf2,
 }
@@ -34,13 +34,13 @@ pub enum Method {
     /// Kelley, *Iterative Methods for Linear and Nonlinear Equations*, 1995, ch. 7).
     Textbook {
         /// The matrix to start from.
-        initial: Initial,
+        initial: InitialMatrix,
     },
 }
 
 /// What textbook Broyden starts from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Initial {
+pub enum InitialMatrix {
     /// The inertia `M/(β dt)²`.
     #[default]
     Mass,
@@ -87,7 +87,7 @@ pub struct Settings {
     pub max_halvings: u32,
     /// Broyden: iterations on one tangent, the first (Newton's) included. Default 3: a tangent is kept only close to
     /// the solution, where two more steps on it are enough or it was not worth keeping.
-    pub tangent_iterations: usize,
+    pub iterations_per_matrix: usize,
     /// Broyden: the linear residual relative to the nonlinear one at which conjugate gradients stop. Default 0.03.
     pub broyden_forcing: f64,
     /// The same for Newton steps. Default 0.01: looser costs more tangents than it saves iterations, and one tangent
@@ -98,7 +98,7 @@ pub struct Settings {
     /// Whether a step of a system that guards its ways begins where velocities lead if nothing is in the way, even if the
     /// start is better balanced: for motion that goes on, such as creeping to rest, whose forces are small at the start
     /// however far it has to go. Default false.
-    pub goes_on: bool,
+    pub begin_at_prediction: bool,
     /// Whether the report has the energy balance, at the price of two potentials per sub-step. Default false.
     pub energy_balance: bool,
 }
@@ -114,11 +114,11 @@ impl Default for Settings {
             acceleration: 9.81,
             max_iterations: 100,
             max_halvings: 10,
-            tangent_iterations: 3,
+            iterations_per_matrix: 3,
             broyden_forcing: 0.03,
             newton_forcing: 0.01,
             max_linear_iterations: 2000,
-            goes_on: false,
+            begin_at_prediction: false,
             energy_balance: false,
         }
     }
@@ -150,9 +150,9 @@ impl Settings {
             ),
             ("max_halvings", self.max_halvings.into(), self.max_halvings <= 40, "at most 40"),
             (
-                "tangent_iterations",
-                self.tangent_iterations as f64,
-                count(self.tangent_iterations),
+                "iterations_per_matrix",
+                self.iterations_per_matrix as f64,
+                count(self.iterations_per_matrix),
                 "at least 1",
             ),
             (

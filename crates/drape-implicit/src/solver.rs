@@ -96,9 +96,9 @@ pub(crate) struct Solver {
 
 impl Solver {
     pub(crate) fn new(tangent: Tangent, settings: &Settings) -> Self {
-        let length = 3 * tangent.matrix.pattern().particles();
+        let length = 3 * tangent.matrix.sparsity().particles();
         let updates =
-            if settings.method == Method::Broyden { settings.tangent_iterations - 1 } else { 0 };
+            if settings.method == Method::Broyden { settings.iterations_per_matrix - 1 } else { 0 };
         Self {
             current: Point::new(length),
             trial: Point::new(length),
@@ -119,16 +119,16 @@ impl Solver {
     /// in `trial`. The solution is left in `current`.
     pub(crate) fn solve(
         &mut self,
-        problem: &mut Incremental<'_>,
+        problem: &mut Incremental<'_, '_>,
         settings: &Settings,
     ) -> Result<(), Halt> {
         self.iterations = 0;
         (self.left_out, self.stubs) = (0, 0);
         self.tangent.forget();
-        self.current.progress = 1.0;
-        self.trial.progress = 1.0;
-        if problem.guarded {
-            self.approach(problem, settings.goes_on);
+        self.current.obstacle_time = 1.0;
+        self.trial.obstacle_time = 1.0;
+        if problem.system.is_filtered() {
+            self.approach(problem, settings.begin_at_prediction);
         } else {
             problem.evaluate(&mut self.current);
         }
@@ -141,17 +141,19 @@ impl Solver {
             return Err(Halt::NotFinite(Quantity::Force, particle));
         }
         match settings.method {
-            Method::Textbook { .. } if problem.guarded => Err(Halt::Fatal(Error::Unguarded)),
+            Method::Textbook { .. } if problem.system.is_filtered() => {
+                Err(Halt::Fatal(Error::UnfilteredMethod))
+            }
             Method::Textbook { initial } => self.textbook(problem, settings, initial),
             Method::Newton => self.on_tangents(problem, settings, 1),
-            Method::Broyden => self.on_tangents(problem, settings, settings.tangent_iterations),
+            Method::Broyden => self.on_tangents(problem, settings, settings.iterations_per_matrix),
         }
     }
 
     /// Counts an iteration, if there is one left.
     pub(crate) fn count(
         &mut self,
-        problem: &mut Incremental<'_>,
+        problem: &mut Incremental<'_, '_>,
         settings: &Settings,
     ) -> Result<(), Halt> {
         if self.iterations == settings.max_iterations {
@@ -165,14 +167,14 @@ impl Solver {
     /// Alternates one safeguarded Newton step and up to `uses − 1` Broyden steps on its tangent.
     fn on_tangents(
         &mut self,
-        problem: &mut Incremental<'_>,
+        problem: &mut Incremental<'_, '_>,
         settings: &Settings,
         uses: usize,
     ) -> Result<(), Halt> {
         self.best = self.current.norm;
-        while self.current.progress < 1.0 || !self.current.solves(problem.limit) {
+        while self.current.obstacle_time < 1.0 || !self.current.solves(problem.limit) {
             self.count(problem, settings)?;
-            if self.current.progress < 1.0 {
+            if self.current.obstacle_time < 1.0 {
                 self.carry(problem)?;
                 self.best = self.current.norm;
             }
@@ -180,7 +182,7 @@ impl Solver {
             self.best = self.best.min(before);
             let Taken { whole, promise } = self.newton_step(problem, settings)?;
             if settings.energy_tolerance > 0.0 && self.may_end(problem) {
-                let left = promise / problem.motion(&self.current);
+                let left = promise / problem.kinetic(&self.current);
                 if left <= settings.energy_tolerance {
                     problem.report.energy_left = problem.report.energy_left.max(left);
                     break;
@@ -190,7 +192,7 @@ impl Solver {
             let contraction = self.current.norm / before;
             let expected = self.current.norm * contraction.max(EXPECTED_CONTRACTION);
             let mut trusted = whole
-                && self.current.progress == 1.0
+                && self.current.obstacle_time == 1.0
                 && contraction <= TRUSTED_CONTRACTION
                 && expected <= REACH * problem.limit;
             let mut left = uses - 1;
@@ -204,8 +206,8 @@ impl Solver {
     }
 
     /// Whether a step that has little energy left to gain may end here.
-    fn may_end(&self, problem: &Incremental<'_>) -> bool {
-        self.current.progress == 1.0 && self.current.solves(UNBALANCED_MAX * problem.limit)
+    fn may_end(&self, problem: &Incremental<'_, '_>) -> bool {
+        self.current.obstacle_time == 1.0 && self.current.solves(UNBALANCED_MAX * problem.limit)
     }
 
     /// A step along the exact tangent's direction, or along the definite one's if that fails.
@@ -214,7 +216,7 @@ impl Solver {
     /// every iteration, most of them were assembled in vain.
     fn newton_step(
         &mut self,
-        problem: &mut Incremental<'_>,
+        problem: &mut Incremental<'_, '_>,
         settings: &Settings,
     ) -> Result<Taken, Halt> {
         let mut stop = Stop::Indefinite;
@@ -240,7 +242,7 @@ impl Solver {
                 continue;
             };
             let promise = if solved { -0.5 * slope } else { f64::INFINITY };
-            let whole = problem.allow(&self.current, &mut self.direction, &mut 0.0);
+            let whole = problem.limit_step(&self.current, &mut self.direction, 0.0).is_whole();
             if !whole {
                 slope = dot(&self.direction, &self.current.residual);
             }
@@ -269,7 +271,7 @@ impl Solver {
     /// asked; `None` unless the slope is negative.
     fn newton_direction(
         &mut self,
-        problem: &mut Incremental<'_>,
+        problem: &mut Incremental<'_, '_>,
         forcing: f64,
     ) -> Option<(f64, bool)> {
         self.tangent.prepare(problem.report).ok()?;
@@ -285,7 +287,7 @@ impl Solver {
 
     /// Shortens the step until the residual falls below all before or, failing that, the energy falls. Moves `current`
     /// there and returns the length accepted.
-    fn line_search(&mut self, problem: &mut Incremental<'_>, slope: f64) -> Option<f64> {
+    fn line_search(&mut self, problem: &mut Incremental<'_, '_>, slope: f64) -> Option<f64> {
         let mut length = 1.0;
         // A way that was cut need not lead down.
         if !(slope < 0.0) {
@@ -309,7 +311,7 @@ impl Solver {
                     return Some(self.accept(length));
                 }
             }
-            problem.report.cuts += 1;
+            problem.report.backtracks += 1;
             length *= 0.5;
         }
         None
@@ -317,7 +319,7 @@ impl Solver {
 
     /// One step with the updated inverse of the frozen tangent, taken only if the residual falls. Returns whether
     /// the tangent is worth keeping.
-    fn broyden_step(&mut self, problem: &mut Incremental<'_>, forcing: f64) -> bool {
+    fn broyden_step(&mut self, problem: &mut Incremental<'_, '_>, forcing: f64) -> bool {
         let target = linear_target(&self.current, forcing, problem.limit);
         let Self { current, image, tangent, .. } = self;
         if tangent.solve(&current.residual, image, target, problem.report).is_err() {
@@ -327,7 +329,7 @@ impl Solver {
             return false;
         }
         let before = self.current.norm;
-        let whole = problem.allow(&self.current, &mut self.direction, &mut 0.0);
+        let whole = problem.limit_step(&self.current, &mut self.direction, 0.0).is_whole();
         self.try_step(problem, 1.0);
         if self.trial.norm < before {
             self.accept(1.0);
@@ -350,7 +352,7 @@ impl Solver {
     }
 
     /// Evaluates the point at some length along the direction.
-    pub(crate) fn try_step(&mut self, problem: &mut Incremental<'_>, length: f64) {
+    pub(crate) fn try_step(&mut self, problem: &mut Incremental<'_, '_>, length: f64) {
         self.move_trial(length);
         problem.evaluate(&mut self.trial);
     }
@@ -359,7 +361,7 @@ impl Solver {
     pub(crate) fn move_trial(&mut self, length: f64) {
         self.trial.deviation.copy_from_slice(&self.current.deviation);
         add_scaled(&mut self.trial.deviation, length, &self.direction);
-        self.trial.progress = self.current.progress;
+        self.trial.obstacle_time = self.current.obstacle_time;
     }
 
     /// Makes the trial the current point.
@@ -370,7 +372,7 @@ impl Solver {
 
     /// The row that a slot lies in.
     fn row_of(&self, slot: usize) -> usize {
-        let offsets = self.tangent.matrix.pattern().offsets();
+        let offsets = self.tangent.matrix.sparsity().offsets();
         offsets.partition_point(|&offset| offset <= slot) - 1
     }
 }

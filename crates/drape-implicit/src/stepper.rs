@@ -2,14 +2,15 @@ use crate::error::Quantity;
 use crate::formula::grows_gently;
 use crate::incremental::{Halt, first_not_finite};
 use crate::solver::Solver;
+use crate::step_filter::SystemRef;
 use crate::sub_step::{Span, relative};
 use crate::tangent::Tangent;
-use crate::{Error, Integrator, Motion, Report, Settings, System};
+use crate::{Error, Integrator, IntegratorState, Report, Settings, StepFilter, System};
 
 /// Advances the motion of a system in time.
 ///
 /// It holds settings and work space, nothing that the next step depends on: a new stepper gives the same bits.
-/// After the first step of a system none allocates memory, unless its pattern changes or a motion restarts.
+/// After the first step of a system none allocates memory, unless its sparsity changes or a motion restarts.
 #[derive(Debug)]
 pub struct Stepper {
     pub(crate) settings: Settings,
@@ -43,7 +44,7 @@ impl Stepper {
         Ok(Self {
             settings,
             solver,
-            version: system.pattern_version(),
+            version: system.sparsity_version(),
             masses: vec![0.0; particles],
             held: vec![false; particles],
             inertia: vec![0.0; particles],
@@ -74,39 +75,63 @@ impl Stepper {
     pub fn advance(
         &mut self,
         system: &mut dyn System,
-        motion: &mut Motion,
+        state: &mut IntegratorState,
+        dt: f64,
+    ) -> Result<Report, Error> {
+        self.advance_either(SystemRef::Free(system), state, dt)
+    }
+
+    /// Does what [`Self::advance`] does, on steps that a filter limits and to solutions that it finds free of
+    /// intersections.
+    ///
+    /// # Errors
+    /// Those of [`Self::advance`], and [`Error::UnfilteredMethod`] with the textbook method.
+    pub fn advance_filtered(
+        &mut self,
+        filter: &mut dyn StepFilter,
+        state: &mut IntegratorState,
+        dt: f64,
+    ) -> Result<Report, Error> {
+        self.advance_either(SystemRef::Filtered(filter), state, dt)
+    }
+
+    fn advance_either(
+        &mut self,
+        mut system: SystemRef<'_>,
+        state: &mut IntegratorState,
         dt: f64,
     ) -> Result<Report, Error> {
         let mut report = Report::default();
-        let advanced = self.advance_by_parts((system, motion), dt, &mut report);
+        let advanced = self.advance_by_parts((&mut system, state), dt, &mut report);
         self.report.clone_from(&report);
         advanced.map(|()| report)
     }
 
     fn advance_by_parts(
         &mut self,
-        (system, motion): (&mut dyn System, &mut Motion),
+        (system, state): (&mut SystemRef<'_>, &mut IntegratorState),
         dt: f64,
         report: &mut Report,
     ) -> Result<(), Error> {
-        self.check(system, motion, dt)?;
-        let origin = motion.time;
+        self.check(system.system(), state, dt)?;
+        let origin = state.time;
         let finest = self.settings.max_halvings;
         let whole = 1_u64 << finest;
-        let mut halvings = self.first_halvings(motion, dt);
+        let mut halvings = self.first_halvings(state, dt);
         // The position within the step in units of the finest sub-step: exact.
         let mut at = 0;
         while at < whole {
             let end_of = |next: u64| {
                 if next == whole { origin + dt } else { origin + dt * (next as f64 / whole as f64) }
             };
-            let goes =
-                |halvings: u32| system.is_straight(motion.time, end_of(at + (whole >> halvings)));
+            let goes = |halvings: u32| {
+                system.is_nearly_straight(state.time, end_of(at + (whole >> halvings)))
+            };
             halvings = (halvings..finest).find(|&halvings| goes(halvings)).unwrap_or(finest);
             let next = at + (whole >> halvings);
             let end = end_of(next);
-            let span = Span { start: motion.time, end, dt: dt / (1_u64 << halvings) as f64 };
-            match self.attempt(system, motion, span, report) {
+            let span = Span { start: state.time, end, dt: dt / (1_u64 << halvings) as f64 };
+            match self.attempt(system, state, span, report) {
                 Ok(()) => {
                     report.sub_steps += 1;
                     at = next;
@@ -127,7 +152,12 @@ impl Stepper {
         Ok(())
     }
 
-    fn check(&mut self, system: &dyn System, motion: &Motion, dt: f64) -> Result<(), Error> {
+    fn check(
+        &mut self,
+        system: &dyn System,
+        state: &IntegratorState,
+        dt: f64,
+    ) -> Result<(), Error> {
         if !(dt > 0.0 && dt.is_finite()) {
             return Err(Error::StepLength { dt });
         }
@@ -138,9 +168,9 @@ impl Stepper {
         agree("particles", particles, system.particles())?;
         agree("masses", particles, system.masses().len())?;
         agree("held", particles, system.held().len())?;
-        agree("positions", 3 * particles, motion.positions.len())?;
-        agree("velocities", 3 * particles, motion.velocities.len())?;
-        if let Some(previous) = &motion.previous {
+        agree("positions", 3 * particles, state.positions.len())?;
+        agree("velocities", 3 * particles, state.velocities.len())?;
+        if let Some(previous) = &state.previous {
             if !(previous.dt > 0.0 && previous.dt.is_finite()) {
                 return Err(Error::StepLength { dt: previous.dt });
             }
@@ -153,27 +183,27 @@ impl Stepper {
             return Err(Error::Mass { particle, mass: self.masses[particle] });
         }
         let start = [
-            (Quantity::Position, Some(&motion.positions)),
-            (Quantity::Velocity, Some(&motion.velocities)),
-            (Quantity::Position, motion.previous.as_ref().map(|previous| &previous.positions)),
-            (Quantity::Velocity, motion.previous.as_ref().map(|previous| &previous.velocities)),
+            (Quantity::Position, Some(&state.positions)),
+            (Quantity::Velocity, Some(&state.velocities)),
+            (Quantity::Position, state.previous.as_ref().map(|previous| &previous.positions)),
+            (Quantity::Velocity, state.previous.as_ref().map(|previous| &previous.velocities)),
         ];
         for (quantity, values) in start {
             if let Some(particle) = values.and_then(|values| first_not_finite(values)) {
-                return Err(Error::NotFinite { quantity, particle, time: motion.time, dt });
+                return Err(Error::NotFinite { quantity, particle, time: state.time, dt });
             }
         }
-        if system.pattern_version() != self.version {
+        if system.sparsity_version() != self.version {
             self.solver = solver_for(system, &self.settings)?;
-            self.version = system.pattern_version();
+            self.version = system.sparsity_version();
         }
         Ok(())
     }
 
     /// How often the step is halved from the outset, so that the first sub-step does not grow too much.
-    fn first_halvings(&self, motion: &Motion, dt: f64) -> u32 {
+    fn first_halvings(&self, state: &IntegratorState, dt: f64) -> u32 {
         let finest = self.settings.max_halvings;
-        match (&motion.previous, self.settings.integrator) {
+        match (&state.previous, self.settings.integrator) {
             (Some(previous), Integrator::Bdf2) => (0..=finest)
                 .find(|&halvings| grows_gently(dt / (1_u64 << halvings) as f64, previous))
                 .unwrap_or(finest),
@@ -206,10 +236,10 @@ impl Stepper {
 }
 
 fn solver_for(system: &dyn System, settings: &Settings) -> Result<Solver, Error> {
-    let pattern = system.pattern();
-    let (expected, found) = (system.particles(), pattern.particles());
+    let sparsity = system.sparsity();
+    let (expected, found) = (system.particles(), sparsity.particles());
     if expected != found {
-        return Err(Error::Dimension { what: "pattern", expected, found });
+        return Err(Error::Dimension { what: "sparsity", expected, found });
     }
-    Ok(Solver::new(Tangent::new(pattern, settings)?, settings))
+    Ok(Solver::new(Tangent::new(sparsity, settings)?, settings))
 }

@@ -3,7 +3,10 @@
 use crate::error::Quantity;
 use crate::formula::Formula;
 use crate::incremental::{Halt, Incremental};
-use crate::{Energy, Error, Motion, Previous, Report, Stepper, Stop, System, block, vector};
+use crate::step_filter::SystemRef;
+use crate::{
+    Energy, Error, IntegratorState, PreviousState, Report, Stepper, Stop, System, block, vector,
+};
 
 /// One attempted sub-step.
 #[derive(Clone, Copy)]
@@ -17,17 +20,17 @@ impl Stepper {
     /// Tries one sub-step. On success the motion and the system's memory are at its end, otherwise untouched.
     pub(crate) fn attempt(
         &mut self,
-        system: &mut dyn System,
-        motion: &mut Motion,
+        system: &mut SystemRef<'_>,
+        state: &mut IntegratorState,
         span: Span,
         report: &mut Report,
     ) -> Result<(), Halt> {
-        let formula = Formula::new(self.settings.integrator, motion, span.dt);
-        self.predict(motion, formula);
+        let formula = Formula::new(self.settings.integrator, state, span.dt);
+        self.predict(state, formula);
         let target = &mut self.base;
-        target.copy_from_slice(&motion.positions);
-        system.begin(span.end, span.dt, &motion.positions, target);
-        let held = system.held();
+        target.copy_from_slice(&state.positions);
+        system.system().begin(span.end, span.dt, &state.positions, target);
+        let held = system.system().held();
         if held.len() != self.held.len() {
             return Err(Halt::Fatal(Error::Dimension {
                 what: "held",
@@ -36,15 +39,13 @@ impl Stepper {
             }));
         }
         self.held.copy_from_slice(held);
-        let guarded = system.guards();
-        let limit = self.place(motion, formula, (span.dt, guarded))?;
+        let guarded = system.is_filtered();
+        let limit = self.place(state, formula, (span.dt, guarded))?;
         let start = self.settings.energy_balance.then(|| {
             report.potential_evaluations += 1;
-            if guarded {
-                // Where bodies will be, the cloth may not be yet.
-                system.arrive(0.0);
-            }
-            (self.kinetic(&motion.velocities), system.potential(&motion.positions))
+            // Where bodies will be, the cloth may not be yet.
+            system.set_obstacle_time(0.0);
+            (self.kinetic(&state.velocities), system.system().potential(&state.positions))
         });
 
         let mut problem = Incremental {
@@ -52,31 +53,30 @@ impl Stepper {
             inertia: &self.inertia,
             held: &self.held,
             base: &self.base,
-            start: &motion.positions,
+            start: &state.positions,
             limit: limit * self.settings.tolerance,
-            guarded,
             report: &mut *report,
         };
         self.solver.solve(&mut problem, &self.settings)?;
-        if !system.certify(&self.solver.current.positions) {
-            return Err(Halt::Stop(Stop::Certificate));
+        if !system.is_intersection_free(&self.solver.current.positions) {
+            return Err(Halt::Stop(Stop::Intersection));
         }
 
         self.set_velocities(formula);
         if let Some(start) = start {
-            let balance = self.balance((system, report), motion, formula, start);
+            let balance = self.balance((system.system(), report), state, formula, start);
             report.potential_evaluations += 1;
             *report.energy.get_or_insert_default() += balance;
         }
         let end = &self.solver.current;
         report.residual = report.residual.max(relative(end.norm, limit));
-        system.accept(&end.positions, &self.velocities, span.dt);
-        commit(motion, span, &end.positions, &self.velocities);
+        system.system().accept(&end.positions, &self.velocities, span.dt);
+        commit(state, span, &end.positions, &self.velocities);
         Ok(())
     }
 
     /// Fills in what past positions and velocities amount to.
-    fn predict(&mut self, motion: &Motion, formula: Formula) {
+    fn predict(&mut self, state: &IntegratorState, formula: Formula) {
         let combine = |out: &mut [f64], now: &[f64], before: Option<&[f64]>| {
             out.copy_from_slice(now);
             if let (Some(before), true) = (before, formula.previous != 0.0) {
@@ -85,16 +85,16 @@ impl Stepper {
                 }
             }
         };
-        let previous = motion.previous.as_ref();
-        combine(&mut self.drift, &motion.positions, previous.map(|p| &p.positions[..]));
-        combine(&mut self.momentum, &motion.velocities, previous.map(|p| &p.velocities[..]));
+        let previous = state.previous.as_ref();
+        combine(&mut self.drift, &state.positions, previous.map(|p| &p.positions[..]));
+        combine(&mut self.momentum, &state.velocities, previous.map(|p| &p.velocities[..]));
     }
 
     /// Turns targets into the base of deviations, and sets the first guess and the one to fall back on. Returns the
     /// norm that residuals are relative to, N.
     fn place(
         &mut self,
-        motion: &Motion,
+        state: &IntegratorState,
         formula: Formula,
         (dt, guarded): (f64, bool),
     ) -> Result<f64, Halt> {
@@ -113,12 +113,12 @@ impl Stepper {
                         return Err(Halt::NotFinite(Quantity::Target, particle));
                     }
                     if guarded {
-                        fallback = motion.positions[k] - base[k];
+                        fallback = state.positions[k] - base[k];
                     }
                 } else {
                     base[k] = drift[k] + formula.reach * momentum[k];
-                    fallback = motion.positions[k] - base[k];
-                    guess = fallback + dt * motion.velocities[k];
+                    fallback = state.positions[k] - base[k];
+                    guess = fallback + dt * state.velocities[k];
                 }
                 solver.current.deviation[k] = guess;
                 solver.trial.deviation[k] = fallback;
@@ -153,12 +153,12 @@ impl Stepper {
     fn balance(
         &mut self,
         (system, report): (&mut dyn System, &mut Report),
-        motion: &Motion,
+        state: &IntegratorState,
         formula: Formula,
         (kinetic, potential): (f64, f64),
     ) -> Energy {
         let end = &self.solver.current;
-        let carried = |k: usize| self.held[k / 3] && end.positions[k] != motion.positions[k];
+        let carried = |k: usize| self.held[k / 3] && end.positions[k] != state.positions[k];
         let mut work = 0.0;
         if (0..end.positions.len()).any(carried) {
             let forces = &mut self.solver.image;
@@ -167,7 +167,7 @@ impl Stepper {
             for (k, force) in forces.iter().enumerate().filter(|&(k, _)| carried(k)) {
                 let acceleration = (self.velocities[k] - self.momentum[k]) / formula.reach;
                 let pull = self.masses[k / 3] * acceleration - force;
-                work += pull * (end.positions[k] - motion.positions[k]);
+                work += pull * (end.positions[k] - state.positions[k]);
             }
         }
         let kinetic = self.kinetic(&self.velocities) - kinetic;
@@ -182,17 +182,17 @@ pub(crate) fn relative(norm: f64, unit: f64) -> f64 {
 }
 
 /// Moves the motion on, keeping the state it comes from.
-fn commit(motion: &mut Motion, span: Span, positions: &[f64], velocities: &[f64]) {
-    let Motion { previous, .. } = motion;
-    let previous = previous.get_or_insert_with(|| Previous {
+fn commit(state: &mut IntegratorState, span: Span, positions: &[f64], velocities: &[f64]) {
+    let IntegratorState { previous, .. } = state;
+    let previous = previous.get_or_insert_with(|| PreviousState {
         dt: span.dt,
         positions: vec![0.0; positions.len()],
         velocities: vec![0.0; velocities.len()],
     });
     previous.dt = span.dt;
-    previous.positions.copy_from_slice(&motion.positions);
-    previous.velocities.copy_from_slice(&motion.velocities);
-    motion.positions.copy_from_slice(positions);
-    motion.velocities.copy_from_slice(velocities);
-    motion.time = span.end;
+    previous.positions.copy_from_slice(&state.positions);
+    previous.velocities.copy_from_slice(&state.velocities);
+    state.positions.copy_from_slice(positions);
+    state.velocities.copy_from_slice(velocities);
+    state.time = span.end;
 }

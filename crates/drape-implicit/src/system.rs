@@ -1,4 +1,4 @@
-use crate::{BlockMatrix, Pattern, Way};
+use crate::{BlockMatrix, Sparsity};
 
 /// Which derivative of the forces [`System::stiffness`] writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,12 +31,6 @@ pub trait System {
     /// Which particles move by prescription; asked after each [`begin`](Self::begin).
     fn held(&self) -> &[bool];
 
-    /// Whether what moves by prescription goes nearly straight from one time to another, in s. A (sub)step in which it
-    /// does not is halved before it is tried.
-    fn is_straight(&self, _start: f64, _end: f64) -> bool {
-        true
-    }
-
     /// Opens an attempted (sub)step that ends at `end_time` and lasts `dt`, both in s, from the positions
     /// `start`. Writes the end positions of held particles into `target`, which comes filled with `start`;
     /// what it says of free particles is ignored.
@@ -56,37 +50,12 @@ pub trait System {
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix);
 
     /// Which pairs of particles the stiffness couples.
-    fn pattern(&self) -> Pattern;
+    fn sparsity(&self) -> Sparsity;
 
-    /// A number that changes when [`pattern`](Self::pattern) does. Read once per call of
+    /// A number that changes when [`sparsity`](Self::sparsity) does. Read once per call of
     /// [`Stepper::advance`](crate::Stepper::advance).
-    fn pattern_version(&self) -> u64 {
+    fn sparsity_version(&self) -> u64 {
         0
-    }
-
-    /// Whether the system watches the ways of the solver: it then starts where the (sub)step does, goes only where
-    /// [`allow`](Self::allow) lets it, and takes what moves by prescription along. Asked for once per step.
-    fn guards(&self) -> bool {
-        false
-    }
-
-    /// Shortens a straight way that the solver is about to go, and says whether it is still the whole one.
-    ///
-    /// Of every particle any part of its way may be left; of held particles, and of whatever else moves by
-    /// prescription, all must be left the same part, which [`Way::advance`] then tells. Whatever part of a way that is
-    /// allowed the solver goes is allowed too.
-    fn allow(&mut self, _way: Way<'_>) -> bool {
-        true
-    }
-
-    /// Puts what moves by prescription, other than held particles, to a part of its way in this (sub)step: 0 is where
-    /// it starts, 1 where it ends. Forces, potential and stiffness then belong to that place. Only for a system that
-    /// [`guards`](Self::guards); after [`begin`](Self::begin) it is at 1.
-    fn arrive(&mut self, _progress: f64) {}
-
-    /// Whether the solution of a (sub)step may be accepted; if not, it is tried again in halves.
-    fn certify(&mut self, _positions: &[f64]) -> bool {
-        true
     }
 
     /// Closes an accepted (sub)step: memory may advance to these end positions (m) and velocities (m/s).

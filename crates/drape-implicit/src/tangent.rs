@@ -8,7 +8,7 @@ use crate::incomplete::{Incomplete, NotDefinite};
 use crate::packed::Packed;
 use crate::vector::{add_scaled, norm};
 use crate::waves::Waves;
-use crate::{BlockMatrix, Error, LinearSolver, Pattern, Report, Settings};
+use crate::{BlockMatrix, Error, LinearSolver, Report, Settings, Sparsity};
 
 /// Relative residual above which a factorised solve is not trusted: far above rounding for any matrix that can
 /// be factorised at all, far below what the nonlinear iteration would notice.
@@ -26,16 +26,16 @@ pub(crate) struct Tangent {
 }
 
 impl Tangent {
-    pub(crate) fn new(pattern: Pattern, settings: &Settings) -> Result<Self, Error> {
-        let length = 3 * pattern.particles();
+    pub(crate) fn new(sparsity: Sparsity, settings: &Settings) -> Result<Self, Error> {
+        let length = 3 * sparsity.particles();
         let direct = settings.linear_solver == LinearSolver::Cholesky && length > 0;
         Ok(Self {
-            cholesky: if direct { Some(Cholesky::new(&pattern)?) } else { None },
+            cholesky: if direct { Some(Cholesky::new(&sparsity)?) } else { None },
             iterative: None,
             direct,
             check: vec![0.0; length],
             limit: settings.max_linear_iterations,
-            matrix: BlockMatrix::zeros(pattern),
+            matrix: BlockMatrix::zeros(sparsity),
         })
     }
 
@@ -48,7 +48,7 @@ impl Tangent {
 
     /// Makes the matrix ready for [`solve`](Self::solve).
     pub(crate) fn prepare(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
-        // The factor has no room for couplings beyond the pattern.
+        // The factor has no room for couplings beyond the sparsity.
         self.direct = self.cholesky.is_some() && self.matrix.couplings().is_empty();
         match &mut self.cholesky {
             Some(cholesky) if self.direct => cholesky.factorise(&self.matrix),
@@ -58,7 +58,7 @@ impl Tangent {
 
     fn precondition(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
         let matrix = &self.matrix;
-        let iterative = self.iterative.get_or_insert_with(|| Iterative::new(matrix.pattern()));
+        let iterative = self.iterative.get_or_insert_with(|| Iterative::new(matrix.sparsity()));
         report.pivot_shifts += iterative.arch.dispatch(Prepare(iterative, matrix))?;
         Ok(())
     }
@@ -118,8 +118,8 @@ struct Iterative {
 }
 
 impl Iterative {
-    fn new(pattern: &Pattern) -> Self {
-        let waves = Waves::new(pattern);
+    fn new(sparsity: &Sparsity) -> Self {
+        let waves = Waves::new(sparsity);
         Self {
             packed: Packed::new(&waves),
             incomplete: Incomplete::new(&waves),
@@ -162,17 +162,17 @@ mod tests {
 
     #[test]
     fn the_vector_instructions_change_no_bit() {
-        let pairs = (0..400).flat_map(|i| [(i, i + 1), (i, i + 20), (i, i + 21)]);
-        let pairs: Vec<_> = pairs.filter(|&(_, j)| j < 400).collect();
-        let mut matrix = BlockMatrix::zeros(Pattern::from_pairs(400, pairs.clone()).unwrap());
+        let pairs = (0..400).flat_map(|i| [[i, i + 1], [i, i + 20], [i, i + 21]]);
+        let pairs: Vec<_> = pairs.filter(|&[_, j]| j < 400).collect();
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(400, pairs.clone()).unwrap());
         for i in 0..400 {
             matrix.add(i, i, &[8.0, 0.1, 0.2, 0.1, 9.0, 0.3, 0.2, 0.3, 7.0]);
         }
-        for (i, j) in pairs {
+        for [i, j] in pairs {
             matrix.add(i, j, &[-0.8, 0.1, 0.0, 0.2, -0.7, 0.0, 0.1, 0.0, -0.9]);
         }
         let run = |arch: Arch| {
-            let mut iterative = Iterative { arch, ..Iterative::new(matrix.pattern()) };
+            let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity()) };
             arch.dispatch(Prepare(&mut iterative, &matrix)).unwrap();
             let mut x: Vec<f64> = (0..1200).map(|k| (k as f64).sin()).collect();
             let (iterations, ending) = arch.dispatch(Solve(&mut iterative, &mut x, 1e-9, 100));

@@ -2,7 +2,7 @@
 
 use crate::incremental::{Halt, Incremental};
 use crate::solver::{ARMIJO, MAX_CUTS, Solver};
-use crate::{Initial, Settings, Stiffness, Stop};
+use crate::{InitialMatrix, Settings, Stiffness, Stop};
 
 /// Updates are refused only where they would divide by nothing: the initial matrix overestimates soft directions
 /// by orders of magnitude, and learning that is the whole point.
@@ -12,17 +12,17 @@ impl Solver {
     /// Broyden's method with a line search on the residual, started over when a direction fails.
     pub(crate) fn textbook(
         &mut self,
-        problem: &mut Incremental<'_>,
+        problem: &mut Incremental<'_, '_>,
         settings: &Settings,
-        initial: Initial,
+        initial: InitialMatrix,
     ) -> Result<(), Halt> {
         self.diagonal.clear();
         self.diagonal.extend(problem.inertia.iter().flat_map(|&inertia| [inertia; 3]));
-        if initial == Initial::Diagonal {
+        if initial == InitialMatrix::Diagonal {
             problem.assemble(&self.current, Stiffness::Exact, &mut self.tangent)?;
             let matrix = &self.tangent.matrix;
             for (row, own) in self.diagonal.as_chunks_mut::<3>().0.iter_mut().enumerate() {
-                let block = &matrix.blocks()[matrix.pattern().row(row).start];
+                let block = &matrix.blocks()[matrix.sparsity().row(row).start];
                 // At least the inertia: a negative stiffness makes no start for a minimisation.
                 for k in 0..3 {
                     own[k] = own[k].max(block[4 * k]);
@@ -64,14 +64,14 @@ impl Solver {
         }
     }
 
-    fn residual_search(&mut self, problem: &mut Incremental<'_>) -> Option<f64> {
+    fn residual_search(&mut self, problem: &mut Incremental<'_, '_>) -> Option<f64> {
         let mut length = 1.0;
         for _ in 0..=MAX_CUTS {
             self.try_step(problem, length);
             if self.trial.norm <= (1.0 - ARMIJO * length) * self.current.norm {
                 return Some(self.accept(length));
             }
-            problem.report.cuts += 1;
+            problem.report.backtracks += 1;
             length *= 0.5;
         }
         None

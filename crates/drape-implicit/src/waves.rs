@@ -1,15 +1,15 @@
 //! The order in which a matrix is eliminated, eight rows at once.
 
-use crate::Pattern;
+use crate::Sparsity;
 use crate::lanes::LANES;
 
-/// Where a block would lie if the pattern had room for it.
+/// Where a block would lie if the sparsity had room for it.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
 /// Rows before the first and, at the least, after the last: a batch may reach that far, with blocks of zeros.
 pub(crate) const MARGIN: usize = LANES;
 
-/// Particles in waves, and all that follows from them and a pattern.
+/// Particles in waves, and all that follows from them and a sparsity.
 ///
 /// A particle is in the first wave that comes after those of all its neighbours of smaller number: those of a wave do
 /// not wait for each other, and the factor is the one of the order of the numbers. The rows of a wave are eliminated in
@@ -136,7 +136,7 @@ pub(crate) struct StrayUpdate {
     /// The one whose column is eliminated first.
     pub left: u32,
     pub right: u32,
-    /// The third, or the pivots of both columns in place of one that the pattern has no room for.
+    /// The third, or the pivots of both columns in place of one that the sparsity has no room for.
     pub target: Result<Place, [Place; 2]>,
 }
 
@@ -148,9 +148,9 @@ pub(crate) struct Place {
 }
 
 impl Waves {
-    pub(crate) fn new(pattern: &Pattern) -> Self {
-        let waves = sort(pattern);
-        let mut places = vec![0; pattern.particles()];
+    pub(crate) fn new(sparsity: &Sparsity) -> Self {
+        let waves = sort(sparsity);
+        let mut places = vec![0; sparsity.particles()];
         let mut particles = vec![NOWHERE; MARGIN];
         let mut starts = Vec::new();
         for wave in &waves {
@@ -181,17 +181,17 @@ impl Waves {
             work: 0,
             stray_work: 0,
         };
-        let run_of_row = waves.find_runs(pattern, &particles, &starts);
+        let run_of_row = waves.find_runs(sparsity, &particles, &starts);
         waves.make_room();
-        waves.find_slots(pattern, &particles);
+        waves.find_slots(sparsity, &particles);
         waves.find_pivots();
         waves.look_ahead(&run_of_row);
-        waves.find_updates(pattern, &particles, &run_of_row);
+        waves.find_updates(sparsity, &particles, &run_of_row);
         waves
     }
 
     /// Cuts the waves, the last first, because diagonals name the runs that they lead to. Returns the run of each row.
-    fn find_runs(&mut self, pattern: &Pattern, particles: &[u32], starts: &[usize]) -> Vec<u32> {
+    fn find_runs(&mut self, sparsity: &Sparsity, particles: &[u32], starts: &[usize]) -> Vec<u32> {
         let mut found: Vec<(usize, usize, Vec<Distance>)> = Vec::new();
         // Counted from the end until their number is known.
         let mut run_of_row = vec![0; particles.len()];
@@ -200,7 +200,7 @@ impl Waves {
             for start in (wave[0]..wave[1]).step_by(LANES).rev() {
                 let mut distances = Vec::new();
                 for (row, &particle) in particles.iter().enumerate().skip(start).take(LANES) {
-                    for (_, column) in self.later(pattern, particle) {
+                    for (_, column) in self.later(sparsity, particle) {
                         distances.push((column - row, run_of_row[column]));
                     }
                 }
@@ -258,16 +258,16 @@ impl Waves {
     }
 
     /// Slots and columns of a particle's blocks above the diagonal.
-    fn later(&self, pattern: &Pattern, particle: u32) -> impl Iterator<Item = (usize, usize)> {
+    fn later(&self, sparsity: &Sparsity, particle: u32) -> impl Iterator<Item = (usize, usize)> {
         let slots = match particle {
             NOWHERE => 0..0,
-            particle => pattern.row(particle as usize),
+            particle => sparsity.row(particle as usize),
         };
-        slots.skip(1).map(|slot| (slot, self.places[pattern.columns()[slot] as usize] as usize))
+        slots.skip(1).map(|slot| (slot, self.places[sparsity.columns()[slot] as usize] as usize))
     }
 
-    /// Gives every block of the pattern its place, on a diagonal if there is one for it.
-    fn find_slots(&mut self, pattern: &Pattern, particles: &[u32]) {
+    /// Gives every block of the sparsity its place, on a diagonal if there is one for it.
+    fn find_slots(&mut self, sparsity: &Sparsity, particles: &[u32]) {
         for index in 0..self.runs.len() {
             let run = self.runs[index].clone();
             self.runs[index].blocks = self.slots.len();
@@ -280,9 +280,9 @@ impl Waves {
                     let row = start + lane;
                     let particle = particles[row];
                     if particle != NOWHERE {
-                        own[lane] = pattern.row(particle as usize).start as u32;
+                        own[lane] = sparsity.row(particle as usize).start as u32;
                     }
-                    for (slot, column) in self.later(pattern, particle) {
+                    for (slot, column) in self.later(sparsity, particle) {
                         let slot = slot as u32;
                         match self.diagonal(&run, row, column) {
                             Some(place) => blocks[place][lane] = slot,
@@ -344,7 +344,7 @@ impl Waves {
         }
     }
 
-    fn find_updates(&mut self, pattern: &Pattern, particles: &[u32], run_of_row: &[u32]) {
+    fn find_updates(&mut self, sparsity: &Sparsity, particles: &[u32], run_of_row: &[u32]) {
         for index in 0..self.runs.len() {
             let run = self.runs[index].clone();
             let own = run.diagonals.start;
@@ -363,7 +363,7 @@ impl Waves {
                     let coupled = |row: usize| {
                         let ends = [row + a.offset, row + b.offset].map(|row| particles.get(row));
                         matches!(ends, [Some(&a), Some(&b)] if a != NOWHERE && b != NOWHERE
-                            && pattern.slot(a as usize, b as usize).is_some())
+                            && sparsity.slot(a as usize, b as usize).is_some())
                     };
                     if target == NOWHERE && (run.start..run.end).any(coupled) {
                         apart.push((left - own, right - own));
@@ -442,13 +442,13 @@ impl Waves {
 type Distance = (usize, u32);
 
 /// The particles of each wave, ascending.
-fn sort(pattern: &Pattern) -> Vec<Vec<u32>> {
-    let mut wave_of = vec![0; pattern.particles()];
+fn sort(sparsity: &Sparsity) -> Vec<Vec<u32>> {
+    let mut wave_of = vec![0; sparsity.particles()];
     let mut waves: Vec<Vec<u32>> = Vec::new();
-    for particle in 0..pattern.particles() {
+    for particle in 0..sparsity.particles() {
         let own: usize = wave_of[particle];
-        for slot in pattern.row(particle).skip(1) {
-            let later = &mut wave_of[pattern.columns()[slot] as usize];
+        for slot in sparsity.row(particle).skip(1) {
+            let later = &mut wave_of[sparsity.columns()[slot] as usize];
             *later = (*later).max(own + 1);
         }
         if own >= waves.len() {
@@ -464,7 +464,7 @@ pub(crate) mod tests {
     use super::*;
 
     /// The couplings of woven cloth: neighbours, those beyond them, and those across a cell.
-    fn weave(n: usize) -> Pattern {
+    fn weave(n: usize) -> Sparsity {
         let steps = [(0, 1), (0, 2), (1, -1), (1, 0), (1, 1), (2, 0)];
         let cells = (0..n as i64).flat_map(|i| (0..n as i64).map(move |j| (i, j)));
         let inside = |&((_, _), (i, j)): &((i64, i64), (i64, i64))| {
@@ -474,18 +474,18 @@ pub(crate) mod tests {
         let pairs = cells
             .flat_map(|(i, j)| steps.map(|(down, right)| ((i, j), (i + down, j + right))))
             .filter(inside)
-            .map(|(a, b)| (number(a), number(b)));
-        Pattern::from_pairs(n * n, pairs).unwrap()
+            .map(|(a, b)| [number(a), number(b)]);
+        Sparsity::from_pairs(n * n, pairs).unwrap()
     }
 
     /// A square of `n` by `n` with a chain around it, numbered last, each link tied to the nearest of the square.
-    pub(crate) fn rimmed(n: usize) -> Pattern {
+    pub(crate) fn rimmed(n: usize) -> Sparsity {
         let inside = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
         let steps = [(0, 1), (1, 0), (1, 1)];
         let lattice = inside
             .flat_map(|(i, j)| steps.map(|(down, right)| ((i, j), (i + down, j + right))))
             .filter(|&(_, (i, j))| i < n && j < n)
-            .map(|((i, j), (k, l))| (i * n + j, k * n + l));
+            .map(|((i, j), (k, l))| [i * n + j, k * n + l]);
         let side = |k: usize| {
             (0..n - 1).map(move |along| match k {
                 0 => along,
@@ -498,9 +498,9 @@ pub(crate) mod tests {
         let first = n * n;
         let links = (0..edge.len()).flat_map(|k| {
             let next = (k + 1) % edge.len();
-            [(first + k, first + next), (first + k, edge[k]), (first + k, edge[next])]
+            [[first + k, first + next], [first + k, edge[k]], [first + k, edge[next]]]
         });
-        Pattern::from_pairs(first + edge.len(), lattice.chain(links)).unwrap()
+        Sparsity::from_pairs(first + edge.len(), lattice.chain(links)).unwrap()
     }
 
     #[test]
@@ -513,22 +513,22 @@ pub(crate) mod tests {
 
     #[test]
     fn every_block_has_one_place() {
-        let few = Pattern::from_pairs(9, [(0, 8), (3, 4), (1, 7)]).unwrap();
-        for pattern in [weave(11), rimmed(12), few] {
-            let waves = Waves::new(&pattern);
+        let few = Sparsity::from_pairs(9, [[0, 8], [3, 4], [1, 7]]).unwrap();
+        for sparsity in [weave(11), rimmed(12), few] {
+            let waves = Waves::new(&sparsity);
             let slots = waves.slots.iter().chain(&waves.own_slots).flatten().copied();
             let found = slots.filter(|&slot| slot != NOWHERE);
             let strays = waves.strays.iter().map(|stray| stray.slot);
             let mut found: Vec<u32> = found.chain(strays).collect();
             found.sort_unstable();
-            assert_eq!(found, (0..pattern.blocks() as u32).collect::<Vec<_>>());
+            assert_eq!(found, (0..sparsity.blocks() as u32).collect::<Vec<_>>());
         }
     }
 
     #[test]
     fn no_row_of_a_run_waits_for_another() {
-        for pattern in [weave(11), rimmed(12)] {
-            let waves = Waves::new(&pattern);
+        for sparsity in [weave(11), rimmed(12)] {
+            let waves = Waves::new(&sparsity);
             for run in &waves.runs {
                 for diagonal in &waves.diagonals[run.diagonals.clone()] {
                     let target = &waves.runs[diagonal.run as usize];

@@ -7,7 +7,7 @@
 #[path = "physics/springs.rs"]
 mod springs;
 
-use drape_implicit::{LinearSolver, Method, Motion, Settings, Stepper};
+use drape_implicit::{IntegratorState, LinearSolver, Method, Settings, Stepper};
 use springs::Springs;
 
 #[test]
@@ -24,11 +24,11 @@ fn after_the_first_step_none_allocates() {
         let settings =
             Settings { method, linear_solver, energy_balance: true, ..Settings::default() };
         let mut stepper = Stepper::new(&system, settings).unwrap();
-        let mut motion = Motion::at_rest(Springs::flat(n));
-        stepper.advance(&mut system, &mut motion, 5e-3).unwrap();
+        let mut state = IntegratorState::at_rest(Springs::flat(n));
+        stepper.advance(&mut system, &mut state, 5e-3).unwrap();
         let info = allocation_counter::measure(|| {
             for _ in 0..50 {
-                stepper.advance(&mut system, &mut motion, 5e-3).unwrap();
+                stepper.advance(&mut system, &mut state, 5e-3).unwrap();
             }
         });
         assert_eq!(

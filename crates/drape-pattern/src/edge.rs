@@ -1,80 +1,94 @@
+//! Edges of outlines: lines, Bézier curves and circular arcs, with their lengths and areas.
+
 use kurbo::{
     CubicBez, Line, ParamCurve, ParamCurveArclen, ParamCurveArea, PathSeg, Point, QuadBez,
 };
 
-/// Share of an edge's length to which lengths along it are found.
+/// Relative accuracy of lengths along an edge.
 const ACCURACY: f64 = 1e-9;
 
-/// How an edge goes from its start to its end. Points are in m, in the panel's frame.
+/// Curve of an edge from its start to its end. Points are in the panel's frame, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Curve {
-    /// Straight.
+    /// Straight line.
     Line,
-    /// A Bézier curve of degree two, with its control point.
+    /// Bézier curve of degree two, with its control point.
     Quadratic([f64; 2]),
-    /// A Bézier curve of degree three, with its two control points.
+    /// Bézier curve of degree three, with its two control points.
     Cubic([[f64; 2]; 2]),
-    /// A part of a circle.
+    /// Circular arc.
     Arc {
-        /// Angle that it turns through, anticlockwise, between −2π and 2π, in rad.
+        /// Angle of the arc, anticlockwise, between −2π and 2π, in rad.
         sweep: f64,
     },
 }
 
-/// One edge of an outline.
+/// Edge of an outline.
+///
+/// ```
+/// use drape_pattern::{Curve, Edge};
+///
+/// // A quarter of a circle of 1 m about the origin.
+/// let chord = Edge::line("neckline", [1.0, 0.0], [0.0, 1.0]);
+/// let sweep = chord.arc_sweep(1.0, false, true);
+/// let arc = chord.curved(Curve::Arc { sweep });
+/// assert!((arc.length() - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+/// assert!((arc.at(0.5)[0] - 0.5_f64.sqrt()).abs() < 1e-12);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Edge {
-    /// Its name, or its number where the file gives it none.
+    /// Name, or number where the file gives no name.
     pub name: String,
-    /// Where it begins, in m.
+    /// Start point, in m.
     pub start: [f64; 2],
-    /// Where it ends, in m.
+    /// End point, in m.
     pub end: [f64; 2],
-    /// How it goes.
+    /// Curve between them.
     pub curve: Curve,
-    /// Width of the hem along it, in m; 0 without.
+    /// Width of the hem along the edge, in m; 0 without a hem.
     pub hem: f64,
 }
 
-/// The circle that an edge follows.
+/// Circle of an arc.
 struct Circle {
     center: [f64; 2],
-    /// From the centre to the start of the edge.
+    /// Vector from the centre to the start of the edge, in m.
     arm: [f64; 2],
 }
 
 impl Edge {
-    /// A straight edge.
+    /// Returns a straight edge.
+    #[must_use]
     pub fn line(name: impl Into<String>, start: [f64; 2], end: [f64; 2]) -> Self {
         Self { name: name.into(), start, end, curve: Curve::Line, hem: 0.0 }
     }
 
-    /// The same edge as another curve.
+    /// Returns the edge with another curve.
     #[must_use]
     pub fn curved(mut self, curve: Curve) -> Self {
         self.curve = curve;
         self
     }
 
-    /// The same edge with a hem, whose width is in m.
+    /// Returns the edge with a hem of a width in m.
     #[must_use]
     pub fn hemmed(mut self, width: f64) -> Self {
         self.hem = width;
         self
     }
 
-    /// The angle that a part of a circle of a radius turns through between two points.
+    /// Returns the angle of the arc of a radius, in m, between the ends of the edge, in rad.
     ///
-    /// `large` chooses the longer way round, `left` the one that turns anticlockwise. A radius under half
-    /// the distance is taken as half of it, as in SVG.
+    /// `large` chooses the longer arc, `left` the one that runs anticlockwise. A radius under half the
+    /// distance of the ends is taken as half of it, as in SVG.
     #[must_use]
-    pub fn sweep(&self, radius: f64, large: bool, left: bool) -> f64 {
+    pub fn arc_sweep(&self, radius: f64, large: bool, left: bool) -> f64 {
         let half = (0.5 * distance(self.start, self.end) / radius.abs()).min(1.0).asin();
         let angle = if large { 2.0 * (std::f64::consts::PI - half) } else { 2.0 * half };
         if left { angle } else { -angle }
     }
 
-    /// Whether all its numbers are finite, and an arc's angle less than a full turn.
+    /// Returns whether all numbers are finite, and the angle of an arc less than a full turn.
     pub(crate) fn is_finite(&self) -> bool {
         let finite = |p: &[f64; 2]| p[0].is_finite() && p[1].is_finite();
         let curve = match &self.curve {
@@ -86,7 +100,7 @@ impl Edge {
         finite(&self.start) && finite(&self.end) && curve
     }
 
-    /// The numbers that place it.
+    /// Returns the coordinates of its ends and control points.
     pub(crate) fn coordinates(&self) -> impl Iterator<Item = f64> {
         let controls = match self.curve {
             Curve::Quadratic(control) => [control, control],
@@ -96,7 +110,7 @@ impl Edge {
         [self.start, self.end, controls[0], controls[1]].into_iter().flatten()
     }
 
-    /// The same edge run from its end.
+    /// Returns the edge in the opposite direction.
     pub(crate) fn reversed(&self) -> Self {
         let curve = match self.curve {
             Curve::Cubic([first, second]) => Curve::Cubic([second, first]),
@@ -106,13 +120,13 @@ impl Edge {
         Self { name: self.name.clone(), start: self.end, end: self.start, curve, hem: self.hem }
     }
 
-    /// The edge with its points moved by a map that keeps angles, or turns them round if `mirrors`.
-    pub(crate) fn moved(&self, mirrors: bool, map: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
+    /// Returns the edge with its points mapped by an isometry, which is a reflection if `reflects`.
+    pub(crate) fn mapped(&self, reflects: bool, map: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
         let curve = match self.curve {
             Curve::Line => Curve::Line,
             Curve::Quadratic(control) => Curve::Quadratic(map(control)),
             Curve::Cubic(controls) => Curve::Cubic(controls.map(&map)),
-            Curve::Arc { sweep } => Curve::Arc { sweep: if mirrors { -sweep } else { sweep } },
+            Curve::Arc { sweep } => Curve::Arc { sweep: if reflects { -sweep } else { sweep } },
         };
         let (start, end) = (map(self.start), map(self.end));
         Self { name: self.name.clone(), start, end, curve, hem: self.hem }
@@ -151,21 +165,21 @@ impl Edge {
                 x.hypot(y) * sweep.abs()
             }
             Curve::Arc { .. } => distance(self.start, self.end),
-            _ => self.segment().arclen(ACCURACY * self.reach()),
+            _ => self.segment().arclen(ACCURACY * self.size()),
         }
     }
 
-    /// The point at a share of the length, from 0 at the start to 1 at the end, in m.
+    /// Returns the point at a fraction of the length, from 0 at the start to 1 at the end, in m.
     #[must_use]
-    pub fn at(&self, share: f64) -> [f64; 2] {
-        match (share, self.curve) {
+    pub fn at(&self, fraction: f64) -> [f64; 2] {
+        match (fraction, self.curve) {
             (..=0.0, _) => self.start,
             (1.0.., _) => self.end,
-            (_, Curve::Line | Curve::Arc { .. }) => self.at_parameter(share),
+            (_, Curve::Line | Curve::Arc { .. }) => self.at_parameter(fraction),
             _ => {
-                let (segment, accuracy) = (self.segment(), ACCURACY * self.reach());
+                let (segment, accuracy) = (self.segment(), ACCURACY * self.size());
                 let length = segment.arclen(accuracy);
-                let parameter = segment.inv_arclen(share * length, accuracy);
+                let parameter = segment.inv_arclen(fraction * length, accuracy);
                 self.at_parameter(parameter)
             }
         }
@@ -188,8 +202,9 @@ impl Edge {
         }
     }
 
-    /// Points on the edge from its start to its end without it, so close that the chords between them are
-    /// within a few thousandths of the edge's extent of the curve.
+    /// Returns points on the edge from its start up to, but not including, its end.
+    ///
+    /// The chords between them deviate from the curve by at most a few thousandths of its size.
     pub(crate) fn polyline(&self) -> Vec<[f64; 2]> {
         let chords = match self.curve {
             Curve::Line => 1,
@@ -198,7 +213,7 @@ impl Edge {
         (0..chords).map(|k| self.at_parameter(f64::from(k) / f64::from(chords))).collect()
     }
 
-    /// The directions in which the edge begins and ends, of any length.
+    /// Returns tangent vectors at the start and at the end, of any length.
     pub(crate) fn tangents(&self) -> [[f64; 2]; 2] {
         if let Curve::Arc { sweep } = self.curve
             && sweep != 0.0
@@ -210,13 +225,13 @@ impl Edge {
                 [cosine * chord[0] - sine * chord[1], sine * chord[0] + cosine * chord[1]]
             });
         }
-        // Towards the first point that is not the end itself.
+        // Towards the first control point that differs from the end.
         let controls = match self.curve {
             Curve::Quadratic(control) => [control, control],
             Curve::Cubic(controls) => controls,
             Curve::Line | Curve::Arc { .. } => [self.end, self.start],
         };
-        let near = 1e-9 * self.reach();
+        let near = 1e-9 * self.size();
         let towards = |from: [f64; 2], points: [[f64; 2]; 3]| {
             let point = points.into_iter().find(|&p| distance(p, from) > near);
             difference(point.unwrap_or(points[2]), from)
@@ -226,7 +241,7 @@ impl Edge {
         [start, end.map(|x| -x)]
     }
 
-    /// Area between the edge and the origin, positive if run anticlockwise, in m².
+    /// Returns the signed area between the edge and the origin, positive if it runs anticlockwise, in m².
     pub(crate) fn area(&self) -> f64 {
         let bulge = match self.curve {
             Curve::Arc { sweep } if sweep != 0.0 => {
@@ -238,8 +253,8 @@ impl Edge {
         self.segment().signed_area() + bulge
     }
 
-    /// A length of the order of the edge's own.
-    fn reach(&self) -> f64 {
+    /// Returns the largest distance of a coordinate from the start, in m: a scale for tolerances.
+    fn size(&self) -> f64 {
         let all = self.coordinates();
         let (x, y) = (self.start[0], self.start[1]);
         let far = all.enumerate().map(|(k, c)| (c - if k % 2 == 0 { x } else { y }).abs());
@@ -247,10 +262,12 @@ impl Edge {
     }
 }
 
+/// Returns the vector `a - b`.
 pub(crate) fn difference(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
+/// Returns the distance of two points.
 pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
@@ -264,7 +281,7 @@ mod tests {
         Edge::line("e", [1.0, 0.0], [0.0, 1.0]).curved(curve)
     }
 
-    /// Length and area of the chords between many points, Richardson's way to the limit.
+    /// Length and area of the chords between many points, extrapolated to the limit (Richardson).
     fn by_chords(edge: &Edge) -> (f64, f64) {
         let sums = |n: u32| {
             let points: Vec<_> =
@@ -301,7 +318,7 @@ mod tests {
 
     #[test]
     fn a_quarter_of_the_unit_circle() {
-        let quarter = edge(Curve::Arc { sweep: edge(Curve::Line).sweep(1.0, false, true) });
+        let quarter = edge(Curve::Arc { sweep: edge(Curve::Line).arc_sweep(1.0, false, true) });
         assert!((quarter.length() - FRAC_PI_2).abs() < 1e-12);
         assert!((quarter.area() - PI / 4.0).abs() < 1e-12);
         let [x, y] = quarter.at(1.0 / 3.0);
@@ -311,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_shares_are_equal_lengths() {
+    fn equal_fractions_are_equal_lengths() {
         // Its radius of curvature is nowhere under 0.1, so a chord is 1e-5 shorter than its arc at most.
         let cubic = edge(Curve::Cubic([[1.4, 0.6], [0.6, 1.4]]));
         let points: Vec<_> = (0..=1000).map(|k| cubic.at(f64::from(k) / 1000.0)).collect();

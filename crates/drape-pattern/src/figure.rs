@@ -1,4 +1,4 @@
-//! A picture of cut panels, as SVG.
+//! Drawing of cut panels as SVG.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -8,17 +8,17 @@ use crate::edge::difference;
 use crate::panel::{Fold, Panel};
 use crate::pattern::Pattern;
 
-/// Width of the picture over its height, about.
+/// Approximate ratio of the width of the drawing to its height.
 const SHAPE: f64 = 2.2;
 
-/// Degrees of hue between the colours of stitches that follow each other: the golden angle, so that few are
-/// alike.
+/// Hue between the colours of successive seams, in degrees: the golden angle, so that few are alike.
 const HUE_STEP: f64 = 137.508;
 
-/// Draws the panels of a cut side by side, in mm.
+/// Returns a drawing of the panels of a cut, side by side, as SVG in mm.
 ///
-/// Grey are cells and rim, black the outline; both sides of a seam have the same colour. An arrow along
-/// the warp shows the grain, and small letters name the edges. Dashed lines are folds, with their angles in degrees.
+/// Cells and rim are drawn in grey and brown, the outline in black; both sides of a seam have the same
+/// colour. An arrow along the warp shows the grain, and small letters name the edges. Dashed lines are
+/// folds, with their angles in degrees.
 #[must_use]
 pub fn figure(pattern: &Pattern, cut: &CutPattern) -> String {
     let sheet = Sheet::new(cut);
@@ -38,21 +38,22 @@ pub fn figure(pattern: &Pattern, cut: &CutPattern) -> String {
         drawing.mesh(&mut svg);
         drawing.seams(cut, &mut svg);
         drawing.folds(panel, &mut svg);
-        drawing.words(panel, &mut svg);
+        drawing.names(panel, &mut svg);
     }
     svg.push_str("</svg>\n");
     svg
 }
 
-/// Where the panels lie in the picture. Lengths are in mm.
+/// Layout of the panels in the drawing. Lengths are in mm.
 struct Sheet {
     size: [f64; 2],
-    /// Place of each panel's origin.
-    places: Vec<[f64; 2]>,
+    /// Position of the origin of each panel.
+    origins: Vec<[f64; 2]>,
+    /// Size of letters.
     letter: f64,
 }
 
-/// The smallest upright rectangle round a cut, in mm: its low and its high corner.
+/// Returns the low and the high corner of the bounding box of a cut, in mm.
 fn extent(cut: &Cut) -> [[f64; 2]; 2] {
     let of = |k: usize| {
         let all = cut.positions.iter().map(|p| 1000.0 * p[k]);
@@ -63,7 +64,7 @@ fn extent(cut: &Cut) -> [[f64; 2]; 2] {
 }
 
 impl Sheet {
-    /// Rows of panels, in their order.
+    /// Returns the layout of the panels of a cut in rows.
     fn new(cut: &CutPattern) -> Self {
         let extents: Vec<_> = cut.panels.iter().map(extent).collect();
         let area: f64 =
@@ -71,28 +72,44 @@ impl Sheet {
         let row = (SHAPE * area).sqrt();
         let letter = 0.012 * row;
         let gap = 3.0 * letter;
-        // Tall ones first, so that rows are full.
+        // Tall panels first, so that rows are full.
         let height = |k: usize| extents[k][1][1] - extents[k][0][1];
         let mut order: Vec<usize> = (0..extents.len()).collect();
         order.sort_by(|&a, &b| height(b).total_cmp(&height(a)).then(a.cmp(&b)));
         let (mut x, mut y, mut tallest, mut width) = (gap, gap, 0.0_f64, 0.0_f64);
-        let mut places = vec![[0.0; 2]; extents.len()];
+        let mut origins = vec![[0.0; 2]; extents.len()];
         for k in order {
             let [low, high] = extents[k];
             let across = high[0] - low[0];
             if x > gap && x + across > 1.15 * row {
                 (x, y, tallest) = (gap, y + tallest + gap, 0.0);
             }
-            places[k] = [x - low[0], y + high[1]];
+            origins[k] = [x - low[0], y + high[1]];
             x += across + gap;
             tallest = tallest.max(height(k));
             width = width.max(x);
         }
-        Self { size: [width, y + tallest + gap], places, letter }
+        Self { size: [width, y + tallest + gap], origins, letter }
     }
 }
 
-/// A panel in the picture.
+/// Text at a point of the drawing.
+struct Label<'a> {
+    text: &'a str,
+    /// Whether the text starts, ends or is centred at the point, in the words of SVG.
+    anchor: &'static str,
+    at: [f64; 2],
+    /// Size of letters, in mm.
+    size: f64,
+}
+
+/// Point on a line of the drawing with a direction along it.
+struct Beside {
+    at: [f64; 2],
+    along: [f64; 2],
+}
+
+/// Panel in the drawing.
 struct Drawing<'a> {
     sheet: &'a Sheet,
     cut: &'a Cut,
@@ -100,21 +117,24 @@ struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    /// A point of the panel, in m, in the picture.
+    /// Returns a point of the panel, given in m, in the drawing.
     fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let [left, top] = self.sheet.places[self.number];
+        let [left, top] = self.sheet.origins[self.number];
         [left + 1000.0 * x, top - 1000.0 * y]
     }
 
+    /// Returns a node in the drawing.
     fn node(&self, node: u32) -> [f64; 2] {
         self.point(self.cut.positions[node as usize])
     }
 
+    /// Adds a line between two nodes to a path.
     fn line(&self, [from, to]: [u32; 2], path: &mut String) {
         let (a, b) = (self.node(from), self.node(to));
         let _ = write!(path, "M{:.1} {:.1}l{:.1} {:.1}", a[0], a[1], b[0] - a[0], b[1] - a[1]);
     }
 
+    /// Draws outline, cells and rim.
     fn mesh(&self, svg: &mut String) {
         let width = 0.06 * self.sheet.letter;
         let outline = polygon(self.cut.outline.iter().map(|&n| self.node(n)));
@@ -129,15 +149,15 @@ impl Drawing<'_> {
         );
     }
 
-    /// The sides of cells, those in one line drawn as one.
+    /// Returns the sides of the cells as a path; sides in one line are one line.
     fn cells(&self) -> String {
         let mut path = String::new();
         let sides =
             self.cut.quads.iter().flat_map(|&[a, b, c, d]| [[a, b], [d, c], [a, d], [b, c]]);
-        let place = |node: u32| self.cut.lattice[node as usize].unwrap_or_default();
-        // Along warp or weft, line by line, with the two ends.
+        let grid = |node: u32| self.cut.lattice[node as usize].unwrap_or_default();
+        // Axis, line and position along it, with the two ends.
         let line = |[from, to]: [u32; 2]| {
-            let ([c, r], [column, _]) = (place(from), place(to));
+            let ([c, r], [column, _]) = (grid(from), grid(to));
             if column == c { (0, c, r, from, to) } else { (1, r, c, from, to) }
         };
         let all: BTreeSet<_> = sides.map(line).collect();
@@ -161,7 +181,7 @@ impl Drawing<'_> {
         path
     }
 
-    /// The sides between triangles.
+    /// Returns the sides between triangles as a path.
     fn rim(&self) -> String {
         let mut path = String::new();
         let triangles = self.cut.triangles.iter();
@@ -173,26 +193,27 @@ impl Drawing<'_> {
         path
     }
 
+    /// Draws the sides of seams that lie in this panel.
     fn seams(&self, cut: &CutPattern, svg: &mut String) {
         let outline = &self.cut.outline;
         let next = outline.iter().cycle().skip(1);
         let sides: BTreeSet<[u32; 2]> =
             outline.iter().zip(next).flat_map(|(&a, &b)| [[a, b], [b, a]]).collect();
-        for (stitch, seam) in cut.seams.iter().enumerate() {
+        for (number, seam) in cut.seams.iter().enumerate() {
             let mut path = String::new();
             for side in 0..2 {
                 let here = seam.side(side).filter(|id| id.panel == self.number);
                 let mut last = None;
                 for node in here.map(|id| id.node) {
                     let [x, y] = self.node(node);
-                    // A chain may go on elsewhere, as at the mouth of a dart.
+                    // A chain may continue elsewhere, as at the mouth of a dart.
                     let onward = last.is_some_and(|last| sides.contains(&[last, node]));
                     let _ = write!(path, "{}{x:.1} {y:.1}", if onward { 'L' } else { 'M' });
                     last = Some(node);
                 }
             }
             if !path.is_empty() {
-                let (colour, width) = (colour(stitch), 0.35 * self.sheet.letter);
+                let (colour, width) = (colour(number), 0.35 * self.sheet.letter);
                 let _ = writeln!(
                     svg,
                     "<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width:.2}\"/>"
@@ -201,18 +222,18 @@ impl Drawing<'_> {
         }
     }
 
-    /// What of the lines of folds lies inside the outline, each with its angle beside its longest piece.
+    /// Draws the parts of fold lines inside the outline, each line with its angle beside its longest part.
     fn folds(&self, panel: &Panel, svg: &mut String) {
         let outline: Vec<[f64; 2]> =
             self.cut.outline.iter().map(|&n| self.cut.positions[n as usize]).collect();
         let letter = self.sheet.letter;
         for Fold { ends: [from, to], angle } in panel.folds() {
-            let way = difference(*to, *from);
-            let at = |share: f64| [from[0] + share * way[0], from[1] + share * way[1]];
+            let line = difference(*to, *from);
+            let at = |fraction: f64| [from[0] + fraction * line[0], from[1] + fraction * line[1]];
             let pieces = inside(&outline, [*from, *to]);
             let mut path = String::new();
             for piece in &pieces {
-                let [a, b] = piece.map(|share| self.point(at(share)));
+                let [a, b] = piece.map(|fraction| self.point(at(fraction)));
                 let _ = write!(path, "M{:.1} {:.1}L{:.1} {:.1}", a[0], a[1], b[0], b[1]);
             }
             let length = |[start, end]: &[f64; 2]| end - start;
@@ -227,13 +248,15 @@ impl Drawing<'_> {
                 0.6 * letter,
             );
             // A third along it: the panel's name may be in the middle.
-            let place = self.point(at(start + (end - start) / 3.0));
+            let at = self.point(at(start + (end - start) / 3.0));
             let angle = format!("{}°", (10.0 * angle.to_degrees()).round() / 10.0);
-            self.beside(&angle, (place, difference(self.point(*to), self.point(*from))), svg);
+            let along = difference(self.point(*to), self.point(*from));
+            self.label_beside(&angle, &Beside { at, along }, svg);
         }
     }
 
-    fn words(&self, panel: &Panel, svg: &mut String) {
+    /// Draws the grain, the name of the panel and those of its edges.
+    fn names(&self, panel: &Panel, svg: &mut String) {
         let letter = self.sheet.letter;
         let middle = self.middle();
         let (sine, cosine) = panel.grain().sin_cos();
@@ -261,19 +284,20 @@ impl Drawing<'_> {
             tip[1],
             0.15 * letter,
         );
-        let name = [middle[0], middle[1] + half * along[1].abs() + 1.4 * letter];
-        word(svg, (panel.name(), "middle"), (name, 1.2 * letter));
+        let at = [middle[0], middle[1] + half * along[1].abs() + 1.4 * letter];
+        Label { text: panel.name(), anchor: "middle", at, size: 1.2 * letter }.draw(svg);
         for (edge, nodes) in panel.outline().iter().zip(&self.cut.edges) {
             // Beside the middle of the edge, inside.
             let half = nodes.len() / 2;
             let (from, to) = (self.node(nodes[half.saturating_sub(1)]), self.node(nodes[half]));
-            let middle = [0, 1].map(|k| 0.5 * (from[k] + to[k]));
-            self.beside(&edge.name, (middle, difference(to, from)), svg);
+            let at = [0, 1].map(|k| 0.5 * (from[k] + to[k]));
+            self.label_beside(&edge.name, &Beside { at, along: difference(to, from) }, svg);
         }
     }
 
-    /// A small word at a place on a line, on the side that is inside where the line is the outline.
-    fn beside(&self, text: &str, (at, [x, y]): ([f64; 2], [f64; 2]), svg: &mut String) {
+    /// Draws a small text beside a line, on the side that is inside where the line is the outline.
+    fn label_beside(&self, text: &str, line: &Beside, svg: &mut String) {
+        let Beside { at, along: [x, y] } = *line;
         let letter = self.sheet.letter;
         let length = x.hypot(y).max(f64::MIN_POSITIVE);
         let inward = [y / length, -x / length];
@@ -283,23 +307,23 @@ impl Drawing<'_> {
             _ => "middle",
         };
         let at = [0, 1].map(|k| at[k] + 0.9 * letter * inward[k]);
-        word(svg, (text, anchor), (at, 0.75 * letter));
+        Label { text, anchor, at, size: 0.75 * letter }.draw(svg);
     }
 
-    /// The middle of the cell that is farthest from the outline, or of the panel's box without cells.
+    /// Returns the centre of the cell that is farthest from the outline; without cells, of the bounding box.
     fn middle(&self) -> [f64; 2] {
         let centre = |quad: &[u32; 4]| {
             let (a, c) = (self.node(quad[0]), self.node(quad[2]));
             [0.5 * (a[0] + c[0]), 0.5 * (a[1] + c[1])]
         };
         let outline: Vec<[f64; 2]> = self.cut.outline.iter().map(|&n| self.node(n)).collect();
-        let clear = |p: &[f64; 2]| {
+        let clearance = |p: &[f64; 2]| {
             let distances = outline.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1]));
             distances.fold(f64::MAX, f64::min)
         };
         let step = (self.cut.quads.len() / 400).max(1);
         let centres = self.cut.quads.iter().step_by(step).map(centre);
-        let best = centres.max_by(|a, b| clear(a).total_cmp(&clear(b)));
+        let best = centres.max_by(|a, b| clearance(a).total_cmp(&clearance(b)));
         best.unwrap_or_else(|| {
             let [low, high] = extent(self.cut);
             self.point([0, 1].map(|k| 0.0005 * (low[k] + high[k])))
@@ -307,26 +331,28 @@ impl Drawing<'_> {
     }
 }
 
-/// The pieces of a line inside a polygon, as parts of its length from its start.
+/// Returns the parts of a line inside a polygon, as fractions of its length from its start.
 fn inside(polygon: &[[f64; 2]], [from, to]: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
-    let way = difference(to, from);
+    let line = difference(to, from);
     let sides = || polygon.iter().copied().zip(polygon.iter().copied().cycle().skip(1));
-    let left = |p: [f64; 2]| way[0] * (p[1] - from[1]) - way[1] * (p[0] - from[0]);
+    let left = |p: [f64; 2]| line[0] * (p[1] - from[1]) - line[1] * (p[0] - from[0]);
     let along = |p: [f64; 2]| {
-        (way[0] * (p[0] - from[0]) + way[1] * (p[1] - from[1])) / (way[0].powi(2) + way[1].powi(2))
+        (line[0] * (p[0] - from[0]) + line[1] * (p[1] - from[1]))
+            / (line[0].powi(2) + line[1].powi(2))
     };
-    // One of a corner's two sides has it, so that the line is in and out by turns.
+    // A corner belongs to one of its two sides, so that the line is alternately outside and inside.
     let crossed = sides().filter_map(|(a, b)| {
         let (here, there) = (left(a), left(b));
-        let share = here / (here - there);
-        ((here > 0.0) != (there > 0.0)).then(|| along(a) + share * (along(b) - along(a)))
+        let fraction = here / (here - there);
+        ((here > 0.0) != (there > 0.0)).then(|| along(a) + fraction * (along(b) - along(a)))
     });
-    let mut shares: Vec<f64> = crossed.collect();
-    shares.sort_by(f64::total_cmp);
-    let pieces = shares.chunks_exact(2).map(|piece| [piece[0].max(0.0), piece[1].min(1.0)]);
+    let mut fractions: Vec<f64> = crossed.collect();
+    fractions.sort_by(f64::total_cmp);
+    let pieces = fractions.chunks_exact(2).map(|piece| [piece[0].max(0.0), piece[1].min(1.0)]);
     pieces.filter(|[start, end]| end > start).collect()
 }
 
+/// Returns a closed path through points.
 fn polygon(points: impl Iterator<Item = [f64; 2]>) -> String {
     let mut path = String::new();
     for (k, [x, y]) in points.enumerate() {
@@ -336,35 +362,39 @@ fn polygon(points: impl Iterator<Item = [f64; 2]>) -> String {
     path
 }
 
-/// A word that begins, ends or has its middle at a place, on white.
-fn word(svg: &mut String, (text, anchor): (&str, &str), ([x, y], size): ([f64; 2], f64)) {
-    let mut clean = String::new();
-    for letter in text.chars() {
-        match letter {
-            '&' => clean.push_str("&amp;"),
-            '<' => clean.push_str("&lt;"),
-            '>' => clean.push_str("&gt;"),
-            // XML has no place for them.
-            letter if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => {
-                clean.push(' ');
+impl Label<'_> {
+    /// Draws the text on a white halo.
+    fn draw(&self, svg: &mut String) {
+        let Self { text, anchor, at: [x, y], size } = self;
+        let mut clean = String::new();
+        for letter in text.chars() {
+            match letter {
+                '&' => clean.push_str("&amp;"),
+                '<' => clean.push_str("&lt;"),
+                '>' => clean.push_str("&gt;"),
+                // Characters that XML does not allow.
+                letter if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => {
+                    clean.push(' ');
+                }
+                letter => clean.push(letter),
             }
-            letter => clean.push(letter),
         }
+        let _ = writeln!(
+            svg,
+            "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"{size:.1}\" text-anchor=\"{anchor}\" \
+             fill=\"#222222\" stroke=\"#ffffff\" stroke-width=\"{:.2}\" \
+             paint-order=\"stroke\">{clean}</text>",
+            y + 0.35 * size,
+            0.25 * size,
+        );
     }
-    let _ = writeln!(
-        svg,
-        "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"{size:.1}\" text-anchor=\"{anchor}\" fill=\"#222222\" \
-         stroke=\"#ffffff\" stroke-width=\"{:.2}\" paint-order=\"stroke\">{clean}</text>",
-        y + 0.35 * size,
-        0.25 * size,
-    );
 }
 
-/// The colour of a stitch.
-fn colour(stitch: usize) -> String {
-    // Hue in sixths of the circle; full saturation, and every other turn darker.
-    let hue = (stitch as f64 * HUE_STEP / 60.0).rem_euclid(6.0);
-    let value = if stitch.is_multiple_of(2) { 0.9 } else { 0.7 };
+/// Returns the colour of a seam by its number.
+fn colour(seam: usize) -> String {
+    // Hue in sixths of the circle; full saturation, and every other seam darker.
+    let hue = (seam as f64 * HUE_STEP / 60.0).rem_euclid(6.0);
+    let value = if seam.is_multiple_of(2) { 0.9 } else { 0.7 };
     let channel = |shift: f64| {
         let part = ((hue + shift).rem_euclid(6.0) - 3.0).abs() - 1.0;
         (255.0 * value * part.clamp(0.0, 1.0)).round() as u8

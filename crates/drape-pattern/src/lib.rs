@@ -1,36 +1,46 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! [`Pattern::read`] makes a checked [`Pattern`] of a file: [`Panel`]s, whose outlines are chains of
+//! [`Edge`]s, and [`Seam`]s between them. [`Cutter::cut`] makes a [`CutPattern`] of it: a [`Cut`] of each
+//! panel and the [`SeamNodes`] of each seam. [`Quality`] measures a cut, [`figure`] draws it. What is wrong
+//! is a [`Mistake`] with a remedy, in an [`Error`] or in diagnostics of the file; what only should be known
+//! is a [`Note`].
+//!
+//! Layers, lowest first: `length`, `ease`, `edge`, `polygon`; `mistake`, `note`, `error`; `placement`,
+//! `panel`, `pattern`; the chapters `read` and `cut`; `figure`.
 
-mod boundary;
-mod crossing;
-mod cut;
-mod cutter;
+// Geometry of outlines.
 mod edge;
-mod figure;
-mod file;
-mod freesewing;
-mod garmentcode;
-mod grid;
-mod joining;
-mod joints;
-mod lattice;
-mod mistake;
-mod note;
+mod polygon;
+
+// The pattern.
+mod ease;
 mod panel;
-mod path;
 mod pattern;
 mod placement;
-mod quality;
-mod read;
-mod rim;
 
-pub use boundary::{NodeId, SeamNodes, Tie};
-pub use cut::{Cut, CutPattern};
-pub use cutter::Cutter;
+// Answers.
+mod error;
+mod length;
+mod mistake;
+mod note;
+
+// Files to patterns, patterns to particles.
+mod cut;
+mod read;
+
+// Pictures of cuts.
+mod figure;
+
+pub use cut::{Cut, CutPattern, Cutter, NodeId, Quality, SeamNodes, Tie};
+pub use ease::MAX_EASE;
 pub use edge::{Curve, Edge};
+pub use error::Error;
 pub use figure::figure;
-pub use mistake::{Error, Mistake, Subject};
+pub use mistake::{Mistake, Subject};
 pub use note::Note;
 pub use panel::{Fold, Panel};
-pub use pattern::{EdgeId, MAX_EASE, Pattern, Stitch};
+pub use pattern::{EdgeId, Pattern, Seam};
 pub use placement::Placement;
-pub use quality::Quality;

@@ -1,22 +1,11 @@
-use std::fmt;
+//! Mistakes of a pattern, each with its values, its remedy and its subject.
 
-use drape_input::Diagnostics;
+use crate::ease::MAX_EASE;
+use crate::length::Millimetres;
 
-/// A length in mm, short enough to read.
-pub(crate) struct Millimetres(pub f64);
-
-impl fmt::Display for Millimetres {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let value = 1000.0 * self.0;
-        match value.abs() {
-            100.0.. => write!(f, "{value:.0} mm"),
-            0.05.. => write!(f, "{value:.1} mm"),
-            _ => write!(f, "{value:.3} mm"),
-        }
-    }
-}
-
-/// What is wrong with a pattern, or with cutting it at a spacing. Lengths are in m.
+/// Mistake of a pattern, or of cutting it at a spacing. Lengths are in m.
+///
+/// Each variant names the mistake and, after the colon, the remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Mistake {
@@ -29,21 +18,21 @@ pub enum Mistake {
         edge: String,
     },
     /// An edge lies farther out than any cloth: check the unit.
-    #[error("panel {panel}: edge {edge} reaches {reach:.3e} m from the origin")]
+    #[error("panel {panel}: edge {edge} has a point {distance:.3e} m from the origin")]
     Far {
         /// The panel.
         panel: String,
         /// The edge.
         edge: String,
-        /// Its farthest coordinate, in m.
-        reach: f64,
+        /// Largest coordinate, in m.
+        distance: f64,
     },
     /// An outline has fewer than two edges: add some.
     #[error("panel {panel} has {edges} edges")]
     FewEdges {
         /// The panel.
         panel: String,
-        /// How many edges it has.
+        /// Number of its edges.
         edges: usize,
     },
     /// Two edges of a panel have one name: give each its own.
@@ -87,11 +76,11 @@ pub enum Mistake {
     Crossing {
         /// The panel.
         panel: String,
-        /// One of the two.
+        /// One of the two edges.
         first: String,
-        /// The other.
+        /// The other edge.
         second: String,
-        /// Where, in the panel's frame, in m.
+        /// Point where they meet, in the panel's frame, in m.
         at: [f64; 2],
     },
     /// An outline encloses nothing: give the panel area.
@@ -102,7 +91,7 @@ pub enum Mistake {
         /// Its area, in m².
         area: f64,
     },
-    /// A panel has a size that no garment's has: correct the unit of the file.
+    /// A panel is larger or smaller than any garment panel: correct the unit of the file.
     #[error("panel {panel} is {size:.4} m wide or high")]
     Size {
         /// The panel.
@@ -132,12 +121,12 @@ pub enum Mistake {
         /// The command, from 1.
         command: usize,
     },
-    /// The grain or the place of a panel is not finite: correct it.
+    /// The grain, a fold or the place of a panel is not finite: correct it.
     #[error("panel {panel}: its {value} is not finite")]
     Placed {
         /// The panel.
         panel: String,
-        /// What of it.
+        /// The quantity, in words.
         value: &'static str,
     },
     /// A panel that is wrapped would meet itself: wrap it to a larger radius.
@@ -153,60 +142,60 @@ pub enum Mistake {
         /// Its width, in m.
         width: f64,
     },
-    /// A stitch names an edge that there is not: name another.
-    #[error("stitch {stitch} names edge {edge} of panel {panel}, which there is not")]
+    /// A seam names an edge that does not exist: name another.
+    #[error("seam {seam} names edge {edge} of panel {panel}, which does not exist")]
     NoEdge {
-        /// The stitch.
-        stitch: String,
+        /// The seam.
+        seam: String,
         /// Number of the panel, from 0.
         panel: usize,
         /// Number of the edge, from 0.
         edge: usize,
     },
-    /// A side of a stitch has no edges: name some.
-    #[error("stitch {stitch} has a side without edges")]
+    /// A side of a seam has no edges: name some.
+    #[error("seam {seam} has a side without edges")]
     EmptySide {
-        /// The stitch.
-        stitch: String,
+        /// The seam.
+        seam: String,
     },
     /// An edge is sewn twice: split it, or join both seams in one chain.
-    #[error("edge {edge} of panel {panel} is sewn twice, in stitches {first} and {second}")]
+    #[error("edge {edge} of panel {panel} is sewn twice, in seams {first} and {second}")]
     SewnTwice {
         /// The panel.
         panel: String,
         /// The edge.
         edge: String,
-        /// One of the two.
+        /// Seam that names it first.
         first: String,
-        /// The other.
+        /// Seam that names it again.
         second: String,
     },
     /// An edge is hemmed and sewn: leave out the hem.
-    #[error("edge {edge} of panel {panel} has a hem, and is sewn in stitch {stitch}")]
+    #[error("edge {edge} of panel {panel} has a hem, and is sewn in seam {seam}")]
     SewnHem {
         /// The panel.
         panel: String,
         /// The edge.
         edge: String,
-        /// The stitch.
-        stitch: String,
+        /// The seam.
+        seam: String,
     },
-    /// The ease of a stitch is none that can be cut: choose another.
-    #[error("stitch {stitch}: max_ease is {max_ease}")]
+    /// The largest ease of a seam is out of range: choose another.
+    #[error("seam {seam}: max_ease is {max_ease}")]
     MaxEase {
-        /// The stitch.
-        stitch: String,
-        /// The limit.
+        /// The seam.
+        seam: String,
+        /// Largest ease that is allowed.
         max_ease: f64,
     },
-    /// The sides of a stitch differ too much: correct the edges, or allow more fullness.
+    /// The sides of a seam differ too much in length: correct the edges, or allow more fullness.
     #[error(
-        "stitch {stitch}: {long} {} and {short} {}: ratio {ratio:.3} is above max_ease {max_ease}",
+        "seam {seam}: {long} {} and {short} {}: ratio {ratio:.3} is above max_ease {max_ease}",
         Millimetres(lengths[0]), Millimetres(lengths[1])
     )]
     Ease {
-        /// The stitch.
-        stitch: String,
+        /// The seam.
+        seam: String,
         /// The edges of the longer side.
         long: String,
         /// The edges of the shorter side.
@@ -215,10 +204,10 @@ pub enum Mistake {
         lengths: [f64; 2],
         /// The ratio of the lengths.
         ratio: f64,
-        /// The limit.
+        /// Largest ease that is allowed.
         max_ease: f64,
     },
-    /// The spacing is no length: choose one.
+    /// The spacing is out of range: choose another.
     #[error("the spacing is {spacing} m")]
     Spacing {
         /// The spacing, in m.
@@ -247,7 +236,7 @@ pub enum Mistake {
     Narrow {
         /// The panel.
         panel: String,
-        /// Where, in the panel's frame, in m.
+        /// Point in the panel's frame, in m.
         at: [f64; 2],
         /// The spacing, in m.
         spacing: f64,
@@ -257,7 +246,7 @@ pub enum Mistake {
     TooMany {
         /// The panel.
         panel: String,
-        /// About how many.
+        /// Approximate number.
         nodes: f64,
         /// The spacing, in m.
         spacing: f64,
@@ -272,19 +261,19 @@ pub enum Mistake {
     },
 }
 
-/// What a mistake is about.
+/// Part of a pattern that a mistake is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Subject<'a> {
     /// The panel of this name.
     Panel(&'a str),
-    /// The stitch of this name.
-    Stitch(&'a str),
+    /// The seam of this name.
+    Seam(&'a str),
     /// The spacing.
     Spacing,
 }
 
 impl Mistake {
-    /// What to do about it.
+    /// Returns the remedy.
     #[must_use]
     pub fn help(&self) -> String {
         match self {
@@ -307,22 +296,22 @@ impl Mistake {
                 let least = Millimetres(width / std::f64::consts::TAU);
                 format!("wrap it to more than {least}, or leave wrap out for a flat panel")
             }
-            Self::NoEdge { .. } => "name panels and edges that there are".into(),
+            Self::NoEdge { .. } => "name panels and edges that exist".into(),
             Self::EmptySide { .. } => "name one edge or more on each side".into(),
             Self::SewnTwice { .. } => "split the edge, or join both in one chain".into(),
             Self::SewnHem { .. } => "leave out the hem, and give the seam an allowance".into(),
             Self::MaxEase { .. } => {
-                format!("from 1 to {}: gathers beyond are not cut", crate::MAX_EASE)
+                format!("from 1 to {}: gathers beyond are not cut", MAX_EASE)
             }
-            Self::Ease { ratio, .. } if *ratio <= crate::MAX_EASE => {
+            Self::Ease { ratio, .. } if *ratio <= MAX_EASE => {
                 "raise max_ease if the fullness is meant".into()
             }
             Self::Ease { .. } => format!(
                 "gathers above {} are not cut: shorten the longer side, or sew it to several edges",
-                crate::MAX_EASE
+                MAX_EASE
             ),
             Self::Spacing { .. } => "choose a length, such as 0.01 m".into(),
-            // Half a spacing is enough; a little less is a round number.
+            // Half a spacing would do; a little less leaves room for rounding.
             Self::ShortEdge { length, .. } => {
                 format!(
                     "use a spacing of {} or less, or join it to a neighbour",
@@ -337,7 +326,7 @@ impl Mistake {
         }
     }
 
-    /// What it is about.
+    /// Returns the part that the mistake is about.
     #[must_use]
     pub fn subject(&self) -> Subject<'_> {
         match self {
@@ -359,31 +348,13 @@ impl Mistake {
             | Self::Narrow { panel, .. }
             | Self::TooMany { panel, .. }
             | Self::Rim { panel, .. } => Subject::Panel(panel),
-            Self::NoEdge { stitch, .. }
-            | Self::EmptySide { stitch }
-            | Self::SewnHem { stitch, .. }
-            | Self::MaxEase { stitch, .. }
-            | Self::Ease { stitch, .. }
-            | Self::SewnTwice { second: stitch, .. } => Subject::Stitch(stitch),
+            Self::NoEdge { seam, .. }
+            | Self::EmptySide { seam }
+            | Self::SewnHem { seam, .. }
+            | Self::MaxEase { seam, .. }
+            | Self::Ease { seam, .. }
+            | Self::SewnTwice { second: seam, .. } => Subject::Seam(seam),
             Self::Spacing { .. } => Subject::Spacing,
         }
     }
-}
-
-/// Why a pattern could not be read, made or cut.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum Error {
-    /// A file has mistakes: correct them; all that were found are listed.
-    #[error(transparent)]
-    Input(#[from] Diagnostics),
-    /// The pattern has mistakes, or cannot be cut at the spacing: all that were found are listed.
-    #[error("{}", list(.0))]
-    Pattern(Vec<Mistake>),
-}
-
-fn list(mistakes: &[Mistake]) -> String {
-    let lines: Vec<String> =
-        mistakes.iter().map(|mistake| format!("{mistake}\n  help: {}", mistake.help())).collect();
-    lines.join("\n")
 }

@@ -1,7 +1,8 @@
-use crate::mistake::Millimetres;
+//! Notes on a pattern or its cut that do not prevent its use.
 
-/// Something about a pattern or its cut that its user should know, and that hinders nothing. Lengths are
-/// in m.
+use crate::length::Millimetres;
+
+/// Note on a pattern or its cut that its user should know, and that prevents nothing. Lengths are in m.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Note {
@@ -11,7 +12,7 @@ pub enum Note {
         /// The panel.
         panel: String,
     },
-    /// The outline was given clockwise, with a place in space.
+    /// The outline was given clockwise, with a place in space: the panel was turned over.
     #[error("panel {panel}: its outline ran clockwise, so its right side faces the other way")]
     TurnedOver {
         /// The panel.
@@ -51,7 +52,7 @@ pub enum Note {
         /// The spacing, in m.
         spacing: f64,
     },
-    /// Ends of short edges in smooth runs, as digitised outlines have, are no nodes.
+    /// Ends of short edges in smooth runs, of which digitised outlines consist, are no nodes.
     #[error(
         "panel {panel}: {ends} ends of edges in smooth runs of edges under half the spacing ({}) are no nodes",
         Millimetres(*spacing)
@@ -59,7 +60,7 @@ pub enum Note {
     Dissolved {
         /// The panel.
         panel: String,
-        /// How many.
+        /// Number of ends.
         ends: usize,
         /// The spacing, in m.
         spacing: f64,
@@ -72,24 +73,24 @@ pub enum Note {
     Thin {
         /// The panel.
         panel: String,
-        /// Width there, in m.
+        /// Width at that point, in m.
         width: f64,
-        /// Where, in the panel's frame, in m.
+        /// Point in the panel's frame, in m.
         at: [f64; 2],
         /// The spacing, in m.
         spacing: f64,
     },
-    /// The placed panels suggest the other sense.
+    /// In space, the ends of a seam lie closer together in the opposite sense.
     #[error(
-        "stitch {stitch} may run the wrong way: its ends are {} apart as given and {} if reversed",
+        "seam {seam} may run in the wrong sense: its ends are {} apart as given and {} if reversed",
         Millimetres(*given), Millimetres(*reversed)
     )]
     Twisted {
-        /// The stitch.
-        stitch: String,
-        /// How far the ends lie apart as given, in m.
+        /// The seam.
+        seam: String,
+        /// Distance of the ends as given, in m.
         given: f64,
-        /// How far they would lie apart, in m.
+        /// Distance of the ends if reversed, in m.
         reversed: f64,
     },
 }

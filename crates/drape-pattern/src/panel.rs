@@ -1,21 +1,38 @@
+//! Panels: checked outlines with grain, folds and a place in space.
+
 use std::collections::BTreeSet;
 
-use crate::crossing::crossing;
 use crate::edge::{Edge, difference, distance};
 use crate::mistake::Mistake;
 use crate::placement::Placement;
+use crate::polygon::self_intersection;
 
-/// Farthest that a point may lie from the origin, in m: beyond it is a slip of the unit, and the
-/// arithmetic of the cutter need not be proved.
+/// Largest coordinate of a point, in m.
+///
+/// Beyond it the unit of the file is wrong; the arithmetic of the cutter is not tested there.
 const FARTHEST: f64 = 1000.0;
 
-/// Gaps between edges up to this are closed, in m: what is left by the digits of a file.
+/// Largest gap between edges that is closed, in m: the rounding of the digits of a file.
 const GAP: f64 = 1e-5;
 
-/// Shortest edge of an outline, in m, and the side of the least square that is a panel.
+/// Length of the shortest edge of an outline, and side of the smallest square that is a panel, in m.
 const SHORTEST: f64 = 1e-6;
 
-/// A piece of cloth with a checked outline: closed, without crossings, anticlockwise.
+/// Piece of cloth with a checked outline: closed, simple, anticlockwise.
+///
+/// ```
+/// use drape_pattern::{Edge, Panel};
+///
+/// let corners = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.6], [0.0, 0.6]];
+/// let edge = |k: usize| Edge::line(k.to_string(), corners[k], corners[(k + 1) % 4]);
+/// let panel = Panel::new("front", (0..4).map(edge).collect()).expect("a rectangle is simple");
+/// assert!((panel.area() - 0.24).abs() < 1e-12);
+///
+/// let crossed = [0, 2, 1, 3].map(|k| corners[k]);
+/// let edge = |k: usize| Edge::line(k.to_string(), crossed[k], crossed[(k + 1) % 4]);
+/// let mistakes = Panel::new("bow tie", (0..4).map(edge).collect()).expect_err("it crosses itself");
+/// assert!(mistakes[0].to_string().contains("cross or touch"));
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
     name: String,
@@ -26,22 +43,22 @@ pub struct Panel {
     folds: Vec<Fold>,
 }
 
-/// A straight line along which a panel is folded at rest.
+/// Straight line along which a panel is folded at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fold {
-    /// Its ends in the panel's frame, in m. They may lie outside the outline.
+    /// Ends of the line in the panel's frame, in m. They may lie outside the outline.
     pub ends: [[f64; 2]; 2],
-    /// Angle by which the panel is turned towards its right side, in rad.
+    /// Angle by which the panel is folded towards its right side, in rad.
     pub angle: f64,
 }
 
 impl Panel {
-    /// A panel from the edges of its outline, each beginning where the one before it ends.
+    /// Returns a panel with the edges of its outline, each beginning where the one before it ends.
     ///
     /// An outline that runs clockwise is reversed.
     ///
     /// # Errors
-    /// All mistakes of the outline.
+    /// All mistakes of the outline, together.
     pub fn new(name: impl Into<String>, outline: Vec<Edge>) -> Result<Self, Vec<Mistake>> {
         let name = name.into();
         let mut outline = outline;
@@ -67,10 +84,10 @@ impl Panel {
         Ok(Self { name, outline, grain: 0.0, placement: None, clockwise, folds: Vec::new() })
     }
 
-    /// The panel with its warp at an angle to its y axis, anticlockwise, in rad.
+    /// Returns the panel with its warp at an angle to its y axis, anticlockwise, in rad.
     ///
     /// # Errors
-    /// When the angle is not finite.
+    /// The angle is not finite.
     pub fn with_grain(mut self, angle: f64) -> Result<Self, Mistake> {
         if !angle.is_finite() {
             return Err(Mistake::Placed { panel: self.name, value: "grain" });
@@ -79,10 +96,10 @@ impl Panel {
         Ok(self)
     }
 
-    /// The panel with folds.
+    /// Returns the panel with folds.
     ///
     /// # Errors
-    /// When a number of a fold is not finite, or it has no length.
+    /// A number of a fold is not finite, or a fold has no length.
     pub fn with_folds(mut self, folds: Vec<Fold>) -> Result<Self, Mistake> {
         let bad = |fold: &Fold| {
             let [from, to] = fold.ends;
@@ -95,10 +112,10 @@ impl Panel {
         Ok(self)
     }
 
-    /// The panel at a place in space.
+    /// Returns the panel at a place in space.
     ///
     /// # Errors
-    /// When the place is not finite, or the panel, bent by it, would meet itself.
+    /// The place is not finite, or the panel would meet itself when it is bent to the cylinder.
     pub fn with_placement(mut self, placement: Placement) -> Result<Self, Mistake> {
         if !placement.is_finite() {
             return Err(Mistake::Placed { panel: self.name, value: "place" });
@@ -113,11 +130,11 @@ impl Panel {
         Ok(self)
     }
 
-    /// The panel seen from its other side, lying where it lay: mirrored in its y axis, with its edges in
-    /// the order that they had before a clockwise outline was reversed.
+    /// Returns the panel turned over, at the same position: reflected in its y axis, with its edges in the
+    /// order that they had before a clockwise outline was reversed.
     #[must_use]
     pub(crate) fn turned_over(mut self) -> Self {
-        let mirror = |edge: &Edge| edge.reversed().moved(true, |[x, y]| [-x, y]);
+        let mirror = |edge: &Edge| edge.reversed().mapped(true, |[x, y]| [-x, y]);
         self.outline = self.outline.iter().rev().map(mirror).collect();
         self.grain = 0.0 - self.grain;
         self.placement = self.placement.map(Placement::turned_over);
@@ -128,56 +145,56 @@ impl Panel {
         self
     }
 
-    /// Its name.
+    /// Name of the panel.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The edges of its outline, anticlockwise.
+    /// Edges of the outline, anticlockwise.
     #[must_use]
     pub fn outline(&self) -> &[Edge] {
         &self.outline
     }
 
-    /// Angle from its y axis to its warp, anticlockwise, in rad.
+    /// Angle from the y axis to the warp, anticlockwise, in rad.
     #[must_use]
     pub fn grain(&self) -> f64 {
         self.grain
     }
 
-    /// The lines along which it is folded at rest.
+    /// Lines along which the panel is folded at rest.
     #[must_use]
     pub fn folds(&self) -> &[Fold] {
         &self.folds
     }
 
-    /// Where it lies in space, where that is known.
+    /// Place in space, if the pattern gives one.
     #[must_use]
     pub fn placement(&self) -> Option<&Placement> {
         self.placement.as_ref()
     }
 
-    /// Whether the outline was given clockwise.
+    /// Returns whether the outline was given clockwise.
     #[must_use]
     pub fn was_clockwise(&self) -> bool {
         self.clockwise
     }
 
-    /// Its area, in m².
+    /// Area of the panel, in m².
     #[must_use]
     pub fn area(&self) -> f64 {
-        // Lengths are counted from a corner, so that a panel far from the origin loses no digits.
+        // Relative to a corner, so that a panel far from the origin loses no digits.
         let [x, y] = self.outline[0].start;
-        self.outline.iter().map(|e| e.moved(false, |p| difference(p, [x, y])).area()).sum()
+        self.outline.iter().map(|e| e.mapped(false, |p| difference(p, [x, y])).area()).sum()
     }
 
-    /// The larger side of the smallest upright rectangle round its outline, in m.
+    /// Larger side of the bounding box of the outline, in m.
     pub(crate) fn size(&self) -> f64 {
         self.extent(0).max(self.extent(1))
     }
 
-    /// How far it extends along x (0) or y (1), in m.
+    /// Extent of the outline along x (0) or y (1), in m.
     fn extent(&self, axis: usize) -> f64 {
         let points = self.outline.iter().flat_map(Edge::polyline);
         let [low, high] = points
@@ -186,6 +203,7 @@ impl Panel {
     }
 }
 
+/// Returns the mistakes of the numbers and names of an outline.
 fn coordinates(panel: &str, outline: &[Edge]) -> Vec<Mistake> {
     let mut mistakes = Vec::new();
     if outline.len() < 2 {
@@ -194,14 +212,14 @@ fn coordinates(panel: &str, outline: &[Edge]) -> Vec<Mistake> {
     let mut names = BTreeSet::new();
     for edge in outline {
         let (panel, name) = (panel.to_owned(), edge.name.clone());
-        let reach = edge.coordinates().map(f64::abs).fold(0.0, f64::max);
+        let distance = edge.coordinates().map(f64::abs).fold(0.0, f64::max);
         if !names.insert(&edge.name) {
             mistakes.push(Mistake::SameEdge { panel: panel.clone(), edge: name.clone() });
         }
         if !edge.is_finite() {
             mistakes.push(Mistake::NotFinite { panel, edge: name });
-        } else if reach > FARTHEST {
-            mistakes.push(Mistake::Far { panel, edge: name, reach });
+        } else if distance > FARTHEST {
+            mistakes.push(Mistake::Far { panel, edge: name, distance });
         } else if !(SHORTEST..=10.0 * FARTHEST).contains(&edge.length()) {
             mistakes.push(Mistake::EmptyEdge { panel, edge: name, length: edge.length() });
         }
@@ -209,7 +227,7 @@ fn coordinates(panel: &str, outline: &[Edge]) -> Vec<Mistake> {
     mistakes
 }
 
-/// Moves the start of each edge to the end of the one before it, where that is near.
+/// Moves the start of each edge to the end of the one before it; larger gaps are mistakes.
 fn close(panel: &str, outline: &mut [Edge]) -> Vec<Mistake> {
     let mut mistakes = Vec::new();
     for index in 0..outline.len() {
@@ -226,6 +244,7 @@ fn close(panel: &str, outline: &mut [Edge]) -> Vec<Mistake> {
     mistakes
 }
 
+/// Returns the mistake of an outline that intersects itself.
 fn cross(panel: &str, outline: &[Edge]) -> Option<Mistake> {
     let mut owner = Vec::new();
     let mut polygon = Vec::new();
@@ -234,17 +253,17 @@ fn cross(panel: &str, outline: &[Edge]) -> Option<Mistake> {
         owner.extend(std::iter::repeat_n(index, points.len()));
         polygon.extend(points);
     }
-    let [first, second] = crossing(&polygon)?;
+    let [first, second] = self_intersection(&polygon)?;
     Some(Mistake::Crossing {
         panel: panel.into(),
         first: outline[owner[first]].name.clone(),
         second: outline[owner[second]].name.clone(),
-        at: meeting(&polygon, first, second),
+        at: meeting_point(&polygon, first, second),
     })
 }
 
-/// About where two sides of a polygon meet.
-fn meeting(polygon: &[[f64; 2]], first: usize, second: usize) -> [f64; 2] {
+/// Returns the approximate point where two sides of a polygon meet.
+fn meeting_point(polygon: &[[f64; 2]], first: usize, second: usize) -> [f64; 2] {
     let corner = |k: usize| polygon[k % polygon.len()];
     let (a, b) = (corner(first), corner(second));
     let (u, v) = (difference(corner(first + 1), a), difference(corner(second + 1), b));

@@ -1,17 +1,22 @@
-/// Where a panel lies in space before it is sewn.
+//! Place of a panel in space before it is sewn.
+
+/// Place of a panel in space: bent to a cylinder or flat, then rotated and translated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
-    /// Rows of the rotation from the panel's frame, whose z is its right side, to space.
+    /// Rows of the rotation matrix from the panel's frame, whose z axis points to its right side, to space.
     pub rotation: [[f64; 3]; 3],
-    /// Where the origin of the panel's frame lies, in m.
+    /// Position of the origin of the panel's frame, in m.
     pub translation: [f64; 3],
-    /// Radius of the cylinder that the panel is bent to before it is turned, in m. Its axis runs along the
-    /// panel's y axis, that far behind the right side of the frame's origin; in front of it if negative.
+    /// Radius of the cylinder to which the panel is bent before it is rotated, in m; `None` if it is flat.
+    ///
+    /// The axis runs along the panel's y axis, at this distance behind the right side of the origin; in
+    /// front of it if negative.
     pub wrap: Option<f64>,
 }
 
 impl Placement {
-    /// A rotation about x, then y, then z, by angles in rad, and a translation in m, of a flat panel.
+    /// Returns the place of a flat panel: rotated about x, then y, then z by angles in rad, and translated,
+    /// in m.
     #[must_use]
     pub fn new(angles: [f64; 3], translation: [f64; 3]) -> Self {
         let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(f64::sin_cos);
@@ -23,19 +28,19 @@ impl Placement {
         Self { rotation, translation, wrap: None }
     }
 
-    /// The same place of a panel that is bent to a cylinder of a radius in m, or flat.
+    /// Returns the place with the panel bent to a cylinder of a radius in m, or flat.
     #[must_use]
     pub fn with_wrap(mut self, wrap: Option<f64>) -> Self {
         self.wrap = wrap;
         self
     }
 
-    /// Where a point of the panel lies, in m.
+    /// Returns the position in space of a point of the panel, in m.
     #[must_use]
     pub fn point(&self, [x, y]: [f64; 2]) -> [f64; 3] {
         let [x, z] = match self.wrap {
             None => [x, 0.0],
-            // The height of the arc is r (cos(x/r) − 1), written so that no digits are lost.
+            // The height of the arc is `r (cos(x/r) − 1)`, written without cancellation.
             Some(r) => [r * (x / r).sin(), -2.0 * r * (0.5 * x / r).sin().powi(2)],
         };
         let row =
@@ -43,7 +48,7 @@ impl Placement {
         [0, 1, 2].map(|k| row(k) + self.translation[k])
     }
 
-    /// The same place of a panel that is mirrored in its y axis: half a turn about that axis.
+    /// Returns the place of the panel reflected in its y axis: half a turn about that axis.
     pub(crate) fn turned_over(mut self) -> Self {
         for row in &mut self.rotation {
             row[0] = -row[0];

@@ -24,7 +24,7 @@ fn the_picture_shows_every_panel_seam_and_name() {
     assert_eq!(own.len(), 2 * 2 + 3 + 5);
     own.sort_unstable();
     own.dedup();
-    assert_eq!(own.len(), 8, "every stitch has its colour");
+    assert_eq!(own.len(), 8, "every seam has its colour");
     assert!(!svg.contains("NaN") && !svg.contains("inf "));
 }
 

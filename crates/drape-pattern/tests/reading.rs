@@ -57,8 +57,8 @@ fn the_own_format_is_read() {
     let pattern = Pattern::parse(&Document::new("a.toml", squares(&[]))).expect("it is sound");
     assert_eq!(pattern.panels().len(), 2);
     assert_eq!(pattern.notes(), []);
-    let stitch = &pattern.stitches()[0];
-    assert_eq!((stitch.name.as_str(), stitch.reversed, stitch.max_ease), ("side", false, 1.1));
+    let seam = &pattern.seams()[0];
+    assert_eq!((seam.name.as_str(), seam.reversed, seam.max_ease), ("side", false, 1.1));
     let cut = Cutter::default().cut(&pattern).expect("it can be cut");
     assert_eq!(cut.seams[0].pairs.len(), 31);
     assert_eq!(cut.particles(), 2 * 31 * 31 - 31);
@@ -100,7 +100,7 @@ fn folds_and_angles_of_seams_are_read() {
     let fold = "\n[[panel.back.fold]]\nfrom = [0, 10]\nto = [30, 12]\nangle = -60\n";
     let text = squares(&[]) + "angle = 30\n" + fold;
     let pattern = Pattern::parse(&Document::new("p.toml", text.clone())).expect("it is right");
-    assert!((pattern.stitches()[0].angle.to_degrees() - 30.0).abs() < 1e-12);
+    assert!((pattern.seams()[0].angle.to_degrees() - 30.0).abs() < 1e-12);
     assert!(pattern.panels()[1].folds().is_empty());
     let [fold] = pattern.panels()[0].folds() else { panic!("one fold") };
     assert!(
@@ -115,7 +115,7 @@ fn folds_and_angles_of_seams_are_read() {
 fn allowances_and_hems_are_read() {
     let text = squares(&[("to = [30, 0]", "to = [30, 0], hem = 2.5")]) + "allowance = 1\n";
     let pattern = Pattern::parse(&Document::new("p.toml", text.clone())).expect("it is right");
-    assert!((pattern.stitches()[0].allowance - 0.01).abs() < 1e-15);
+    assert!((pattern.seams()[0].allowance - 0.01).abs() < 1e-15);
     let hems = |panel: usize| pattern.panels()[panel].outline().iter().map(|edge| edge.hem);
     assert_eq!(hems(0).collect::<Vec<_>>(), [0.0; 4]);
     assert_eq!(hems(1).collect::<Vec<_>>(), [0.025, 0.0, 0.0, 0.0]);
@@ -155,7 +155,7 @@ fn mistakes_of_the_own_format_have_line_value_and_remedy() {
     );
     toml(&[("front.side_l\"", "front.zip\"")], &["no edge \"zip\"", "hem, side_l, waist, centre"]);
     toml(&[("front.side_l\"", "frnt.side_l\"")], &["no panel \"frnt\"", "front.side_l"]);
-    toml(&[("[\"front.side_l\"]", "[]")], &["stitch side has a side without edges"]);
+    toml(&[("[\"front.side_l\"]", "[]")], &["seam side has a side without edges"]);
     toml(&[("to = [30, 30]", "to = [30, 30], large = true")], &["outline[1]", "add radius"]);
     toml(
         &[("to = [30, 30]", "to = [30, 30], radius = 20, quadratic = [40, 15]")],
@@ -213,7 +213,7 @@ fn mistakes_of_outlines_and_seams_are_named() {
             "[[\"front.side_l\"], [\"back.left\"]]",
             "[[\"front.side_l\"], [\"back.left\"]]\n[seam.two]\nsides = [[\"front.side_l\"], [\"back.right\"]]",
         )],
-        &["edge side_l of panel front is sewn twice, in stitches side and two", "join both"],
+        &["edge side_l of panel front is sewn twice, in seams side and two", "join both"],
     );
     toml(
         &[("rectangle = [30, 30]", "rectangle = [30, 34.5]")],
@@ -251,7 +251,7 @@ fn places_are_read_in_the_unit_of_the_file() {
 }
 
 #[test]
-fn what_hinders_nothing_is_noted() {
+fn oddities_that_prevent_nothing_are_noted() {
     let notes = |exchanges: &[(&str, &str)]| {
         let document = Document::new("a.toml", squares(exchanges));
         Pattern::parse(&document).expect("it is sound").notes().to_vec()
@@ -271,7 +271,7 @@ fn what_hinders_nothing_is_noted() {
     assert_eq!(notes(&places), []);
     let twisted = [places[0], places[1], ("[\"back.left\"]]", "[\"back.left\"]]\nreversed = true")];
     let said = notes(&twisted)[0].to_string();
-    assert!(said.contains("side may run the wrong way"), "{said}");
+    assert!(said.contains("side may run in the wrong sense"), "{said}");
     assert!(said.contains("316 mm apart as given and 100 mm if reversed"), "{said}");
 }
 
@@ -354,7 +354,7 @@ fn mistakes_of_garmentcode_are_named_together() {
         &["units_in_meter is 0", "100 for centimetres"],
     );
     garment(&[("/properties/curvature_coords", "\"polar\"")], &["polar", "relative"]);
-    garment(&[("/pattern/stitches/1/0/edge", "1")], &["sewn twice, in stitches 0 and 1"]);
+    garment(&[("/pattern/stitches/1/0/edge", "1")], &["sewn twice, in seams 0 and 1"]);
     garment(
         &[("/pattern/panels/Lback/edges/2/endpoints", "[1, 3]")],
         &["gap between the end of edge 1"],
@@ -377,7 +377,7 @@ fn circles_and_seams_on_the_wrong_side_of_garmentcode() {
         "properties": {"units_in_meter": 100}}"#;
     let pattern = Pattern::parse(&Document::new("disc.json", text)).expect("it is sound");
     assert!((pattern.panels()[0].area() - std::f64::consts::PI * 0.01).abs() < 1e-12);
-    assert!(pattern.stitches()[0].reversed);
+    assert!(pattern.seams()[0].reversed);
     assert!(!pattern.panels()[0].was_clockwise(), "bulging right, it runs anticlockwise");
 }
 

@@ -7,7 +7,7 @@ pub(crate) fn allowances(
     panel: usize,
 ) -> Vec<(Vec<u32>, f64)> {
     let mut lines: Vec<(Vec<u32>, f64)> = Vec::new();
-    for (stitch, seam) in pattern.stitches().iter().zip(&cut.seams) {
+    for (stitch, seam) in pattern.seams().iter().zip(&cut.seams) {
         for side in 0..2 {
             let nodes: Vec<NodeId> = seam.side(side).collect();
             // A side goes on from one panel to another.

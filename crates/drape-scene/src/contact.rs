@@ -1,8 +1,9 @@
-use drape_collide::{ParticleSettings, PinchPolicy};
+use drape_collide::{ParticleSettings, PinchPolicy, SurfaceSettings};
 use serde::Deserialize;
 
 use crate::file::SceneFile;
-use crate::inflation::InflateFile;
+use crate::growth::Growth;
+use crate::inflation::{InflateFile, Inflation};
 use crate::reader::Reader;
 
 #[derive(Debug, Default, Deserialize)]
@@ -26,6 +27,25 @@ pub(crate) struct ContactFile {
     pub(crate) grow: Option<f64>,
 }
 
+/// How cloth and bodies touch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactSettings {
+    /// Whether surfaces are kept apart, and not particles out of bodies only.
+    pub surfaces: bool,
+    /// Contact of particles with bodies, where surfaces are not kept apart.
+    pub particles: ParticleSettings,
+    /// Stiffness of the contact of surfaces, in N/m³; without one, the fabrics' thickness under pressure gives it.
+    pub stiffness: Option<f64>,
+    /// How far surfaces that stick give way before they slide, in m.
+    pub stick: f64,
+    /// What becomes of cloth that bodies close on.
+    pub pinch: PinchPolicy,
+    /// How bodies grow at the start.
+    pub inflation: Option<Inflation>,
+    /// How the distances that are kept grow.
+    pub growth: Option<Growth>,
+}
+
 impl SceneFile {
     /// Whether surfaces are kept apart: if the scene does not say, wherever the solver's ways can be cut. Explicit steps
     /// are never cut, and the particles of Breen's model repel each other at a spacing.
@@ -37,7 +57,31 @@ impl SceneFile {
 }
 
 impl Reader<'_> {
-    pub(crate) fn contact_settings(&mut self, file: &SceneFile, unit: f64) -> ParticleSettings {
+    pub(crate) fn contact(
+        &mut self,
+        file: &SceneFile,
+        (unit, spacing): (f64, f64),
+        (step, end): (f64, f64),
+    ) -> ContactSettings {
+        let particles = self.particle_contact(file, unit);
+        let stick =
+            file.contact.stick.map_or(SurfaceSettings::STICKING_DISPLACEMENT, |stick| stick * unit);
+        self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
+        let pinch = self.pinch(file);
+        let inflation = self.inflation(file, unit, (step, spacing));
+        let growth = self.growth(file, (step, end));
+        ContactSettings {
+            surfaces: file.keeps_apart(),
+            particles,
+            stiffness: file.contact.stiffness,
+            stick,
+            pinch,
+            inflation,
+            growth,
+        }
+    }
+
+    fn particle_contact(&mut self, file: &SceneFile, unit: f64) -> ParticleSettings {
         let mut settings = ParticleSettings::default();
         if let Some(offset) = file.contact.offset {
             settings.activation_distance = offset * unit;
@@ -56,7 +100,7 @@ impl Reader<'_> {
     }
 
     /// What becomes of cloth that bodies close on.
-    pub(crate) fn pinch(&mut self, file: &SceneFile) -> PinchPolicy {
+    fn pinch(&mut self, file: &SceneFile) -> PinchPolicy {
         let policies = [
             ("error", PinchPolicy::Error),
             ("thin", PinchPolicy::Thin),

@@ -12,7 +12,7 @@ pub enum Course {
 
 impl Course {
     /// Puts vertices that start at one list of places to where they are at a time; three coordinates each, in m.
-    pub(crate) fn place(&self, time: f64, start: &[f64], places: &mut [f64]) {
+    pub fn place(&self, time: f64, start: &[f64], places: &mut [f64]) {
         match self {
             Self::Rigid(track) => {
                 let place = track.points(time);
@@ -27,7 +27,8 @@ impl Course {
 
     /// How far vertices that start at these places stray from straight ways between two times, in m. From frame to frame
     /// they go straight.
-    pub(crate) fn bow(&self, times: [f64; 2], start: &[[f64; 3]]) -> f64 {
+    #[must_use]
+    pub fn bow(&self, times: [f64; 2], start: &[[f64; 3]]) -> f64 {
         match self {
             Self::Rigid(track) => track.bow(times, start),
             Self::Shapes(_) => 0.0,
@@ -35,7 +36,8 @@ impl Course {
     }
 
     /// The greatest speed of a vertex that starts at one of these places, in m/s.
-    pub(crate) fn speed_max(&self, start: &[[f64; 3]]) -> f64 {
+    #[must_use]
+    pub fn speed_max(&self, start: &[[f64; 3]]) -> f64 {
         match self {
             Self::Rigid(track) => track.speed_max(start),
             Self::Shapes(shapes) => shapes.speed_max(),

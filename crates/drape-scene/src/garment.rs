@@ -143,11 +143,11 @@ impl Reader<'_> {
             let (first, number) = &numbers[id.panel];
             *first as u32 + number[id.node as usize]
         };
-        let seams = pattern.stitches().iter().zip(&cut.seams).map(|(stitch, nodes)| {
+        let seams = pattern.seams().iter().zip(&cut.seams).map(|(stitch, nodes)| {
             let tie = |tie: &drape_pattern::Tie| Tie {
                 particle: node(tie.node),
                 ends: nodes.ends(tie).map(node),
-                fraction: tie.share,
+                fraction: tie.fraction,
             };
             let pairs = nodes.pairs.iter().map(|pair| pair.map(node)).collect();
             let stitching = Stitching { pairs, ties: nodes.ties.iter().map(tie).collect() };

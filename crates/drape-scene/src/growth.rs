@@ -3,18 +3,15 @@ use crate::reader::Reader;
 
 /// Surfaces that start nearer than they keep, and keep more of their distances from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Growth {
+pub struct Growth {
     /// How long they take to keep all of it, in s, if nothing holds them together.
-    pub(crate) seconds: f64,
+    pub seconds: f64,
 }
 
 impl Growth {
     /// Smallest distance of two surfaces from which it starts, in m: a thousand times the least gap that the filter of
     /// steps tells from none.
-    pub(crate) const NEAREST: f64 = 1e-6;
-
-    /// How much longer than that it may take before the run fails.
-    pub(crate) const PATIENCE: f64 = 2.0;
+    pub const NEAREST: f64 = 1e-6;
 }
 
 impl Reader<'_> {

@@ -17,16 +17,17 @@ pub(crate) struct InflateFile {
 
 /// Bodies that start smaller than they are, so that cloth which would start in them starts outside, and grow.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Inflation {
+pub struct Inflation {
     /// How far inside of where they belong their vertices start, along the normals, in m.
-    pub(crate) depth: f64,
+    pub depth: f64,
     /// How long they grow, in s.
-    pub(crate) seconds: f64,
+    pub seconds: f64,
 }
 
 impl Inflation {
     /// Part of the depth that is left at a time since the start, in s.
-    pub(crate) fn left(&self, time: f64) -> f64 {
+    #[must_use]
+    pub fn left(&self, time: f64) -> f64 {
         (1.0 - time / self.seconds).clamp(0.0, 1.0)
     }
 }

@@ -1,10 +1,10 @@
-use drape_collide::{Body, Shape};
+use drape_collide::Shape;
 use drape_pattern::Placement;
 
 use crate::file::SceneFile;
 use crate::panel::Panel;
 use crate::reader::Reader;
-use crate::start::Start;
+use crate::scene::Scene;
 
 /// How much farther from the body what is of a layer starts than it would on the layer below, in m.
 const STEP: f64 = 0.02;
@@ -47,22 +47,18 @@ impl Reader<'_> {
 
     /// Refuses panels that start between the body and what is of a lower layer; a panel of which a smaller part does so than
     /// is in order is told of.
-    pub(crate) fn layers_are_in_order(
-        &mut self,
-        bodies: &[Body],
-        start: &Start<'_>,
-    ) -> Vec<String> {
-        let lowest = start.panels.iter().map(|panel| panel.layer).min();
-        let higher = start.panels.iter().filter(|panel| Some(panel.layer) > lowest);
+    pub(crate) fn layers_are_in_order(&mut self, scene: &Scene) -> Vec<String> {
+        let lowest = scene.panels.iter().map(|panel| panel.layer).min();
+        let higher = scene.panels.iter().filter(|panel| Some(panel.layer) > lowest);
         let higher: Vec<&Panel> = higher.collect();
         let mut notes = Vec::new();
         if higher.is_empty() {
             return notes;
         }
-        let ways = (0..start.cloth.particles()).map(|particle| way_to(bodies, start, particle));
+        let ways = (0..scene.cloth.particles()).map(|particle| way_to(scene, particle));
         let ways: Vec<Option<Way>> = ways.collect();
         for panel in higher {
-            let order = Order::of(panel, &ways, start);
+            let order = Order::of(panel, &ways, scene);
             let Some((below, [x, y, z])) = order.hidden_by else { continue };
             let fault = format!(
                 "\"{}\" of layer {} starts inside \"{}\" of layer {}, between it and the body, near ({x:.4}, {y:.4}, {z:.4}) m",
@@ -71,7 +67,7 @@ impl Reader<'_> {
             let help = "what is of a higher layer starts outside: raise its layer or its wrap, move it outwards, or swap the \
                         layers";
             if order.inside > order.outside {
-                let garment = start.garment(panel).unwrap_or(0);
+                let garment = scene.garment_of(panel).unwrap_or(0);
                 self.fail(&format!("garment[{garment}].layer"), fault, help);
             } else {
                 notes.push(format!("{fault}: is that meant? {help}"));
@@ -92,11 +88,11 @@ struct Order<'a> {
 }
 
 impl<'a> Order<'a> {
-    fn of(panel: &Panel, ways: &[Option<Way>], start: &Start<'a>) -> Self {
-        let lower = || start.panels.iter().filter(|other| other.layer < panel.layer);
-        let own = Slabs::of(start, |particle| panel.particles().contains(&particle));
+    fn of(panel: &Panel, ways: &[Option<Way>], scene: &'a Scene) -> Self {
+        let lower = || scene.panels.iter().filter(|other| other.layer < panel.layer);
+        let own = Slabs::of(scene, |particle| panel.particles().contains(&particle));
         let is_below = |particle| lower().any(|lower| lower.particles().contains(&particle));
-        let below = Slabs::of(start, is_below);
+        let below = Slabs::of(scene, is_below);
         let passes = |particle: usize, slabs: &Slabs| {
             ways[particle].is_some_and(|way| slabs.are_crossed(way))
         };
@@ -105,15 +101,15 @@ impl<'a> Order<'a> {
         for other in lower() {
             let hidden = other.particles().filter(|&particle| passes(particle, &own));
             let hidden: Vec<usize> = hidden.collect();
-            let area = hidden.iter().map(|&particle| start.cloth.areas()[particle]).sum();
+            let area = hidden.iter().map(|&particle| scene.cloth.areas()[particle]).sum();
             order.inside += area;
             if let (true, Some(&middle)) = (area > most, hidden.get(hidden.len() / 2)) {
-                (most, order.hidden_by) = (area, Some((other, place(start, middle))));
+                (most, order.hidden_by) = (area, Some((other, place(scene, middle))));
             }
         }
         if order.hidden_by.is_some() {
             let covers = panel.particles().filter(|&particle| passes(particle, &below));
-            order.outside = covers.map(|particle| start.cloth.areas()[particle]).sum();
+            order.outside = covers.map(|particle| scene.cloth.areas()[particle]).sum();
         }
         order
     }
@@ -122,14 +118,18 @@ impl<'a> Order<'a> {
 /// A straight way, by its ends, in m.
 type Way = [[f64; 3]; 2];
 
-fn place(start: &Start<'_>, particle: usize) -> [f64; 3] {
-    [0, 1, 2].map(|axis| start.positions[3 * particle + axis])
+fn place(scene: &Scene, particle: usize) -> [f64; 3] {
+    [0, 1, 2].map(|axis| scene.positions[3 * particle + axis])
 }
 
 /// The straight way from a particle to the nearest place of a body, unless it is in one. Floors wear nothing.
-fn way_to(bodies: &[Body], start: &Start<'_>, particle: usize) -> Option<Way> {
-    let from = place(start, particle);
-    let solid = bodies.iter().filter(|body| !matches!(body.shape, Shape::Plane));
+fn way_to(scene: &Scene, particle: usize) -> Option<Way> {
+    let from = place(scene, particle);
+    let solid = scene
+        .bodies
+        .iter()
+        .map(|moving| &moving.body)
+        .filter(|body| !matches!(body.shape, Shape::Plane));
     let near = solid.filter_map(|body| body.signed_distance(from).ok());
     let near = near.min_by(|a, b| a.distance.total_cmp(&b.distance))?;
     let to = [0, 1, 2].map(|axis| from[axis] - near.distance * near.normal[axis]);
@@ -144,10 +144,10 @@ struct Slabs {
 
 impl Slabs {
     /// Those whose corners are all chosen.
-    fn of(start: &Start<'_>, is_chosen: impl Fn(usize) -> bool) -> Self {
+    fn of(scene: &Scene, is_chosen: impl Fn(usize) -> bool) -> Self {
         let chosen = |t: &&[u32; 3]| t.iter().all(|&corner| is_chosen(corner as usize));
-        let triangles = start.cloth.triangles().iter().filter(chosen);
-        let places = |t: &[u32; 3]| t.map(|corner| place(start, corner as usize));
+        let triangles = scene.cloth.triangles().iter().filter(chosen);
+        let places = |t: &[u32; 3]| t.map(|corner| place(scene, corner as usize));
         let triangles: Vec<[[f64; 3]; 3]> = triangles.map(places).collect();
         let heights = triangles.iter().flatten().map(|corner| corner[1]);
         let mut own = Self { bottom: heights.fold(f64::INFINITY, f64::min), slabs: Vec::new() };

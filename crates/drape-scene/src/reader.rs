@@ -1,4 +1,10 @@
-use drape_input::{Diagnostic, Document, closest};
+use drape_fabric::Fabric;
+use drape_input::{Diagnostic, Diagnostics, Document, closest};
+
+use crate::material::FabricRequest;
+
+/// Makes the fabric that a scene asks for.
+pub type FabricReader<'a> = &'a dyn Fn(FabricRequest<'_>) -> Result<Fabric, Diagnostics>;
 
 /// Turns a file into a scene, collecting mistakes. Each part of a scene has its methods in the file
 /// named after it.
@@ -6,12 +12,18 @@ pub(crate) struct Reader<'a> {
     pub(crate) document: &'a Document,
     /// Fabrics given along with the scene, by the paths that it names them by.
     pub(crate) fabrics: &'a [Document],
+    /// Reads the other fabrics.
+    pub(crate) fabric: FabricReader<'a>,
     pub(crate) mistakes: Vec<Diagnostic>,
 }
 
 impl<'a> Reader<'a> {
-    pub(crate) fn new(document: &'a Document, fabrics: &'a [Document]) -> Self {
-        Self { document, fabrics, mistakes: Vec::new() }
+    pub(crate) fn new(
+        document: &'a Document,
+        fabrics: &'a [Document],
+        fabric: FabricReader<'a>,
+    ) -> Self {
+        Self { document, fabrics, fabric, mistakes: Vec::new() }
     }
 
     pub(crate) fn fail(&mut self, key: &str, message: String, help: &str) {

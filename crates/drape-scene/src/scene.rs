@@ -2,26 +2,26 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use drape_cloth::{Breen, Cloth, Lattice};
-use drape_collide::{Body, ParticleContact, Shape, SurfaceSettings};
+use drape_collide::{Body, ParticleContact, Shape};
 use drape_fabric::Fabric;
 use drape_input::{Diagnostic, Diagnostics, Document};
 
-use crate::SceneError;
 use crate::clock::Clock;
 use crate::collider::Moving;
+use crate::contact::ContactSettings;
 use crate::cost::cost;
 use crate::course::Course;
+use crate::error::Error;
 use crate::file::SceneFile;
-use crate::material::Material;
+use crate::material::{FabricRequest, Material, read_fabric};
 use crate::model::Model;
 use crate::panel::{Laid, Panel};
 use crate::pin::Pin;
-use crate::reader::Reader;
-use crate::scheme::Scheme;
+use crate::reader::{FabricReader, Reader};
 use crate::settle::Settle;
 use crate::sewing::Sewing;
-use crate::start::Start;
-use crate::surfaces::{Parts, Surfaces};
+use crate::solver::SolverSettings;
+use crate::surfaces::StartSurfaces;
 use crate::tangle::Tangle;
 
 /// Density of air at 20 °C and sea level, in kg/m³.
@@ -53,12 +53,10 @@ pub struct Scene {
     pub held: Vec<bool>,
     /// What each pin holds, and how that moves, in the order of the file.
     pub pins: Vec<Pin>,
-    /// Contact of the cloth with the bodies.
-    pub contact: ParticleContact,
-    /// The surfaces of cloth and bodies, if they are kept apart; `contact` then has the bodies for pictures only.
-    pub surfaces: Option<Surfaces>,
-    /// The ways of the bodies, of those that move.
-    pub courses: Vec<Option<Course>>,
+    /// The bodies, in the order of the file.
+    pub bodies: Vec<MovingBody>,
+    /// How cloth and bodies touch.
+    pub contact: ContactSettings,
     /// Acceleration of gravity, in m/s².
     pub gravity: [f64; 3],
     /// Half the air's density times the drag coefficient, in kg/m³.
@@ -69,8 +67,8 @@ pub struct Scene {
     pub settle: Option<Settle>,
     /// How long bodies and pins move when the cloth has come to rest, in s; they move from the start if there is none.
     pub motion_seconds: Option<f64>,
-    /// How the steps are made.
-    pub scheme: Scheme,
+    /// How the steps are solved.
+    pub solver: SolverSettings,
     /// Names of the garments, their own or after their patterns, and which particles are theirs.
     pub garments: Vec<(String, Range<usize>)>,
     /// How the seams are sewn, if there are some.
@@ -87,14 +85,42 @@ pub struct Scene {
     pub hash: String,
 }
 
+/// A body and how it moves.
+#[derive(Debug, Clone)]
+pub struct MovingBody {
+    /// Its form, and its place at the start.
+    pub body: Body,
+    /// Its way; none if it stays.
+    pub course: Option<Course>,
+}
+
 impl Scene {
-    /// Reads a scene and everything it names, without simulating.
+    /// Reads a scene and everything it names, without simulating. Its fabrics are in files of fabrics.
     ///
     /// # Errors
     /// All mistakes that could be found, each with file, line, value and remedy; with them the triangles that cross at
     /// the start, if some do.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
-        Self::from_documents(&Document::read(path)?, &[])
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        Self::read_with(path, &read_fabric)
+    }
+
+    /// The same with another reader of fabrics, which may make them of other files.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn read_with(path: impl AsRef<Path>, fabric: FabricReader<'_>) -> Result<Self, Error> {
+        let document = Document::read(path)?;
+        let file: SceneFile = document.decode()?;
+        Reader::new(&document, &[], fabric).scene(file)
+    }
+
+    /// Contact of the particles with the bodies at the start.
+    ///
+    /// # Errors
+    /// Settings or bodies that are none.
+    pub fn particle_contact(&self) -> Result<ParticleContact, drape_collide::Error> {
+        let bodies = self.bodies.iter().map(|moving| moving.body.clone()).collect();
+        ParticleContact::new(bodies, self.contact.particles, self.cloth.areas().to_vec())
     }
 
     /// The same for a scene in memory. A fabric whose path, seen from the scene's folder, is that of
@@ -102,14 +128,14 @@ impl Scene {
     ///
     /// # Errors
     /// As for [`Scene::read`].
-    pub fn from_documents(scene: &Document, fabrics: &[Document]) -> Result<Self, SceneError> {
+    pub fn from_documents(scene: &Document, fabrics: &[Document]) -> Result<Self, Error> {
         let file: SceneFile = scene.decode()?;
-        Reader::new(scene, fabrics).scene(file)
+        Reader::new(scene, fabrics, &read_fabric).scene(file)
     }
 }
 
 impl Reader<'_> {
-    fn scene(mut self, file: SceneFile) -> Result<Scene, SceneError> {
+    fn scene(mut self, file: SceneFile) -> Result<Scene, Error> {
         let unit = self.unit(file.length.as_deref());
         let folder = self.document.path().parent().unwrap_or(Path::new("")).to_owned();
         let model = self.model(&file);
@@ -117,7 +143,7 @@ impl Reader<'_> {
         let mut laid = self.panels(&file, &materials, unit);
         let count = laid.iter().map(|laid| laid.positions.len() / 3).sum();
         let garments = self.garments((&file, &folder), &materials, (count, unit));
-        let (mut seams, mut notes) = (Vec::new(), Vec::new());
+        let (mut seams, mut notes, mut costs) = (Vec::new(), Vec::new(), None);
         let plain = laid.len();
         let mut worn = Vec::new();
         for garment in garments {
@@ -132,7 +158,7 @@ impl Reader<'_> {
         let spacing = spacings.fold(f64::INFINITY, f64::min);
         let settle = self.settle(&file, (spacing.min(1.0), unit));
         let motion_seconds = self.motion_phase(&file);
-        let scheme = self.scheme(&file);
+        let solver = self.solver(&file);
         let air = self.air(&file);
         let gravity = file.gravity.unwrap_or([0.0, -9.81, 0.0]);
         if gravity.iter().any(|g| !g.is_finite()) {
@@ -143,13 +169,7 @@ impl Reader<'_> {
         if file.keeps_apart() {
             self.speeds(&bodies, (clock.step, spacing));
         }
-        let contact_settings = self.contact_settings(&file, unit);
-        let stick =
-            file.contact.stick.map_or(SurfaceSettings::STICKING_DISPLACEMENT, |stick| stick * unit);
-        self.within("contact.stick", stick, (1e-9, 1e-2), "some micrometres are usual");
-        let pinch = self.pinch(&file);
-        let inflation = self.inflation(&file, unit, (clock.step, spacing));
-        let growth = self.growth(&file, (clock.step, clock.end));
+        let contact = self.contact(&file, (unit, spacing), (clock.step, clock.end));
         // What follows needs sound panels.
         Diagnostics::check(std::mem::take(&mut self.mistakes))?;
 
@@ -189,68 +209,21 @@ impl Reader<'_> {
             velocities[3 * particle..3 * particle + 3].fill(0.0);
         }
         let fallback = materials.iter().map(|m| m.fabric.surface_friction).fold(0.0, f64::max);
-        let (bodies, courses): (Vec<_>, Vec<_>) = bodies
-            .into_iter()
-            .map(|Moving { body, friction, course }| {
-                (body.with_friction(friction.unwrap_or(fallback)), course)
-            })
-            .unzip();
-        let surfaces = file.keeps_apart().then(|| {
-            Surfaces::new(&Parts {
-                panels: &panels,
-                materials: &materials,
-                cloth: &cloth,
-                bodies: &bodies,
-                courses: &courses,
-                held: &held,
-                sewn: sewing.as_ref().map(|sewing| &sewing.stitching),
-                offset: contact_settings.activation_distance,
-                stiffness: file.contact.stiffness,
-                stick,
-                pinch,
-                inflation,
-                growth,
-            })
-        });
-        let surfaces = surfaces.transpose();
-        let surfaces =
-            surfaces.map_err(|error| self.document.at("contact.surfaces", error.to_string()));
-        let mut surfaces = surfaces.map_err(Diagnostics::from)?;
-        let start =
-            Start { panels: &panels, garments: &worn, cloth: &cloth, positions: &positions };
-        let tangle = surfaces.as_mut().and_then(|surfaces| self.tangle(surfaces, &start));
-        let contact = ParticleContact::new(bodies, contact_settings, cloth.areas().to_vec());
-        let contact = contact.map_err(|error| self.document.at("collider", error.to_string()));
-        let contact = contact.map_err(Diagnostics::from)?;
-        match (&surfaces, inflation) {
-            (Some(surfaces), Some(_)) => self.start_is_outside(surfaces, &start),
-            _ => self.start_is_free(&contact, &positions),
-        }
-        if tangle.is_none() {
-            notes.extend(self.layers_are_in_order(contact.bodies(), &start));
-        }
+        let with_friction = |Moving { body, friction, course }| MovingBody {
+            body: body.with_friction(friction.unwrap_or(fallback)),
+            course,
+        };
+        let bodies: Vec<MovingBody> = bodies.into_iter().map(with_friction).collect();
         if !worn.is_empty() && settle.is_some() {
-            notes.extend(cost(cloth.particles(), spacing));
+            costs = cost(cloth.particles(), spacing);
         }
-        let results = file.output.folder.map(|f| folder.join(f));
-        if let Err(mistakes) = Diagnostics::check(self.mistakes) {
-            return Err(match tangle {
-                Some((overlaps, total)) => SceneError::Tangled(Box::new(Tangle {
-                    mistakes,
-                    folder: results,
-                    overlaps,
-                    total,
-                })),
-                None => SceneError::Input(mistakes),
-            });
-        }
-        Ok(Scene {
+        let scene = Scene {
             name: file.name.unwrap_or_else(|| "unnamed".into()),
             file: self.document.path().to_owned(),
             hash: hash(
                 self.document,
                 (&materials, &positions),
-                (contact.bodies(), &courses),
+                &bodies,
                 (&panels, sewing.as_ref()),
             ),
             materials,
@@ -261,21 +234,50 @@ impl Reader<'_> {
             velocities,
             held,
             pins,
+            bodies,
             contact,
-            surfaces,
-            courses,
             gravity,
             air,
             clock,
             settle,
             motion_seconds,
-            scheme,
+            solver,
             garments: worn,
             sewing,
             notes,
             energy: file.output.energy.unwrap_or(true),
-            folder: results,
+            folder: file.output.folder.map(|f| folder.join(f)),
             view: [file.output.azimuth, file.output.elevation],
+        };
+        self.started(scene, costs)
+    }
+
+    /// A scene whose start has been looked at, with what is left to say of it.
+    fn started(mut self, mut scene: Scene, costs: Option<String>) -> Result<Scene, Error> {
+        let surfaces = scene.contact.surfaces.then(|| StartSurfaces::new(&scene)).transpose();
+        let surfaces =
+            surfaces.map_err(|error| self.document.at("contact.surfaces", error.to_string()));
+        let mut surfaces = surfaces.map_err(Diagnostics::from)?;
+        let tangle = surfaces.as_mut().and_then(|surfaces| self.tangle(surfaces, &scene));
+        let contact = scene.particle_contact();
+        let contact = contact.map_err(|error| self.document.at("collider", error.to_string()));
+        let contact = contact.map_err(Diagnostics::from)?;
+        match (&surfaces, scene.contact.inflation) {
+            (Some(surfaces), Some(_)) => self.start_is_outside(&surfaces.contact, &scene),
+            _ => self.start_is_free(&contact, &scene.positions),
+        }
+        if tangle.is_none() {
+            let notes = self.layers_are_in_order(&scene);
+            scene.notes.extend(notes);
+        }
+        scene.notes.extend(costs);
+        let Err(mistakes) = Diagnostics::check(self.mistakes) else { return Ok(scene) };
+        Err(match tangle {
+            Some((overlaps, total)) => {
+                let folder = scene.folder;
+                Error::Tangled(Box::new(Tangle { mistakes, folder, overlaps, total }))
+            }
+            None => Error::Input(mistakes),
         })
     }
 
@@ -302,7 +304,10 @@ impl Reader<'_> {
                 self.fail(&format!("fabric.{name}.file"), message, help);
                 return None;
             }
-            Material::read((name, &path), model).map_err(|e| self.mistakes.extend(e.0)).ok()
+            let file = if path.is_dir() { path.join("sheet.toml") } else { path };
+            let fabric = (self.fabric)(FabricRequest { file: &file, model });
+            let fabric = fabric.map_err(|e| self.mistakes.extend(e.0)).ok()?;
+            Some(Material { name: name.clone(), file, fabric })
         };
         file.fabric.iter().map(read).collect()
     }
@@ -327,7 +332,7 @@ pub(crate) fn without_friction(panels: &[(&Lattice, &Fabric)]) -> Cloth {
 fn hash(
     document: &Document,
     (materials, positions): (&[Material], &[f64]),
-    (bodies, courses): (&[Body], &[Option<Course>]),
+    bodies: &[MovingBody],
     (panels, sewing): (&[Panel], Option<&Sewing>),
 ) -> String {
     let mut hasher = blake3::Hasher::new();
@@ -337,7 +342,7 @@ fn hash(
     }
     let mut number = |value: f64| _ = hasher.update(&value.to_le_bytes());
     positions.iter().for_each(|&x| number(x));
-    for (body, course) in bodies.iter().zip(courses) {
+    for MovingBody { body, course } in bodies {
         if let Shape::Mesh(mesh) = &body.shape {
             mesh.vertices().iter().flatten().for_each(|&x| number(x));
             mesh.triangles().iter().flatten().for_each(|&corner| number(f64::from(corner)));

@@ -4,10 +4,9 @@ use drape_input::Diagnostic;
 
 use crate::file::SceneFile;
 use crate::garment::Seam;
-use crate::measures::FreeEdge;
 use crate::panel::Laid;
 use crate::reader::Reader;
-use crate::scene::{Scene, without_friction};
+use crate::scene::without_friction;
 use crate::stitching::Stitching;
 
 /// How long the sides of the seams are drawn together when the scene does not say, in s.
@@ -26,7 +25,7 @@ pub struct Sewing {
     /// How long it takes, in s.
     pub seconds: f64,
     /// How they bend when they are sewn.
-    pub(crate) bending: SeamBending,
+    pub bending: SeamBending,
 }
 
 impl Reader<'_> {
@@ -91,28 +90,5 @@ impl Reader<'_> {
                 self.mistakes.push(Diagnostic::new(self.document.path(), message).help(help));
             }
         }
-    }
-}
-
-impl Scene {
-    /// The edges of panels whose particles between the ends are not sewn.
-    pub(crate) fn free_edges(&self) -> Vec<FreeEdge> {
-        let mut sewn = vec![false; self.cloth.particles()];
-        for Stitching { pairs, ties } in self.sewing.iter().map(|sewing| &sewing.stitching) {
-            pairs.iter().flatten().for_each(|&particle| sewn[particle as usize] = true);
-            ties.iter().for_each(|tie| sewn[tie.particle as usize] = true);
-        }
-        let edges = self.panels.iter().flat_map(|panel| {
-            panel.edges.iter().map(move |(name, particles)| FreeEdge {
-                name: format!("{}.{name}", panel.name),
-                particles: particles.iter().map(|particle| panel.first as u32 + particle).collect(),
-            })
-        });
-        let inner = |edge: &FreeEdge| {
-            let count = edge.particles.len();
-            count > 2
-                && edge.particles[1..count - 1].iter().all(|&particle| !sewn[particle as usize])
-        };
-        edges.filter(inner).collect()
     }
 }

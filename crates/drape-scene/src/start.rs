@@ -1,33 +1,20 @@
-use std::ops::Range;
-
-use drape_cloth::Cloth;
-use drape_collide::ParticleContact;
+use drape_collide::{ParticleContact, SurfaceContact};
 
 use crate::panel::Panel;
 use crate::reader::Reader;
-use crate::surfaces::Surfaces;
+use crate::scene::Scene;
 use crate::tangle::Overlap;
 
-/// Where everything is when the simulation begins.
-pub(crate) struct Start<'a> {
-    pub(crate) panels: &'a [Panel],
-    /// Names of the garments, and which particles are theirs.
-    pub(crate) garments: &'a [(String, Range<usize>)],
-    pub(crate) cloth: &'a Cloth,
-    /// Three numbers per particle, in m.
-    pub(crate) positions: &'a [f64],
-}
-
-impl Start<'_> {
+impl Scene {
     /// The number of the garment that a panel is of.
-    pub(crate) fn garment(&self, panel: &Panel) -> Option<usize> {
+    pub(crate) fn garment_of(&self, panel: &Panel) -> Option<usize> {
         self.garments.iter().position(|(_, own)| own.contains(&panel.first))
     }
 
     /// Whether two triangles are of panels of different garments.
     pub(crate) fn is_of_two_garments(&self, overlap: &Overlap) -> bool {
         let garment =
-            |name: &String| self.garment(self.panels.iter().find(|panel| panel.name == *name)?);
+            |name: &String| self.garment_of(self.panels.iter().find(|panel| panel.name == *name)?);
         let [one, other] = &overlap.parts;
         matches!((garment(one), garment(other)), (Some(one), Some(other)) if one != other)
     }
@@ -48,9 +35,9 @@ impl Reader<'_> {
     }
 
     /// Of panels that cross no body, one particle tells whether they are in it.
-    pub(crate) fn start_is_outside(&mut self, surfaces: &Surfaces, start: &Start<'_>) {
-        for panel in start.panels {
-            if surfaces.contact.is_inside_body(panel.first, start.positions) {
+    pub(crate) fn start_is_outside(&mut self, contact: &SurfaceContact, scene: &Scene) {
+        for panel in &scene.panels {
+            if contact.is_inside_body(panel.first, &scene.positions) {
                 let message = format!("all of \"{}\" starts inside a body", panel.name);
                 self.fail("panel", message, "move or turn the panel so that it starts outside");
             }

@@ -11,18 +11,20 @@ pub struct Stitching {
 
 /// What one stitch draws together.
 #[derive(Debug, Clone)]
-pub(crate) struct Thread {
+pub struct Thread {
     /// Particles, with weights that add up to nothing: how far they are apart is the sum of their places.
-    pub(crate) parts: Vec<(u32, f64)>,
+    pub parts: Vec<(u32, f64)>,
 }
 
 impl Stitching {
-    pub(crate) fn is_empty(&self) -> bool {
+    /// Whether it holds nothing together.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
         self.pairs.is_empty() && self.ties.is_empty()
     }
 
     /// Its stitches, those of the pairs first.
-    pub(crate) fn threads(&self) -> impl Iterator<Item = Thread> {
+    pub fn threads(&self) -> impl Iterator<Item = Thread> {
         let pairs = self.pairs.iter().map(|&[a, b]| vec![(a, 1.0), (b, -1.0)]);
         let ties = self.ties.iter().map(|&Tie { particle, ends: [a, b], fraction }| {
             vec![(particle, 1.0), (a, fraction - 1.0), (b, -fraction)]
@@ -31,7 +33,8 @@ impl Stitching {
     }
 
     /// The tied particles, each with the two that it lies between.
-    pub(crate) fn triples(&self) -> Vec<[u32; 3]> {
+    #[must_use]
+    pub fn triples(&self) -> Vec<[u32; 3]> {
         self.ties.iter().map(|&Tie { particle, ends: [a, b], .. }| [particle, a, b]).collect()
     }
 
@@ -43,7 +46,8 @@ impl Stitching {
 
 impl Thread {
     /// What lies between its ends, in m.
-    pub(crate) fn gap(&self, positions: &[f64]) -> [f64; 3] {
+    #[must_use]
+    pub fn gap(&self, positions: &[f64]) -> [f64; 3] {
         let mut gap = [0.0; 3];
         for &(particle, weight) in &self.parts {
             for (axis, gap) in gap.iter_mut().enumerate() {
@@ -54,7 +58,8 @@ impl Thread {
     }
 
     /// How far its ends are apart, in m.
-    pub(crate) fn width(&self, positions: &[f64]) -> f64 {
+    #[must_use]
+    pub fn width(&self, positions: &[f64]) -> f64 {
         self.gap(positions).iter().map(|x| x * x).sum::<f64>().sqrt()
     }
 }

@@ -7,8 +7,8 @@ use drape_input::Diagnostics;
 
 use crate::growth::Growth;
 use crate::reader::Reader;
-use crate::start::Start;
-use crate::surfaces::Surfaces;
+use crate::scene::Scene;
+use crate::surfaces::StartSurfaces;
 
 /// Pairs of triangles that are listed at most.
 const PAIRS_MAX: usize = 1000;
@@ -96,17 +96,17 @@ impl Reader<'_> {
     /// The start must keep what every step keeps; if not, the pairs that do not, and how many there are.
     pub(crate) fn tangle(
         &mut self,
-        surfaces: &mut Surfaces,
-        start: &Start<'_>,
+        surfaces: &mut StartSurfaces,
+        scene: &Scene,
     ) -> Option<(Vec<Overlap>, usize)> {
-        let positions = start.positions;
+        let positions = &scene.positions[..];
         let mut help = APART;
-        let grows = surfaces.may_grow();
+        let grows = scene.contact.growth.is_some();
         let contact = &mut surfaces.contact;
         let crossings = contact.intersections(positions).map(|found| found.len());
         let fault = match (crossings, contact.summary_at(positions)) {
             (Ok(0), Ok(near)) if grows && near.min_distance >= Growth::NEAREST => {
-                let shrunk = surfaces.shrink(positions);
+                let shrunk = contact.shrink_distances(positions);
                 return shrunk.err().and_then(|error| {
                     self.fail("panel", error.to_string(), APART);
                     None
@@ -130,7 +130,7 @@ impl Reader<'_> {
             (Ok(_), Ok(_)) => return None,
         };
         let (overlaps, total) = overlaps(contact, positions, &surfaces.names);
-        if overlaps.iter().any(|overlap| start.is_of_two_garments(overlap)) {
+        if overlaps.iter().any(|overlap| scene.is_of_two_garments(overlap)) {
             help = "give the garment that is worn outside a higher layer, or move or turn panels apart";
         }
         let told = overlaps.iter().take(OVERLAPS_TOLD).map(|overlap| {

@@ -30,7 +30,7 @@ pub struct Track {
 
 impl Track {
     /// Where points are at a time, from where they start, in m.
-    pub(crate) fn points(&self, time: f64) -> impl Fn([f64; 3]) -> [f64; 3] {
+    pub fn points(&self, time: f64) -> impl Fn([f64; 3]) -> [f64; 3] {
         let (center, Key { shift, turn, .. }) = (self.center, self.at(time));
         move |start| {
             let arm = turned(std::array::from_fn(|axis| start[axis] - center[axis]), turn);
@@ -39,14 +39,16 @@ impl Track {
     }
 
     /// The pose at a time of what starts at one.
-    pub(crate) fn pose(&self, time: f64, start: Pose) -> Pose {
+    #[must_use]
+    pub fn pose(&self, time: f64, start: Pose) -> Pose {
         let turned = turn(start, self.at(time).turn);
         Pose { position: self.points(time)(start.position), ..turned }
     }
 
     /// The greatest speed of one of the points that start at these places, in m/s, from a thousandth of the time between
     /// each two keys: in between a point turns at a steady rate.
-    pub(crate) fn speed_max(&self, start: &[[f64; 3]]) -> f64 {
+    #[must_use]
+    pub fn speed_max(&self, start: &[[f64; 3]]) -> f64 {
         let mut most = 0.0_f64;
         for pair in self.keys.windows(2) {
             let [from, time] = [pair[0].time, 1e-3 * (pair[1].time - pair[0].time)];
@@ -62,7 +64,8 @@ impl Track {
 
     /// How far the points that start at these places stray from straight ways between two times, in m: what turning
     /// bends their ways by. Corners at keys do not count.
-    pub(crate) fn bow(&self, [from, to]: [f64; 2], start: &[[f64; 3]]) -> f64 {
+    #[must_use]
+    pub fn bow(&self, [from, to]: [f64; 2], start: &[[f64; 3]]) -> f64 {
         let inside = self.keys.iter().map(|key| key.time).filter(|time| from < *time && *time < to);
         let ends: Vec<f64> = std::iter::once(from).chain(inside).chain([to]).collect();
         let mut most = 0.0_f64;

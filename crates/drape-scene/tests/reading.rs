@@ -1,9 +1,8 @@
 //! What a scene says is what is simulated, and what it says wrongly is answered at its place.
 #![allow(clippy::unwrap_used)]
 
-use drape_implicit::{Integrator, LinearSolver, Method};
 use drape_input::Document;
-use drape_scene::{Scene, SceneError, Scheme};
+use drape_scene::{Error, Integrator, LinearSolver, Method, Scene};
 
 const FABRIC: &str = r#"name = "plain"
 density = 0.12
@@ -28,7 +27,7 @@ step = 0.004
 end = 0.1
 "#;
 
-fn read(text: &str) -> Result<Scene, SceneError> {
+fn read(text: &str) -> Result<Scene, Error> {
     let fabric = Document::new("plain.toml", FABRIC);
     Scene::from_documents(&Document::new("towel.toml", text), &[fabric])
 }
@@ -55,7 +54,7 @@ fn what_is_not_said_has_its_default() {
         (10, 1, None)
     );
     assert_eq!((scene.clock.ramp, scene.settle, scene.energy), (0.0, None, true));
-    let Scheme::Implicit(solver) = &scene.scheme else { panic!("implicit") };
+    let solver = scene.solver;
     assert_eq!((solver.integrator, solver.method), (Integrator::Bdf2, Method::Broyden));
     assert_eq!((solver.linear_solver, solver.tolerance), (LinearSolver::ConjugateGradient, 1e-4));
     assert_eq!(scene.folder, None);
@@ -67,7 +66,7 @@ fn what_is_not_said_has_its_default() {
 
 #[test]
 fn surfaces_are_kept_apart_wherever_that_can_be() {
-    let kept = |more: &str| read(&format!("{more}\n{LEAST}")).unwrap().surfaces.is_some();
+    let kept = |more: &str| read(&format!("{more}\n{LEAST}")).unwrap().contact.surfaces;
     assert!(kept(""));
     assert!(!kept("contact.surfaces = false"));
     assert!(!kept("solver.integrator = \"explicit\""));
@@ -150,20 +149,20 @@ energy = false
     let towel = &scene.positions[..3 * 176];
     let high = towel.chunks(3).map(|p| (p[1] - 1.0).abs()).fold(0.0, f64::max);
     assert!(high > 5e-4 && high < 1.2e-3, "it lies flat at 1 m but for ripple and noise: {high}");
-    let bodies = scene.contact.bodies();
+    let bodies: Vec<_> = scene.bodies.iter().map(|moving| &moving.body).collect();
     let names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
     assert_eq!(names, ["ball", "box 1", "cylinder 1", "plane 1"]);
     assert_eq!((bodies[0].friction, bodies[1].friction), (0.7, 0.25), "its own, or the fabric's");
-    let contact = scene.contact.settings();
+    let contact = scene.contact.particles;
     assert!((contact.activation_distance - 0.003).abs() < 1e-15);
     assert_eq!((contact.stiffness, contact.slip_speed), (1e6, 0.002));
     let clock = scene.clock;
     assert_eq!((clock.step, clock.ticks_per_step, clock.ticks_max), (0.008, 8, 32));
     assert_eq!((clock.error, clock.ramp, clock.ticks_per_frame), (Some(1e-4), 0.5, 80));
-    let Scheme::Implicit(solver) = &scene.scheme else { panic!("implicit") };
+    let solver = scene.solver;
     assert_eq!((solver.integrator, solver.method), (Integrator::BackwardEuler, Method::Newton));
     assert_eq!((solver.linear_solver, solver.tolerance), (LinearSolver::Cholesky, 1e-6));
-    assert_eq!((scene.energy, solver.energy_balance), (false, false));
+    assert!(!scene.energy);
     assert_eq!((scene.folder, scene.view), (Some("here".into()), [Some(10.0), Some(20.0)]));
 }
 
@@ -227,7 +226,7 @@ fn rest_is_defined_by_its_table() {
     assert_eq!((settle.speed, settle.residual, settle.stride), (0.01, 1e-2, 0.001));
     assert!(settle.inertia);
     let scene = read(&with("", "[solver]\nintegrator = \"explicit\"")).unwrap();
-    assert_eq!(scene.scheme, Scheme::Explicit);
+    assert_eq!(scene.solver.integrator, Integrator::Explicit);
 }
 
 #[test]

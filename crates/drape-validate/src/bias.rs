@@ -7,7 +7,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use drape_scene::Simulation;
+use drape_dynamics::Simulation;
 
 use crate::reference::bias_stiffness;
 use crate::stage::{ALONE, scene};

@@ -1,8 +1,9 @@
 //! Bending specimens cut on the bias, as a grid and as a grid with a rim.
 
+use drape_dynamics::Simulation;
 use drape_fabric::Fabric;
 use drape_input::Document;
-use drape_scene::{Scene, Simulation};
+use drape_scene::Scene;
 
 use crate::instrument::on_the_bias_along;
 use crate::shipped::{COTTON, CUPRO, fabric};

@@ -7,9 +7,10 @@
 
 use std::f64::consts::PI;
 
+use drape_dynamics::Simulation;
 use drape_fabric::{BendingLaw, Fabric};
 use drape_kes::Direction;
-use drape_scene::{Scene, Simulation};
+use drape_scene::Scene;
 
 use crate::instrument::{LARGEST_CURVATURE, laws};
 use crate::loops::root;

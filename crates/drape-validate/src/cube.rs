@@ -1,7 +1,7 @@
 //! Breen's experiment: a square metre of cloth let down on a cube of half a metre.
 
+use drape_dynamics::{Simulation, Snapshot};
 use drape_fabric::Fabric;
-use drape_scene::{Simulation, Snapshot};
 
 use crate::ValidationError;
 use crate::section::{evenly, length, section};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use drape_scene::Simulation;
+use drape_dynamics::Simulation;
 
 use crate::dynamics::motion;
 use crate::reference::DahlStrip;

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
+use drape_dynamics::Simulation;
 use drape_fabric::Fabric;
-use drape_scene::Simulation;
 use rayon::prelude::*;
 
 use crate::ValidationError;

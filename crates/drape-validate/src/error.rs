@@ -1,5 +1,4 @@
 use drape_input::Diagnostics;
-use drape_scene::SceneError;
 
 /// Why a case could not be run.
 #[derive(Debug, thiserror::Error)]
@@ -7,7 +6,10 @@ use drape_scene::SceneError;
 pub enum ValidationError {
     /// A scene of the suite, or a fabric that it was given, is wrong.
     #[error("{0}")]
-    Scene(#[from] SceneError),
+    Scene(#[from] drape_scene::Error),
+    /// A scene of the suite cannot be set up, or its frames stored.
+    #[error("{0}")]
+    Simulation(#[from] drape_dynamics::Error),
     /// A step could not be solved.
     #[error("{0}")]
     Step(#[from] drape_implicit::Error),

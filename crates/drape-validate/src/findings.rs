@@ -1,4 +1,4 @@
-use drape_scene::Snapshot;
+use drape_dynamics::Snapshot;
 
 use crate::{Check, Graph};
 

@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use drape_scene::Simulation;
+use drape_dynamics::Simulation;
 
 use crate::stage::{ALONE, scene};
 use crate::{Axis, Check, Findings, Graph, Layout, Source, ValidationError, finish};

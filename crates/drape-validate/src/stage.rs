@@ -1,5 +1,6 @@
+use drape_dynamics::Simulation;
 use drape_input::Document;
-use drape_scene::{Scene, Simulation};
+use drape_scene::Scene;
 
 use crate::ValidationError;
 

@@ -1,4 +1,5 @@
-use drape_scene::{Scene, Simulation, Step};
+use drape_dynamics::{Simulation, Step};
+use drape_scene::Scene;
 
 use crate::ValidationError;
 use crate::stage::{ALONE, scene};

@@ -5,9 +5,10 @@
 
 use std::f64::consts::SQRT_2;
 
+use drape_dynamics::{PinLoad, Simulation};
 use drape_fabric::Fabric;
 use drape_kes::{BendingPoints, Curve, Direction, Reading, ShearPoints, Symbol, Test};
-use drape_scene::{PinLoad, Scene, Simulation};
+use drape_scene::Scene;
 
 use crate::ValidationError;
 use crate::instrument::{

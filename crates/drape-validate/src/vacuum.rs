@@ -5,8 +5,8 @@
 //! true of any such experiment: without friction in the fabric nothing slows the strip, with it the fabric does, and the
 //! way of the strip does not depend on the grid.
 
+use drape_dynamics::Simulation;
 use drape_fabric::Fabric;
-use drape_scene::Simulation;
 
 use crate::shipped::{TAGAWA, fabric};
 use crate::stage::{ALONE, simulation};

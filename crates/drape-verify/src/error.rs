@@ -1,12 +1,14 @@
+//! Error of a folder of frames that cannot be read.
+
 use std::path::PathBuf;
 
-/// Why recorded frames cannot be checked.
+/// Reason why recorded frames cannot be checked.
 ///
 /// Every variant names one remedy and carries the values that led to it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-pub enum VerifyError {
-    /// The folder is none of a run, or of one by an older version.
+pub enum Error {
+    /// The folder holds no run, or one of an older version.
     #[error("{} has no surfaces.json; give the folder that `drape run` wrote its frames to", folder.display())]
     NotARun {
         /// The folder.
@@ -17,17 +19,17 @@ pub enum VerifyError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the operating system answered.
+        /// Answer of the operating system.
         reason: String,
     },
-    /// A file is larger than any frame.
+    /// A file is larger than any frame can be.
     #[error("{} has {bytes} bytes, and no frame has more than {limit}", path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// Its length.
+        /// Its length, in bytes.
         bytes: u64,
-        /// The greatest length.
+        /// Largest length that is read, in bytes.
         limit: u64,
     },
     /// A file is not as the run wrote it.
@@ -35,9 +37,9 @@ pub enum VerifyError {
     Malformed {
         /// The file.
         path: PathBuf,
-        /// The line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// What is wrong with it.
+        /// Fault, in words.
         reason: String,
     },
     /// The folder was written by a newer version.
@@ -47,7 +49,7 @@ pub enum VerifyError {
         path: PathBuf,
         /// Its format.
         format: u64,
-        /// The one that is known.
+        /// Format that is read here.
         known: u64,
     },
     /// Frames are missing.
@@ -55,35 +57,35 @@ pub enum VerifyError {
     MissingFrame {
         /// The folder.
         folder: PathBuf,
-        /// The file.
+        /// First file that is missing.
         missing: String,
-        /// Frames that are there.
+        /// Number of frames in the folder.
         found: usize,
-        /// Frames that the run says it wrote, or that the largest number calls for.
+        /// Number of frames that the summary gives, or that the largest frame number implies.
         needed: usize,
     },
-    /// A file has not as much of something as surfaces.json says: it is cut off, or of another run.
+    /// A count differs from that in surfaces.json: the file is cut off, or belongs to another run.
     #[error("{} has {found} {what}, and surfaces.json says {needed}: it is cut off, or of another run", path.display())]
     WrongCount {
         /// The file.
         path: PathBuf,
-        /// Of what.
+        /// Counted items, in words.
         what: &'static str,
-        /// How many there are.
+        /// Number in the file.
         found: usize,
-        /// How many there should be.
+        /// Number that surfaces.json gives.
         needed: usize,
     },
-    /// A triangle names a vertex that is not of its part, or has not the corners it has in the first frame.
+    /// A triangle names a vertex of another part, or has other corners than in the first frame.
     #[error("{}: triangle {triangle} has the corners {corners:?} (from 0): {reason}; run the scene again", path.display())]
     BadTriangle {
         /// The file.
         path: PathBuf,
-        /// The triangle, from 0.
+        /// Number of the triangle, from 0.
         triangle: usize,
-        /// Its corners.
+        /// Numbers of its corners, from 0.
         corners: [u32; 3],
-        /// What is wrong with it.
+        /// Fault, in words.
         reason: &'static str,
     },
 }

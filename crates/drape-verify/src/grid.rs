@@ -1,33 +1,38 @@
-/// Smallest exponent of a cell: cells of 1 µm, so that places up to 1000 km have numbers of 40 bits.
+//! Broad phase: pairs of bounding boxes that overlap, from a grid with cells of several sizes.
+//!
+//! `verdict` fills it with the boxes of all triangles of a frame and visits each overlapping pair once.
+
+/// Smallest exponent of a cell size: cells of 1 µm, so that positions up to 1000 km have cell numbers
+/// of 40 bits.
 const LEVEL_MIN: i32 = -20;
 
-/// A box along the axes, in m.
+/// Axis-aligned bounding box, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Extent {
+pub(crate) struct Aabb {
     pub(crate) low: [f64; 3],
     pub(crate) high: [f64; 3],
 }
 
-impl Extent {
-    /// The box of a triangle and so much around it.
-    pub(crate) fn around(corners: [[f64; 3]; 3], more: f64) -> Extent {
+impl Aabb {
+    /// Returns the bounding box of a triangle, enlarged on every side by a margin in m.
+    pub(crate) fn around(corners: [[f64; 3]; 3], margin: f64) -> Aabb {
         let over = |axis: usize, pick: fn(f64, f64) -> f64| {
             pick(pick(corners[0][axis], corners[1][axis]), corners[2][axis])
         };
-        // Outward by more than the sum rounds.
-        let down = |x: f64| (x - more) - f64::EPSILON * (x.abs() + more);
-        let up = |x: f64| (x + more) + f64::EPSILON * (x.abs() + more);
-        Extent {
+        // Rounded outwards by more than the rounding error of the sum.
+        let down = |x: f64| (x - margin) - f64::EPSILON * (x.abs() + margin);
+        let up = |x: f64| (x + margin) + f64::EPSILON * (x.abs() + margin);
+        Aabb {
             low: [0, 1, 2].map(|axis| down(over(axis, f64::min))),
             high: [0, 1, 2].map(|axis| up(over(axis, f64::max))),
         }
     }
 
-    fn meets(&self, other: &Extent) -> bool {
+    fn overlaps(&self, other: &Aabb) -> bool {
         (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
     }
 
-    /// Exponent of the smallest cell that is as large as the box.
+    /// Returns the exponent of the smallest cell size that is at least the size of the box.
     fn level(&self) -> i32 {
         let longest = (0..3).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f64::max);
         let mut level = LEVEL_MIN;
@@ -42,28 +47,28 @@ fn cell_size(level: i32) -> f64 {
     2.0_f64.powi(level)
 }
 
-/// A cell: its level, then its number along z, y and x.
+/// Cell: its level, then its numbers along z, y and x.
 type Cell = (i32, [i64; 3]);
 
-/// Boxes by the cells that their lowest corners are in, of cells as large as the box: so a box reaches no farther
-/// than into the next cell along each axis.
+/// Boxes sorted by the cell of their lowest corner, in the grid whose cells are at least as large as
+/// the box: a box extends no farther than into the next cell along each axis.
 #[derive(Debug)]
 pub(crate) struct Grid {
-    extents: Vec<Extent>,
-    /// Sorted.
+    boxes: Vec<Aabb>,
+    /// Cell and number of each box, sorted.
     cells: Vec<(Cell, u32)>,
-    /// The levels that there are, with their range of `cells`.
+    /// Levels in use, with their range of `cells`.
     levels: Vec<(i32, std::ops::Range<usize>)>,
 }
 
 impl Grid {
-    pub(crate) fn new(extents: Vec<Extent>) -> Grid {
-        let place = |(number, extent): (usize, &Extent)| {
-            let level = extent.level();
-            let [x, y, z] = extent.low.map(|low| number_of(low, level));
+    pub(crate) fn new(boxes: Vec<Aabb>) -> Grid {
+        let place = |(number, aabb): (usize, &Aabb)| {
+            let level = aabb.level();
+            let [x, y, z] = aabb.low.map(|low| number_of(low, level));
             ((level, [z, y, x]), number as u32)
         };
-        let mut cells: Vec<(Cell, u32)> = extents.iter().enumerate().map(place).collect();
+        let mut cells: Vec<(Cell, u32)> = boxes.iter().enumerate().map(place).collect();
         cells.sort_unstable();
         let mut levels = Vec::new();
         let mut first = 0;
@@ -71,27 +76,27 @@ impl Grid {
             levels.push((group[0].0.0, first..first + group.len()));
             first += group.len();
         }
-        Grid { extents, cells, levels }
+        Grid { boxes, cells, levels }
     }
 
-    /// Calls with every box that meets a box of the grid and comes behind it: one of a higher level, or of the same
-    /// level and a higher number. So every pair is seen once.
-    pub(crate) fn each_behind(&self, number: usize, mut visit: impl FnMut(usize)) {
-        let extent = &self.extents[number];
-        let own = extent.level();
+    /// Visits every box that overlaps a given one and follows it in order: it has a higher level, or the
+    /// same level and a higher number. Each overlapping pair is visited once.
+    pub(crate) fn each_following(&self, number: usize, mut visit: impl FnMut(usize)) {
+        let aabb = &self.boxes[number];
+        let own = aabb.level();
         for (level, range) in self.levels.iter().filter(|(level, _)| *level >= own) {
             let entries = &self.cells[range.clone()];
-            // What reaches into the box starts at most one cell below it.
-            let low = extent.low.map(|low| number_of(low, *level) - 1);
-            let high = extent.high.map(|high| number_of(high, *level));
+            // A box that extends into this one begins at most one cell below it.
+            let low = aabb.low.map(|low| number_of(low, *level) - 1);
+            let high = aabb.high.map(|high| number_of(high, *level));
             for z in low[2]..=high[2] {
                 for y in low[1]..=high[1] {
                     let [from, to] = [low[0], high[0]].map(|x| [z, y, x]);
                     let start = entries.partition_point(|((_, cell), _)| *cell < from);
                     let row = entries[start..].iter().take_while(|((_, cell), _)| *cell <= to);
                     for &(_, other) in row {
-                        let behind = *level > own || other as usize > number;
-                        if behind && extent.meets(&self.extents[other as usize]) {
+                        let follows = *level > own || other as usize > number;
+                        if follows && aabb.overlaps(&self.boxes[other as usize]) {
                             visit(other as usize);
                         }
                     }
@@ -101,7 +106,7 @@ impl Grid {
     }
 }
 
-/// Number of the cell that a coordinate is in, along an axis.
+/// Returns the number of the cell along an axis that holds a coordinate.
 fn number_of(coordinate: f64, level: i32) -> i64 {
     (coordinate / cell_size(level)).floor() as i64
 }
@@ -112,7 +117,7 @@ mod tests {
 
     #[test]
     fn every_pair_of_boxes_that_meet_is_found_once() {
-        // Boxes of very different sizes, at places that a small generator scatters.
+        // Boxes of very different sizes at random positions.
         let mut state = 1_u64;
         let mut random = || {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -122,9 +127,9 @@ mod tests {
             let size = 10.0_f64.powf(4.0 * random() - 4.0);
             let at = [random() - 0.5, random() - 0.5, 0.1 * random()];
             let corner = |k: usize| [0, 1, 2].map(|axis| at[axis] + size * ((k + axis) % 3) as f64);
-            Extent::around([corner(0), corner(1), corner(2)], 1e-4)
+            Aabb::around([corner(0), corner(1), corner(2)], 1e-4)
         });
-        let boxes: Vec<Extent> = boxes.collect();
+        let boxes: Vec<Aabb> = boxes.collect();
         let mut expected = Vec::new();
         for a in 0..boxes.len() {
             for b in a + 1..boxes.len() {
@@ -139,7 +144,7 @@ mod tests {
         let grid = Grid::new(boxes.clone());
         let mut found = Vec::new();
         for a in 0..boxes.len() {
-            grid.each_behind(a, |b| found.push([a.min(b), a.max(b)]));
+            grid.each_following(a, |b| found.push([a.min(b), a.max(b)]));
         }
         found.sort_unstable();
         assert!(expected.len() > 1000, "{}", expected.len());

@@ -1,86 +1,95 @@
+//! Content of `surfaces.json`: the parts of a run and the distances that it promises.
+
 use std::path::Path;
 
 use serde::Deserialize;
 
-use crate::error::VerifyError;
+use crate::error::Error;
 
-/// The format of the folder that is read here.
+/// Format of the folder that is read here.
 const FORMAT: u64 = 1;
 
-/// Vertices and triangles that all parts may have together: more is a mistake of the file.
+/// Largest number of vertices and triangles of all parts together; more is a fault of the file.
 const COUNT_MAX: usize = 1 << 27;
 
-/// What the frames of a run have in common: the content of `surfaces.json`.
+/// Data that all frames of a run share: the content of `surfaces.json`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Manifest {
     /// Format of the folder.
     pub format: u64,
-    /// Whether the run kept surfaces apart; otherwise only particles met bodies, and it promised nothing.
-    pub guarded: bool,
-    /// The pieces of cloth, in the order of the vertices in a frame.
+    /// Whether contact kept surfaces apart; otherwise only particles met bodies, and no distance was
+    /// promised.
+    #[serde(rename = "guarded")]
+    pub surface_contact: bool,
+    /// Panels of cloth, in the order of the vertices in a frame.
     pub panels: Vec<Part>,
-    /// The bodies, in the order of the vertices in a file of bodies.
+    /// Bodies, in the order of the vertices in a file of bodies.
     pub bodies: Vec<Part>,
-    /// Part of the distance between cloth and bodies that the run keeps wherever bodies pinch the cloth.
-    #[serde(default = "whole")]
-    pub thinned: f64,
+    /// Fraction of the minimum separation of cloth and bodies that holds where bodies pinch the cloth,
+    /// above 0 and at most 1.
+    #[serde(rename = "thinned", default = "one")]
+    pub pinch_fraction: f64,
     /// Pairs of cloth vertices that are sewn together and count as one.
-    #[serde(default)]
-    pub twins: Vec<[u32; 2]>,
-    /// Cloth vertices that are sewn to a place between two others, and these.
+    #[serde(rename = "twins", default)]
+    pub seam_pairs: Vec<[u32; 2]>,
+    /// Cloth vertices that are tied to a point of an edge, each with the two ends of the edge.
     #[serde(default)]
     pub ties: Vec<[u32; 3]>,
 }
 
-/// A panel or a body.
+/// Panel or body of a run.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Part {
-    /// What it is called.
+    /// Name in the scene.
     pub name: String,
     /// Number of its vertices.
     pub vertices: usize,
     /// Number of its triangles.
     pub triangles: usize,
-    /// Half of the distance below which it and another part push each other, in m; 0 where nothing was promised.
-    #[serde(default)]
-    pub reach: f64,
-    /// Half of the distance that it and another part always keep, in m; 0 where nothing was promised.
-    #[serde(default)]
-    pub separation: f64,
+    /// Half of the activation distance: below the sum of two halves two parts repel each other, in m; 0
+    /// where nothing was promised.
+    #[serde(rename = "reach", default)]
+    pub half_activation_distance: f64,
+    /// Half of the minimum separation: two parts stay the sum of two halves apart, in m; 0 where nothing
+    /// was promised.
+    #[serde(rename = "separation", default)]
+    pub half_min_separation: f64,
 }
 
-/// Of a run that keeps the same distance everywhere.
-fn whole() -> f64 {
+/// Pinch fraction of a run whose file gives none: the full separation holds everywhere.
+fn one() -> f64 {
     1.0
 }
 
 impl Manifest {
-    pub(crate) fn parse(path: &Path, text: &str) -> Result<Manifest, VerifyError> {
-        let malformed =
-            |line, reason| VerifyError::Malformed { path: path.to_owned(), line, reason };
+    pub(crate) fn parse(path: &Path, text: &str) -> Result<Manifest, Error> {
+        let malformed = |line, reason| Error::Malformed { path: path.to_owned(), line, reason };
         let manifest: Manifest = serde_json::from_str(text)
             .map_err(|error| malformed(error.line(), error.to_string()))?;
         if manifest.format != FORMAT {
             let (format, known) = (manifest.format, FORMAT);
-            return Err(VerifyError::UnknownFormat { path: path.to_owned(), format, known });
+            return Err(Error::UnknownFormat { path: path.to_owned(), format, known });
         }
         let parts = || manifest.panels.iter().chain(&manifest.bodies);
         let mut total = 0_usize;
         for part in parts() {
             total = total.saturating_add(part.vertices).saturating_add(part.triangles);
-            let sound = |length: f64| (0.0..=1.0).contains(&length);
-            if !sound(part.reach) || !sound(part.separation) {
+            let valid = |length: f64| (0.0..=1.0).contains(&length);
+            if !valid(part.half_activation_distance) || !valid(part.half_min_separation) {
                 return Err(malformed(1, format!("\"{}\" has no distances", part.name)));
             }
         }
-        if !(manifest.thinned > 0.0 && manifest.thinned <= 1.0) {
-            return Err(malformed(1, format!("{} is no part of a distance", manifest.thinned)));
+        if !(manifest.pinch_fraction > 0.0 && manifest.pinch_fraction <= 1.0) {
+            return Err(malformed(
+                1,
+                format!("{} is no fraction of a distance", manifest.pinch_fraction),
+            ));
         }
         if total > COUNT_MAX {
             return Err(malformed(1, format!("{total} vertices and triangles are too many")));
         }
         let cloth: usize = manifest.panels.iter().map(|panel| panel.vertices).sum();
-        let mut sewn = manifest.twins.iter().flatten().chain(manifest.ties.iter().flatten());
+        let mut sewn = manifest.seam_pairs.iter().flatten().chain(manifest.ties.iter().flatten());
         if sewn.any(|&vertex| vertex as usize >= cloth) {
             return Err(malformed(1, "a vertex is sewn that does not exist".to_owned()));
         }

@@ -1,41 +1,43 @@
+//! Triangles of a run with the parts to which they belong and the vertices that are sewn together.
+
 use std::collections::BTreeMap;
 
-use crate::distance::Vertex;
 use crate::manifest::{Manifest, Part};
+use crate::triangle::Vertex;
 
-/// Where a vertex or a triangle belongs: a panel, or a body, by its number.
+/// Panel or body to which a triangle belongs, by its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PartNumber {
-    /// Of the cloth, from 0.
+    /// Panel of the cloth, from 0.
     Panel(usize),
-    /// Of the bodies, from 0.
+    /// Body, from 0.
     Body(usize),
 }
 
-/// All triangles of a run: first those of the panels, then those of the bodies.
+/// Triangles of a run: first those of the panels, then those of the bodies.
 #[derive(Debug, Clone)]
 pub struct Mesh {
-    /// Three vertices each.
+    /// Numbers of the three vertices of each triangle.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Which part each triangle is of, panels before bodies.
+    /// Number of the part of each triangle, panels before bodies.
     pub(crate) part: Vec<u32>,
     /// First triangle of each part.
     first: Vec<usize>,
     pub(crate) parts: Vec<Part>,
     panels: usize,
-    /// Part of its distance from bodies that cloth keeps wherever they pinch it.
-    pub(crate) thinned: f64,
-    /// The smallest of the vertices that are sewn to each vertex.
+    /// Fraction of the minimum separation of cloth and bodies that holds where bodies pinch the cloth.
+    pub(crate) pinch_fraction: f64,
+    /// Smallest of the vertices that are sewn to each vertex: the representative of its class.
     class: Vec<u32>,
-    /// By the class of a vertex that lies between two others, their classes.
+    /// Classes of the two ends of the edge to which a vertex is tied, by the class of the vertex.
     between: BTreeMap<u32, [u32; 2]>,
-    /// Material coordinates of the cloth's vertices, in m: its shape at rest.
+    /// Material coordinates of the vertices of the cloth, in m: its rest shape.
     pub(crate) material: Vec<[f64; 2]>,
 }
 
 impl Mesh {
-    /// The mesh of checked triangles: those of the bodies numbered behind the cloth's.
+    /// Returns the mesh of checked triangles; the vertices of the bodies are numbered after the cloth's.
     pub(crate) fn new(
         manifest: &Manifest,
         triangles: Vec<[u32; 3]>,
@@ -49,32 +51,35 @@ impl Mesh {
             part.extend(std::iter::repeat_n(number as u32, own.triangles));
         }
         let vertices = parts.iter().map(|part| part.vertices).sum();
-        let class = classes(vertices, &manifest.twins);
+        let class = classes(vertices, &manifest.seam_pairs);
         let tie = |tie: &[u32; 3]| {
             let [own, a, b] = tie.map(|vertex| class[vertex as usize]);
             (own, [a, b])
         };
         let between = manifest.ties.iter().map(tie).collect();
         let panels = manifest.panels.len();
-        let thinned = manifest.thinned;
-        Mesh { triangles, part, first, parts, panels, thinned, class, between, material }
+        let pinch_fraction = manifest.pinch_fraction;
+        Mesh { triangles, part, first, parts, panels, pinch_fraction, class, between, material }
     }
 
     /// Number of triangles.
+    #[must_use]
     pub fn triangles(&self) -> usize {
         self.triangles.len()
     }
 
-    /// The parts, panels before bodies.
+    /// Parts of the run, panels before bodies.
+    #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts
     }
 
+    /// Returns whether a triangle belongs to a body.
     pub(crate) fn is_body(&self, triangle: usize) -> bool {
         self.part[triangle] as usize >= self.panels
     }
 
-    /// The corners, those that are sewn together alike.
+    /// Returns the vertices of a triangle; vertices that are sewn together have the same number.
     pub(crate) fn vertices(&self, triangle: usize) -> [Vertex; 3] {
         self.triangles[triangle].map(|vertex| {
             let number = self.class[vertex as usize];
@@ -82,18 +87,18 @@ impl Mesh {
         })
     }
 
-    /// Which part a triangle is of, and its number there.
-    pub(crate) fn locate(&self, triangle: usize) -> (PartNumber, usize) {
+    /// Returns the part of a triangle, and its number in that part.
+    pub(crate) fn locate(&self, triangle: usize) -> Location {
         let part = self.part[triangle] as usize;
-        let own = triangle - self.first[part];
-        match part.checked_sub(self.panels) {
-            None => (PartNumber::Panel(part), own),
-            Some(body) => (PartNumber::Body(body), own),
-        }
+        let number = match part.checked_sub(self.panels) {
+            None => PartNumber::Panel(part),
+            Some(body) => PartNumber::Body(body),
+        };
+        Location { part: number, triangle: triangle - self.first[part] }
     }
 
-    /// The corners of a triangle of the cloth at rest, in m.
-    pub(crate) fn at_rest(&self, triangle: usize) -> [[f64; 3]; 3] {
+    /// Returns the corners of a triangle of the cloth at rest, in m.
+    pub(crate) fn rest_corners(&self, triangle: usize) -> [[f64; 3]; 3] {
         self.triangles[triangle].map(|vertex| {
             let [u, v] = self.material[vertex as usize];
             [u, v, 0.0]
@@ -101,12 +106,19 @@ impl Mesh {
     }
 }
 
-/// The smallest vertex of each that are sewn together, directly or through others.
-fn classes(vertices: usize, twins: &[[u32; 2]]) -> Vec<u32> {
+/// Triangle by its part and its number there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Location {
+    pub(crate) part: PartNumber,
+    pub(crate) triangle: usize,
+}
+
+/// Returns for each vertex the smallest vertex to which it is sewn, directly or through others.
+fn classes(vertices: usize, seam_pairs: &[[u32; 2]]) -> Vec<u32> {
     let mut class: Vec<u32> = (0..vertices as u32).collect();
     loop {
         let mut settled = true;
-        for &[a, b] in twins {
+        for &[a, b] in seam_pairs {
             let [a, b] = [a as usize, b as usize];
             let least = class[a].min(class[b]);
             settled &= class[a] == least && class[b] == least;

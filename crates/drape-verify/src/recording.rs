@@ -1,48 +1,58 @@
+//! Folder of frames that a run wrote: opens it, and reads and checks its frames one by one.
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::error::VerifyError;
-use crate::manifest::Manifest;
+use crate::error::Error;
+use crate::manifest::{Manifest, Part};
 use crate::mesh::Mesh;
-use crate::verdict::{Shape, Verdict};
-use crate::wavefront::{Wavefront, read_text};
+use crate::obj::{Obj, read_text};
+use crate::verdict::{Frame, Verdict};
 
-/// A folder of frames that a run wrote.
+/// Folder of frames that a run wrote.
+///
+/// ```
+/// use drape_verify::{Error, Recording};
+///
+/// let folder = tempfile::tempdir()?;
+/// assert!(matches!(Recording::open(folder.path()), Err(Error::NotARun { .. })));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Recording {
     folder: PathBuf,
     manifest: Manifest,
     mesh: Mesh,
-    /// Frames in their order.
+    /// Number of frames.
     frames: usize,
-    /// Whether the run wrote that it ended.
+    /// Whether the summary says that the run ended.
     ended: bool,
 }
 
 impl Recording {
-    /// Whether a folder says that it is one of frames.
+    /// Returns whether a folder holds the manifest of a run.
     #[must_use]
-    pub fn is_one(folder: &Path) -> bool {
+    pub fn exists(folder: &Path) -> bool {
         folder.join("surfaces.json").exists()
     }
 
-    /// Reads what all frames of a folder have in common, and the first of them.
+    /// Opens a folder: reads its manifest and the triangles of its first frame.
     ///
     /// # Errors
-    /// When a file is missing or is not as a run writes it.
-    pub fn open(folder: impl AsRef<Path>) -> Result<Recording, VerifyError> {
+    /// A file is missing or is not as a run writes it.
+    pub fn open(folder: impl AsRef<Path>) -> Result<Recording, Error> {
         let folder = folder.as_ref();
-        if !Recording::is_one(folder) {
-            return Err(VerifyError::NotARun { folder: folder.to_owned() });
+        if !Recording::exists(folder) {
+            return Err(Error::NotARun { folder: folder.to_owned() });
         }
         let path = folder.join("surfaces.json");
         let manifest = Manifest::parse(&path, &read_text(&path)?)?;
         let frames = numbers(folder)?;
         let summary = folder.join("summary.json");
-        let told = if summary.exists() { frames_told(&summary)? } else { None };
-        let needed = told.unwrap_or(0).max(frames.keys().last().map_or(1, |last| last + 1));
+        let announced = if summary.exists() { frames_announced(&summary)? } else { None };
+        let needed = announced.unwrap_or(0).max(frames.keys().last().map_or(1, |last| last + 1));
         if let Some(missing) = (0..needed).find(|number| !frames.contains_key(number)) {
-            return Err(VerifyError::MissingFrame {
+            return Err(Error::MissingFrame {
                 folder: folder.to_owned(),
                 missing: frame_name(missing),
                 found: frames.len(),
@@ -52,7 +62,7 @@ impl Recording {
         let first = Stored::read(folder, &manifest, 0)?;
         let mesh = Mesh::new(&manifest, first.triangles(), first.cloth.material);
         let (folder, frames) = (folder.to_owned(), frames.len());
-        Ok(Recording { folder, manifest, mesh, frames, ended: told.is_some() })
+        Ok(Recording { folder, manifest, mesh, frames, ended: announced.is_some() })
     }
 
     /// Number of frames.
@@ -61,29 +71,29 @@ impl Recording {
         self.frames
     }
 
-    /// Whether the run wrote that it ended.
+    /// Returns whether the summary says that the run ended.
     #[must_use]
     pub fn ended(&self) -> bool {
         self.ended
     }
 
-    /// What the frames have in common.
+    /// Data that all frames share.
     #[must_use]
     pub fn manifest(&self) -> &Manifest {
         &self.manifest
     }
 
-    /// The triangles of all frames.
+    /// Triangles of all frames.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// Reads a frame and looks at all its pairs of triangles.
+    /// Reads a frame and tests all its pairs of triangles.
     ///
     /// # Errors
-    /// When a file is missing or is not as a run writes it.
-    pub fn verify(&self, number: usize) -> Result<Verdict, VerifyError> {
+    /// A file is missing or is not as a run writes it.
+    pub fn verify(&self, number: usize) -> Result<Verdict, Error> {
         let stored = Stored::read(&self.folder, &self.manifest, number)?;
         let cloth = stored.cloth.triangles.len();
         let triangles = stored.triangles();
@@ -94,17 +104,23 @@ impl Recording {
                 Some(own) => (stored.bodies_path, own, stored.bodies.triangles[own]),
             };
             let reason = "it has others in the first frame";
-            return Err(VerifyError::BadTriangle { path, triangle, corners, reason });
+            return Err(Error::BadTriangle { path, triangle, corners, reason });
         }
         if stored.cloth.material != self.mesh.material {
             let reason = "the material coordinates are not those of the first frame".to_owned();
-            return Err(VerifyError::Malformed { path: stored.path, line: 1, reason });
+            return Err(Error::Malformed { path: stored.path, line: 1, reason });
         }
-        let mut places = stored.cloth.vertices;
-        places.extend(stored.bodies.vertices);
-        let grown = stored.cloth.grown.unwrap_or(1.0);
-        let shape = Shape { mesh: &self.mesh, places: &places, grown };
-        Ok(shape.verify((number, stored.path, stored.cloth.time)))
+        let mut positions = stored.cloth.vertices;
+        positions.extend(stored.bodies.vertices);
+        let frame = Frame {
+            number,
+            file: stored.path,
+            time: stored.cloth.time,
+            growth: stored.cloth.growth.unwrap_or(1.0),
+            mesh: &self.mesh,
+            positions: &positions,
+        };
+        Ok(frame.verify())
     }
 }
 
@@ -112,11 +128,11 @@ fn frame_name(number: usize) -> String {
     format!("frame-{number:05}.obj")
 }
 
-/// The frames of a folder by their numbers.
-fn numbers(folder: &Path) -> Result<BTreeMap<usize, PathBuf>, VerifyError> {
+/// Returns the frames of a folder by their numbers.
+fn numbers(folder: &Path) -> Result<BTreeMap<usize, PathBuf>, Error> {
     let unreadable = |error: std::io::Error| {
         let reason = error.to_string();
-        VerifyError::Unreadable { path: folder.to_owned(), reason }
+        Error::Unreadable { path: folder.to_owned(), reason }
     };
     let mut frames = BTreeMap::new();
     for entry in std::fs::read_dir(folder).map_err(unreadable)? {
@@ -132,28 +148,28 @@ fn numbers(folder: &Path) -> Result<BTreeMap<usize, PathBuf>, VerifyError> {
     Ok(frames)
 }
 
-/// How many frames a summary says there are.
-fn frames_told(path: &Path) -> Result<Option<usize>, VerifyError> {
-    let malformed = |line, reason| VerifyError::Malformed { path: path.to_owned(), line, reason };
+/// Reads the number of frames from a summary.
+fn frames_announced(path: &Path) -> Result<Option<usize>, Error> {
+    let malformed = |line, reason| Error::Malformed { path: path.to_owned(), line, reason };
     let summary: serde_json::Value = serde_json::from_str(&read_text(path)?)
         .map_err(|error| malformed(error.line(), error.to_string()))?;
     Ok(summary["frames"].as_u64().and_then(|frames| usize::try_from(frames).ok()))
 }
 
-/// A frame as it is in its files.
+/// Frame as its files give it.
 struct Stored {
     path: PathBuf,
-    cloth: Wavefront,
+    cloth: Obj,
     bodies_path: PathBuf,
-    bodies: Wavefront,
+    bodies: Obj,
 }
 
 impl Stored {
-    fn read(folder: &Path, manifest: &Manifest, number: usize) -> Result<Stored, VerifyError> {
+    fn read(folder: &Path, manifest: &Manifest, number: usize) -> Result<Stored, Error> {
         let path = folder.join(frame_name(number));
-        let cloth = Wavefront::read(&path)?;
-        let counts = |parts: &[crate::Part]| {
-            let sum = |of: fn(&crate::Part) -> usize| parts.iter().map(of).sum::<usize>();
+        let cloth = Obj::read(&path)?;
+        let counts = |parts: &[Part]| {
+            let sum = |of: fn(&Part) -> usize| parts.iter().map(of).sum::<usize>();
             [sum(|part| part.vertices), sum(|part| part.triangles)]
         };
         let [vertices, triangles] = counts(&manifest.panels);
@@ -161,18 +177,18 @@ impl Stored {
         needed(&path, "material coordinates", [cloth.material.len(), vertices])?;
         needed(&path, "triangles", [cloth.triangles.len(), triangles])?;
         own_corners(&path, &cloth.triangles, &manifest.panels)?;
-        let (mut bodies_path, mut bodies) = (path.clone(), Wavefront::default());
+        let (mut bodies_path, mut bodies) = (path.clone(), Obj::default());
         if !manifest.bodies.is_empty() {
             let name = cloth.bodies.as_deref().unwrap_or_default();
             let digits = name.strip_prefix("bodies-").and_then(|rest| rest.strip_suffix(".obj"));
-            // Nothing else may be a path that leads out of the folder.
+            // Any other name could be a path that leads out of the folder.
             if !digits.is_some_and(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit())) {
                 let reason =
                     format!("a frame names the file of its bodies, and \"{name}\" is none");
-                return Err(VerifyError::Malformed { path, line: 1, reason });
+                return Err(Error::Malformed { path, line: 1, reason });
             }
             bodies_path = folder.join(name);
-            bodies = Wavefront::read(&bodies_path)?;
+            bodies = Obj::read(&bodies_path)?;
             let [vertices, triangles] = counts(&manifest.bodies);
             needed(&bodies_path, "vertices", [bodies.vertices.len(), vertices])?;
             needed(&bodies_path, "triangles", [bodies.triangles.len(), triangles])?;
@@ -181,7 +197,7 @@ impl Stored {
         Ok(Stored { path, cloth, bodies_path, bodies })
     }
 
-    /// All triangles, those of the bodies with their vertices behind the cloth's.
+    /// Returns all triangles; the vertices of the bodies are numbered after the cloth's.
     fn triangles(&self) -> Vec<[u32; 3]> {
         let first = self.cloth.vertices.len() as u32;
         let bodies = self.bodies.triangles.iter().map(|t| t.map(|corner| corner + first));
@@ -189,24 +205,21 @@ impl Stored {
     }
 }
 
-fn needed(path: &Path, what: &'static str, [found, needed]: [usize; 2]) -> Result<(), VerifyError> {
+/// Refuses a file that has another number of items than the manifest gives.
+fn needed(path: &Path, what: &'static str, [found, needed]: [usize; 2]) -> Result<(), Error> {
     match found == needed {
         true => Ok(()),
-        false => Err(VerifyError::WrongCount { path: path.to_owned(), what, found, needed }),
+        false => Err(Error::WrongCount { path: path.to_owned(), what, found, needed }),
     }
 }
 
-/// Each triangle must have three corners of its own part.
-fn own_corners(
-    path: &Path,
-    triangles: &[[u32; 3]],
-    parts: &[crate::Part],
-) -> Result<(), VerifyError> {
+/// Refuses triangles whose corners are not three different vertices of their own part.
+fn own_corners(path: &Path, triangles: &[[u32; 3]], parts: &[Part]) -> Result<(), Error> {
     let (mut vertex, mut triangle) = (0, 0);
     for part in parts {
         let own = vertex..vertex + part.vertices;
-        let its = triangles.iter().enumerate().skip(triangle).take(part.triangles);
-        for (index, &corners) in its {
+        let range = triangles.iter().enumerate().skip(triangle).take(part.triangles);
+        for (index, &corners) in range {
             let [a, b, c] = corners;
             let reason = if a == b || b == c || c == a {
                 "two are the same"
@@ -216,7 +229,7 @@ fn own_corners(
                 continue;
             };
             let path = path.to_owned();
-            return Err(VerifyError::BadTriangle { path, triangle: index, corners, reason });
+            return Err(Error::BadTriangle { path, triangle: index, corners, reason });
         }
         (vertex, triangle) = (own.end, triangle + part.triangles);
     }

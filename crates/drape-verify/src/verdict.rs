@@ -1,75 +1,96 @@
+//! Verdict on one frame: tests all pairs of triangles that the grid finds.
+
 use std::path::PathBuf;
 
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::distance::{Figure, SIDES, joined, triangles_apart};
-use crate::grid::{Extent, Grid};
-use crate::intersection::{has_area, segment_meets, triangles_meet};
+use crate::distance::triangle_distance;
+use crate::grid::{Aabb, Grid};
+use crate::intersection::{has_area, segment_intersects, triangles_intersect};
 use crate::mesh::{Mesh, PartNumber};
+use crate::triangle::{EDGES, Triangle, joined};
 
-/// Triangles that one thread looks after at a time.
+/// Number of triangles that one thread tests at a time.
 const CHUNK: usize = 512;
 
-/// Places that a verdict names at most.
-const PLACES_MAX: usize = 10;
+/// Largest number of pairs that a verdict lists.
+const LISTED_MAX: usize = 10;
 
-/// Part of a distance that rounding may take from what a run keeps. It keeps the places of corners, which have 16
-/// digits; a kept distance is a ten thousandth of a coordinate or more.
+/// Relative rounding error of a distance that is allowed below the minimum separation.
+///
+/// Corners have 16 digits, and a separation is a ten-thousandth of a coordinate or more.
 const ROUNDING: f64 = 1e-9;
 
-/// What one frame was found to be.
+/// Result of testing one frame.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// # std::fs::write(folder.path().join("surfaces.json"), r#"{ "format": 1, "guarded": true, "panels": [
+/// #     { "name": "sheet", "vertices": 3, "triangles": 1 } ], "bodies": [] }
+/// # "#)?;
+/// # let frame = "v 0 0 0\nv 0 0 1\nv 1 0 0\nvt 0 0\nvt 0 1\nvt 1 0\nf 1 2 3\n";
+/// # std::fs::write(folder.path().join("frame-00000.obj"), frame)?;
+/// let recording = drape_verify::Recording::open(folder.path())?;
+/// let verdict = recording.verify(0)?;
+/// assert!(verdict.holds());
+/// assert_eq!((verdict.triangles, verdict.pairs, verdict.intersections), (1, 0, 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// Number of the frame.
     pub number: usize,
-    /// Its file.
+    /// File of the frame.
     pub file: PathBuf,
-    /// Its time, in s, where the file says it.
+    /// Time of the frame where the file gives it, in s.
     pub time: Option<f64>,
-    /// Part of the distances that the run keeps which it says that it kept by then: less than 1 while what surfaces keep
-    /// grows.
-    pub grown: f64,
-    /// Triangles of cloth and bodies.
+    /// Growth fraction of the minimum separation that the file gives, 0 to 1: less than 1 while the
+    /// separation still grows.
+    #[serde(rename = "grown")]
+    pub growth: f64,
+    /// Number of triangles of cloth and bodies.
     pub triangles: usize,
-    /// Pairs of triangles whose boxes come near each other; all others are apart.
+    /// Number of pairs whose bounding boxes overlap; all others are disjoint.
     pub pairs: usize,
-    /// Pairs that share no vertex and meet, or that share one and meet elsewhere. Touching counts.
+    /// Number of pairs that intersect where they are not joined. Touching counts.
     pub intersections: usize,
-    /// Triangles of cloth without an area.
+    /// Number of triangles without an area.
     pub degenerate: usize,
-    /// Pairs nearer to each other than the run keeps them.
+    /// Number of pairs closer than the minimum separation.
     pub too_near: usize,
-    /// Smallest distance of a pair of triangles within the reach of its contact, in m; none if there is no such pair.
+    /// Smallest distance of a pair within its activation distance, in m; none without such a pair.
     pub min_distance: Option<f64>,
-    /// The worst places: those that meet, then the nearest over what they should keep.
-    pub worst: Vec<Place>,
+    /// Worst pairs: those that intersect, then those closest relative to their minimum separation.
+    pub worst: Vec<ClosePair>,
 }
 
-/// Two triangles of a frame.
+/// Two triangles of a frame that intersect or are within their activation distance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Place {
-    /// The panels or bodies that they are of.
+pub struct ClosePair {
+    /// Panels or bodies of the two triangles.
     pub parts: [PartNumber; 2],
-    /// Their numbers there, from 0.
+    /// Numbers of the triangles in their parts, from 0.
     pub triangles: [usize; 2],
-    /// Half way between their nearest points, or the middle of all corners of two that meet, in m.
-    pub place: [f64; 3],
-    /// Their distance, in m; 0 if they meet.
+    /// Midpoint of the closest points, or mean of all corners of two that intersect, in m.
+    #[serde(rename = "place")]
+    pub point: [f64; 3],
+    /// Distance of the two, in m; 0 if they intersect.
     pub distance: f64,
-    /// The distance that they should keep, in m; 0 where nothing was promised.
-    pub kept: f64,
+    /// Minimum separation of the two, in m; 0 where nothing was promised.
+    #[serde(rename = "kept")]
+    pub min_separation: f64,
 }
 
 impl Verdict {
-    /// Whether no surface meets or comes too near another.
+    /// Returns whether no pair intersects or is too close, and no triangle is degenerate.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.intersections == 0 && self.degenerate == 0 && self.too_near == 0
     }
 }
 
-/// What was found in a part of the pairs.
+/// Findings in a part of the pairs.
 #[derive(Debug, Default)]
 struct Found {
     pairs: usize,
@@ -77,11 +98,11 @@ struct Found {
     degenerate: usize,
     too_near: usize,
     min_distance: Option<f64>,
-    worst: Vec<Place>,
+    worst: Vec<ClosePair>,
 }
 
 impl Found {
-    /// Takes in what was found in pairs that come later.
+    /// Returns the findings joined with those in later pairs.
     fn with(mut self, other: Found) -> Found {
         self.pairs += other.pairs;
         self.intersections += other.intersections;
@@ -95,37 +116,47 @@ impl Found {
     }
 
     fn sort(&mut self) {
-        let badness = |place: &Place| match place.kept {
-            kept if kept > 0.0 => place.distance / kept,
-            _ => place.distance,
+        let relative = |pair: &ClosePair| match pair.min_separation {
+            separation if separation > 0.0 => pair.distance / separation,
+            _ => pair.distance,
         };
-        // A stable order: of equal ones the first pair.
-        self.worst.sort_by(|a, b| badness(a).total_cmp(&badness(b)));
-        self.worst.truncate(PLACES_MAX);
+        // The sort is stable: of equal pairs the first stays first.
+        self.worst.sort_by(|a, b| relative(a).total_cmp(&relative(b)));
+        self.worst.truncate(LISTED_MAX);
     }
 }
 
-/// One frame: a mesh and where its vertices are, in m.
-pub(crate) struct Shape<'a> {
+/// Frame to be tested: the mesh and the positions of its vertices, in m.
+pub(crate) struct Frame<'a> {
+    pub(crate) number: usize,
+    pub(crate) file: PathBuf,
+    pub(crate) time: Option<f64>,
+    /// Growth fraction of the minimum separation, 0 to 1.
+    pub(crate) growth: f64,
     pub(crate) mesh: &'a Mesh,
-    pub(crate) places: &'a [[f64; 3]],
-    /// Part of the distances that surfaces keep which they kept by then.
-    pub(crate) grown: f64,
+    pub(crate) positions: &'a [[f64; 3]],
 }
 
-impl Shape<'_> {
-    /// Looks at all pairs of triangles but those of bodies with bodies.
-    pub(crate) fn verify(&self, (number, file, time): (usize, PathBuf, Option<f64>)) -> Verdict {
+/// Distances of a pair, in m.
+struct Limits {
+    activation_distance: f64,
+    min_separation: f64,
+}
+
+impl Frame<'_> {
+    /// Tests all pairs of triangles but those of bodies with bodies.
+    pub(crate) fn verify(self) -> Verdict {
         let mesh = self.mesh;
-        let reach = mesh.parts().iter().map(|part| part.reach).fold(0.0, f64::max);
-        let extents = (0..mesh.triangles()).map(|t| Extent::around(self.corners(t), reach));
-        let grid = Grid::new(extents.collect());
+        let halves = mesh.parts().iter().map(|part| part.half_activation_distance);
+        let margin = halves.fold(0.0, f64::max);
+        let boxes = (0..mesh.triangles()).map(|t| Aabb::around(self.corners(t), margin));
+        let grid = Grid::new(boxes.collect());
         let numbers: Vec<usize> = (0..mesh.triangles()).collect();
         let chunks = numbers.par_chunks(CHUNK).map(|chunk| {
             let mut found = Found::default();
             for &triangle in chunk {
                 found.degenerate += usize::from(!has_area(self.corners(triangle)));
-                grid.each_behind(triangle, |other| self.pair([triangle, other], &mut found));
+                grid.each_following(triangle, |other| self.pair([triangle, other], &mut found));
             }
             found.sort();
             found
@@ -133,10 +164,10 @@ impl Shape<'_> {
         let chunks: Vec<Found> = chunks.collect();
         let found = chunks.into_iter().fold(Found::default(), Found::with);
         Verdict {
-            number,
-            file,
-            time,
-            grown: self.grown,
+            number: self.number,
+            file: self.file,
+            time: self.time,
+            growth: self.growth,
             triangles: mesh.triangles(),
             pairs: found.pairs,
             intersections: found.intersections,
@@ -148,84 +179,96 @@ impl Shape<'_> {
     }
 
     fn corners(&self, triangle: usize) -> [[f64; 3]; 3] {
-        self.mesh.triangles[triangle].map(|vertex| self.places[vertex as usize])
+        self.mesh.triangles[triangle].map(|vertex| self.positions[vertex as usize])
     }
 
+    /// Tests a pair and adds it to the findings.
     fn pair(&self, pair: [usize; 2], found: &mut Found) {
         if pair.iter().all(|&triangle| self.mesh.is_body(triangle)) {
             return;
         }
         found.pairs += 1;
-        let figures = pair.map(|triangle| Figure {
+        let triangles = pair.map(|triangle| Triangle {
             corners: self.corners(triangle),
             vertices: self.mesh.vertices(triangle),
         });
-        if meet(figures) {
+        if intersect(triangles) {
             found.intersections += 1;
-            let corners = || figures.iter().flat_map(|figure| figure.corners);
+            let corners = || triangles.iter().flat_map(|triangle| triangle.corners);
             let middle = [0, 1, 2].map(|axis| corners().map(|x| x[axis]).sum::<f64>() / 6.0);
-            found.worst.push(self.place(pair, middle, [0.0; 2]));
+            found.worst.push(self.listed(pair, middle, [0.0; 2]));
         } else {
-            self.nearness(pair, figures, found);
+            self.measure(pair, triangles, found);
         }
-        if found.worst.len() > 100 * PLACES_MAX {
+        if found.worst.len() > 100 * LISTED_MAX {
             found.sort();
         }
     }
 
-    /// Takes note of a pair that does not meet if it is within the reach of its contact.
-    fn nearness(&self, pair: [usize; 2], figures: [Figure; 2], found: &mut Found) {
-        let [one, other] = figures;
-        let nearest = triangles_apart(one, other);
-        let distance = nearest.distance();
+    /// Adds a disjoint pair to the findings if it is within its activation distance.
+    fn measure(&self, pair: [usize; 2], triangles: [Triangle; 2], found: &mut Found) {
+        let [one, other] = triangles;
+        let closest = triangle_distance(one, other);
+        let distance = closest.distance();
         let parts = pair.map(|triangle| self.mesh.part[triangle] as usize);
         let [a, b] = parts.map(|part| &self.mesh.parts()[part]);
-        let (mut reach, mut kept) = (a.reach + b.reach, a.separation + b.separation);
+        let mut limits = Limits {
+            activation_distance: a.half_activation_distance + b.half_activation_distance,
+            min_separation: a.half_min_separation + b.half_min_separation,
+        };
         if pair.iter().any(|&triangle| self.mesh.is_body(triangle)) {
-            kept *= self.mesh.thinned;
+            limits.min_separation *= self.mesh.pinch_fraction;
         }
-        if !(distance < reach) {
+        if !(distance < limits.activation_distance) {
             return;
         }
         if parts[0] == parts[1] {
-            // What lies close at rest is kept at a quarter of that distance only, and pushes below half of it.
-            let [one, other] =
-                [0, 1].map(|k| Figure { corners: self.mesh.at_rest(pair[k]), ..figures[k] });
-            let rest = triangles_apart(one, other).distance();
-            reach = reach.min(0.5 * rest);
-            kept = kept.min(0.25 * rest);
+            // Two points of one part that are close at rest repel each other only below half of their rest
+            // distance, and keep only a quarter of it.
+            let [one, other] = [0, 1]
+                .map(|k| Triangle { corners: self.mesh.rest_corners(pair[k]), ..triangles[k] });
+            let rest = triangle_distance(one, other).distance();
+            limits.activation_distance = limits.activation_distance.min(0.5 * rest);
+            limits.min_separation = limits.min_separation.min(0.25 * rest);
         }
-        kept *= self.grown;
-        let too_near = distance < kept * (1.0 - ROUNDING);
+        limits.min_separation *= self.growth;
+        let too_near = distance < limits.min_separation * (1.0 - ROUNDING);
         found.too_near += usize::from(too_near);
-        if distance < reach || too_near {
+        if distance < limits.activation_distance || too_near {
             let least = found.min_distance.map_or(distance, |least| least.min(distance));
             found.min_distance = Some(least);
-            let [p, q] = nearest.points;
+            let [p, q] = closest.points;
             let middle = [0, 1, 2].map(|axis| 0.5 * (p[axis] + q[axis]));
-            found.worst.push(self.place(pair, middle, [distance, kept]));
+            found.worst.push(self.listed(pair, middle, [distance, limits.min_separation]));
         }
     }
 
-    fn place(&self, pair: [usize; 2], place: [f64; 3], [distance, kept]: [f64; 2]) -> Place {
+    fn listed(
+        &self,
+        pair: [usize; 2],
+        point: [f64; 3],
+        [distance, min_separation]: [f64; 2],
+    ) -> ClosePair {
         let mut located = pair.map(|triangle| self.mesh.locate(triangle));
         located.sort_unstable();
-        let (parts, triangles) = (located.map(|l| l.0), located.map(|l| l.1));
-        Place { parts, triangles, place, distance, kept }
+        let parts = located.map(|location| location.part);
+        let triangles = located.map(|location| location.triangle);
+        ClosePair { parts, triangles, point, distance, min_separation }
     }
 }
 
-/// Whether two triangles meet elsewhere than where they are joined. Two that share a side can do so only if they lie in a
-/// plane; their distance then shows it.
-fn meet([one, other]: [Figure; 2]) -> bool {
+/// Returns whether two triangles intersect elsewhere than where they are joined.
+///
+/// Two that share an edge can do so only if they lie in one plane; their distance then shows it.
+fn intersect([one, other]: [Triangle; 2]) -> bool {
     if !joined(&one.vertices, &other.vertices) {
-        return triangles_meet(one.corners, other.corners);
+        return triangles_intersect(one.corners, other.corners);
     }
-    // Where they are not joined, one of them has a side that meets the other.
-    [(one, other), (other, one)].into_iter().any(|(figure, of)| {
-        SIDES.into_iter().any(|side| {
-            !joined(&side.map(|k| figure.vertices[k]), &of.vertices)
-                && segment_meets(side.map(|k| figure.corners[k]), of.corners)
+    // Where they are not joined, an edge of one of them intersects the other.
+    [(one, other), (other, one)].into_iter().any(|(triangle, of)| {
+        EDGES.into_iter().any(|edge| {
+            !joined(&edge.map(|k| triangle.vertices[k]), &of.vertices)
+                && segment_intersects(edge.map(|k| triangle.corners[k]), of.corners)
         })
     })
 }
@@ -233,40 +276,40 @@ fn meet([one, other]: [Figure; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::distance::Vertex;
+    use crate::triangle::Vertex;
 
     #[test]
-    fn what_is_sewn_to_a_side_meets_it_only_elsewhere() {
+    fn vertices_tied_to_an_edge_intersect_its_triangle_only_elsewhere() {
         let plain = |number| Vertex { number, between: None };
-        let sewn = |number| Vertex { number, between: Some([0, 1]) };
-        let side = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
-        let whole = |apex: [f64; 3]| Figure {
-            corners: [side[0], side[1], apex],
+        let tied = |number| Vertex { number, between: Some([0, 1]) };
+        let edge = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
+        let whole = |apex: [f64; 3]| Triangle {
+            corners: [edge[0], edge[1], apex],
             vertices: [0, 1, 2].map(plain),
         };
         let [one, two] = [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
-        // With a side, or with a corner, on that of the first.
-        let along = Figure {
+        // With an edge, or with a corner, on an edge of the first.
+        let along = Triangle {
             corners: [one, two, [1.5, -1.0, 0.5]],
-            vertices: [sewn(3), sewn(4), plain(5)],
+            vertices: [tied(3), tied(4), plain(5)],
         };
-        let hung = |a: [f64; 3], b: [f64; 3]| Figure {
+        let hung = |a: [f64; 3], b: [f64; 3]| Triangle {
             corners: [one, a, b],
-            vertices: [sewn(3), plain(5), plain(6)],
+            vertices: [tied(3), plain(5), plain(6)],
         };
         let flat = whole([1.5, 2.0, 0.0]);
-        assert!(!meet([flat, along]) && !meet([along, flat]));
-        // In one plane and on each other they do not cross, and are near nothing but the seam.
-        let above = Figure { corners: [one, two, [1.5, 1.0, 0.0]], ..along };
-        assert!(!meet([flat, above]) && triangles_apart(flat, above).distance() < 1e-12);
+        assert!(!intersect([flat, along]) && !intersect([along, flat]));
+        // In one plane and on each other they do not intersect; only the seam is near.
+        let above = Triangle { corners: [one, two, [1.5, 1.0, 0.0]], ..along };
+        assert!(!intersect([flat, above]) && triangle_distance(flat, above).distance() < 1e-12);
         let apart = hung([0.5, 1.0, 0.2], [1.5, 1.0, 0.2]);
-        assert!(!meet([flat, apart]) && !meet([apart, flat]));
+        assert!(!intersect([flat, apart]) && !intersect([apart, flat]));
         let through = hung([1.0, 1.0, 0.2], [1.5, 1.0, -0.2]);
-        assert!(meet([flat, through]) && meet([through, flat]));
-        // A stranger in the same place touches.
-        let stranger = Figure { vertices: [7, 8, 9].map(plain), ..along };
-        assert!(meet([flat, stranger]));
-        let own = [sewn(3)];
+        assert!(intersect([flat, through]) && intersect([through, flat]));
+        // An untied triangle at the same position touches.
+        let untied = Triangle { vertices: [7, 8, 9].map(plain), ..along };
+        assert!(intersect([flat, untied]));
+        let own = [tied(3)];
         assert!(joined(&own, &flat.vertices) && !joined(&own, &flat.vertices[1..]));
     }
 }

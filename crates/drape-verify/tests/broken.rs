@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use drape_verify::{Recording, Verdict, VerifyError};
+use drape_verify::{Error, Recording, Verdict};
 
 const SURFACES: &str = r#"{ "format": 1, "guarded": true, "panels": [
 { "name": "a", "vertices": 3, "triangles": 1, "reach": 1.5e-4, "separation": 5e-5 } ], "bodies": [
@@ -16,7 +16,7 @@ fn write(folder: &Path, name: &str, content: &[u8]) {
     std::fs::write(folder.join(name), content).expect("writes");
 }
 
-fn verify(folder: &Path) -> Result<Verdict, VerifyError> {
+fn verify(folder: &Path) -> Result<Verdict, Error> {
     Recording::open(folder)?.verify(0)
 }
 

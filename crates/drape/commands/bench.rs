@@ -4,8 +4,9 @@
 use std::fmt::Write;
 
 use clap::Args;
+use drape::dynamics::{Simulation, Summary};
 use drape::input::Document;
-use drape::scene::{Scene, Simulation, Summary};
+use drape::scene::Scene;
 use serde_json::json;
 
 use crate::failure::Failure;

@@ -9,7 +9,8 @@ mod report;
 use std::path::PathBuf;
 
 use clap::Args;
-use drape::scene::{Scene, SceneError, Simulation, Snapshot, prepare_folder};
+use drape::dynamics::{Simulation, Snapshot, prepare_folder};
+use drape::scene::{Error, Scene};
 
 use self::report::{describe, outcome};
 use crate::failure::Failure;
@@ -42,7 +43,8 @@ pub(crate) struct RunArguments {
 
 /// Executes `drape run`.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let mut scene = Scene::read(&arguments.scene).map_err(|error| refuse(error, arguments))?;
+    let mut scene =
+        drape::read_scene(&arguments.scene).map_err(|error| refuse(error, arguments))?;
     if let Some(end) = arguments.until {
         if !(end >= scene.clock.step) {
             let step = scene.clock.step;
@@ -103,8 +105,8 @@ fn folder(arguments: &RunArguments, of_scene: Option<&PathBuf>) -> PathBuf {
 
 /// Returns the failure for a scene that is refused. Triangles that intersect at the start are
 /// written to a file beside the folder that the results would have.
-fn refuse(error: SceneError, arguments: &RunArguments) -> Failure {
-    let SceneError::Tangled(mut tangle) = error else { return error.into() };
+fn refuse(error: Error, arguments: &RunArguments) -> Failure {
+    let Error::Tangled(mut tangle) = error else { return error.into() };
     let folder = folder(arguments, tangle.folder.as_ref());
     let mut name = folder.file_name().unwrap_or_default().to_owned();
     name.push("-start.ply");

@@ -1,8 +1,9 @@
 //! Maps of a garment's strains, as one SVG file.
 
 use drape::cloth::TriangleStrain;
-use drape::report::{Colour, StrainMap, diverging, strain_svg};
-use drape::scene::Snapshot;
+use drape::dynamics::Snapshot;
+use drape::report::plot::{StrainMap, strain_svg};
+use drape::report::{Colour, diverging};
 
 use super::picture::draw_from;
 use crate::failure::Failure;

@@ -142,7 +142,7 @@ fn garments() -> Vec<(String, Lattice)> {
                 panel.clone().with_grain(grain).expect("an angle")
             };
             let panels = pattern.panels().iter().map(turned).collect();
-            let pattern = Pattern::new(panels, pattern.stitches().to_vec()).expect("as before");
+            let pattern = Pattern::new(panels, pattern.seams().to_vec()).expect("as before");
             let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
             for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
                 let name = format!("{file} {} {turn}°", panel.name());

@@ -1,12 +1,12 @@
 //! Nets of stiff springs: pendulum, catenary, momentum, energy.
 
-use drape_implicit::{Integrator, Motion, Report, Settings, Stepper, System};
+use drape_implicit::{Integrator, IntegratorState, Report, Settings, Stepper, System};
 
 use crate::springs::Springs;
 
 /// Fourth-order Runge–Kutta with steps far below the fastest oscillation: an independent reference.
-fn runge_kutta(system: &mut Springs, motion: &mut Motion, dt: f64, steps: usize) {
-    let n = motion.positions.len();
+fn runge_kutta(system: &mut Springs, state: &mut IntegratorState, dt: f64, steps: usize) {
+    let n = state.positions.len();
     let mut rate = |x: &[f64], v: &[f64]| {
         let mut a = vec![0.0; n];
         system.forces(x, &mut a);
@@ -19,14 +19,14 @@ fn runge_kutta(system: &mut Springs, motion: &mut Motion, dt: f64, steps: usize)
         x.iter().zip(r).map(|(x, r)| x + h * r).collect()
     };
     for _ in 0..steps {
-        let (x, v) = (&motion.positions, &motion.velocities);
+        let (x, v) = (&state.positions, &state.velocities);
         let (v1, a1) = rate(x, v);
         let (v2, a2) = rate(&shift(x, dt / 2.0, &v1), &shift(v, dt / 2.0, &a1));
         let (v3, a3) = rate(&shift(x, dt / 2.0, &v2), &shift(v, dt / 2.0, &a2));
         let (v4, a4) = rate(&shift(x, dt, &v3), &shift(v, dt, &a3));
         for k in 0..n {
-            motion.positions[k] += dt / 6.0 * (v1[k] + 2.0 * (v2[k] + v3[k]) + v4[k]);
-            motion.velocities[k] += dt / 6.0 * (a1[k] + 2.0 * (a2[k] + a3[k]) + a4[k]);
+            state.positions[k] += dt / 6.0 * (v1[k] + 2.0 * (v2[k] + v3[k]) + v4[k]);
+            state.velocities[k] += dt / 6.0 * (a1[k] + 2.0 * (a2[k] + a3[k]) + a4[k]);
         }
     }
 }
@@ -38,18 +38,18 @@ fn a_stiff_chain_swings_like_the_fine_reference() {
     system.held[0] = true;
     let start: Vec<f64> =
         (0..=10).flat_map(|i| [0.06 * f64::from(i), -0.08 * f64::from(i), 0.0]).collect();
-    let mut reference = Motion::at_rest(start.clone());
+    let mut reference = IntegratorState::at_rest(start.clone());
     runge_kutta(&mut system, &mut reference, 5e-5, 12_000);
 
     let error = |dt: f64, steps: usize| {
         let mut system = system.clone();
         let mut stepper = Stepper::new(&system, Settings::default()).unwrap();
-        let mut motion = Motion::at_rest(start.clone());
+        let mut state = IntegratorState::at_rest(start.clone());
         for _ in 0..steps {
-            stepper.advance(&mut system, &mut motion, dt).unwrap();
+            stepper.advance(&mut system, &mut state, dt).unwrap();
         }
         let squares: f64 =
-            motion.positions.iter().zip(&reference.positions).map(|(a, b)| (a - b).powi(2)).sum();
+            state.positions.iter().zip(&reference.positions).map(|(a, b)| (a - b).powi(2)).sum();
         (squares / 11.0).sqrt()
     };
     let (coarse, fine) = (error(4e-3, 150), error(1e-3, 600));
@@ -72,7 +72,7 @@ fn a_heavy_chain_comes_to_rest_on_the_catenary() {
             [span * s, -drop * (1.0 - (2.0 * s - 1.0).abs()), 0.0]
         })
         .collect();
-    let mut motion = Motion::at_rest(positions);
+    let mut state = IntegratorState::at_rest(positions);
     let settings = Settings {
         integrator: Integrator::BackwardEuler,
         // The residual left is an error of the weight, and of the shape.
@@ -81,12 +81,12 @@ fn a_heavy_chain_comes_to_rest_on_the_catenary() {
     };
     let mut stepper = Stepper::new(&system, settings).unwrap();
     for _ in 0..400 {
-        stepper.advance(&mut system, &mut motion, 0.05).unwrap();
+        stepper.advance(&mut system, &mut state, 0.05).unwrap();
     }
-    let speed = motion.velocities.iter().fold(0.0, |a: f64, v| a.max(v.abs()));
+    let speed = state.velocities.iter().fold(0.0, |a: f64, v| a.max(v.abs()));
     assert!(speed < 1e-6, "still moving at {speed} m/s");
 
-    let found = -motion.positions[3 * (links / 2) + 1];
+    let found = -state.positions[3 * (links / 2) + 1];
 
     // The chain of links: horizontal tension is constant, so the slopes of the links grow by equal amounts from
     // ±half of one at the middle; that amount follows from the span.
@@ -125,23 +125,23 @@ fn a_free_net_keeps_its_momentum() {
             *mass *= 1.0 + 0.1 * (i % 7) as f64;
         }
         let velocities: Vec<f64> = (0..3 * n * n).map(|k| (k as f64 * 1.7).sin()).collect();
-        let mut motion = Motion::new(Springs::flat(n), velocities);
-        let momentum = |motion: &Motion| {
+        let mut state = IntegratorState::new(Springs::flat(n), velocities);
+        let momentum = |state: &IntegratorState| {
             [0, 1, 2].map(|axis| {
-                let along = motion.velocities.iter().skip(axis).step_by(3);
+                let along = state.velocities.iter().skip(axis).step_by(3);
                 system.masses.iter().zip(along).map(|(m, v)| m * v).sum::<f64>()
             })
         };
-        let before = momentum(&motion);
+        let before = momentum(&state);
         let magnitude: f64 = system.masses.iter().sum();
         let tolerance = 1e-10;
         let settings = Settings { integrator, tolerance, ..Settings::default() };
         let mut other = system.clone();
         let mut stepper = Stepper::new(&other, settings).unwrap();
         for _ in 0..100 {
-            stepper.advance(&mut other, &mut motion, 2e-3).unwrap();
+            stepper.advance(&mut other, &mut state, 2e-3).unwrap();
         }
-        for (before, after) in before.iter().zip(momentum(&motion)) {
+        for (before, after) in before.iter().zip(momentum(&state)) {
             // Each step may leave the residual it is allowed, and no more: internal forces cancel exactly.
             let allowed = 100.0 * 2e-3 * tolerance * 9.81 * magnitude;
             assert!((before - after).abs() < allowed, "{integrator:?}: {before} became {after}");
@@ -157,12 +157,12 @@ fn a_swinging_sheet_loses_the_energy_that_is_reported_and_bdf2_a_fifth_of_it() {
         let settings =
             Settings { integrator, tolerance: 1e-8, energy_balance: true, ..Settings::default() };
         let mut stepper = Stepper::new(&system, settings).unwrap();
-        let mut motion = Motion::at_rest(Springs::flat(n));
+        let mut state = IntegratorState::at_rest(Springs::flat(n));
         let mut total = Report::default();
         let mut energy = 0.0;
         for step in 0..100 {
-            total += &stepper.advance(&mut system, &mut motion, 5e-3).unwrap();
-            let now = system.energy(&motion.positions, &motion.velocities);
+            total += &stepper.advance(&mut system, &mut state, 5e-3).unwrap();
+            let now = system.energy(&state.positions, &state.velocities);
             // The other formula keeps a sum over two steps from growing, not the energy of each.
             let falls = integrator == Integrator::Bdf2 || now < energy;
             assert!(falls, "step {step}: {energy} J became {now} J");

@@ -1,6 +1,8 @@
 //! Explicit steps, and the estimate of a step's error.
 
-use drape_implicit::{Error, ErrorEstimate, Explicit, Integrator, Motion, Settings, Stepper};
+use drape_implicit::{
+    Error, ErrorEstimate, Explicit, Integrator, IntegratorState, Settings, Stepper,
+};
 
 use crate::springs::Springs;
 use crate::well::Well;
@@ -16,14 +18,14 @@ fn explicit_steps_are_of_first_order_and_keep_the_energy() {
     let run = |steps: usize| {
         let mut system = Well::new(spring_law);
         let mut explicit = Explicit::new(&system);
-        let mut motion = Motion::at_rest(vec![1.0, 0.0, 0.0]);
+        let mut state = IntegratorState::at_rest(vec![1.0, 0.0, 0.0]);
         let (mut lost, mut largest) = (0.0, 0.0_f64);
         for _ in 0..steps {
-            let report = explicit.advance(&mut system, &mut motion, 1.0 / steps as f64).unwrap();
+            let report = explicit.advance(&mut system, &mut state, 1.0 / steps as f64).unwrap();
             lost += report.energy.unwrap().numerical_dissipation;
             largest = largest.max(lost.abs());
         }
-        let error = (motion.positions[0] - (OMEGA * motion.time).cos()).abs();
+        let error = (state.positions[0] - (OMEGA * state.time).cos()).abs();
         (error, largest, lost)
     };
     let [coarse, fine] = [1000, 2000].map(run);
@@ -38,21 +40,21 @@ fn explicit_steps_are_of_first_order_and_keep_the_energy() {
 fn a_long_step_is_made_in_as_many_parts_as_stability_asks_for() {
     let mut system = Springs::sheet(6, 5000.0);
     let mut explicit = Explicit::new(&system);
-    let mut motion = Motion::at_rest(Springs::flat(6));
-    let stable = explicit.stable_step(&mut system, &motion, 0.01).unwrap();
-    let report = explicit.advance(&mut system, &mut motion, 0.01).unwrap();
+    let mut state = IntegratorState::at_rest(Springs::flat(6));
+    let stable = explicit.stable_step(&mut system, &state, 0.01).unwrap();
+    let report = explicit.advance(&mut system, &mut state, 0.01).unwrap();
     assert_eq!(report.sub_steps, (0.01 / (0.5 * stable)).ceil() as usize);
     for _ in 0..50 {
-        explicit.advance(&mut system, &mut motion, 0.01).unwrap();
+        explicit.advance(&mut system, &mut state, 0.01).unwrap();
     }
-    let farthest = motion.positions.iter().fold(0.0, |far: f64, x| far.max(x.abs()));
+    let farthest = state.positions.iter().fold(0.0, |far: f64, x| far.max(x.abs()));
     assert!(farthest < 2.0, "it swings within its reach: {farthest}");
 
     // The bound is a bound, and not a loose one: at three times its length the sheet flies apart.
     let mut explicit = Explicit::new(&system).with_fraction(3.0);
-    let mut motion = Motion::at_rest(Springs::flat(6));
-    let blown_up = (0..100).find_map(|_| explicit.advance(&mut system, &mut motion, 0.01).err());
-    let far = motion.positions.iter().any(|x| x.abs() > 1e3);
+    let mut state = IntegratorState::at_rest(Springs::flat(6));
+    let blown_up = (0..100).find_map(|_| explicit.advance(&mut system, &mut state, 0.01).err());
+    let far = state.positions.iter().any(|x| x.abs() > 1e3);
     assert!(far || matches!(blown_up, Some(Error::NotFinite { .. })), "{blown_up:?}");
 }
 
@@ -70,14 +72,15 @@ fn the_estimate_is_the_error_of_one_step() {
             };
             let start = 0.06;
             let (positions, velocities) = exact(start);
-            let mut motion = Motion::new(positions, velocities);
+            let mut state = IntegratorState::new(positions, velocities);
             let (positions, velocities) = exact(start - before);
-            motion.previous = Some(drape_implicit::Previous { dt: before, positions, velocities });
+            state.previous =
+                Some(drape_implicit::PreviousState { dt: before, positions, velocities });
             let mut estimate = ErrorEstimate::new(1);
-            estimate.predict(&motion, integrator, dt);
-            stepper.advance(&mut system, &mut motion, dt).unwrap();
-            let error = (motion.positions[0] - exact(start + dt).0[0]).abs();
-            let found = estimate.estimate(&motion);
+            estimate.predict(&state, integrator, dt);
+            stepper.advance(&mut system, &mut state, dt).unwrap();
+            let error = (state.positions[0] - exact(start + dt).0[0]).abs();
+            let found = estimate.estimate(&state);
             let miss = (found / error - 1.0).abs();
             assert!(miss < tolerance, "{integrator:?}, ratio {ratio}: {found:e} for {error:e}");
         }

@@ -1,8 +1,8 @@
 //! Systems made to break the solver: a typed error and an untouched state.
 
 use drape_implicit::{
-    BlockMatrix, Error, LinearSolver, Method, Motion, Pattern, Quantity, Settings, Stepper,
-    Stiffness, System,
+    BlockMatrix, Error, IntegratorState, LinearSolver, Method, Quantity, Settings, Sparsity,
+    Stepper, Stiffness, System,
 };
 
 use crate::springs::Springs;
@@ -107,9 +107,9 @@ impl System for Linear {
             }
         }
     }
-    fn pattern(&self) -> Pattern {
-        let pairs = self.blocks.iter().map(|(i, j, _)| (*i, *j));
-        Pattern::from_pairs(self.masses.len(), pairs).unwrap()
+    fn sparsity(&self) -> Sparsity {
+        let pairs = self.blocks.iter().map(|(i, j, _)| [*i, *j]);
+        Sparsity::from_pairs(self.masses.len(), pairs).unwrap()
     }
     fn accept(&mut self, _: &[f64], _: &[f64], _: f64) {
         self.accepted += 1;
@@ -119,23 +119,23 @@ impl System for Linear {
 /// Advances and checks that the state is finite, and on failure that of the last accepted sub-step.
 fn survive(system: &mut Linear, settings: &Settings, dt: f64) -> bool {
     let particles = system.particles();
-    let start = Motion::at_rest((0..3 * particles).map(|k| (k as f64).sin()).collect());
-    let mut motion = start.clone();
+    let start = IntegratorState::at_rest((0..3 * particles).map(|k| (k as f64).sin()).collect());
+    let mut state = start.clone();
     let mut stepper = Stepper::new(system, settings.clone()).unwrap();
-    let outcome = stepper.advance(system, &mut motion, dt);
-    assert!(motion.positions.iter().chain(&motion.velocities).all(|x| x.is_finite()));
+    let outcome = stepper.advance(system, &mut state, dt);
+    assert!(state.positions.iter().chain(&state.velocities).all(|x| x.is_finite()));
     match outcome {
         Ok(report) => {
             assert!(report.residual <= settings.tolerance, "{report:?}");
             assert_eq!(report.sub_steps, system.accepted);
-            assert_eq!(motion.time, dt);
+            assert_eq!(state.time, dt);
             true
         }
         Err(Error::NotConverged { .. } | Error::NotFinite { .. }) => {
             if system.accepted == 0 {
-                assert_eq!(motion, start);
+                assert_eq!(state, start);
             } else {
-                assert!(motion.time > 0.0 && motion.time < dt, "{}", motion.time);
+                assert!(state.time > 0.0 && state.time < dt, "{}", state.time);
             }
             false
         }
@@ -179,9 +179,9 @@ fn systems_that_produce_nan_are_refused_with_the_particle_named() {
     let mut system = Linear { spoil: always, ..Linear::random(&mut random, 0.0) };
     system.held.fill(false);
     system.held[0] = true;
-    let mut motion = Motion::at_rest(vec![0.0; 3 * system.particles()]);
+    let mut state = IntegratorState::at_rest(vec![0.0; 3 * system.particles()]);
     let mut stepper = Stepper::new(&system, Settings::default()).unwrap();
-    let error = stepper.advance(&mut system, &mut motion, 0.1).unwrap_err();
+    let error = stepper.advance(&mut system, &mut state, 0.1).unwrap_err();
     match error {
         Error::NotFinite { quantity: Quantity::Force, particle: 1, dt, .. } => {
             assert_eq!(dt, 0.1 / 1024.0);
@@ -194,9 +194,9 @@ fn systems_that_produce_nan_are_refused_with_the_particle_named() {
 fn impossible_input_is_refused_and_named() {
     let system = Springs::chain(2, 1.0, 0.1, 10.0);
     let positions: Vec<f64> = (0..3).flat_map(|i| [f64::from(i) * 0.5, 0.0, 0.0]).collect();
-    let good = Motion::at_rest(positions);
-    let advance = |system: &mut Springs, motion: &mut Motion, dt| {
-        Stepper::new(system, Settings::default())?.advance(system, motion, dt)
+    let good = IntegratorState::at_rest(positions);
+    let advance = |system: &mut Springs, state: &mut IntegratorState, dt| {
+        Stepper::new(system, Settings::default())?.advance(system, state, dt)
     };
     for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = advance(&mut system.clone(), &mut good.clone(), dt).unwrap_err();

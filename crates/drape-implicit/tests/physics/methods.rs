@@ -1,8 +1,8 @@
 //! The solvers against each other and against what defeats each of them.
 
 use drape_implicit::{
-    Error, Initial, Integrator, LinearSolver, Method, Motion, Report, Settings, Stepper, Stop,
-    System,
+    Error, InitialMatrix, Integrator, IntegratorState, LinearSolver, Method, Report, Settings,
+    Stepper, Stop, System,
 };
 
 use crate::springs::Springs;
@@ -14,16 +14,16 @@ fn swing(
     settings: &Settings,
     dt: f64,
     steps: usize,
-) -> (Motion, Vec<Report>) {
+) -> (IntegratorState, Vec<Report>) {
     let mut system = Springs::sheet(n, stiffness);
-    let mut motion = Motion::at_rest(Springs::flat(n));
+    let mut state = IntegratorState::at_rest(Springs::flat(n));
     let mut stepper = Stepper::new(&system, settings.clone()).unwrap();
-    let advance = |_| stepper.advance(&mut system, &mut motion, dt).unwrap();
+    let advance = |_| stepper.advance(&mut system, &mut state, dt).unwrap();
     let reports = (0..steps).map(advance).collect();
-    (motion, reports)
+    (state, reports)
 }
 
-fn distance(a: &Motion, b: &Motion) -> f64 {
+fn distance(a: &IntegratorState, b: &IntegratorState) -> f64 {
     let largest = |m: f64, (a, b): (&f64, &f64)| m.max((a - b).abs());
     a.positions.iter().zip(&b.positions).fold(0.0, largest)
 }
@@ -36,8 +36,8 @@ fn every_method_and_linear_solver_finds_the_same_motion() {
     for method in [Method::Broyden, Method::Newton] {
         for linear_solver in [LinearSolver::ConjugateGradient, LinearSolver::Cholesky] {
             let settings = Settings { method, linear_solver, ..tight.clone() };
-            let (motion, reports) = swing(8, 500.0, &settings, 2e-3, 30);
-            let apart = distance(&motion, &reference);
+            let (state, reports) = swing(8, 500.0, &settings, 2e-3, 30);
+            let apart = distance(&state, &reference);
             // 30 steps with an acceleration error of 1e-8 m/s² each move particles by 1e-11 m, times a
             // growth of errors that a stiff net is far from.
             assert!(apart < 1e-9, "{method:?}, {linear_solver:?}: {apart:e} m apart");
@@ -52,10 +52,10 @@ fn textbook_broyden_solves_a_mild_system_like_newton() {
     let tight = Settings { tolerance: 1e-8, max_halvings: 0, ..Settings::default() };
     let newton = Settings { method: Method::Newton, ..tight.clone() };
     let (reference, _) = swing(6, 1.0, &newton, 2e-3, 20);
-    for initial in [Initial::Mass, Initial::Diagonal] {
+    for initial in [InitialMatrix::Mass, InitialMatrix::Diagonal] {
         let settings = Settings { method: Method::Textbook { initial }, ..tight.clone() };
-        let (motion, reports) = swing(6, 1.0, &settings, 2e-3, 20);
-        let apart = distance(&motion, &reference);
+        let (state, reports) = swing(6, 1.0, &settings, 2e-3, 20);
+        let apart = distance(&state, &reference);
         assert!(apart < 1e-8, "{initial:?}: {apart:e} m apart");
         assert!(reports.iter().all(|report| report.linear_solves == 0));
     }
@@ -64,19 +64,19 @@ fn textbook_broyden_solves_a_mild_system_like_newton() {
 #[test]
 fn textbook_broyden_does_not_converge_on_a_stiff_system_that_the_default_solves() {
     let n = 8;
-    for initial in [Initial::Mass, Initial::Diagonal] {
+    for initial in [InitialMatrix::Mass, InitialMatrix::Diagonal] {
         let settings = Settings {
             method: Method::Textbook { initial },
             max_halvings: 0,
             ..Settings::default()
         };
         let mut system = Springs::sheet(n, 1e5);
-        let start = Motion::at_rest(Springs::flat(n));
-        let mut motion = start.clone();
+        let start = IntegratorState::at_rest(Springs::flat(n));
+        let mut state = start.clone();
         let mut stepper = Stepper::new(&system, settings.clone()).unwrap();
         let mut outcome = Ok(Report::default());
         for _ in 0..20 {
-            outcome = stepper.advance(&mut system, &mut motion, 5e-3);
+            outcome = stepper.advance(&mut system, &mut state, 5e-3);
             if outcome.is_err() {
                 break;
             }
@@ -100,7 +100,7 @@ fn broyden_needs_fewer_tangents_than_newton() {
             2e-3,
             40,
         );
-        reports.iter().map(|report| report.tangents).sum::<usize>()
+        reports.iter().map(|report| report.stiffness_assemblies).sum::<usize>()
     };
     let (broyden, newton) = (count(Method::Broyden), count(Method::Newton));
     assert!(broyden < newton, "{broyden} against {newton}");
@@ -127,10 +127,10 @@ fn the_line_search_converges_where_undamped_newton_runs_away() {
         let settings = Settings { method, max_halvings: 0, ..Settings::default() };
         let mut system = Well::new(saturating);
         let mut stepper = Stepper::new(&system, settings).unwrap();
-        let mut motion = Motion::at_rest(vec![start, 0.0, 0.0]);
-        let report = stepper.advance(&mut system, &mut motion, dt).unwrap();
-        assert!(report.cuts > 0, "{report:?}");
-        let left = residual(motion.positions[0]).abs();
+        let mut state = IntegratorState::at_rest(vec![start, 0.0, 0.0]);
+        let report = stepper.advance(&mut system, &mut state, dt).unwrap();
+        assert!(report.backtracks > 0, "{report:?}");
+        let left = residual(state.positions[0]).abs();
         assert!(left <= 1e-4 * 9.81, "{left}");
     }
 }
@@ -148,12 +148,12 @@ fn a_particle_thrown_at_a_wall_stops_in_front_of_it() {
     let mut system = Well::new(wall);
     let mut stepper = Stepper::new(&system, settings).unwrap();
     // Free flight would carry it 9 m behind the wall within the step.
-    let mut motion = Motion::new(vec![1.0, 0.0, 0.0], vec![-100.0, 0.0, 0.0]);
-    let report = stepper.advance(&mut system, &mut motion, 0.1).unwrap();
-    let x = motion.positions[0];
+    let mut state = IntegratorState::new(vec![1.0, 0.0, 0.0], vec![-100.0, 0.0, 0.0]);
+    let report = stepper.advance(&mut system, &mut state, 0.1).unwrap();
+    let x = state.positions[0];
     let residual = (x + 9.0) / 0.01 + wall(x)[1];
     assert!(x > 0.0 && residual.abs() < 1e-3, "x = {x}, residual {residual}, {report:?}");
-    assert!(report.cuts > 0);
+    assert!(report.backtracks > 0);
 }
 
 /// Two wells with a hill between them: the exact stiffness is negative on the hill.
@@ -168,10 +168,10 @@ fn on_a_hill_the_definite_stiffness_takes_over() {
         let settings = Settings { linear_solver, max_halvings: 0, ..Settings::default() };
         let mut system = Well::new(double_well);
         let mut stepper = Stepper::new(&system, settings).unwrap();
-        let mut motion = Motion::at_rest(vec![0.1, 0.0, 0.0]);
-        let report = stepper.advance(&mut system, &mut motion, 0.1).unwrap();
+        let mut state = IntegratorState::at_rest(vec![0.1, 0.0, 0.0]);
+        let report = stepper.advance(&mut system, &mut state, 0.1).unwrap();
         assert!(report.negative_curvatures > 0, "{report:?}");
-        let x = motion.positions[0];
+        let x = state.positions[0];
         assert!((x - 1.0).abs() < 0.01, "{linear_solver:?}: came to {x}");
     }
 }
@@ -209,21 +209,21 @@ fn a_stiffness_that_claims_to_be_definite_and_is_not_stops_the_step() {
         ) {
             self.0.stiffness(positions, drape_implicit::Stiffness::Exact, matrix);
         }
-        fn pattern(&self) -> drape_implicit::Pattern {
-            self.0.pattern()
+        fn sparsity(&self) -> drape_implicit::Sparsity {
+            self.0.sparsity()
         }
         fn accept(&mut self, _: &[f64], _: &[f64], _: f64) {}
     }
     let mut system = Liar(Well::new(hilltop));
     let settings = Settings { max_halvings: 0, ..Settings::default() };
     let mut stepper = Stepper::new(&system, settings).unwrap();
-    let mut motion = Motion::at_rest(vec![0.1, 0.0, 0.0]);
-    match stepper.advance(&mut system, &mut motion, 1.0) {
+    let mut state = IntegratorState::at_rest(vec![0.1, 0.0, 0.0]);
+    match stepper.advance(&mut system, &mut state, 1.0) {
         Err(Error::NotConverged { stop: Stop::Indefinite, .. }) => {}
         other => panic!("{other:?}"),
     }
     // At a hundredth of the step inertia outweighs the hill.
-    stepper.advance(&mut system, &mut motion, 0.01).unwrap();
+    stepper.advance(&mut system, &mut state, 0.01).unwrap();
 }
 
 /// A stiff sheet that falls from rest in every step: its iterations, and how much energy its steps leave to be gained at
@@ -235,16 +235,16 @@ fn creep(settings: &Settings) -> (usize, f64) {
     let mut stepper = Stepper::new(&system, settings.clone()).unwrap();
     let exact = Settings { tolerance: 1e-8, energy_tolerance: 0.0, ..settings.clone() };
     let mut exact = Stepper::new(&system, exact).unwrap();
-    let mut start = Motion::at_rest(Springs::flat(n));
+    let mut start = IntegratorState::at_rest(Springs::flat(n));
     let (mut iterations, mut left) = (0, 0.0_f64);
     for _ in 0..40 {
-        let mut motion = start.clone();
-        let report = stepper.advance(&mut system, &mut motion, dt).unwrap();
+        let mut state = start.clone();
+        let report = stepper.advance(&mut system, &mut state, dt).unwrap();
         assert!(report.energy_left <= settings.energy_tolerance, "{report:?}");
         iterations += report.iterations;
         let mut best = start.clone();
         exact.advance(&mut system, &mut best, dt).unwrap();
-        let kinetic = |end: &Motion| {
+        let kinetic = |end: &IntegratorState| {
             let ways = end.positions.chunks_exact(3).zip(start.positions.chunks_exact(3));
             let square = |(a, b): (&[f64], &[f64])| -> f64 {
                 a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
@@ -252,10 +252,10 @@ fn creep(settings: &Settings) -> (usize, f64) {
             let energies = ways.zip(&system.masses).map(|(way, m)| 0.5 * m * square(way));
             energies.sum::<f64>() / (dt * dt)
         };
-        let [moves, best_moves] = [kinetic(&motion), kinetic(&best)];
-        let [stores, best_stores] = [&motion, &best].map(|end| system.potential(&end.positions));
+        let [moves, best_moves] = [kinetic(&state), kinetic(&best)];
+        let [stores, best_stores] = [&state, &best].map(|end| system.potential(&end.positions));
         left = left.max((moves + stores - best_moves - best_stores) / moves);
-        start = Motion::at_rest(motion.positions);
+        start = IntegratorState::at_rest(state.positions);
     }
     (iterations, left)
 }
@@ -308,10 +308,10 @@ fn steps_that_gain_residual_and_energy_in_turn_do_not_undo_each_other() {
     let settings = Settings { method: Method::Newton, max_halvings: 0, ..Settings::default() };
     let mut system = Well::new(gully);
     let mut stepper = Stepper::new(&system, settings).unwrap();
-    let mut motion = Motion::at_rest(vec![-1.0, 0.0, 0.0]);
+    let mut state = IntegratorState::at_rest(vec![-1.0, 0.0, 0.0]);
     // So long that inertia counts for nothing.
-    let report = stepper.advance(&mut system, &mut motion, 1e4).unwrap();
+    let report = stepper.advance(&mut system, &mut state, 1e4).unwrap();
     assert!(report.iterations < 10, "{} iterations", report.iterations);
     let bottom = 0.9 / 5.175 - 0.6;
-    assert!((motion.positions[0] - bottom).abs() < 1e-6, "{}", motion.positions[0]);
+    assert!((state.positions[0] - bottom).abs() < 1e-6, "{}", state.positions[0]);
 }

@@ -1,6 +1,6 @@
 //! A net of springs under gravity, with a linear law between two particles each.
 
-use drape_implicit::{BlockMatrix, Pattern, Stiffness, System};
+use drape_implicit::{BlockMatrix, Sparsity, Stiffness, System};
 
 pub const GRAVITY: f64 = 9.81;
 
@@ -159,9 +159,9 @@ impl System for Springs {
         }
     }
 
-    fn pattern(&self) -> Pattern {
-        let pairs = self.springs.iter().map(|spring| (spring.ends[0], spring.ends[1]));
-        Pattern::from_pairs(self.masses.len(), pairs).unwrap()
+    fn sparsity(&self) -> Sparsity {
+        let pairs = self.springs.iter().map(|spring| spring.ends);
+        Sparsity::from_pairs(self.masses.len(), pairs).unwrap()
     }
 
     fn accept(&mut self, _: &[f64], _: &[f64], dt: f64) {

@@ -1,8 +1,8 @@
 //! Sub-steps, held particles, and what is remembered between steps.
 
 use drape_implicit::{
-    BlockMatrix, Integrator, Method, Motion, Pattern, Settings, Stepper, Stiffness, System,
-    check_system,
+    BlockMatrix, Integrator, IntegratorState, Method, Settings, Sparsity, Stepper, Stiffness,
+    System, check_system,
 };
 
 use crate::springs::Springs;
@@ -18,14 +18,14 @@ fn a_step_that_fails_is_made_in_halves_and_ends_on_time() {
         let settings = Settings { integrator, ..Settings::default() };
         let mut system = Well { longest_step: 0.003, ..Well::new(spring_law) };
         let mut stepper = Stepper::new(&system, settings.clone()).unwrap();
-        let mut halved = Motion::at_rest(vec![1.0, 0.0, 0.0]);
+        let mut halved = IntegratorState::at_rest(vec![1.0, 0.0, 0.0]);
         let report = stepper.advance(&mut system, &mut halved, 0.01).unwrap();
         assert_eq!(system.accepted, [0.0025; 4]);
         assert_eq!(report.sub_steps, 4);
         assert_eq!(halved.time, 0.01);
 
         let mut plain = Well::new(spring_law);
-        let mut quarters = Motion::at_rest(vec![1.0, 0.0, 0.0]);
+        let mut quarters = IntegratorState::at_rest(vec![1.0, 0.0, 0.0]);
         for _ in 0..4 {
             stepper.advance(&mut plain, &mut quarters, 0.0025).unwrap();
         }
@@ -38,14 +38,14 @@ fn a_step_that_fails_is_made_in_halves_and_ends_on_time() {
 fn a_longer_second_order_step_is_built_up_to_by_doubling() {
     let mut system = Well::new(spring_law);
     let mut stepper = Stepper::new(&system, Settings::default()).unwrap();
-    let mut motion = Motion::at_rest(vec![1.0, 0.0, 0.0]);
-    stepper.advance(&mut system, &mut motion, 0.001).unwrap();
-    stepper.advance(&mut system, &mut motion, 0.008).unwrap();
+    let mut state = IntegratorState::at_rest(vec![1.0, 0.0, 0.0]);
+    stepper.advance(&mut system, &mut state, 0.001).unwrap();
+    stepper.advance(&mut system, &mut state, 0.008).unwrap();
     assert_eq!(system.accepted, [0.001, 0.002, 0.002, 0.004]);
-    assert!((motion.time - 0.009).abs() < 1e-17, "{}", motion.time);
+    assert!((state.time - 0.009).abs() < 1e-17, "{}", state.time);
     // After a restart there is nothing to build up from.
-    motion.restart();
-    stepper.advance(&mut system, &mut motion, 0.032).unwrap();
+    state.restart();
+    stepper.advance(&mut system, &mut state, 0.032).unwrap();
     assert_eq!(system.accepted.last(), Some(&0.032));
 }
 
@@ -54,18 +54,18 @@ fn repeated_runs_and_fresh_steppers_give_the_same_bits() {
     let n = 10;
     let run = |fresh: bool| {
         let mut system = Springs::sheet(n, 5000.0);
-        let mut motion = Motion::at_rest(Springs::flat(n));
+        let mut state = IntegratorState::at_rest(Springs::flat(n));
         let mut stepper = Stepper::new(&system, Settings::default()).unwrap();
         for _ in 0..40 {
             if fresh {
                 stepper = Stepper::new(&system, Settings::default()).unwrap();
             }
-            stepper.advance(&mut system, &mut motion, 5e-3).unwrap();
+            stepper.advance(&mut system, &mut state, 5e-3).unwrap();
         }
-        motion
+        state
     };
-    let bits = |motion: &Motion| -> Vec<u64> {
-        motion.positions.iter().chain(&motion.velocities).map(|x| x.to_bits()).collect()
+    let bits = |state: &IntegratorState| -> Vec<u64> {
+        state.positions.iter().chain(&state.velocities).map(|x| x.to_bits()).collect()
     };
     let first = bits(&run(false));
     assert!(first == bits(&run(false)), "two runs differ");
@@ -102,8 +102,8 @@ impl System for Lift {
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
         self.springs.stiffness(positions, kind, matrix);
     }
-    fn pattern(&self) -> Pattern {
-        self.springs.pattern()
+    fn sparsity(&self) -> Sparsity {
+        self.springs.sparsity()
     }
     fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {
         self.springs.accept(positions, velocities, dt);
@@ -120,18 +120,18 @@ fn work_on_a_held_particle_lifts_the_weight_and_nothing_is_unaccounted() {
     let mut stepper = Stepper::new(&system, settings).unwrap();
     let hanging = -1.0 - mass * 9.81 / 200.0;
     let moving = vec![0.0, speed, 0.0, 0.0, speed, 0.0];
-    let mut motion = Motion::new(vec![0.0, 0.0, 0.0, 0.0, hanging, 0.0], moving);
+    let mut state = IntegratorState::new(vec![0.0, 0.0, 0.0, 0.0, hanging, 0.0], moving);
     let (mut work, mut lost) = (0.0, 0.0);
     for step in 0..100 {
-        motion.time = f64::from(step) * 0.01;
-        let energy = stepper.advance(&mut system, &mut motion, 0.01).unwrap().energy.unwrap();
+        state.time = f64::from(step) * 0.01;
+        let energy = stepper.advance(&mut system, &mut state, 0.01).unwrap().energy.unwrap();
         work += energy.work;
         lost += energy.numerical_dissipation;
     }
     // Both weights rise by 0.2 m at constant speed.
     let expected = 2.0 * mass * 9.81 * 0.2;
-    assert!((motion.positions[1] - 0.2).abs() < 1e-15);
-    assert!((motion.positions[4] - hanging - 0.2).abs() < 1e-9, "{}", motion.positions[4]);
+    assert!((state.positions[1] - 0.2).abs() < 1e-15);
+    assert!((state.positions[4] - hanging - 0.2).abs() < 1e-9, "{}", state.positions[4]);
     assert!((work - expected).abs() < 1e-8, "{work} J against {expected} J");
     assert!(lost.abs() < 1e-8, "{lost} J lost");
 }
@@ -146,22 +146,22 @@ fn systems_of_no_free_particles_are_advanced_without_complaint() {
         [drape_implicit::LinearSolver::ConjugateGradient, drape_implicit::LinearSolver::Cholesky]
     {
         let settings = Settings { linear_solver, ..Settings::default() };
-        let mut motion = Motion::at_rest(vec![]);
+        let mut state = IntegratorState::at_rest(vec![]);
         let mut stepper = Stepper::new(&empty, settings.clone()).unwrap();
-        stepper.advance(&mut empty, &mut motion, 0.1).unwrap();
-        assert_eq!(motion.time, 0.1);
+        stepper.advance(&mut empty, &mut state, 0.1).unwrap();
+        assert_eq!(state.time, 0.1);
 
         let mut held = Springs::chain(1, 1.0, 1.0, 1.0);
         held.held.fill(true);
-        let mut motion = Motion::at_rest(vec![0.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
+        let mut state = IntegratorState::at_rest(vec![0.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
         let mut stepper = Stepper::new(&held, settings).unwrap();
-        let report = stepper.advance(&mut held, &mut motion, 0.1).unwrap();
-        assert_eq!(motion.positions, [0.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
+        let report = stepper.advance(&mut held, &mut state, 0.1).unwrap();
+        assert_eq!(state.positions, [0.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
         assert_eq!(report.iterations, 0);
     }
 }
 
-/// A net whose springs tear: the pattern changes while the stepper lives.
+/// A net whose springs tear: the sparsity changes while the stepper lives.
 #[test]
 fn a_new_pattern_is_taken_up_when_its_version_changes() {
     struct Growing(Springs, u64);
@@ -185,10 +185,10 @@ fn a_new_pattern_is_taken_up_when_its_version_changes() {
         fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
             self.0.stiffness(positions, kind, matrix);
         }
-        fn pattern(&self) -> Pattern {
-            self.0.pattern()
+        fn sparsity(&self) -> Sparsity {
+            self.0.sparsity()
         }
-        fn pattern_version(&self) -> u64 {
+        fn sparsity_version(&self) -> u64 {
             self.1
         }
         fn accept(&mut self, _: &[f64], _: &[f64], _: f64) {}
@@ -197,14 +197,14 @@ fn a_new_pattern_is_taken_up_when_its_version_changes() {
     let settings = Settings { method: Method::Newton, ..Settings::default() };
     let mut stepper = Stepper::new(&system, settings).unwrap();
     let start: Vec<f64> = (0..4).flat_map(|i| [f64::from(i) / 2.0, 0.0, 0.0]).collect();
-    let mut motion = Motion::at_rest(start);
+    let mut state = IntegratorState::at_rest(start);
     let new = crate::springs::Spring { ends: [0, 3], stiffness: 50.0, length: 0.5 };
     system.0.springs.push(new);
-    let error = stepper.advance(&mut system, &mut motion, 0.01).unwrap_err();
-    assert_eq!(error, drape_implicit::Error::OutsidePattern { row: 0, column: 3 });
-    assert_eq!(motion.time, 0.0);
+    let error = stepper.advance(&mut system, &mut state, 0.01).unwrap_err();
+    assert_eq!(error, drape_implicit::Error::OutsideSparsity { row: 0, column: 3 });
+    assert_eq!(state.time, 0.0);
     system.1 = 1;
-    stepper.advance(&mut system, &mut motion, 0.01).unwrap();
+    stepper.advance(&mut system, &mut state, 0.01).unwrap();
 }
 
 #[test]
@@ -241,8 +241,8 @@ fn the_checker_passes_springs_and_finds_a_wrong_factor() {
         fn stiffness(&mut self, _: &[f64], _: Stiffness, matrix: &mut BlockMatrix) {
             matrix.values_mut()[0] = self.2;
         }
-        fn pattern(&self) -> Pattern {
-            self.0.pattern()
+        fn sparsity(&self) -> Sparsity {
+            self.0.sparsity()
         }
         fn accept(&mut self, _: &[f64], _: &[f64], _: f64) {}
     }

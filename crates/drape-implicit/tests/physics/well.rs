@@ -1,6 +1,6 @@
 //! One particle on the x axis in a potential given by functions, moved by nothing else.
 
-use drape_implicit::{BlockMatrix, Pattern, Stiffness, System};
+use drape_implicit::{BlockMatrix, Sparsity, Stiffness, System};
 
 pub struct Well {
     /// V, V′ and V″ at x.
@@ -61,8 +61,8 @@ impl System for Well {
         matrix.values_mut()[0] = curvature;
     }
 
-    fn pattern(&self) -> Pattern {
-        Pattern::from_pairs(1, []).unwrap()
+    fn sparsity(&self) -> Sparsity {
+        Sparsity::from_pairs(1, []).unwrap()
     }
 
     fn accept(&mut self, _: &[f64], _: &[f64], dt: f64) {

@@ -7,20 +7,20 @@ fn darts_are_open_notches_whose_legs_are_sewn_to_one_tip() {
     let pattern = shipped("pencil-skirt.toml");
     for spacing in [0.005, 0.01, 0.02] {
         let (_, cut) = cut(&pattern, spacing);
-        for (stitch, seam) in pattern.stitches().iter().zip(&cut.seams) {
-            if !stitch.name.contains("dart") {
+        for (seam, nodes) in pattern.seams().iter().zip(&cut.seams) {
+            if !seam.name.contains("dart") {
                 continue;
             }
-            let [mouth, tip] = [seam.pairs[0], seam.pairs[seam.pairs.len() - 1]];
+            let [mouth, tip] = [nodes.pairs[0], nodes.pairs[nodes.pairs.len() - 1]];
             let panel = &cut.panels[tip[0].panel];
             let place = |node: u32| panel.positions[node as usize];
-            assert_eq!(tip[0], tip[1], "{}: both legs end in one node", stitch.name);
+            assert_eq!(tip[0], tip[1], "{}: both legs end in one node", seam.name);
             assert!(panel.hard[tip[0].node as usize]);
             let depth = if panel.panel == "front" { 0.48 } else { 0.44 };
-            assert!((place(tip[0].node)[1] - depth).abs() < 1e-12, "{}", stitch.name);
+            assert!((place(tip[0].node)[1] - depth).abs() < 1e-12, "{}", seam.name);
             let width = place(mouth[0].node)[0] - place(mouth[1].node)[0];
             let expected = if panel.panel == "front" { 0.025 } else { 0.035 };
-            assert!((width - expected).abs() < 1e-12, "{}: {width} m open", stitch.name);
+            assert!((width - expected).abs() < 1e-12, "{}: {width} m open", seam.name);
         }
     }
 }
@@ -32,7 +32,7 @@ fn darts_are_cut_as_well_on_the_bias() {
         panel.clone().with_grain(std::f64::consts::FRAC_PI_4).expect("it is finite")
     };
     let panels = pattern.panels().iter().map(turned).collect();
-    let bias = Pattern::new(panels, pattern.stitches().to_vec()).expect("it is sound");
+    let bias = Pattern::new(panels, pattern.seams().to_vec()).expect("it is sound");
     for spacing in [0.005, 0.01, 0.02] {
         cut(&bias, spacing);
     }
@@ -44,8 +44,8 @@ fn a_waistband_is_sewn_over_the_mouths_of_darts_and_over_the_side_seam() {
     let (_, cut) = cut(&pattern, 0.01);
     let number = |name: &str| pattern.panels().iter().position(|p| p.name() == name).expect(name);
     let [back, band, front] = ["back", "band", "front"].map(number);
-    let stitch = pattern.stitches().iter().position(|s| s.name == "band").expect("it is there");
-    let seam = &cut.seams[stitch];
+    let number = pattern.seams().iter().position(|s| s.name == "band").expect("it is there");
+    let seam = &cut.seams[number];
     // Where the chain leaves a piece of the waist, one node of the band has two partners: at the mouths of four
     // darts and at one side seam.
     let twice: Vec<_> = seam.pairs.windows(2).filter(|two| two[0][0] == two[1][0]).collect();

@@ -9,7 +9,8 @@ pub fn shipped(name: &str) -> Pattern {
 
 const GARMENTS: [&str; 4] = ["shirt.json", "skirt.json", "trousers.json", "teagan.json"];
 
-/// Cuts a pattern, holds it against what is promised, and returns the number of particles with the cut.
+/// Cuts a pattern, checks the invariants and the quality, and returns the number of particles with the
+/// cut.
 pub fn cut(pattern: &Pattern, spacing: f64) -> (usize, CutPattern) {
     let cut = Cutter::new(spacing).cut(pattern).unwrap_or_else(|error| panic!("{error}"));
     invariants::check(pattern, &cut);
@@ -17,9 +18,9 @@ pub fn cut(pattern: &Pattern, spacing: f64) -> (usize, CutPattern) {
     for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
         let quality = Quality::new(panel, cut, spacing);
         let name = panel.name();
-        assert!(quality.shortest >= 0.5, "{name} at {spacing}: {quality:?}");
-        assert!(quality.longest <= 2.0, "{name} at {spacing}: {quality:?}");
-        assert!(quality.sharpest.to_degrees() >= 20.0, "{name} at {spacing}: {quality:?}");
+        assert!(quality.shortest_edge >= 0.5, "{name} at {spacing}: {quality:?}");
+        assert!(quality.longest_edge <= 2.0, "{name} at {spacing}: {quality:?}");
+        assert!(quality.smallest_angle.to_degrees() >= 20.0, "{name} at {spacing}: {quality:?}");
         // A chord of h across a circle of radius R cuts off h³/12R.
         let area = 5e-4 * (spacing / 0.01).powi(2).max(1.0);
         assert!(quality.area_error.abs() <= area, "{name} at {spacing}: {quality:?}");
@@ -69,7 +70,7 @@ fn the_grain_may_run_at_any_angle() {
                 panel.clone().with_grain(angle).expect("it is finite")
             };
             let panels = pattern.panels().iter().map(turned).collect();
-            let turned = Pattern::new(panels, pattern.stitches().to_vec()).expect("it is sound");
+            let turned = Pattern::new(panels, pattern.seams().to_vec()).expect("it is sound");
             for spacing in [0.005, 0.01, 0.015] {
                 cut(&turned, spacing);
             }
@@ -105,7 +106,7 @@ fn clockwise_panels_lie_where_the_file_puts_them_and_face_outwards() {
     // Sewn right side on right side, no seam is twisted.
     for name in GARMENTS {
         let twisted =
-            shipped(name).notes().iter().filter(|n| n.to_string().contains("wrong way")).count();
+            shipped(name).notes().iter().filter(|n| n.to_string().contains("wrong sense")).count();
         assert_eq!(twisted, 0, "{name}");
     }
 }
@@ -136,7 +137,7 @@ fn the_garments_of_the_scenes_are_cut_without_a_note() {
 }
 
 #[test]
-fn what_is_sewn_in_the_scenes_starts_near_and_apart() {
+fn seams_of_the_scenes_start_close_and_apart() {
     for (name, farthest) in [("skirt", 0.1), ("tshirt", 0.24), ("trousers", 0.13)] {
         let pattern = of_the_scenes(name);
         let (_, cut) = cut(&pattern, 0.01);
@@ -168,10 +169,10 @@ fn left_and_right_of_the_scenes_are_mirror_images() {
             for edge in left.outline() {
                 let other =
                     right.outline().iter().find(|e| e.name == edge.name).expect("it is there");
-                for share in [0.0, 0.25, 0.5, 0.9] {
+                for fraction in [0.0, 0.25, 0.5, 0.9] {
                     let [p, q] = [
-                        left.placement().expect("a place").point(edge.at(share)),
-                        right.placement().expect("a place").point(other.at(1.0 - share)),
+                        left.placement().expect("a place").point(edge.at(fraction)),
+                        right.placement().expect("a place").point(other.at(1.0 - fraction)),
                     ];
                     let error = (p[0] + q[0]).hypot(p[1] - q[1]).hypot(p[2] - q[2]);
                     assert!(error < 1e-8, "{name}: {} {}: {p:?} {q:?}", left.name(), edge.name);

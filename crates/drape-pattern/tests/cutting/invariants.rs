@@ -9,7 +9,7 @@ fn twice_area(points: &[[f64; 2]]) -> f64 {
     (1..points.len() - 1).map(|k| cross(arm(k), arm(k + 1))).sum()
 }
 
-/// What holds for every cut of every pattern.
+/// Checks the properties of every cut of every pattern.
 pub fn check(pattern: &Pattern, cut: &CutPattern) {
     assert_eq!(pattern.panels().len(), cut.panels.len());
     for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
@@ -59,7 +59,7 @@ fn tiling(cut: &Cut) {
     }
 }
 
-/// What joins a node of the lattice to another node is 0.6 spacings long or more.
+/// Edges at nodes of the lattice are 0.6 spacings long or more.
 fn clearance(cut: &Cut) {
     let least = 0.6 * cut.spacing[0] * (1.0 - 1e-9);
     for triangle in &cut.triangles {
@@ -77,17 +77,17 @@ fn clearance(cut: &Cut) {
 fn frames(cut: &Cut, grain: f64) {
     let (sine, cosine) = grain.sin_cos();
     let far = cut.positions.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let near = 1e-13 * far + 1e-9 * cut.spacing[0].min(cut.spacing[1]);
+    let tolerance = 1e-13 * far + 1e-9 * cut.spacing[0].min(cut.spacing[1]);
     for (p, q) in cut.positions.iter().zip(&cut.yarns) {
         let [x, y] = [cosine * q[0] - sine * q[1], sine * q[0] + cosine * q[1]];
-        assert!((x - p[0]).abs() < near && (y - p[1]).abs() < near, "{p:?} {q:?}");
+        assert!((x - p[0]).abs() < tolerance && (y - p[1]).abs() < tolerance, "{p:?} {q:?}");
     }
     for quad in &cut.quads {
         let [a, b, c, d] = quad.map(|n| cut.yarns[n as usize]);
         let [u, v] = cut.spacing;
         for (p, offset) in [(b, [u, 0.0]), (c, [u, v]), (d, [0.0, v])] {
             let error = [p[0] - a[0] - offset[0], p[1] - a[1] - offset[1]];
-            assert!(error.iter().all(|e| e.abs() < near), "{quad:?} {error:?}");
+            assert!(error.iter().all(|e| e.abs() < tolerance), "{quad:?} {error:?}");
         }
         let [p, q, r, s] = quad.map(|n| cut.lattice[n as usize].expect("it is of the lattice"));
         let [x, y] = p;
@@ -113,26 +113,31 @@ fn edges(cut: &Cut) {
 
 /// Both sides of seams advance by one node at a time, in their senses, or leave for another panel.
 fn seams(pattern: &Pattern, cut: &CutPattern) {
-    assert_eq!(cut.seams.len(), pattern.stitches().len());
-    for (stitch, seam) in pattern.stitches().iter().zip(&cut.seams) {
+    assert_eq!(cut.seams.len(), pattern.seams().len());
+    for (seam, nodes_of_seam) in pattern.seams().iter().zip(&cut.seams) {
         let on_side = |side: usize| -> Vec<(usize, u32)> {
-            let ids = stitch.sides[side].iter();
+            let ids = seam.sides[side].iter();
             ids.flat_map(|id| cut.panels[id.panel].edges[id.edge].iter().map(|n| (id.panel, *n)))
                 .collect()
         };
         let allowed = [on_side(0), on_side(1)];
-        for tie in &seam.ties {
-            assert!(tie.share > 0.0 && tie.share < 1.0 && tie.after + 1 < seam.pairs.len());
-            let [from, to] = [tie.after, tie.after + 1].map(|k| seam.pairs[k][1 - tie.side]);
-            assert!(from.panel == to.panel && from != to, "{}: {tie:?}", stitch.name);
+        for tie in &nodes_of_seam.ties {
+            assert!(
+                tie.fraction > 0.0
+                    && tie.fraction < 1.0
+                    && tie.after + 1 < nodes_of_seam.pairs.len()
+            );
+            let [from, to] =
+                [tie.after, tie.after + 1].map(|k| nodes_of_seam.pairs[k][1 - tie.side]);
+            assert!(from.panel == to.panel && from != to, "{}: {tie:?}", seam.name);
         }
         for (side, allowed) in allowed.iter().enumerate() {
-            let nodes: Vec<NodeId> = seam.side(side).collect();
+            let nodes: Vec<NodeId> = nodes_of_seam.side(side).collect();
             for &NodeId { panel, node } in &nodes {
-                // An edge that was joined with a neighbour lends its nodes to another stitch.
+                // An edge that was joined with a neighbour lends its nodes to another seam.
                 let joined = cut.notes.iter().any(|n| n.to_string().contains("half the spacing"));
                 let own = joined || allowed.contains(&(panel, node));
-                assert!(own, "{}: node {node} of {panel}", stitch.name);
+                assert!(own, "{}: node {node} of {panel}", seam.name);
             }
             for two in nodes.windows(2) {
                 let [from, to] = [two[0], two[1]];
@@ -140,9 +145,9 @@ fn seams(pattern: &Pattern, cut: &CutPattern) {
                 let place = |n: u32| outline.iter().position(|k| *k == n).expect("on the outline");
                 if from.panel == to.panel {
                     let (a, b) = (place(from.node), place(to.node));
-                    let (a, b) = if side == 0 || stitch.reversed { (a, b) } else { (b, a) };
+                    let (a, b) = if side == 0 || seam.reversed { (a, b) } else { (b, a) };
                     let step = (b + outline.len() - a) % outline.len();
-                    assert!(step <= 1 || stitch.sides[side].len() > 1, "{}: {two:?}", stitch.name);
+                    assert!(step <= 1 || seam.sides[side].len() > 1, "{}: {two:?}", seam.name);
                 }
             }
         }

@@ -1,11 +1,11 @@
 use drape_pattern::{
-    Curve, Cutter, Edge, EdgeId, Error, MAX_EASE, Mistake, Note, Panel, Pattern, Quality, Stitch,
+    Curve, Cutter, Edge, EdgeId, Error, MAX_EASE, Mistake, Note, Panel, Pattern, Quality, Seam,
 };
 use proptest::prelude::*;
 
 use crate::invariants;
 
-/// An edge of an outline by its numbers: which curve, and shares for its control points.
+/// An edge of an outline by its numbers: its curve, and the positions of its control points as fractions.
 type Shape = (u8, [f64; 4]);
 
 fn outline(corners: &[[f64; 2]], shapes: &[Shape]) -> Vec<Edge> {
@@ -32,9 +32,9 @@ fn shapes() -> impl Strategy<Value = Vec<Shape>> {
     prop::collection::vec((0..8_u8, prop::array::uniform4(0.0..1.0)), 1..8)
 }
 
-/// Cuts what is sound, at a spacing of a share of its size.
-fn cut(panels: Vec<Panel>, stitches: Vec<Stitch>, spacing: f64) -> bool {
-    let Ok(pattern) = Pattern::new(panels, stitches) else { return false };
+/// Cuts a sound pattern at a spacing that is a fraction of its size.
+fn cut(panels: Vec<Panel>, seams: Vec<Seam>, spacing: f64) -> bool {
+    let Ok(pattern) = Pattern::new(panels, seams) else { return false };
     let cut = match Cutter::new(spacing).cut(&pattern) {
         Ok(cut) => cut,
         // Every mistake but this one is the outline's.
@@ -68,7 +68,10 @@ fn the_quality_of_a_disc_is_that_of_its_polygon() {
     assert!((quality.area_error - area_error).abs() < 1e-9, "{} {area_error}", quality.area_error);
     let sagitta = RADIUS * (1.0 - (0.5 * angle).cos());
     assert!((quality.deviation / sagitta - 1.0).abs() < 1e-9, "{} {sagitta}", quality.deviation);
-    assert!(quality.shortest >= 0.6 && quality.sharpest.to_degrees() > 22.0, "{quality:?}");
+    assert!(
+        quality.shortest_edge >= 0.6 && quality.smallest_angle.to_degrees() > 22.0,
+        "{quality:?}"
+    );
 }
 
 #[test]
@@ -81,10 +84,13 @@ fn a_digitised_outline_of_many_short_edges_is_cut_like_a_smooth_one() {
     let corners: Vec<[f64; 2]> = (0..n).map(corner).collect();
     let panel = Panel::new("disc", outline(&corners, &[(7, [0.0; 4])])).expect("it is sound");
     let pattern = Pattern::new(vec![panel], vec![]).expect("it is sound");
-    let cut = Cutter::new(0.01).cut(&pattern).expect("its joints are smooth");
+    let cut = Cutter::new(0.01).cut(&pattern).expect("its corners are smooth");
     invariants::check(&pattern, &cut);
     let quality = Quality::new(&pattern.panels()[0], &cut.panels[0], 0.01);
-    assert!(quality.shortest >= 0.6 && quality.sharpest.to_degrees() > 22.0, "{quality:?}");
+    assert!(
+        quality.shortest_edge >= 0.6 && quality.smallest_angle.to_degrees() > 22.0,
+        "{quality:?}"
+    );
     let n = cut.panels[0].outline.len();
     assert!((62..=64).contains(&n), "{n} nodes on 62.8 spacings");
     assert!(matches!(cut.notes[0], Note::Dissolved { ends: 4990..5000, .. }), "{:?}", cut.notes);
@@ -120,7 +126,7 @@ proptest! {
 
     /// Points round a centre, joined by curves: most are sound and are cut.
     #[test]
-    fn what_is_cut_of_a_star_satisfies_the_invariants(
+    fn a_cut_star_satisfies_the_invariants(
         radii in prop::collection::vec(0.2..1.0_f64, 3..14),
         shapes in shapes(),
         grain in -4.0..4.0_f64,
@@ -179,14 +185,14 @@ proptest! {
         let along: Vec<EdgeId> =
             (0..edges.1.min(others.len())).map(|edge| EdgeId { panel: 1, edge }).collect();
         let second = if reversed { along } else { along.into_iter().rev().collect() };
-        let stitch = Stitch { name: "s".into(), sides: [first, second], reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 };
-        cut(panels, vec![stitch], 1.0 / across);
+        let seam = Seam { name: "s".into(), sides: [first, second], reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 };
+        cut(panels, vec![seam], 1.0 / across);
     }
 
-    /// Two discs of arcs of any lengths, sewn along two stitches: all joints are smooth, and short pieces are
+    /// Two discs of arcs of any lengths, sewn along two seams: all corners are smooth, and short pieces are
     /// joined with their neighbours on both sides of the seams at once.
     #[test]
-    fn smooth_joints_of_seams_go_on_both_sides_at_once(
+    fn smooth_corners_of_seams_are_removed_on_both_sides_at_once(
         parts in (prop::collection::vec(0.01..1.0_f64, 4..30), prop::collection::vec(0.01..1.0_f64, 4..30)),
         cuts in prop::array::uniform4(0.1..0.9_f64),
         reversed in any::<bool>(),
@@ -221,15 +227,15 @@ proptest! {
         let (_, other) = disc("two", &parts.1, 1.0);
         let radius = 0.2 * ease * share(0..a) / other(0..c);
         let (two, _) = disc("two", &parts.1, radius.clamp(0.05, 1.0));
-        let stitch = |name: &str, first: std::ops::Range<usize>, second: std::ops::Range<usize>| {
+        let seam = |name: &str, first: std::ops::Range<usize>, second: std::ops::Range<usize>| {
             let ids = |panel, edges: std::ops::Range<usize>| edges.map(move |edge| EdgeId { panel, edge });
             let along: Vec<EdgeId> = ids(1, second).collect();
             let second = if reversed { along } else { along.into_iter().rev().collect() };
-            Stitch { name: name.into(), sides: [ids(0, first).collect(), second], reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 }
+            Seam { name: name.into(), sides: [ids(0, first).collect(), second], reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 }
         };
-        // Against the outline of the second disc the second stitch does not go on where the first ends.
-        let stitches = vec![stitch("first", 0..a, 0..c), stitch("second", a..b, c..d)];
-        if let Ok(pattern) = Pattern::new(vec![one, two], stitches)
+        // Against the outline of the second disc the second seam does not go on where the first ends.
+        let seams = vec![seam("first", 0..a, 0..c), seam("second", a..b, c..d)];
+        if let Ok(pattern) = Pattern::new(vec![one, two], seams)
             && let Ok(cut) = Cutter::new(0.4 / across).cut(&pattern)
         {
             invariants::check(&pattern, &cut);

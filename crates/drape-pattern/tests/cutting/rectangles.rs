@@ -1,4 +1,4 @@
-use drape_pattern::{Cutter, Edge, EdgeId, MAX_EASE, NodeId, Panel, Pattern, Quality, Stitch};
+use drape_pattern::{Cutter, Edge, EdgeId, MAX_EASE, NodeId, Panel, Pattern, Quality, Seam};
 
 use crate::invariants;
 
@@ -45,7 +45,7 @@ fn rectangles_sewn_with_fullness_stay_lattices_with_equal_counts() {
     let panels = vec![rectangle("a", [0.3, 0.2], 0.0), rectangle("b", [0.36, 0.1], 0.0)];
     let edge = |panel, edge| vec![EdgeId { panel, edge }];
     let sides = [edge(0, 2), edge(1, 0)];
-    let stitch = Stitch {
+    let seam = Seam {
         name: "seam".into(),
         sides,
         reversed: false,
@@ -53,7 +53,7 @@ fn rectangles_sewn_with_fullness_stay_lattices_with_equal_counts() {
         angle: 0.0,
         allowance: 0.0,
     };
-    let pattern = Pattern::new(panels, vec![stitch]).expect("it is sound");
+    let pattern = Pattern::new(panels, vec![seam]).expect("it is sound");
     let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
     invariants::check(&pattern, &cut);
     assert!(cut.panels.iter().all(|p| p.triangles.is_empty()));
@@ -74,9 +74,9 @@ fn the_longer_side_of_a_gather_has_a_whole_number_of_arcs_for_each_of_the_shorte
         let panels = vec![rectangle("band", [0.3, 0.1], 0.0), rectangle("full", [long, 0.2], 0.0)];
         let edge = |panel, edge| vec![EdgeId { panel, edge }];
         let (sides, name) = ([edge(0, 0), edge(1, 2)], "gather".into());
-        let stitch =
-            Stitch { name, sides, reversed: false, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 };
-        let pattern = Pattern::new(panels, vec![stitch]).expect("it is sound");
+        let seam =
+            Seam { name, sides, reversed: false, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 };
+        let pattern = Pattern::new(panels, vec![seam]).expect("it is sound");
         let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
         invariants::check(&pattern, &cut);
         let seam = &cut.seams[0];
@@ -88,7 +88,7 @@ fn the_longer_side_of_a_gather_has_a_whole_number_of_arcs_for_each_of_the_shorte
         for tie in &seam.ties {
             assert_eq!(tie.side, 1);
             let [from, to] = [tie.after, tie.after + 1].map(|k| along(seam.pairs[k][0]));
-            let place = from + tie.share * (to - from);
+            let place = from + tie.fraction * (to - from);
             assert!((along(tie.node) / long - place / 0.3).abs() < 1e-12, "{long}: {tie:?}");
         }
         assert_eq!(cut.notes, []);
@@ -105,8 +105,11 @@ fn the_longer_side_of_a_gather_has_a_whole_number_of_arcs_for_each_of_the_shorte
             assert_eq!(free, expected, "{long}: {}", panel.name());
             assert_eq!(cut.triangles.is_empty(), grid, "{long}: {}", panel.name());
             let quality = Quality::new(panel, cut, 0.01);
-            assert!(quality.shortest >= 0.6 && quality.longest < 1.9, "{long}: {quality:?}");
-            assert!(quality.sharpest.to_degrees() >= 22.0, "{long}: {quality:?}");
+            assert!(
+                quality.shortest_edge >= 0.6 && quality.longest_edge < 1.9,
+                "{long}: {quality:?}"
+            );
+            assert!(quality.smallest_angle.to_degrees() >= 22.0, "{long}: {quality:?}");
             println!("{long}: {} {quality:?}", panel.name());
         }
     }

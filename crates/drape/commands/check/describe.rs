@@ -5,7 +5,7 @@ use std::path::Path;
 
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
 use drape::input::{Diagnostic, Diagnostics, Document};
-use drape::scene::{Scene, SceneError};
+use drape::scene::{Error, Scene, is_fabric};
 
 use super::pattern::CutOut;
 use crate::commands::sheets;
@@ -26,13 +26,13 @@ pub(crate) fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics>
         return Ok(CutOut::read(file, spacing)?.describe());
     }
     if has(&["panel", "garment", "time", "collider"]) {
-        let read = Scene::read(file).map_err(|error| match error {
-            SceneError::Input(mistakes) => mistakes,
-            SceneError::Tangled(tangle) => tangle.mistakes,
+        let read = drape::read_scene(file).map_err(|error| match error {
+            Error::Input(mistakes) => mistakes,
+            Error::Tangled(tangle) => tangle.mistakes,
             other => Diagnostic::new(file, other.to_string()).into(),
         });
         Ok(scene(&read?))
-    } else if has(&["density", "shear"]) {
+    } else if is_fabric(&document) {
         Ok(fabric(&Fabric::from_document(&document)?))
     } else {
         sheet(file)
@@ -48,7 +48,7 @@ fn scene(scene: &Scene) -> String {
         scene.name,
         scene.cloth.particles(),
         scene.held.iter().filter(|held| **held).count(),
-        scene.contact.bodies().len(),
+        scene.bodies.len(),
         scene.clock.step,
         scene.clock.end
     );

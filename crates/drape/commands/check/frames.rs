@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use drape::verify::{PartNumber, Place, Recording, Verdict};
+use drape::verify::{ClosePair, PartNumber, Recording, Verdict};
 use serde_json::json;
 
 use crate::failure::Failure;
@@ -11,7 +11,7 @@ use crate::say::say;
 /// Returns whether a folder was written by a run, complete or not.
 pub(crate) fn is_run(path: &Path) -> bool {
     let has = |name: &str| path.join(name).exists();
-    Recording::is_one(path) || has("frame-00000.obj") || has("summary.json")
+    Recording::exists(path) || has("frame-00000.obj") || has("summary.json")
 }
 
 /// Verifies every frame of the folders; fails after the last if one does not hold.
@@ -35,7 +35,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
             verdicts.push(verdict);
         }
         let holds = verdicts.iter().all(Verdict::holds);
-        let (guarded, ended) = (recording.manifest().guarded, recording.ended());
+        let (guarded, ended) = (recording.manifest().surface_contact, recording.ended());
         let names = |part: &drape::verify::Part| part.name.clone();
         found.push(json!({
             "folder": folder, "holds": holds, "guarded": guarded, "ended": ended,
@@ -60,7 +60,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
 
 fn headline(folder: &Path, recording: &Recording) -> String {
     let manifest = recording.manifest();
-    let promise = match manifest.guarded {
+    let promise = match manifest.surface_contact {
         true => "the run kept surfaces apart",
         false => {
             "contact was of particles only, so surfaces may intersect (contact.surfaces = false)"
@@ -88,8 +88,8 @@ fn describe(recording: &Recording, verdict: &Verdict) -> String {
         verdict.intersections,
         verdict.min_distance.map_or("beyond the activation distance".to_owned(), millimetres),
     );
-    if verdict.grown < 1.0 {
-        text += &format!(", minimum separations grown to {:.2} %", 100.0 * verdict.grown);
+    if verdict.growth < 1.0 {
+        text += &format!(", minimum separations grown to {:.2} %", 100.0 * verdict.growth);
     }
     for (count, what) in [
         (verdict.too_near, "pairs closer than the minimum separation"),
@@ -106,13 +106,13 @@ fn describe(recording: &Recording, verdict: &Verdict) -> String {
     text
 }
 
-fn describe_place(recording: &Recording, place: &Place) -> String {
+fn describe_place(recording: &Recording, place: &ClosePair) -> String {
     let manifest = recording.manifest();
     let name = |part: PartNumber| match part {
         PartNumber::Panel(number) => &manifest.panels[number].name,
         PartNumber::Body(number) => &manifest.bodies[number].name,
     };
-    let [x, y, z] = place.place;
+    let [x, y, z] = place.point;
     let [one, other] =
         [0, 1].map(|k| format!("triangle {} of \"{}\"", place.triangles[k], name(place.parts[k])));
     let how = match place.distance {
@@ -120,7 +120,7 @@ fn describe_place(recording: &Recording, place: &Place) -> String {
         distance => format!(
             "are {:.4} mm apart, where {:.4} mm is the minimum,",
             1e3 * distance,
-            1e3 * place.kept
+            1e3 * place.min_separation
         ),
     };
     format!("{one} and {other} {how} near ({x:.5}, {y:.5}, {z:.5}) m")

@@ -36,7 +36,7 @@ impl CutOut {
         let mut text = format!(
             "pattern, {} panels, {} stitches, {} particles at {} mm when sewn\n",
             pattern.panels().len(),
-            pattern.stitches().len(),
+            pattern.seams().len(),
             cut.particles(),
             1e3 * cut.spacing
         );
@@ -49,8 +49,8 @@ impl CutOut {
                 panel.name(),
                 panel.area(),
                 own.positions.len(),
-                quality.shortest,
-                quality.sharpest.to_degrees(),
+                quality.shortest_edge,
+                quality.smallest_angle.to_degrees(),
                 100.0 * quality.area_error
             );
         }

@@ -1,6 +1,6 @@
 //! Result of a run in words: what came out, and what failed with its remedy.
 
-use drape::scene::{Contacts, Energy, PhaseName, Status, Summary};
+use drape::dynamics::{Contacts, Energy, PhaseName, Status, Summary};
 
 use crate::failure::Failure;
 

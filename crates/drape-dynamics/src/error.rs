@@ -1,0 +1,27 @@
+use std::path::PathBuf;
+
+/// Why a scene cannot be run or its results written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The solver cannot be set up for the scene.
+    #[error("the solver cannot be set up: {0}")]
+    Solver(#[from] drape_implicit::Error),
+    /// The contact cannot be set up for the scene, which was changed after it had been checked.
+    #[error("the contact cannot be set up: {0}")]
+    Contact(#[from] drape_collide::Error),
+    /// The folder for the results is there already: give another one, or allow it to be replaced.
+    #[error("{} holds results already; give another folder, or allow it with --force", folder.display())]
+    Occupied {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A result could not be written: check space and permissions.
+    #[error("cannot write {}: {reason}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: std::io::Error,
+    },
+}

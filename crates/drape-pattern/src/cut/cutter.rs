@@ -1,0 +1,125 @@
+//! Cutter: samples the outlines of a pattern, cuts its panels and renumbers the nodes of its seams.
+
+use super::cut_pattern::CutPattern;
+use super::panel_cut::{Cut, GrainFrame, RimUnits};
+use super::rim::Rim;
+use super::sampling::{SampledOutline, SampledPattern};
+use super::seam_nodes::SeamNodes;
+use crate::edge::difference;
+use crate::error::Error;
+use crate::mistake::Mistake;
+use crate::panel::Panel;
+use crate::pattern::Pattern;
+use crate::polygon::self_intersection;
+
+/// Spacing when none is chosen, in m.
+const SPACING: f64 = 0.01;
+
+/// Shortest and longest spacing, in m.
+const SPACINGS: std::ops::RangeInclusive<f64> = 1e-5..=10.0;
+
+/// Largest number of grid points of a panel.
+const POINTS_MAX: f64 = 4e6;
+
+/// Cutter of patterns into particles at a spacing.
+///
+/// Outlines are sampled at equal arcs of about the spacing between the ends of their edges, with the same
+/// number on both sides of a seam. Inside, a regular grid along the grain keeps 0.6 spacings clear of the
+/// outline, and a constrained Delaunay triangulation fills the rim between them.
+///
+/// ```
+/// use drape_pattern::{Cutter, Edge, Panel, Pattern};
+///
+/// let corners = [[0.0, 0.0], [0.2, 0.0], [0.2, 0.5], [0.0, 0.5]];
+/// let edge = |k: usize| Edge::line(k.to_string(), corners[k], corners[(k + 1) % 4]);
+/// let panel = Panel::new("strip", (0..4).map(edge).collect()).expect("a rectangle is simple");
+/// let pattern = Pattern::new(vec![panel], vec![]).expect("there is nothing to sew");
+/// let cut = Cutter::new(0.01).cut(&pattern)?;
+/// assert_eq!((cut.panels[0].quads.len(), cut.panels[0].triangles.len()), (20 * 50, 0));
+/// # Ok::<(), drape_pattern::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cutter {
+    /// Distance of the particles, in m.
+    pub spacing: f64,
+}
+
+impl Default for Cutter {
+    fn default() -> Self {
+        Self { spacing: SPACING }
+    }
+}
+
+impl Cutter {
+    /// Returns a cutter with a spacing in m.
+    #[must_use]
+    pub fn new(spacing: f64) -> Self {
+        Self { spacing }
+    }
+
+    /// Cuts all panels of a pattern.
+    ///
+    /// # Errors
+    /// Edges too short for the spacing, panels too narrow or too large for it; all are listed.
+    pub fn cut(&self, pattern: &Pattern) -> Result<CutPattern, Error> {
+        let spacing = self.spacing;
+        if !SPACINGS.contains(&spacing) {
+            return Err(Error::Pattern(vec![Mistake::Spacing { spacing }]));
+        }
+        let sampled = SampledPattern::new(pattern, spacing).map_err(Error::Pattern)?;
+        let mut notes = sampled.notes;
+        let mut panels: Vec<Cut> = Vec::new();
+        let mut mistakes = Vec::new();
+        // A rectangle numbers the nodes of its outline anew.
+        let mut seams = sampled.seams;
+        for (number, outline) in sampled.outlines.into_iter().enumerate() {
+            match self.cut_panel(&pattern.panels()[number], outline) {
+                Ok(cut) => {
+                    let nodes = seams.iter_mut().flat_map(SeamNodes::nodes_mut);
+                    for id in nodes.filter(|id| id.panel == number) {
+                        id.node = cut.outline[id.node as usize];
+                    }
+                    notes.extend(cut.thin_part(spacing));
+                    panels.push(cut);
+                }
+                Err(mistake) => mistakes.push(mistake),
+            }
+        }
+        if !mistakes.is_empty() {
+            return Err(Error::Pattern(mistakes));
+        }
+        Ok(CutPattern { spacing, panels, seams, notes })
+    }
+
+    /// Cuts a panel with a sampled outline.
+    fn cut_panel(&self, panel: &Panel, outline: SampledOutline) -> Result<Cut, Mistake> {
+        let spacing = self.spacing;
+        let name = || panel.name().to_owned();
+        let grain = GrainFrame::new(panel.grain());
+        let mut polygon: Vec<[f64; 2]> =
+            outline.nodes.iter().map(|&p| grain.from_panel(p)).collect();
+        let low = [0, 1].map(|k| polygon.iter().map(|p| p[k]).fold(f64::MAX, f64::min));
+        for node in &mut polygon {
+            *node = difference(*node, low).map(|x| x / spacing);
+        }
+        let size = [0, 1].map(|k| polygon.iter().map(|p| p[k] + 1.0).fold(1.0, f64::max));
+        if size[0] * size[1] > POINTS_MAX {
+            return Err(Mistake::TooMany { panel: name(), nodes: size[0] * size[1], spacing });
+        }
+        let twice_area = |k: usize| {
+            let (a, b) = (polygon[k], polygon[(k + 1) % polygon.len()]);
+            a[0] * b[1] - a[1] * b[0]
+        };
+        let area: f64 = (0..polygon.len()).map(twice_area).sum();
+        let crossed = self_intersection(&polygon).map(|[first, _]| first);
+        if let Some(first) = crossed.or((area <= 0.0).then_some(0)) {
+            return Err(Mistake::Narrow { panel: name(), at: outline.nodes[first], spacing });
+        }
+        if let Some(rectangle) = Cut::of_rectangle(&outline, grain, spacing) {
+            return Ok(Cut { panel: name(), ..rectangle });
+        }
+        let rim = Rim::new(&polygon).ok_or_else(|| Mistake::Rim { panel: name(), spacing })?;
+        let units = RimUnits { origin: low, spacing };
+        Ok(Cut { panel: name(), ..Cut::of_rim(outline, &rim, grain, units) })
+    }
+}

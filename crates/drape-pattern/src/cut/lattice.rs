@@ -1,0 +1,160 @@
+//! Lattice: the nodes of a regular grid inside a polygon that keep clear of its sides.
+//!
+//! `rim` fills the strip between the full cells of the lattice and the polygon with triangles.
+
+use crate::edge::difference;
+
+/// Smallest distance of a lattice node from the outline, in spacings.
+///
+/// Edges at lattice nodes are at least as long. A larger distance makes the rim wide and its triangles
+/// obtuse.
+const CLEAR: f64 = 0.6;
+
+/// Distance from the outline within which a lattice node may be dropped for better triangles, in
+/// spacings. Dropping a node farther away would leave triangles larger than the spacing.
+pub(crate) const LOOSE: f64 = 1.03;
+
+/// Number of phases of the grid that are tried in each direction, over one spacing.
+const PHASES: usize = 4;
+
+/// Regular grid over a polygon. Lengths are in spacings.
+#[derive(Debug, Clone)]
+pub(crate) struct Lattice {
+    /// Position of column 0 and row 0.
+    origin: [f64; 2],
+    /// Numbers of columns and rows.
+    pub size: [usize; 2],
+    /// Whether each grid point is a node, row by row.
+    kept: Vec<bool>,
+    /// Distance of each grid point from the outline, row by row; exact where it is under [`LOOSE`], else
+    /// only known to be larger.
+    clearance: Vec<f64>,
+}
+
+impl Lattice {
+    /// Returns the phases of the grid in the order of their numbers of full cells, most first.
+    pub fn phases(polygon: &[[f64; 2]]) -> Vec<usize> {
+        let cells = |phase: usize| Self::new(polygon, phase).cells().len();
+        let mut all: Vec<(usize, usize)> =
+            (0..PHASES * PHASES).map(|phase| (cells(phase), phase)).collect();
+        all.sort_by_key(|&(cells, phase)| (std::cmp::Reverse(cells), phase));
+        all.into_iter().map(|(_, phase)| phase).collect()
+    }
+
+    /// Returns the grid over a polygon at a phase.
+    pub fn new(polygon: &[[f64; 2]], phase: usize) -> Self {
+        let offset = [phase % PHASES, phase / PHASES].map(|k| k as f64 / PHASES as f64);
+        let extent = |k: usize| {
+            let all = polygon.iter().map(|p| p[k]);
+            [all.clone().fold(f64::MAX, f64::min), all.fold(f64::MIN, f64::max)]
+        };
+        let extents = [extent(0), extent(1)];
+        let origin = [0, 1].map(|k| extents[k][0] + offset[k]);
+        let size = [0, 1].map(|k| (extents[k][1] - origin[k]).max(0.0) as usize + 1);
+        let count = size[0] * size[1];
+        let clearance = vec![f64::MAX; count];
+        let mut lattice = Self { origin, size, kept: vec![false; count], clearance };
+        for (k, &start) in polygon.iter().enumerate() {
+            lattice.measure_clearance(start, polygon[(k + 1) % polygon.len()]);
+        }
+        lattice.fill(polygon);
+        lattice
+    }
+
+    /// Returns the columns or rows between two coordinates.
+    fn between(&self, axis: usize, low: f64, high: f64) -> std::ops::Range<usize> {
+        let low = (low - self.origin[axis]).ceil().max(0.0) as usize;
+        let high = (high - self.origin[axis]).floor();
+        if high < 0.0 { 0..0 } else { low..(high as usize + 1).min(self.size[axis]) }
+    }
+
+    /// Lowers the clearance of the grid points near a side of the polygon.
+    fn measure_clearance(&mut self, a: [f64; 2], b: [f64; 2]) {
+        let side = difference(b, a);
+        let square = side[0] * side[0] + side[1] * side[1];
+        let range = |k: usize| (a[k].min(b[k]) - LOOSE, a[k].max(b[k]) + LOOSE);
+        let ((x0, x1), (y0, y1)) = (range(0), range(1));
+        for row in self.between(1, y0, y1) {
+            for column in self.between(0, x0, x1) {
+                let arm = difference(self.position([column, row]), a);
+                let along = (arm[0] * side[0] + arm[1] * side[1]) / square;
+                let along = along.clamp(0.0, 1.0);
+                let distance = (arm[0] - along * side[0]).hypot(arm[1] - along * side[1]);
+                let index = self.index([column, row]);
+                self.clearance[index] = self.clearance[index].min(distance);
+            }
+        }
+    }
+
+    /// Makes nodes of the grid points inside the polygon that are clear of its sides.
+    fn fill(&mut self, polygon: &[[f64; 2]]) {
+        let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); self.size[1]];
+        for (k, &a) in polygon.iter().enumerate() {
+            let b = polygon[(k + 1) % polygon.len()];
+            let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
+            for row in self.between(1, low[1], high[1]) {
+                let y = self.position([0, row])[1];
+                // Half-open, so that a corner between two sides counts once.
+                if low[1] <= y && y < high[1] {
+                    let part = (y - low[1]) / (high[1] - low[1]);
+                    crossings[row].push(low[0] + part * (high[0] - low[0]));
+                }
+            }
+        }
+        for (row, mut places) in crossings.into_iter().enumerate() {
+            places.sort_by(f64::total_cmp);
+            for pair in places.chunks_exact(2) {
+                for column in self.between(0, pair[0], pair[1]) {
+                    let index = self.index([column, row]);
+                    self.kept[index] = self.clearance[index] >= CLEAR;
+                }
+            }
+        }
+    }
+
+    fn index(&self, [column, row]: [usize; 2]) -> usize {
+        row * self.size[0] + column
+    }
+
+    /// Returns the position of a grid point.
+    pub fn position(&self, [column, row]: [usize; 2]) -> [f64; 2] {
+        [self.origin[0] + column as f64, self.origin[1] + row as f64]
+    }
+
+    /// Returns whether a grid point is a node.
+    pub fn has(&self, node: [usize; 2]) -> bool {
+        self.kept[self.index(node)]
+    }
+
+    /// Returns the distance of a grid point from the outline.
+    pub fn clearance(&self, node: [usize; 2]) -> f64 {
+        self.clearance[self.index(node)]
+    }
+
+    /// Removes a node.
+    pub fn drop_node(&mut self, node: [usize; 2]) {
+        let index = self.index(node);
+        self.kept[index] = false;
+    }
+
+    /// Returns the nodes, row by row, as columns and rows.
+    pub fn nodes(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let all = (0..self.size[1]).flat_map(|row| (0..self.size[0]).map(move |c| [c, row]));
+        all.filter(|&node| self.has(node))
+    }
+
+    /// Returns whether the cell to the right of and above a grid point has all four nodes.
+    ///
+    /// No side of the polygon intersects such a cell: every point on its border is closer to one of its
+    /// nodes than [`CLEAR`].
+    pub fn is_full(&self, [column, row]: [usize; 2]) -> bool {
+        column + 1 < self.size[0]
+            && row + 1 < self.size[1]
+            && [[0, 0], [1, 0], [1, 1], [0, 1]].iter().all(|[x, y]| self.has([column + x, row + y]))
+    }
+
+    /// Returns the full cells, row by row, by their lower left nodes.
+    pub fn cells(&self) -> Vec<[usize; 2]> {
+        self.nodes().filter(|&node| self.is_full(node)).collect()
+    }
+}

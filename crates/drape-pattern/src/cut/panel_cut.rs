@@ -1,0 +1,113 @@
+//! Cut of a panel: nodes, cells and triangles, made of a rim.
+
+use super::rim::Rim;
+use super::sampling::SampledOutline;
+
+/// Panel cut into the full cells of a lattice along its grain, and triangles between them and its outline.
+///
+/// The nodes of the outline come first, anticlockwise, then those of the lattice, row by row. In a
+/// rectangle without a rim all nodes are in rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cut {
+    /// Name of the panel.
+    pub panel: String,
+    /// Distance of the nodes of the lattice along weft and warp, in m.
+    pub spacing: [f64; 2],
+    /// Positions of the nodes in the panel's frame, in m.
+    pub positions: Vec<[f64; 2]>,
+    /// Positions of the nodes in the frame of the grain, whose x axis is the weft and whose y axis is the
+    /// warp, in m; its origin is that of the panel's frame.
+    pub yarns: Vec<[f64; 2]>,
+    /// Column and row of each node of the lattice; `None` for nodes of the outline beside a rim.
+    pub lattice: Vec<Option<[u32; 2]>>,
+    /// Full cells by their nodes, anticlockwise from the lowest along weft and warp.
+    pub quads: Vec<[u32; 4]>,
+    /// Triangles of the rim by their nodes, anticlockwise.
+    pub triangles: Vec<[u32; 3]>,
+    /// Nodes of each edge of the outline, in its direction, with both ends. An edge shorter than half a
+    /// spacing that was joined with a neighbour has the nodes nearest to its ends, which may be one.
+    pub edges: Vec<Vec<u32>>,
+    /// Nodes of the outline, anticlockwise.
+    pub outline: Vec<u32>,
+    /// Whether each node is an end of an edge or of a seam piece.
+    pub hard: Vec<bool>,
+}
+
+/// Frame of the grain: the panel's frame rotated by the angle of its warp.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GrainFrame {
+    sine: f64,
+    cosine: f64,
+}
+
+impl GrainFrame {
+    /// Returns the frame of a warp at an angle to the panel's y axis, anticlockwise, in rad.
+    pub fn new(angle: f64) -> Self {
+        let (sine, cosine) = angle.sin_cos();
+        Self { sine, cosine }
+    }
+
+    /// Returns a point of the grain's frame in the panel's frame.
+    pub fn to_panel(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.cosine * x - self.sine * y, self.sine * x + self.cosine * y]
+    }
+
+    /// Returns a point of the panel's frame in the grain's frame.
+    pub fn from_panel(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.cosine * x + self.sine * y, self.cosine * y - self.sine * x]
+    }
+}
+
+/// Origin and unit of the lengths of a rim.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RimUnits {
+    /// Origin in the grain's frame, in m.
+    pub origin: [f64; 2],
+    /// Unit of lengths, in m.
+    pub spacing: f64,
+}
+
+impl Cut {
+    /// Returns the cut of a sampled outline with a rim.
+    pub(crate) fn of_rim(
+        outline: SampledOutline,
+        rim: &Rim,
+        grain: GrainFrame,
+        units: RimUnits,
+    ) -> Self {
+        let RimUnits { origin, spacing } = units;
+        let sides = outline.nodes.len();
+        let nodes: Vec<[usize; 2]> = rim.lattice.nodes().collect();
+        let mut number = vec![0_u32; rim.lattice.size[0] * rim.lattice.size[1]];
+        let at = |[column, row]: [usize; 2]| row * rim.lattice.size[0] + column;
+        for (k, &node) in nodes.iter().enumerate() {
+            number[at(node)] = (sides + k) as u32;
+        }
+        let corners = |[c, r]: [usize; 2]| [[c, r], [c + 1, r], [c + 1, r + 1], [c, r + 1]];
+        let quads =
+            rim.lattice.cells().into_iter().map(|cell| corners(cell).map(|n| number[at(n)]));
+        let inner = nodes.iter().map(|&node| {
+            let [x, y] = rim.lattice.position(node);
+            [origin[0] + spacing * x, origin[1] + spacing * y]
+        });
+        let yarns: Vec<[f64; 2]> =
+            outline.nodes.iter().map(|&p| grain.from_panel(p)).chain(inner).collect();
+        let inside = yarns[sides..].iter().map(|&p| grain.to_panel(p));
+        let positions = outline.nodes.iter().copied().chain(inside).collect();
+        let columns = nodes.iter().map(|node| Some(node.map(|k| k as u32)));
+        let mut hard = outline.hard;
+        hard.resize(yarns.len(), false);
+        Self {
+            panel: String::new(),
+            spacing: [spacing; 2],
+            positions,
+            lattice: std::iter::repeat_n(None, sides).chain(columns).collect(),
+            quads: quads.collect(),
+            triangles: rim.triangles.clone(),
+            edges: outline.edges,
+            outline: (0..sides as u32).collect(),
+            hard,
+            yarns,
+        }
+    }
+}

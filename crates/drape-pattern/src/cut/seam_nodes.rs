@@ -1,0 +1,59 @@
+//! Nodes of the seams of a cut pattern: pairs that become one node, and ties in gathers.
+
+/// Node of a cut pattern.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NodeId {
+    /// Number of the panel, from 0.
+    pub panel: usize,
+    /// Number of the node in the cut of the panel, from 0.
+    pub node: u32,
+}
+
+/// Nodes of a seam.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SeamNodes {
+    /// Pairs of nodes that become one, in the order in which the seam runs. Both are the same node at the
+    /// tip of a dart.
+    pub pairs: Vec<[NodeId; 2]>,
+    /// Nodes of the longer side of a gather between the pairs, in the same order.
+    pub ties: Vec<Tie>,
+}
+
+/// Node of the longer side of a gather that is tied to a point between two nodes of the shorter side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tie {
+    /// Number of the pair after which it comes. On the other side it lies between that pair and the next.
+    pub after: usize,
+    /// Side of the seam to which it belongs, 0 or 1.
+    pub side: usize,
+    /// The node.
+    pub node: NodeId,
+    /// Fraction of the arc from the pair to the next at which it lies, 0 to 1.
+    pub fraction: f64,
+}
+
+impl SeamNodes {
+    /// Returns all nodes of a side, in the order in which the seam runs.
+    pub fn side(&self, side: usize) -> impl Iterator<Item = NodeId> {
+        let mut ties = self.ties.iter().filter(move |tie| tie.side == side).peekable();
+        self.pairs.iter().enumerate().flat_map(move |(index, pair)| {
+            let mut nodes = vec![pair[side]];
+            while let Some(tie) = ties.next_if(|tie| tie.after == index) {
+                nodes.push(tie.node);
+            }
+            nodes
+        })
+    }
+
+    /// Returns the nodes between which a tied node lies.
+    #[must_use]
+    pub fn ends(&self, tie: &Tie) -> [NodeId; 2] {
+        [tie.after, tie.after + 1].map(|pair| self.pairs[pair][1 - tie.side])
+    }
+
+    /// Returns all nodes, to be renumbered.
+    pub(crate) fn nodes_mut(&mut self) -> impl Iterator<Item = &mut NodeId> {
+        let ties = self.ties.iter_mut().map(|tie| &mut tie.node);
+        self.pairs.iter_mut().flatten().chain(ties)
+    }
+}

@@ -1,0 +1,249 @@
+//! Simplification of outlines: pieces shorter than half a spacing are joined with a neighbour where the
+//! outline is smooth.
+//!
+//! Called on the breakpoints of a pattern before `sampling` counts the arcs between them.
+
+use super::breakpoint::{Breakpoints, SeamPiece};
+use crate::mistake::Mistake;
+use crate::note::Note;
+use crate::panel::Panel;
+use crate::pattern::Pattern;
+
+/// Largest corner angle at a breakpoint that may be removed, in rad: 15 degrees. A chord across it cuts
+/// off at most a fifteenth of its length.
+const SMOOTH: f64 = std::f64::consts::PI / 12.0;
+
+/// Shortest piece of outline between nodes, in spacings.
+const SHORTEST: f64 = 0.5;
+
+/// End of a side of a seam piece.
+#[derive(Clone, Copy)]
+struct PieceEnd {
+    piece: usize,
+    side: usize,
+    end: usize,
+}
+
+/// Breakpoint across a seam, and the seam piece that leads to it.
+struct Partner {
+    piece: usize,
+    point: usize,
+}
+
+/// Result of a simplification: notes on what was joined, mistakes of what could not be.
+#[derive(Debug, Default)]
+pub(crate) struct Simplified {
+    pub notes: Vec<Note>,
+    pub mistakes: Vec<Mistake>,
+}
+
+/// Simplification of the outlines of a pattern.
+pub(crate) struct Simplifier<'a> {
+    pub breakpoints: &'a mut Breakpoints,
+    pub pattern: &'a Pattern,
+    /// Spacing of the nodes, in m.
+    pub spacing: f64,
+}
+
+impl Simplifier<'_> {
+    /// Joins short pieces with neighbours, the shortest first; pieces that cannot be joined are mistakes.
+    pub fn run(mut self) -> Simplified {
+        let shortest = SHORTEST * self.spacing * (1.0 - 1e-9);
+        let mut notes = self.dissolve_runs(shortest);
+        loop {
+            let mut short: Vec<(f64, usize)> = self
+                .foremost_points()
+                .into_iter()
+                .map(|point| (self.breakpoints.counted_after(point), point))
+                .filter(|(length, _)| *length < shortest)
+                .collect();
+            short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let mut changed = false;
+            for &(length, point) in &short {
+                // An earlier one of this pass may have joined it already.
+                if self.breakpoints.points[point].removed
+                    || self.breakpoints.counted_after(point) != length
+                {
+                    continue;
+                }
+                let ends = [point, self.breakpoints.points[point].neighbours[1]];
+                let mut classes = ends.map(|p| self.breakpoints.points[p].class).to_vec();
+                classes.sort_by(|&a, &b| self.sharpest(a).total_cmp(&self.sharpest(b)));
+                if let Some(&class) = classes.iter().find(|&&class| self.is_removable(class)) {
+                    notes.extend(self.note(point, class));
+                    self.remove(class);
+                    changed = true;
+                }
+            }
+            if !changed {
+                let mistakes = short.iter().map(|&(length, point)| {
+                    let EdgeName { panel, edge } = self.edge_after(point);
+                    Mistake::ShortEdge { panel, edge, length, spacing: self.spacing }
+                });
+                return Simplified { mistakes: mistakes.collect(), notes };
+            }
+        }
+    }
+
+    /// Removes the smooth breakpoints inside runs of short pieces, of which digitised outlines consist.
+    fn dissolve_runs(&mut self, shortest: f64) -> Vec<Note> {
+        let points = 0..self.breakpoints.points.len();
+        let short: Vec<bool> =
+            points.clone().map(|point| self.breakpoints.counted_after(point) < shortest).collect();
+        let inside: Vec<usize> = points
+            .filter(|&point| short[point] && short[self.breakpoints.points[point].neighbours[0]])
+            .collect();
+        let mut lost = vec![0; self.pattern.panels().len()];
+        for point in inside {
+            let class = self.breakpoints.points[point].class;
+            if !self.breakpoints.points[point].removed && self.is_removable(class) {
+                self.class(class).for_each(|p| lost[self.breakpoints.points[p].panel] += 1);
+                self.remove(class);
+            }
+        }
+        let panels = self.pattern.panels().iter().zip(lost).filter(|(_, ends)| *ends > 0);
+        let note = |(panel, ends): (&Panel, usize)| Note::Dissolved {
+            panel: panel.name().into(),
+            ends,
+            spacing: self.spacing,
+        };
+        panels.map(note).collect()
+    }
+
+    /// Returns for each piece of outline, or pair of pieces that are sewn together, the breakpoint after
+    /// which it lies.
+    fn foremost_points(&self) -> Vec<usize> {
+        let Breakpoints { points, pieces, .. } = &*self.breakpoints;
+        let first = |&number: &usize| {
+            let point = &points[number];
+            let other_side = point.pieces[1]
+                .is_some_and(|piece| Breakpoints::foremost(&pieces[piece], 0) != number);
+            !point.removed && !other_side
+        };
+        (0..points.len()).filter(first).collect()
+    }
+
+    /// Returns the breakpoints of a class that are not removed.
+    fn class(&self, class: usize) -> impl Iterator<Item = usize> + '_ {
+        let points = &self.breakpoints.points;
+        self.breakpoints.classes[class].iter().copied().filter(|&p| !points[p].removed)
+    }
+
+    /// Returns the largest corner angle of a class, in rad.
+    fn sharpest(&self, class: usize) -> f64 {
+        self.class(class).map(|p| self.breakpoints.points[p].corner_angle).fold(0.0, f64::max)
+    }
+
+    /// Returns the end, at a breakpoint, of the seam piece before it (0) or after it (1).
+    fn end_at(&self, point: usize, beside: usize) -> Option<PieceEnd> {
+        let piece = self.breakpoints.points[point].pieces[beside]?;
+        let SeamPiece { ends, forward, .. } = &self.breakpoints.pieces[piece];
+        (0..2).find_map(|side| {
+            let end = usize::from(forward[side] != (beside == 1));
+            (ends[side][end] == point).then_some(PieceEnd { piece, side, end })
+        })
+    }
+
+    /// Returns the breakpoint to which a breakpoint is sewn by the piece before it (0) or after it (1).
+    fn partner(&self, point: usize, beside: usize) -> Option<Partner> {
+        let PieceEnd { piece, side, end } = self.end_at(point, beside)?;
+        Some(Partner { piece, point: self.breakpoints.pieces[piece].ends[1 - side][end] })
+    }
+
+    /// Returns whether all breakpoints of a class can be removed: the outlines are smooth there, and the
+    /// pieces before and after are sewn to the same breakpoint in the same sense.
+    fn is_removable(&self, class: usize) -> bool {
+        self.sharpest(class) < SMOOTH
+            && self.class(class).all(|point| {
+                let before = self.breakpoints.points[point].neighbours[0];
+                let alike = match (self.partner(point, 0), self.partner(point, 1)) {
+                    (None, None) => true,
+                    (Some(first), Some(second)) => {
+                        first.point == second.point
+                            && first.point != point
+                            && first.piece != second.piece
+                            && self.same_sense(first.piece, second.piece)
+                    }
+                    _ => false,
+                };
+                // One breakpoint at least stays on an outline.
+                alike && before != point
+            })
+    }
+
+    /// Returns whether both sides of two seam pieces run in the same sense.
+    fn same_sense(&self, first: usize, second: usize) -> bool {
+        let sense = |piece: &SeamPiece| piece.forward[0] == piece.forward[1];
+        sense(&self.breakpoints.pieces[first]) == sense(&self.breakpoints.pieces[second])
+    }
+
+    /// Removes the breakpoints of a class.
+    fn remove(&mut self, class: usize) {
+        let points: Vec<usize> = self.class(class).collect();
+        for point in points {
+            // The breakpoint on the other side may have merged the pieces already.
+            if let (Some(before), Some(after)) = (self.end_at(point, 0), self.end_at(point, 1))
+                && before.piece != after.piece
+            {
+                self.merge(before, after);
+            }
+            let points = &mut self.breakpoints.points;
+            let [before, after] = points[point].neighbours;
+            points[before].neighbours[1] = after;
+            points[after].neighbours[0] = before;
+            points[point].removed = true;
+        }
+    }
+
+    /// Makes one seam piece of two that end at a breakpoint. The longer one is extended: it keeps its seam,
+    /// its sides and its sense.
+    fn merge(&mut self, one: PieceEnd, two: PieceEnd) {
+        let two_longer = self.piece_length(two.piece) > self.piece_length(one.piece);
+        let (kept, lost) = if two_longer { (two, one) } else { (one, two) };
+        let pieces = &mut self.breakpoints.pieces;
+        for other in 0..2 {
+            // The far end of the lost piece, on the side of the breakpoint and on the other.
+            let far = pieces[lost.piece].ends[lost.side ^ other][1 - lost.end];
+            pieces[kept.piece].ends[kept.side ^ other][kept.end] = far;
+        }
+        pieces[lost.piece].removed = true;
+        self.breakpoints.mark(kept.piece);
+    }
+
+    /// Returns the length of the first side of a seam piece, in m.
+    fn piece_length(&self, piece: usize) -> f64 {
+        let piece = &self.breakpoints.pieces[piece];
+        self.breakpoints.length_after(Breakpoints::foremost(piece, 0))
+    }
+
+    /// Returns a note on a piece that loses a breakpoint of a class, if that is the end of an edge.
+    fn note(&self, piece: usize, class: usize) -> Option<Note> {
+        let points = &self.breakpoints.points;
+        let after = points[piece].neighbours[1];
+        let lost = if points[piece].class == class { piece } else { after };
+        points[lost].edge?;
+        let EdgeName { panel, edge } = self.edge_after(piece);
+        let neighbour = if lost == piece { points[piece].neighbours[0] } else { after };
+        let with = self.edge_after(neighbour).edge;
+        let length = self.breakpoints.length_after(piece);
+        (edge != with).then_some(Note::Joined { panel, edge, with, length, spacing: self.spacing })
+    }
+
+    /// Returns the names of the panel and of the edge in the middle of the piece after a breakpoint.
+    fn edge_after(&self, point: usize) -> EdgeName {
+        let Breakpoints { points, starts, .. } = &*self.breakpoints;
+        let number = points[point].panel;
+        let middle = points[point].distance + 0.5 * self.breakpoints.length_after(point);
+        let middle = middle % self.breakpoints.perimeter(number);
+        let edge = starts[number].partition_point(|&s| s <= middle).max(1) - 1;
+        let panel = &self.pattern.panels()[number];
+        let edge = &panel.outline()[edge.min(panel.outline().len() - 1)];
+        EdgeName { panel: panel.name().into(), edge: edge.name.clone() }
+    }
+}
+
+/// Names of a panel and of one of its edges.
+struct EdgeName {
+    panel: String,
+    edge: String,
+}
