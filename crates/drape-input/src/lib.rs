@@ -6,4 +6,4 @@ mod spelling;
 
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::Document;
-pub use spelling::closest;
+pub use spelling::{closest, toml_key, toml_string};
