@@ -17,6 +17,7 @@ use serde_json::Value;
 const LEFT: &[&str] = &[
     "drape-cloth",
     "drape-collide",
+    "drape-dynamics",
     "drape-fabric",
     "drape-fit",
     "drape-hysteresis",

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
 use drape::input::{Diagnostic, Diagnostics, Document};
-use drape::scene::{Error, Scene};
+use drape::scene::{Error, Scene, is_fabric};
 
 use super::pattern::CutOut;
 use crate::commands::sheets;
@@ -32,7 +32,7 @@ pub(crate) fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics>
             other => Diagnostic::new(file, other.to_string()).into(),
         });
         Ok(scene(&read?))
-    } else if has(&["density", "shear"]) {
+    } else if is_fabric(&document) {
         Ok(fabric(&Fabric::from_document(&document)?))
     } else {
         sheet(file)
