@@ -1,5 +1,5 @@
-//! Identification of whole fabrics. Times are processor times over all threads, which is the cost of
-//! a batch.
+//! Identification of whole fabrics. Times are processor times over all threads, which is the cost
+//! of a batch.
 
 use std::hint::black_box;
 use std::time::Duration;

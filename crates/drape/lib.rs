@@ -2,9 +2,9 @@
 //!
 //! # As a library
 //!
-//! This crate re-exports all others, and adds what joins them: [`read_scene`] reads a scene and fits
-//! the sheets that it names, since the crates of the fit and of the scene do not know each other.
-//! A run follows the data from the top of this list to its end:
+//! This crate re-exports all others, and adds what joins them: [`read_scene`] reads a scene and
+//! fits the sheets that it names, since the crates of the fit and of the scene do not know each
+//! other. A run follows the data from the top of this list to its end:
 //!
 //! * measurements: [`kes`] (sheets, curves, values), [`fit`] by [`lm`] (fabrics from them);
 //! * materials: [`fabric`] (laws in SI), [`hysteresis`] (their friction), [`pattern`] (garments);

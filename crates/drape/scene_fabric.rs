@@ -19,7 +19,8 @@ pub fn read_scene(path: impl AsRef<Path>) -> Result<Scene, drape_scene::Error> {
 
 /// Reads a `fabric.toml`, or fits a fabric to a `sheet.toml`.
 ///
-/// The laws are those of the model of the scene: Breen's are fitted to the first branches of the curves.
+/// The laws are those of the model of the scene: Breen's are fitted to the first branches of the
+/// curves.
 ///
 /// # Errors
 /// The mistakes of the file, or the reason why a sheet gives no fabric.
