@@ -111,7 +111,8 @@ impl Document {
     /// Returns a mistake in the value at a key path such as `warp.traction.stiffness` or
     /// `curve[2].file`.
     ///
-    /// If the value is not in the text, the innermost table that is gives the place.
+    /// A key with dots in it is quoted, as in TOML: `panel."simon.back".grain`. If the value is not in
+    /// the text, the innermost table that is gives the place.
     pub fn at(&self, key: &str, message: impl Into<String>) -> Diagnostic {
         let message = format!("{key}: {}", message.into());
         self.locate(self.find(key), message)
@@ -135,11 +136,7 @@ impl Document {
         let table = DeTable::parse(&self.text).ok()?;
         let mut place = None;
         let mut value: Option<&Spanned<DeValue<'_>>> = None;
-        for part in key.split('.') {
-            let (name, index) = match part.split_once('[') {
-                Some((name, index)) => (name, index.trim_end_matches(']').parse::<usize>().ok()),
-                None => (part, None),
-            };
+        for Part { name, index } in parts(key) {
             let table = match value {
                 None => table.get_ref(),
                 Some(value) => value.get_ref().as_table()?,
@@ -160,6 +157,33 @@ impl Document {
         }
         place
     }
+}
+
+/// Key of a key path, with the index of an element if it is an array.
+struct Part<'a> {
+    name: &'a str,
+    index: Option<usize>,
+}
+
+/// Splits a key path at its dots outside of quotes.
+fn parts(key: &str) -> impl Iterator<Item = Part<'_>> {
+    let mut quoted = false;
+    let pieces = key.split(move |letter: char| {
+        quoted ^= letter == '"';
+        letter == '.' && !quoted
+    });
+    pieces.map(|piece| match piece.strip_prefix('"').and_then(|rest| rest.split_once('"')) {
+        Some((name, rest)) => Part { name, index: index(rest) },
+        None => match piece.split_once('[') {
+            Some((name, rest)) => Part { name, index: index(rest) },
+            None => Part { name: piece, index: None },
+        },
+    })
+}
+
+/// Returns the number in brackets.
+fn index(text: &str) -> Option<usize> {
+    text.trim_matches(['[', ']']).parse().ok()
 }
 
 /// Suggests the file that was meant by a path that does not exist.
@@ -227,6 +251,16 @@ mod tests {
         assert_eq!(line("a.b.c.d"), Some(7));
         assert_eq!(line("a.b.e"), Some(6));
         assert_eq!(line("nothing"), None);
+    }
+
+    #[test]
+    fn a_key_with_dots_is_found_in_quotes() {
+        let text = "[panel.\"simon.back\"]\ngrain = 3\nfold = [\n1,\n2]";
+        let document = Document::new("a.toml", text);
+        let line = |key: &str| document.at(key, "").line;
+        assert_eq!(line("panel.\"simon.back\".grain"), Some(2));
+        assert_eq!(line("panel.\"simon.back\".fold[1]"), Some(5));
+        assert_eq!(line("panel.\"simon.back\""), Some(1));
     }
 
     #[test]
