@@ -154,7 +154,7 @@ impl Bonds {
             }
             return;
         };
-        breen.stiffness(positions, definite, &mut |[a, b], block| {
+        breen.add_stiffness(positions, definite, &mut |[a, b], block| {
             let (row, column) = (a as usize, b as usize);
             match matrix.sparsity().slot(row, column) {
                 Some(slot) => matrix.add_block(slot, block),
