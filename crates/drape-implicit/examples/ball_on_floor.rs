@@ -103,7 +103,10 @@ fn main() -> Result<(), Error> {
         assert!(state.positions[1] > 0.0, "the ball is below the floor");
     }
     let height = state.positions[1];
-    println!("the ball hit the floor at {fastest:.2} m/s and rests {:.4} mm above it", 1e3 * height);
+    println!(
+        "the ball hit the floor at {fastest:.2} m/s and rests {:.4} mm above it",
+        1e3 * height
+    );
     assert!((barrier(height)[1] + WEIGHT).abs() < 1e-3 * WEIGHT, "the floor carries its weight");
     Ok(())
 }

@@ -132,7 +132,9 @@ fn main() -> Result<(), Error> {
     let a = catenary(LENGTH, SPAN);
     let expected = a * ((0.5 * SPAN / a).cosh() - 1.0);
     let sag = -state.positions[3 * (LINKS / 2) + 1];
-    println!("sag of the chain {sag:.5} m, of the catenary {expected:.5} m; {iterations} iterations");
+    println!(
+        "sag of the chain {sag:.5} m, of the catenary {expected:.5} m; {iterations} iterations"
+    );
     assert!((sag / expected - 1.0).abs() < 1e-3);
     Ok(())
 }

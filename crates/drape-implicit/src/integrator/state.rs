@@ -100,11 +100,7 @@ impl IntegratorState {
 }
 
 /// Checks that a list has the length that the number of particles asks for.
-pub(crate) fn check_length(
-    name: &'static str,
-    expected: usize,
-    found: usize,
-) -> Result<(), Error> {
+pub(crate) fn check_length(name: &'static str, expected: usize, found: usize) -> Result<(), Error> {
     if expected == found { Ok(()) } else { Err(Error::Dimension { name, expected, found }) }
 }
 

@@ -270,7 +270,8 @@ fn a_step_may_end_when_little_energy_is_left_to_gain() {
     };
     let (solved, _) = relax(&settings);
     for fraction in [1e-3, 1e-2] {
-        let (iterations, left) = relax(&Settings { energy_tolerance: fraction, ..settings.clone() });
+        let (iterations, left) =
+            relax(&Settings { energy_tolerance: fraction, ..settings.clone() });
         println!("{fraction:e}: {iterations} of {solved} iterations, {left:e} left");
         assert!(iterations < solved, "{iterations} of {solved} iterations");
         assert!(left <= fraction, "{left:e} of the kinetic energy is left at {fraction:e}");

@@ -79,7 +79,11 @@ impl System for Floor {
     fn potential(&mut self, positions: &[f64]) -> f64 {
         let gap = self.gap(positions);
         let barrier = if gap < ACTIVATION_DISTANCE {
-            STIFFNESS * ACTIVATION_DISTANCE * (gap - ACTIVATION_DISTANCE - ACTIVATION_DISTANCE * (gap / ACTIVATION_DISTANCE).ln())
+            STIFFNESS
+                * ACTIVATION_DISTANCE
+                * (gap
+                    - ACTIVATION_DISTANCE
+                    - ACTIVATION_DISTANCE * (gap / ACTIVATION_DISTANCE).ln())
         } else {
             0.0
         };
@@ -88,7 +92,11 @@ impl System for Floor {
 
     fn stiffness(&mut self, positions: &[f64], _: Stiffness, matrix: &mut BlockMatrix) {
         let gap = self.gap(positions);
-        matrix.values_mut()[4] = if gap < ACTIVATION_DISTANCE { STIFFNESS * (ACTIVATION_DISTANCE / gap).powi(2) } else { 0.0 };
+        matrix.values_mut()[4] = if gap < ACTIVATION_DISTANCE {
+            STIFFNESS * (ACTIVATION_DISTANCE / gap).powi(2)
+        } else {
+            0.0
+        };
     }
 
     fn sparsity(&self) -> Sparsity {
