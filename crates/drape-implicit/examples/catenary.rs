@@ -23,11 +23,16 @@ struct Chain {
     held: Vec<bool>,
 }
 
-/// Unit vector along a link and its length.
-fn link(x: &[f64], i: usize) -> ([f64; 3], f64) {
+struct Link {
+    direction: [f64; 3],
+    length: f64,
+}
+
+/// Link from a particle to the next.
+fn link(x: &[f64], i: usize) -> Link {
     let d = [0, 1, 2].map(|k| x[3 * (i + 1) + k] - x[3 * i + k]);
     let length = d.iter().map(|d| d * d).sum::<f64>().sqrt();
-    (d.map(|d| d / length), length)
+    Link { direction: d.map(|d| d / length), length }
 }
 
 impl System for Chain {
@@ -52,7 +57,7 @@ impl System for Chain {
             force.copy_from_slice(&[0.0, -MASS * GRAVITY, 0.0]);
         }
         for i in 0..LINKS {
-            let (direction, length) = link(x, i);
+            let Link { direction, length } = link(x, i);
             for k in 0..3 {
                 let tension = STIFFNESS * (length - LENGTH / LINKS as f64) * direction[k];
                 forces[3 * i + k] += tension;
@@ -63,13 +68,13 @@ impl System for Chain {
 
     fn potential(&mut self, x: &[f64]) -> f64 {
         let weight: f64 = x.chunks_exact(3).map(|x| MASS * GRAVITY * x[1]).sum();
-        let stretch = |i| link(x, i).1 - LENGTH / LINKS as f64;
+        let stretch = |i| link(x, i).length - LENGTH / LINKS as f64;
         weight + (0..LINKS).map(|i| 0.5 * STIFFNESS * stretch(i).powi(2)).sum::<f64>()
     }
 
     fn stiffness(&mut self, x: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
         for i in 0..LINKS {
-            let (n, length) = link(x, i);
+            let Link { direction: n, length } = link(x, i);
             // A compressed link is unstable across its direction.
             let across = 1.0 - LENGTH / LINKS as f64 / length;
             let across = if kind == Stiffness::Definite { across.max(0.0) } else { across };

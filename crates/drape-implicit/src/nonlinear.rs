@@ -1,7 +1,7 @@
 //! Nonlinear solver: the equations of one sub-step, as the minimum of an energy.
 //!
 //! With `$d = x - \tilde x$` the deviation from free flight, the end positions are where the
-//! *incremental energy* is stationary \[BW98, Li20\]:
+//! *incremental energy* is stationary \[BW98\] \[Li20\]:
 //!
 //! ```math
 //! E(d) = \tfrac12\, d^T \frac{M}{(\beta\,\mathrm{dt})^2}\, d + V(\tilde x + d), \qquad

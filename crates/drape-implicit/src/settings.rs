@@ -91,9 +91,9 @@ pub struct Settings {
     /// only the tolerance.
     ///
     /// A step has also converged when a Newton step predicted a decrease of the energy, half its
-    /// decrement `−pᵀφ`, of at most that, and has left a residual of at most a hundred times what
-    /// `tolerance` asks for. The rest then changes the positions little, however stiff the forces
-    /// that are left unbalanced. For motion that goes on from there, not for its end.
+    /// decrement `−pᵀφ`, of at most that, and has left a residual of at most a hundred times the
+    /// tolerance. The rest then changes the positions little, however stiff the forces that are
+    /// left unbalanced. For motion that goes on from there, not for its end.
     pub energy_tolerance: f64,
     /// Acceleration that the tolerance refers to, in m/s². Default 9.81, that of gravity; a system
     /// without weight sets the one that matters to it.

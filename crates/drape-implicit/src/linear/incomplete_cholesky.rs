@@ -1,18 +1,18 @@
 //! Incomplete Cholesky factor without fill, in 3x3 blocks: the preconditioner of conjugate
 //! gradients.
 //!
-//! The factor `$U^T D\,U$` has `$U$` unit upper triangular on the matrix's own sparsity. It is
-//! found by elimination, row by row in the order of the level schedule:
+//! The factor `$U^T D\,U$` has `$U$` unit upper triangular on the matrix's own sparsity \[MV77\].
+//! It is found by elimination, row by row in the order of the level schedule:
 //!
 //! ```math
 //! D_i = S_{ii}, \qquad U_{ij} = D_i^{-1} S_{ij}, \qquad
 //! S_{jk} \leftarrow S_{jk} - S_{ij}^T\, U_{ik}
 //! ```
 //!
-//! `$S$` begins as the matrix and ends empty; what is left of it on the way is the [Schur
-//! complement](schur_complement). Updates outside the sparsity are [dropped](dropped_fill) and made
-//! up for on the diagonal. Pivots may collapse all the same: the [elimination] is then tried again
-//! with a larger shift. A finished [factor] is applied by two triangular solves.
+//! `$S$` begins as the matrix; in between it is the [Schur complement](schur_complement) of the rows
+//! eliminated. Updates outside the sparsity are [dropped](dropped_fill) and compensated on the
+//! diagonal. Pivots may collapse all the same: the [elimination] is then tried again with a larger
+//! shift. A finished [factor] is applied by two triangular solves.
 
 pub(crate) mod dropped_fill;
 pub(crate) mod elimination;

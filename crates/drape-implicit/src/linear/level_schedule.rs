@@ -8,6 +8,8 @@
 //! \mathrm{level}(j) = 1 + \max_{i < j,\ a_{ij} \neq 0} \mathrm{level}(i)
 //! ```
 //!
+//! or 0 without such a neighbour.
+//!
 //! The rows of a level are taken in *batches* of eight, one row per lane. On a lattice the
 //! neighbours of a batch are batches again, at the same few distances all along a level: the
 //! *diagonals* of a *run* of batches. A block on no diagonal, such as those along an outline, is an

@@ -91,7 +91,7 @@ fn textbook_broyden_does_not_converge_on_a_stiff_system_that_the_default_solves(
 }
 
 #[test]
-fn broyden_needs_fewer_tangents_than_newton() {
+fn broyden_needs_fewer_matrices_than_newton() {
     let count = |method| {
         let (_, reports) = swing(
             12,

@@ -164,7 +164,7 @@ fn a_bullet_does_not_pass_a_floor_thinner_than_its_step() {
 }
 
 #[test]
-fn what_goes_on_does_not_look_back_unless_something_is_in_its_way() {
+fn a_step_begins_at_its_prediction_if_asked_to_and_nothing_limits_it() {
     let evaluations = |height: f64, begin_at_prediction: bool| {
         let mut floor = Floor::new(0.0);
         let mut stepper =
@@ -180,7 +180,7 @@ fn what_goes_on_does_not_look_back_unless_something_is_in_its_way() {
 }
 
 #[test]
-fn a_floor_that_rises_by_many_times_its_reach_carries_the_particle() {
+fn a_floor_that_rises_by_many_times_its_activation_distance_carries_the_particle() {
     let mut floor = Floor::new(1.0);
     let mut stepper = Stepper::new(&floor, settings()).unwrap();
     let mut state = falling(ACTIVATION_DISTANCE, 0.0);

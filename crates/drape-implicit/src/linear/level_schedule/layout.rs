@@ -271,7 +271,7 @@ mod tests {
     use crate::linear::level_schedule::sample::{rimmed, weave};
 
     #[test]
-    fn what_surrounds_a_lattice_does_not_widen_its_runs() {
+    fn the_surroundings_of_a_lattice_do_not_widen_its_runs() {
         let layout = BatchLayout::new(&rimmed(40));
         assert!(layout.max_diagonals <= 6, "{} diagonals in a run", layout.max_diagonals);
         // Each link has three blocks.
