@@ -21,7 +21,6 @@ const LEFT: &[&str] = &[
     "drape-cloth",
     "drape-collide",
     "drape-dynamics",
-    "drape-implicit",
     "drape-pattern",
     "drape-report",
     "drape-scene",
