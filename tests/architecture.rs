@@ -23,7 +23,6 @@ const LEFT: &[&str] = &[
     "drape-dynamics",
     "drape-fabric",
     "drape-hysteresis",
-    "drape-implicit",
     "drape-pattern",
     "drape-report",
     "drape-scene",
