@@ -16,7 +16,6 @@ use std::path::PathBuf;
 /// assert_eq!(mistake.to_string(), "curve.csv:7: the force is empty\n  help: fill it in");
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[must_use]
 pub struct Diagnostic {
     /// File that was read.
     pub file: PathBuf,
@@ -34,6 +33,7 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// Creates a mistake that concerns a whole file.
+    #[must_use]
     pub fn new(file: impl Into<PathBuf>, message: impl Into<String>) -> Self {
         Self {
             file: file.into(),
@@ -46,12 +46,14 @@ impl Diagnostic {
     }
 
     /// Adds the remedy.
+    #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
     /// Adds the line, from 1.
+    #[must_use]
     pub fn on_line(mut self, line: usize) -> Self {
         self.line = Some(line);
         self

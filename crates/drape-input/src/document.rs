@@ -113,6 +113,7 @@ impl Document {
     ///
     /// A key with dots in it is quoted, as in TOML: `panel."simon.back".grain`. If the value is not in
     /// the text, the innermost table that is gives the place.
+    #[must_use]
     pub fn at(&self, key: &str, message: impl Into<String>) -> Diagnostic {
         let message = format!("{key}: {}", message.into());
         self.locate(self.find(key), message)

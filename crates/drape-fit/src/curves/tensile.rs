@@ -21,8 +21,8 @@ use crate::settings::Settings;
 /// Where the last cycle goes further than those before it, a law is selected only if it also
 /// predicts that cycle better than the laws of higher preference
 /// ([`predict_last_cycle`](fn@crate::curves::prediction::predict_last_cycle)): a toe that moves
-/// fits any two cycles better, because it makes up for a line that is too straight, and may then
-/// miss the third by more.
+/// fits any two cycles better, because it compensates for the constant stiffness of the line, and
+/// may then miss the third by more.
 ///
 /// # Errors
 /// The curve is of another test, has no load, or does not rise.

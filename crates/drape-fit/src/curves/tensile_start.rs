@@ -166,7 +166,7 @@ impl InitialGuess {
                 backbone.push(growth);
             }
             let plateau = c.get(2).copied().unwrap_or(0.0);
-            (stiffness > 0.0).then(|| Start { residual_sum, backbone, plateau, length })
+            (stiffness > 0.0).then_some(Start { residual_sum, backbone, plateau, length })
         };
         let pairs = TOES.iter().flat_map(|&toe| growths.iter().map(move |&growth| (toe, growth)));
         pairs.filter_map(|(toe, growth)| start(toe, growth)).collect()
