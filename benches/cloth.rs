@@ -1,5 +1,5 @@
-//! The cloth's kernels, each against the connectors one by one through the scalar laws in the same
-//! run. Everything is per call; the element of the throughput is a particle.
+//! Kernels of the cloth, each against the connectors one by one through the scalar laws in the same
+//! run. Times are per call; the element of the throughput is a particle.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -18,7 +18,7 @@ use rayon::ThreadPoolBuilder;
 /// Particles along a side of the square sheet.
 const SIDES: [usize; 6] = [20, 50, 70, 100, 141, 200];
 
-/// A 200 g/m² fabric with friction in every law, each of one element.
+/// Returns a fabric of 200 g/m² with friction in every law, each of one element.
 fn fabric() -> Fabric {
     let direction = |rigidity: f64| YarnLaws {
         traction: TractionLaw {
@@ -56,7 +56,7 @@ fn fabric() -> Fabric {
     }
 }
 
-/// A square metre that hangs in folds, after two steps, with the next step's shape as the trial.
+/// A square metre that hangs in folds, after two steps, with the shape of the next step as trial.
 struct Sheet {
     cloth: Cloth,
     state: State,
@@ -98,7 +98,7 @@ impl Sheet {
         self.cloth.trial(&self.state, &self.trial)
     }
 
-    /// Room for as many threads as asked for.
+    /// Returns a workspace for a number of threads.
     fn workspace(&self, threads: usize) -> Workspace {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads start").install(|| self.cloth.workspace())
@@ -107,7 +107,8 @@ impl Sheet {
 
 type Group<'a> = BenchmarkGroup<'a, WallTime>;
 
-/// One kernel at every size: on the grid with one thread and with all, and connector by connector.
+/// Benches one kernel at every size: on the grid with one thread and with all, and connector by
+/// connector.
 fn compare(
     criterion: &mut Criterion,
     name: &str,
@@ -194,7 +195,7 @@ fn stiffness(criterion: &mut Criterion) {
     );
 }
 
-/// There and back: two steps per call.
+/// Benches commits there and back: two steps per call.
 fn commit(criterion: &mut Criterion) {
     compare(
         criterion,

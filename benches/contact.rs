@@ -1,5 +1,5 @@
-//! ParticleContact between surfaces: finding near pairs, their energies, the filter of steps and the exact
-//! test, of a flat sheet and of one that hangs in folds over a ball.
+//! Contact of surfaces: detection of near pairs, their energies, the step filter and the exact
+//! intersection test, for a flat sheet and for one that hangs in folds over a ball.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -16,10 +16,11 @@ const SIDES: [usize; 3] = [50, 100, 200];
 
 const SPACING: f64 = 5e-3;
 
-/// Half of a cloth of 0.6 mm, and of what is left of it under load.
-const SKIN: ContactDistances = ContactDistances { activation_distance: 3e-4, min_separation: 1e-4 };
+/// Half the thickness of a cloth of 0.6 mm, and half of its thickness under load.
+const DISTANCES: ContactDistances =
+    ContactDistances { activation_distance: 3e-4, min_separation: 1e-4 };
 
-/// How much farther than the activation_distance pairs are found, in m.
+/// Distance beyond the activation distance within which pairs are detected, in m.
 const MARGIN: f64 = 6e-4;
 
 struct Sheet {
@@ -28,7 +29,7 @@ struct Sheet {
 }
 
 impl Sheet {
-    /// A sheet, and the ball of a third of its width under it if it is draped.
+    /// Returns a sheet, with a ball of 0.4 of its width under it if it is draped.
     fn new(side: usize, draped: bool) -> Sheet {
         let half = 0.5 * SPACING * (side - 1) as f64;
         let vertices = side * side;
@@ -38,7 +39,7 @@ impl Sheet {
             triangles: grid(side),
             areas: vec![SPACING * SPACING; vertices],
             groups: vec![0; vertices],
-            distances: vec![SKIN; 2],
+            distances: vec![DISTANCES; 2],
             free_vertices: vertices,
             seam_pairs: Vec::new(),
             ties: Vec::new(),
@@ -46,7 +47,7 @@ impl Sheet {
         let mut positions = parts.rest_positions.clone();
         if draped {
             let radius = 0.4 * half;
-            // The facets of a ball lie inside it, so the cloth is just out of touch.
+            // The facets of a ball lie inside it, so the cloth is just out of contact.
             let over = radius + 3e-4;
             positions = (0..vertices).flat_map(|v| drape(place(v), over)).collect();
             let ball = Body::new("ball", Shape::Sphere { radius }, Pose::default());
@@ -61,15 +62,15 @@ impl Sheet {
         Sheet { surface: Surface::new(parts).expect("a surface"), positions }
     }
 
-    /// A way of some tenths of a millimetre of each cloth vertex, up and down.
-    fn way(&self) -> Vec<f64> {
+    /// Returns displacements of some tenths of a millimetre of each cloth vertex, up and down.
+    fn displacements(&self) -> Vec<f64> {
         let free = 3 * self.surface.free_count();
         let ripple = |(k, x): (usize, &f64)| if k < free { 3e-4 * (900.0 * x).sin() } else { 0.0 };
         self.positions.iter().enumerate().map(ripple).collect()
     }
 }
 
-/// Two triangles per cell, with alternating diagonals.
+/// Returns two triangles per cell, with alternating diagonals.
 fn grid(side: usize) -> Vec<[u32; 3]> {
     let mut triangles = Vec::new();
     for cell in 0..side * (side - 1) {
@@ -83,16 +84,16 @@ fn grid(side: usize) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// Over a ball to its equator, and from there down in folds whose depth grows.
+/// Drapes a point over a ball to its equator, and from there down in folds whose depth grows.
 fn drape([u, v]: [f64; 2], radius: f64) -> [f64; 3] {
-    let (way, turn) = ((u * u + v * v).sqrt(), v.atan2(u));
-    let lean = (way / radius).min(std::f64::consts::FRAC_PI_2);
-    let below = way - radius * lean;
-    let out = radius * lean.sin() + 0.25 * below * (1.0 + (10.0 * turn).cos());
-    [out * turn.cos(), radius * lean.cos() - below, out * turn.sin()]
+    let (length, azimuth) = ((u * u + v * v).sqrt(), v.atan2(u));
+    let polar = (length / radius).min(std::f64::consts::FRAC_PI_2);
+    let below = length - radius * polar;
+    let out = radius * polar.sin() + 0.25 * below * (1.0 + (10.0 * azimuth).cos());
+    [out * azimuth.cos(), radius * polar.cos() - below, out * azimuth.sin()]
 }
 
-/// One thread and all.
+/// Returns a pool of one thread and one of all.
 fn pools() -> [(&'static str, ThreadPool); 2] {
     let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     [("one thread", pool(1)), ("all threads", pool(0))]
@@ -118,7 +119,7 @@ fn contact(criterion: &mut Criterion) {
                     };
                     pool.install(|| bencher.iter(detect));
                 });
-                group.bench_function(id("crossings"), |bencher| {
+                group.bench_function(id("intersections"), |bencher| {
                     let test =
                         || black_box(intersections(surface, positions).expect("a test").len());
                     pool.install(|| bencher.iter(test));
@@ -136,12 +137,12 @@ fn pairs(criterion: &mut Criterion) {
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_millis(1000));
     let sheet = Sheet::new(200, true);
-    let (positions, way) = (&sheet.positions, sheet.way());
+    let (positions, displacements) = (&sheet.positions, sheet.displacements());
     let mut detector = Detector::default();
     let pairs = detector.detect(&sheet.surface, positions, MARGIN).expect("near pairs");
     let list = pairs.as_slice();
     group.throughput(Throughput::Elements(list.len() as u64));
-    // The baseline of all others: no work on a pair can do without its distance.
+    // The baseline of all others: every other computation of a pair needs its distance.
     group.bench_function("distance", |bencher| {
         bencher.iter(|| list.iter().map(|pair| pair.distance_at(positions)).sum::<f64>());
     });
@@ -155,14 +156,17 @@ fn pairs(criterion: &mut Criterion) {
     });
     let mut filter = CcdFilter::default();
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
-    group.bench_function("scalar filter", |bencher| {
-        let mut share = || filter.common_fraction(pairs, positions, &way).expect("a share").value;
-        pool.install(|| bencher.iter(&mut share));
+    group.bench_function("common fraction", |bencher| {
+        let mut fraction = || {
+            let fraction = filter.common_fraction(pairs, positions, &displacements);
+            fraction.expect("a fraction").value
+        };
+        pool.install(|| bencher.iter(&mut fraction));
     });
-    group.bench_function("truncating filter", |bencher| {
+    group.bench_function("truncation", |bencher| {
         let mut truncate = || {
-            let mut way = way.clone();
-            filter.truncate(pairs, positions, &mut way).expect("a truncation").shortened
+            let mut shortened = displacements.clone();
+            filter.truncate(pairs, positions, &mut shortened).expect("a truncation").shortened
         };
         pool.install(|| bencher.iter(&mut truncate));
     });

@@ -1,5 +1,5 @@
-//! Identification of whole fabrics. Times are the processor's, over all threads, because that is what a
-//! batch costs.
+//! Identification of whole fabrics. Times are processor times over all threads, which is the cost
+//! of a batch.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -51,10 +51,11 @@ impl Measurement for Processor {
     }
 }
 
-/// Uniform deviates that are the same on every machine (SplitMix64).
+/// Random numbers, the same on every machine (SplitMix64).
 struct Random(u64);
 
 impl Random {
+    /// Returns a uniform deviate from 0 to 1.
     fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -63,24 +64,28 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// A normal deviate, by Box and Muller's method.
+    /// Returns a normal deviate, by Box and Muller's method.
     fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
         radius * (std::f64::consts::TAU * self.unit()).cos()
     }
 }
 
-/// The noisy curve of a law through turning points, with [`POINTS`] points in even steps.
-fn curve(
-    (test, direction): (Test, Direction),
-    law: &impl Law,
-    turns: &[f64],
-    random: &mut Random,
-) -> Curve {
-    let way: f64 = turns.windows(2).map(|ends| (ends[1] - ends[0]).abs()).sum();
-    let mut q = vec![turns[0]];
-    for ends in turns.windows(2) {
-        let part = (ends[1] - ends[0]).abs() / way;
+/// A test of a specimen.
+struct Protocol<'a> {
+    test: Test,
+    direction: Direction,
+    /// Deformations at which the test begins, reverses and ends.
+    reversals: &'a [f64],
+}
+
+/// Returns the noisy curve of a law in a test, with [`POINTS`] points in even steps.
+fn curve(protocol: &Protocol<'_>, law: &impl Law, random: &mut Random) -> Curve {
+    let &Protocol { test, direction, reversals } = protocol;
+    let length: f64 = reversals.windows(2).map(|ends| (ends[1] - ends[0]).abs()).sum();
+    let mut q = vec![reversals[0]];
+    for ends in reversals.windows(2) {
+        let part = (ends[1] - ends[0]).abs() / length;
         let steps = (part * (POINTS - 1) as f64).round();
         q.extend((1..=steps as usize).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / steps));
     }
@@ -92,7 +97,7 @@ fn curve(
     Curve::new(test, direction, q, load).expect("a curve of a law")
 }
 
-/// Tensile, shear and bending curves of a shirting, warp and weft.
+/// Returns tensile, shear and bending curves of a shirting, warp and weft.
 fn sheet(seed: u64) -> Sheet {
     let mut random = Random(seed);
     let mut sheet = Sheet::default();
@@ -120,17 +125,20 @@ fn sheet(seed: u64) -> Sheet {
             rest_curvature: 0.0,
             friction: BlimanSorine::first_order(3e-4, 9.0),
         };
-        let pull = [0.0, 0.05, 0.0];
-        sheet.curves.push(curve((Test::Tensile, direction), &traction, &pull, &mut random));
-        let turns = [0.0, 8.0, -8.0, 0.0].map(f64::to_radians);
-        sheet.curves.push(curve((Test::Shear, direction), &shear, &turns, &mut random));
-        let turns = [0.0, 250.0, -250.0, 0.0];
-        sheet.curves.push(curve((Test::Bending, direction), &bending, &turns, &mut random));
+        let reversals = &[0.0, 0.05, 0.0];
+        let tensile = Protocol { test: Test::Tensile, direction, reversals };
+        sheet.curves.push(curve(&tensile, &traction, &mut random));
+        let reversals = &[0.0, 8.0, -8.0, 0.0].map(f64::to_radians);
+        let shearing = Protocol { test: Test::Shear, direction, reversals };
+        sheet.curves.push(curve(&shearing, &shear, &mut random));
+        let reversals = &[0.0, 250.0, -250.0, 0.0];
+        let bends = Protocol { test: Test::Bending, direction, reversals };
+        sheet.curves.push(curve(&bends, &bending, &mut random));
     }
     sheet
 }
 
-/// One law for each test: no choice.
+/// Returns settings with one law for each test, so that none is chosen.
 fn given() -> Settings {
     Settings {
         traction: Some(TractionModel::Primed),
@@ -148,10 +156,10 @@ fn fits(criterion: &mut Criterion<Processor>) {
     group.sample_size(20).measurement_time(Duration::from_secs(3));
     group.throughput(Throughput::Elements(1));
     for (name, settings) in [("laws chosen", Settings::default()), ("laws given", given())] {
-        let mut turn = sheets.iter().cycle();
+        let mut cycle = sheets.iter().cycle();
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
-                let sheet = turn.next().expect("a cycle has no end");
+                let sheet = cycle.next().expect("a cycle has no end");
                 identify_with(black_box(sheet), &settings).expect("identified")
             });
         });

@@ -1,5 +1,6 @@
-//! Steps of a square metre that swings, hung from two corners, by the solver of the scenes and by the named
-//! baselines. A figure is one step, the mean of a few in the middle of the first swing, on one thread.
+//! Steps of a square metre that swings, hung from two corners, by the solver of the scenes and by
+//! named baselines. A figure is the mean of a few steps in the middle of the first swing, on one
+//! thread.
 
 use std::fs::write;
 use std::time::{Duration, Instant};
@@ -14,23 +15,25 @@ use drape_scene::Scene;
 /// Particles along a side of the square sheet.
 const SIDES: [usize; 6] = [20, 50, 70, 100, 141, 200];
 
-/// Largest sheet that is solved by factorisation too: beyond, a sample takes minutes.
+/// Side of the largest sheet that is solved by factorisation too: a larger one takes minutes.
 const LARGEST_FACTORISED: usize = 100;
 
-/// Time of motion before the steps that count, s: the sheet has begun to fold.
+/// Time at which the measured steps begin, in s: the sheet has begun to fold.
 const START: f64 = 0.15;
 
-/// Steps that count.
+/// Number of measured steps.
 const STEPS: u32 = 4;
 
-/// Length of a step, s.
+/// Length of a step, in s.
 const STEP: f64 = 0.005;
 
-/// The length that textbook Broyden converges with, s, and the sheet that it does so for.
+/// Length of a step with which textbook Broyden converges, in s.
 const SHORT_STEP: f64 = 0.001;
+
+/// Side of the sheet for which it does.
 const SMALL_SIDE: usize = 20;
 
-/// The default method and those it is compared with.
+/// Returns the default method and its baselines.
 fn methods() -> [(&'static str, Settings); 3] {
     let newton = Settings { method: Method::Newton, ..Settings::default() };
     let factorised = Settings { linear_solver: LinearSolver::Cholesky, ..newton.clone() };
@@ -42,7 +45,7 @@ fn textbook(initial: InitialMatrix) -> Settings {
     Settings { method: Method::Textbook { initial }, max_iterations, ..Settings::default() }
 }
 
-/// The sheet when the steps begin that count.
+/// Returns the sheet at the beginning of the measured steps.
 fn sheet(side: usize, step: f64, settings: &Settings) -> Simulation {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let fabric = r#"
@@ -95,7 +98,7 @@ fn sheet(side: usize, step: f64, settings: &Settings) -> Simulation {
     sheet
 }
 
-/// Time of one step, times a number.
+/// Returns the time of one step, times a number.
 fn time(count: u64, mut sheet: Simulation) -> Duration {
     let start = Instant::now();
     for _ in 0..STEPS {

@@ -1,4 +1,4 @@
-//! Wrong input is answered with one clear error, exit code 3, and nothing is written.
+//! Wrong input: one clear error, exit code 3, and nothing is written.
 
 use std::path::Path;
 use std::process::Output;
@@ -36,7 +36,7 @@ load = { column = "moment", unit = "gf.cm/cm" }
 
 const CURVE: &str = "curvature,moment\n0,0\n1,0.2\n2,0.32\n1,0.1\n0,-0.06\n-2,-0.32\n0,0.06\n";
 
-/// A folder with a scene, its fabric, a sheet and its curve.
+/// Returns a folder with a scene, its fabric, a sheet and its curve.
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let files = [
@@ -56,9 +56,10 @@ fn drape(folder: &Path, arguments: &[&str]) -> Output {
     command.current_dir(folder).args(arguments).output().expect("it runs")
 }
 
-/// Changes one file, runs a command and returns what it says; it must exit with 3, report one error
-/// with the given words, and write nothing.
-fn mistake(file: &str, (good, bad): (&str, &str), arguments: &[&str], words: &[&str]) {
+/// Changes one file and runs a command, which must exit with 3, report one error with the given
+/// words, and write nothing.
+fn mistake(file: &str, change: (&str, &str), arguments: &[&str], words: &[&str]) {
+    let (good, bad) = change;
     let folder = folder();
     let path = folder.path().join(file);
     let text = std::fs::read_to_string(&path).expect("reads");

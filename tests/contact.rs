@@ -1,5 +1,5 @@
-//! The shipped scenes of contact: no surface ever passes through another, from several starts and for any number of
-//! threads, and what was written says so to a program that shares no code with the run.
+//! Shipped scenes of contact: no surface ever passes through another, from several starts and for
+//! any number of threads, as a program finds in the frames that shares no code with the run.
 
 #![allow(clippy::print_stdout, reason = "studies print their figures")]
 
@@ -16,8 +16,8 @@ fn drape() -> Command {
     Command::cargo_bin("drape").expect("the binary is built")
 }
 
-/// A scene with another start, in a folder of its own: each particle is moved at random by up to a tenth of a
-/// millimetre.
+/// Writes a scene with another start into a folder: each particle is moved at random by up to a
+/// tenth of a millimetre.
 fn jittered(name: &str, seed: u64, folder: &Path) -> PathBuf {
     let scenes = root().join("scenes");
     let text = std::fs::read_to_string(scenes.join(name).with_extension("toml")).expect("a scene");
@@ -45,8 +45,9 @@ fn jittered(name: &str, seed: u64, folder: &Path) -> PathBuf {
     path
 }
 
-/// Runs a scene from a start, and holds it to what surfaces promise. Returns what it ends in, with its times.
-fn keeps_apart(name: &str, seed: u64, (until, threads): (f64, usize)) -> Value {
+/// Runs a scene from a start to a time, in s, tests that its surfaces never intersect, and returns
+/// its summary.
+fn keeps_apart(name: &str, seed: u64, until: f64, threads: usize) -> Value {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = jittered(name, seed, folder.path());
     let settles = std::fs::read_to_string(&scene).expect("a scene").contains("[settle]");
@@ -58,13 +59,13 @@ fn keeps_apart(name: &str, seed: u64, (until, threads): (f64, usize)) -> Value {
     let said = String::from_utf8_lossy(&result.stderr);
     let summary: Value = serde_json::from_slice(&result.stdout)
         .unwrap_or_else(|_| panic!("{name}, start {seed}: {said}"));
-    // Cut short, a scene that should come to rest has not.
+    // A scene that should come to rest has not if it ends early.
     let code = result.status.code();
     assert!(code == Some(0) || code == Some(5), "{name}, start {seed}: {code:?}, {said}");
     let contact = &summary["contact"];
     assert_eq!(contact["intersections"], 0, "{name}, start {seed}");
     assert_eq!(contact["crossings_found"], 0, "{name}, start {seed}");
-    // What creeps to rest is held to its residual there, and on the way to the energy that is left to gain.
+    // Relaxation has to meet its residual at rest only, and before that the energy left to gain.
     let (tolerance, share) = if settles { (1.0, 3e-3) } else { (1e-4, 0.0) };
     let solver = &summary["solver"];
     let [residual, left] =
@@ -81,10 +82,10 @@ fn keeps_apart(name: &str, seed: u64, (until, threads): (f64, usize)) -> Value {
     summary
 }
 
-/// Five starts, each with one and with two threads.
+/// Runs a scene from five starts, each with one and with two threads.
 fn keeps_apart_from_all_starts(name: &str, until: f64) {
     for seed in 1..=5 {
-        let ends = [1, 2].map(|threads| keeps_apart(name, seed, (until, threads)));
+        let ends = [1, 2].map(|threads| keeps_apart(name, seed, until, threads));
         assert_eq!(ends[0]["state_hash"], ends[1]["state_hash"], "{name}, start {seed}");
         let [one, _] = &ends;
         println!(
@@ -100,13 +101,21 @@ fn keeps_apart_from_all_starts(name: &str, until: f64) {
 
 #[test]
 fn cloth_between_balls_and_on_needles_is_kept_apart() {
-    keeps_apart("needles", 1, (0.4, 2));
-    keeps_apart("pinch", 1, (1.0, 2));
+    keeps_apart("needles", 1, 0.4, 2);
+    keeps_apart("pinch", 1, 1.0, 2);
 }
 
-/// How `pinch.toml` goes where the balls come nearer by so much, in m, with what the scene says of that: the exit code,
-/// the summary, and whether its frames hold.
-fn pinched(policy: &str, shift: &str, threads: usize) -> (Option<i32>, Value, bool) {
+/// End of a run of `pinch.toml`.
+struct Pinched {
+    code: Option<i32>,
+    summary: Value,
+    /// Whether `drape check` passes its frames.
+    holds: bool,
+}
+
+/// Runs `pinch.toml` with a policy (`contact.pinch`) and with balls that approach by a distance, in
+/// m.
+fn pinched(policy: &str, shift: &str, threads: usize) -> Pinched {
     let folder = tempfile::tempdir().expect("a folder");
     let path = jittered("pinch", 1, folder.path());
     let text = std::fs::read_to_string(&path).expect("a scene").replace("0.0197", shift);
@@ -120,13 +129,14 @@ fn pinched(policy: &str, shift: &str, threads: usize) -> (Option<i32>, Value, bo
     let result = command.args(["--threads", &threads.to_string()]).output().expect("it runs");
     let summary = serde_json::from_slice(&result.stdout).expect("a summary");
     let checked = drape().arg("check").arg(&output).output().expect("it runs");
-    (result.status.code(), summary, checked.status.success())
+    Pinched { code: result.status.code(), summary, holds: checked.status.success() }
 }
 
 #[test]
 fn cloth_that_bodies_close_on_ends_the_run_or_is_thinned_or_released() {
-    // The balls leave 0.2 mm and what their triangles lack to the full round; cloth keeps 0.17 mm from each.
-    let (code, summary, holds) = pinched("error", "0.0199", 2);
+    // The balls leave 0.2 mm and the gap between their triangles and the sphere; the minimum
+    // separation is 0.17 mm from each.
+    let Pinched { code, summary, holds } = pinched("error", "0.0199", 2);
     assert_eq!((code, holds), (Some(5), true), "{summary}");
     assert_eq!(summary["status"], "solver failed");
     let counts = |summary: &Value| {
@@ -136,38 +146,38 @@ fn cloth_that_bodies_close_on_ends_the_run_or_is_thinned_or_released() {
     assert_eq!(counts(&summary), [0; 4]);
 
     let ends = [1, 2].map(|threads| pinched("thin", "0.0199", threads));
-    let [(code, summary, holds), (_, other, _)] = &ends;
+    let [Pinched { code, summary, holds }, Pinched { summary: other, .. }] = &ends;
     assert_eq!((*code, *holds), (Some(0), true), "{summary}");
     let [thinned, rest @ ..] = counts(summary);
     assert!((1..50).contains(&thinned) && rest == [0; 3], "{summary}");
     let nearest = summary["contact"]["min_distance"].as_f64().expect("a distance");
     assert!(
         nearest > 1.7e-5 && nearest < 1.7e-4,
-        "{nearest} m, less than elsewhere and more than a tenth"
+        "{nearest} m, less than elsewhere and more than a tenth of that"
     );
     assert_eq!(summary["state_hash"], other["state_hash"]);
 
-    // Through each other the balls leave no room at all.
-    assert_eq!(pinched("thin", "0.0203", 2).0, Some(5));
+    // Balls that intersect leave no room at all.
+    assert_eq!(pinched("thin", "0.0203", 2).code, Some(5));
     let ends = [1, 2].map(|threads| pinched("release", "0.0203", threads));
-    let [(code, summary, holds), (_, other, _)] = &ends;
-    // Some frames have cloth in a ball, and say so; at the end it has slid out, and is kept apart again.
+    let [Pinched { code, summary, holds }, Pinched { summary: other, .. }] = &ends;
+    // Some frames have cloth inside a ball; at the end it has slid out and is kept apart again.
     assert_eq!((*code, *holds), (Some(0), false), "{summary}");
     let [thinned, released, rest @ ..] = counts(summary);
     assert!(thinned == 0 && (1..50).contains(&released) && rest == [0; 2], "{summary}");
     assert_eq!(summary["state_hash"], other["state_hash"]);
 }
 
-/// Three minutes of a processor.
+/// Takes three minutes of a processor.
 #[test]
 #[ignore = "takes minutes"]
 fn twenty_and_fifty_sheets_are_kept_apart() {
     for name in ["stack-20", "stack-50"] {
-        keeps_apart(name, 1, (0.1, 2));
+        keeps_apart(name, 1, 0.1, 2);
     }
 }
 
-/// A test for each scene, with how long it is looked at in s; all together they take half an hour of two cores.
+/// Makes a test of each scene, with its end in s; all together take half an hour of two cores.
 macro_rules! scenes {
     ($($test:ident $name:literal $until:literal)*) => {
         $(

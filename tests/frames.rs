@@ -1,4 +1,4 @@
-//! What a run saves, and how `drape check` reads it.
+//! Frames that a run stores, and how `drape check` verifies them.
 
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -11,7 +11,7 @@ use tempfile::TempDir;
 
 const FABRIC: &str = include_str!("plain-weave.toml");
 
-/// Two sheets that fall on a table which rises to meet them.
+/// Scene of two sheets that fall on a rising table.
 const SCENE: &str = r#"spacing = 0.02
 fabric.plain.file = "plain.toml"
 [[panel]]
@@ -49,7 +49,7 @@ fn drape(folder: &Path, arguments: &[&str]) -> Output {
     command.current_dir(folder).args(arguments).output().expect("it runs")
 }
 
-/// A folder with the results of the scene.
+/// Returns a folder with the results of the scene.
 fn results() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("plain.toml"), FABRIC).expect("writes");
@@ -59,7 +59,7 @@ fn results() -> TempDir {
     folder
 }
 
-/// Checks the results: the exit code, what it said, and the frames as JSON.
+/// Checks the results; returns the exit code, the messages, and the frames as JSON.
 fn check(folder: &Path) -> (Option<i32>, String, Value) {
     let output = drape(folder, &["check", "results", "--json"]);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -73,7 +73,7 @@ fn change(folder: &Path, file: &str, change: impl FnOnce(String) -> String) {
     std::fs::write(&path, change(text)).expect("writes");
 }
 
-/// A frame with a coordinate of one vertex changed.
+/// Returns a frame with one vertex moved.
 fn moved(text: &str, vertex: usize, [x, y, z]: [f64; 3]) -> String {
     let mut vertices = 0;
     let lines = text.lines().map(|line| {
@@ -87,7 +87,7 @@ fn moved(text: &str, vertex: usize, [x, y, z]: [f64; 3]) -> String {
 }
 
 #[test]
-fn what_a_run_saved_passes_with_the_bodies_where_they_were() {
+fn frames_of_a_run_pass_with_the_bodies_where_they_were() {
     let folder = results();
     let (code, said, found) = check(folder.path());
     assert_eq!((code, said.as_str()), (Some(0), ""), "{found:#}");
@@ -98,13 +98,13 @@ fn what_a_run_saved_passes_with_the_bodies_where_they_were() {
     let summary: Value = serde_json::from_slice(&summary).expect("JSON");
     let least = summary["contact"]["min_distance"].as_f64().expect("something was near");
     let seen = distances.iter().copied().fold(f64::INFINITY, f64::min);
-    // The run looks after each of its steps, the frames are some of them.
+    // The run tests every step, of which the frames are some.
     assert!(seen >= least * (1.0 - 1e-12) && seen < 1e-3, "{seen} of {least}");
     assert!(frames.iter().all(|f| f["intersections"] == 0 && f["pairs"].as_u64() > Some(0)));
-    // The table is stored where it has moved, and only then.
+    // The table is stored where it has moved, in frames in which it has.
     let stored = |number: usize| folder.path().join(format!("results/bodies-{number:05}.obj"));
     assert_eq!([0, 1, 2, 3].map(|number| stored(number).exists()), [true, false, true, true]);
-    // Seen with the table of the end, the first frame has it in the cloth.
+    // With the table of the last frame, the first frame has an intersection.
     std::fs::copy(stored(3), stored(0)).expect("copies");
     assert_eq!(check(folder.path()).0, Some(4));
 }
@@ -112,7 +112,8 @@ fn what_a_run_saved_passes_with_the_bodies_where_they_were() {
 #[test]
 fn a_sheet_that_pokes_through_is_found_with_its_frame_and_triangles() {
     let folder = results();
-    // A corner of the upper sheet, of one triangle or two, is put below the lower one near its middle.
+    // A corner of the upper sheet, of one triangle or two, is moved below the lower one near its
+    // middle.
     let first_of_upper = 11 * 11;
     change(folder.path(), "frame-00002.obj", |text| {
         moved(&text, first_of_upper, [0.0, -0.05, 0.0])
@@ -138,7 +139,8 @@ fn a_sheet_that_pokes_through_is_found_with_its_frame_and_triangles() {
 #[test]
 fn the_smallest_step_through_is_seen() {
     let folder = results();
-    // In the first frame both sheets are level but for rounding. A vertex goes to just below and just above the lower.
+    // In the first frame both sheets are level but for rounding. A vertex is moved to just below
+    // and just above the lower sheet.
     let touching = |height: f64| {
         change(folder.path(), "frame-00000.obj", |text| {
             moved(&text, 11 * 11, [0.001, height, 0.0])
@@ -153,7 +155,11 @@ fn the_smallest_step_through_is_seen() {
     let height: f64 = heights.take(1).collect::<String>().parse().expect("a number");
     assert_eq!(touching(height - 1e-15), (true, true), "at {height}");
     assert_eq!(touching(height + 1e-15), (false, true), "at {height}");
-    assert_eq!(touching(height + 0.35 * 0.0004 + 1e-12), (false, false), "what is kept is kept");
+    assert_eq!(
+        touching(height + 0.35 * 0.0004 + 1e-12),
+        (false, false),
+        "the minimum separation holds"
+    );
 }
 
 #[test]
@@ -209,7 +215,8 @@ fn files_that_are_not_as_they_were_written_are_named() {
     assert_eq!(check(folder.path()).0, Some(0), "all is as it was");
 }
 
-/// A level sheet of so many vertices a side, turned and bent, at a height: places and triangles.
+/// Returns vertices and triangles of a level sheet with a number of vertices a side, turned and
+/// bent, at a height.
 fn sheet(side: usize, height: f64, turn: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let places = (0..side * side).map(|k| {
         let [u, v] = [k % side, k / side].map(|k| 0.01 * k as f64 - 0.005 * (side - 1) as f64);
@@ -265,7 +272,7 @@ fn two_tests_that_share_no_code_find_the_same_pairs() {
     let verdict = Recording::open(folder.path()).and_then(|recording| recording.verify(0));
     let verdict = verdict.expect("a right frame");
 
-    // An edge that meets a triangle makes a pair of each triangle that has the edge.
+    // An edge that intersects a triangle makes a pair with each triangle that has the edge.
     let surface = Surface::new(parts).expect("a right surface");
     let found = intersections(&surface, &places).expect("right places");
     let triangles = surface.triangles();

@@ -1,4 +1,5 @@
-//! Garments: patterns that are cut, placed, sewn and come to rest; what is wrong with them is said before.
+//! Garments: patterns that are cut, placed, sewn and come to rest, or whose mistakes are reported
+//! first.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +16,7 @@ fn drape() -> Command {
     Command::cargo_bin("drape").expect("the binary is built")
 }
 
-/// A shipped scene in a folder of its own, with some of its text replaced.
+/// Writes a shipped scene into a folder, with some of its text replaced.
 fn changed(name: &str, changes: &[(&str, &str)], folder: &Path) -> PathBuf {
     let scenes = root().join("scenes");
     let mut text =
@@ -34,7 +35,7 @@ fn changed(name: &str, changes: &[(&str, &str)], folder: &Path) -> PathBuf {
     path
 }
 
-/// Runs a scene on so many threads, and lets another program look at its frames.
+/// Runs a scene on a number of threads, checks its frames, and returns its summary.
 fn run(scene: &Path, threads: usize) -> Value {
     let output = scene.with_file_name(format!("out-{threads}"));
     let mut command = drape();
@@ -51,7 +52,8 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
-/// Lowest place of a strip of 200 mm that is clamped as that of the shipped scene is.
+/// Returns the lowest point of a strip of 200 mm in one piece, clamped as that of the shipped
+/// scene.
 fn unsewn(folder: &Path) -> f64 {
     let text = format!(
         "spacing = 0.005\nfabric.cotton.file = \"{}\"\n\
@@ -83,7 +85,7 @@ fn a_sewn_strip_hangs_like_one_that_is_not_and_alike_on_two_threads() {
     assert_eq!(number(&one["measures"]["seam_gap_max"]), 0.0);
     assert_eq!(one["contact"]["intersections"], 0);
     let (sewn, whole) = (number(&one["measures"]["lowest"]), unsewn(folder.path()));
-    // The allowances stiffen some 8 mm threefold, beyond where the strip bends most.
+    // The seam stiffens some 8 mm threefold, beyond the place where the strip bends most.
     let ratio = sewn / whole;
     assert!((0.97..1.03).contains(&ratio), "{sewn} m against {whole} m");
 }
@@ -109,7 +111,8 @@ fn a_flounce_three_times_as_long_as_its_band_is_gathered() {
     let scene = changed("gather", &[(&shipped, &own)], folder.path());
     let [one, two] = [1, 2].map(|threads| run(&scene, threads));
     assert_eq!(one["state_hash"], two["state_hash"]);
-    // Of 46 nodes at the top of the flounce 16 are those of the band, and the others have no place of their own.
+    // Of 46 nodes at the top of the flounce 16 are nodes of the band, and the others are tied
+    // between those.
     let measures = &one["measures"];
     assert!(number(&measures["seam_gap_max"]) < 1e-12, "{}", measures["seam_gap_max"]);
     assert_eq!(number(&one["contact"]["intersections"]), 0.0);
@@ -120,7 +123,7 @@ fn a_flounce_three_times_as_long_as_its_band_is_gathered() {
 }
 
 #[test]
-fn what_is_wrong_with_a_garment_is_said_with_its_place_and_a_remedy() {
+fn mistakes_in_a_garment_are_reported_with_their_place_and_a_remedy() {
     let folder = tempfile::tempdir().expect("a folder");
     let write =
         |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
@@ -203,7 +206,7 @@ fn the_first_garment_of_the_documentation_is_sound() {
     assert!(std::fs::read_to_string(figure).expect("a figure").starts_with("<svg"));
 }
 
-/// Two panels side by side, sewn where they meet.
+/// Pattern of two panels side by side, sewn where they meet.
 const COAT: &str = "length = \"mm\"\n[panel.left]\ngrain = 0\nrectangle = [100, 60]\norigin = [-110, 0, 0]\n\
                     edges = [\"hem\", \"side\", \"top\", \"fold\"]\n\
                     [panel.right]\ngrain = 0\nrectangle = [100, 60]\norigin = [10, 0, 0]\n\
@@ -237,7 +240,7 @@ fn a_garment_that_nothing_holds_is_not_let_fall_for_ever() {
     assert!(number(&phases[1]["start"]) >= 1.0 && phases[1]["frame"].as_u64() > Some(0));
 }
 
-/// A garment at a spacing in mm: it must be worn.
+/// Runs a garment at a spacing, in mm, and tests that it is worn.
 fn worn(name: &str, spacing: u32) {
     let folder = tempfile::tempdir().expect("a folder");
     let to = format!("spacing = {}", 1e-3 * f64::from(spacing));
@@ -250,7 +253,7 @@ fn worn(name: &str, spacing: u32) {
     assert!(number(&one["measures"]["seam_gap_max"]) <= 1e-4);
     let strain = number(&one["strain"]["traction_p99"]);
     assert!((1e-4..0.02).contains(&strain), "{strain}");
-    // What is highest of it is still where the body holds it: at the waist, or on the shoulders.
+    // Its highest points are still where the body holds them: at the waist, or on the shoulders.
     let edges = one["measures"]["free_edges"].as_array().expect("edges");
     let highest = edges.iter().map(|edge| number(&edge["height_max"])).fold(0.0, f64::max);
     let least = if name.starts_with("tshirt") { 1.38 } else { 1.04 };

@@ -1,4 +1,4 @@
-//! `drape test`: a fabric in simulated instruments.
+//! `drape test`: fabrics in simulated instruments.
 
 use std::path::{Path, PathBuf};
 
@@ -41,7 +41,7 @@ fn a_drape_has_a_coefficient_and_nodes() {
     let page = json(&mut command);
     let evaluations = page["evaluations"].as_array().expect("a list");
     let of = |k: usize| evaluations[k]["coefficient"].as_f64().expect("a number");
-    // With friction, without, and the ends of the three things that the sheet leaves open.
+    // With friction, without, and both ends of the three parameters that the sheet leaves open.
     assert_eq!(evaluations.len(), 8);
     assert!(of(1) < of(0), "{evaluations:?}");
     // The limp end of each, then the stiff one.
@@ -50,7 +50,7 @@ fn a_drape_has_a_coefficient_and_nodes() {
 }
 
 #[test]
-fn what_cannot_be_tested_is_said() {
+fn arguments_that_cannot_be_tested_are_refused() {
     let sheet = root().join("fabrics/matsudaira-a");
     drape().arg("test").arg(&sheet).args(["--spacing", "0.1"]).assert().code(2);
     drape().arg("test").arg(&sheet).args(["--starts", "3"]).assert().code(2);
@@ -58,7 +58,7 @@ fn what_cannot_be_tested_is_said() {
     drape().arg("test").arg("no-such-fabric.toml").assert().code(3);
 }
 
-/// Numbers of two tables that differ by more than a part in a million, by key.
+/// Finds the numbers of two tables that differ by more than a part in a million, by key.
 fn differences(key: &str, a: &toml::Value, b: &toml::Value, found: &mut Vec<String>) {
     match (a, b) {
         (toml::Value::Table(a), toml::Value::Table(b)) if a.keys().eq(b.keys()) => {
@@ -92,7 +92,7 @@ fn the_fabrics_of_the_validation_are_those_of_the_sheets() {
         let mut found = Vec::new();
         let (mut kept, mut fitted) = (read(&file), read(&fitted));
         for fabric in [&mut kept, &mut fitted] {
-            // Standard errors are not used, and move more than the numbers themselves.
+            // Standard errors are not used, and change more than the numbers themselves.
             fabric["provenance"].as_table_mut().expect("a table").remove("standard_errors");
         }
         differences(&name, &kept, &fitted, &mut found);

@@ -1,4 +1,5 @@
-//! Cloth that has come to rest and is then set in motion; cloth that is stretched more than its fabric was measured.
+//! Motion of bodies after the cloth has come to rest, and cloth that is stretched beyond the
+//! measurements of its fabric.
 
 use std::path::Path;
 
@@ -7,7 +8,7 @@ use serde_json::Value;
 
 const FABRIC: &str = include_str!("plain-weave.toml");
 
-/// Runs a scene in a folder; what its summary says, and the positions in its first and last frame.
+/// Runs a scene in a folder; returns its summary, and the positions in its first and last frame.
 fn run(folder: &Path, scene: &str, fabric: &str) -> (Value, [Vec<[f64; 3]>; 2]) {
     for (name, text) in [("scene.toml", scene), ("plain.toml", fabric)] {
         std::fs::write(folder.join(name), text).expect("written");
@@ -57,7 +58,8 @@ fn cloth_at_rest_on_a_table_turns_with_it() {
     let whole = summary["simulated_seconds"].as_f64().expect("a time");
     // The table begins to turn when the cloth rests, and not before.
     assert!((whole - rest - 1.2).abs() < 0.006, "{rest} s of {whole} s");
-    // A quarter of a turn about y takes x to -z. The tangential pull of some m/s² is below what friction holds.
+    // A quarter of a turn about y takes x to -z. The tangential acceleration of some m/s² is less
+    // than friction can hold.
     let off = start.iter().zip(&end).map(|([x, _, z], now)| (now[0] - z).hypot(now[2] + x));
     let off = off.fold(0.0, f64::max);
     assert!(off < 5e-4, "off by {} mm", 1e3 * off);
@@ -65,7 +67,7 @@ fn cloth_at_rest_on_a_table_turns_with_it() {
 }
 
 #[test]
-fn cloth_that_is_stretched_beyond_what_was_measured_is_told() {
+fn cloth_that_is_stretched_beyond_its_measurements_gets_a_warning() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = "spacing = 0.01\ngravity = [0, 0, 0]\nfabric.plain.file = \"plain.toml\"\n\
                  [[panel]]\nname = \"strip\"\nfabric = \"plain\"\nrectangle = [0.05, 0.1]\n\

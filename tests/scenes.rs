@@ -1,4 +1,4 @@
-//! The shipped scenes, run as a user runs them.
+//! Shipped scenes, run as a user runs them.
 
 use std::path::Path;
 
@@ -21,7 +21,7 @@ fn number(summary: &Value, key: &str) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{key} is {value}"))
 }
 
-/// Heights of the cloth's particles, row by row along the warp.
+/// Returns the heights of the cloth's particles, row by row along the warp.
 fn heights(output: &Path) -> Vec<f64> {
     let mut frames: Vec<_> = std::fs::read_dir(output)
         .expect("the folder is there")
@@ -54,7 +54,7 @@ fn a_measured_fabric_comes_to_rest_on_a_cube() {
     let p99 = number(&summary, "strain.traction_p99");
     assert!((1e-4..1e-2).contains(&p99), "99 of 100 segments are strained by less than {p99}");
     assert!(number(&summary, "strain.traction_max") < 0.03);
-    // Nothing is gained: what the fall set free is stored or lost, and every loss is one.
+    // No energy is gained: that of the fall is stored or lost, and every loss is positive.
     let energy = |part: &str| number(&summary, &format!("energy.{part}"));
     for part in ["elastic", "friction_dissipated", "body_dissipated", "numerical_dissipated"] {
         assert!(energy(part) > 0.0, "{part} is {} J", energy(part));
@@ -103,8 +103,8 @@ fn breens_particles_come_to_rest_on_a_cube_and_keep_apart() {
     assert_eq!(number(&summary, "energy.friction_dissipated"), 0.0);
     let open = number(&summary, "energy.remainder").abs() / -number(&summary, "energy.gravity");
     assert!(open < 1e-9, "{open:e} of the energy is not accounted for");
-    // The weight of a metre stretches the yarns by 1 % and compresses none by as much; a quarter of the cloth hangs from
-    // the corners.
+    // The weight of a metre stretches the yarns by 1 % and compresses none by as much; a quarter of
+    // the cloth hangs from the corners.
     let most = number(&summary, "strain.traction_max");
     assert!((0.01..0.02).contains(&most), "the longest segment is strained by {most}");
     let heights = heights(folder.path());

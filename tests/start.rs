@@ -1,4 +1,4 @@
-//! Scenes whose surfaces cross at the start are refused, and the triangles are written down.
+//! Scenes whose surfaces intersect at the start: they are refused, with a file of the triangles.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 const FABRIC: &str = include_str!("plain-weave.toml");
 
-/// An upright sheet, another level at HEIGHT that it stands in, and a ball far below.
+/// Scene of an upright sheet, a level one at HEIGHT that it intersects, and a ball far below.
 const SCENE: &str = r#"spacing = 0.02
 fabric.plain.file = "plain.toml"
 [[panel]]
@@ -46,7 +46,7 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
     command.current_dir(folder).args(["run", "scene.toml"]).args(arguments).output().expect("runs")
 }
 
-/// Corners of the triangles of a PLY file as it is written here, by the name of their part.
+/// Reads the corners of the triangles of a PLY file, with the name of their part.
 fn triangles(path: &Path) -> Vec<(String, [[f64; 3]; 3])> {
     let text = std::fs::read_to_string(path).expect("was written");
     let (header, body) = text.split_once("end_header\n").expect("a header");
@@ -71,7 +71,7 @@ fn triangles(path: &Path) -> Vec<(String, [[f64; 3]; 3])> {
 }
 
 #[test]
-fn sheets_that_cross_are_named_and_their_triangles_are_in_a_file() {
+fn sheets_that_intersect_are_named_and_their_triangles_are_in_a_file() {
     let folder = folder("0.011");
     let output = run(folder.path(), &["-o", "there/results"]);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -91,7 +91,8 @@ fn sheets_that_cross_are_named_and_their_triangles_are_in_a_file() {
         its.map(|(_, corners)| corners)
     };
     assert_eq!(of("upright").count() + of("level").count(), triangles.len());
-    // The upright sheet stands in the plane z = 0 and is 0.2 m wide; the level one is at a height of 0.011 m.
+    // The upright sheet is in the plane z = 0 and is 0.2 m wide; the level one is at a height of
+    // 0.011 m.
     for corners in of("upright") {
         assert!(corners.iter().all(|p| p[2] == 0.0 && p[0].abs() <= 0.1 + 1e-12), "{corners:?}");
         let heights = corners.map(|p| p[1]);
@@ -101,9 +102,9 @@ fn sheets_that_cross_are_named_and_their_triangles_are_in_a_file() {
         assert!(corners.iter().all(|p| (p[1] - 0.011).abs() < 1e-12), "{corners:?}");
         assert!(corners.iter().any(|p| p[2] <= 0.0) && corners.iter().any(|p| p[2] >= 0.0));
     }
-    // Ten columns of the upright sheet have a cell that is cut, of two triangles.
+    // Ten columns of the upright sheet have an intersected cell, of two triangles.
     assert_eq!(of("upright").count(), 20);
-    // Each is there once.
+    // Each triangle is there once.
     let places: BTreeSet<Vec<u64>> = triangles
         .iter()
         .map(|(_, corners)| corners.iter().flatten().map(|x| x.to_bits()).collect())
@@ -112,8 +113,9 @@ fn sheets_that_cross_are_named_and_their_triangles_are_in_a_file() {
 }
 
 #[test]
-fn sheets_that_are_too_near_are_named_too() {
-    // Of the thickness of 0.4 mm 0.14 are kept; the lower edge of the upright sheet is 0.1 mm above the level one.
+fn sheets_that_are_too_close_are_named_too() {
+    // The minimum separation is 0.14 mm of the thickness of 0.4 mm; the lower edge of the upright
+    // sheet is 0.1 mm above the level one.
     let folder = folder("-0.1001");
     let output = run(folder.path(), &[]);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -123,7 +125,7 @@ fn sheets_that_are_too_near_are_named_too() {
     {
         assert!(message.contains(words), "{words:?} is missing in: {message}");
     }
-    // The results would be in out/scene.
+    // The results would go to out/scene.
     let found = triangles(&folder.path().join("out/scene-start.ply"));
     let low = found.iter().filter(|(part, _)| part == "upright");
     assert!(low.clone().count() >= 10);
@@ -131,10 +133,10 @@ fn sheets_that_are_too_near_are_named_too() {
 }
 
 #[test]
-fn a_heap_of_crossings_is_cut_short() {
+fn a_long_list_of_intersections_is_cut_short() {
     let folder = folder("0.011");
     let path = folder.path().join("scene.toml");
-    // Sheets of 81 particles a side in the same plane cross everywhere.
+    // Sheets of 81 particles a side in the same plane intersect everywhere.
     let scene = SCENE.replace("HEIGHT", "0").replace("spacing = 0.02", "spacing = 0.0025");
     let scene = scene.replace("turn = [-90, 0, 0]", "").replace("0.003, 0, 0.004", "0.001, 0, 0");
     std::fs::write(&path, scene).expect("writes");
@@ -147,7 +149,7 @@ fn a_heap_of_crossings_is_cut_short() {
 }
 
 #[test]
-fn sheets_that_are_too_near_start_if_what_is_kept_may_grow() {
+fn sheets_that_are_too_close_start_if_their_minimum_separation_may_grow() {
     // The lower edge of the upright sheet is 0.05 mm above the level one.
     let folder = folder("-0.10005");
     let path = folder.path().join("scene.toml");
@@ -180,12 +182,12 @@ fn sheets_that_are_too_near_start_if_what_is_kept_may_grow() {
         .map(|frame| frame["grown"].as_f64().expect("a part"))
         .collect();
     assert!(grown.is_sorted() && grown[0] < 0.2 && grown.last() == Some(&1.0), "{grown:?}");
-    // A frame that says that it keeps all of it does not.
+    // A frame that claims the full minimum separation fails.
     let frame = folder.path().join("out/frame-00000.obj");
     let text = std::fs::read_to_string(&frame).expect("reads");
     let lines = text.lines().filter(|line| !line.starts_with("# grown: "));
     let whole: String = lines.flat_map(|line| [line, "\n"]).collect();
-    assert!(whole.len() < text.len(), "the frame says what is kept");
+    assert!(whole.len() < text.len(), "the frame has its fraction");
     std::fs::write(&frame, whole).expect("writes");
     assert_eq!(check(folder.path()).status.code(), Some(4));
 }

@@ -1,4 +1,4 @@
-//! `drape validate`: its pages.
+//! Pages of `drape validate`.
 
 use assert_cmd::Command;
 
@@ -23,7 +23,7 @@ fn a_case_leaves_its_figures_and_plots() {
     let rows = markdown.lines().filter(|line| line.ends_with("| pass |"));
     assert_eq!(rows.count(), 4, "{markdown}");
     assert!(markdown.contains("## What this does not show\n\n* "), "{markdown}");
-    // What is said of the limits is the same on both.
+    // Both list the same limits.
     let limits = markdown.lines().filter(|line| line.starts_with("* ")).count();
     let listed = page.split("id=\"limits\"").nth(1).expect("limits").matches("<li>").count();
     assert_eq!(limits, listed);
@@ -55,7 +55,7 @@ fn outcomes_of_an_earlier_run_are_shown_with_those_of_this_one() {
 }
 
 #[test]
-fn a_case_that_there_is_not_is_named_with_those_there_are() {
+fn an_unknown_case_is_named_with_the_known_ones() {
     let mut command = Command::cargo_bin("drape").expect("it is built");
     let output = command.args(["validate", "no-such-case"]).assert().code(2);
     let message = String::from_utf8_lossy(&output.get_output().stderr).into_owned();

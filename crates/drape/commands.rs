@@ -5,8 +5,8 @@
 //! and the pages of [`pages`](crate::pages). No command computes physics, and only `main` turns a
 //! [`Failure`](crate::failure::Failure) into an exit code.
 //!
-//! [`sheets`] is shared by the commands that read sheets; `test` and `fabric` have a sheet fitted
-//! by [`fit`]. No other command knows another.
+//! [`sheets`] is shared by the commands that read sheets. Of the commands, [`test`] reads its
+//! fabric by way of [`fabric`], which stores its page by way of [`fit`]; no other knows another.
 
 pub(crate) mod bench;
 pub(crate) mod check;

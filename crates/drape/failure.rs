@@ -6,7 +6,6 @@ use std::process::ExitCode;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
-use drape::report::ReportError;
 
 /// Failure that ends a command, with its exit code.
 pub(crate) enum Failure {
@@ -93,9 +92,9 @@ impl From<drape::verify::Error> for Failure {
     }
 }
 
-impl From<ReportError> for Failure {
+impl From<drape::report::Error> for Failure {
     /// A name or a number of the input that cannot be shown.
-    fn from(error: ReportError) -> Self {
+    fn from(error: drape::report::Error) -> Self {
         Self::Input(Diagnostic::new("report", error.to_string()).into())
     }
 }

@@ -1,3 +1,6 @@
+//! Fabrics of a scene, from files of fabrics or fitted to sheets: here the fit and the simulation
+//! meet, which do not know each other.
+
 use std::path::Path;
 
 use drape_fabric::Fabric;
@@ -6,7 +9,7 @@ use drape_input::{Diagnostic, Diagnostics, Document};
 use drape_kes::Sheet;
 use drape_scene::{FabricRequest, Model, Scene, is_fabric};
 
-/// Reads a scene whose fabrics are in files of fabrics or in sheets of measurements, which are fitted.
+/// Reads a scene whose fabrics are files of fabrics, or sheets of measurements, which are fitted.
 ///
 /// # Errors
 /// As for [`Scene::read`], with the mistakes of the sheets.
@@ -14,11 +17,13 @@ pub fn read_scene(path: impl AsRef<Path>) -> Result<Scene, drape_scene::Error> {
     Scene::read_with(path, &scene_fabric)
 }
 
-/// Reads the fabric of a `fabric.toml`, or fits one to a `sheet.toml`, with the loads that the model of the scene has:
-/// Breen's are fitted to the first branches of the curves.
+/// Reads a `fabric.toml`, or fits a fabric to a `sheet.toml`.
+///
+/// The laws are those of the model of the scene: Breen's are fitted to the first branches of the
+/// curves.
 ///
 /// # Errors
-/// The mistakes of the file, or a sheet that gives no fabric.
+/// The mistakes of the file, or the reason why a sheet gives no fabric.
 pub fn scene_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
     let FabricRequest { file, model } = request;
     let document = Document::read(file)?;
@@ -29,8 +34,8 @@ pub fn scene_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
         drape_kes::Error::Input(mistakes) => mistakes,
         other => Diagnostic::new(file, other.to_string()).into(),
     })?;
-    let loads = (model == Model::Breen1994).then_some(LoopModel::Piecewise);
-    let settings = Settings { bending: loads, shear: loads, ..Settings::default() };
+    let laws = (model == Model::Breen1994).then_some(LoopModel::Piecewise);
+    let settings = Settings { bending: laws, shear: laws, ..Settings::default() };
     let fit = identify_with(&sheet, &settings);
     let fit = fit.map_err(|error| Diagnostics::from(Diagnostic::new(file, error.to_string())))?;
     Ok(fit.fabric)

@@ -1,44 +1,49 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Modules
+//!
+//! ```text
+//!   panel ──▶ layout ──▶ kernel, rim ──▶ evaluate          seam, breen: beside the panels' connectors
+//!  (Lattice)  (arrays)   (one strip)    (Cloth, Workspace)  reference: what the kernels are held to
+//! ```
+//!
+//! `Cloth::new` goes from left to right once; a solver calls [`Workspace`] at every trial and
+//! [`Cloth::commit`] once per accepted step. `measure` holds the formulas that all share. Each module
+//! uses those above it in the list below, never those beneath.
 
-mod allowance;
-mod angle;
-mod bend;
-mod breen;
-mod clip;
-mod cloth;
-mod connectors;
-mod energy;
+// What a cloth is made of.
 mod error;
-mod field;
-mod fold;
-mod force;
-mod grain;
-mod lattice;
-mod mesh;
+mod measure;
 mod panel;
-mod reference;
-mod rim;
-mod scratch;
-mod seam;
-mod share;
-mod sparsity;
-mod state;
-mod stiffness;
-mod tangent;
-mod triangle_strain;
-mod workspace;
 
-pub use allowance::Allowance;
-pub use breen::{Block, Breen};
+// Connectors in arrays, and the kernels on them.
+mod kernel;
+mod layout;
+mod rim;
+
+// Connectors in scalar form: seams, the model of Breen, the reference.
+mod breen;
+mod reference;
+mod seam;
+
+// The cloth, its state, and their evaluation.
+mod cloth;
+mod evaluate;
+mod state;
+
+pub use breen::particles::Breen;
 pub use cloth::{Areas, Cloth, Strains};
 pub use error::Error;
-pub use fold::Fold;
-pub use grain::Grain;
-pub use lattice::{Cell, Lattice};
-pub use mesh::Mesh;
-pub use reference::Reference;
-pub use seam::{Seam, SeamBending, SeamState, Tie};
-pub use sparsity::Sparsity;
+pub use evaluate::workspace::{Trial, Workspace};
+pub use layout::sparsity::Sparsity;
+pub use measure::block::Block;
+pub use measure::triangle_strain::TriangleStrain;
+pub use panel::allowance::Allowance;
+pub use panel::fold::Fold;
+pub use panel::grain::Grain;
+pub use panel::lattice::{Cell, Lattice};
+pub use panel::mesh::Mesh;
+pub use reference::cloth::Reference;
+pub use seam::bending::{SeamBending, SeamState};
+pub use seam::description::{Seam, Tie};
 pub use state::State;
-pub use triangle_strain::TriangleStrain;
-pub use workspace::{Trial, Workspace};

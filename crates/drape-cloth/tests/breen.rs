@@ -79,7 +79,7 @@ fn rolled(lattice: &Lattice) -> Vec<f64> {
 fn dense(breen: &mut Breen, positions: &[f64], definite: bool) -> Vec<Vec<f64>> {
     let size = positions.len();
     let mut matrix = vec![vec![0.0; size]; size];
-    breen.stiffness(positions, definite, &mut |[a, b], block: &Block| {
+    breen.add_stiffness(positions, definite, &mut |[a, b], block: &Block| {
         assert!(a <= b, "{a} and {b}");
         let (a, b) = (3 * a as usize, 3 * b as usize);
         for k in 0..9 {

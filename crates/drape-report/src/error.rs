@@ -1,14 +1,16 @@
+//! Error of a picture, a plot or a report that cannot be made.
+
 use std::path::PathBuf;
 
-/// What keeps a picture, a plot or a report from being made.
+/// Reason why a picture, a plot or a report cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum ReportError {
-    /// There is no triangle to show.
+pub enum Error {
+    /// The scene has no triangle.
     #[error("the scene has no triangles; give it a cloth or a body")]
     EmptyScene,
 
-    /// A surface has incomplete or superfluous numbers.
+    /// A list of a surface has a wrong length.
     #[error("{surface}: {what} has {length} numbers, not {expected}")]
     BadLength {
         /// The surface, as in "cloth 0".
@@ -17,7 +19,7 @@ pub enum ReportError {
         what: &'static str,
         /// Its length.
         length: usize,
-        /// The length that fits, in words.
+        /// Expected length, in words.
         expected: String,
     },
 
@@ -26,15 +28,15 @@ pub enum ReportError {
     NoSuchVertex {
         /// The surface, as in "cloth 0".
         surface: String,
-        /// The triangle, from 0.
+        /// Number of the triangle, from 0.
         triangle: usize,
-        /// The vertex that it names.
+        /// Number of the vertex.
         index: u32,
         /// Number of vertices.
         vertices: usize,
     },
 
-    /// A coordinate is not finite or absurdly far out.
+    /// A coordinate is not finite, or too large.
     #[error(
         "{surface}: {what} of vertex {vertex} has the coordinate {value}; did the simulation fail?"
     )]
@@ -43,31 +45,31 @@ pub enum ReportError {
         surface: String,
         /// The list, in words.
         what: &'static str,
-        /// The vertex, from 0.
+        /// Number of the vertex, from 0.
         vertex: usize,
         /// The coordinate.
         value: f64,
     },
 
-    /// A number of the view or of a surface's look is outside its range.
+    /// A number is out of its range.
     #[error("{what} is {value}, but it must be {range}")]
     OutOfRange {
         /// The quantity, in words.
         what: &'static str,
         /// Its value.
         value: f64,
-        /// The values that it may take, in words.
+        /// The range, in words.
         range: &'static str,
     },
 
-    /// A report has nothing to report.
+    /// A report has no content.
     #[error("the report of {name} has neither curves nor values; give it what was fitted")]
     EmptyReport {
         /// The name of the sheet or fabric.
         name: String,
     },
 
-    /// A plot has nothing to plot.
+    /// A plot has no points.
     #[error("{plot}: {what} has no points to draw")]
     EmptyPlot {
         /// The title of the plot.
@@ -76,7 +78,7 @@ pub enum ReportError {
         what: String,
     },
 
-    /// A number of a report cannot be shown.
+    /// A number of a report is not finite, or too large.
     #[error("{what} is {value}; a report needs numbers of at most 1e90")]
     NotFinite {
         /// The quantity, in words.
@@ -85,14 +87,14 @@ pub enum ReportError {
         value: f64,
     },
 
-    /// A correlation matrix does not belong to its names.
+    /// A correlation matrix does not fit its names.
     #[error(
         "{names} names need a {names} x {names} correlation matrix, but row {row} has {length}"
     )]
     BadMatrix {
         /// Number of names.
         names: usize,
-        /// The row, from 0; the number of rows where that is wrong.
+        /// Number of the row, from 0; the number of rows where that is wrong.
         row: usize,
         /// Its length.
         length: usize,
@@ -110,7 +112,7 @@ pub enum ReportError {
     /// A picture cannot be encoded.
     #[error("the picture cannot be encoded as PNG: {reason}")]
     Encoding {
-        /// What the encoder says.
+        /// Message of the encoder.
         reason: String,
     },
 
@@ -119,7 +121,7 @@ pub enum ReportError {
     Unwritable {
         /// The file.
         path: PathBuf,
-        /// What the operating system answered.
+        /// Answer of the operating system.
         reason: String,
     },
 }

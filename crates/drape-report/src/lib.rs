@@ -1,43 +1,34 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! [`render`] draws a [`Scene`] of [`Surface`]s for a [`View`] and returns a [`Picture`]. The functions of
+//! [`plot`] draw SVG figures of measured and fitted curves. [`FitPage`], [`ComparePage`] and
+//! [`ValidationPage`] are reports that become HTML pages and text; a [`Parameter`] is a number with its
+//! [`Units`] and its [`Interval`].
+//!
+//! Layers, lowest first: `error`, `check`, `text`, `parameter`; the chapters `render` and `plot`; `page`.
 
-mod base64;
-mod camera;
+// Checks and texts.
 mod check;
-mod compare_page;
 mod error;
-mod facets;
-mod fit_html;
-mod fit_page;
-mod fit_text;
-mod law_report;
-mod light;
-mod number;
 mod parameter;
-mod picture;
-pub mod plot;
-mod render;
-mod scale;
-mod scene;
-mod shade;
-mod shown;
-mod strain_figure;
-mod symbol;
-mod table;
-mod triangle;
-mod validation_page;
-mod vector;
-mod view;
+mod text;
 
-pub use camera::Camera;
-pub use compare_page::{ComparePage, ComparedValue, FabricName};
-pub use error::ReportError;
-pub use fit_page::{FitPage, KesValue, Quantity};
-pub use law_report::{LawReport, Limits, ModelScore, Statistics, Trust, Verdict};
+// Pictures of cloth.
+mod render;
+
+// Figures.
+pub mod plot;
+
+// Reports.
+mod page;
+
+pub use error::Error;
+pub use page::{
+    CaptionedPicture, ComparePage, ComparedValue, Evidence, FabricName, FitPage, KesValue,
+    LawReport, Limits, ModelScore, Quantity, Statistics, Trust, ValidationCase, ValidationPage,
+    ValidationRow, Verdict,
+};
 pub use parameter::{Interval, Parameter, Unit, Units};
-pub use picture::Picture;
-pub use render::render;
-pub use scale::diverging;
-pub use scene::{Colour, Scene, Surface};
-pub use strain_figure::{StrainMap, strain_svg};
-pub use validation_page::{ValidationCase, ValidationPage, ValidationRow};
-pub use view::View;
+pub use render::{Camera, Colour, Picture, Scene, ScreenPoint, Surface, View, diverging, render};

@@ -1,39 +1,51 @@
+//! Parameters with their units, standard errors and intervals, as plain data.
+
 use serde::Serialize;
 
 use crate::check;
-use crate::error::ReportError;
+use crate::error::Error;
 
-/// A unit in which numbers are also shown.
+/// Unit in which numbers are also shown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Unit {
-    /// Its name, as in "gf·cm²/cm".
+    /// Name, as in "gf·cm²/cm".
     pub name: String,
-    /// One of it in SI, as in 9.80665e-5.
+    /// Size of the unit in SI, as in 9.80665e-5.
     pub in_si: f64,
 }
 
-/// The units of a quantity: SI, and the laboratory's where it has one.
+/// Units of a quantity: SI, and the laboratory's where there is one.
+///
+/// ```
+/// use drape_report::Units;
+///
+/// let rigidity = Units::si("N·m").with_kes("gf·cm²/cm", 9.80665e-5);
+/// assert_eq!(rigidity.kes.expect("it has one").name, "gf·cm²/cm");
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Units {
-    /// The SI unit's name, as in "N·m"; empty for a bare number.
+    /// Name of the SI unit, as in "N·m"; empty for a ratio.
     pub si: String,
-    /// The laboratory's unit.
+    /// Unit of the laboratory.
     pub kes: Option<Unit>,
 }
 
 impl Units {
-    /// A quantity that has no unit of the laboratory.
+    /// Returns the units of a quantity without a unit of the laboratory.
+    #[must_use]
     pub fn si(name: &str) -> Units {
         Units { si: name.to_owned(), kes: None }
     }
 
-    /// The same quantity in the laboratory's unit, which is `in_si` SI units.
+    /// Returns the units with the laboratory's unit, which is `in_si` SI units.
+    #[must_use]
     pub fn with_kes(self, name: &str, in_si: f64) -> Units {
         let kes = Some(Unit { name: name.to_owned(), in_si });
         Units { kes, ..self }
     }
 
-    pub(crate) fn check(&self) -> Result<(), ReportError> {
+    /// Refuses names that cannot be shown and a size out of range.
+    pub(crate) fn check(&self) -> Result<(), Error> {
         check::text("the name of a unit", &self.si)?;
         self.kes.as_ref().map_or(Ok(()), |unit| {
             check::text("the name of a unit", &unit.name)?;
@@ -42,7 +54,7 @@ impl Units {
     }
 }
 
-/// Where a parameter lies with 95 % confidence, in SI, or why that cannot be said.
+/// Interval of a parameter with 95 % confidence, in SI, or the reason why it is missing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Interval {
@@ -53,34 +65,35 @@ pub enum Interval {
         /// Upper end.
         upper: f64,
     },
-    /// Above a lower end; the data set no upper one.
+    /// Above a lower end; the data give no upper one.
     Above {
         /// Lower end.
         lower: f64,
-        /// Why there is no upper end.
+        /// Reason why there is no upper end.
         reason: String,
     },
-    /// Below an upper end; the data set no lower one.
+    /// Below an upper end; the data give no lower one.
     Below {
         /// Upper end.
         upper: f64,
-        /// Why there is no lower end.
+        /// Reason why there is no lower end.
         reason: String,
     },
-    /// Anywhere: the data do not tell.
+    /// Not determined by the data.
     Unknown {
-        /// Why: at a bound, not identifiable, no curve.
+        /// Reason: at a bound, not identifiable, no curve.
         reason: String,
     },
-    /// Not asked: the parameter was not fitted.
+    /// Not fitted.
     Fixed {
-        /// Why: set by hand, tied to another one; may be empty.
+        /// Reason: set by hand, tied to another parameter; may be empty.
         reason: String,
     },
 }
 
 impl Interval {
-    /// Why an end or the whole interval is missing.
+    /// Returns the reason why an end or the whole interval is missing.
+    #[must_use]
     pub fn reason(&self) -> Option<&str> {
         match self {
             Self::Between { .. } => None,
@@ -92,41 +105,47 @@ impl Interval {
     }
 }
 
-/// A parameter with its uncertainty, in SI.
+/// Parameter with its uncertainty, in SI.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Parameter {
-    /// What it is, as in "bending rigidity".
+    /// Name, as in "bending rigidity".
     pub name: String,
-    /// Its symbol; `k_b` is shown as k with the index b.
+    /// Symbol; `k_b` is shown as k with the index b.
     pub symbol: String,
-    /// Its value, in SI.
+    /// Value, in SI.
     pub value: f64,
-    /// Its units.
+    /// Units.
     pub units: Units,
-    /// Its standard error, in SI.
+    /// Standard error, in SI.
     pub standard_error: Option<f64>,
-    /// Its 95 % interval.
+    /// Interval with 95 % confidence.
     pub interval: Interval,
-    /// Whether it belongs to the test and not to the fabric, as a zero or a drift does: then nobody minds that it
-    /// is small beside its error.
+    /// Whether it belongs to the test and not to the fabric, as a zero or a drift does: then an error
+    /// larger than the value does not count against the law.
     pub incidental: bool,
 }
 
 impl Parameter {
-    /// Standard error over the size of the value, a ratio; none where either is missing or zero.
+    /// Returns the standard error over the magnitude of the value, a ratio; `None` where one is missing or
+    /// zero.
+    #[must_use]
     pub fn relative_error(&self) -> Option<f64> {
         let size = self.value.abs();
         self.standard_error.map(|error| error / size).filter(|ratio| ratio.is_finite())
     }
 
-    /// Whether the data were asked for its interval and did not give all of it.
+    /// Returns whether the parameter was fitted and the data do not give all of its interval.
+    #[must_use]
     pub fn is_undetermined(&self) -> bool {
         let fixed = matches!(self.interval, Interval::Fixed { .. });
         !fixed && self.interval.reason().is_some()
     }
 
-    /// Refuses numbers that are none, a negative standard error, an interval that is upside down.
-    pub fn check(&self) -> Result<(), ReportError> {
+    /// Refuses numbers that are not finite, a negative standard error, an interval with exchanged ends.
+    ///
+    /// # Errors
+    /// The first fault.
+    pub fn check(&self) -> Result<(), Error> {
         check::text("the name of a parameter", &self.name)?;
         check::text("the symbol of a parameter", &self.symbol)?;
         self.units.check()?;
@@ -135,7 +154,7 @@ impl Parameter {
         if let Some(error) = self.standard_error {
             check::number(|| format!("the standard error of {name}"), error)?;
             if error < 0.0 {
-                return Err(ReportError::OutOfRange {
+                return Err(Error::OutOfRange {
                     what: "a standard error",
                     value: error,
                     range: "0 or more",
@@ -151,7 +170,7 @@ impl Parameter {
                 bound(lower)?;
                 bound(upper)?;
                 if lower > upper {
-                    return Err(ReportError::OutOfRange {
+                    return Err(Error::OutOfRange {
                         what: "the upper end of an interval",
                         value: upper,
                         range: "at least its lower end",

@@ -1,45 +1,38 @@
-//! Plots as SVG: small, sharp in print, readable without the page around them.
+//! Plots as SVG: self-contained, sharp in print.
 //!
-//! Each function takes plain data and gives the text of one SVG file. The same plots stand in the pages of
-//! [`FitPage`](crate::FitPage) and [`ComparePage`](crate::ComparePage), where they follow the page's light
-//! or dark colours; alone they are dark on white.
+//! Each `…_svg` function takes plain data in SI, checks it, and returns the text of one SVG file, dark on
+//! white. The pages hold the same figures, where they follow the light or dark colours of the page.
+//!
+//! `axis` and `scale` map values to pixels, `legend` and `chart` are the parts that all plots over two axes
+//! share; `loop_plot`, `graph` and `overlay` are these plots. `correlation`, `uncertainty` and `strain_map`
+//! have layouts of their own. `svg` writes path data, `style` holds the style sheet. The templates are in
+//! `templates/plot`: pixel coordinates fill them, since plots need fractions of a pixel in print and classes
+//! that follow the colours of the page.
 
 mod axis;
+mod chart;
 mod correlation;
-mod frame;
 mod graph;
+mod legend;
 mod loop_plot;
 mod overlay;
+mod scale;
+mod strain_map;
+mod style;
+mod svg;
 mod uncertainty;
 
 pub use axis::Axis;
-pub use correlation::{Correlation, correlation_svg};
+pub use correlation::{CorrelatedPair, Correlation, correlation_svg};
 pub use graph::{GraphPlot, GraphSeries, Look, graph_svg};
 pub use loop_plot::{Branch, BranchKind, LoopPlot, Point, loop_svg};
 pub use overlay::{OverlayPlot, Trace, overlay_svg};
+pub use strain_map::{StrainMap, strain_svg};
 pub use uncertainty::{UncertaintyPlot, uncertainty_svg};
 
 pub(crate) use correlation::{correlation_figure, correlation_side};
 pub(crate) use graph::graph_figure;
 pub(crate) use loop_plot::loop_figure;
 pub(crate) use overlay::overlay_figure;
+pub(crate) use style::{Placement, STYLE};
 pub(crate) use uncertainty::uncertainty_figure;
-
-/// Where a figure will stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Place {
-    /// In a file of its own, which needs its own style and namespace.
-    Alone,
-    /// In a page that holds the style.
-    InPage,
-}
-
-impl Place {
-    /// The style that a figure must bring along.
-    pub(crate) fn style(self) -> Option<&'static str> {
-        (self == Self::Alone).then_some(STYLE)
-    }
-}
-
-/// The style of all figures, in colours that a plain SVG reader understands.
-pub(crate) const STYLE: &str = include_str!("../templates/plot.css");

@@ -1,8 +1,8 @@
-//! What a picture must show.
+//! Pictures, read back.
 
 #![allow(clippy::unwrap_used)]
 
-use drape_report::{Picture, Scene, Surface, View, render};
+use drape_report::{Picture, Scene, ScreenPoint, Surface, View, render};
 use std::f64::consts::{PI, TAU};
 
 type Shape = (Vec<f64>, Vec<[u32; 3]>);
@@ -13,7 +13,7 @@ const SMALL: View = View {
     field_deg: 24.0,
     width: 400,
     height: 300,
-    body_setback: 0.0,
+    body_depth_bias: 0.0,
 };
 
 fn sphere(radius: f64, center: [f64; 3]) -> Shape {
@@ -81,7 +81,7 @@ fn the_silhouette_of_a_sphere_is_its_projected_disc() {
     let touch =
         [0, 1, 2].map(|k| center[k] + radius * (cosine * away[k] / distance + sine * side[k]));
     let [middle, rim] = [camera.project(center), camera.project(touch)];
-    let disc = PI * (rim[0] - middle[0]).hypot(rim[1] - middle[1]).powi(2);
+    let disc = PI * (rim.x - middle.x).hypot(rim.y - middle.y).powi(2);
     let picture = render(&scene, &view).unwrap();
     // Pixels that are cut count by halves: those that show any grey less half of the rim.
     let grey = count(&picture, |pixel| pixel != [255; 3]) as f64;
@@ -101,7 +101,7 @@ fn the_frame_holds_the_whole_cloth_and_little_else() {
             let camera = view.camera(&scene).unwrap();
             let mut fill: f64 = 0.0;
             for p in shape.0.chunks(3) {
-                let [x, y, depth] = camera.project([p[0], p[1], p[2]]);
+                let ScreenPoint { x, y, depth } = camera.project([p[0], p[1], p[2]]);
                 assert!(depth > 0.0);
                 fill = fill.max((x / 200.0 - 1.0).abs()).max((y / 150.0 - 1.0).abs());
             }
@@ -143,7 +143,7 @@ fn front_and_back_differ_and_so_do_warp_and_weft() {
     // Off the lines, a quarter of a cell from the middle.
     let camera = above.camera(&scene(0.25)).unwrap();
     let at = |picture: &Picture, x: f64, z: f64| {
-        let [x, y, _] = camera.project([x, 0.0, z]);
+        let ScreenPoint { x, y, .. } = camera.project([x, 0.0, z]);
         picture.pixel(x as u32, y as u32).unwrap()
     };
     let [r, _, b] = at(&front, 0.1, 0.1);
@@ -180,17 +180,17 @@ fn lines_too_close_to_be_seen_leave_an_even_tone() {
 }
 
 #[test]
-fn a_setback_hides_the_edge_that_dips_through_the_cloth() {
+fn a_depth_bias_hides_the_edge_that_dips_through_the_cloth() {
     let (lid, _) = square(0.5, 0.0, 4);
     let (table, _) = square(0.4, 2e-3, 4);
-    let grey_pixels = |body_setback: f64, bodies: Vec<Surface>| {
+    let grey_pixels = |body_depth_bias: f64, bodies: Vec<Surface>| {
         let scene = Scene { cloths: vec![cloth(&lid)], bodies, ..Scene::default() };
-        let view = View { body_setback, ..SMALL };
+        let view = View { body_depth_bias, ..SMALL };
         let grey = |p: [u8; 3]| p != [255; 3] && p[0].abs_diff(p[2]) < 6;
         count(&render(&scene, &view).unwrap(), grey)
     };
     let body = vec![Surface::body(&table.0, &table.1)];
-    let [through, hidden] = [0.0, 5e-3].map(|setback| grey_pixels(setback, body.clone()));
+    let [through, hidden] = [0.0, 5e-3].map(|bias| grey_pixels(bias, body.clone()));
     assert!(through > 10_000, "{through}");
     // The hem is nearly grey too, more so in the shade.
     let hem = grey_pixels(0.0, Vec::new());
@@ -250,5 +250,5 @@ fn a_saved_picture_reads_back_pixel_by_pixel() {
     let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
     let frame = reader.next_frame(&mut bytes).unwrap();
     assert_eq!((frame.width, frame.height), (400, 300));
-    assert!(bytes == picture.pixels(), "pixels changed on the way");
+    assert!(bytes == picture.pixels(), "pixels changed in the file");
 }

@@ -19,7 +19,7 @@ fn pixels(data: &str) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// What the `nth` frame of a plot says about pixels: value at pixel zero and per pixel, for both axes.
+/// Value at pixel zero and per pixel, for both axes, from the attributes of the `nth` frame of a plot.
 fn inverse(svg: &roxmltree::Document<'_>, nth: usize) -> Vec<f64> {
     let frames = svg.descendants().filter(|n| n.attribute("data-map").is_some());
     let map = frames.clone().nth(nth).unwrap().attribute("data-map").unwrap();
@@ -126,7 +126,7 @@ fn points_of_a_graph_are_drawn_where_they_are_on_logarithmic_axes() {
     let series = svg.descendants().filter(|n| n.attribute("data-label").is_some());
     let series: Vec<_> = series.collect();
     assert_eq!(series.len(), 2);
-    // What is held against lies beneath.
+    // References lie beneath.
     for (node, series) in series.iter().zip(plot.series.iter().rev()) {
         let found = pixels(node.attribute("d").unwrap());
         assert_eq!(found.len(), series.points.len());

@@ -1,8 +1,8 @@
-//! Scenes and views that must be refused, and poor ones that must not be.
+//! Scenes and views that must be refused, and degenerate ones that must not be.
 
 #![allow(clippy::unwrap_used)]
 
-use drape_report::{ReportError, Scene, Surface, View, render};
+use drape_report::{Error, Scene, Surface, View, render};
 
 const SMALL: View = View {
     azimuth_deg: 25.0,
@@ -10,7 +10,7 @@ const SMALL: View = View {
     field_deg: 24.0,
     width: 160,
     height: 120,
-    body_setback: 0.0,
+    body_depth_bias: 0.0,
 };
 
 type Shape = (Vec<f64>, Vec<[u32; 3]>);
@@ -29,35 +29,35 @@ fn cloth(shape: &Shape) -> Surface<'_> {
 }
 
 #[test]
-fn scenes_that_are_none_are_refused() {
+fn invalid_scenes_and_views_are_refused() {
     let (shape, coordinates) = square();
     let refused = |scene: &Scene, view: &View| render(scene, view).expect_err("refused");
-    let only = |surface: Surface<'_>| -> ReportError {
+    let only = |surface: Surface<'_>| -> Error {
         let scene = Scene { cloths: vec![surface], ..Scene::default() };
         refused(&scene, &SMALL)
     };
-    assert_eq!(refused(&Scene::default(), &SMALL), ReportError::EmptyScene);
-    assert_eq!(only(Surface::cloth(&shape.0, &[])), ReportError::EmptyScene);
+    assert_eq!(refused(&Scene::default(), &SMALL), Error::EmptyScene);
+    assert_eq!(only(Surface::cloth(&shape.0, &[])), Error::EmptyScene);
     for bad in [f64::NAN, f64::INFINITY, 1e9] {
         let mut lost = shape.clone();
         lost.0[7] = bad;
         let error = only(cloth(&lost));
-        let named = matches!(&error, ReportError::BadCoordinate { vertex: 2, .. });
+        let named = matches!(&error, Error::BadCoordinate { vertex: 2, .. });
         assert!(named, "{error}");
         let mut lost = coordinates.clone();
         lost[3] = bad;
         let error = only(cloth(&shape).with_lines(&lost, 0.1));
-        let named = matches!(&error, ReportError::BadCoordinate { vertex: 1, .. });
+        let named = matches!(&error, Error::BadCoordinate { vertex: 1, .. });
         assert!(named, "{error}");
     }
     let error = only(Surface::cloth(&shape.0, &[[0, 1, 9]]));
-    assert!(matches!(error, ReportError::NoSuchVertex { index: 9, .. }), "{error}");
+    assert!(matches!(error, Error::NoSuchVertex { index: 9, .. }), "{error}");
     let error = only(Surface::cloth(&shape.0[1..], &shape.1));
-    assert!(matches!(error, ReportError::BadLength { length: 26, .. }), "{error}");
+    assert!(matches!(error, Error::BadLength { length: 26, .. }), "{error}");
     let error = only(cloth(&shape).with_lines(&coordinates[2..], 0.1));
-    assert!(matches!(error, ReportError::BadLength { length: 16, .. }), "{error}");
+    assert!(matches!(error, Error::BadLength { length: 16, .. }), "{error}");
     let error = only(cloth(&shape).with_lines(&coordinates, 0.0));
-    assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
+    assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
 
     let scene = Scene { cloths: vec![cloth(&shape)], ..Scene::default() };
     let views = [
@@ -66,11 +66,11 @@ fn scenes_that_are_none_are_refused() {
         View { azimuth_deg: f64::NAN, ..SMALL },
         View { elevation_deg: 91.0, ..SMALL },
         View { field_deg: 0.0, ..SMALL },
-        View { body_setback: -1.0, ..SMALL },
+        View { body_depth_bias: -1.0, ..SMALL },
     ];
     for view in views {
         let error = refused(&scene, &view);
-        assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
+        assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
     }
     let picture = render(&scene, &SMALL).unwrap();
     let error = picture.save("no/such/folder/picture.png").expect_err("nowhere");

@@ -6,8 +6,8 @@ mod samples;
 
 use drape_report::plot::{Point, UncertaintyPlot, correlation_svg, loop_svg, uncertainty_svg};
 use drape_report::{
-    ComparePage, ComparedValue, FabricName, FitPage, Interval, ReportError, Scene, Surface, Units,
-    ValidationCase, ValidationPage, ValidationRow, View, render,
+    CaptionedPicture, ComparePage, ComparedValue, Error, FabricName, FitPage, Interval, Scene,
+    Surface, Units, ValidationCase, ValidationPage, ValidationRow, View, render,
 };
 use proptest::prelude::*;
 use samples::{a_graph, a_loop, a_page, an_overlay, classes, text_of, tree};
@@ -56,7 +56,7 @@ fn the_same_fit_gives_the_same_bytes() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused_with_its_place() {
+fn faults_of_a_report_are_refused_with_their_place() {
     let refused = |change: &dyn Fn(&mut FitPage)| {
         let mut page = a_page();
         change(&mut page);
@@ -68,34 +68,34 @@ fn what_cannot_be_drawn_is_refused_with_its_place() {
     let expected = "bending, warp: the load at point 3 of branch 1 is NaN";
     assert!(nan.to_string().starts_with(expected), "{nan}");
     let error = refused(&|p| p.laws[0].parameters[0].value = f64::INFINITY);
-    assert!(matches!(error, ReportError::NotFinite { .. }), "{error}");
+    assert!(matches!(error, Error::NotFinite { .. }), "{error}");
     let error = refused(&|p| p.laws[0].parameters[0].standard_error = Some(-1.0));
-    assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
+    assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
     let error = refused(&|p| {
         p.laws[0].parameters[0].interval = Interval::Between { lower: 2.0, upper: 1.0 };
     });
-    assert!(matches!(error, ReportError::OutOfRange { value: 1.0, .. }), "{error}");
+    assert!(matches!(error, Error::OutOfRange { value: 1.0, .. }), "{error}");
     let error = refused(&|p| p.laws[0].plots[0].branches.clear());
-    assert!(matches!(error, ReportError::EmptyPlot { .. }), "{error}");
+    assert!(matches!(error, Error::EmptyPlot { .. }), "{error}");
     let error = refused(&|p| p.laws[0].plots[0].branches[2].points.clear());
     assert!(error.to_string().contains("branch 2"), "{error}");
     let error = refused(&|p| p.laws[0].plots[0].load.in_si = 0.0);
-    assert!(matches!(error, ReportError::OutOfRange { value: 0.0, .. }), "{error}");
+    assert!(matches!(error, Error::OutOfRange { value: 0.0, .. }), "{error}");
     let error = refused(&|p| p.laws[0].correlation.as_mut().unwrap().matrix[1].truncate(1));
-    assert!(matches!(error, ReportError::BadMatrix { row: 1, length: 1, .. }), "{error}");
+    assert!(matches!(error, Error::BadMatrix { row: 1, length: 1, .. }), "{error}");
     let error = refused(&|p| p.laws[0].correlation.as_mut().unwrap().matrix[0][1] = f64::NAN);
-    assert!(matches!(error, ReportError::OutOfRange { .. }), "{error}");
+    assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
     let error = refused(&|p| p.name.push('\u{1b}'));
-    assert!(matches!(error, ReportError::ControlCharacter { .. }), "{error}");
+    assert!(matches!(error, Error::ControlCharacter { .. }), "{error}");
     let error = refused(&|p| {
         *p = FitPage { name: "none".to_owned(), ..FitPage::default() };
     });
-    assert!(matches!(error, ReportError::EmptyReport { .. }), "{error}");
+    assert!(matches!(error, Error::EmptyReport { .. }), "{error}");
     let error = ComparePage::default().to_html().unwrap_err();
-    assert!(matches!(error, ReportError::EmptyReport { .. }), "{error}");
+    assert!(matches!(error, Error::EmptyReport { .. }), "{error}");
     let none = UncertaintyPlot { parameters: &[] };
     let error = uncertainty_svg(&none).unwrap_err();
-    assert!(matches!(error, ReportError::EmptyPlot { .. }), "{error}");
+    assert!(matches!(error, Error::EmptyPlot { .. }), "{error}");
 }
 
 #[test]
@@ -144,7 +144,7 @@ fn two_fabrics_are_compared_by_the_ratio_of_their_values() {
 }
 
 #[test]
-fn the_machines_report_holds_the_numbers_in_si() {
+fn the_report_for_programs_holds_the_numbers_in_si() {
     let json = serde_json::to_value(a_page()).unwrap();
     let parameter = &json["laws"][0]["parameters"][0];
     assert_eq!(parameter["value"], 1.157e-5);
@@ -215,7 +215,10 @@ fn a_validation_has_its_figures_plots_and_pictures_in_one_page() {
     let picture = render(&scene, &view).unwrap();
     let row = |what: &str, passes| ValidationRow {
         what: what.to_owned(),
-        cells: ["1.01", "1", "+1 %", "2 %"].map(str::to_owned),
+        measured: "1.01".to_owned(),
+        reference: "1".to_owned(),
+        error: "+1 %".to_owned(),
+        limit: "2 %".to_owned(),
         passes: Some(passes),
     };
     let case = |name: &str, rows| ValidationCase {
@@ -223,7 +226,10 @@ fn a_validation_has_its_figures_plots_and_pictures_in_one_page() {
         title: format!("{name} & <more>"),
         rows,
         plots: vec![a_graph()],
-        pictures: vec![("a triangle".to_owned(), picture.clone())],
+        pictures: vec![CaptionedPicture {
+            caption: "a triangle".to_owned(),
+            picture: picture.clone(),
+        }],
         ..ValidationCase::default()
     };
     let mut page = ValidationPage {
@@ -248,7 +254,7 @@ fn a_validation_has_its_figures_plots_and_pictures_in_one_page() {
     assert_eq!(failed.count(), 1);
     assert!(!html.contains("http"));
     page.cases[0].plots[0].series[0].points[0][0] = f64::NAN;
-    assert!(matches!(page.to_html(), Err(ReportError::NotFinite { .. })));
+    assert!(matches!(page.to_html(), Err(Error::NotFinite { .. })));
     let none = ValidationPage::default().to_html();
-    assert!(matches!(none, Err(ReportError::EmptyReport { .. })));
+    assert!(matches!(none, Err(Error::EmptyReport { .. })));
 }

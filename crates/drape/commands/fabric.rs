@@ -4,11 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 use drape::fabric::Fabric;
-use drape::fit::Settings;
-use drape::input::Document;
 use drape::kes::Sheet;
+use drape::scene::{FabricRequest, Model};
 
-use crate::commands::fit::{identify, store};
+use crate::commands::fit::store;
 use crate::commands::sheets;
 use crate::failure::Failure;
 use crate::file;
@@ -57,17 +56,11 @@ pub(crate) fn fabric(command: &FabricCommand) -> Result<(), Failure> {
     }
 }
 
-/// Reads a fabric from its file, or from a sheet, which it fits.
+/// Reads a fabric from its file, or from a sheet or its folder, which it fits.
 pub(crate) fn read(path: &Path) -> Result<Fabric, Failure> {
-    if path.is_dir() {
-        return Ok(identify(path, &Settings::default())?.fit.fabric);
-    }
-    let document = Document::read(path)?;
-    let table: toml::Table = document.decode()?;
-    if table.contains_key("density") || table.contains_key("shear") {
-        return Ok(Fabric::from_document(&document)?);
-    }
-    Ok(identify(path, &Settings::default())?.fit.fabric)
+    let sheet = path.join(sheets::SHEET_FILE);
+    let file = if path.is_dir() { &sheet } else { path };
+    Ok(drape::scene_fabric(FabricRequest { file, model: Model::Kes })?)
 }
 
 fn list(folders: &[PathBuf]) -> Result<(), Failure> {

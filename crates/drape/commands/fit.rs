@@ -10,8 +10,9 @@ mod identify;
 use std::path::Path;
 
 pub(crate) use arguments::FitArguments;
-pub(crate) use identify::{identify, store};
+pub(crate) use identify::store;
 
+use self::identify::identify;
 use crate::commands::sheets;
 use crate::failure::Failure;
 use crate::file;

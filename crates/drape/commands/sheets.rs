@@ -9,7 +9,8 @@ use drape::kes::Sheet;
 
 use crate::failure::Failure;
 
-const SHEET_FILE: &str = "sheet.toml";
+/// Name of the file of a sheet in its folder.
+pub(crate) const SHEET_FILE: &str = "sheet.toml";
 
 /// Deepest folder that is searched, counted from the one that was named: a link back up would never
 /// end.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use drape::input::Diagnostic;
+use drape::report::CaptionedPicture;
 use drape::report::plot::graph_svg;
 use drape::validate::{CASES, Case, Check, Kind, Outcome};
 
@@ -93,7 +94,7 @@ fn store(outcomes: &[Outcome], folder: &Path) -> Result<PathBuf, Failure> {
             let path = folder.join(format!("{}-{}.svg", case.name, number + 1));
             file::write(&path, graph_svg(plot)?)?;
         }
-        for (number, (_, picture)) in case.pictures.iter().enumerate() {
+        for (number, CaptionedPicture { picture, .. }) in case.pictures.iter().enumerate() {
             let path = folder.join(format!("{}-{}.png", case.name, number + 1));
             file::write(&path, picture.png()?)?;
         }

@@ -80,7 +80,7 @@ fn draw_cloth(
     let view = View {
         azimuth_deg: azimuth.unwrap_or(standard.azimuth_deg),
         elevation_deg: elevation.unwrap_or(standard.elevation_deg),
-        body_setback: *spacing,
+        body_depth_bias: *spacing,
         width,
         height,
         ..standard

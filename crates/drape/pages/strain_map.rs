@@ -2,7 +2,8 @@
 
 use drape::cloth::TriangleStrain;
 use drape::dynamics::Snapshot;
-use drape::report::{Colour, StrainMap, diverging, strain_svg};
+use drape::report::plot::{StrainMap, strain_svg};
+use drape::report::{Colour, diverging};
 
 use super::picture::draw_from;
 use crate::failure::Failure;

@@ -3,7 +3,7 @@
 mod limits;
 
 use drape::report::plot::{Axis, GraphPlot, GraphSeries, Look};
-use drape::report::{Picture, ValidationCase, ValidationPage, ValidationRow};
+use drape::report::{CaptionedPicture, Picture, ValidationCase, ValidationPage, ValidationRow};
 use drape::validate::{Check, Graph, Kind, Layout, Outcome, Source, Still};
 
 use self::limits::LIMITS;
@@ -30,8 +30,10 @@ pub(crate) fn page(outcomes: &[Outcome]) -> Result<ValidationPage, Failure> {
 }
 
 fn case(outcome: &Outcome) -> Result<ValidationCase, Failure> {
-    let drawn = |still: &Still| Ok((still.title.clone(), draw(still)?));
-    let pictures: Result<Vec<(String, Picture)>, Failure> =
+    let drawn = |still: &Still| {
+        Ok(CaptionedPicture { caption: still.title.clone(), picture: draw(still)? })
+    };
+    let pictures: Result<Vec<CaptionedPicture>, Failure> =
         outcome.stills.iter().map(drawn).collect();
     Ok(ValidationCase {
         name: outcome.name.clone(),
@@ -74,7 +76,7 @@ fn draw(still: &Still) -> Result<Picture, Failure> {
 /// Returns the row of a figure.
 fn row(check: &Check) -> ValidationRow {
     let Check { what, measured, reference, limit, kind } = check;
-    let cells = match kind {
+    let [measured, reference, error, limit] = match kind {
         Kind::Equal => [
             format!("{measured:.5}"),
             format!("{reference:.5}"),
@@ -89,7 +91,8 @@ fn row(check: &Check) -> ValidationRow {
         }
         Kind::Told => [format!("{measured:.3}"), String::new(), String::new(), "none".to_owned()],
     };
-    ValidationRow { what: what.clone(), cells, passes: check.verdict() }
+    let (what, passes) = (what.clone(), check.verdict());
+    ValidationRow { what, measured, reference, error, limit, passes }
 }
 
 /// Returns a number of any size as text.
@@ -116,14 +119,16 @@ pub(crate) fn markdown(outcomes: &[Outcome]) -> String {
             page += &format!("![{still}]({path})\n\n{still}.\n\n");
         }
         page += "| figure | simulated | reference | error | limit | |\n|---|---|---|---|---|---|\n";
-        for ValidationRow { what, cells, passes } in outcome.checks.iter().map(row) {
-            let verdict = match passes {
+        for row in outcome.checks.iter().map(row) {
+            let verdict = match row.passes {
                 Some(true) => "pass",
                 Some(false) => "**fail**",
                 None => "",
             };
-            let cells = cells.map(|cell| if cell.is_empty() { cell } else { cell + " " });
-            page += &format!("| {what} | {}| {verdict} |\n", cells.join("| "));
+            let spaced =
+                |cell: &str| if cell.is_empty() { String::new() } else { format!("{cell} ") };
+            let cells = row.cells().map(spaced);
+            page += &format!("| {} | {}| {verdict} |\n", row.what, cells.join("| "));
         }
     }
     page += "\n## What this does not show\n\n";

@@ -1,36 +1,45 @@
+//! Energy of an angle between two segments: bending and trellising.
+
 use drape_fabric::{BreenWork, Work};
 
-use crate::breen::{Block, place};
-use crate::field::{Vector, add, dot, scale, subtract};
+use crate::measure::block::Block;
+use crate::measure::half::TRANSPOSED;
+use crate::measure::vector::{Vector, add, dot, scale, subtract, vector_at};
 
 /// Two segments between particles, with an energy of the angle between them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hinge {
-    /// The particles; those beyond `count` are none.
+    /// Particles, `count` of them.
     particles: [u32; 4],
-    /// With which signs each is part of the first and of the second segment.
+    /// Signs of each particle in the first and in the second segment.
     signs: [[f64; 2]; 4],
     count: usize,
-    /// Area of cloth that it stands for, in m².
-    area: f64,
-    /// Place of its work among those of the cloth.
-    work: u32,
+    size: HingeSize,
     measure: Measure,
 }
 
-/// What the energy is a function of.
+/// Area and law of a hinge.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HingeSize {
+    /// Area of cloth, in m².
+    pub(crate) area: f64,
+    /// Index of its work among those of the cloth.
+    pub(crate) work: u32,
+}
+
+/// Measure that the energy is a function of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Measure {
-    /// The difference of the directions: of two segments of a spacing along a yarn.
+    /// Length of the difference of the directions of two segments of a spacing along a yarn.
     Chord {
         /// Length of a segment at rest, in m.
         spacing: f64,
     },
-    /// The cosine of the angle: of two lines that cross at right angles at rest.
+    /// Cosine of the angle of two lines that cross at right angles at rest.
     Cosine,
 }
 
-/// Where a hinge is: directions and lengths of its segments, their difference, and its squared length.
+/// Directions and lengths of the segments, the difference of the directions, and its squared length.
 struct Pose {
     units: [Vector; 2],
     lengths: [f64; 2],
@@ -39,39 +48,35 @@ struct Pose {
 }
 
 impl Hinge {
-    /// Three particles along a yarn.
-    pub(crate) fn bend(
-        [before, middle, after]: [u32; 3],
-        (area, work): (f64, u32),
-        spacing: f64,
-    ) -> Self {
+    /// Returns the hinge of three particles along a yarn.
+    pub(crate) fn bend([before, middle, after]: [u32; 3], size: HingeSize, spacing: f64) -> Self {
         let measure = Measure::Chord { spacing };
-        Self::new([[before, middle], [middle, after]], (area, work), measure)
+        Self::new([[before, middle], [middle, after]], size, measure)
     }
 
-    /// The two lines through the neighbours of a particle.
-    pub(crate) fn trellis(lines: [[u32; 2]; 2], (area, work): (f64, u32)) -> Self {
-        Self::new(lines, (area, work), Measure::Cosine)
+    /// Returns the hinge of the two lines through the neighbours of a particle.
+    pub(crate) fn trellis(lines: [[u32; 2]; 2], size: HingeSize) -> Self {
+        Self::new(lines, size, Measure::Cosine)
     }
 
-    fn new(segments: [[u32; 2]; 2], (area, work): (f64, u32), measure: Measure) -> Self {
+    fn new(segments: [[u32; 2]; 2], size: HingeSize, measure: Measure) -> Self {
         let (mut particles, mut signs, mut count) = ([0; 4], [[0.0; 2]; 4], 0);
         for (segment, ends) in segments.into_iter().enumerate() {
             for (end, sign) in ends.into_iter().zip([-1.0, 1.0]) {
                 let known = particles[..count].iter().position(|&particle| particle == end);
-                let place = known.unwrap_or(count);
-                count = count.max(place + 1);
-                particles[place] = end;
-                signs[place][segment] += sign;
+                let index = known.unwrap_or(count);
+                count = count.max(index + 1);
+                particles[index] = end;
+                signs[index][segment] += sign;
             }
         }
-        Self { particles, signs, count, area, work, measure }
+        Self { particles, signs, count, size, measure }
     }
 
     fn pose(&self, positions: &[f64]) -> Pose {
         let mut segments = [[0.0; 3]; 2];
         for (particle, signs) in self.particles[..self.count].iter().zip(self.signs) {
-            let at = place(positions, *particle);
+            let at = vector_at(positions, *particle);
             for (segment, sign) in segments.iter_mut().zip(signs) {
                 *segment = add(*segment, scale(at, sign));
             }
@@ -82,9 +87,10 @@ impl Hinge {
         Pose { units, lengths, chord, square: dot(chord, chord) }
     }
 
-    /// Energy, and its first two derivatives with respect to the cosine `$1 - \frac12|d|^2$` of the angle.
+    /// Returns the energy and its derivatives with respect to the cosine `$1 - \frac12|d|^2$` of the angle,
+    /// with the difference `$d$` of the directions.
     fn work(&self, works: &[BreenWork], pose: &Pose) -> Work {
-        let work = &works[self.work as usize];
+        let work = &works[self.size.work as usize];
         let found = match self.measure {
             Measure::Chord { spacing } => {
                 let chord = pose.square.sqrt();
@@ -97,20 +103,20 @@ impl Hinge {
             Measure::Cosine => work.of_sine(1.0 - 0.5 * pose.square),
         };
         Work {
-            work: found.work * self.area,
-            first: found.first * self.area,
-            second: found.second * self.area,
+            work: found.work * self.size.area,
+            first: found.first * self.size.area,
+            second: found.second * self.size.area,
         }
     }
 
     pub(crate) fn energy(&self, works: &[BreenWork], positions: &[f64]) -> f64 {
-        let work = &works[self.work as usize];
+        let work = &works[self.size.work as usize];
         let square = self.pose(positions).square;
         let found = match self.measure {
             Measure::Chord { spacing } => work.of_chord(spacing, square.sqrt()),
             Measure::Cosine => work.of_sine(1.0 - 0.5 * square),
         };
-        found.work * self.area
+        found.work * self.size.area
     }
 
     pub(crate) fn add_forces(&self, works: &[BreenWork], positions: &[f64], forces: &mut [f64]) {
@@ -126,19 +132,21 @@ impl Hinge {
         }
     }
 
-    /// Second derivatives, block by block: see [`Breen::stiffness`](crate::Breen::stiffness).
-    pub(crate) fn stiffness(
+    /// Passes the second derivatives to `put`, block by block: see
+    /// [`Breen::add_stiffness`](crate::Breen::add_stiffness).
+    pub(crate) fn add_stiffness(
         &self,
         works: &[BreenWork],
-        (positions, definite): (&[f64], bool),
-        visit: &mut dyn FnMut([u32; 2], &Block),
+        positions: &[f64],
+        definite: bool,
+        put: &mut dyn FnMut([u32; 2], &Block),
     ) {
         let pose = self.pose(positions);
         let [first, second, mixed] = match (self.measure, definite) {
             (Measure::Chord { spacing }, true) => {
                 let chord = pose.square.sqrt();
-                let found = works[self.work as usize].of_chord(spacing, chord);
-                pose.of_chord((&found, self.area))
+                let found = works[self.size.work as usize].of_chord(spacing, chord);
+                pose.of_chord(&found, self.size.area)
             }
             (Measure::Cosine, true) => {
                 let found = self.work(works, &pose);
@@ -150,14 +158,17 @@ impl Hinge {
             for j in i..self.count {
                 let ([a, b], [c, d]) = (self.signs[i], self.signs[j]);
                 let block: Block = std::array::from_fn(|k| {
-                    let turned = 3 * (k % 3) + k / 3;
-                    a * c * first[k] + b * d * second[k] + a * d * mixed[k] + b * c * mixed[turned]
+                    let transposed = TRANSPOSED[k];
+                    a * c * first[k]
+                        + b * d * second[k]
+                        + a * d * mixed[k]
+                        + b * c * mixed[transposed]
                 });
                 let [p, q] = [self.particles[i], self.particles[j]];
                 if p <= q {
-                    visit([p, q], &block);
+                    put([p, q], &block);
                 } else {
-                    visit([q, p], &std::array::from_fn(|k| block[3 * (k % 3) + k / 3]));
+                    put([q, p], &TRANSPOSED.map(|k| block[k]));
                 }
             }
         }
@@ -167,7 +178,7 @@ impl Hinge {
 /// Chord below which a yarn counts as straight: the angle is then lost in the rounding of the directions.
 const STRAIGHT: f64 = 1e-9;
 
-/// First derivative over the chord; of a straight yarn its limit.
+/// Returns the first derivative over the chord; of a straight yarn the limit.
 fn secant(work: &Work, chord: f64) -> f64 {
     if chord > STRAIGHT { work.first / chord } else { work.second }
 }
@@ -178,8 +189,9 @@ impl Pose {
         1.0 - 0.5 * self.square
     }
 
-    /// Each direction less its part along the other one's own: the derivatives of the cosine with respect to the two
-    /// segments, times their lengths. Of nearly straight segments they are small, and found without cancellation.
+    /// Returns the derivatives of the cosine with respect to the two segments, times their lengths: each
+    /// direction less its component along the other. For nearly straight segments they are small, and
+    /// computed without cancellation.
     fn across(&self) -> [Vector; 2] {
         let half = 0.5 * self.square;
         [
@@ -188,13 +200,14 @@ impl Pose {
         ]
     }
 
-    /// Derivatives of the cosine with respect to the two segments.
+    /// Returns the derivatives of the cosine with respect to the two segments.
     fn gradient(&self) -> [Vector; 2] {
         let across = self.across();
         [0, 1].map(|k| scale(across[k], 1.0 / self.lengths[k]))
     }
 
-    /// Second derivatives of a function of the cosine with respect to the first segment, the second, and both.
+    /// Returns the second derivatives of a function of the cosine with respect to the first segment, the
+    /// second, and both.
     fn of_cosine(&self, work: &Work) -> [Block; 3] {
         let gradient = self.gradient();
         let cosine = self.cosine();
@@ -202,10 +215,11 @@ impl Pose {
             let (unit, slope, inverse) = (self.units[k], gradient[k], 1.0 / self.lengths[k]);
             std::array::from_fn(|entry| {
                 let (i, j) = (entry / 3, entry % 3);
-                let one = if i == j { 1.0 } else { 0.0 };
-                let turn = unit[i] * slope[j] + slope[i] * unit[j];
-                let turn = (turn + cosine * inverse * (one - unit[i] * unit[j])) * inverse;
-                work.second * slope[i] * slope[j] - work.first * turn
+                let identity = if i == j { 1.0 } else { 0.0 };
+                let rotation = unit[i] * slope[j] + slope[i] * unit[j];
+                let rotation =
+                    (rotation + cosine * inverse * (identity - unit[i] * unit[j])) * inverse;
+                work.second * slope[i] * slope[j] - work.first * rotation
             })
         };
         let [a, b] = self.lengths;
@@ -213,21 +227,21 @@ impl Pose {
         // (1 − ppᵀ)(1 − qqᵀ) = 1 − ppᵀ − qqᵀ + c pqᵀ.
         let mixed: Block = std::array::from_fn(|entry| {
             let (i, j) = (entry / 3, entry % 3);
-            let one = if i == j { 1.0 } else { 0.0 };
-            let both = one - p[i] * p[j] - q[i] * q[j] + cosine * p[i] * q[j];
+            let identity = if i == j { 1.0 } else { 0.0 };
+            let both = identity - p[i] * p[j] - q[i] * q[j] + cosine * p[i] * q[j];
             work.second * gradient[0][i] * gradient[1][j] + work.first * both / (a * b)
         });
         [own(0), own(1), mixed]
     }
 
-    /// The positive part of the second derivatives of a work of the chord: those that its own changes have, without
-    /// those of its direction's.
-    fn of_chord(&self, (work, area): (&Work, f64)) -> [Block; 3] {
+    /// Returns the positive part of the second derivatives of a work of the chord, without the rotation of
+    /// the chord's gradient.
+    fn of_chord(&self, work: &Work, area: f64) -> [Block; 3] {
         let chord = self.square.sqrt();
         let secant = secant(work, chord);
         let more = if chord > STRAIGHT { (work.second - secant) / self.square } else { 0.0 };
         let (secant, more) = (area * secant, area * more);
-        // A direction's change across the segment, over its length.
+        // Component across the segment, over its length: the change of the direction.
         let project = |k: usize, vector: Vector| {
             let unit = self.units[k];
             let rest = subtract(vector, scale(unit, dot(unit, vector)));

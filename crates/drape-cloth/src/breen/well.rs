@@ -1,39 +1,41 @@
-use crate::breen::{Block, length};
-use crate::field::Vector;
+//! Energy of two particles as a function of their distance: stretching and repulsion in one well.
+
+use crate::measure::block::Block;
+use crate::measure::vector::{Vector, length};
 
 /// Standard gravity, in m/s².
 const GRAVITY: f64 = 9.806_65;
 
-/// The energy well of two particles [Breen, House & Wozny 1994, eqs. 3.2 and 3.3]: with the distance `$\rho$` counted in
-/// spacings
+/// Energy well of two particles \[BHW94, eqs. 3.2 and 3.3\]: with the distance `$\rho$` in units of the
+/// spacing
 ///
 /// ```math
 /// U = C_0\,(\rho - 1)^5\;(\rho > 1), \qquad U = C_0\,\frac{(1 - \rho)^5}{\rho}\;(\rho \le 1)
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Well {
-    /// Distance at which the energy is nought, in m.
+    /// Distance at which the energy is zero, in m.
     pub(crate) spacing: f64,
-    /// The factor `$C_0$`, in J.
+    /// Factor `$C_0$`, in J.
     pub(crate) energy: f64,
 }
 
 /// Energy at a distance, in J, and its derivatives with respect to the distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Level {
+pub(crate) struct WellResponse {
     pub(crate) energy: f64,
     pub(crate) first: f64,
     pub(crate) second: f64,
 }
 
 impl Well {
-    /// The factor per area, in J/m², for which the weight of a metre of cloth strains it so much: the tension per width
-    /// is `$5C_0\varepsilon^4$`.
+    /// Returns the factor per area, in J/m², for which the weight of a metre of cloth has the given strain:
+    /// the tension per width is `$5C_0\varepsilon^4$`.
     pub(crate) fn depth(density: f64, strain: f64) -> f64 {
         density * GRAVITY / (5.0 * strain.powi(4))
     }
 
-    /// The well of two particles with wells of their own.
+    /// Returns the well between two particles, the mean of their own.
     pub(crate) fn between(one: &Self, other: &Self) -> Self {
         Self {
             spacing: 0.5 * (one.spacing + other.spacing),
@@ -41,7 +43,8 @@ impl Well {
         }
     }
 
-    pub(crate) fn at(&self, distance: f64) -> Level {
+    /// Returns energy and derivatives at a distance, in m.
+    pub(crate) fn at(&self, distance: f64) -> WellResponse {
         let unit = 1.0 / self.spacing;
         let ratio = distance * unit;
         let apart = ratio - 1.0;
@@ -59,23 +62,23 @@ impl Well {
                 cube * bend * inverse * inverse * inverse,
             ]
         };
-        Level {
+        WellResponse {
             energy: self.energy * energy,
             first: self.energy * first * unit,
             second: self.energy * second * unit * unit,
         }
     }
 
-    /// Second derivatives with respect to the way from one particle to the other.
-    pub(crate) fn block(&self, way: Vector, definite: bool) -> Block {
-        let distance = length(way);
-        let Level { first, second, .. } = self.at(distance);
-        let turn = first / distance;
-        let turn = if definite { turn.max(0.0) } else { turn };
-        let along = (second - turn) / (distance * distance);
+    /// Returns the second derivatives with respect to the vector from one particle to the other.
+    pub(crate) fn block(&self, span: Vector, definite: bool) -> Block {
+        let distance = length(span);
+        let WellResponse { first, second, .. } = self.at(distance);
+        let across = first / distance;
+        let across = if definite { across.max(0.0) } else { across };
+        let along = (second - across) / (distance * distance);
         std::array::from_fn(|k| {
-            let one = if k % 4 == 0 { turn } else { 0.0 };
-            along * way[k / 3] * way[k % 3] + one
+            let diagonal = if k % 4 == 0 { across } else { 0.0 };
+            along * span[k / 3] * span[k % 3] + diagonal
         })
     }
 }
@@ -103,7 +106,7 @@ mod tests {
     fn derivatives_are_those_of_the_energy() {
         for ratio in [0.2, 0.6, 0.9, 1.05, 1.5] {
             let (at, h) = (ratio * WELL.spacing, 1e-6 * WELL.spacing);
-            let Level { first, second, .. } = WELL.at(at);
+            let WellResponse { first, second, .. } = WELL.at(at);
             let slope = (WELL.at(at + h).energy - WELL.at(at - h).energy) / (2.0 * h);
             let bend = (WELL.at(at + h).first - WELL.at(at - h).first) / (2.0 * h);
             assert!((slope / first - 1.0).abs() < 1e-6, "{slope} and {first} at {ratio}");

@@ -1,153 +1,117 @@
-#![allow(clippy::needless_range_loop, reason = "a lane is a place in many arrays")]
+//! Potential, commit and stored energy of a rim.
 
-use drape_fabric::{BatchLaw, LANES, Lanes, MemoriesMut};
+use drape_fabric::{BatchLaw, LANES};
 
-use crate::field::lanes;
-use crate::panel::Panel;
-use crate::rim::bow::Bowed;
-use crate::rim::strain::Strain;
-use crate::rim::{Rim, RimTrial};
-use crate::state::RimHistory;
+use crate::kernel::energy::add_weighted;
+use crate::layout::columns::lanes;
+use crate::rim::connectors::{Rim, RimShape};
+use crate::rim::memories::{RimMemories, RimMemoriesMut};
+use crate::rim::stencils::StencilMeasures;
+use crate::rim::triangles::TriangleMeasures;
 
-/// The memories of some rims, to be moved on.
-pub(crate) struct Course<'a> {
-    pub(crate) traction: [MemoriesMut<'a>; 2],
-    pub(crate) shear: MemoriesMut<'a>,
-    pub(crate) bending: [MemoriesMut<'a>; 2],
-}
-
-impl Course<'_> {
-    /// The memories up to where another rim begins, and those from there on.
-    pub(crate) fn split(self, from: &Rim, to: &Rim) -> (Self, Self) {
-        let triangles = to.triangles.base - from.triangles.base;
-        let stencils = to.stencils.base - from.stencils.base;
-        let ([a, b], c, [d, e]) = (self.traction, self.shear, self.bending);
-        let [a, b, c] = [a, b, c].map(|moving| moving.split(triangles));
-        let [d, e] = [d, e].map(|moving| moving.split(stencils));
-        let head = Self { traction: [a.0, b.0], shear: c.0, bending: [d.0, e.0] };
-        (head, Self { traction: [a.1, b.1], shear: c.1, bending: [d.1, e.1] })
-    }
-}
-
-/// Potential of a rim's connectors within a step, in J.
+/// Returns the potential of a rim's connectors within a step, in J.
 #[inline(always)]
-pub(crate) fn potential(trial: &RimTrial<'_>) -> f64 {
-    let RimTrial { rim: Rim { triangles, stencils, .. }, panel, history, .. } = *trial;
-    let history = &history.rim;
+pub(crate) fn potential(shape: &RimShape<'_>, memories: &RimMemories) -> f64 {
+    let RimShape { rim: Rim { triangles, stencils, .. }, panel, .. } = *shape;
     let mut sums = [0.0; LANES];
-    for start in (0..triangles.areas.len()).step_by(LANES) {
-        let place = triangles.base + start;
-        let strain = Strain::of(triangles, start, trial.positions);
+    for start in triangles.batches() {
+        let index = triangles.base + start;
+        let measures = TriangleMeasures::of(triangles, start, shape.positions);
         let mut works = [0.0; LANES];
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let memory = history.traction[direction].batch(place);
-            yarns.traction.add_work(&memory, &strain.strains[direction], &mut works);
+            let memory = memories.traction[direction].batch(index);
+            yarns.traction.add_work(&memory, &measures.strains[direction], &mut works);
         }
-        panel.shear.add_work(&history.shear.batch(place), &strain.sines, &mut works);
-        weigh(&mut sums, &works, lanes(&triangles.areas, start));
+        panel.shear.add_work(&memories.shear.batch(index), &measures.sines, &mut works);
+        add_weighted(&mut sums, &works, lanes(&triangles.areas, start));
     }
-    for start in (0..stencils.middles.len()).step_by(LANES) {
-        let bowed = Bowed::of(stencils, start, (trial.positions, trial.normals));
+    for start in stencils.batches() {
+        let measures = StencilMeasures::of(stencils, start, shape.positions, shape.normals);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let memory = history.bending[direction].batch(stencils.base + start);
-            let bend = bowed.bend(yarns, (stencils, start, direction));
-            let mut works = bend.energies();
-            yarns.bending.add_friction_work(&memory, &bend.bends().curvature, &mut works);
-            weigh(&mut sums, &works, bend.areas);
+            let memory = memories.bending[direction].batch(stencils.base + start);
+            let bending = measures.bending(yarns, direction);
+            let mut works = bending.energies();
+            let curvatures = bending.curvatures().value;
+            yarns.bending.add_friction_work(&memory, &curvatures, &mut works);
+            add_weighted(&mut sums, &works, bending.areas);
         }
     }
     sums.iter().sum()
 }
 
-/// Moves the memories of a rim on to the given positions and normals; returns the energy lost on the way, in J.
+/// Advances the memories of a rim to the accepted positions and normals; returns the energy dissipated,
+/// in J.
 #[inline(always)]
-pub(crate) fn commit(
-    (rim, panel): (&Rim, &Panel),
-    mut course: Course<'_>,
-    shape: (&[f64], &[f64]),
-) -> f64 {
-    let Rim { triangles, stencils, .. } = rim;
+pub(crate) fn commit(shape: &RimShape<'_>, mut memories: RimMemoriesMut<'_>) -> f64 {
+    let RimShape { rim: Rim { triangles, stencils, .. }, panel, .. } = *shape;
     let mut sums = [0.0; LANES];
-    for start in (0..triangles.areas.len()).step_by(LANES) {
-        let strain = Strain::of(triangles, start, shape.0);
+    for start in triangles.batches() {
+        let measures = TriangleMeasures::of(triangles, start, shape.positions);
         let areas = lanes(&triangles.areas, start);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let memories = &mut course.traction[direction];
-            let lost = yarns.traction.commit(memories, start, &strain.strains[direction]);
-            weigh(&mut sums, &lost, areas);
+            let own = &mut memories.traction[direction];
+            let lost = yarns.traction.commit(own, start, &measures.strains[direction]);
+            add_weighted(&mut sums, &lost, areas);
         }
-        let lost = panel.shear.commit(&mut course.shear, start, &strain.sines);
-        weigh(&mut sums, &lost, areas);
+        let lost = panel.shear.commit(&mut memories.shear, start, &measures.sines);
+        add_weighted(&mut sums, &lost, areas);
     }
-    for start in (0..stencils.middles.len()).step_by(LANES) {
-        let bowed = Bowed::of(stencils, start, shape);
+    for start in stencils.batches() {
+        let measures = StencilMeasures::of(stencils, start, shape.positions, shape.normals);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let bend = bowed.bend(yarns, (stencils, start, direction));
-            let memories = &mut course.bending[direction];
-            let lost = yarns.bending.commit(memories, start, &bend.bends().curvature);
-            weigh(&mut sums, &lost, bend.areas);
+            let bending = measures.bending(yarns, direction);
+            let own = &mut memories.bending[direction];
+            let lost = yarns.bending.commit(own, start, &bending.curvatures().value);
+            add_weighted(&mut sums, &lost, bending.areas);
         }
     }
     sums.iter().sum()
 }
 
-/// Writes the memories of a rim that starts in the given shape without friction.
-pub(crate) fn start(
-    (rim, panel): (&Rim, &Panel),
-    history: &mut RimHistory,
-    shape: (&[f64], &[f64]),
-) {
-    let Rim { triangles, stencils, .. } = rim;
-    for start in (0..triangles.areas.len()).step_by(LANES) {
-        let place = triangles.base + start;
-        let strain = Strain::of(triangles, start, shape.0);
+/// Writes the memories of a rim that starts at the given positions without friction.
+pub(crate) fn start(shape: &RimShape<'_>, memories: &mut RimMemories) {
+    let RimShape { rim: Rim { triangles, stencils, .. }, panel, .. } = *shape;
+    for start in triangles.batches() {
+        let index = triangles.base + start;
+        let measures = TriangleMeasures::of(triangles, start, shape.positions);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let memories = &mut history.traction[direction];
-            yarns.traction.start(memories, place, &strain.strains[direction]);
+            let own = &mut memories.traction[direction];
+            yarns.traction.start(own, index, &measures.strains[direction]);
         }
-        panel.shear.start(&mut history.shear, place, &strain.sines);
+        panel.shear.start(&mut memories.shear, index, &measures.sines);
     }
-    for start in (0..stencils.middles.len()).step_by(LANES) {
-        let bowed = Bowed::of(stencils, start, shape);
+    for start in stencils.batches() {
+        let measures = StencilMeasures::of(stencils, start, shape.positions, shape.normals);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let bends = bowed.bend(yarns, (stencils, start, direction)).bends();
-            let memories = &mut history.bending[direction];
-            yarns.bending.start(memories, stencils.base + start, &bends.curvature);
+            let curvatures = measures.bending(yarns, direction).curvatures().value;
+            let own = &mut memories.bending[direction];
+            yarns.bending.start(own, stencils.base + start, &curvatures);
         }
     }
 }
 
-/// Energy that a rim's connectors can give back, in J.
-pub(crate) fn stored(trial: &RimTrial<'_>) -> f64 {
-    let RimTrial { rim: Rim { triangles, stencils, .. }, panel, history, .. } = *trial;
-    let history = &history.rim;
+/// Returns the energy that a rim's connectors can return, in J.
+pub(crate) fn stored(shape: &RimShape<'_>, memories: &RimMemories) -> f64 {
+    let RimShape { rim: Rim { triangles, stencils, .. }, panel, .. } = *shape;
     let mut sums = [0.0; LANES];
-    for start in (0..triangles.areas.len()).step_by(LANES) {
-        let place = triangles.base + start;
+    for start in triangles.batches() {
+        let index = triangles.base + start;
         let mut energies = [0.0; LANES];
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            yarns.traction.add_stored(&history.traction[direction].batch(place), &mut energies);
+            yarns.traction.add_stored(&memories.traction[direction].batch(index), &mut energies);
         }
-        panel.shear.add_stored(&history.shear.batch(place), &mut energies);
-        weigh(&mut sums, &energies, lanes(&triangles.areas, start));
+        panel.shear.add_stored(&memories.shear.batch(index), &mut energies);
+        add_weighted(&mut sums, &energies, lanes(&triangles.areas, start));
     }
-    for start in (0..stencils.middles.len()).step_by(LANES) {
-        let bowed = Bowed::of(stencils, start, (trial.positions, trial.normals));
+    for start in stencils.batches() {
+        let measures = StencilMeasures::of(stencils, start, shape.positions, shape.normals);
         for (direction, yarns) in panel.yarns.iter().enumerate() {
-            let memory = history.bending[direction].batch(stencils.base + start);
-            let bend = bowed.bend(yarns, (stencils, start, direction));
-            let mut energies = bend.energies();
+            let memory = memories.bending[direction].batch(stencils.base + start);
+            let bending = measures.bending(yarns, direction);
+            let mut energies = bending.energies();
             yarns.bending.add_friction_stored(&memory, &mut energies);
-            weigh(&mut sums, &energies, bend.areas);
+            add_weighted(&mut sums, &energies, bending.areas);
         }
     }
     sums.iter().sum()
-}
-
-/// Adds energies per area times areas.
-#[inline(always)]
-fn weigh(sums: &mut Lanes, energies: &Lanes, areas: &Lanes) {
-    for lane in 0..LANES {
-        sums[lane] += energies[lane] * areas[lane];
-    }
 }

@@ -169,7 +169,7 @@ impl InternalForces {
             }
             return;
         };
-        breen.stiffness(trial.positions, definite, &mut |[a, b], block| {
+        breen.add_stiffness(trial.positions, definite, &mut |[a, b], block| {
             let (row, column) = (a as usize, b as usize);
             match matrix.sparsity().slot(row, column) {
                 Some(slot) => matrix.add_block(slot, block),

@@ -1,7 +1,7 @@
 //! The interface of a law for a batch, and all that the laws share: friction, commit, stored energy.
 #![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
-use drape_hysteresis::{PassedKnot, Stroke};
+use drape_hysteresis::{PassedKnot, Response, Stroke};
 
 use crate::batch::friction::PreparedFriction;
 use crate::batch::lanes::{LANES, Lanes, any};
@@ -59,7 +59,7 @@ pub trait BatchLaw {
     fn knot(&self, knot: usize, lane: LaneMemory) -> Knot;
 
     /// Adds elastic loads, and their tangents if `TANGENT`, in the units of
-    /// [`Response`](crate::Response).
+    /// [`Response`].
     fn add_elastic<const TANGENT: bool>(
         &self,
         memory: &MemoryBatch<'_>,
@@ -301,13 +301,22 @@ pub struct Knot {
     pub slope_change: f64,
 }
 
-/// Loads and tangents of a batch, in the units of [`Response`](crate::Response).
+/// Loads and tangents of a batch, in the units of [`Response`].
 #[derive(Debug, Clone, Copy)]
 pub struct Responses {
     /// Loads per width.
     pub load: Lanes,
     /// Derivatives of the loads with respect to the deformations.
     pub tangent: Lanes,
+}
+
+impl Responses {
+    /// Returns load and tangent of one lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn lane(&self, lane: usize) -> Response {
+        Response { load: self.load[lane], tangent: self.tangent[lane] }
+    }
 }
 
 impl Default for Responses {

@@ -1,29 +1,34 @@
+//! Heat map of the correlations between parameters.
+
 use askama::Template;
 use serde::Serialize;
 
-use super::Place;
-use super::frame::px;
+use super::style::Placement;
+use super::svg::px;
 use crate::check;
-use crate::error::ReportError;
-use crate::number::typeset;
-use crate::symbol::Symbol;
+use crate::error::Error;
+use crate::text::number::typeset;
+use crate::text::symbol::Symbol;
 
 /// Correlations between the estimates of some parameters.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Correlation {
-    /// The parameters' symbols; `k_t` is shown as k with the index t.
+    /// Symbols of the parameters; `k_t` is shown as k with the index t.
     pub symbols: Vec<String>,
-    /// The symmetric matrix, row by row, each between −1 and 1.
+    /// Symmetric matrix, row by row, with entries between −1 and 1.
     pub matrix: Vec<Vec<f64>>,
 }
 
 impl Correlation {
-    /// Refuses a matrix that does not belong to its names, or with numbers beyond −1 … 1.
-    pub fn check(&self) -> Result<(), ReportError> {
+    /// Refuses a matrix that does not fit its names, or with entries beyond −1 and 1.
+    ///
+    /// # Errors
+    /// The first fault.
+    pub fn check(&self) -> Result<(), Error> {
         let names = self.symbols.len();
-        let wrong = |row: usize, length: usize| ReportError::BadMatrix { names, row, length };
+        let wrong = |row: usize, length: usize| Error::BadMatrix { names, row, length };
         if names == 0 {
-            return Err(ReportError::EmptyPlot {
+            return Err(Error::EmptyPlot {
                 plot: "correlations".to_owned(),
                 what: "the matrix".to_owned(),
             });
@@ -41,7 +46,7 @@ impl Correlation {
             // Rounding may carry a perfect correlation a little beyond one.
             let beyond = |r: &&f64| !(r.abs() <= 1.0 + 1e-9);
             if let Some(&value) = entries.iter().find(beyond) {
-                return Err(ReportError::OutOfRange {
+                return Err(Error::OutOfRange {
                     what: "a correlation",
                     value,
                     range: "between -1 and 1",
@@ -51,19 +56,30 @@ impl Correlation {
         Ok(())
     }
 
-    /// The pairs whose correlation is stronger than a limit, strongest first.
-    pub fn above(&self, limit: f64) -> Vec<(&str, &str, f64)> {
+    /// Returns the pairs whose correlation is stronger than a limit, the strongest first.
+    #[must_use]
+    pub fn above(&self, limit: f64) -> Vec<CorrelatedPair<'_>> {
         let mut pairs = Vec::new();
         for (i, row) in self.matrix.iter().enumerate() {
             for (j, &r) in row.iter().enumerate().take(i) {
                 if r.abs() > limit {
-                    pairs.push((self.symbols[j].as_str(), self.symbols[i].as_str(), r));
+                    let symbols = [j, i].map(|k| self.symbols[k].as_str());
+                    pairs.push(CorrelatedPair { symbols, correlation: r });
                 }
             }
         }
-        pairs.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
+        pairs.sort_by(|a, b| b.correlation.abs().total_cmp(&a.correlation.abs()));
         pairs
     }
+}
+
+/// Two parameters with their correlation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CorrelatedPair<'a> {
+    /// Symbols of the two.
+    pub symbols: [&'a str; 2],
+    /// Correlation of the two, between −1 and 1.
+    pub correlation: f64,
 }
 
 /// Side of a cell, in px.
@@ -78,7 +94,7 @@ struct Cell<'a> {
     y: String,
     middle: String,
     baseline: String,
-    /// The sign of the correlation, or "name" on the diagonal.
+    /// Sign of the correlation, or "name" on the diagonal.
     class: &'static str,
     opacity: String,
     symbol: Symbol<'a>,
@@ -88,7 +104,7 @@ struct Cell<'a> {
 }
 
 #[derive(Template)]
-#[template(path = "correlation.svg", escape = "html")]
+#[template(path = "plot/correlation.svg", escape = "html")]
 struct CorrelationFigure<'a> {
     style: Option<&'static str>,
     side: String,
@@ -97,18 +113,21 @@ struct CorrelationFigure<'a> {
 }
 
 /// Draws a correlation matrix as a heat map in an SVG file: names on the diagonal, pairs below it.
-pub fn correlation_svg(correlation: &Correlation) -> Result<String, ReportError> {
+///
+/// # Errors
+/// Those of [`Correlation::check`].
+pub fn correlation_svg(correlation: &Correlation) -> Result<String, Error> {
     correlation.check()?;
-    Ok(correlation_figure(correlation, Place::Alone))
+    Ok(correlation_figure(correlation, Placement::Standalone))
 }
 
-/// Width and height of the heat map of a matrix, in px.
+/// Returns the side of the heat map of a matrix, in px.
 pub(crate) fn correlation_side(correlation: &Correlation) -> f64 {
     2.0 * ROOM + CELL * correlation.symbols.len() as f64
 }
 
 /// Draws a matrix that has been checked.
-pub(crate) fn correlation_figure(correlation: &Correlation, place: Place) -> String {
+pub(crate) fn correlation_figure(correlation: &Correlation, placement: Placement) -> String {
     let symbols = &correlation.symbols;
     let mut cells = Vec::new();
     for (i, row) in correlation.matrix.iter().enumerate() {
@@ -135,7 +154,7 @@ pub(crate) fn correlation_figure(correlation: &Correlation, place: Place) -> Str
         }
     }
     let figure = CorrelationFigure {
-        style: place.style(),
+        style: placement.style(),
         side: px(correlation_side(correlation)),
         cell: px(CELL),
         cells,
@@ -153,6 +172,8 @@ mod tests {
             symbols: ["a", "b", "c"].map(str::to_owned).to_vec(),
             matrix: vec![vec![1.0, 0.6, -0.9], vec![0.6, 1.0, 0.2], vec![-0.9, 0.2, 1.0]],
         };
-        assert_eq!(correlation.above(0.5), [("a", "c", -0.9), ("a", "b", 0.6)]);
+        let pairs = correlation.above(0.5);
+        let found: Vec<_> = pairs.iter().map(|pair| (pair.symbols, pair.correlation)).collect();
+        assert_eq!(found, [(["a", "c"], -0.9), (["a", "b"], 0.6)]);
     }
 }

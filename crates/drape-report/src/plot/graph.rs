@@ -1,13 +1,18 @@
+//! Graph: any number of series over two axes, linear, logarithmic or to scale.
+
 use askama::Template;
 use serde::Serialize;
 
-use super::Place;
-use super::axis::{Axis, Map};
-use super::frame::{BOTTOM, Frame, KeyEntry, Sign, WIDTH, dots, key, line, px};
+use super::axis::Axis;
+use super::chart::{ACROSS, Chart, Frame, Heading, Plane};
+use super::legend::{Legend, LegendItem, Sign};
+use super::scale::Scale;
+use super::style::Placement;
+use super::svg::{dots, line};
 use crate::check;
-use crate::error::ReportError;
+use crate::error::Error;
 
-/// How a series of a graph is drawn.
+/// Way in which a series of a graph is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Look {
@@ -15,43 +20,65 @@ pub enum Look {
     Dots,
     /// A line in the next colour.
     Line,
-    /// A pale band beneath the others: what they are held against.
+    /// A pale band beneath the others: the reference.
     Exact,
 }
 
-/// One series of a graph, in SI.
+/// Series of a graph, in SI.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GraphSeries {
-    /// Its name in the key; series that look alike and have the same name share an entry.
+    /// Name in the legend; series that look alike and have the same name share an entry.
     pub label: String,
-    /// How it is drawn.
+    /// Way in which it is drawn.
     pub look: Look,
-    /// Its points in order.
+    /// Points in order.
     pub points: Vec<[f64; 2]>,
 }
 
-/// Any number of series over two axes.
+/// Graph: series over two axes.
+///
+/// ```
+/// use drape_report::plot::{Axis, GraphPlot, GraphSeries, Look, graph_svg};
+///
+/// let errors = |label: &str, look| GraphSeries {
+///     label: label.to_owned(),
+///     look,
+///     points: [0.02, 0.01, 0.005].map(|h| [h, 0.4 * h * h]).to_vec(),
+/// };
+/// let plot = GraphPlot {
+///     title: "error against spacing".to_owned(),
+///     axes: [Axis::new("spacing", "mm", 1e-3), Axis::new("error", "%", 0.01)],
+///     logarithmic: [true, true],
+///     to_scale: false,
+///     series: vec![errors("simulated", Look::Dots), errors("second order", Look::Exact)],
+/// };
+/// assert!(graph_svg(&plot)?.starts_with("<svg"));
+/// # Ok::<(), drape_report::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GraphPlot {
-    /// What is shown, as in "bent strips".
+    /// Title, as in "bent strips".
     pub title: String,
-    /// Across and up.
+    /// Axes across and up.
     pub axes: [Axis; 2],
-    /// Which of the axes are logarithmic; their values are positive.
+    /// Whether each axis is logarithmic; its values must then be positive.
     pub logarithmic: [bool; 2],
-    /// Whether one unit is as long up as across: for shapes. Logarithmic axes have no scale.
+    /// Whether a length is as long up as across, for shapes; not with logarithmic axes.
     pub to_scale: bool,
-    /// The series.
+    /// Series in order.
     pub series: Vec<GraphSeries>,
 }
 
 impl GraphPlot {
-    /// Refuses a plot without points, with numbers that are none or have no logarithm, or with a unit of no size.
-    pub fn check(&self) -> Result<(), ReportError> {
+    /// Refuses a plot without points, numbers that are not finite or have no logarithm, and units out of range.
+    ///
+    /// # Errors
+    /// The first fault.
+    pub fn check(&self) -> Result<(), Error> {
         check::text("the title of a plot", &self.title)?;
         self.axes.iter().try_for_each(|axis| axis.check(&self.title))?;
         let empty =
-            |what: &str| ReportError::EmptyPlot { plot: self.title.clone(), what: what.to_owned() };
+            |what: &str| Error::EmptyPlot { plot: self.title.clone(), what: what.to_owned() };
         if self.series.is_empty() {
             return Err(empty("the plot"));
         }
@@ -66,7 +93,7 @@ impl GraphPlot {
                     check::number(place, *value)?;
                     if logarithmic && *value <= 0.0 {
                         let (what, range) = ("a number on a logarithmic axis", "above 0");
-                        return Err(ReportError::OutOfRange { what, value: *value, range });
+                        return Err(Error::OutOfRange { what, value: *value, range });
                     }
                 }
             }
@@ -77,60 +104,62 @@ impl GraphPlot {
 
 /// Height of the frame, in px.
 const HEIGHT: f64 = 340.0;
-/// Least and largest height of the frame of a plot to scale, in px.
+
+/// Smallest and largest height of the frame of a plot to scale, in px.
 const HEIGHTS: [f64; 2] = [150.0, 640.0];
-/// Number of colours that the style knows; further series begin again with the first.
+
+/// Number of colours in the style; further series begin again with the first.
 const TONES: usize = 6;
 
+/// Drawn series.
 struct Series<'a> {
     class: String,
     data: String,
     label: &'a str,
 }
 
+/// Series with its class.
+struct Classified<'a> {
+    series: &'a GraphSeries,
+    class: String,
+}
+
 #[derive(Template)]
-#[template(path = "graph.svg", escape = "html")]
+#[template(path = "plot/graph.svg", escape = "html")]
 struct GraphFigure<'a> {
-    style: Option<&'static str>,
-    title: &'a str,
-    width: String,
-    height: String,
-    key: Vec<KeyEntry>,
+    chart: Chart<'a>,
     frame: Frame,
-    x_title: String,
-    x_middle: String,
-    x_title_y: String,
-    axes: [&'a Axis; 2],
     series: Vec<Series<'a>>,
 }
 
-/// Draws series over two axes as an SVG file.
-pub fn graph_svg(plot: &GraphPlot) -> Result<String, ReportError> {
+/// Draws a graph as an SVG file.
+///
+/// # Errors
+/// Those of [`GraphPlot::check`].
+pub fn graph_svg(plot: &GraphPlot) -> Result<String, Error> {
     plot.check()?;
-    Ok(graph_figure(plot, Place::Alone))
+    Ok(graph_figure(plot, Placement::Standalone))
 }
 
 /// Draws a graph that has been checked.
-pub(crate) fn graph_figure(plot: &GraphPlot, place: Place) -> String {
-    let classes = classes(&plot.series);
-    let mut entries: Vec<(Sign, String, String)> = Vec::new();
-    for (series, class) in above(plot, &classes).chain(beneath(plot, &classes)) {
+pub(crate) fn graph_figure(plot: &GraphPlot, placement: Placement) -> String {
+    let classified = classified(&plot.series);
+    let references = || classified.iter().filter(|c| c.series.look == Look::Exact);
+    let others = || classified.iter().filter(|c| c.series.look != Look::Exact);
+    let mut items: Vec<LegendItem> = Vec::new();
+    for Classified { series, class } in others().chain(references()) {
         let sign = if series.look == Look::Dots { Sign::Points } else { Sign::Line };
-        let entry = (sign, class.clone(), series.label.clone());
-        if !entries.contains(&entry) {
-            entries.push(entry);
+        let item = LegendItem { sign, class: class.clone(), label: series.label.clone() };
+        if !items.contains(&item) {
+            items.push(item);
         }
     }
-    let (key, top) = key(entries);
-    let (x, y) = maps(plot, top);
-    let bottom = top + height(&y);
-    let pixel = |point: &[f64; 2]| {
-        let [a, b] = [0, 1].map(|k| point[k] / plot.axes[k].in_si);
-        [x.pixel(a), y.pixel(b)]
-    };
-    let drawn = beneath(plot, &classes).chain(above(plot, &classes));
-    let series = drawn.map(|(series, class)| {
-        let pixels = series.points.iter().map(pixel);
+    let legend = Legend::new(items);
+    let axes = plot.axes.each_ref();
+    let plane = Plane { axes, scales: scales(plot, legend.height) };
+    let [bottom, _] = plane.scales[1].ends();
+    let series = references().chain(others()).map(|Classified { series, class }| {
+        let pixels = series.points.iter().map(|point| plane.pixel(*point));
         let (kind, data) = match series.look {
             Look::Dots => ("points", dots(pixels)),
             Look::Line | Look::Exact => ("line", line(pixels)),
@@ -138,76 +167,48 @@ pub(crate) fn graph_figure(plot: &GraphPlot, place: Place) -> String {
         Series { class: format!("{kind} {class}"), data, label: &series.label }
     });
     let figure = GraphFigure {
-        style: place.style(),
-        title: &plot.title,
-        width: px(WIDTH),
-        height: px(bottom + BOTTOM),
-        key,
-        frame: Frame::new(&x, &y, [top, bottom], plot.axes[1].title()),
-        x_title: plot.axes[0].title(),
-        x_middle: px(0.5 * (Frame::across()[0] + Frame::across()[1])),
-        x_title_y: px(bottom + 38.0),
-        axes: plot.axes.each_ref(),
+        frame: plane.frame(),
         series: series.collect(),
+        chart: Chart::new(Heading { title: &plot.title, axes, placement }, legend, bottom),
     };
     figure.render().expect("writing to a string does not fail")
 }
 
-/// The class of each series: those that are held against have one, the others take the colours in turn.
-fn classes(series: &[GraphSeries]) -> Vec<String> {
+/// Returns the series with their classes: references share one, the others take the colours in turn.
+fn classified(series: &[GraphSeries]) -> Vec<Classified<'_>> {
     let mut tones = (0..TONES).cycle();
-    let class = |series: &GraphSeries| match series.look {
-        Look::Exact => "exact".to_owned(),
-        Look::Dots | Look::Line => format!("tone{}", tones.next().unwrap_or(0)),
+    let class = |series| Classified {
+        series,
+        class: match series.look {
+            Look::Exact => "exact".to_owned(),
+            Look::Dots | Look::Line => format!("tone{}", tones.next().unwrap_or(0)),
+        },
     };
     series.iter().map(class).collect()
 }
 
-/// The series that are held against others, with their classes.
-fn beneath<'a>(
-    plot: &'a GraphPlot,
-    classes: &'a [String],
-) -> impl Iterator<Item = (&'a GraphSeries, &'a String)> {
-    plot.series.iter().zip(classes).filter(|(series, _)| series.look == Look::Exact)
-}
-
-/// The others.
-fn above<'a>(
-    plot: &'a GraphPlot,
-    classes: &'a [String],
-) -> impl Iterator<Item = (&'a GraphSeries, &'a String)> {
-    plot.series.iter().zip(classes).filter(|(series, _)| series.look != Look::Exact)
-}
-
-/// The axes on the pixels of a frame that begins at a height.
-fn maps(plot: &GraphPlot, top: f64) -> (Map, Map) {
-    let map = |k: usize, pixels: [f64; 2]| {
+/// Returns the scales of a frame that begins at a height.
+fn scales(plot: &GraphPlot, top: f64) -> [Scale; 2] {
+    let scale = |k: usize, pixels: [f64; 2]| {
         let points = plot.series.iter().flat_map(|series| &series.points);
-        let values = points.map(|point| point[k] / plot.axes[k].in_si);
+        let values = points.map(|point| plot.axes[k].in_unit(point[k]));
         if plot.logarithmic[k] {
-            Map::around_logarithms(values, pixels)
+            Scale::around_logarithms(values, pixels)
         } else {
-            Map::around(values, pixels)
+            Scale::around(values, pixels)
         }
     };
-    let across = Frame::across();
-    let (x, y) = (map(0, across), map(1, [top + HEIGHT, top]));
+    let (x, y) = (scale(0, ACROSS), scale(1, [top + HEIGHT, top]));
     if !plot.to_scale || plot.logarithmic.contains(&true) {
-        return (x, y);
+        return [x, y];
     }
-    let width = across[1] - across[0];
-    // How long a unit is, in px: as long as the width allows, unless the frame becomes too high.
+    let width = ACROSS[1] - ACROSS[0];
+    // Length of a unit of the x axis, in px: as the width allows, unless the frame becomes too high.
     let units = plot.axes[1].in_si / plot.axes[0].in_si;
     let unit = (width / x.width()).min(HEIGHTS[1] / (y.width() * units));
     let height = (unit * y.width() * units).max(HEIGHTS[0]);
     let (x, y) = (x.widened(width / unit), y.widened(height / (unit * units)));
-    (x, y.on([top + height, top]))
-}
-
-/// The pixels that an axis takes up.
-fn height(y: &Map) -> f64 {
-    let [from, to] = y.ends();
-    (from - to).abs()
+    [x, y.on([top + height, top])]
 }
 
 #[cfg(test)]
@@ -233,11 +234,11 @@ mod tests {
             vec![[0.0, 0.0], [0.4, 1e-4]],
         ] {
             let plot = plot(points);
-            let (x, y) = maps(&plot, 24.0);
+            let [x, y] = scales(&plot, 24.0);
             let across = x.pixel(10.0) - x.pixel(0.0);
             let up = y.pixel(0.0) - y.pixel(1.0);
             assert!((across / up - 1.0).abs() < 1e-9, "{across} and {up} px for a centimetre");
-            let height = height(&y);
+            let height = y.ends()[0] - y.ends()[1];
             assert!((HEIGHTS[0]..=HEIGHTS[1] + 1e-9).contains(&height), "{height}");
             for [a, b] in plot.series[0].points.clone() {
                 let (a, b) = (x.pixel(a / 1e-3), y.pixel(b / 1e-2));
@@ -247,18 +248,20 @@ mod tests {
     }
 
     #[test]
-    fn what_is_held_against_takes_no_colour() {
-        assert_eq!(classes(&plot(vec![[0.0, 0.0]]).series), ["tone0", "exact", "tone1"]);
+    fn references_take_no_colour() {
+        let series = plot(vec![[0.0, 0.0]]).series;
+        let classes = classified(&series).into_iter().map(|c| c.class);
+        assert_eq!(classes.collect::<Vec<_>>(), ["tone0", "exact", "tone1"]);
     }
 
     #[test]
-    fn nothing_and_what_has_no_logarithm_are_refused() {
+    fn empty_plots_and_numbers_without_a_logarithm_are_refused() {
         let mut none = plot(Vec::new());
-        assert!(matches!(none.check(), Err(ReportError::EmptyPlot { .. })));
+        assert!(matches!(none.check(), Err(Error::EmptyPlot { .. })));
         none.series.clear();
-        assert!(matches!(none.check(), Err(ReportError::EmptyPlot { .. })));
+        assert!(matches!(none.check(), Err(Error::EmptyPlot { .. })));
         let logarithmic = GraphPlot { logarithmic: [true, false], ..plot(vec![[0.0, 1.0]]) };
-        assert!(matches!(logarithmic.check(), Err(ReportError::OutOfRange { value: 0.0, .. })));
-        assert!(matches!(plot(vec![[f64::NAN, 1.0]]).check(), Err(ReportError::NotFinite { .. })));
+        assert!(matches!(logarithmic.check(), Err(Error::OutOfRange { value: 0.0, .. })));
+        assert!(matches!(plot(vec![[f64::NAN, 1.0]]).check(), Err(Error::NotFinite { .. })));
     }
 }

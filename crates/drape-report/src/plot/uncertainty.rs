@@ -1,25 +1,27 @@
+//! Uncertainty plot: the relative errors and intervals of parameters side by side.
+
 use askama::Template;
 
-use super::Place;
-use super::axis::Map;
-use super::frame::{Tick, px};
-use crate::error::ReportError;
-use crate::number::percent;
+use super::scale::{Scale, Tick};
+use super::style::Placement;
+use super::svg::px;
+use crate::error::Error;
 use crate::parameter::{Interval, Parameter};
-use crate::symbol::Symbol;
+use crate::text::number::percent;
+use crate::text::symbol::Symbol;
 
-/// The parameters whose relative uncertainty is compared.
+/// Parameters whose relative uncertainty is compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UncertaintyPlot<'a> {
-    /// The parameters, from top to bottom.
+    /// Parameters from top to bottom.
     pub parameters: &'a [Parameter],
 }
 
-/// Largest deviation that the axis shows, as a ratio: beyond it bars end in arrows.
+/// Largest deviation that the axis shows, as a ratio; beyond it bars end in arrows.
 ///
-/// A parameter known no better than its own size is unknown; how much worse does not matter.
+/// A parameter known no better than its own magnitude is unknown; how much worse does not matter.
 const LARGEST: f64 = 1.0;
-/// Least deviation at the end of the axis, as a ratio.
+/// Smallest deviation at the end of the axis, as a ratio.
 const SMALLEST: f64 = 0.001;
 
 /// Width of the plot, in px: it stands beside the correlations.
@@ -32,7 +34,7 @@ const TOP: f64 = 8.0;
 const BOTTOM: f64 = 42.0;
 /// Room for the symbols, in px.
 const LEFT: f64 = 48.0;
-/// Room for the size of the error, in px.
+/// Room for the text of the error, in px.
 const RIGHT: f64 = 78.0;
 
 struct Row<'a> {
@@ -44,13 +46,13 @@ struct Row<'a> {
     error: Option<[String; 2]>,
     /// Arrows where a bar leaves the axis or has no end.
     arrows: [Option<String>; 2],
-    /// What stands in place of a bar; the reason is too long for a plot.
+    /// Text in place of a bar; the full reason is too long for a plot.
     reason: Option<&'static str>,
     size: String,
 }
 
 #[derive(Template)]
-#[template(path = "uncertainty.svg", escape = "html")]
+#[template(path = "plot/uncertainty.svg", escape = "html")]
 struct UncertaintyFigure<'a> {
     style: Option<&'static str>,
     width: String,
@@ -68,9 +70,12 @@ struct UncertaintyFigure<'a> {
 }
 
 /// Draws the relative uncertainty of parameters as an SVG file: 95 % intervals with standard errors inside.
-pub fn uncertainty_svg(plot: &UncertaintyPlot<'_>) -> Result<String, ReportError> {
+///
+/// # Errors
+/// No parameters, or those of [`Parameter::check`].
+pub fn uncertainty_svg(plot: &UncertaintyPlot<'_>) -> Result<String, Error> {
     if plot.parameters.is_empty() {
-        return Err(ReportError::EmptyPlot {
+        return Err(Error::EmptyPlot {
             plot: "uncertainty".to_owned(),
             what: "the list of parameters".to_owned(),
         });
@@ -78,23 +83,23 @@ pub fn uncertainty_svg(plot: &UncertaintyPlot<'_>) -> Result<String, ReportError
     for parameter in plot.parameters {
         parameter.check()?;
     }
-    Ok(uncertainty_figure(plot, Place::Alone))
+    Ok(uncertainty_figure(plot, Placement::Standalone))
 }
 
 /// Draws parameters that have been checked.
-pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, place: Place) -> String {
+pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, placement: Placement) -> String {
     let spans = plot.parameters.iter().map(deviations);
-    let spans: Vec<([f64; 2], Option<f64>)> = spans.collect();
-    let sizes = spans.iter().flat_map(|(bounds, error)| bounds.iter().chain(error));
+    let spans: Vec<Deviations> = spans.collect();
+    let sizes = spans.iter().flat_map(|span| span.bounds.iter().chain(&span.error));
     let finite = sizes.map(|d| d.abs()).filter(|d| d.is_finite() && *d <= LARGEST);
-    let reach = finite.fold(SMALLEST, f64::max);
+    let largest = finite.fold(SMALLEST, f64::max);
     let across = [LEFT, WIDTH - RIGHT];
-    let map = Map::around([-100.0 * reach, 100.0 * reach].into_iter(), across);
-    let pixel = |deviation: f64| px(map.pixel(100.0 * deviation).clamp(across[0], across[1]));
+    let scale = Scale::around([-100.0 * largest, 100.0 * largest].into_iter(), across);
+    let pixel = |deviation: f64| px(scale.pixel(100.0 * deviation).clamp(across[0], across[1]));
     let rows = plot.parameters.iter().zip(&spans).enumerate();
-    let rows = rows.map(|(index, (parameter, (bounds, error)))| {
+    let rows = rows.map(|(index, (parameter, Deviations { bounds, error }))| {
         let middle = TOP + ROW * (index as f64 + 0.5);
-        let beyond = |bound: f64| !bound.is_nan() && !map.holds(100.0 * bound);
+        let beyond = |bound: f64| !bound.is_nan() && !scale.holds(100.0 * bound);
         Row {
             symbol: Symbol::new(&parameter.symbol),
             middle: px(middle),
@@ -113,7 +118,7 @@ pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, place: Place) -> St
     let rows: Vec<Row<'_>> = rows.collect();
     let bottom = TOP + ROW * rows.len() as f64;
     let figure = UncertaintyFigure {
-        style: place.style(),
+        style: placement.style(),
         width: px(WIDTH),
         height: px(bottom + BOTTOM),
         right: px(across[1]),
@@ -124,19 +129,23 @@ pub(crate) fn uncertainty_figure(plot: &UncertaintyPlot<'_>, place: Place) -> St
         zero: pixel(0.0),
         title_x: px(0.5 * (across[0] + across[1])),
         title_y: px(bottom + 36.0),
-        ticks: map.ticks().into_iter().map(|(at, label)| Tick { at: px(at), label }).collect(),
+        ticks: scale.ticks(),
         rows,
     };
     figure.render().expect("writing to a string does not fail")
 }
 
-/// The ends of the interval and the standard error, relative to the value.
-///
-/// An end that is not known is infinite, an interval that is not known is NaN.
-fn deviations(parameter: &Parameter) -> ([f64; 2], Option<f64>) {
+/// Deviations of an interval and the standard error from the value, over its magnitude.
+struct Deviations {
+    /// Ends of the interval; a missing end is infinite, a missing interval NaN.
+    bounds: [f64; 2],
+    error: Option<f64>,
+}
+
+fn deviations(parameter: &Parameter) -> Deviations {
     let size = parameter.value.abs();
     if size == 0.0 {
-        return ([f64::NAN; 2], None);
+        return Deviations { bounds: [f64::NAN; 2], error: None };
     }
     let deviation = |bound: f64| (bound - parameter.value) / size;
     let bounds = match parameter.interval {
@@ -145,10 +154,10 @@ fn deviations(parameter: &Parameter) -> ([f64; 2], Option<f64>) {
         Interval::Below { upper, .. } => [f64::NEG_INFINITY, deviation(upper)],
         Interval::Unknown { .. } | Interval::Fixed { .. } => [f64::NAN; 2],
     };
-    (bounds, parameter.relative_error())
+    Deviations { bounds, error: parameter.relative_error() }
 }
 
-/// An arrow head at an end of the axis, pointing outwards.
+/// Returns an arrow head at an end of the axis, pointing outwards, as path data.
 fn arrow(x: f64, y: f64, end: usize) -> String {
     let out = if end == 0 { -7.0 } else { 7.0 };
     format!("M{} {}L{} {}L{} {}Z", px(x), px(y - 4.5), px(x + out), px(y), px(x), px(y + 4.5))

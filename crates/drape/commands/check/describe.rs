@@ -5,7 +5,7 @@ use std::path::Path;
 
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
 use drape::input::{Diagnostic, Diagnostics, Document};
-use drape::scene::{Error, Scene};
+use drape::scene::{Error, Scene, is_fabric};
 
 use super::pattern::CutOut;
 use crate::commands::sheets;
@@ -32,7 +32,7 @@ pub(crate) fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics>
             other => Diagnostic::new(file, other.to_string()).into(),
         });
         Ok(scene(&read?))
-    } else if has(&["density", "shear"]) {
+    } else if is_fabric(&document) {
         Ok(fabric(&Fabric::from_document(&document)?))
     } else {
         sheet(file)
@@ -128,14 +128,17 @@ fn sheet(file: &Path) -> Result<String, Diagnostics> {
     let mut text =
         format!("sheet \"{}\": {density} kg/m², {} curves\n", sheet.name, sheet.curves.len());
     for curve in &sheet.curves {
-        let ((low, high), (least, most)) = (curve.deformation_range(), curve.load_range());
+        let (deformation, load) = (curve.deformation_range(), curve.load_range());
         let _ = writeln!(
             text,
-            "  {} {}: {} points, deformation {low:.4e} to {high:.4e}, load {least:.4e} to \
-             {most:.4e}",
+            "  {} {}: {} points, deformation {:.4e} to {:.4e}, load {:.4e} to {:.4e}",
             curve.test.name(),
             curve.direction.name(),
-            curve.deformation().len()
+            curve.deformation().len(),
+            deformation.low,
+            deformation.high,
+            load.low,
+            load.high
         );
     }
     sheet.warnings().iter().for_each(|warning| {

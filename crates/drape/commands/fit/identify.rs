@@ -1,5 +1,4 @@
-//! One sheet fitted, with the report of its fit; for `drape fit`, and for commands that take a
-//! sheet in place of a fabric.
+//! One sheet fitted, with the report of its fit, and the files of both.
 
 use std::path::{Path, PathBuf};
 

@@ -1,0 +1,167 @@
+//! Particles that are close in space, wherever they are in the cloth: a list kept while they move little.
+
+use crate::breen::well::Well;
+use crate::measure::vector::{length, subtract, vector_at};
+
+/// Distance beyond the spacing up to which pairs are listed, in spacings, so that the list stays valid
+/// while particles move.
+///
+/// Larger values make the list longer, smaller ones make it anew more often; a settling cloth moves by at
+/// most a quarter of the spacing in a step.
+const MARGIN: f64 = 0.5;
+
+/// Cell of space, by its indices along the axes.
+type Cell = [i64; 3];
+
+/// Pairs of particles that are close in space, found by sorting the particles into the cells of a grid.
+#[derive(Debug, Clone)]
+pub(crate) struct ClosePairs {
+    /// Distance up to which pairs are listed, and side of a cell, in m.
+    list_distance: f64,
+    /// Distance that a particle may move before the list is made anew, in m.
+    slack: f64,
+    /// Neighbours of each particle along its yarns, which are not listed.
+    neighbours: Vec<[u32; 4]>,
+    /// Positions when the list was made, in m.
+    listed: Vec<f64>,
+    pairs: Vec<[u32; 2]>,
+    cells: Vec<(Cell, u32)>,
+}
+
+/// Half of the 26 neighbours of a cell, so that each pair of cells occurs once.
+const AFTER: [Cell; 13] = [
+    [0, 0, 1],
+    [0, 1, -1],
+    [0, 1, 0],
+    [0, 1, 1],
+    [1, -1, -1],
+    [1, -1, 0],
+    [1, -1, 1],
+    [1, 0, -1],
+    [1, 0, 0],
+    [1, 0, 1],
+    [1, 1, -1],
+    [1, 1, 0],
+    [1, 1, 1],
+];
+
+impl ClosePairs {
+    pub(crate) fn new(wells: &[Well], neighbours: Vec<[u32; 4]>) -> Self {
+        let spacing = wells.iter().map(|well| well.spacing).fold(0.0, f64::max);
+        Self {
+            list_distance: (1.0 + MARGIN) * spacing,
+            slack: 0.5 * MARGIN * spacing,
+            neighbours,
+            listed: Vec::new(),
+            pairs: Vec::new(),
+            cells: Vec::new(),
+        }
+    }
+
+    /// Returns all pairs nearer than the spacing, and some that are farther, in rising order.
+    ///
+    /// The order, and with it every sum over the pairs, does not depend on when the list was made: pairs
+    /// beyond the spacing contribute nothing.
+    pub(crate) fn find(&mut self, positions: &[f64]) -> &[[u32; 2]] {
+        let moved =
+            self.listed.chunks_exact(3).zip(positions.chunks_exact(3)).any(|(then, now)| {
+                let moved = subtract([now[0], now[1], now[2]], [then[0], then[1], then[2]]);
+                // Not `>`, so that NaN counts as moved.
+                !(length(moved) <= self.slack)
+            });
+        if moved || self.listed.len() != positions.len() {
+            self.list(positions);
+        }
+        &self.pairs
+    }
+
+    fn list(&mut self, positions: &[f64]) {
+        self.listed.clear();
+        self.listed.extend_from_slice(positions);
+        self.pairs.clear();
+        let side = self.list_distance;
+        let number = |x: f64| (x / side).floor() as i64;
+        self.cells.clear();
+        let points = positions.chunks_exact(3).enumerate();
+        self.cells.extend(
+            points.map(|(particle, x)| ([0, 1, 2].map(|axis| number(x[axis])), particle as u32)),
+        );
+        self.cells.sort_unstable();
+        let mut start = 0;
+        while start < self.cells.len() {
+            let cell = self.cells[start].0;
+            let end = start + self.cells[start..].partition_point(|(other, _)| *other == cell);
+            for first in start..end {
+                for second in first + 1..end {
+                    self.list_pair(first, second, positions);
+                }
+            }
+            for step in AFTER {
+                let other = [0, 1, 2].map(|axis| cell[axis].saturating_add(step[axis]));
+                let from = end + self.cells[end..].partition_point(|(cell, _)| *cell < other);
+                let count = self.cells[from..].partition_point(|(cell, _)| *cell == other);
+                for first in start..end {
+                    for second in from..from + count {
+                        self.list_pair(first, second, positions);
+                    }
+                }
+            }
+            start = end;
+        }
+        self.pairs.sort_unstable();
+    }
+
+    fn list_pair(&mut self, first: usize, second: usize, positions: &[f64]) {
+        let [a, b] = [self.cells[first].1, self.cells[second].1];
+        let pair = [a.min(b), a.max(b)];
+        if self.neighbours[pair[0] as usize].contains(&pair[1]) {
+            return;
+        }
+        if length(subtract(vector_at(positions, b), vector_at(positions, a))) < self.list_distance {
+            self.pairs.push(pair);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers between 0 and 1, the same on every machine.
+    fn random(count: usize) -> Vec<f64> {
+        let mut state = 7_u64;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..count).map(|_| next()).collect()
+    }
+
+    #[test]
+    fn every_close_pair_is_found_wherever_it_is() {
+        let count = 400;
+        let wells = vec![Well { spacing: 0.1, energy: 1.0 }; count];
+        let mut neighbours = vec![[u32::MAX; 4]; count];
+        neighbours[3] = [4, u32::MAX, u32::MAX, u32::MAX];
+        neighbours[4] = [u32::MAX, 3, u32::MAX, u32::MAX];
+        let mut pairs = ClosePairs::new(&wells, neighbours);
+        let mut positions: Vec<f64> = random(3 * count).iter().map(|x| x - 0.5).collect();
+        // Neighbours on a yarn are at one point, and are not listed.
+        positions.copy_within(9..12, 12);
+        for round in 0..3 {
+            positions.iter_mut().for_each(|x| *x += 0.02 * f64::from(round));
+            let found: Vec<[u32; 2]> = pairs.find(&positions).to_vec();
+            let distance = |[a, b]: [u32; 2]| {
+                length(subtract(vector_at(&positions, b), vector_at(&positions, a)))
+            };
+            let all = (0..count as u32).flat_map(|a| (a + 1..count as u32).map(move |b| [a, b]));
+            let exact = all.filter(|&pair| distance(pair) < 0.1 && pair != [3, 4]);
+            let within: Vec<[u32; 2]> =
+                found.iter().copied().filter(|&pair| distance(pair) < 0.1).collect();
+            assert_eq!(within, exact.collect::<Vec<_>>(), "in round {round}");
+            assert!(found.len() < 4 * within.len() && within.len() > 100, "{}", within.len());
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! The cloth of Breen, House & Wozny.
+
+use drape_fabric::{BreenWork, Fabric};
+
+use crate::breen::close_pairs::ClosePairs;
+use crate::breen::hinge::{Hinge, HingeSize};
+use crate::breen::well::Well;
+use crate::error::Error;
+use crate::layout::connectors::{Segment, Triple, segments, triples};
+use crate::measure::block::Block;
+use crate::measure::vector::{Vector, add_at, length, scale, subtract, vector_at};
+use crate::panel::lattice::Lattice;
+
+/// Interacting particles of Breen, House & Wozny \[BHW94\]: no friction, no memory.
+///
+/// Four energies act \[BHW94, eq. 3.1\]. **Stretching** holds neighbours along a yarn together, and
+/// **repulsion** keeps any two particles apart that come nearer than the spacing, wherever they are in
+/// the cloth; both rise with the fifth power \[eqs. 3.2–3.5\], so that a cloth under its own weight hardly
+/// stretches and does not intersect itself. **Bending** depends on the angle of three particles along a
+/// yarn \[eqs. 5.4, 5.5\], **trellising** on the angle between the two lines through the neighbours of a
+/// particle \[eq. 5.7\]; their curves are the first branches of the fabric's
+/// ([`BreenWork::from_laws`]).
+///
+/// Differences from the printed paper, besides those of [`BreenWork`]:
+/// * Eqs. 3.2 and 3.3 have one factor for energies of different units. With lengths in units of the
+///   spacing both are energies, and they form one well, even about the spacing up to the fifth order.
+/// * The factor is not published. Here the weight of a metre of the cloth stretches it by
+///   [`Breen::WELL_STRAIN`], whatever the spacing.
+/// * In the paper every particle stands for a square of the spacing, at the hem too. Here it stands for
+///   its own area, and the line through the neighbours of a particle at the hem ends at the particle.
+///
+/// The minimiser of the paper is stochastic and perturbs the grid. Here the start is perturbed, by the
+/// heights that a scene may give its particles.
+#[derive(Debug, Clone)]
+pub struct Breen {
+    edges: Vec<Edge>,
+    hinges: Vec<Hinge>,
+    /// One for each direction of each panel.
+    works: Vec<BreenWork>,
+    /// Wells of the particles.
+    wells: Vec<Well>,
+    close_pairs: ClosePairs,
+}
+
+/// Neighbours along a yarn.
+#[derive(Debug, Clone, Copy)]
+struct Edge {
+    particles: [u32; 2],
+    well: Well,
+}
+
+impl Breen {
+    /// Strain of the cloth under the weight of a metre of it, a ratio: "threads do not stretch
+    /// significantly" \[BHW94, §3\].
+    ///
+    /// Smaller values make the wells steeper and the steps harder to solve. On a cube the wells stretch
+    /// the yarns at the corners by 2 % at most.
+    pub const WELL_STRAIN: f64 = 0.01;
+
+    /// Returns the particles of a [`Cloth`](crate::Cloth) of the same panels, with the same numbers.
+    ///
+    /// # Errors
+    /// When a panel has a rim of triangles, or folds.
+    pub fn new(panels: &[(&Lattice, &Fabric)]) -> Result<Self, Error> {
+        if panels.iter().any(|(lattice, _)| !lattice.rim.is_empty()) {
+            return Err(Error::Rim);
+        }
+        if panels.iter().any(|(lattice, _)| !lattice.folds().is_empty()) {
+            let what = "is unknown to the model of Breen, House & Wozny";
+            return Err(Error::Fold { fold: 0, what });
+        }
+        let (mut edges, mut hinges, mut works) = (Vec::new(), Vec::new(), Vec::new());
+        let mut wells = Vec::new();
+        let mut neighbours = Vec::new();
+        for (lattice, fabric) in panels {
+            let first = wells.len() as u32;
+            let depth = Well::depth(fabric.density, Self::WELL_STRAIN);
+            let areas = lattice.areas();
+            let [across, along] = lattice.spacing;
+            let spacing = across.min(along);
+            wells.extend(areas.iter().map(|area| Well { spacing, energy: depth * area }));
+            neighbours.resize(wells.len(), [u32::MAX; 4]);
+            let lines = lattice.yarns();
+            for (direction, (laws, spacing)) in
+                [(&fabric.warp, along), (&fabric.weft, across)].into_iter().enumerate()
+            {
+                let work = works.len() as u32;
+                works.push(BreenWork::from_laws(&laws.bending, &fabric.shear));
+                for Segment { ends, area } in segments(lattice, &lines[direction], direction) {
+                    let particles = ends.map(|end| first + end);
+                    edges.push(Edge { particles, well: Well { spacing, energy: depth * area } });
+                    let [a, b] = particles;
+                    neighbours[a as usize][direction] = b;
+                    neighbours[b as usize][2 + direction] = a;
+                }
+                for Triple { particles, area } in triples(lattice, &lines[direction], &areas) {
+                    let yarn = particles.map(|particle| first + particle);
+                    hinges.push(Hinge::bend(yarn, HingeSize { area, work }, spacing));
+                }
+            }
+            let work = works.len() as u32 - 1;
+            for (particle, area) in areas.iter().enumerate() {
+                let own = first + particle as u32;
+                let [up, right, down, left] = neighbours[own as usize]
+                    .map(|other| if other == u32::MAX { own } else { other });
+                if up != down && left != right {
+                    let size = HingeSize { area: *area, work };
+                    hinges.push(Hinge::trellis([[left, right], [down, up]], size));
+                }
+            }
+        }
+        let close_pairs = ClosePairs::new(&wells, neighbours);
+        Ok(Self { edges, hinges, works, wells, close_pairs })
+    }
+
+    /// Returns the pairs of particles that are close in space and no neighbours on a yarn, the first less
+    /// than the second: all that are nearer than the spacing, and some that may soon be.
+    pub fn close_pairs(&mut self, positions: &[f64]) -> &[[u32; 2]] {
+        self.close_pairs.find(positions)
+    }
+
+    /// Returns the energy of the particles, in J; its negative derivative is [`Breen::add_forces`].
+    #[must_use]
+    pub fn energy(&mut self, positions: &[f64]) -> f64 {
+        let at = |particle: u32| vector_at(positions, particle);
+        let well = |well: &Well, [a, b]: [u32; 2]| well.at(length(subtract(at(b), at(a)))).energy;
+        let stretched: f64 = self.edges.iter().map(|edge| well(&edge.well, edge.particles)).sum();
+        let angles = self.hinges.iter().map(|hinge| hinge.energy(&self.works, positions));
+        let angles: f64 = angles.sum();
+        let pairs = self.close_pairs.find(positions);
+        let repelled: f64 = pairs
+            .iter()
+            .map(|&[a, b]| {
+                let mean = Well::between(&self.wells[a as usize], &self.wells[b as usize]);
+                let distance = length(subtract(at(b), at(a)));
+                if distance < mean.spacing { mean.at(distance).energy } else { 0.0 }
+            })
+            .sum();
+        stretched + angles + repelled
+    }
+
+    /// Adds the forces on the particles, three numbers for each, in N.
+    pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
+        let pull = |well: &Well, [a, b]: [u32; 2], forces: &mut [f64]| {
+            let span = subtract(vector_at(positions, b), vector_at(positions, a));
+            let distance = length(span);
+            let pull = scale(span, well.at(distance).first / distance);
+            add_at(forces, a, pull);
+            subtract_at(forces, b, pull);
+        };
+        self.edges.iter().for_each(|edge| pull(&edge.well, edge.particles, forces));
+        self.hinges.iter().for_each(|hinge| hinge.add_forces(&self.works, positions, forces));
+        for &[a, b] in self.close_pairs.find(positions) {
+            let mean = Well::between(&self.wells[a as usize], &self.wells[b as usize]);
+            if length(subtract(vector_at(positions, b), vector_at(positions, a))) < mean.spacing {
+                pull(&mean, [a, b], forces);
+            }
+        }
+    }
+
+    /// Passes the second derivatives of the energy to `put`, block by block, each with its two particles,
+    /// the first less than or equal to the second. A pair may occur several times; its blocks add up.
+    ///
+    /// With `definite`, parts that make the matrix indefinite are left out: compression across a pair, and
+    /// the rotation of the gradients of angles.
+    pub fn add_stiffness(
+        &mut self,
+        positions: &[f64],
+        definite: bool,
+        put: &mut dyn FnMut([u32; 2], &Block),
+    ) {
+        let pair = |well: &Well, [a, b]: [u32; 2], put: &mut dyn FnMut([u32; 2], &Block)| {
+            let span = subtract(vector_at(positions, b), vector_at(positions, a));
+            let block = well.block(span, definite);
+            put([a, a], &block);
+            put([b, b], &block);
+            let against = block.map(|entry| -entry);
+            put([a.min(b), a.max(b)], &against);
+        };
+        self.edges.iter().for_each(|edge| pair(&edge.well, edge.particles, put));
+        for hinge in &self.hinges {
+            hinge.add_stiffness(&self.works, positions, definite, put);
+        }
+        for &[a, b] in self.close_pairs.find(positions) {
+            let mean = Well::between(&self.wells[a as usize], &self.wells[b as usize]);
+            if length(subtract(vector_at(positions, b), vector_at(positions, a))) < mean.spacing {
+                pair(&mean, [a, b], put);
+            }
+        }
+    }
+}
+
+fn subtract_at(flat: &mut [f64], particle: u32, vector: Vector) {
+    let start = 3 * particle as usize;
+    for (sum, part) in flat[start..start + 3].iter_mut().zip(vector) {
+        *sum -= part;
+    }
+}

@@ -1,0 +1,23 @@
+//! Evaluation of a cloth: forces, potential, stiffness and commit on all threads.
+//!
+//! ```text
+//!   Workspace ── parallel: strips, then rims, on the threads of a pool
+//!        └────── dispatch: the widest vector instructions of the machine
+//!                   └───── kernel, rim: one strip or rim
+//! ```
+//!
+//! The cloth is cut into the same strips for any number of threads, each writes its own part of the
+//! output, and partial sums are added in the order of the strips:
+//!
+//! ```math
+//! E = \sum_{\text{strips}} E_s + \sum_{\text{rims}} E_r
+//! ```
+//!
+//! so the numbers depend neither on the threads nor on the vector instructions. `workspace` holds the
+//! buffers and is what a solver calls; `one_off` is the same for a single call. Only here threads and
+//! instructions are known; after a workspace is made nothing allocates.
+
+pub(crate) mod dispatch;
+pub(crate) mod one_off;
+pub(crate) mod parallel;
+pub(crate) mod workspace;

@@ -1,0 +1,76 @@
+//! Evaluation of a cloth by a single call, and its first state. A solver uses a `Workspace` instead.
+
+use crate::cloth::Cloth;
+use crate::error::Error;
+use crate::evaluate::workspace::{Trial, Workspace};
+use crate::kernel::memories::GridMemories;
+use crate::rim::memories::RimMemories;
+use crate::state::State;
+
+impl Cloth {
+    /// Returns the state of the cloth at rest at the given positions, with no friction in any connector.
+    ///
+    /// # Errors
+    /// When there are not three numbers for every particle.
+    pub fn state(&self, positions: Vec<f64>) -> Result<State, Error> {
+        let particles = self.particles();
+        if positions.len() != 3 * particles {
+            return Err(Error::Positions { found: positions.len(), particles });
+        }
+        let mut state = State {
+            velocities: vec![0.0; positions.len()],
+            normals: vec![0.0; positions.len()],
+            grid: GridMemories::new(&self.panels),
+            rim: RimMemories::new(&self.rims, &self.panels),
+            positions,
+        };
+        self.update_normals(&mut state);
+        self.workspace().start(self, &mut state);
+        Ok(state)
+    }
+
+    /// Returns trial positions of this cloth from a state, for a [`Workspace`].
+    #[must_use]
+    pub fn trial<'a>(&'a self, state: &'a State, positions: &'a [f64]) -> Trial<'a> {
+        Trial { cloth: self, state, positions }
+    }
+
+    /// Returns buffers for evaluating this cloth many times without allocating.
+    #[must_use]
+    pub fn workspace(&self) -> Workspace {
+        Workspace::new(self)
+    }
+
+    /// Adds the forces of all connectors at trial positions, in N. A [`Workspace`] does it many times.
+    pub fn add_forces(&self, state: &State, trial: &[f64], forces: &mut [f64]) {
+        self.workspace().add_forces(self.trial(state, trial), forces);
+    }
+
+    /// Returns the potential of the connectors within a step, in J: its negative derivative with respect
+    /// to the trial positions is [`Cloth::add_forces`]. Only differences at one state are meaningful.
+    #[must_use]
+    pub fn potential(&self, state: &State, trial: &[f64]) -> f64 {
+        self.workspace().potential(self.trial(state, trial))
+    }
+
+    /// Adds the derivative of the forces with respect to the trial positions, negated, in N/m, to the
+    /// blocks of [`Cloth::sparsity`].
+    ///
+    /// With `definite`, parts that make the matrix indefinite are left out: compression across a segment,
+    /// negative tangents, and the second derivatives of the sine of shear.
+    pub fn add_stiffness(&self, state: &State, trial: &[f64], definite: bool, values: &mut [f64]) {
+        self.workspace().add_stiffness(self.trial(state, trial), definite, values);
+    }
+
+    /// Accepts a step: advances positions, velocities and all memories, which nothing else writes.
+    /// Returns the energy dissipated by the fabric's friction, in J.
+    pub fn commit(&self, state: &mut State, positions: &[f64], velocities: &[f64]) -> f64 {
+        self.workspace().commit(self, state, positions, velocities)
+    }
+
+    /// Returns the energy that the connectors can return, in J.
+    #[must_use]
+    pub fn stored(&self, state: &State) -> f64 {
+        self.workspace().stored(self, state)
+    }
+}

@@ -1,0 +1,71 @@
+//! Memories of the connectors on the grids of a cloth, and the normals that bending is measured about.
+
+use drape_fabric::{BatchLaw, Memories, MemoriesMut};
+
+use crate::layout::columns::VectorColumns;
+use crate::layout::grid::GridPanel;
+
+/// Memories of the connectors, and the normals at the last commit, in columns: panel after panel, each
+/// with its margins.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct GridMemories {
+    /// Of the segments along warp and weft.
+    pub(crate) traction: [Memories; 2],
+    /// Of the four corners of the cells.
+    pub(crate) shear: [Memories; 4],
+    /// Of the triples along warp and weft.
+    pub(crate) bending: [Memories; 2],
+    /// Unit normals of the surface.
+    pub(crate) normals: VectorColumns,
+}
+
+/// Memories of some strips, to write.
+pub(crate) struct GridMemoriesMut<'a> {
+    pub(crate) traction: [MemoriesMut<'a>; 2],
+    pub(crate) shear: [MemoriesMut<'a>; 4],
+    pub(crate) bending: [MemoriesMut<'a>; 2],
+}
+
+impl GridMemories {
+    /// Returns the memories of panels that were never deformed.
+    pub(crate) fn new(panels: &[GridPanel]) -> Self {
+        let mut memories = Self {
+            traction: Default::default(),
+            shear: Default::default(),
+            bending: Default::default(),
+            normals: VectorColumns::new(panels.iter().map(GridPanel::length).sum()),
+        };
+        for panel in panels {
+            let length = panel.length();
+            for (direction, yarns) in panel.yarns.iter().enumerate() {
+                yarns.traction.append_memories(&mut memories.traction[direction], length);
+                yarns.bending.append_memories(&mut memories.bending[direction], length);
+            }
+            for corner in &mut memories.shear {
+                panel.shear.append_memories(corner, length);
+            }
+        }
+        memories
+    }
+
+    /// Splits into all memories from an index on, to write, and the normals.
+    pub(crate) fn from_mut(&mut self, start: usize) -> (GridMemoriesMut<'_>, &VectorColumns) {
+        let memories = GridMemoriesMut {
+            traction: self.traction.each_mut().map(|m| m.from_mut(start)),
+            shear: self.shear.each_mut().map(|m| m.from_mut(start)),
+            bending: self.bending.each_mut().map(|m| m.from_mut(start)),
+        };
+        (memories, &self.normals)
+    }
+}
+
+impl GridMemoriesMut<'_> {
+    /// Splits into the first `count` memories of each kind and the others.
+    pub(crate) fn split(self, count: usize) -> (Self, Self) {
+        let ([a, b], [c, d, e, f], [g, h]) = (self.traction, self.shear, self.bending);
+        let [a, b, c, d, e, f, g, h] = [a, b, c, d, e, f, g, h].map(|m| m.split(count));
+        let head = Self { traction: [a.0, b.0], shear: [c.0, d.0, e.0, f.0], bending: [g.0, h.0] };
+        let tail = Self { traction: [a.1, b.1], shear: [c.1, d.1, e.1, f.1], bending: [g.1, h.1] };
+        (head, tail)
+    }
+}

@@ -1,0 +1,46 @@
+//! Sparsity of the stiffness matrix. The kernels write its blocks; the system of equations takes it over.
+
+/// Block sparsity of the stiffness matrix of a cloth, upper triangle: one 3 × 3 block for each pair
+/// of particles that some connector joins.
+///
+/// Row `i` has the columns `columns[offsets[i]..offsets[i + 1]]` in rising order, the first of which
+/// is `i` itself. Block `k` occupies the nine numbers `9k..9k + 9` of the values, row by row.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Sparsity {
+    /// Index of the first block of each row; one entry more than there are particles.
+    pub offsets: Vec<usize>,
+    /// Column of each block.
+    pub columns: Vec<usize>,
+}
+
+impl Sparsity {
+    /// Returns the sparsity of the given pairs, the first of each less than the second.
+    pub(crate) fn new(particles: usize, pairs: impl Iterator<Item = (u32, u32)>) -> Self {
+        let mut rows: Vec<Vec<usize>> = (0..particles).map(|i| vec![i]).collect();
+        for (first, second) in pairs {
+            rows[first as usize].push(second as usize);
+        }
+        let mut sparsity = Self { offsets: vec![0], columns: Vec::new() };
+        for mut row in rows {
+            row.sort_unstable();
+            row.dedup();
+            sparsity.columns.extend(row);
+            sparsity.offsets.push(sparsity.columns.len());
+        }
+        sparsity
+    }
+
+    /// Returns the index of the block of a pair, the first at most the second, if it is joined.
+    pub(crate) fn block(&self, row: u32, column: u32) -> Option<usize> {
+        let row = row as usize;
+        let columns = &self.columns[self.offsets[row]..self.offsets[row + 1]];
+        let index = columns.binary_search(&(column as usize)).ok()?;
+        Some(self.offsets[row] + index)
+    }
+
+    /// Number of blocks.
+    #[must_use]
+    pub fn blocks(&self) -> usize {
+        self.columns.len()
+    }
+}

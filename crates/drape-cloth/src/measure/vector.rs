@@ -1,0 +1,53 @@
+//! Vectors in three dimensions, and vectors in flat arrays of three numbers per particle.
+
+/// Vector in three dimensions.
+pub(crate) type Vector = [f64; 3];
+
+#[inline(always)]
+pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+pub(crate) fn scale(a: Vector, by: f64) -> Vector {
+    [a[0] * by, a[1] * by, a[2] * by]
+}
+
+#[inline(always)]
+pub(crate) fn add(a: Vector, b: Vector) -> Vector {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+#[inline(always)]
+pub(crate) fn subtract(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub(crate) fn length(a: Vector) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// Returns the vector of a particle in a flat array.
+pub(crate) fn vector_at(flat: &[f64], particle: u32) -> Vector {
+    let start = 3 * particle as usize;
+    [flat[start], flat[start + 1], flat[start + 2]]
+}
+
+/// Adds a vector to that of a particle in a flat array.
+pub(crate) fn add_at(flat: &mut [f64], particle: u32, vector: Vector) {
+    let start = 3 * particle as usize;
+    for (sum, part) in flat[start..start + 3].iter_mut().zip(vector) {
+        *sum += part;
+    }
+}
+
+/// Returns the weighted sum of the vectors of some particles, as of a second difference.
+pub(crate) fn weighted_sum(flat: &[f64], nodes: &[(u32, f64)]) -> Vector {
+    nodes
+        .iter()
+        .fold([0.0; 3], |sum, &(node, weight)| add(sum, scale(vector_at(flat, node), weight)))
+}

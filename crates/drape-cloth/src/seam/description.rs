@@ -1,0 +1,42 @@
+//! Description of a seam: the nodes that are sewn to each other, its stiffness and its rest angle.
+
+/// Seam: the nodes that are sewn to each other, and how it bends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seam {
+    /// Pairs of particles, one of each side, in the order of the seam; both may be the same particle, as
+    /// at the tip of a dart.
+    pub pairs: Vec<[u32; 2]>,
+    /// Particles of the longer side of a gather between the pairs, in the order of the seam.
+    pub ties: Vec<Tie>,
+    /// Stiffness of the strip along the seam that is added to the panels, over that of the fabric.
+    pub stiffness: f64,
+    /// Angle by which the panels are turned towards their right sides at rest, in rad: 0 if the seam is
+    /// pressed open.
+    pub rest_angle: f64,
+}
+
+/// Particle that is tied to a point between two others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tie {
+    /// The tied particle.
+    pub particle: u32,
+    /// The two particles that it lies between: those of the other side of two consecutive pairs.
+    pub ends: [u32; 2],
+    /// Position between them: 0 at the first, 1 at the second.
+    pub fraction: f64,
+}
+
+impl Seam {
+    /// Stiffness of a seam if none is chosen: more than that of two layers that slide on each other,
+    /// twice that of one, and less than that of two that do not slide, eight times.
+    pub const STIFFNESS: f64 = 3.0;
+
+    /// Largest rest angle, in rad: up to it angles are exact.
+    pub const REST_ANGLE_MAX: f64 = 140.0 * std::f64::consts::PI / 180.0;
+
+    /// Returns a seam of the usual stiffness that is pressed open.
+    #[must_use]
+    pub fn new(pairs: Vec<[u32; 2]>) -> Self {
+        Self { pairs, ties: Vec::new(), stiffness: Self::STIFFNESS, rest_angle: 0.0 }
+    }
+}

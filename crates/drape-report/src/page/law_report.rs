@@ -1,0 +1,303 @@
+//! Report of one fitted law, and the judgement of it.
+
+use serde::Serialize;
+
+use crate::check;
+use crate::error::Error;
+use crate::parameter::Parameter;
+use crate::plot::{Correlation, LoopPlot};
+use crate::text::number::percent;
+
+/// Report of a fitted law: its curves, its misfit and its parameters.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct LawReport {
+    /// Title, as in "tensile, warp".
+    pub title: String,
+    /// Law in words, as in "priming zone and line, friction of first order".
+    pub model: String,
+    /// Curves with the loads of the law; several where several tests were fitted together.
+    pub plots: Vec<LoopPlot>,
+    /// Statistics of the fit; `None` where the law was set from values.
+    pub statistics: Option<Statistics>,
+    /// Models that were compared; empty where there was no choice.
+    pub models: Vec<ModelScore>,
+    /// Parameters, fitted or not.
+    pub parameters: Vec<Parameter>,
+    /// Correlations between the fitted parameters.
+    pub correlation: Option<Correlation>,
+    /// Notes on this law.
+    pub notes: Vec<String>,
+}
+
+/// Statistics of a fit and of the search for it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Statistics {
+    /// Root mean square residual over the range of the measured load, a ratio.
+    pub misfit: f64,
+    /// Root mean square residual, in the SI unit of the load.
+    pub rms: f64,
+    /// Coefficient of determination: fraction of the variance that the law explains, at most 1.
+    pub r_squared: f64,
+    /// Number of measured points.
+    pub points: usize,
+    /// Number of iterations of the search.
+    pub iterations: usize,
+    /// Number of evaluations of the law along the whole history.
+    pub evaluations: usize,
+    /// Whether the search ended at a minimum.
+    pub converged: bool,
+    /// Reason why the search ended, in words: "the sum of squares no longer falls".
+    pub stop: String,
+}
+
+/// Model in a comparison.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct ModelScore {
+    /// Model in words.
+    pub name: String,
+    /// Number of its fitted parameters.
+    pub parameters: usize,
+    /// Root mean square residual over the range of the measured load, a ratio.
+    pub misfit: f64,
+    /// Akaike's information criterion, corrected for the number of points (AICc); the smallest is best.
+    pub aicc: f64,
+    /// Whether the report is of this model.
+    pub chosen: bool,
+}
+
+/// Limits beyond which a report marks a number.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Limits {
+    /// Largest misfit of a law that counts as good, a ratio.
+    pub misfit: f64,
+    /// Largest relative standard error of a parameter that counts as known, a ratio.
+    pub error: f64,
+    /// Largest relative difference between the value of a sheet and a recomputed one, a ratio.
+    pub difference: f64,
+    /// Correlation above which pairs are listed.
+    pub correlation: f64,
+}
+
+impl Default for Limits {
+    /// Returns the usual limits.
+    ///
+    /// A misfit of 2 % is the residual error of the law on woven fabrics \[NB04\]. Repeated KES tests of one
+    /// fabric scatter by some 5 %. An error of a quarter leaves one digit. A correlation below a half hardly
+    /// widens an interval.
+    fn default() -> Limits {
+        Limits { misfit: 0.02, error: 0.25, difference: 0.05, correlation: 0.5 }
+    }
+}
+
+/// Judgement of a fitted law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Trust {
+    /// Set from values or defaults: there is no curve to judge it by.
+    Unjudged,
+    /// Follows its curves, and the curves determine its parameters.
+    Good,
+    /// Follows its curves, but not all parameters are determined; or its misfit is up to twice the limit.
+    Doubtful,
+    /// Does not follow its curves, or the search did not end at a minimum.
+    Poor,
+}
+
+impl Trust {
+    /// Returns the judgement in words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Unjudged => "not judged",
+            Self::Good => "good",
+            Self::Doubtful => "doubtful",
+            Self::Poor => "poor",
+        }
+    }
+}
+
+/// Judgement with its reasons.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Verdict {
+    /// Judgement.
+    pub trust: Trust,
+    /// Reasons against the law; empty if there are none.
+    pub reasons: Vec<String>,
+}
+
+impl LawReport {
+    /// Judges the law by its statistics and its parameters.
+    #[must_use]
+    pub fn verdict(&self, limits: &Limits) -> Verdict {
+        let Some(statistics) = &self.statistics else {
+            return Verdict {
+                trust: Trust::Unjudged,
+                reasons: vec!["set from values, not from a curve".to_owned()],
+            };
+        };
+        let mut trust = Trust::Good;
+        let mut reasons = Vec::new();
+        let mut against = |level: Trust, reason: String| {
+            trust = trust.max(level);
+            reasons.push(reason);
+        };
+        if !statistics.converged {
+            against(Trust::Poor, format!("the search did not end: {}", statistics.stop));
+        }
+        let misfit = statistics.misfit;
+        if misfit > limits.misfit {
+            let level = if misfit > 2.0 * limits.misfit { Trust::Poor } else { Trust::Doubtful };
+            let (misfit, limit) = (percent(misfit), percent(limits.misfit));
+            against(level, format!("misfit {misfit}, more than {limit}"));
+        }
+        let symbols = |unknown: &dyn Fn(&&Parameter) -> bool| -> Option<String> {
+            let of_the_fabric = self.parameters.iter().filter(|parameter| !parameter.incidental);
+            let found = of_the_fabric.filter(unknown);
+            let found: Vec<&str> = found.map(|parameter| parameter.symbol.as_str()).collect();
+            (!found.is_empty()).then(|| found.join(", "))
+        };
+        if let Some(symbols) = symbols(&|parameter| parameter.is_undetermined()) {
+            against(Trust::Doubtful, format!("no 95 % interval for {symbols}"));
+        }
+        let vague = |parameter: &&Parameter| {
+            let error = parameter.relative_error();
+            !parameter.is_undetermined() && error.is_some_and(|error| error > limits.error)
+        };
+        if let Some(symbols) = symbols(&vague) {
+            let limit = percent(limits.error);
+            against(Trust::Doubtful, format!("standard error above {limit} for {symbols}"));
+        }
+        Verdict { trust, reasons }
+    }
+
+    /// Returns the unit in which loads are shown.
+    pub(crate) fn load_unit(&self) -> LoadUnit<'_> {
+        let axis = self.plots.first().map(|plot| &plot.load);
+        axis.map_or(LoadUnit { name: "", in_si: 1.0 }, |axis| LoadUnit {
+            name: &axis.unit,
+            in_si: axis.in_si,
+        })
+    }
+
+    /// Refuses numbers that are not finite, and plots without points.
+    ///
+    /// # Errors
+    /// The first fault.
+    pub fn check(&self) -> Result<(), Error> {
+        let title = &self.title;
+        check::text("the title of a law", title)?;
+        check::text(&format!("{title}: the model"), &self.model)?;
+        for note in &self.notes {
+            check::text(&format!("{title}: a note"), note)?;
+        }
+        for plot in &self.plots {
+            plot.check()?;
+        }
+        let number = |what: &str, value: f64| check::number(|| format!("{title}: {what}"), value);
+        if let Some(statistics) = &self.statistics {
+            number("the misfit", statistics.misfit)?;
+            number("the rms residual", statistics.rms)?;
+            number("R²", statistics.r_squared)?;
+            check::text(&format!("{title}: the reason for stopping"), &statistics.stop)?;
+        }
+        for model in &self.models {
+            check::text(&format!("{title}: the name of a model"), &model.name)?;
+            number("the misfit of a model", model.misfit)?;
+            number("the AICc of a model", model.aicc)?;
+        }
+        for parameter in &self.parameters {
+            parameter.check()?;
+        }
+        self.correlation.as_ref().map_or(Ok(()), Correlation::check)
+    }
+
+    /// Returns the evidence for each model, in the order of the models: the Akaike weights
+    /// \[BA02, eq. 2.9\].
+    ///
+    /// ```math
+    /// w_i = \frac{e^{-\Delta_i/2}}{\sum_j e^{-\Delta_j/2}},\qquad
+    /// \Delta_i = \mathrm{AICc}_i - \min_j \mathrm{AICc}_j
+    /// ```
+    #[must_use]
+    pub fn evidence(&self) -> Vec<Evidence> {
+        let best = self.models.iter().map(|model| model.aicc);
+        let best = best.fold(f64::INFINITY, f64::min);
+        let weight = |model: &ModelScore| (-0.5 * (model.aicc - best)).exp();
+        let total: f64 = self.models.iter().map(weight).sum();
+        let models = self.models.iter();
+        let evidence = |model: &ModelScore| Evidence {
+            above_best: model.aicc - best,
+            weight: weight(model) / total,
+        };
+        models.map(evidence).collect()
+    }
+}
+
+/// Evidence for a model in a comparison.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Evidence {
+    /// AICc above that of the best model.
+    pub above_best: f64,
+    /// Akaike weight, 0 to 1.
+    pub weight: f64,
+}
+
+/// Unit of loads: its name, and its size in SI.
+pub(crate) struct LoadUnit<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) in_si: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameter::{Interval, Units};
+
+    fn law(misfit: f64, converged: bool, interval: Interval) -> LawReport {
+        LawReport {
+            statistics: Some(Statistics { misfit, converged, ..Statistics::default() }),
+            parameters: vec![Parameter {
+                name: "bending rigidity".to_owned(),
+                symbol: "k_b".to_owned(),
+                value: 1e-5,
+                units: Units::si("N·m"),
+                standard_error: Some(1e-7),
+                interval,
+                incidental: false,
+            }],
+            ..LawReport::default()
+        }
+    }
+
+    #[test]
+    fn a_law_is_judged_by_its_misfit_its_search_and_its_intervals() {
+        let known = Interval::Between { lower: 0.98e-5, upper: 1.02e-5 };
+        let unknown = Interval::Unknown { reason: "flat".to_owned() };
+        let trust = |law: LawReport| law.verdict(&Limits::default()).trust;
+        assert_eq!(trust(law(0.01, true, known.clone())), Trust::Good);
+        assert_eq!(trust(law(0.03, true, known.clone())), Trust::Doubtful);
+        assert_eq!(trust(law(0.05, true, known.clone())), Trust::Poor);
+        assert_eq!(trust(law(0.01, false, known)), Trust::Poor);
+        assert_eq!(trust(law(0.01, true, unknown.clone())), Trust::Doubtful);
+        let mut zero = law(0.01, true, unknown);
+        zero.parameters[0].incidental = true;
+        assert_eq!(trust(zero), Trust::Good);
+        assert_eq!(trust(LawReport::default()), Trust::Unjudged);
+    }
+
+    #[test]
+    fn the_weights_of_evidence_follow_akaike() {
+        let model = |aicc: f64| ModelScore { aicc, ..ModelScore::default() };
+        let law = LawReport {
+            models: vec![model(-100.0), model(-104.0), model(-102.0)],
+            ..LawReport::default()
+        };
+        // exp(-2), 1 and exp(-1) over their sum 1.503215.
+        let expected = [(4.0, 0.090_030_6), (0.0, 0.665_240_9), (2.0, 0.244_728_5)];
+        for (evidence, (d, w)) in law.evidence().into_iter().zip(expected) {
+            let Evidence { above_best, weight } = evidence;
+            assert_eq!(above_best, d);
+            assert!((weight - w).abs() < 1e-6, "{weight} is not {w}");
+        }
+    }
+}

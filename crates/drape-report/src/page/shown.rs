@@ -1,0 +1,198 @@
+//! Quantities as text, before a page or a terminal lays them out.
+
+use crate::parameter::{Interval, Parameter, Units};
+use crate::text::number::{Notation, percent, typeset};
+
+/// Value with its error and unit, rounded together, as plain text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Shown {
+    pub(crate) value: String,
+    pub(crate) error: Option<String>,
+    pub(crate) power: String,
+    pub(crate) unit: String,
+}
+
+impl Shown {
+    /// Returns a value without a known uncertainty.
+    pub(crate) fn bare(value: f64, unit: &str) -> Shown {
+        let notation = Notation::of(value, None);
+        Shown {
+            value: notation.mantissa(value),
+            error: None,
+            power: notation.power(),
+            unit: unit.to_owned(),
+        }
+    }
+
+    /// Returns the value with its power of ten, and its error where there is one.
+    pub(crate) fn number(&self) -> String {
+        match (&self.error, self.power.is_empty()) {
+            (Some(error), true) => format!("{} ± {error}", self.value),
+            (Some(error), false) => format!("({} ± {error}){}", self.value, self.power),
+            (None, _) => format!("{}{}", self.value, self.power),
+        }
+    }
+
+    /// Returns the same, typeset.
+    pub(crate) fn print(&self) -> String {
+        typeset(&self.number())
+    }
+}
+
+/// Value without a known uncertainty in both of its units.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct ShownValue {
+    /// In the unit of the laboratory, where there is one.
+    pub(crate) kes: Option<Shown>,
+    pub(crate) si: Shown,
+}
+
+impl ShownValue {
+    /// Returns a value in SI in its units.
+    pub(crate) fn new(value: f64, units: &Units) -> ShownValue {
+        let kes = units.kes.as_ref();
+        ShownValue {
+            kes: kes.map(|unit| Shown::bare(value / unit.in_si, &unit.name)),
+            si: Shown::bare(value, &units.si),
+        }
+    }
+
+    /// Returns the value in the unit of the laboratory, or in SI where there is none.
+    pub(crate) fn first(&self) -> &Shown {
+        self.kes.as_ref().unwrap_or(&self.si)
+    }
+
+    /// Returns the value in SI where the first unit is another.
+    pub(crate) fn second(&self) -> Option<&Shown> {
+        self.kes.as_ref().map(|_| &self.si)
+    }
+}
+
+/// Ratio or difference as text, and whether it is marked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Marked {
+    pub(crate) text: String,
+    /// Whether it is beyond the limit.
+    pub(crate) apart: bool,
+}
+
+/// Parameter as text.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ShownParameter<'a> {
+    pub(crate) parameter: &'a Parameter,
+    pub(crate) kes: Option<Shown>,
+    pub(crate) si: Shown,
+    pub(crate) relative: String,
+    /// Interval in the unit of the laboratory, or in SI where there is none.
+    pub(crate) interval: String,
+    pub(crate) reason: Option<&'a str>,
+}
+
+impl<'a> ShownParameter<'a> {
+    /// Returns the text of a parameter.
+    pub(crate) fn new(parameter: &'a Parameter) -> ShownParameter<'a> {
+        let kes = parameter.units.kes.as_ref();
+        let in_kes = kes.map(|unit| Scaled::new(parameter, unit.in_si, &unit.name));
+        let in_si = Scaled::new(parameter, 1.0, &parameter.units.si);
+        let (kes, interval) = match in_kes {
+            Some(Scaled { shown, interval }) => (Some(shown), interval),
+            None => (None, in_si.interval),
+        };
+        ShownParameter {
+            parameter,
+            kes,
+            si: in_si.shown,
+            relative: parameter.relative_error().map_or_else(String::new, percent),
+            interval,
+            reason: parameter.interval.reason(),
+        }
+    }
+
+    /// Returns the interval, typeset.
+    pub(crate) fn print_interval(&self) -> String {
+        typeset(&self.interval)
+    }
+
+    /// Returns the value in the unit of the laboratory, or in SI where there is none.
+    pub(crate) fn first(&self) -> &Shown {
+        self.kes.as_ref().unwrap_or(&self.si)
+    }
+}
+
+/// Parameter and its interval in one unit, rounded to the same decimal place.
+struct Scaled {
+    shown: Shown,
+    interval: String,
+}
+
+impl Scaled {
+    fn new(parameter: &Parameter, in_si: f64, unit: &str) -> Scaled {
+        let scale = |number: f64| number / in_si;
+        // A 95 % interval is four standard errors wide.
+        let width = match parameter.interval {
+            Interval::Between { lower, upper } => Some(0.25 * (upper - lower)),
+            _ => None,
+        };
+        let uncertainty = parameter.standard_error.or(width).map(scale);
+        let notation = Notation::of(scale(parameter.value), uncertainty);
+        let write = |number: f64| notation.mantissa(scale(number));
+        let power = notation.power();
+        let interval = match parameter.interval {
+            Interval::Between { lower, upper } => {
+                format!("[{}, {}]{power}", write(lower), write(upper))
+            }
+            Interval::Above { lower, .. } => format!("> {}{power}", write(lower)),
+            Interval::Below { upper, .. } => format!("< {}{power}", write(upper)),
+            Interval::Unknown { .. } | Interval::Fixed { .. } => String::new(),
+        };
+        let shown = Shown {
+            value: write(parameter.value),
+            error: parameter.standard_error.map(write),
+            power,
+            unit: unit.to_owned(),
+        };
+        Scaled { shown, interval }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parameter_is_written_in_both_units_with_one_rounding_each() {
+        let parameter = Parameter {
+            name: "bending rigidity".to_owned(),
+            symbol: "k_b".to_owned(),
+            value: 0.118 * 9.80665e-5,
+            units: Units::si("N·m").with_kes("gf·cm²/cm", 9.80665e-5),
+            standard_error: Some(0.0023 * 9.80665e-5),
+            interval: Interval::Between { lower: 0.1135 * 9.80665e-5, upper: 0.1227 * 9.80665e-5 },
+            incidental: false,
+        };
+        let shown = ShownParameter::new(&parameter);
+        assert_eq!(shown.first().number(), "0.1180 ± 0.0023");
+        assert_eq!(shown.si.number(), "(1.157 ± 0.023)e-5");
+        assert_eq!(shown.interval, "[0.1135, 0.1227]");
+        assert_eq!(shown.relative, "1.95 %");
+    }
+
+    #[test]
+    fn an_interval_with_one_end_says_which() {
+        let parameter = Parameter {
+            name: "slip length".to_owned(),
+            symbol: "x_f".to_owned(),
+            value: 4.0,
+            units: Units::si("1/m"),
+            standard_error: None,
+            interval: Interval::Below {
+                upper: 9.25,
+                reason: "the fit is as good without".to_owned(),
+            },
+            incidental: false,
+        };
+        let shown = ShownParameter::new(&parameter);
+        assert_eq!(shown.interval, "< 9.250");
+        assert_eq!(shown.reason, Some("the fit is as good without"));
+    }
+}

@@ -1,0 +1,57 @@
+//! Colours: sRGB and linear light, and a diverging scale for signed values.
+
+/// Colour in sRGB: red, green, blue.
+pub type Colour = [u8; 3];
+
+/// Returns the linear light of an sRGB value \[IEC61966\].
+pub(crate) fn decode(value: u8) -> f64 {
+    let value = f64::from(value) / 255.0;
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+/// Returns the nearest sRGB value of linear light \[IEC61966\].
+pub(crate) fn encode(light: f64) -> u8 {
+    let light = light.clamp(0.0, 1.0);
+    let value =
+        if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
+    (255.0 * value).round() as u8
+}
+
+/// Colours of the lower end, the middle and the upper end of the diverging scale: blue, nearly white, red.
+const STOPS: [Colour; 3] = [[33, 92, 172], [246, 246, 244], [186, 38, 48]];
+
+/// Returns the colour of a value on a diverging scale from minus to plus a limit.
+///
+/// Zero is nearly white, negative values are blue, positive ones red; values beyond the ends have the
+/// colour of the end.
+///
+/// ```
+/// use drape_report::diverging;
+///
+/// let [red, _, blue] = diverging(-0.02, 0.05);
+/// assert!(blue > red);
+/// assert_eq!(diverging(0.2, 0.05), diverging(0.05, 0.05));
+/// ```
+#[must_use]
+pub fn diverging(value: f64, limit: f64) -> Colour {
+    let fraction = if limit > 0.0 { (value / limit).clamp(-1.0, 1.0) } else { 0.0 };
+    let end = if fraction < 0.0 { STOPS[0] } else { STOPS[2] };
+    std::array::from_fn(|channel| {
+        let (middle, end) = (f64::from(STOPS[1][channel]), f64::from(end[channel]));
+        (middle + fraction.abs() * (end - middle)).round() as u8
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zero_is_light_and_the_ends_are_kept() {
+        assert_eq!(diverging(0.0, 2.0), STOPS[1]);
+        assert_eq!([diverging(-2.0, 2.0), diverging(9.0, 2.0)], [STOPS[0], STOPS[2]]);
+        let half = diverging(1.0, 2.0);
+        assert!(half[0] > half[1] && half[1] > STOPS[2][1], "{half:?}");
+        assert_eq!(diverging(1.0, 0.0), STOPS[1]);
+    }
+}

@@ -1,0 +1,117 @@
+//! Triangle in a plane of pixels or texels, and the cells that it covers.
+
+use std::ops::Range;
+
+/// Tolerance of the coverage test: barycentric coordinate of a cell centre outside the triangle that still
+/// counts as covered.
+///
+/// Far above rounding, so that no centre on a common edge falls between two neighbours, and far below what
+/// could be seen.
+const EDGE: f64 = 1e-9;
+
+/// Triangle in a plane of pixels or texels.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlaneTriangle {
+    pub(crate) corners: [[f64; 2]; 3],
+    /// Twice the area, with the sign of the winding.
+    area: f64,
+}
+
+impl PlaneTriangle {
+    /// Returns a triangle; `None` if it has no area or corners that are not finite.
+    pub(crate) fn new(corners: [[f64; 2]; 3]) -> Option<PlaneTriangle> {
+        let [a, b, c] = corners;
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        (area.is_finite() && area != 0.0).then_some(PlaneTriangle { corners, area })
+    }
+
+    /// Returns the barycentric coordinates of a point; all are between 0 and 1 inside.
+    pub(crate) fn barycentric(&self, x: f64, y: f64) -> [f64; 3] {
+        let [a, b, c] = self.corners;
+        let over = |p: [f64; 2], q: [f64; 2]| {
+            ((q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])) / self.area
+        };
+        [over(b, c), over(c, a), over(a, b)]
+    }
+
+    /// Returns the rows that the triangle can cover, of those below a count.
+    pub(crate) fn rows(&self, count: usize) -> Range<usize> {
+        span(self.corners.map(|c| c[1]), count)
+    }
+
+    /// Visits the cells of some rows whose centres are inside, each with its column, its row and its
+    /// barycentric coordinates.
+    pub(crate) fn rasterize(
+        &self,
+        columns: usize,
+        rows: Range<usize>,
+        mut visit: impl FnMut(usize, usize, [f64; 3]),
+    ) {
+        let across = span(self.corners.map(|c| c[0]), columns);
+        // Barycentric coordinates are linear along a row.
+        let step = {
+            let (here, next) = (self.barycentric(0.0, 0.0), self.barycentric(1.0, 0.0));
+            [0, 1, 2].map(|k| next[k] - here[k])
+        };
+        for row in rows {
+            let start = self.barycentric(across.start as f64 + 0.5, row as f64 + 0.5);
+            // First and last column, counted from the left, in which no coordinate is below zero.
+            let (mut from, mut to) = (0.0f64, (across.end - across.start) as f64 - 1.0);
+            for k in 0..3 {
+                let zero = -(start[k] + EDGE) / step[k];
+                if step[k] > 0.0 {
+                    from = from.max(zero);
+                } else if step[k] < 0.0 {
+                    to = to.min(zero);
+                } else if start[k] < -EDGE {
+                    to = -1.0;
+                }
+            }
+            // The cast maps numbers below 0 to 0.
+            for offset in from.ceil() as usize..(to + 1.0).floor() as usize {
+                let coordinates = [0, 1, 2].map(|k| start[k] + offset as f64 * step[k]);
+                visit(across.start + offset, row, coordinates);
+            }
+        }
+    }
+}
+
+/// Returns the cells below a count whose centres are between the extremes of three values.
+fn span(values: [f64; 3], count: usize) -> Range<usize> {
+    let low = values.iter().fold(f64::MAX, |low, v| low.min(*v));
+    let high = values.iter().fold(f64::MIN, |high, v| high.max(*v));
+    // The cast maps numbers that are too large to the largest.
+    let first = (low - 0.5).ceil().max(0.0) as usize;
+    let last = (high + 0.5).floor().max(0.0) as usize;
+    first.min(count)..last.min(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_halves_of_a_square_cover_each_cell_once() {
+        let corners = [[0.7, 0.2], [19.3, 1.1], [18.4, 17.9], [1.4, 16.6]];
+        let mut count = vec![0; 400];
+        let mut centers = 0.0;
+        for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
+            let triangle = PlaneTriangle::new([corners[a], corners[b], corners[c]]).unwrap();
+            triangle.rasterize(20, triangle.rows(20), |x, y, coordinates| {
+                count[20 * y + x] += 1;
+                centers += coordinates.iter().sum::<f64>();
+            });
+        }
+        assert!(count.iter().all(|n| *n <= 1), "a cell is covered twice");
+        let covered = count.iter().sum::<i32>();
+        // The shoelace formula gives 295.59 cells; the border cuts some 70 of them.
+        assert!((288..=303).contains(&covered), "{covered} cells");
+        assert!((centers - f64::from(covered)).abs() < 1e-9, "{centers}");
+    }
+
+    #[test]
+    fn a_triangle_without_area_covers_nothing() {
+        assert!(PlaneTriangle::new([[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]).is_none());
+        assert!(PlaneTriangle::new([[0.0, 0.0], [f64::NAN, 1.0], [2.0, 0.0]]).is_none());
+    }
+}

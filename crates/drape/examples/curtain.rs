@@ -1,0 +1,70 @@
+//! From a measured fabric to hanging cloth: fits the cupro, hangs a small curtain of it by two
+//! corners that are nearer to each other than the curtain is wide, and prints how it drapes. `cargo
+//! run --release --example curtain`
+
+#![expect(clippy::print_stdout, reason = "an example prints its result")]
+
+use drape::dynamics::Simulation;
+use drape::fit::identify;
+use drape::input::Document;
+use drape::kes::Sheet;
+use drape::scene::Scene;
+
+/// Width of the curtain, and the part of it that is left between the corners, in m.
+const WIDTH: f64 = 0.3;
+const SPAN: f64 = 0.2;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let sheet = Sheet::read(concat!(env!("CARGO_MANIFEST_DIR"), "/fabrics/cupro-weave"))?;
+    let fit = identify(&sheet)?;
+    let fabric = Document::new("cupro.toml", fit.fabric.to_toml());
+    let scene = format!(
+        r#"
+        name = "curtain"
+        spacing = 0.02
+        fabric.cupro.file = "cupro.toml"
+        time = {{ step = 0.01, end = 20.0 }}
+        settle.speed = 0.005
+        [[panel]]
+        name = "curtain"
+        fabric = "cupro"
+        rectangle = [{WIDTH}, {WIDTH}]
+        noise = {{ amplitude = 1e-3, length = 0.05, seed = 1 }}
+        [[pin]]
+        panel = "curtain"
+        points = [[0, {WIDTH}]]
+        [[pin]]
+        panel = "curtain"
+        points = [[{WIDTH}, {WIDTH}]]
+        motion = {{ times = [0, 1], shift = [[0, 0, 0], [{}, 0, 0]] }}
+        "#,
+        SPAN - WIDTH
+    );
+    let scene = Scene::from_documents(&Document::new("curtain.toml", scene), &[fabric])?;
+    let mut simulation = Simulation::new(scene)?;
+    while !simulation.step()?.finished {}
+
+    // Heights of the upper edge, below the corners.
+    let frame = simulation.frame();
+    let particles = frame.positions.as_chunks::<3>().0;
+    let top = simulation.coordinates().iter().map(|[_, v]| *v).fold(f64::MIN, f64::max);
+    let upper = simulation.coordinates().iter().zip(particles);
+    let upper = upper.filter(|([_, v], _)| top - v < 1e-9);
+    let heights: Vec<f64> = upper.map(|(_, [_, y, _])| *y).collect();
+    let highest = heights.iter().copied().fold(f64::MIN, f64::max);
+    let sag = highest - heights.iter().copied().fold(f64::MAX, f64::min);
+    let depths = particles.iter().map(|[.., z]| *z);
+    let depth = depths.clone().fold(f64::MIN, f64::max) - depths.fold(f64::MAX, f64::min);
+    println!(
+        "{}: at rest after {:.2} s, the upper edge sags by {:.1} mm, folds are {:.1} mm deep",
+        fit.fabric.name,
+        simulation.time(),
+        1e3 * sag,
+        1e3 * depth
+    );
+    // An edge that does not stretch sags at most as two straight halves do.
+    let straight = (0.25 * (WIDTH * WIDTH - SPAN * SPAN)).sqrt();
+    assert!(sag > 0.5 * straight && sag < 1.02 * straight, "{sag} m, of {straight} m at most");
+    assert!(depth > 0.01, "the curtain hangs in a fold, not flat: {depth} m");
+    Ok(())
+}
