@@ -1,8 +1,9 @@
 //! Measures of garments at the end of a run, and warnings about its result.
 //!
-//! A garment is measured as a tailor does: whether its seams are closed, how its hems hang, how wide its openings are and
-//! how much of that is ease, how it is strained and how hard it presses. Warnings name garments that slid and fabrics that
-//! were deformed beyond their measurements. Measures read the world; they change nothing that a further step would use.
+//! A garment is measured as a tailor does: whether its seams are closed, how its hems hang, how
+//! wide its openings are and how much of that is ease, how it is strained and how hard it presses.
+//! Warnings name garments that slid and fabrics that were deformed beyond their measurements.
+//! Measures read the world; they change nothing that a further step would use.
 
 mod fall;
 pub(crate) mod garment_parts;
@@ -59,7 +60,8 @@ pub(crate) fn measures(parts: &GarmentParts, world: &mut World) -> Map<String, V
     measures
 }
 
-/// Warnings about the result of a run: garments that slid, and cloth that is deformed beyond its fabric's measurements.
+/// Warnings about the result of a run: garments that slid, and cloth that is deformed beyond its
+/// fabric's measurements.
 pub(crate) fn warnings(parts: &GarmentParts, world: &World) -> Vec<String> {
     [fall::sunk(parts, &world.state.positions), strain::extrapolated(parts, world)].concat()
 }

@@ -1,8 +1,9 @@
 //! Record of a run: frames, their files, and the summary.
 //!
-//! A frame has the positions of all particles and of the bodies' vertices at a time; what all frames have in common is the
-//! topology, stored once. The summary has how the run went: phases, work of the solver, energy, strain, contact, measures.
-//! This chapter reads the world and writes files; it changes nothing.
+//! A frame has the positions of all particles and of the bodies' vertices at a time; what all
+//! frames have in common is the topology, stored once. The summary has how the run went: phases,
+//! work of the solver, energy, strain, contact, measures. This chapter reads the world and writes
+//! files; it changes nothing.
 
 pub(crate) mod frame;
 pub(crate) mod recorder;

@@ -1,7 +1,8 @@
 //! Simulation: a scene from its start to the end of its run, phase by phase.
 //!
-//! A run has up to three phases: a garment is sewn, the cloth comes to rest, bodies and pins move. Steps are made by the
-//! chapter `stepping`; after each of them the simulation asks whether the phase, or the run, is over.
+//! A run has up to three phases: a garment is sewn, the cloth comes to rest, bodies and pins move.
+//! Steps are made by the chapter `stepping`; after each of them the simulation asks whether the
+//! phase, or the run, is over.
 
 use drape_implicit::{Report, Stop};
 use drape_scene::{Relaxation, Scene};
@@ -207,7 +208,7 @@ impl Simulation {
             time: self.time(),
             positions: self.world.state.positions.clone(),
             bodies: bodies.into_iter().flat_map(|body| body.vertices).flatten().collect(),
-            grown: self.world.contact.growth_fraction(),
+            growth_fraction: self.world.contact.growth_fraction(),
         }
     }
 
@@ -247,8 +248,8 @@ impl Simulation {
         self.rest.criteria.is_some()
     }
 
-    /// Returns the loads of the pins, in the order of the scene, without the inertia of the particles that they hold; those
-    /// of a pin that has let go are zero.
+    /// Returns the loads of the pins, in the order of the scene, without the inertia of the
+    /// particles that they hold; those of a pin that has let go are zero.
     pub fn pin_loads(&mut self) -> Vec<PinLoad> {
         self.world.pin_loads(self.stepping.time())
     }
@@ -420,7 +421,8 @@ impl Simulation {
         self.restart(relaxation)
     }
 
-    /// Sets bodies and pins in motion for so many seconds; the cloth, which is at rest, has inertia from now on.
+    /// Sets bodies and pins in motion for so many seconds; the cloth, which is at rest, has inertia
+    /// from now on.
     fn set_in_motion(&mut self, seconds: f64) -> Result<(), drape_implicit::Error> {
         self.phases.rested = true;
         self.phases.motion_seconds = None;

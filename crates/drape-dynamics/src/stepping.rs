@@ -1,14 +1,15 @@
 //! Stepping: the world is carried through time, step by step.
 //!
-//! [`Stepping`] holds the integrator of the system that is solved now, which is the world or, once a garment is sewn, its
-//! reduction to independent degrees of freedom. It chooses the length of each step (`step_control.rs`), makes it, estimates
-//! its error, and takes it back where that is too large; with quasi-static relaxation it also chooses how well a step is
-//! solved (`accuracy.rs`). Time is counted in ticks, each the first step divided by a power of two, so that sums do not
-//! drift.
+//! [`Stepping`] holds the integrator of the system that is solved now, which is the world or, once
+//! a garment is sewn, its reduction to independent degrees of freedom. It chooses the length of
+//! each step (`step_control.rs`), makes it, estimates its error, and takes it back where that is
+//! too large; with quasi-static relaxation it also chooses how well a step is solved
+//! (`accuracy.rs`). Time is counted in ticks, each the first step divided by a power of two, so
+//! that sums do not drift.
 //!
-//! Positions and velocities of all particles are those of the world's state, which every accepted step writes; the state of
-//! the integrator has those of the degrees of freedom, with their past. Phases of a run are the business of
-//! [`Simulation`](crate::simulation::Simulation).
+//! Positions and velocities of all particles are those of the world's state, which every accepted
+//! step writes; the state of the integrator has those of the degrees of freedom, with their past.
+//! Phases of a run are the business of [`Simulation`](crate::simulation::Simulation).
 
 mod accuracy;
 mod phase_steps;
@@ -169,13 +170,14 @@ impl Stepping {
         }
     }
 
-    /// Adapts the length of the next step to one in which no particle moved farther than a distance, in m.
+    /// Adapts the length of the next step to one in which no particle moved farther than a
+    /// distance, in m.
     pub(crate) fn adapt_to_displacement(&mut self, ticks: usize, moved: f64) {
         self.control.adapt_to_displacement(ticks, moved);
     }
 
-    /// Root-mean-square acceleration of the free particles in the last step, in m/s², of a length, in s. A step of
-    /// quasi-static relaxation began at rest.
+    /// Root-mean-square acceleration of the free particles in the last step, in m/s², of a length,
+    /// in s. A step of quasi-static relaxation began at rest.
     pub(crate) fn acceleration(&self, world: &World, dt: f64) -> f64 {
         let Some(previous) = &self.state.previous else { return 0.0 };
         // The step may have been made in parts; the last one is as long as it says.
@@ -204,8 +206,8 @@ impl Stepping {
         (squares / free.max(1) as f64).sqrt() / dt
     }
 
-    /// Solves the next steps of quasi-static relaxation the better the nearer the cloth is to rest. Returns whether the last
-    /// one was solved so well that the cloth may count as at rest.
+    /// Solves the next steps of quasi-static relaxation the better the nearer the cloth is to rest.
+    /// Returns whether the last one was solved so well that the cloth may count as at rest.
     pub(crate) fn refine(
         &mut self,
         world: &mut World,

@@ -1,8 +1,9 @@
 //! World: cloth, bodies, gravity and air as one mechanical system.
 //!
-//! A [`World`] is made of a checked scene and is what the solver moves. It implements [`drape_implicit::System`] and, on
-//! top of it, [`drape_implicit::StepFilter`] (`system.rs`), and so joins `drape-cloth` and `drape-collide` with
-//! `drape-implicit`. The forces on its particles are
+//! A [`World`] is made of a checked scene and is what the solver moves. It implements
+//! [`drape_implicit::System`] and, on top of it, [`drape_implicit::StepFilter`] (`system.rs`), and
+//! so joins `drape-cloth` and `drape-collide` with `drape-implicit`. The forces on its particles
+//! are
 //!
 //! ```math
 //! f = M g + f_\text{internal} + f_\text{springs} + f_\text{air} + f_\text{contact}
@@ -10,9 +11,10 @@
 //!
 //! and each term has a file of its own here, with its force, potential and stiffness.
 //!
-//! Evaluations of a trial leave the state as it is. Only an accepted step changes positions, velocities and the memory of
-//! friction, and enters the balance of energy. The chapter knows neither phases nor lengths of steps: `stepping` asks for
-//! steps, and `sewing` puts fewer degrees of freedom in front of it.
+//! Evaluations of a trial leave the state as it is. Only an accepted step changes positions,
+//! velocities and the memory of friction, and enters the balance of energy. The chapter knows
+//! neither phases nor lengths of steps: `stepping` asks for steps, and `sewing` puts fewer degrees
+//! of freedom in front of it.
 
 mod air_drag;
 #[cfg(test)]
@@ -128,7 +130,8 @@ impl World {
         Ok(world)
     }
 
-    /// Lets the steps start from rest from now on, as in quasi-static relaxation, or keep their momentum.
+    /// Lets the steps start from rest from now on, as in quasi-static relaxation, or keep their
+    /// momentum.
     pub(crate) fn set_relaxing(&mut self, relaxes: bool) {
         self.momentum.set_active(relaxes, self.cloth.particles());
     }
@@ -138,7 +141,8 @@ impl World {
         self.momentum.is_active()
     }
 
-    /// Starts the motions of bodies and pins at a time, in s, with a cloth at rest that keeps its momentum.
+    /// Starts the motions of bodies and pins at a time, in s, with a cloth at rest that keeps its
+    /// momentum.
     pub(crate) fn set_in_motion(&mut self, time: f64) {
         self.clock.start(time);
         self.pins.release(HoldUntil::Rest, time);
@@ -173,7 +177,8 @@ impl World {
         }
     }
 
-    /// Time of the last change that a scene prescribes, in s: full gravity, full size of bodies, and releases of pins.
+    /// Time of the last change that a scene prescribes, in s: full gravity, full size of bodies,
+    /// and releases of pins.
     pub(crate) fn last_change(&self) -> f64 {
         let ramp_end = self.gravity.ramp_end();
         let surfaces = self.contact.surfaces();

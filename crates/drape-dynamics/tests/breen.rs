@@ -42,7 +42,8 @@ end = 1.0
     Simulation::new(scene).unwrap()
 }
 
-/// Distance of the two nearest particles that are more than two spacings apart along the strip, in spacings.
+/// Distance of the two nearest particles that are more than two spacings apart along the strip, in
+/// spacings.
 fn nearest(simulation: &Simulation) -> f64 {
     let positions = simulation.frame().positions;
     let points: Vec<&[f64]> = positions.chunks_exact(3).collect();
@@ -76,7 +77,7 @@ fn a_strip_that_folds_onto_itself_stays_apart() {
     // What is stored is had back, and what is lost the integrator or the floor has taken.
     let energy = simulation.energy().unwrap();
     assert_eq!(energy.friction_dissipated, 0.0);
-    assert!(energy.remainder.abs() < 1e-9 * -energy.gravity, "{energy:?}");
+    assert!(energy.residual.abs() < 1e-9 * -energy.gravity, "{energy:?}");
 }
 
 #[test]

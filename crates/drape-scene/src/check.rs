@@ -1,9 +1,11 @@
 //! Check of a scene: from the content of its file to checked values in SI units.
 //!
-//! A [`Checker`](self::checker::Checker) has the file and collects its mistakes; every part of a scene has a function that
-//! takes the checker and returns the checked value. Values are checked where they enter, once, and mistakes are collected, so
-//! that one reading names all that can be found. Panels, times, bodies and contact come first; seams, pins and the start need
-//! sound panels and follow only without mistakes. Files are read here, but for fabrics, which the caller's function reads.
+//! A [`Checker`](self::checker::Checker) has the file and collects its mistakes; every part of a
+//! scene has a function that takes the checker and returns the checked value. Values are checked
+//! where they enter, once, and mistakes are collected, so that one reading names all that can be
+//! found. Panels, times, bodies and contact come first; seams, pins and the start need sound panels
+//! and follow only without mistakes. Files are read here, but for fabrics, which the caller's
+//! function reads.
 
 pub(crate) mod body;
 pub(crate) mod checker;
@@ -44,7 +46,8 @@ const AIR_DENSITY: f64 = 1.2;
 /// Drag coefficient of a flat plate across the flow.
 const AIR_DRAG: f64 = 1.28;
 
-/// Documents of a scene: its own, and others that it names by their paths; its fabrics are read by a function.
+/// Documents of a scene: its own, and others that it names by their paths; its fabrics are read by
+/// a function.
 pub(crate) struct Documents<'a> {
     pub(crate) scene: &'a Document,
     pub(crate) others: &'a [Document],
@@ -146,7 +149,8 @@ pub(crate) fn check(documents: &Documents<'_>, file: SceneFile) -> Result<Scene,
     Ok(scene)
 }
 
-/// Checks that panels are told apart by their names. Names that the scene itself has twice have been reported.
+/// Checks that panels are told apart by their names. Names that the scene itself has twice have
+/// been reported.
 fn check_names(checker: &mut Checker<'_>, placed: &[PlacedPanel]) {
     let file = checker.file;
     let twice = |name: &str| file.panel.iter().filter(|panel| panel.name == name).count() > 1;

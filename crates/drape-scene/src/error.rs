@@ -8,7 +8,8 @@ use crate::tangle::Tangle;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The scene, or a file that it names, has mistakes: correct them; all that were found are listed.
+    /// The scene, or a file that it names, has mistakes: correct them; all that were found are
+    /// listed.
     #[error(transparent)]
     Input(#[from] Diagnostics),
     /// Surfaces cross at the start, or are too near: move panels and bodies apart.

@@ -1,7 +1,8 @@
 //! TOML form of a scene.
 //!
-//! `SceneFile` mirrors the text of a scene key by key. Nothing here is checked beyond its type; unknown keys are refused.
-//! The chapter `check` turns it into a scene. Names of fields are the keys; lengths are in the unit of the file.
+//! `SceneFile` mirrors the text of a scene key by key. Nothing here is checked beyond its type;
+//! unknown keys are refused. The chapter `check` turns it into a scene. Names of fields are the
+//! keys; lengths are in the unit of the file.
 
 pub(crate) mod body;
 pub(crate) mod contact;
@@ -73,8 +74,8 @@ pub(crate) struct FabricFile {
 }
 
 impl SceneFile {
-    /// Whether surfaces are kept apart: if the scene does not say, wherever steps can be limited. Explicit steps cannot, and
-    /// the particles of Breen's model repel each other at a spacing.
+    /// Whether surfaces are kept apart: if the scene does not say, wherever steps can be limited.
+    /// Explicit steps cannot, and the particles of Breen's model repel each other at a spacing.
     pub(crate) fn keeps_surfaces_apart(&self) -> bool {
         let is = |key: &Option<String>, word: &str| key.as_deref() == Some(word);
         let cannot = is(&self.solver.integrator, "explicit") || is(&self.model, "breen-1994");

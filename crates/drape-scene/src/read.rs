@@ -14,13 +14,14 @@ impl Scene {
     /// Reads a scene and everything it names. Its fabrics are in files of fabrics.
     ///
     /// # Errors
-    /// All mistakes that could be found, each with file, line, value and remedy; with them the triangles that cross at
-    /// the start, if some do.
+    /// All mistakes that could be found, each with file, line, value and remedy; with them the
+    /// triangles that cross at the start, if some do.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         Self::read_with(path, &read_fabric)
     }
 
-    /// Reads a scene and everything it names, with a function that makes its fabrics, of files of any kind.
+    /// Reads a scene and everything it names, with a function that makes its fabrics, of files of
+    /// any kind.
     ///
     /// # Errors
     /// As for [`Scene::read`].
@@ -30,8 +31,8 @@ impl Scene {
         check(&Documents { scene, others: &[], fabrics }, file)
     }
 
-    /// Makes a scene of a document in memory. A fabric or a pattern whose path, seen from the scene's folder, is that of one of
-    /// the other documents is taken from there.
+    /// Makes a scene of a document in memory. A fabric or a pattern whose path, seen from the
+    /// scene's folder, is that of one of the other documents is taken from there.
     ///
     /// # Errors
     /// As for [`Scene::read`].

@@ -1,7 +1,8 @@
 //! Scene: everything that a simulation needs, checked and in SI units.
 //!
-//! These are plain values. The chapter `check` makes them of a file and looks at their start; `drape-dynamics` makes a world
-//! of them and lets it move. Nothing here reads a file or changes in time.
+//! These are plain values. The chapter `check` makes them of a file and looks at their start;
+//! `drape-dynamics` makes a world of them and lets it move. Nothing here reads a file or changes in
+//! time.
 
 pub(crate) mod clock;
 pub(crate) mod contact;
@@ -79,7 +80,8 @@ pub struct Scene {
     pub garments: Vec<Garment>,
     /// All panels as one cloth.
     pub cloth: Cloth,
-    /// The same in the model of Breen, if the scene asks for it: then the laws of the cloth have no friction.
+    /// The same in the model of Breen, if the scene asks for it: then the laws of the cloth have no
+    /// friction.
     pub breen: Option<Breen>,
     /// Sewing of the garments, if there are seams.
     pub sewing: Option<Sewing>,
@@ -146,7 +148,8 @@ pub struct Schedule {
     pub clock: Clock,
     /// Relaxation, where the cloth is to come to rest.
     pub relaxation: Option<Relaxation>,
-    /// Time for which bodies and pins move once the cloth is at rest, in s; without one they move from the start.
+    /// Time for which bodies and pins move once the cloth is at rest, in s; without one they move
+    /// from the start.
     pub motion_seconds: Option<f64>,
 }
 

@@ -1,7 +1,7 @@
 //! Surfaces of a scene at its start, for checks and for the simulation.
 //!
-//! Every panel and every body is a group of the surface, with contact distances of its own: of a panel half of its fabric's
-//! thickness, as half of the distance between two layers.
+//! Every panel and every body is a group of the surface, with contact distances of its own: of a
+//! panel half of its fabric's thickness, as half of the distance between two layers.
 
 use std::ops::Range;
 
@@ -18,8 +18,8 @@ use crate::scene::seam::SeamPairs;
 /// Minimum separation of surfaces as a fraction of the fabric's thickness under pressure.
 const CRUSHED: f64 = 0.5;
 
-/// Largest thickness under pressure, as a fraction of the thickness, that contact takes into account: a fabric that is not
-/// compressed at all would have infinitely stiff contact.
+/// Largest thickness under pressure, as a fraction of the thickness, that contact takes into
+/// account: a fabric that is not compressed at all would have infinitely stiff contact.
 const PRESSED: f64 = 0.95;
 
 /// Surfaces of a scene's panels and bodies at its start.
@@ -49,7 +49,8 @@ enum Friction {
 }
 
 impl Friction {
-    /// Coefficient of a pair of groups: of two fabrics the geometric mean, with a body that of the body.
+    /// Coefficient of a pair of groups: of two fabrics the geometric mean, with a body that of the
+    /// body.
     fn pair(self, other: Self) -> f64 {
         match (self, other) {
             (Self::Fabric(a), Self::Fabric(b)) => (a * b).sqrt(),

@@ -46,8 +46,8 @@ struct Face {
 }
 
 impl Tangle {
-    /// Writes each of the triangles once, as a PLY file in m. Those that cross are red, those too near are orange, and
-    /// each has the number of its part in the order in which parts are named.
+    /// Writes each of the triangles once, as a PLY file in m. Those that cross are red, those too
+    /// near are orange, and each has the number of its part in the order in which parts are named.
     ///
     /// # Errors
     /// Those of the writer.

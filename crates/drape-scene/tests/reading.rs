@@ -185,7 +185,8 @@ fn a_panel_is_cut_at_its_angle_to_the_grain() {
     let place = |particle: usize| {
         [scene.start.positions[3 * particle], scene.start.positions[3 * particle + 1]]
     };
-    // The warp leans to the left by 30°, the weft to the right end upwards, and the middle is at the origin.
+    // The warp leans to the left by 30°, the weft to the right end upwards, and the middle is at
+    // the origin.
     let (sin, cos) = 30_f64.to_radians().sin_cos();
     for (particle, [u, v]) in scene.cloth.coordinates().iter().enumerate() {
         let [x, y] = [u * cos - v * sin - 0.1, u * sin + v * cos - 0.15];

@@ -79,7 +79,7 @@ fn swing(fabric: &Fabric) -> Result<Swing, ValidationError> {
         }
     }
     let energy = simulation.energy().unwrap_or_default();
-    let lost = energy.numerical_dissipated + energy.turning_dissipated;
+    let lost = energy.numerical_dissipated + energy.rotation_dissipated;
     Ok(Swing { lost: [energy.friction_dissipated, lost + energy.friction_dissipated], tip })
 }
 

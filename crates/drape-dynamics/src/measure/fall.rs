@@ -2,7 +2,8 @@
 
 use crate::measure::garment_parts::{GarmentParts, HungGarment, VerticalExtent};
 
-/// Fraction of its height by which a garment may sink until it rests: more is no settling on the body.
+/// Fraction of its height by which a garment may sink until it rests: more is no settling on the
+/// body.
 const SUNK: f64 = 0.25;
 
 /// Reason why a run is of no use any more: a garment is below all bodies, and nothing can hold it.

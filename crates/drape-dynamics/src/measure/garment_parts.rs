@@ -1,4 +1,5 @@
-//! Parts of the cloth that measures refer to: panels, garments, seams, edges, and the fabrics' measured ranges.
+//! Parts of the cloth that measures refer to: panels, garments, seams, edges, and the fabrics'
+//! measured ranges.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -18,7 +19,8 @@ pub(crate) struct GarmentParts {
     pub(crate) seams: SeamPairs,
     /// Edges of panels that are not sewn.
     pub(crate) free_edges: Vec<FreeEdge>,
-    /// Largest deformation to which each law of each fabric was measured, by the names of fabrics and the keys of laws.
+    /// Largest deformation to which each law of each fabric was measured, by the names of fabrics
+    /// and the keys of laws.
     pub(crate) measured_ranges: BTreeMap<String, BTreeMap<String, f64>>,
 }
 
@@ -141,8 +143,8 @@ fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
     edges.filter(inner).collect()
 }
 
-/// Largest measured deformations of the fabrics of a scene, as their files tell; where one direction of the yarns stands for
-/// the other, it does so here.
+/// Largest measured deformations of the fabrics of a scene, as their files tell; where one
+/// direction of the yarns stands for the other, it does so here.
 fn measured_ranges(materials: &[Material]) -> BTreeMap<String, BTreeMap<String, f64>> {
     let ranges = |material: &Material| {
         let mut ranges = material.fabric.provenance.as_ref()?.measured_range.clone();

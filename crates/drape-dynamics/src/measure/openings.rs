@@ -25,7 +25,8 @@ struct Plane {
     axes: [[f64; 3]; 2],
 }
 
-/// Measures of the openings of a world: their heights and lengths, and the girth of the body inside.
+/// Measures of the openings of a world: their heights and lengths, and the girth of the body
+/// inside.
 pub(crate) fn measures(parts: &GarmentParts, world: &World) -> Value {
     let positions = &world.state.positions;
     let place = |particle: &u32| -> [f64; 3] {
@@ -107,7 +108,8 @@ fn openings(parts: &GarmentParts, world: &World) -> Vec<Opening> {
 }
 
 impl Plane {
-    /// The plane through the middle of a closed line, across the area that it encloses, if that is any.
+    /// The plane through the middle of a closed line, across the area that it encloses, if that is
+    /// any.
     fn through(places: &[[f64; 3]]) -> Option<Self> {
         let count = places.len() as f64;
         let middle =

@@ -5,7 +5,8 @@ use serde_json::{Value, json};
 use crate::measure::vector::distance;
 use crate::world::World;
 
-/// Pressure from which a place counts as touched, in Pa: a hundredth of the weight of a light weave.
+/// Pressure from which a place counts as touched, in Pa: a hundredth of the weight of a light
+/// weave.
 const TOUCH: f64 = 0.01;
 
 /// Pressure at a particle.
@@ -16,7 +17,8 @@ struct Touched {
     area: f64,
 }
 
-/// Area that is touched and pressures there, in Pa, where surfaces are kept apart and something touches.
+/// Area that is touched and pressures there, in Pa, where surfaces are kept apart and something
+/// touches.
 pub(crate) fn pressures(world: &mut World, positions: &[f64]) -> Option<Value> {
     let surfaces = world.contact.surfaces_mut()?;
     let mut forces = vec![0.0; positions.len()];

@@ -6,7 +6,8 @@ use serde_json::{Map, Value, json};
 use crate::measure::garment_parts::GarmentParts;
 use crate::world::World;
 
-/// Fraction of the area of a cloth that may be deformed beyond the measurements of its fabric without a warning.
+/// Fraction of the area of a cloth that may be deformed beyond the measurements of its fabric
+/// without a warning.
 const UNMEASURED: f64 = 1e-3;
 
 /// Measured law, and the deformation that is compared with its measured range.

@@ -16,15 +16,15 @@ pub struct Frame {
     /// Positions of the vertices of all bodies, likewise.
     pub bodies: Vec<f64>,
     /// Fraction of their distances that surfaces keep at that time, 0 to 1.
-    pub grown: f64,
+    pub growth_fraction: f64,
 }
 
 impl Frame {
     /// Writes the cloth as Wavefront OBJ in metres, y up, with the material coordinates (in m, weft
     /// and warp) as texture coordinates; `bodies` names the file of the bodies.
     ///
-    /// Every number is written with as many digits as tell it from its neighbours, so the file has the very state of
-    /// the simulation.
+    /// Every number is written with as many digits as tell it from its neighbours, so the file has
+    /// the very state of the simulation.
     ///
     /// # Errors
     /// Those of the writer.
@@ -38,8 +38,8 @@ impl Frame {
         if let Some(bodies) = bodies {
             writeln!(to, "# bodies: {bodies}")?;
         }
-        if self.grown < 1.0 {
-            writeln!(to, "# grown: {:?}", self.grown)?;
+        if self.growth_fraction < 1.0 {
+            writeln!(to, "# grown: {:?}", self.growth_fraction)?;
         }
         write_vertices(&self.positions, &mut to)?;
         for [u, v] in &topology.coordinates {

@@ -121,7 +121,8 @@ impl Output {
 }
 
 impl Recorder<'_> {
-    /// Stores a frame as `frame-00012.obj` and, where they have moved, the bodies as `bodies-00012.obj`.
+    /// Stores a frame as `frame-00012.obj` and, where they have moved, the bodies as
+    /// `bodies-00012.obj`.
     ///
     /// # Errors
     /// When it cannot be written.

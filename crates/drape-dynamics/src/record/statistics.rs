@@ -73,7 +73,7 @@ impl Statistics {
         solver.energy_left_max = solver.energy_left_max.max(report.energy_left);
         solver.force_evaluations += report.force_evaluations;
         solver.linear_iterations += report.linear_iterations;
-        solver.tangents += report.stiffness_assemblies;
+        solver.stiffness_assemblies += report.stiffness_assemblies;
         solver.potential_evaluations += report.potential_evaluations;
         self.iterations += report.iterations;
     }
@@ -91,8 +91,8 @@ impl Statistics {
             pairs_max: self.pairs_max,
             thinned_max: self.thinned_max,
             released_max: self.released_max,
-            grown_from: 1.0,
-            grown: world.contact.growth_fraction(),
+            start_growth_fraction: 1.0,
+            growth_fraction: world.contact.growth_fraction(),
             ..Contacts::default()
         };
         let finite = |distance: f64| Some(distance).filter(|distance| distance.is_finite());
@@ -102,8 +102,8 @@ impl Statistics {
                 Contacts {
                     min_distance: finite(self.min_distance),
                     intersections: found.map_or(usize::MAX, |found| found.len()),
-                    crossings_found: surfaces.intersections_found,
-                    grown_from: surfaces.grown_from,
+                    intersections_found: surfaces.intersections_found,
+                    start_growth_fraction: surfaces.start_growth_fraction,
                     ..contacts
                 }
             }

@@ -9,7 +9,8 @@ use crate::world::Energy;
 pub struct Summary {
     /// `ok`, or the reason why the run ended early.
     pub status: Status,
-    /// Message of the solver on the step that ended the run, with the place where surfaces were then nearest to each other.
+    /// Message of the solver on the step that ended the run, with the place where surfaces were
+    /// then nearest to each other.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Version of the program.
@@ -116,17 +117,20 @@ pub struct Solver {
     pub inexact_steps: usize,
     /// Number of accepted parts of steps.
     pub sub_steps: usize,
-    /// Largest residual of an accepted step: root-mean-square error of the acceleration over g. Steps of quasi-static
-    /// relaxation, but for the last ones, may end earlier, with little energy left to gain.
+    /// Largest residual of an accepted step: root-mean-square error of the acceleration over g.
+    /// Steps of quasi-static relaxation, but for the last ones, may end earlier, with little energy
+    /// left to gain.
     pub residual_max: f64,
     /// Most energy that such a step left to be gained, over its kinetic energy.
     pub energy_left_max: f64,
-    /// Largest estimated error of the positions of an accepted step, in m, where the scene limits it.
+    /// Largest estimated error of the positions of an accepted step, in m, where the scene limits
+    /// it.
     pub error_max: Option<f64>,
     /// Number of evaluations of all forces.
     pub force_evaluations: usize,
     /// Number of assemblies of the stiffness.
-    pub tangents: usize,
+    #[serde(rename = "tangents")]
+    pub stiffness_assemblies: usize,
     /// Number of evaluations of the potential.
     pub potential_evaluations: usize,
     /// Number of iterations of the linear solver.
@@ -149,24 +153,29 @@ pub struct Strain {
 /// Contact of surfaces or, without them, of particles with bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Contacts {
-    /// Largest number of pairs of primitives, or of particles and bodies, that touched after a step.
+    /// Largest number of pairs of primitives, or of particles and bodies, that touched after a
+    /// step.
     pub pairs_max: usize,
-    /// Smallest distance of two surfaces after any step, or of a particle from a body at the end, in m; none where
-    /// nothing was near.
+    /// Smallest distance of two surfaces after any step, or of a particle from a body at the end,
+    /// in m; none where nothing was near.
     pub min_distance: Option<f64>,
-    /// Number of intersections of surfaces at the end, by exact arithmetic, those of cloth that let a body through among
-    /// them; or of particles inside a body.
+    /// Number of intersections of surfaces at the end, by exact arithmetic, those of cloth that let
+    /// a body through among them; or of particles inside a body.
     pub intersections: usize,
     /// Number of intersections that were found after steps, which were then taken back.
-    pub crossings_found: usize,
-    /// Largest number of particles that bodies pinched after a step, and that kept less of their distance from them.
+    #[serde(rename = "crossings_found")]
+    pub intersections_found: usize,
+    /// Largest number of particles that bodies pinched after a step, and that kept less of their
+    /// distance from them.
     pub thinned_max: usize,
-    /// Largest number of particles that had let a body through after a step: it is not promised that cloth and bodies do
-    /// not intersect there.
+    /// Largest number of particles that had let a body through after a step: it is not promised
+    /// that cloth and bodies do not intersect there.
     pub released_max: usize,
-    /// Fraction of their distances that surfaces kept at the start, 0 to 1; below 1 only with `contact.grow`. In between no
-    /// two came nearer than the fraction of that time.
-    pub grown_from: f64,
+    /// Fraction of their distances that surfaces kept at the start, 0 to 1; below 1 only with
+    /// `contact.grow`. In between no two came nearer than the fraction of that time.
+    #[serde(rename = "grown_from")]
+    pub start_growth_fraction: f64,
     /// Fraction of their distances that surfaces keep at the end, 0 to 1.
-    pub grown: f64,
+    #[serde(rename = "grown")]
+    pub growth_fraction: f64,
 }

@@ -14,17 +14,19 @@ pub struct Topology {
     /// Format of the folder.
     format: u64,
     /// Whether surfaces are kept apart.
-    pub guarded: bool,
+    #[serde(rename = "guarded")]
+    pub keeps_surfaces_apart: bool,
     /// Panels, in the order of the cloth's vertices.
     pub panels: Vec<Part>,
     /// Bodies, in the order of their vertices.
     pub bodies: Vec<Part>,
-    /// Fraction of the distance between cloth and bodies that is kept wherever bodies pinch the cloth.
-    #[serde(skip_serializing_if = "is_whole")]
-    thinned: f64,
+    /// Fraction of the distance between cloth and bodies that is kept wherever bodies pinch the
+    /// cloth.
+    #[serde(rename = "thinned", skip_serializing_if = "is_whole")]
+    thinned_fraction: f64,
     /// Pairs of the cloth's vertices that are sewn together.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub twins: Vec<[u32; 2]>,
+    #[serde(rename = "twins", skip_serializing_if = "Vec::is_empty")]
+    pub seam_pairs: Vec<[u32; 2]>,
     /// Vertices of the cloth that are sewn to a place between two others, and these.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ties: Vec<[u32; 3]>,
@@ -49,9 +51,11 @@ pub struct Part {
     /// Number of its triangles.
     pub triangles: usize,
     /// Half of the activation distance to another part, in m; 0 where surfaces are not kept apart.
-    pub reach: f64,
+    #[serde(rename = "reach")]
+    pub half_activation_distance: f64,
     /// Half of the minimum separation from another part, in m; likewise.
-    pub separation: f64,
+    #[serde(rename = "separation")]
+    pub half_min_separation: f64,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it so")]
@@ -68,9 +72,13 @@ impl Topology {
         let mut part = |name: &str, vertices: usize, triangles: usize| {
             let distances = surfaces.map(|surfaces| surfaces.contact.surface().group_distances());
             let own = groups.next().and_then(|group: usize| distances?.get(group));
-            let [reach, separation] =
-                own.map_or([0.0; 2], |own| [own.activation_distance, own.min_separation]);
-            Part { name: name.to_owned(), vertices, triangles, reach, separation }
+            Part {
+                name: name.to_owned(),
+                vertices,
+                triangles,
+                half_activation_distance: own.map_or(0.0, |own| own.activation_distance),
+                half_min_separation: own.map_or(0.0, |own| own.min_separation),
+            }
         };
         let panels = parts.panels.iter().map(|panel| {
             let own = |triangle: &&[u32; 3]| panel.particles.contains(&(triangle[0] as usize));
@@ -87,11 +95,11 @@ impl Topology {
         }
         Self {
             format: FORMAT,
-            guarded: surfaces.is_some(),
+            keeps_surfaces_apart: surfaces.is_some(),
             panels,
             bodies,
-            thinned: surfaces.map_or(1.0, |surfaces| surfaces.contact.thinned_fraction()),
-            twins: parts.seams.pairs.clone(),
+            thinned_fraction: surfaces.map_or(1.0, |surfaces| surfaces.contact.thinned_fraction()),
+            seam_pairs: parts.seams.pairs.clone(),
             ties: parts.seams.tied_triples(),
             coordinates: cloth.coordinates().to_vec(),
             triangles: cloth.triangles().to_vec(),

@@ -28,8 +28,8 @@ fn seam_pairs(fullness: u32) -> SeamPairs {
     SeamPairs { pairs, ties: between.map(tie).collect() }
 }
 
-/// Sheets of 60 × 60 mm, the upper of 7 × 7 particles, one below the other with gaps of 8 mm, sewn at their edges and held
-/// at the top.
+/// Sheets of 60 × 60 mm, the upper of 7 × 7 particles, one below the other with gaps of 8 mm, sewn
+/// at their edges and held at the top.
 fn scene(fullness: u32) -> Scene {
     let text = r#"spacing = 0.01
 contact.surfaces = false
@@ -131,7 +131,7 @@ fn hang(fullness: u32) {
     let weight = 2.0 * 0.06 * 0.06 * 0.15 * 9.81;
     let [load] = simulation.pin_loads()[..] else { panic!("one pin") };
     assert!((load.force[1] / -weight - 1.0).abs() < 1e-3, "{load:?} and {weight}");
-    let remainder = summary.energy.map(|energy| energy.remainder);
+    let remainder = summary.energy.map(|energy| energy.residual);
     assert!(remainder.is_some_and(|r| r.abs() < 1e-9), "{remainder:?}");
 }
 

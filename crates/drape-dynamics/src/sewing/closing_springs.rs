@@ -3,25 +3,27 @@
 use drape_implicit::BlockMatrix;
 use drape_scene::{SeamConstraint, SeamPairs};
 
-/// Stiffness of a closing spring, in N/m: some ten times that of a yarn of a usual weave, which is enough. The gaps that it
-/// leaves, some micrometres, go when the particles are merged.
+/// Stiffness of a closing spring, in N/m: some ten times that of a yarn of a usual weave, which is
+/// enough. The gaps that it leaves, some micrometres, go when the particles are merged.
 const STIFFNESS: f64 = 1e5;
 
-/// Widest gap at which the two sides of a seam are merged, in m. The gap that a closing spring leaves is a tenth of it.
+/// Widest gap at which the two sides of a seam are merged, in m. The gap that a closing spring
+/// leaves is a tenth of it.
 const CLOSED: f64 = 1e-4;
 
 /// Multiple of its length that the closing of the seams may take before the run fails.
 const PATIENCE: f64 = 2.0;
 
-/// Imbalance, over g, up to which steps are solved while a garment is sewn, and at which its seams may be merged: of the
-/// motion only the end matters, with seams that are closed, untangled and calm. With a third of it hems came to rest within
-/// 2 mm of where they do now.
+/// Imbalance, over g, up to which steps are solved while a garment is sewn, and at which its seams
+/// may be merged: of the motion only the end matters, with seams that are closed, untangled and
+/// calm. With a third of it hems came to rest within 2 mm of where they do now.
 pub(crate) const TOLERANCE: f64 = 0.3;
 
 /// Springs between the two sides of the seams.
 ///
-/// Each keeps the gap between its ends, a vector, near the gap at the start times a fraction that falls evenly from 1 to 0.
-/// So the ends are drawn together along straight lines, and the energy is quadratic.
+/// Each keeps the gap between its ends, a vector, near the gap at the start times a fraction that
+/// falls evenly from 1 to 0. So the ends are drawn together along straight lines, and the energy is
+/// quadratic.
 #[derive(Debug, Clone)]
 pub(crate) struct ClosingSprings {
     seams: Vec<SeamConstraint>,
@@ -54,7 +56,8 @@ pub(crate) struct WidestGap {
 }
 
 impl ClosingSprings {
-    /// Springs between particles at their positions at the start, in m, that close the gaps within a time, in s.
+    /// Springs between particles at their positions at the start, in m, that close the gaps within
+    /// a time, in s.
     pub(crate) fn new(pairs: &SeamPairs, positions: &[f64], seconds: f64) -> Self {
         let seams: Vec<SeamConstraint> = pairs.constraints().collect();
         let start_gaps = seams.iter().map(|seam| seam.gap(positions)).collect();
@@ -76,7 +79,8 @@ impl ClosingSprings {
         self.remaining = (1.0 - end_time / self.seconds).max(0.0);
     }
 
-    /// State of the seams at some positions and a time, in s, after a step that left an imbalance, over g.
+    /// State of the seams at some positions and a time, in s, after a step that left an imbalance,
+    /// over g.
     pub(crate) fn closing(&self, positions: &[f64], time: f64, imbalance: f64) -> Closing {
         if time < self.seconds {
             return Closing::Closing;

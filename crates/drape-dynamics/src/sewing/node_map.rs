@@ -1,7 +1,7 @@
 //! Map from independent particles of a sewn garment to all particles of its panels.
 //!
-//! The map `$S$` has a row for each particle of the panels, with one weight, 1, or, for a tied particle, the two weights
-//! `$1 - \lambda$` and `$\lambda$` of the ends between which it lies.
+//! The map `$S$` has a row for each particle of the panels, with one weight, 1, or, for a tied
+//! particle, the two weights `$1 - \lambda$` and `$\lambda$` of the ends between which it lies.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -77,8 +77,8 @@ pub(super) fn coupled_pairs_of_one(row: &Row) -> impl Iterator<Item = CoupledPai
     coupled_pairs(row, row).filter(|pair| pair.row <= pair.column)
 }
 
-/// Merges the particles of pairs: moves them to the mean of all that they are sewn to, weighted with their masses, and
-/// moves tied particles between their ends.
+/// Merges the particles of pairs: moves them to the mean of all that they are sewn to, weighted
+/// with their masses, and moves tied particles between their ends.
 pub(crate) fn merge(pairs: &SeamPairs, masses: &[f64], values: &mut [f64]) {
     let rows = rows(masses.len(), pairs);
     let free = || rows.iter().zip(masses).filter(|(row, _)| !row.is_tied());
@@ -106,8 +106,8 @@ pub(super) fn reduced_masses(rows: &[Row], masses: &[f64]) -> Vec<f64> {
     reduced
 }
 
-/// Rows of the map for so many particles. Independent particles are numbered in the order of their first particle of the
-/// panels; the particles of a pair have the same.
+/// Rows of the map for so many particles. Independent particles are numbered in the order of their
+/// first particle of the panels; the particles of a pair have the same.
 pub(super) fn rows(particles: usize, pairs: &SeamPairs) -> Vec<Row> {
     let first = equivalence_classes(particles, &pairs.pairs);
     let mut tie = vec![None; particles];

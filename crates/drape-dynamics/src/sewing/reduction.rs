@@ -10,9 +10,9 @@ use crate::world::World;
 
 /// Reduction of the particles of a sewn cloth to independent ones.
 ///
-/// The cloth, its contact and its frames know all particles of the panels. Particles that are sewn to each other have one
-/// position and one velocity, and a tied particle has those of a place between two others. Tied particles have no mass of
-/// their own.
+/// The cloth, its contact and its frames know all particles of the panels. Particles that are sewn
+/// to each other have one position and one velocity, and a tied particle has those of a place
+/// between two others. Tied particles have no mass of their own.
 #[derive(Debug)]
 pub(crate) struct Reduction {
     /// Rows of the map from independent particles to all.
@@ -143,11 +143,13 @@ impl Reduction {
         }
     }
 
-    /// Shortens the displacements of the independent particles to those that are left of the displacements of all.
+    /// Shortens the displacements of the independent particles to those that are left of the
+    /// displacements of all.
     pub(super) fn shorten(&mut self, left: &[f64], displacements: &mut [f64]) {
         let length = |of: &[f64]| of.iter().map(|x| x * x).sum::<f64>();
         let all = || self.rows.iter().zip(left.chunks_exact(3));
-        // A tied particle goes a fraction of its displacement if both its ends go the same fraction of theirs.
+        // A tied particle goes a fraction of its displacement if both its ends go the same fraction
+        // of theirs.
         if !self.tied_groups.is_empty() {
             self.fractions.fill(1.0);
             for (row, left) in all() {

@@ -4,14 +4,14 @@ use drape_scene::Relaxation;
 
 use crate::stepping::accuracy::Accuracy;
 
-/// Largest displacement of a particle in one step while a garment is sewn, in spacings. Half of it took a T-shirt half as
-/// long again, twice of it as well.
+/// Largest displacement of a particle in one step while a garment is sewn, in spacings. Half of it
+/// took a T-shirt half as long again, twice of it as well.
 const SEWING_STRIDE: f64 = 1.0;
 
 /// Steps of a phase.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PhaseSteps {
-    /// Control of the lengths of steps by displacements, on the way to rest and while a garment is sewn.
+    /// Control of the lengths of steps by displacements, in relaxation and while a garment is sewn.
     pub(crate) relaxation: Option<Relaxation>,
     /// Accuracy of the first steps, where they are quasi-static.
     pub(crate) accuracy: Option<Accuracy>,

@@ -4,8 +4,8 @@ use drape_scene::Relaxation;
 
 /// Time for which the cloth must stay slow to be at rest, in s.
 ///
-/// A swing stops for a moment at each of its ends; a tenth of a second is longer than that for everything but a cloth of
-/// many metres, and short against the seconds a drape takes.
+/// A swing stops for a moment at each of its ends; a tenth of a second is longer than that for
+/// everything but a cloth of many metres, and short against the seconds a drape takes.
 const REST_TIME: f64 = 0.1;
 
 /// Detector of rest.
@@ -26,7 +26,8 @@ pub(crate) struct StepMotion {
     pub(crate) speed_max: f64,
     /// Root-mean-square acceleration of the free particles, over g.
     pub(crate) imbalance: f64,
-    /// Whether nothing that the scene prescribes is still to change, and the step was solved well enough.
+    /// Whether nothing that the scene prescribes is still to change, and the step was solved well
+    /// enough.
     pub(crate) counts: bool,
 }
 

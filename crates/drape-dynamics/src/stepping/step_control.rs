@@ -1,15 +1,16 @@
-//! Step control: lengths of the steps, by an estimate of their error or, on the way to rest, by displacements.
+//! Step control: lengths of the steps, by an estimate of their error or, in relaxation, by
+//! displacements.
 
 use drape_scene::{Clock, Relaxation};
 
-/// Fraction of the length that the error estimate would allow which is taken: estimates lag by a step, and a step that fails
-/// is made twice.
+/// Fraction of the length that the error estimate would allow which is taken: estimates lag by a
+/// step, and a step that fails is made twice.
 const CAUTION: f64 = 0.9;
 
 /// Largest factor by which a rejected step is shortened at once: a large estimate is a poor one.
 const SHORTEST_CUT: usize = 8;
 
-/// Largest factor by which a step on the way to rest is longer or shorter than the one before it.
+/// Largest factor by which a step of relaxation is longer or shorter than the one before it.
 const CHANGE: f64 = 2.0;
 
 /// Lengths of the steps, in ticks of the clock.
@@ -43,17 +44,19 @@ impl StepControl {
     /// Adapts to a step of so many ticks in which no particle moved farther than a distance, in m.
     pub(crate) fn adapt_to_displacement(&mut self, ticks: usize, moved: f64) {
         let Some(relaxation) = self.relaxation else { return };
-        // At constant speed the displacement grows with the length of the step, from rest with its square.
+        // At constant speed the displacement grows with the length of the step, from rest with its
+        // square.
         let change = relaxation.stride / moved;
         let change = if relaxation.inertia { change } else { change.sqrt() };
         let wanted = ticks as f64 * change.clamp(1.0 / CHANGE, CHANGE);
         self.wanted = (wanted as usize).clamp(1, self.clock.ticks_max);
     }
 
-    /// Adapts to the error of a step of so many ticks from a time, in m, and returns whether the step may stand.
+    /// Adapts to the error of a step of so many ticks from a time, in m, and returns whether the
+    /// step may stand.
     ///
-    /// Lengths are ticks times powers of two, each begun at a multiple of itself, so that they rarely change: the formula of
-    /// second order is at its best with even steps.
+    /// Lengths are ticks times powers of two, each begun at a multiple of itself, so that they
+    /// rarely change: the formula of second order is at its best with even steps.
     pub(crate) fn adapt_to_error(&mut self, now: usize, ticks: usize, error: f64) -> bool {
         let Some(limit) = self.clock.error else { return true };
         let fitting = CAUTION * (limit / error).powf(1.0 / (self.order + 1.0));

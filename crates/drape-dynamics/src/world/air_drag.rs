@@ -1,7 +1,7 @@
 //! Drag of the air on particles, along the normals of the cloth.
 //!
-//! The drag grows with the square of the speed. Within a step its coefficient is taken at the speed of the step's start,
-//! so that the force is linear in the displacement and has a potential.
+//! The drag grows with the square of the speed. Within a step its coefficient is taken at the speed
+//! of the step's start, so that the force is linear in the displacement and has a potential.
 
 use drape_cloth::{Cloth, State};
 use drape_implicit::BlockMatrix;

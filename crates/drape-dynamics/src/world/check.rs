@@ -1,5 +1,5 @@
-//! The world as a system: its forces against its potential, and the formula's loss against the work of
-//! its forces.
+//! The world as a system: its forces against its potential, and the formula's loss against the work
+//! of its forces.
 
 use drape_implicit::{Integrator, IntegratorState, Settings, Stepper, System, check_system};
 use drape_input::Document;
@@ -80,8 +80,8 @@ fn forces_potential_and_stiffness_agree_in_contact_and_in_air() {
         let step = |(x, v): (&f64, &f64)| x + 0.004 * v;
         let trial: Vec<f64> = motion.positions.iter().zip(&motion.velocities).map(step).collect();
         let check = check_system(&mut world, &motion.positions, &trial, 0.005).expect("sound");
-        // Differences reach across the ends of the contact's and the frictions' ranges, where second
-        // derivatives jump; without contact the errors are a hundred times smaller.
+        // Differences extend across the ends of the contact's and the frictions' ranges, where
+        // second derivatives jump; without contact the errors are a hundred times smaller.
         assert!(check.force_error < 1e-6, "{check:?}");
         assert!(check.stiffness_error < 1e-5, "{check:?}");
         assert!(check.definite_shift <= 1e-10, "{check:?}");
@@ -120,14 +120,18 @@ fn the_loss_of_backward_euler_is_what_its_formula_says() {
 
     // The same by the work of the forces along the step, in a twin that has not made it.
     twin.begin(before.time + 0.005, 0.005, &before.positions, &mut before.positions.clone());
-    let ways: Vec<f64> =
+    let displacements: Vec<f64> =
         motion.positions.iter().zip(&before.positions).map(|(end, start)| end - start).collect();
     let mut power = |part: f64| -> f64 {
-        let place: Vec<f64> =
-            before.positions.iter().zip(&ways).map(|(start, way)| start + part * way).collect();
-        let mut forces = vec![0.0; ways.len()];
+        let place: Vec<f64> = before
+            .positions
+            .iter()
+            .zip(&displacements)
+            .map(|(start, moved)| start + part * moved)
+            .collect();
+        let mut forces = vec![0.0; displacements.len()];
         twin.forces(&place, &mut forces);
-        forces.iter().zip(&ways).map(|(force, way)| force * way).sum()
+        forces.iter().zip(&displacements).map(|(force, moved)| force * moved).sum()
     };
     let end = power(1.0);
     // Midpoints: the kinks of contact and friction allow for no better rule.

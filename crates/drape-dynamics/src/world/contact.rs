@@ -1,10 +1,11 @@
 //! Contact of the cloth with bodies, and with itself where surfaces are kept apart.
 //!
-//! A scene has one of two kinds. With *surfaces* (`surfaces.rs`) triangles, edges and vertices of cloth and bodies repel
-//! each other within the activation distance, `$E = \sum_{k} b(d_k, \hat d)$` over pairs at the distances `$d_k$`
-//! \[Li20\], and a step filter keeps steps free of intersections. Otherwise *particles* are kept out of bodies, which move
-//! as rigid ones (`particle_bodies.rs`). The world asks for forces, potentials and stiffnesses, opens steps and commits
-//! them; only a commit changes the memory of friction.
+//! A scene has one of two kinds. With *surfaces* (`surfaces.rs`) triangles, edges and vertices of
+//! cloth and bodies repel each other within the activation distance,
+//! `$E = \sum_{k} b(d_k, \hat d)$` over pairs at the distances `$d_k$` \[Li20\], and a step filter
+//! keeps steps free of intersections. Otherwise *particles* are kept out of bodies, which move as
+//! rigid ones (`particle_bodies.rs`). The world asks for forces, potentials and stiffnesses, opens
+//! steps and commits them; only a commit changes the memory of friction.
 
 #[cfg(test)]
 mod check;
@@ -104,7 +105,8 @@ impl Contact {
         }
     }
 
-    /// Adds the stiffness; that of particles may be asked to be positive semi-definite, that of surfaces always is.
+    /// Adds the stiffness; that of particles may be asked to be positive semi-definite, that of
+    /// surfaces always is.
     pub(crate) fn add_stiffness(
         &mut self,
         positions: &[f64],

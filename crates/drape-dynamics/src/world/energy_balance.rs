@@ -1,15 +1,18 @@
 //! Balance of the energy of a cloth, summed over the accepted steps.
 //!
-//! Every entry is found by itself: energy that internal forces store and lose from their memories, that of contact,
-//! friction with bodies and air from their forces, and the loss of the integrator from its formula. The residual of the
-//! balance, [`Energy::remainder`], therefore tells whether they agree.
+//! Every entry is found by itself: energy that internal forces store and lose from their memories,
+//! that of contact, friction with bodies and air from their forces, and the loss of the integrator
+//! from its formula. The residual of the balance, [`Energy::residual`], therefore tells whether
+//! they agree.
 
 use drape_implicit::Report;
 use serde::Serialize;
 
 use super::contact::ContactEnergy;
 
-/// Balance of the energy since the start, in J: the energy put in is stored, or lost in one of five ways.
+/// Balance of the energy since the start, in J: the energy put in is stored, or lost to friction in
+/// the fabric, to friction with bodies, to the air, to the integrator, or to the rotation of the
+/// cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Energy {
     /// Kinetic energy.
@@ -28,15 +31,18 @@ pub struct Energy {
     pub air_dissipated: f64,
     /// Energy lost by the formula of the integrator, and by the residual that the solver leaves.
     pub numerical_dissipated: f64,
-    /// Cost of the rotation of the cloth: a step measures curvatures along the normals at its start, the memory of the
-    /// bending friction along those at its end. Of either sign, some thousandths of the friction at usual steps, less at
-    /// shorter ones, and nothing where bending has no friction.
-    pub turning_dissipated: f64,
-    /// Work done on the cloth by bodies that move and by pins; where a pin holds in some directions alone, the work of its
-    /// springs counts.
+    /// Cost of the rotation of the cloth: a step measures curvatures along the normals at its
+    /// start, the memory of the bending friction along those at its end. Of either sign, some
+    /// thousandths of the friction at usual steps, less at shorter ones, and nothing where bending
+    /// has no friction.
+    #[serde(rename = "turning_dissipated")]
+    pub rotation_dissipated: f64,
+    /// Work done on the cloth by bodies that move and by pins; where a pin holds in some directions
+    /// alone, the work of its springs counts.
     pub work_in: f64,
     /// Residual of the balance: rounding.
-    pub remainder: f64,
+    #[serde(rename = "remainder")]
+    pub residual: f64,
 }
 
 /// Sums of the energy over the steps.
@@ -46,8 +52,8 @@ pub(crate) struct EnergyBalance {
     stored: f64,
     /// Energy of contact at the start of the step.
     contact: ContactEnergy,
-    /// Potential of the internal forces when it was first and last asked for in this step, in J. With the balance on, the
-    /// integrator does so at the start and at the end.
+    /// Potential of the internal forces when it was first and last asked for in this step, in J.
+    /// With the balance on, the integrator does so at the start and at the end.
     internal: Option<FirstAndLast>,
     /// Kinetic energy at the start, in J.
     kinetic_at_start: f64,
@@ -69,7 +75,8 @@ pub(crate) struct StepEnergy {
     pub(crate) contact: f64,
     /// Work of the springs of pins, with their forces at the end of the step.
     pub(crate) spring_work: f64,
-    /// Fall of the potential of these springs, which jumps with their prescribed positions at the start of the step.
+    /// Fall of the potential of these springs, which jumps with their prescribed positions at the
+    /// start of the step.
     pub(crate) spring_potential_fall: f64,
     /// Work of bodies that move, or of the growth of distances of surfaces, against contact.
     pub(crate) body_work: f64,
@@ -90,7 +97,8 @@ pub(crate) struct StepEnergy {
 }
 
 impl EnergyBalance {
-    /// Begins a balance with the energy that the internal forces store, and the kinetic energy, in J.
+    /// Begins a balance with the energy that the internal forces store, and the kinetic energy, in
+    /// J.
     pub(crate) fn new(stored: f64, kinetic: f64) -> Self {
         Self { stored, kinetic_at_start: kinetic, ..Self::default() }
     }
@@ -116,7 +124,7 @@ impl EnergyBalance {
     pub(crate) fn add(&mut self, step: &StepEnergy) {
         let FirstAndLast { first, last } = self.internal.unwrap_or_default();
         let sums = &mut self.sums;
-        sums.turning_dissipated +=
+        sums.rotation_dissipated +=
             last - first - (step.stored - self.stored) - step.internal_friction;
         sums.gravity += step.gravity;
         sums.contact += step.contact;
@@ -125,8 +133,8 @@ impl EnergyBalance {
         sums.friction_dissipated += step.internal_friction;
         sums.body_dissipated += step.body_friction_loss;
         sums.air_dissipated += step.air;
-        // The integrator takes potentials for the work of all forces. For forces that grow along the step, as friction and
-        // drag with the speed, that falls short of the work at its end.
+        // The integrator takes potentials for the work of all forces. For forces that grow along
+        // the step, as friction and drag with the speed, that falls short of the work at its end.
         sums.numerical_dissipated +=
             step.body_friction_potential - step.body_friction_loss - 0.5 * step.air;
         sums.numerical_dissipated += step.spring_work - step.spring_potential_fall;
@@ -148,9 +156,9 @@ impl EnergyBalance {
         let Energy { elastic, gravity, contact, .. } = self.sums;
         let Energy { friction_dissipated, body_dissipated, air_dissipated, .. } = self.sums;
         let held = kinetic - self.kinetic_at_start + elastic + gravity + contact;
-        let turning = self.sums.turning_dissipated;
-        let lost = friction_dissipated + body_dissipated + air_dissipated + turning;
-        let remainder = self.sums.work_in - held - lost - self.sums.numerical_dissipated;
-        Energy { kinetic, remainder, ..self.sums }
+        let rotation = self.sums.rotation_dissipated;
+        let lost = friction_dissipated + body_dissipated + air_dissipated + rotation;
+        let residual = self.sums.work_in - held - lost - self.sums.numerical_dissipated;
+        Energy { kinetic, residual, ..self.sums }
     }
 }

@@ -1,8 +1,9 @@
-//! Internal forces of the cloth: connectors of the yarns or Breen's particles, and bending across seams.
+//! Internal forces of the cloth: connectors of the yarns or Breen's particles, and bending across
+//! seams.
 //!
-//! The matrix of the solver has a block for each pair of particles that act on each other. Where seams or closing springs
-//! couple more pairs than the connectors do, the connectors' stiffness is assembled in a matrix of its own and then
-//! scattered.
+//! The matrix of the solver has a block for each pair of particles that act on each other. Where
+//! seams or closing springs couple more pairs than the connectors do, the connectors' stiffness is
+//! assembled in a matrix of its own and then scattered.
 
 use drape_cloth::{Breen, Cloth, SeamBending, SeamState, State, Trial, Workspace};
 use drape_implicit::{BlockMatrix, Sparsity};
@@ -61,7 +62,8 @@ fn sparsity(connectors: &drape_cloth::Sparsity, more: &[[u32; 2]]) -> Sparsity {
 }
 
 impl InternalForces {
-    /// Internal forces of a cloth, in Breen's model if there is one, with room for springs between more pairs.
+    /// Internal forces of a cloth, in Breen's model if there is one, with room for springs between
+    /// more pairs.
     pub(crate) fn new(
         cloth: &Cloth,
         breen: Option<Breen>,
@@ -89,7 +91,8 @@ impl InternalForces {
         self.version
     }
 
-    /// Begins to bend the seams of a cloth that has been sewn; closing springs need no room any more.
+    /// Begins to bend the seams of a cloth that has been sewn; closing springs need no room any
+    /// more.
     pub(crate) fn sew(&mut self, cloth: &Cloth, bending: SeamBending, positions: &[f64]) {
         self.workspace = cloth.workspace();
         let pairs: Vec<[u32; 2]> = bending.pairs().collect();
@@ -112,8 +115,8 @@ impl InternalForces {
         }
     }
 
-    /// Takes the pairs of Breen's particles that have come near each other into the sparsity. Those that have left stay
-    /// until then.
+    /// Takes the pairs of Breen's particles that have come near each other into the sparsity. Those
+    /// that have left stay until then.
     fn update_sparsity(&mut self, cloth: &Cloth, positions: &[f64]) {
         let Some(breen) = &mut self.breen else { return };
         let near = breen.close_pairs(positions);
@@ -144,8 +147,9 @@ impl InternalForces {
             }
     }
 
-    /// Adds the stiffness. A pair of Breen's particles that has come near since the matrix was laid out has no block in it;
-    /// each of its particles then bears twice the pair's block by itself, which is more than the two bear together.
+    /// Adds the stiffness. A pair of Breen's particles that has come near since the matrix was laid
+    /// out has no block in it; each of its particles then bears twice the pair's block by itself,
+    /// which is more than the two bear together.
     pub(crate) fn add_stiffness(
         &mut self,
         trial: Trial<'_>,
@@ -182,7 +186,8 @@ impl InternalForces {
         });
     }
 
-    /// Moves state and memory to accepted positions, in m, and velocities, in m/s; returns the energy dissipated, in J.
+    /// Moves state and memory to accepted positions, in m, and velocities, in m/s; returns the
+    /// energy dissipated, in J.
     pub(crate) fn commit(
         &mut self,
         cloth: &Cloth,
@@ -255,16 +260,16 @@ bending.rigidity = 0.8e-5
         assert_eq!(forces.sparsity_version(), before + 1);
         let whole = fill(&mut forces);
         assert!(whole.sparsity().blocks() > alone.sparsity().blocks());
-        // Sheets that near each other by a length of one each: the coupled matrix has them pull four times as much as
-        // sheets that move as one, which it does not feel at all.
+        // Sheets that near each other by a length of one each: the coupled matrix has them pull
+        // four times as much as sheets that move as one, which it does not feel at all.
         let count = cloth.particles();
         let energy = |matrix: &BlockMatrix, lower: f64| {
-            let way = |k: usize| if k / 3 < count / 2 { lower } else { 1.0 };
-            let way: Vec<f64> =
-                (0..3 * count).map(|k| if k % 3 == 2 { way(k) } else { 0.0 }).collect();
-            let mut pull = vec![0.0; way.len()];
-            matrix.multiply(&way, &mut pull);
-            way.iter().zip(&pull).map(|(a, b)| a * b).sum::<f64>()
+            let height = |k: usize| if k / 3 < count / 2 { lower } else { 1.0 };
+            let moved: Vec<f64> =
+                (0..3 * count).map(|k| if k % 3 == 2 { height(k) } else { 0.0 }).collect();
+            let mut forces = vec![0.0; moved.len()];
+            matrix.multiply(&moved, &mut forces);
+            moved.iter().zip(&forces).map(|(a, b)| a * b).sum::<f64>()
         };
         let (together, against) = (energy(&whole, 1.0), energy(&whole, -1.0));
         assert!(against > 0.0 && together.abs() < 1e-12 * against, "{together} and {against}");

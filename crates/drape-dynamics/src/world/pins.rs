@@ -1,8 +1,8 @@
 //! Pins: particles that are held, or led along a motion.
 //!
-//! A pin that holds in all directions prescribes the positions of its particles, and the solver leaves them out. A pin that
-//! holds in some directions is a spring in each of them (`springs.rs`). Loads of pins are read off the forces at a state
-//! (`load.rs`).
+//! A pin that holds in all directions prescribes the positions of its particles, and the solver
+//! leaves them out. A pin that holds in some directions is a spring in each of them (`springs.rs`).
+//! Loads of pins are read off the forces at a state (`load.rs`).
 
 mod load;
 mod springs;
@@ -28,8 +28,8 @@ impl Pins {
         Self { pins, held, springs: PinSprings::default() }
     }
 
-    /// Opens a step that ends at a time, in s, and at one on the clock of motions: writes the positions of the held
-    /// particles at its end.
+    /// Opens a step that ends at a time, in s, and at one on the clock of motions: writes the
+    /// positions of the held particles at its end.
     pub(crate) fn begin(&mut self, end_time: f64, motion_end: f64, target: &mut [f64]) {
         self.update_held(end_time);
         self.springs.clear();
@@ -52,7 +52,8 @@ impl Pins {
         releases.filter(|release| release.is_finite()).fold(time, f64::max)
     }
 
-    /// Loads of the pins at a time, in s, and at one on the clock of motions, from the forces on all particles.
+    /// Loads of the pins at a time, in s, and at one on the clock of motions, from the forces on
+    /// all particles.
     pub(crate) fn loads(
         &self,
         times: LoadTimes,

@@ -1,4 +1,5 @@
-//! World as the system and the step filter of `drape-implicit`: the adapter between cloth, contact and solver.
+//! World as the system and the step filter of `drape-implicit`: the adapter between cloth, contact
+//! and solver.
 
 use drape_implicit::{BlockMatrix, Sparsity, StepFilter, StepLimit, Stiffness, System, TrialStep};
 
@@ -132,8 +133,8 @@ impl StepFilter for World {
 }
 
 impl World {
-    /// Energies of a step of a length, in s, to accepted positions, but for those of the internal forces. Opens the next
-    /// step for the contact of particles.
+    /// Energies of a step of a length, in s, to accepted positions, but for those of the internal
+    /// forces. Opens the next step for the contact of particles.
     fn step_energy(&mut self, positions: &[f64], dt: f64) -> StepEnergy {
         let start = &self.state.positions;
         let masses = self.cloth.masses();

@@ -73,7 +73,7 @@ fn a_band_held_up_and_down_closes_round_a_post_and_hangs_there() {
     assert!((borne / -WEIGHT - 1.0).abs() < 2e-3, "{loads:?} of {WEIGHT} N");
     assert!(loads.iter().all(|load| load.force[0] == 0.0 && load.force[2] == 0.0), "{loads:?}");
     let energy = summary.energy.unwrap();
-    assert!(energy.remainder.abs() < 1e-9, "{energy:?}");
+    assert!(energy.residual.abs() < 1e-9, "{energy:?}");
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn held_until_it_is_sewn_it_then_falls_on_the_plate() {
     assert_eq!((summary.status, summary.settled), (Status::Ok, true));
     assert!((sewn - 0.04).abs() < 1e-6, "{sewn} m");
     assert!(highest(&simulation) < -0.015, "{} m", highest(&simulation));
-    let remainder = summary.energy.unwrap().remainder;
+    let remainder = summary.energy.unwrap().residual;
     assert!(remainder.abs() < 1e-9, "{remainder} J");
 }
 
@@ -134,7 +134,7 @@ fn held_until_rest_it_falls_when_what_follows_begins() {
     let seconds = simulation.time() - time;
     let free = 0.5 * 9.81 * 0.1 * 0.1;
     assert!((fallen / free - 1.0).abs() < 0.06, "{fallen} m and {free} m in {seconds} s");
-    assert!(simulation.energy().unwrap().remainder.abs() < 1e-9);
+    assert!(simulation.energy().unwrap().residual.abs() < 1e-9);
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn lifting_by_springs_does_the_work_of_lifting_by_hand() {
         let mut simulation = Simulation::new(sheet(&scene).unwrap()).unwrap();
         let summary = run(&mut simulation);
         let energy = summary.energy.unwrap();
-        assert!(energy.remainder.abs() < 1e-9, "{energy:?}");
+        assert!(energy.residual.abs() < 1e-9, "{energy:?}");
         (energy.work_in, simulation.pin_loads()[0].force[1])
     };
     let (hand, spring) = (lifted(""), lifted("axes = [\"x\", \"y\"]"));

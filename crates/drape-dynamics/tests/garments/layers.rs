@@ -20,7 +20,8 @@ traction.primed = { stiffness = 4000.0, toe_ratio = 0.7, toe_strain = 0.02, toe_
 bending.rigidity = 0.8e-5
 "#;
 
-/// Two tubes round a post on a plate, one of which is called inner and one outer, with more said of each.
+/// Two tubes round a post on a plate, one of which is called inner and one outer, with more said of
+/// each.
 fn tubes(inner: &str, outer: &str, more: &str) -> Result<Scene, Error> {
     let garment = |name: &str, more: &str| {
         format!(
@@ -116,8 +117,9 @@ fn two_tubes_are_sewn_round_each_other_and_the_outer_one_stays_outside() {
     let summary = simulation.run(&mut ()).unwrap();
     assert_eq!((summary.status, summary.settled), (Status::Ok, true), "{:?}", summary.reason);
     assert_eq!(summary.contact.intersections, 0);
-    // Their girths are the same, so that they press on each other, or the inner one has a dent: every particle of the outer
-    // one is farther from the axis than the inner one is beside it, half a centimetre up or down, in the same direction.
+    // Their girths are the same, so that they press on each other, or the inner one has a dent:
+    // every particle of the outer one is farther from the axis than the inner one is beside it,
+    // half a centimetre up or down, in the same direction.
     let positions = simulation.frame().positions;
     let places = |panels: [std::ops::Range<usize>; 2]| -> Vec<[f64; 3]> {
         let polar = |x: &[f64]| [x[2].atan2(x[0]), x[1], x[0].hypot(x[2])];

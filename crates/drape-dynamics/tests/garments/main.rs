@@ -5,7 +5,8 @@
 mod attachments;
 mod layers;
 
-/// A tube of 40 mm height in two halves of a width, each wrapped to a radius, both in mm; it closes to the radius width / π.
+/// A tube of 40 mm height in two halves of a width, each wrapped to a radius, both in mm; it closes
+/// to the radius width / π.
 fn tube(width: u32, radius: u32) -> String {
     let pattern = r#"length = "mm"
 [panel.front]

@@ -14,8 +14,8 @@ fn exchanged(before: &Energy, after: &Energy) -> f64 {
     0.5 * (moved(&h0, &h1) + moved(&l0, &l1) + (n1 - n0).abs())
 }
 
-/// The largest part of the energy exchanged in a step that the entries leave open, and that goes into
-/// the turning of the normals.
+/// The largest part of the energy exchanged in a step that the entries leave open, and that goes
+/// into the turning of the normals.
 fn worst(simulation: &mut Simulation) -> [f64; 2] {
     let mut worst = [0.0_f64; 2];
     let mut before = simulation.energy().unwrap();
@@ -23,8 +23,8 @@ fn worst(simulation: &mut Simulation) -> [f64; 2] {
         let step = simulation.step().unwrap();
         let after = simulation.energy().unwrap();
         let exchanged = exchanged(&before, &after);
-        let open = (after.remainder - before.remainder).abs() / exchanged;
-        let turning = (after.turning_dissipated - before.turning_dissipated).abs() / exchanged;
+        let open = (after.residual - before.residual).abs() / exchanged;
+        let turning = (after.rotation_dissipated - before.rotation_dissipated).abs() / exchanged;
         worst = [worst[0].max(open), worst[1].max(turning)];
         before = after;
         if step.finished {
@@ -77,17 +77,18 @@ fn freezing_the_normals_costs_little() {
         let mut simulation = onto_a_ball("bdf2", true, step);
         worst(&mut simulation);
         let energy = simulation.energy().unwrap();
-        energy.turning_dissipated / energy.friction_dissipated
+        energy.rotation_dissipated / energy.friction_dissipated
     };
     let (long, short) = (cost(0.005), cost(0.00125));
     println!("{long:e} and {short:e} of the friction");
     assert!(long.abs() < 0.02 && short.abs() < long.abs(), "{long:e}, {short:e}");
 }
 
-/// What a swing loses without any friction, over what it exchanges: all the ups and downs of its weight.
+/// What a swing loses without any friction, over what it exchanges: all the ups and downs of its
+/// weight.
 ///
-/// Much of it is lost when the falling cloth is caught by its corners: the waves that run through it
-/// then are too short for the steps.
+/// Much of it is lost when the falling cloth is caught by its corners: the waves that run through
+/// it then are too short for the steps.
 fn loss(integrator: &str, step: f64, (particles, end): (usize, f64)) -> f64 {
     let scene = format!(
         "air.density = 0.0\n{CORNERS}[solver]\nintegrator = \"{integrator}\"\n[time]\n\

@@ -74,8 +74,9 @@ impl Folded {
         Scene::from_documents(&Document::new("scene.toml", text), &documents)
     }
 
-    /// The angle between the two flat parts, in degrees, towards the right side; how far a facet there leans from
-    /// its part at most, likewise; and the angle of the fold's line from the width.
+    /// The angle between the two flat parts, in degrees, towards the right side; how far a facet
+    /// there leans from its part at most, likewise; and the angle of the fold's line from the
+    /// width.
     fn come_to_rest(&self) -> [f64; 3] {
         let mut simulation = Simulation::new(self.scene().unwrap()).unwrap();
         let summary = simulation.run(&mut ()).unwrap();

@@ -21,7 +21,7 @@ fn a_cloth_comes_to_rest_where_its_forces_are_balanced() {
     assert!(summary.speed_max <= 2e-3, "{}", summary.speed_max);
     // Each of the steps, however long, moves the memory along and accounts for its energy.
     let energy = summary.energy.unwrap();
-    assert!(energy.remainder.abs() < 1e-3 * -energy.gravity, "{energy:?}");
+    assert!(energy.residual.abs() < 1e-3 * -energy.gravity, "{energy:?}");
     assert!(energy.friction_dissipated > 0.0 && energy.numerical_dissipated > 0.0, "{energy:?}");
 }
 

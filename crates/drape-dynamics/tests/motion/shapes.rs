@@ -46,7 +46,8 @@ fn moved(outline: &Triangulation, way: [f64; 3]) -> Vec<[f64; 3]> {
     outline.vertices.iter().map(|x| [0, 1, 2].map(|axis| x[axis] + way[axis])).collect()
 }
 
-/// A block below the middle of the sheet, whose coordinates and way are fractions of two: exact in 32 bits too.
+/// A block below the middle of the sheet, whose coordinates and way are fractions of two: exact in
+/// 32 bits too.
 fn block() -> (Triangulation, [f64; 3]) {
     let shape = Shape::Box { half_extents: [0.0625, 0.03125, 0.0625], edge_radius: 0.0 };
     (outline(shape, [0.0, -0.03515625, 0.0]), [0.0078125, 0.015625, 0.0])
@@ -108,9 +109,9 @@ fn a_body_that_changes_its_shape_does_work_that_is_accounted_for() {
     let energy = simulation.energy().unwrap();
     println!("{energy:?}");
     assert!(energy.work_in > 1e-4 && energy.body_dissipated > 0.0, "{energy:?}");
-    assert!(energy.remainder.abs() < 1e-9 * energy.work_in, "{energy:?}");
+    assert!(energy.residual.abs() < 1e-9 * energy.work_in, "{energy:?}");
     let summary = simulation.summary();
-    assert_eq!((summary.contact.intersections, summary.contact.crossings_found), (0, 0));
+    assert_eq!((summary.contact.intersections, summary.contact.intersections_found), (0, 0));
     // After the last frame, at 0.1 s, the ball is half as high again.
     let bodies = simulation.frame().bodies;
     let highest = bodies.chunks_exact(3).map(|x| x[1]).fold(f64::MIN, f64::max);

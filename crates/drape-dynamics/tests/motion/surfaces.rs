@@ -17,7 +17,7 @@ fn run(sheet: &Sheet) -> Simulation {
 
 fn sound(summary: &Summary) {
     assert_eq!(summary.contact.intersections, 0);
-    assert_eq!(summary.contact.crossings_found, 0);
+    assert_eq!(summary.contact.intersections_found, 0);
     assert!(summary.contact.pairs_max > 0, "nothing touched");
 }
 
@@ -71,7 +71,8 @@ fn a_belt_carries_a_sheet_without_creeping() {
     // It lags by half of 0.1 m/s for 20 ms, and at the end slides on for as long.
     let way = middle(&carried)[0];
     assert!((way - 0.05).abs() < 2e-4, "{way}");
-    // Without friction the seam of the belt's two triangles, which both push, takes it along by a micrometre.
+    // Without friction the seam of the belt's two triangles, which both push, takes it along by a
+    // micrometre.
     let still = middle(&belt(0.0))[0];
     assert!(still.abs() < 1e-5, "{still}");
 }
@@ -89,7 +90,7 @@ fn the_energy_of_surfaces_is_accounted_for() {
     let energy = simulation.energy().unwrap();
     // The ball lifts the middle of a sheet of 8 g by some centimetres.
     assert!(energy.work_in > 0.5 * energy.gravity && energy.gravity > 1e-4, "{energy:?}");
-    assert!(energy.remainder.abs() < 1e-9 * energy.work_in, "{energy:?}");
+    assert!(energy.residual.abs() < 1e-9 * energy.work_in, "{energy:?}");
     assert!(energy.body_dissipated > 0.0 && energy.numerical_dissipated > 0.0, "{energy:?}");
 }
 
@@ -112,7 +113,8 @@ fn a_fast_sheet_does_not_pass_a_thin_plate() {
 #[test]
 fn friction_holds_on_a_slope_and_lets_go_beyond_its_limit() {
     let way = |friction: f64, end: f64| {
-        // What bears the sheet's weight on a slope of tan 0.5 is 0.0022 mm inside the reach of 1 mm.
+        // What bears the sheet's weight on a slope of tan 0.5 is 0.0022 mm inside the reach of 1
+        // mm.
         let slope = -0.5_f64.atan().to_degrees();
         let normal = [0.5_f64.atan().sin(), 0.5_f64.atan().cos()];
         let place = |height: f64| normal.map(|n| n * height);
@@ -150,8 +152,8 @@ fn a_start_that_crosses_is_refused() {
 
 #[test]
 fn a_ball_that_turns_takes_more_and_shorter_steps() {
-    // Half a turn in a tenth of a second: 4.5° in a step, for which a point 50 mm from the axis strays 39 µm from its
-    // chord. Allowed are 0.05 of 0.14 mm: two halvings.
+    // Half a turn in a tenth of a second: 4.5° in a step, for which a point 50 mm from the axis
+    // strays 39 µm from its chord. Allowed are 0.05 of 0.14 mm: two halvings.
     let turning = |turn: f64| {
         let scene = format!(
             "air.density = 0.0\n[[collider.sphere]]\nradius = 0.05\ncenter = [0, -0.0505, 0]\n\
@@ -191,7 +193,7 @@ fn a_body_that_grows_takes_the_cloth_that_starts_in_it_along() {
     assert!((highest(&frame.bodies) - 0.006).abs() < 1e-12, "{}", highest(&frame.bodies));
     assert!((0.006..0.008).contains(&highest(&frame.positions)), "{}", highest(&frame.positions));
     let energy = simulation.energy().unwrap();
-    assert!(energy.work_in > 0.0 && energy.remainder.abs() < 1e-9 * energy.work_in, "{energy:?}");
+    assert!(energy.work_in > 0.0 && energy.residual.abs() < 1e-9 * energy.work_in, "{energy:?}");
     // What is wholly inside would stay there.
     let mut small = scene("inflate = { depth = 0.01, seconds = 0.3 }");
     small.side = 0.02;
@@ -221,10 +223,13 @@ fn sheets_that_start_too_near_come_to_keep_their_whole_distances() {
             let mut simulation = close(3, 5e-5, "grow = 0.2").simulation();
             let mut last = simulation.frame();
             // No force acts at the start, where the nearest are 0.05 mm apart that push below 0.4.
-            assert!((last.grown - 0.125).abs() < 1e-12, "{}", last.grown);
+            assert!((last.growth_fraction - 0.125).abs() < 1e-12, "{}", last.growth_fraction);
             while !simulation.step().unwrap().finished {
                 let (frame, summary) = (simulation.frame(), simulation.summary());
-                assert!(frame.grown >= last.grown && summary.contact.intersections == 0);
+                assert!(
+                    frame.growth_fraction >= last.growth_fraction
+                        && summary.contact.intersections == 0
+                );
                 last = frame;
             }
             simulation
@@ -233,7 +238,10 @@ fn sheets_that_start_too_near_come_to_keep_their_whole_distances() {
     let simulation = grown(1);
     let summary = simulation.summary();
     sound(&summary);
-    assert!((summary.contact.grown_from - 0.125).abs() < 1e-12 && summary.contact.grown == 1.0);
+    assert!(
+        (summary.contact.start_growth_fraction - 0.125).abs() < 1e-12
+            && summary.contact.growth_fraction == 1.0
+    );
     let nearest = summary.contact.min_distance.unwrap();
     assert!(nearest > 0.125 * 0.14e-3, "{nearest}");
     // Each is now farther above the one below than they keep.
@@ -245,7 +253,7 @@ fn sheets_that_start_too_near_come_to_keep_their_whole_distances() {
     }
     // What keeps growing works on the cloth, and the balance counts it.
     let energy = simulation.energy().unwrap();
-    assert!(energy.work_in > 0.0 && energy.remainder.abs() < 1e-9 * energy.work_in, "{energy:?}");
+    assert!(energy.work_in > 0.0 && energy.residual.abs() < 1e-9 * energy.work_in, "{energy:?}");
     assert_eq!(simulation.state_hash(), grown(2).state_hash());
 }
 
@@ -260,7 +268,7 @@ fn sheets_that_are_held_too_near_are_named() {
     let summary = simulation.summary();
     assert_eq!(summary.status, Status::HeldTogether);
     // They keep at most nine tenths of the 0.05 mm, of 0.14.
-    let part = summary.contact.grown;
+    let part = summary.contact.growth_fraction;
     assert!(part > 0.3 && part <= 0.9 * 0.05 / 0.14 + 1e-9, "{part}");
     assert!((summary.simulated_seconds - 0.2).abs() < 0.01, "{}", summary.simulated_seconds);
     let reason = summary.reason.unwrap();

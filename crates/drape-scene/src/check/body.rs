@@ -11,8 +11,8 @@ use crate::scene::motion::{BodyMotion, rotate, rotate_pose};
 
 use self::shape_files::{Sampling, ShapeError, read_shapes};
 
-/// Shortest and longest body of a mesh, in m. A figure of 1.7 m that was read in another unit is 1.7 mm, 170 m or 1.7 km
-/// long.
+/// Shortest and longest body of a mesh, in m. A figure of 1.7 m that was read in another unit is
+/// 1.7 mm, 170 m or 1.7 km long.
 const SIZE_MIN: f64 = 2e-3;
 const SIZE_MAX: f64 = 100.0;
 
@@ -183,7 +183,8 @@ fn changing_mesh(
     }
 }
 
-/// Checks that no body moves farther than the spacing of particles, in m, in a step, in s: the cloth could not follow it.
+/// Checks that no body moves farther than the spacing of particles, in m, in a step, in s: the
+/// cloth could not follow it.
 pub(crate) fn check_speeds(
     checker: &mut Checker<'_>,
     bodies: &[CheckedBody],

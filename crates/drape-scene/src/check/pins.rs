@@ -146,8 +146,8 @@ fn points(checker: &mut Checker<'_>, key: &str, pin: &PinFile, panel: &Panel) ->
     particles
 }
 
-/// Finds the particles of the outermost rows along an edge: those less than half a spacing farther inside it than the last of
-/// the rows, also where the rows run at an angle to it.
+/// Finds the particles of the outermost rows along an edge: those less than half a spacing farther
+/// inside it than the last of the rows, also where the rows run at an angle to it.
 fn rows_at_edge(checker: &mut Checker<'_>, key: &str, pin: &PinFile, panel: &Panel) -> Vec<usize> {
     let rows = pin.rows.unwrap_or(1);
     let edges =

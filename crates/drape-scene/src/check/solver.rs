@@ -4,7 +4,8 @@ use crate::check::checker::Checker;
 use crate::scene::model::Model;
 use crate::scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
 
-/// Root-mean-square error of the acceleration over g that a step may leave when the scene does not say.
+/// Root-mean-square error of the acceleration over g that a step may leave when the scene does not
+/// say.
 const TOLERANCE: f64 = 1e-4;
 
 /// Checks the model of the internal forces.

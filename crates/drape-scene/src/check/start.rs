@@ -1,4 +1,5 @@
-//! Start of a scene: whether its cloth is outside of its bodies, its surfaces apart, its layers in order.
+//! Start of a scene: whether its cloth is outside of its bodies, its surfaces apart, its layers in
+//! order.
 
 mod layers;
 mod tangle;
@@ -15,7 +16,8 @@ use crate::tangle::Tangle;
 use self::layers::check_layers;
 use self::tangle::{Tangled, check_tangle};
 
-/// Checks the start of a scene that has no other mistakes, and returns the scene with notes on its layers.
+/// Checks the start of a scene that has no other mistakes, and returns the scene with notes on its
+/// layers.
 pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result<Scene, Error> {
     let surfaces = scene.contact.surfaces.then(|| StartSurfaces::new(&scene)).transpose();
     let mut surfaces = surfaces.map_err(|error| mistake(checker, "contact.surfaces", &error))?;

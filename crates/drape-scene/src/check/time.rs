@@ -7,15 +7,16 @@ use crate::scene::relaxation::Relaxation;
 /// Time between frames when the scene does not say, in s.
 const FRAME_INTERVAL: f64 = 0.04;
 
-/// Number of times that the first step may be halved when the scene names an error but no shortest step.
+/// Number of times that the first step may be halved when the scene names an error but no shortest
+/// step.
 const HALVINGS: u32 = 5;
 
-/// Factor by which a step may become longer than the first when the scene names an error but no longest step; for cloth at
-/// 5 ms the solver's work per simulated second hardly falls beyond it.
+/// Factor by which a step may become longer than the first when the scene names an error but no
+/// longest step; for cloth at 5 ms the solver's work per simulated second hardly falls beyond it.
 const GROWTH: f64 = 4.0;
 
-/// Factor by which a step may become longer than the first on the way to rest when the scene does not say. The last steps of
-/// a quasi-static relaxation are long: there a step is a minimisation.
+/// Factor by which a step may become longer than the first in relaxation when the scene does not
+/// say. The last steps of a quasi-static relaxation are long: there a step is a minimisation.
 const RELAXATION_GROWTH: f64 = 200.0;
 
 /// Speed below which cloth is at rest when the scene does not say, in m/s.
@@ -24,11 +25,13 @@ const REST_SPEED: f64 = 0.002;
 /// Acceleration below which cloth is at rest when the scene does not say, over g.
 const REST_RESIDUAL: f64 = 1e-3;
 
-/// Displacement of a particle in one step on the way to rest when the scene does not say, as a fraction of the spacing.
+/// Displacement of a particle in one step of relaxation when the scene does not say, as a fraction
+/// of the spacing.
 ///
-/// Longer strides take fewer steps of more iterations each, and follow the path, which a fabric with friction remembers,
-/// less closely. With a half instead of a quarter a square metre on a cube took as long, and with half the spacing about a
-/// quarter less; the energy stored at rest changed by 0.2 %, on a sphere by 4 %.
+/// Longer strides take fewer steps of more iterations each, and follow the path, which a fabric
+/// with friction remembers, less closely. With a half instead of a quarter a square metre on a cube
+/// took as long, and with half the spacing about a quarter less; the energy stored at rest changed
+/// by 0.2 %, on a sphere by 4 %.
 const STRIDE: f64 = 0.25;
 
 /// Checks steps, their end, and the times of frames.
@@ -99,7 +102,8 @@ pub(crate) fn relaxation(checker: &mut Checker<'_>, spacing: f64) -> Option<Rela
     Some(Relaxation { speed, residual, stride, inertia })
 }
 
-/// Checks the time for which bodies and pins move when the cloth has come to rest, in s, if they do so then.
+/// Checks the time for which bodies and pins move when the cloth has come to rest, in s, if they do
+/// so then.
 pub(crate) fn motion_seconds(checker: &mut Checker<'_>) -> Option<f64> {
     let file = checker.file;
     let seconds = file.motion.as_ref()?.seconds;

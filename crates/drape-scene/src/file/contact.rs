@@ -11,7 +11,8 @@ pub(crate) struct ContactFile {
     pub(crate) stiffness: Option<f64>,
     /// Speed below which particles stick, in m/s.
     pub(crate) slip_speed: Option<f64>,
-    /// Whether surfaces are kept apart, and not particles out of bodies only; wherever that can be if missing.
+    /// Whether surfaces are kept apart, and not particles out of bodies only; wherever that can be
+    /// if missing.
     pub(crate) surfaces: Option<bool>,
     /// Displacement by which surfaces that stick give way before they slide.
     pub(crate) stick: Option<f64>,

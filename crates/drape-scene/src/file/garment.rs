@@ -10,7 +10,8 @@ use crate::file::panel::NoiseFile;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentFile {
-    /// Name, which its panels have before theirs: `NAME.PANEL`; they keep the names of the pattern if missing.
+    /// Name, which its panels have before theirs: `NAME.PANEL`; they keep the names of the pattern
+    /// if missing.
     pub(crate) name: Option<String>,
     pub(crate) pattern: String,
     /// Fabric of the panels that name none.
@@ -32,7 +33,8 @@ pub(crate) struct GarmentFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentPanelFile {
     pub(crate) fabric: Option<String>,
-    /// Origin of the panel's frame, and its rotations about x, y and z in degrees; those of the pattern if both are missing.
+    /// Origin of the panel's frame, and its rotations about x, y and z in degrees; those of the
+    /// pattern if both are missing.
     pub(crate) center: Option<[f64; 3]>,
     pub(crate) turn: Option<[f64; 3]>,
     /// Radius of the cylinder that it is bent to; that of the pattern if missing.

@@ -1,7 +1,7 @@
 //! Clock: lengths of steps and times of frames, in ticks.
 
-/// Clock of a simulation. Time is counted in ticks, each the first step divided by a power of two, so that it does not
-/// drift.
+/// Clock of a simulation. Time is counted in ticks, each the first step divided by a power of two,
+/// so that it does not drift.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     /// Length of a step, of the first one where lengths vary, in s.

@@ -9,7 +9,8 @@ pub struct ContactSettings {
     pub surfaces: bool,
     /// Contact of particles with bodies. Its activation distance counts for surfaces too.
     pub particles: ParticleSettings,
-    /// Stiffness of the contact of surfaces, in N/m³; without one, the fabrics' thickness under pressure gives it.
+    /// Stiffness of the contact of surfaces, in N/m³; without one, the fabrics' thickness under
+    /// pressure gives it.
     pub stiffness: Option<f64>,
     /// Displacement by which surfaces that stick give way before they slide, in m.
     pub sticking_displacement: f64,
@@ -21,7 +22,8 @@ pub struct ContactSettings {
     pub growth: Option<DistanceGrowth>,
 }
 
-/// Growth of bodies that start smaller than they are, so that cloth which would start inside them starts outside.
+/// Growth of bodies that start smaller than they are, so that cloth which would start inside them
+/// starts outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inflation {
     /// Depth below their places at which their vertices start, along the normals, in m.
@@ -38,7 +40,8 @@ impl Inflation {
     }
 }
 
-/// Growth of the distances of surfaces that start nearer to each other than their minimum separation.
+/// Growth of the distances of surfaces that start nearer to each other than their minimum
+/// separation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DistanceGrowth {
     /// Time until surfaces keep their whole distances, in s, if nothing holds them together.
@@ -46,7 +49,7 @@ pub struct DistanceGrowth {
 }
 
 impl DistanceGrowth {
-    /// Smallest distance of two surfaces from which it starts, in m: a thousand times the least gap that the step filter
-    /// tells from none.
+    /// Smallest distance of two surfaces from which it starts, in m: a thousand times the least gap
+    /// that the step filter tells from none.
     pub const START_DISTANCE_MIN: f64 = 1e-6;
 }

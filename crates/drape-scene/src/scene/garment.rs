@@ -15,15 +15,16 @@ pub struct Garment {
     pub particles: Range<usize>,
 }
 
-/// Sewing of the garments of a scene before they hang: the sides of all seams are drawn together, without gravity and
-/// inertia, and their particles are then merged.
+/// Sewing of the garments of a scene before they hang: the sides of all seams are drawn together,
+/// without gravity and inertia, and their particles are then merged.
 #[derive(Debug, Clone)]
 pub struct Sewing {
     /// Seams.
     pub seams: Vec<Seam>,
     /// Pairs and ties of all seams.
     pub pairs: SeamPairs,
-    /// Cloth while it is sewn: its laws have no friction, so that the closing of the seams is no history.
+    /// Cloth while it is sewn: its laws have no friction, so that the closing of the seams is no
+    /// history.
     pub cloth: Cloth,
     /// Time until the seams are to be closed, in s.
     pub seconds: f64,

@@ -33,7 +33,8 @@ pub type FabricReader<'a> = &'a dyn Fn(FabricRequest<'_>) -> Result<Fabric, Diag
 /// Reads the fabric of a `fabric.toml`.
 ///
 /// # Errors
-/// The mistakes of the file; for one without laws, such as a sheet of measurements, advice how to make a fabric of it.
+/// The mistakes of the file; for one without laws, such as a sheet of measurements, advice how to
+/// make a fabric of it.
 pub fn read_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
     let document = Document::read(request.file)?;
     if is_fabric(&document) {

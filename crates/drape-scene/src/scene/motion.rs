@@ -17,7 +17,8 @@ pub enum BodyMotion {
 }
 
 impl BodyMotion {
-    /// Writes the positions at a time, in s, of vertices that start at some positions; three coordinates each, in m.
+    /// Writes the positions at a time, in s, of vertices that start at some positions; three
+    /// coordinates each, in m.
     pub fn write_positions(&self, time: f64, start: &[f64], positions: &mut [f64]) {
         match self {
             Self::Rigid(motion) => {
@@ -31,8 +32,8 @@ impl BodyMotion {
         }
     }
 
-    /// Returns the largest deviation between two times, in s, of vertices that start at some positions from straight
-    /// paths, in m. From frame to frame vertices move straight.
+    /// Returns the largest deviation between two times, in s, of vertices that start at some
+    /// positions from straight paths, in m. From frame to frame vertices move straight.
     #[must_use]
     pub fn deviation_from_straight(&self, times: [f64; 2], start: &[[f64; 3]]) -> f64 {
         match self {

@@ -37,7 +37,8 @@ impl Pin {
         end_time <= self.release
     }
 
-    /// Returns whether its particles are held in all directions; they are attached by springs otherwise.
+    /// Returns whether its particles are held in all directions; they are attached by springs
+    /// otherwise.
     #[must_use]
     pub fn holds_all_axes(&self) -> bool {
         self.axes == [true; 3]
@@ -57,8 +58,8 @@ impl Pin {
         self.particles.iter().copied().zip(self.start.iter().map(place))
     }
 
-    /// Writes the positions of its particles at a time on the clock of motions, in s, into the flat array of all
-    /// positions. A pin without a motion leaves them as they are.
+    /// Writes the positions of its particles at a time on the clock of motions, in s, into the flat
+    /// array of all positions. A pin without a motion leaves them as they are.
     pub fn write_positions(&self, time: f64, positions: &mut [f64]) {
         if self.motion.is_some() {
             for (particle, place) in self.positions(time) {

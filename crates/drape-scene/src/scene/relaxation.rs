@@ -1,6 +1,6 @@
 //! Relaxation: how the cloth comes to rest, and when it is at rest.
 
-/// Way of the cloth to rest, and criteria of rest.
+/// Relaxation of the cloth, and criteria of rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Relaxation {
     /// Largest speed of a particle at rest, in m/s.
@@ -11,7 +11,7 @@ pub struct Relaxation {
     pub stride: f64,
     /// Whether the cloth keeps its momentum.
     ///
-    /// Without, its relaxation is quasi-static: each step starts from rest, ends in a state of less energy, and moves the
-    /// memory of the fabric along; lengths of steps are then not durations.
+    /// Without, its relaxation is quasi-static: each step starts from rest, ends in a state of less
+    /// energy, and moves the memory of the fabric along; lengths of steps are then not durations.
     pub inertia: bool,
 }

@@ -7,7 +7,8 @@ use drape_cloth::Tie;
 pub struct Seam {
     /// Name in the pattern.
     pub name: String,
-    /// Particles of both sides, in the order in which it runs; those of a pair are one at the tip of a dart.
+    /// Particles of both sides, in the order in which it runs; those of a pair are one at the tip
+    /// of a dart.
     pub pairs: SeamPairs,
     /// Angle by which its sides are turned towards their right sides at rest, in rad.
     pub rest_angle: f64,

@@ -58,10 +58,11 @@ fn pinched(contact: &Contacts) -> String {
 
 /// Describes minimum separations that have grown.
 fn grown(contact: &Contacts) -> String {
-    if contact.grown_from == 1.0 {
+    if contact.start_growth_fraction == 1.0 {
         return String::new();
     }
-    let [from, to] = [contact.grown_from, contact.grown].map(|part| 100.0 * part);
+    let [from, to] =
+        [contact.start_growth_fraction, contact.growth_fraction].map(|part| 100.0 * part);
     format!("; minimum separations were {from:.2} % at the start and {to:.2} % at the end")
 }
 
@@ -77,8 +78,8 @@ fn balance(energy: &Energy) -> String {
         energy.friction_dissipated,
         energy.body_dissipated,
         energy.air_dissipated,
-        energy.numerical_dissipated + energy.turning_dissipated,
-        energy.remainder,
+        energy.numerical_dissipated + energy.rotation_dissipated,
+        energy.residual,
     )
 }
 

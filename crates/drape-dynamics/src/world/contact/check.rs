@@ -1,4 +1,5 @@
-//! What keeps surfaces apart, taken away part by part: what is missing shows in the run or in its frames.
+//! What keeps surfaces apart, taken away part by part: what is missing shows in the run or in its
+//! frames.
 
 use drape_collide::Guards;
 use drape_input::Document;
@@ -80,14 +81,14 @@ fn with_all_of_it_no_step_crosses() {
     let end = run(THROWN, |_| {});
     holds(&end);
     assert!(end.status == Status::Ok && end.contact.pairs_max > 0, "{end:?}");
-    assert_eq!((end.contact.crossings_found, end.contact.intersections), (0, 0));
+    assert_eq!((end.contact.intersections_found, end.contact.intersections), (0, 0));
 }
 
 #[test]
 fn without_the_filter_steps_cross_and_are_taken_back() {
     let end = run(THROWN, |guards| guards.filter = false);
     holds(&end);
-    assert!(end.contact.crossings_found > 0, "{end:?}");
+    assert!(end.contact.intersections_found > 0, "{end:?}");
     // What takes them back is the exact test and nothing else.
     let end = run(THROWN, |guards| (guards.filter, guards.exact) = (false, false));
     assert!(end.intersections > 0, "{end:?}");
@@ -100,7 +101,7 @@ fn pairs_that_are_too_old_stop_a_run_or_let_surfaces_cross() {
     assert_eq!(end.status, Status::SolverFailed, "{end:?}");
     let end = run(THROWN, |guards| (guards.cover, guards.budget) = (false, false));
     holds(&end);
-    assert!(end.contact.crossings_found > 0, "{end:?}");
+    assert!(end.contact.intersections_found > 0, "{end:?}");
     let end = run(THROWN, |guards| {
         (guards.cover, guards.budget, guards.exact) = (false, false, false);
     });
@@ -112,7 +113,7 @@ fn without_the_barrier_pairs_freeze_or_cross() {
     let end = run(THROWN, |guards| guards.barrier = false);
     holds(&end);
     assert_eq!(end.status, Status::SolverFailed, "{end:?}");
-    assert_eq!(end.contact.crossings_found, 0, "{end:?}");
+    assert_eq!(end.contact.intersections_found, 0, "{end:?}");
     // The barrier keeps pairs from ever being so near that they freeze.
     let end = run(THROWN, |guards| (guards.barrier, guards.freeze) = (false, false));
     holds(&end);

@@ -1,4 +1,5 @@
-//! Bodies that particles touch, in scenes where surfaces are not kept apart, and how these bodies move.
+//! Bodies that particles touch, in scenes where surfaces are not kept apart, and how these bodies
+//! move.
 
 use drape_collide::{ParticleContact, Pose};
 use drape_scene::{BodyMotion, RigidMotion, Scene};
@@ -6,10 +7,11 @@ use drape_scene::{BodyMotion, RigidMotion, Scene};
 use super::step::{ContactEnergy, ContactStep};
 use crate::error::Error;
 
-/// Longest time over which contact with a body counts slip in one step of quasi-static relaxation, in s.
+/// Longest time over which contact with a body counts slip in one step of quasi-static relaxation,
+/// in s.
 ///
-/// Below its slip speed a contact that sticks gives way slowly. The length of a step of relaxation is not a duration, and
-/// without this limit cloth would slide off a body during long ones.
+/// Below its slip speed a contact that sticks gives way slowly. The length of a step of relaxation
+/// is not a duration, and without this limit cloth would slide off a body during long ones.
 const SLIP_TIME_MAX: f64 = 0.01;
 
 /// Contact of particles with bodies.
@@ -80,7 +82,8 @@ impl ParticleBodies {
         Some(ContactEnergy { contact, friction, body_work: contact - at_rest })
     }
 
-    /// Energy exchanged by friction in a step of a length, in s, that ends at some positions. Opens the next step.
+    /// Energy exchanged by friction in a step of a length, in s, that ends at some positions. Opens
+    /// the next step.
     pub(crate) fn friction_work(&mut self, start: &[f64], end: &[f64], dt: f64) -> FrictionWork {
         let Self { contact, forces: ForcePair { with_friction, without_friction }, .. } = self;
         let evaluate = |contact: &mut ParticleContact, forces: &mut [f64]| {

@@ -25,6 +25,7 @@ pub(crate) struct ContactEnergy {
     pub(crate) contact: f64,
     /// Potential of the friction with bodies, which have moved on since the last step.
     pub(crate) friction: f64,
-    /// Work that the motion of bodies in this step does on contact; of surfaces, that of the growth of their distances.
+    /// Work that the motion of bodies in this step does on contact; of surfaces, that of the growth
+    /// of their distances.
     pub(crate) body_work: f64,
 }

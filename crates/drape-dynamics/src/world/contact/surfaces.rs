@@ -1,8 +1,8 @@
 //! Surfaces of panels and bodies, kept apart by a barrier and a step filter.
 //!
-//! Bodies move here vertex by vertex: from where they belong at the start of the simulation, less what is left of their
-//! inflation, by their motion. The solver's step filter asks here how far a trial step may go, and whether an accepted one
-//! is free of intersections.
+//! Bodies move here vertex by vertex: from where they belong at the start of the simulation, less
+//! what is left of their inflation, by their motion. The solver's step filter asks here how far a
+//! trial step may go, and whether an accepted one is free of intersections.
 
 use std::ops::Range;
 
@@ -12,8 +12,8 @@ use drape_scene::{BodyMotion, DistanceGrowth, Inflation, Scene, StartSurfaces};
 
 use super::step::{ContactEnergy, ContactStep};
 
-/// Fraction of the distance that surfaces keep by which a body's vertex may deviate from a straight path within a step;
-/// bodies that turn faster are given more steps.
+/// Fraction of the distance that surfaces keep by which a body's vertex may deviate from a straight
+/// path within a step; bodies that turn faster are given more steps.
 const DEVIATION: f64 = 0.05;
 
 /// Multiple of its length that the growth of distances may take before the run fails.
@@ -31,7 +31,7 @@ pub(crate) struct Surfaces {
     inflation: Option<Inflating>,
     growth: Option<DistanceGrowth>,
     /// Fraction of the distances that is kept at the start, 0 to 1.
-    pub(crate) grown_from: f64,
+    pub(crate) start_growth_fraction: f64,
     moving: Vec<MovingSurface>,
     /// Largest deviation of a vertex of a body from a straight path within a step, in m.
     deviation: f64,
@@ -80,7 +80,7 @@ impl Surfaces {
         });
         let held = scene.held_particles();
         Ok(Self {
-            grown_from: contact.growth_fraction(),
+            start_growth_fraction: contact.growth_fraction(),
             contact,
             bodies: scene.bodies.iter().map(|moving| moving.body.clone()).collect(),
             names,
@@ -104,7 +104,8 @@ impl Surfaces {
         &self.bodies
     }
 
-    /// Whether all bodies move nearly straight between two times on the clock of motions, in s, as is assumed in a step.
+    /// Whether all bodies move nearly straight between two times on the clock of motions, in s, as
+    /// is assumed in a step.
     pub(crate) fn move_nearly_straight(&self, times: [f64; 2]) -> bool {
         let places = self.start.as_chunks::<3>().0;
         let bodies = self.moving.iter().filter(|moving| !moving.is_floor);
@@ -113,7 +114,8 @@ impl Surfaces {
         })
     }
 
-    /// Time from which bodies have their size, in s; infinite as long as surfaces keep less than their distances.
+    /// Time from which bodies have their size, in s; infinite as long as surfaces keep less than
+    /// their distances.
     pub(crate) fn full_size_time(&self) -> f64 {
         if self.contact.growth_fraction() < 1.0 {
             return f64::INFINITY;
@@ -130,7 +132,7 @@ impl Surfaces {
     /// Opens a step and returns the energy of contact at its start if that is asked for.
     pub(crate) fn begin(&mut self, step: &ContactStep<'_>) -> Option<ContactEnergy> {
         if let Some(growth) = self.growth {
-            let more = (1.0 - self.grown_from) * step.dt / growth.seconds;
+            let more = (1.0 - self.start_growth_fraction) * step.dt / growth.seconds;
             self.contact.grow_distances(step.positions, more);
         }
         let Self { start, inflation, ends, .. } = self;
@@ -176,8 +178,8 @@ impl Surfaces {
         }
     }
 
-    /// Description of the place where surfaces are closest to their minimum separation, with the positions of the
-    /// particles, in m.
+    /// Description of the place where surfaces are closest to their minimum separation, with the
+    /// positions of the particles, in m.
     pub(crate) fn describe_closest(&self, positions: &[f64]) -> Option<String> {
         let PairDistance { pair, distance } = self.contact.closest_pair()?;
         let of = |vertex: u32| &self.names[self.contact.surface().group(vertex) as usize];
@@ -194,7 +196,8 @@ impl Surfaces {
 }
 
 impl Inflating {
-    /// Positions of the bodies' vertices at a time, in s, from where they belong, without the motion of their bodies.
+    /// Positions of the bodies' vertices at a time, in s, from where they belong, without the
+    /// motion of their bodies.
     fn positions_at<'a>(&'a mut self, time: f64, full: &'a [f64]) -> &'a [f64] {
         let remaining = self.inflation.remaining(time);
         if !(remaining > 0.0) {

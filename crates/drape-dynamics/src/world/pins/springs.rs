@@ -3,14 +3,17 @@
 use drape_implicit::BlockMatrix;
 use drape_scene::Pin;
 
-/// Stiffness of a spring, in N/m for each particle and direction, as that of a closing spring of a seam. It gives way by a
-/// tenth of a micrometre under a hundredth of a newton, more than the weight that hangs on a particle.
+/// Stiffness of a spring, in N/m for each particle and direction, as that of a closing spring of a
+/// seam. Under a hundredth of a newton, more than the weight that hangs on a particle, it yields by
+/// a tenth of a micrometre.
 const STIFFNESS: f64 = 1e5;
 
-/// Springs between particles at `$x$` and their prescribed positions `$\bar x$` at the end of the step.
+/// Springs between particles at `$x$` and their prescribed positions `$\bar x$` at the end of the
+/// step.
 ///
-/// Their energy is `$\frac k2\sum(x_a-\bar x_a)^2$`, summed over the directions `$a$` that are held; force and stiffness
-/// are exact. A particle that is held in all directions has no spring: the solver leaves it out.
+/// Their energy is `$\frac k2\sum(x_a-\bar x_a)^2$`, summed over the directions `$a$` that are
+/// held; force and stiffness are exact. A particle that is held in all directions has no spring:
+/// the solver leaves it out.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct PinSprings(Vec<Spring>);
 

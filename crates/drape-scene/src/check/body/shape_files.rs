@@ -7,10 +7,12 @@ use drape_collide::{Mesh, PointCache, Triangulation, read_mesh};
 use crate::file::body::MeshBodyFile;
 use crate::scene::motion::ShapeMotion;
 
-/// Largest distance in another frame of vertices that are one in the first frame, in m: some digits of a 32-bit float.
+/// Largest distance in another frame of vertices that are one in the first frame, in m: some digits
+/// of a 32-bit float.
 const PARTED: f64 = 1e-6;
 
-/// Square of the sine of the sharpest triangle of a frame, about: what the mesh of a body may have too.
+/// Square of the sine of the sharpest triangle of a frame, about: what the mesh of a body may have
+/// too.
 const FLAT: f64 = 1e-12;
 
 /// Number of vertices that all frames of a sequence may have together: 400 MB of positions.
@@ -55,7 +57,8 @@ struct Frames {
     samples: Vec<Vec<[f64; 3]>>,
 }
 
-/// Reads the mesh of a body and its frames. `place` brings a point of the files to its place in the world, in m.
+/// Reads the mesh of a body and its frames. `place` brings a point of the files to its place in the
+/// world, in m.
 pub(crate) fn read_shapes(
     file: &MeshBodyFile,
     folder: &Path,

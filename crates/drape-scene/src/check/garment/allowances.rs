@@ -48,7 +48,8 @@ mod tests {
 
     use crate::scene::Scene;
 
-    /// A panel on the bias with a hem and a dart between the two parts of its upper edge, to which two others are sewn.
+    /// A panel on the bias with a hem and a dart between the two parts of its upper edge, to which
+    /// two others are sewn.
     const PATTERN: &str = r#"length = "mm"
 [panel.skirt]
 grain = 20

@@ -3,9 +3,10 @@
 /// Number of particles from which on a garment takes long.
 const MANY: usize = 40_000;
 
-/// Processor time in s that a garment of one particle would take to be sewn and come to rest, and the exponent by which that
-/// grows: from the three shipped ones at 10 mm and one of them at 5 mm, which are within a factor of 1.8 of it. The
-/// trousers at 5 mm take 1.3 times as long, and the skirt, which is slow to rest, 3.7 times.
+/// Processor time in s that a garment of one particle would take to be sewn and come to rest, and
+/// the exponent by which that grows: from the three shipped ones at 10 mm and one of them at 5 mm,
+/// which are within a factor of 1.8 of it. The trousers at 5 mm take 1.3 times as long, and the
+/// skirt, which is slow to rest, 3.7 times.
 const SECONDS: f64 = 1.3e-3;
 const GROWTH: f64 = 1.3;
 

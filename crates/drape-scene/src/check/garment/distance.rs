@@ -6,14 +6,15 @@ use crate::check::body::CheckedBody;
 use crate::check::checker::Checker;
 use crate::check::panel::PlacedPanel;
 
-/// Largest distance of a garment from every body at the start, in m: a pattern that was made for another figure, or in
-/// another frame, is metres off.
+/// Largest distance of a garment from every body at the start, in m: a pattern that was made for
+/// another figure, or in another frame, is metres off.
 const FAR: f64 = 0.5;
 
 /// Sizes of the figures that wear garments, from a doll's to a statue's, in m.
 const FIGURES: [f64; 2] = [0.1, 5.0];
 
-/// Checks the sizes of bodies: a figure from a file in another unit is a hundred times too large, or as much too small.
+/// Checks the sizes of bodies: a figure from a file in another unit is a hundred times too large,
+/// or as much too small.
 fn check_sizes(checker: &mut Checker<'_>, bodies: &[CheckedBody]) {
     for CheckedBody { body, .. } in bodies {
         let Shape::Mesh(mesh) = &body.shape else { continue };
@@ -36,7 +37,8 @@ fn check_sizes(checker: &mut Checker<'_>, bodies: &[CheckedBody]) {
     }
 }
 
-/// Checks that garments start near a body: one that is far from all would be sewn beside them and fall.
+/// Checks that garments start near a body: one that is far from all would be sewn beside them and
+/// fall.
 pub(crate) fn check_distance(
     checker: &mut Checker<'_>,
     garments: &[PlacedPanel],

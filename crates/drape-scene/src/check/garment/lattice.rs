@@ -5,8 +5,8 @@ use drape_pattern::Cut;
 
 use crate::check::garment::allowances::AllowanceLine;
 
-/// Returns the number of each node of a cut in its lattice: those of the grid come first, row by row, then those of the
-/// outline.
+/// Returns the number of each node of a cut in its lattice: those of the grid come first, row by
+/// row, then those of the outline.
 pub(crate) fn node_numbers(cut: &Cut) -> Vec<u32> {
     let inner = cut.lattice.iter().flatten().count() as u32;
     let (mut grid, mut outline) = (0..inner, inner..);
@@ -17,7 +17,8 @@ pub(crate) fn node_numbers(cut: &Cut) -> Vec<u32> {
     cut.lattice.iter().map(number).map(Option::unwrap_or_default).collect()
 }
 
-/// Makes the lattice of a cut, with the numbers of its nodes, an angle of its grain, in rad, and allowances.
+/// Makes the lattice of a cut, with the numbers of its nodes, an angle of its grain, in rad, and
+/// allowances.
 pub(crate) fn lattice(
     cut: &Cut,
     numbers: &[u32],

@@ -91,7 +91,8 @@ pub(crate) fn placed_panel(
     Some(PlacedPanel { panel, positions, velocities })
 }
 
-/// Checks the placement of a panel: that of the scene, or else of the pattern; shifted with the garment.
+/// Checks the placement of a panel: that of the scene, or else of the pattern; shifted with the
+/// garment.
 fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> {
     let &Piece { key, entry, .. } = piece;
     let (unit, own) = (checker.unit, piece.own());

@@ -58,7 +58,8 @@ pub(crate) fn sewing(
     Some(Sewing { seams, pairs, cloth, seconds, bending: bending.ok()? })
 }
 
-/// Makes a cloth whose laws have no friction: it keeps the account of its strains and of nothing else.
+/// Makes a cloth whose laws have no friction: it keeps the account of its strains and of nothing
+/// else.
 pub(crate) fn frictionless_cloth(panels: &[(&Lattice, &Fabric)]) -> Cloth {
     let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.without_friction()).collect();
     let lattices = panels.iter().map(|(lattice, _)| *lattice);

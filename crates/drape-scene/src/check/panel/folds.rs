@@ -4,7 +4,8 @@ use drape_cloth::{Fold, Lattice};
 
 use crate::check::checker::Checker;
 
-/// Folds a panel of a name along lines in its own frame, in m, by angles in rad; mistakes are those of a key.
+/// Folds a panel of a name along lines in its own frame, in m, by angles in rad; mistakes are those
+/// of a key.
 pub(crate) fn folded(
     checker: &mut Checker<'_>,
     key: &str,

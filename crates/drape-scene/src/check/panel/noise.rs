@@ -68,7 +68,8 @@ impl Noise {
     }
 }
 
-/// Weights of the cubic B-spline at four places in a row, at the fraction `t` between the middle two.
+/// Weights of the cubic B-spline at four places in a row, at the fraction `t` between the middle
+/// two.
 fn weights(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
     let middle = |t: f64| (4.0 + 3.0 * t * t * (t - 2.0)) / 6.0;
@@ -127,12 +128,14 @@ mod tests {
             let [before, here, after] =
                 [-step, 0.0, step].map(|by| noise.height([place[0] + by, place[1]]));
             assert!(here.abs() <= 2e-4, "{here}");
-            // The second derivative of the spline is one of numbers up to 1, minus twice their neighbours', plus theirs.
+            // The second derivative of the spline is one of numbers up to 1, minus twice their
+            // neighbours', plus theirs.
             let curvature = (before + after - 2.0 * here) / (step * step);
             assert!(curvature.abs() < 4.0 * 2e-4 / (0.02 * 0.02), "{curvature}");
             (squares, count) = (squares + here * here, count + 1.0);
         }
-        // Squares of the weights sum up to 0.479 along a line, on the average; a number between −1 and 1 has 1/3.
+        // Squares of the weights sum up to 0.479 along a line, on the average; a number between −1
+        // and 1 has 1/3.
         let expected = 2e-4 * 0.479 / 3_f64.sqrt();
         let deviation = f64::sqrt(squares / count);
         assert!((deviation / expected - 1.0).abs() < 0.05, "{deviation} for {expected}");

@@ -60,7 +60,8 @@ impl Placement {
         }
     }
 
-    /// Placement of a panel's copy of some number in a stack, with lengths in a unit, in m; its noise has another seed.
+    /// Placement of a panel's copy of some number in a stack, with lengths in a unit, in m; its
+    /// noise has another seed.
     pub(crate) fn copied(&self, copy: usize, stack: Option<&StackFile>, unit: f64) -> Self {
         let Some(stack) = stack else { return self.clone() };
         let along = |from: [f64; 3], step: [f64; 3], unit: f64| {
@@ -74,8 +75,8 @@ impl Placement {
         }
     }
 
-    /// Positions of a panel's particles, in m: in the panel's own frame the width is x, the height y and the right side z;
-    /// its middle is rotated and brought to the centre.
+    /// Positions of a panel's particles, in m: in the panel's own frame the width is x, the height
+    /// y and the right side z; its middle is rotated and brought to the centre.
     pub(crate) fn positions(&self, lattice: &Lattice) -> Vec<f64> {
         let places = lattice.panel_coordinates();
         let left = places.iter().map(|place| place[0]).fold(f64::INFINITY, f64::min);

@@ -1,6 +1,7 @@
 //! Order of layers at the start: a panel of a higher layer is to start outside those of lower ones.
 //!
-//! A particle is inside a panel if the straight line from it to the nearest point of a body passes through the panel.
+//! A particle is inside a panel if the straight line from it to the nearest point of a body passes
+//! through the panel.
 
 use drape_collide::Shape;
 
@@ -11,8 +12,8 @@ use crate::scene::panel::Panel;
 /// Height of the slabs in which triangles are looked for, in m: some edges of usual spacings.
 const SLAB: f64 = 0.05;
 
-/// Refuses panels that start between the body and those of a lower layer; notes those of which a smaller area does so than
-/// is in order.
+/// Refuses panels that start between the body and those of a lower layer; notes those of which a
+/// smaller area does so than is in order.
 pub(crate) fn check_layers(checker: &mut Checker<'_>, scene: &Scene) -> Vec<String> {
     let lowest = scene.panels.iter().map(|panel| panel.layer).min();
     let higher = scene.panels.iter().filter(|panel| Some(panel.layer) > lowest);
@@ -99,7 +100,8 @@ fn place(scene: &Scene, particle: usize) -> [f64; 3] {
     [0, 1, 2].map(|axis| scene.start.positions[3 * particle + axis])
 }
 
-/// Line from a particle to the nearest point of a body, unless it is inside one. Floors wear nothing.
+/// Line from a particle to the nearest point of a body, unless it is inside one. Floors wear
+/// nothing.
 fn line_to_body(scene: &Scene, particle: usize) -> Option<Line> {
     let from = place(scene, particle);
     let bodies = scene.bodies.iter().map(|moving| &moving.body);
@@ -150,7 +152,8 @@ impl Slabs {
     }
 }
 
-/// Whether a line goes through a triangle, by the signs of the volumes that it spans with the sides.
+/// Whether a line goes through a triangle, by the signs of the volumes that it spans with the
+/// sides.
 fn is_crossed([a, b, c]: [[f64; 3]; 3], Line { from, to }: Line) -> bool {
     let volume = |p: [f64; 3], q: [f64; 3], r: [f64; 3], s: [f64; 3]| {
         let [u, v, w] = [q, r, s].map(|x| [0, 1, 2].map(|axis| x[axis] - p[axis]));

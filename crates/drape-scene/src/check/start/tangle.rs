@@ -26,7 +26,8 @@ pub(crate) struct Tangled {
     pub(crate) mistake: usize,
 }
 
-/// Checks that surfaces are apart at the start; if not, adds a mistake and returns the pairs that are too near.
+/// Checks that surfaces are apart at the start; if not, adds a mistake and returns the pairs that
+/// are too near.
 pub(crate) fn check_tangle(
     checker: &mut Checker<'_>,
     surfaces: &mut StartSurfaces,
@@ -106,8 +107,8 @@ pub(crate) struct Overlaps {
     pub(crate) total: usize,
 }
 
-/// Finds the pairs of triangles of a surface that cross or are nearer than their minimum separation, with the names of its
-/// groups.
+/// Finds the pairs of triangles of a surface that cross or are nearer than their minimum
+/// separation, with the names of its groups.
 fn overlaps(contact: &SurfaceContact, positions: &[f64], names: &[String]) -> Overlaps {
     let surface = contact.surface();
     let places: Vec<f64> = positions.iter().chain(contact.body_positions()).copied().collect();
@@ -186,7 +187,8 @@ fn middle(places: &[[f64; 3]]) -> [f64; 3] {
     [0, 1, 2].map(|axis| sum(axis) / places.len() as f64)
 }
 
-/// Returns the point where a segment goes through the plane of a triangle; its middle if it lies in it.
+/// Returns the point where a segment goes through the plane of a triangle; its middle if it lies in
+/// it.
 fn pierced(ends: &[[f64; 3]], [a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let [p, q] = [ends[0], ends[ends.len() - 1]];
     let minus = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|k| a[k] - b[k]);

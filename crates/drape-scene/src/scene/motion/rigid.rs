@@ -2,7 +2,8 @@
 
 use drape_collide::Pose;
 
-/// Rotation between two keys, in degrees, from which on a path does not count as straight, however small it is.
+/// Rotation between two keys, in degrees, from which on a path does not count as straight, however
+/// small it is.
 const ROTATION_MAX: f64 = 90.0;
 
 /// Key of a rigid motion: displacement and rotation at a time.
@@ -16,8 +17,8 @@ pub struct MotionKey {
     pub turn: [f64; 3],
 }
 
-/// Rigid motion of a pin or a body: displacement and angles are linear between its keys, and constant before the first and
-/// after the last.
+/// Rigid motion of a pin or a body: displacement and angles are linear between its keys, and
+/// constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidMotion {
     /// Centre of rotation, in m.
@@ -27,13 +28,15 @@ pub struct RigidMotion {
 }
 
 impl RigidMotion {
-    /// Returns a motion about a centre, in m, along keys in the order of their times. Without keys there is no motion.
+    /// Returns a motion about a centre, in m, along keys in the order of their times. Without keys
+    /// there is no motion.
     #[must_use]
     pub fn new(center: [f64; 3], keys: Vec<MotionKey>) -> Option<Self> {
         (!keys.is_empty()).then_some(Self { center, keys })
     }
 
-    /// Returns the map at a time, in s, from the positions of points at the start, in m, to those at that time.
+    /// Returns the map at a time, in s, from the positions of points at the start, in m, to those
+    /// at that time.
     pub fn transform(&self, time: f64) -> impl Fn([f64; 3]) -> [f64; 3] + use<> {
         let (center, MotionKey { shift, turn, .. }) = (self.center, self.at(time));
         move |start| {
@@ -49,8 +52,8 @@ impl RigidMotion {
         Pose { position: self.transform(time)(start.position), ..rotated }
     }
 
-    /// Returns the largest speed of points that start at some positions, in m/s, from a thousandth of the time between each
-    /// two keys: in between a point turns at a steady rate.
+    /// Returns the largest speed of points that start at some positions, in m/s, from a thousandth
+    /// of the time between each two keys: in between a point turns at a steady rate.
     #[must_use]
     pub fn max_speed(&self, start: &[[f64; 3]]) -> f64 {
         let mut most = 0.0_f64;
@@ -66,8 +69,9 @@ impl RigidMotion {
         most
     }
 
-    /// Returns the largest deviation from straight paths between two times, in s, of points that start at some positions, in
-    /// m: that by which rotation bends their paths. Corners at keys do not count.
+    /// Returns the largest deviation from straight paths between two times, in s, of points that
+    /// start at some positions, in m: that by which rotation bends their paths. Corners at keys do
+    /// not count.
     #[must_use]
     pub fn deviation_from_straight(&self, [from, to]: [f64; 2], start: &[[f64; 3]]) -> f64 {
         let mut most = 0.0_f64;
@@ -83,8 +87,8 @@ impl RigidMotion {
         most.sqrt()
     }
 
-    /// Largest squared distance of a point in the middle of a time, in s, from the middle of its ends, in m²; none where the
-    /// rotation is too large for that to be the deviation.
+    /// Largest squared distance of a point in the middle of a time, in s, from the middle of its
+    /// ends, in m²; none where the rotation is too large for that to be the deviation.
     fn squared_sagitta(&self, [from, to]: [f64; 2], start: &[[f64; 3]]) -> Option<f64> {
         let turns = [from, to].map(|time| self.at(time).turn);
         let angle = (0..3).map(|k| (turns[1][k] - turns[0][k]).abs()).fold(0.0, f64::max);

@@ -1,7 +1,7 @@
 //! Motion of a body that changes its shape: all its vertices at times.
 
-/// Motion of a body that changes its shape: positions of all its vertices at times, between which they move straight; at
-/// rest before the first and after the last.
+/// Motion of a body that changes its shape: positions of all its vertices at times, between which
+/// they move straight; at rest before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeMotion {
     /// Times, in s, rising; at least one.
