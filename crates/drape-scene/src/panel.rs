@@ -161,7 +161,7 @@ impl Reader<'_> {
                     None => Lattice::disc_on(grid, radius(disc), spacing),
                     Some(hole) => Lattice::ring_on(grid, [hole, disc].map(radius), spacing),
                 };
-                round.map(|round| round.turned(grain))
+                round.map(|round| round.with_grain(grain))
             }
             (Some(_), None, Some(_)) => {
                 let message = format!("panel \"{}\" has a hole in a rectangle", entry.name);
