@@ -21,17 +21,10 @@ const LEFT: &[&str] = &[
     "drape-cloth",
     "drape-collide",
     "drape-dynamics",
-    "drape-fabric",
-    "drape-fit",
-    "drape-hysteresis",
-    "drape-implicit",
-    "drape-input",
-    "drape-kes",
     "drape-pattern",
     "drape-report",
     "drape-scene",
     "drape-validate",
-    "drape-verify",
 ];
 
 /// Largest number of files of a folder.

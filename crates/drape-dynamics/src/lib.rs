@@ -1,40 +1,24 @@
 #![doc = include_str!("../README.md")]
 
-mod attachments;
-mod bonds;
-mod error;
-mod frame;
-mod girth;
-#[cfg(test)]
-mod guards_check;
-mod ledger;
-mod measures;
-mod output;
-mod pace;
-mod pin_load;
-mod scheme;
-mod simulation;
-mod snapshot;
-mod stitches;
-mod stopwatch;
-mod stretch;
-mod summary;
-mod surfaces;
-mod topology;
-mod weld;
-#[cfg(test)]
-mod weld_check;
+// Physics
+mod sewing;
 mod world;
-#[cfg(test)]
-mod world_check;
-mod worn;
+
+// Time
+mod simulation;
+mod stepping;
+
+// Results
+mod error;
+mod measure;
+mod record;
 
 pub use error::Error;
-pub use frame::Frame;
-pub use output::{Output, Recorder, prepare_folder};
-pub use pin_load::PinLoad;
-pub use scheme::Scheme;
+pub use record::frame::Frame;
+pub use record::recorder::{Output, Recorder, prepare_folder};
+pub use record::snapshot::{Body, Snapshot};
+pub use record::summary::{Contacts, Phase, PhaseName, Solver, Status, Strain, Summary};
+pub use record::topology::{Part, Topology};
 pub use simulation::{Progress, Simulation, Step};
-pub use snapshot::{Body, Snapshot};
-pub use summary::{Contacts, Energy, Phase, PhaseName, Solver, Status, Strain, Summary};
-pub use topology::{Part, Topology};
+pub use stepping::Scheme;
+pub use world::{Energy, PinLoad};

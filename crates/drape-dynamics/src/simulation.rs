@@ -1,95 +1,109 @@
-mod advance;
-mod growth;
-mod outcome;
-mod phases;
-mod rest;
+//! Simulation: a scene from its start to the end of its run, phase by phase.
+//!
+//! A run has up to three phases: a garment is sewn, the cloth comes to rest, bodies and pins move. Steps are made by the
+//! chapter `stepping`; after each of them the simulation asks whether the phase, or the run, is over.
 
-use std::collections::BTreeMap;
-use std::ops::Range;
+use drape_implicit::{Report, Stop};
+use drape_scene::{Relaxation, Scene};
 
-use drape_implicit::{ErrorEstimate, IntegratorState, Report};
-use drape_scene::{Clock, Panel, Scene, Settle, Stitching};
-
-use self::rest::Accuracy;
 use crate::error::Error;
-use crate::frame::Frame;
-use crate::measures::{FreeEdge, free_edges};
-use crate::pace::Pace;
-use crate::pin_load::PinLoad;
-use crate::scheme::{Integration, Scheme};
-use crate::stopwatch::Stopwatch;
-use crate::stretch::reaches;
-use crate::summary::{Energy, Phase, PhaseName, Solver, Status, Summary};
-use crate::weld::Weld;
-use crate::world::World;
-use crate::worn::{Worn, lowest};
+use crate::measure::garment_parts::GarmentParts;
+use crate::measure::{fallen, measures, warnings};
+use crate::record::frame::Frame;
+use crate::record::snapshot::Snapshot;
+use crate::record::state_hash::state_hash;
+use crate::record::statistics::Statistics;
+use crate::record::stopwatch::Stopwatch;
+use crate::record::summary::{Phase, PhaseName, Status, Strain, Summary};
+use crate::record::topology::Topology;
+use crate::sewing::closing_springs::Closing;
+use crate::sewing::node_map::merge;
+use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
+use crate::world::{Energy, PinLoad, World};
 
 /// Acceleration that residuals are relative to, in m/s².
 const GRAVITY: f64 = 9.81;
 
-/// A scene in motion.
+/// Simulation of a scene.
+///
+/// ```
+/// use drape_dynamics::Simulation;
+/// use drape_input::Document;
+/// use drape_scene::Scene;
+///
+/// let fabric = Document::new("plain.toml", r#"
+///     name = "plain weave"
+///     density = 0.12
+///     thickness = 0.0003
+///     shear.stiffness = 35
+///     [warp]
+///     traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
+///     bending.rigidity = 1.2e-5
+///     [weft]
+///     traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
+///     bending.rigidity = 0.8e-5
+/// "#);
+/// let scene = Document::new("towel.toml", r#"
+///     spacing = 0.02
+///     fabric.plain.file = "plain.toml"
+///     panel = [{ name = "towel", fabric = "plain", rectangle = [0.2, 0.3] }]
+///     pin = [{ panel = "towel", edge = "top" }]
+///     time = { step = 0.005, end = 0.02 }
+/// "#);
+/// let mut simulation = Simulation::new(Scene::from_documents(&scene, &[fabric])?)?;
+/// let summary = simulation.run(&mut ())?;
+/// assert_eq!((summary.steps, summary.particles), (4, 11 * 16));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Simulation {
     pub(crate) world: World,
-    motion: IntegratorState,
-    scheme: Scheme,
-    integration: Integration,
-    /// What makes sewn nodes one, once they are sewn.
-    weld: Option<Weld>,
-    /// The nodes of the seams.
-    pub(crate) sewn: Stitching,
-    /// The edges of panels that are not sewn.
-    pub(crate) free_edges: Vec<FreeEdge>,
-    /// What was measured at the end of the run.
-    measures: serde_json::Map<String, serde_json::Value>,
-    /// How well steps are solved now.
-    accuracy: Accuracy,
-    /// How long it goes on with motion when it has come to rest, in s, until it has.
-    motion_seconds: Option<f64>,
-    /// Whether it came to rest before it was set in motion.
-    rested: bool,
-    estimate: ErrorEstimate,
-    clock: Clock,
-    pace: Pace,
-    settle: Option<Settle>,
-    scene_hash: String,
-    steps: usize,
-    ticks: usize,
-    quiet_ticks: usize,
-    speed_max: f64,
-    imbalance: f64,
+    stepping: Stepping,
+    rest: RestDetector,
+    phases: Phases,
+    /// Panels, garments and seams, for the measures.
+    parts: GarmentParts,
+    statistics: Statistics,
+    last: LastStep,
+    outcome: Outcome,
+    /// Number of the last frame.
+    frame: usize,
+    /// Smallest distance of particles before deformation, in m.
     spacing: f64,
-    pub(crate) panels: Vec<PanelSpan>,
-    pub(crate) worn: Vec<Worn>,
-    /// The lowest point of the bodies, in m, if a garment that is below it falls for ever.
-    pub(crate) ground: Option<f64>,
-    /// How far each fabric was measured, by its name and the keys of its laws.
-    pub(crate) reaches: BTreeMap<String, BTreeMap<String, f64>>,
-    phases: Vec<Phase>,
-    warnings: Vec<String>,
-    frames: usize,
-    status: Status,
-    reason: Option<String>,
-    solver: Solver,
-    iterations: usize,
-    pairs_max: usize,
-    /// Most particles that were thinned, and that were released, after any step.
-    pinched_max: [usize; 2],
-    /// The smallest distance of two surfaces after any step, in m.
-    distance_min: f64,
+    scene_hash: String,
     stopwatch: Stopwatch,
 }
 
-/// Which particles are a panel's.
-#[derive(Debug, Clone)]
-pub(crate) struct PanelSpan {
-    pub(crate) name: String,
-    /// Name of its fabric in the scene.
-    pub(crate) fabric: String,
-    pub(crate) particles: Range<usize>,
+/// Phases of a run.
+#[derive(Debug)]
+struct Phases {
+    begun: Vec<Phase>,
+    /// Time for which bodies and pins move once the cloth is at rest, in s, until they do.
+    motion_seconds: Option<f64>,
+    /// Whether the cloth came to rest before they did.
+    rested: bool,
 }
 
-/// What one step did.
+/// Motion of the cloth after the last step.
+#[derive(Debug, Clone, Copy)]
+struct LastStep {
+    /// Largest speed of a particle, in m/s.
+    speed_max: f64,
+    /// Root-mean-square acceleration of the free particles, over g.
+    imbalance: f64,
+}
+
+/// Outcome of a run.
+#[derive(Debug)]
+struct Outcome {
+    status: Status,
+    /// Reason why the run ended early.
+    reason: Option<String>,
+    warnings: Vec<String>,
+    measures: serde_json::Map<String, serde_json::Value>,
+}
+
+/// Step of a simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {
     /// Time reached, in s.
@@ -100,21 +114,21 @@ pub struct Step {
     pub speed_max: f64,
     /// Root-mean-square acceleration of the free particles, over g.
     pub imbalance: f64,
-    /// The solver's report.
+    /// Report of the solver.
     pub report: Report,
     /// Whether the simulation is over.
     pub finished: bool,
 }
 
-/// Watches a running simulation. What is not told of here passes unseen; `()` sees nothing.
+/// Watcher of a running simulation. `()` watches nothing.
 pub trait Progress {
-    /// A step is done, and the time is so many ticks of the clock.
+    /// Is called after a step, with the time in ticks of the clock.
     fn step(&mut self, _step: &Step, _ticks: usize) {}
 
-    /// A frame is due.
+    /// Is called when a frame is due.
     ///
     /// # Errors
-    /// What keeps the frame from being stored; the run then ends with it.
+    /// Whatever keeps the frame from being stored; the run then ends with it.
     fn frame(&mut self, _frame: &Frame) -> Result<(), Error> {
         Ok(())
     }
@@ -128,7 +142,7 @@ impl Simulation {
     /// # Errors
     /// When the solver cannot be set up.
     pub fn new(scene: Scene) -> Result<Self, Error> {
-        let scheme = Scheme::of(&scene);
+        let scheme = Scheme::new(&scene.solver);
         Self::with_scheme(scene, scheme)
     }
 
@@ -137,147 +151,118 @@ impl Simulation {
     /// # Errors
     /// When the solver cannot be set up.
     pub fn with_scheme(scene: Scene, scheme: Scheme) -> Result<Self, Error> {
-        let (clock, settle, scene_hash) = (scene.clock, scene.settle, scene.hash.clone());
-        let scene_motion = scene.motion_seconds;
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
-        let span = |panel: &Panel| PanelSpan {
-            name: panel.name.clone(),
-            fabric: scene.materials[panel.material].name.clone(),
-            particles: panel.particles(),
-        };
-        let panels = scene.panels.iter().map(span).collect();
-        let worn = scene.garments.iter().cloned();
-        let worn: Vec<Worn> = worn.map(|own| Worn::new(own, &scene.positions)).collect();
-        let ground = if worn.is_empty() {
-            None
-        } else {
-            lowest(scene.bodies.iter().map(|moving| &moving.body))
-        };
-        let reaches = reaches(&scene.materials);
-        let free_edges = free_edges(&scene);
-        let sewn = scene.sewing.as_ref();
-        let sewn = sewn.map_or_else(Stitching::default, |sewing| sewing.stitching.clone());
+        let (schedule, scene_hash) = (scene.schedule, scene.source.hash.clone());
+        let parts = GarmentParts::new(&scene);
         let world = World::new(scene)?;
-        let creeps = if sewn.is_empty() {
-            world.creeps.then_some(Accuracy::CREEPING)
-        } else {
-            Some(phases::SEWING)
+        let (name, steps) = match (parts.seams.is_empty(), schedule.relaxation) {
+            (false, _) => (PhaseName::Sew, PhaseSteps::sewing(spacing)),
+            (true, own @ Some(_)) => (PhaseName::Relax, PhaseSteps::new(own, world.relaxes())),
+            (true, None) => (PhaseName::Simulate, PhaseSteps::new(None, world.relaxes())),
         };
-        let (now, accuracy) = scheme.on_the_way(creeps);
-        let integration = now.start(&world)?;
-        let order = phases::order(&scheme);
-        let name = match (sewn.is_empty(), settle) {
-            (false, _) => PhaseName::Sew,
-            (true, Some(_)) => PhaseName::Relax,
-            (true, None) => PhaseName::Simulate,
-        };
-        let strides = if sewn.is_empty() { settle } else { Some(phases::strides(spacing)) };
         Ok(Self {
-            motion: IntegratorState {
-                velocities: world.state.velocities.clone(),
-                ..IntegratorState::at_rest(world.state.positions.clone())
-            },
-            estimate: ErrorEstimate::new(world.cloth.particles()),
+            stepping: Stepping::new(&world, scheme, schedule.clock, steps)?,
             world,
-            scheme,
-            integration,
-            weld: None,
-            sewn,
-            free_edges,
-            measures: serde_json::Map::new(),
-            accuracy,
-            motion_seconds: scene_motion,
-            rested: false,
-            pace: Pace::new(clock, strides, order),
-            clock,
-            settle,
-            scene_hash,
-            steps: 0,
-            ticks: 0,
-            quiet_ticks: 0,
-            speed_max: 0.0,
-            imbalance: f64::NAN,
+            rest: RestDetector::new(schedule.relaxation),
+            phases: Phases {
+                begun: vec![Phase { name, start: 0.0, frame: 0 }],
+                motion_seconds: schedule.motion_seconds,
+                rested: false,
+            },
+            parts,
+            statistics: Statistics::new(),
+            last: LastStep { speed_max: 0.0, imbalance: f64::NAN },
+            outcome: Outcome {
+                status: Status::Ok,
+                reason: None,
+                warnings: Vec::new(),
+                measures: serde_json::Map::new(),
+            },
+            frame: 0,
             spacing,
-            panels,
-            worn,
-            ground,
-            reaches,
-            phases: vec![Phase { name, start: 0.0, frame: 0 }],
-            warnings: Vec::new(),
-            frames: 0,
-            status: Status::Ok,
-            reason: None,
-            solver: Solver::default(),
-            iterations: 0,
-            pairs_max: 0,
-            pinched_max: [0; 2],
-            distance_min: f64::INFINITY,
+            scene_hash,
             stopwatch: Stopwatch::start(),
         })
     }
 
-    /// Time of the end at the latest, in ticks of the clock.
+    /// Returns the time of the end at the latest, in ticks of the clock.
     #[must_use]
     pub fn ticks_to_do(&self) -> usize {
-        self.clock.ticks_to_do()
+        self.stepping.clock().ticks_to_do()
     }
 
-    /// Time so far, in s.
+    /// Returns the time so far, in s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.ticks as f64 * self.clock.tick()
+        self.stepping.time()
     }
 
-    /// The cloth now.
+    /// Returns cloth and bodies now.
     #[must_use]
     pub fn frame(&self) -> Frame {
-        let positions = self.motion.positions.clone();
-        let bodies = self.outlines().into_iter().flat_map(|outline| outline.vertices).flatten();
-        let (bodies, grown) = (bodies.collect(), self.world.grown());
-        Frame { number: self.frames, time: self.time(), positions, bodies, grown }
+        let bodies = self.world.contact.triangulations();
+        Frame {
+            number: self.frame,
+            time: self.time(),
+            positions: self.world.state.positions.clone(),
+            bodies: bodies.into_iter().flat_map(|body| body.vertices).flatten().collect(),
+            grown: self.world.contact.growth_fraction(),
+        }
     }
 
-    /// Smallest distance of particles before deformation, in m.
+    /// Returns cloth and bodies now, for a picture.
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot::new(&self.world, self.spacing)
+    }
+
+    /// Returns the data that all frames have in common.
+    #[must_use]
+    pub fn topology(&self) -> Topology {
+        Topology::new(&self.world, &self.parts)
+    }
+
+    /// Returns the smallest distance of particles before deformation, in m.
     #[must_use]
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
 
-    /// Material coordinates of the particles, in m.
+    /// Returns the material coordinates of the particles, in m.
     #[must_use]
     pub fn coordinates(&self) -> &[[f64; 2]] {
         self.world.cloth.coordinates()
     }
 
-    /// Triangles of the surface.
+    /// Returns the triangles of the surface.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         self.world.cloth.triangles()
     }
 
-    /// The bodies and the cloth's contact with them.
-    #[must_use]
-    pub fn contact(&self) -> &drape_collide::ParticleContact {
-        &self.world.contact
-    }
-
-    /// Whether the scene asks for rest.
+    /// Returns whether the scene asks for rest.
     #[must_use]
     pub fn settles(&self) -> bool {
-        self.settle.is_some()
+        self.rest.criteria.is_some()
     }
 
-    /// What each pin bears, in the order of the scene, without the inertia of what it holds; nothing once it has let go.
+    /// Returns the loads of the pins, in the order of the scene, without the inertia of the particles that they hold; those
+    /// of a pin that has let go are zero.
     pub fn pin_loads(&mut self) -> Vec<PinLoad> {
-        self.world.pin_loads(self.time())
+        self.world.pin_loads(self.stepping.time())
     }
 
-    /// The balance of the energy since the start, unless the scene does without.
+    /// Returns the balance of the energy since the start, unless the scene does without.
     #[must_use]
     pub fn energy(&self) -> Option<Energy> {
-        let ledger = self.world.ledger.as_ref()?;
-        Some(ledger.balance(self.world.kinetic()))
+        self.world.energy()
+    }
+
+    /// Returns the hash of positions, velocities and memories to the last bit.
+    #[must_use]
+    pub fn state_hash(&self) -> String {
+        state_hash(&self.world)
     }
 
     /// Advances by one step.
@@ -285,50 +270,51 @@ impl Simulation {
     /// # Errors
     /// When the step cannot be solved even in parts; the state is then the last good one.
     pub fn step(&mut self) -> Result<Step, drape_implicit::Error> {
-        // The clock counts ticks; a sum of lengths would drift.
-        self.motion.time = self.time();
-        let (ticks, report) = self.advance()?;
-        let dt = ticks as f64 * self.clock.tick();
-        self.steps += 1;
-        self.ticks += ticks;
-        self.count(&report);
+        let MadeStep { ticks, report } =
+            self.stepping.advance(&mut self.world, &mut self.statistics)?;
+        let dt = ticks as f64 * self.stepping.clock().tick();
+        if let Some(balance) = &mut self.world.balance {
+            balance.add_report(&report);
+        }
+        self.statistics.add_step(&report, &self.world);
         let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
-        let squares = self.motion.velocities.chunks_exact(3).map(square);
-        self.speed_max = squares.fold(0.0, f64::max).sqrt();
-        self.imbalance = self.acceleration(dt) / GRAVITY;
-        self.pace.follow(ticks, self.speed_max * dt);
-        match self.world.stitches() {
-            Some(_) => self.judge_seams()?,
-            None => {
-                self.judge_rest(ticks)?;
-                self.judge_fall();
+        let squares = self.world.state.velocities.chunks_exact(3).map(square);
+        let speed_max = squares.fold(0.0, f64::max).sqrt();
+        let imbalance = self.stepping.acceleration(&self.world, dt) / GRAVITY;
+        self.last = LastStep { speed_max, imbalance };
+        self.stepping.adapt_to_displacement(ticks, speed_max * dt);
+        match self.world.closing_springs().is_some() {
+            true => self.check_seams()?,
+            false => {
+                self.check_rest(ticks)?;
+                self.check_fall();
             }
         }
-        self.judge_growth();
-        if let (true, Some(seconds)) = (self.at_rest(), self.motion_seconds) {
+        self.check_growth();
+        if let (true, Some(seconds)) = (self.is_at_rest(), self.phases.motion_seconds) {
             self.set_in_motion(seconds)?;
         }
+        let over = self.stepping.ticks() >= self.ticks_to_do();
         Ok(Step {
             time: self.time(),
             dt,
-            speed_max: self.speed_max,
-            imbalance: self.imbalance,
+            speed_max,
+            imbalance,
             report,
-            finished: self.at_rest()
-                || self.status != Status::Ok
-                || self.ticks >= self.ticks_to_do(),
+            finished: self.is_at_rest() || self.outcome.status != Status::Ok || over,
         })
     }
 
-    /// Runs to the end, to rest, or to a step that cannot be solved; how it ended is in the summary.
+    /// Runs to the end, to rest, or to a step that cannot be solved; the summary says how it ended.
     ///
     /// # Errors
     /// Only those of the watcher.
     pub fn run(&mut self, progress: &mut dyn Progress) -> Result<Summary, Error> {
         progress.frame(&self.frame())?;
+        let ticks_per_frame = self.stepping.clock().ticks_per_frame;
         loop {
-            let before = self.ticks / self.clock.ticks_per_frame;
-            let phases = self.phases.len();
+            let frames = self.stepping.ticks() / ticks_per_frame;
+            let phases = self.phases.begun.len();
             let step = match self.step() {
                 Ok(step) => step,
                 Err(error) => {
@@ -336,21 +322,192 @@ impl Simulation {
                     break;
                 }
             };
-            progress.step(&step, self.ticks);
-            let due = self.ticks / self.clock.ticks_per_frame > before;
-            if step.finished || due || self.phases.len() > phases {
-                self.frames += 1;
+            progress.step(&step, self.stepping.ticks());
+            let due = self.stepping.ticks() / ticks_per_frame > frames;
+            if step.finished || due || self.phases.begun.len() > phases {
+                self.frame += 1;
                 progress.frame(&self.frame())?;
             }
             if step.finished {
-                if self.status == Status::Ok && self.settle.is_some() && !self.settled() {
-                    self.status = Status::DidNotSettle;
+                if self.outcome.status == Status::Ok && self.settles() && !self.has_settled() {
+                    self.outcome.status = Status::DidNotSettle;
                 }
                 break;
             }
         }
-        self.measures = self.measure();
-        self.warnings = [self.sunk(), self.extrapolated(), self.stunted()].concat();
+        self.outcome.measures = measures(&self.parts, &mut self.world);
+        self.outcome.warnings = warnings(&self.parts, &self.world);
+        self.outcome.warnings.extend(self.unfinished_growth());
         Ok(self.summary())
+    }
+
+    /// Returns the summary of the run so far.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        let World { cloth, state, .. } = &self.world;
+        let strains = cloth.strains(state);
+        Summary {
+            status: self.outcome.status.clone(),
+            reason: self.outcome.reason.clone(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            scene_hash: self.scene_hash.clone(),
+            particles: cloth.particles(),
+            phases: self.phases.begun.clone(),
+            steps: self.statistics.steps,
+            frames: self.frame + 1,
+            simulated_seconds: self.time(),
+            wall_seconds: self.stopwatch.wall_seconds(),
+            cpu_seconds: self.stopwatch.cpu_seconds(),
+            threads: rayon::current_num_threads(),
+            solver: self.statistics.solver(),
+            energy: self.energy(),
+            strain: Strain {
+                traction_max: strains.traction_max,
+                traction_p99: strains.traction_p99,
+                shear_max: strains.shear_max,
+                curvature_p99: strains.curvature_p99,
+            },
+            contact: self.statistics.contacts(&self.world),
+            settled: self.has_settled(),
+            speed_max: self.last.speed_max,
+            imbalance: self.last.imbalance,
+            state_hash: self.state_hash(),
+            warnings: self.outcome.warnings.clone(),
+            measures: self.outcome.measures.clone(),
+        }
+    }
+
+    /// Begins a phase, whose first frame is the next one.
+    fn begin_phase(&mut self, name: PhaseName) {
+        let (start, frame) = (self.time(), self.frame + 1);
+        self.phases.begun.push(Phase { name, start, frame });
+    }
+
+    /// Ends the sewing when the seams are closed, or when they do not close.
+    fn check_seams(&mut self) -> Result<(), drape_implicit::Error> {
+        let Some(springs) = self.world.closing_springs() else { return Ok(()) };
+        let positions = &self.world.state.positions;
+        match springs.closing(positions, self.stepping.time(), self.last.imbalance) {
+            Closing::Closing => {}
+            Closing::Closed => self.finish_sewing()?,
+            Closing::Failed(gap) => {
+                let first = 3 * gap.ends[0] as usize;
+                let [x, y, z] = [0, 1, 2].map(|axis| positions[first + axis]);
+                let [one, other] = gap.ends.map(|end| self.parts.panel_of(end as usize));
+                let reason = format!(
+                    "the seam between \"{one}\" and \"{other}\" is still open by {:.2} mm near ({x:.4}, {y:.4}, {z:.4}) m",
+                    1e3 * gap.width
+                );
+                self.end_early(Status::SeamsOpen, reason);
+            }
+        }
+        Ok(())
+    }
+
+    /// Merges the two sides of every seam; the garment begins to hang.
+    fn finish_sewing(&mut self) -> Result<(), drape_implicit::Error> {
+        let mut positions = self.world.state.positions.clone();
+        merge(&self.parts.seams, self.world.cloth.masses(), &mut positions);
+        self.parts.garments.iter_mut().for_each(|garment| garment.hang(&positions));
+        self.world.finish_sewing(self.stepping.time(), &positions);
+        let relaxation = self.rest.criteria;
+        self.world.set_relaxing(relaxation.is_some_and(|own| !own.inertia));
+        self.stepping.reduce(&self.world, &self.parts.seams)?;
+        self.begin_phase(match relaxation {
+            Some(_) => PhaseName::Relax,
+            None => PhaseName::Simulate,
+        });
+        self.restart(relaxation)
+    }
+
+    /// Sets bodies and pins in motion for so many seconds; the cloth, which is at rest, has inertia from now on.
+    fn set_in_motion(&mut self, seconds: f64) -> Result<(), drape_implicit::Error> {
+        self.phases.rested = true;
+        self.phases.motion_seconds = None;
+        self.rest.criteria = None;
+        self.world.set_in_motion(self.stepping.time());
+        self.stepping.end_after(seconds);
+        self.begin_phase(PhaseName::Simulate);
+        self.restart(None)
+    }
+
+    /// Goes on from rest at the positions of the world.
+    fn restart(&mut self, relaxation: Option<Relaxation>) -> Result<(), drape_implicit::Error> {
+        let steps = PhaseSteps::new(relaxation, self.world.relaxes());
+        self.stepping.restart(&mut self.world, steps)
+    }
+
+    /// Takes a step of so many ticks into account for the detection of rest.
+    fn check_rest(&mut self, ticks: usize) -> Result<(), drape_implicit::Error> {
+        let Some(criteria) = self.rest.criteria else { return Ok(()) };
+        let LastStep { speed_max, imbalance } = self.last;
+        let exact = self.stepping.refine(&mut self.world, &criteria, imbalance)?;
+        let counts = exact && self.time() >= self.world.last_change();
+        self.rest.update(&StepMotion { ticks, speed_max, imbalance, counts });
+        Ok(())
+    }
+
+    /// Ends a run in which a garment fell off.
+    fn check_fall(&mut self) {
+        if self.settles()
+            && let Some(reason) = fallen(&self.parts, &self.world.state.positions)
+        {
+            self.end_early(Status::FellOff, reason);
+        }
+    }
+
+    /// Ends a run in which surfaces are held nearer to each other than their distances.
+    fn check_growth(&mut self) {
+        let Some(surfaces) = self.world.contact.surfaces() else { return };
+        if self.outcome.status == Status::Ok && surfaces.growth_is_stuck(self.time()) {
+            let percent = 100.0 * surfaces.contact.growth_fraction();
+            let reason = format!(
+                "surfaces came to {percent:.2} % of the distances that they keep{}",
+                self.closest_place()
+            );
+            self.end_early(Status::HeldTogether, reason);
+        }
+    }
+
+    /// Warning about a run that ended before surfaces kept their whole distances.
+    fn unfinished_growth(&self) -> Option<String> {
+        let fraction = self.world.contact.growth_fraction();
+        (fraction < 1.0 && self.outcome.status == Status::Ok).then(|| {
+            format!(
+                "surfaces keep only {:.2} % of their distances yet: the run ended before contact.grow",
+                100.0 * fraction
+            )
+        })
+    }
+
+    /// Notes why a step could not be made.
+    fn fail(&mut self, error: &drape_implicit::Error) {
+        let status = match error {
+            drape_implicit::Error::NotConverged { stop: Stop::Intersection, .. } => {
+                Status::CertificateFailed
+            }
+            _ => Status::SolverFailed,
+        };
+        self.end_early(status, format!("{error}{}", self.closest_place()));
+    }
+
+    fn end_early(&mut self, status: Status, reason: String) {
+        self.outcome.status = status;
+        self.outcome.reason = Some(reason);
+    }
+
+    /// Place where surfaces are closest to their minimum separation, for the end of a message.
+    fn closest_place(&self) -> String {
+        let surfaces = self.world.contact.surfaces();
+        let place = surfaces.and_then(|own| own.describe_closest(&self.world.state.positions));
+        place.map(|place| format!("; {place}")).unwrap_or_default()
+    }
+
+    fn is_at_rest(&self) -> bool {
+        self.rest.is_at_rest(self.stepping.clock().tick())
+    }
+
+    fn has_settled(&self) -> bool {
+        self.phases.rested || self.is_at_rest()
     }
 }

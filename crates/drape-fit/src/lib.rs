@@ -1,50 +1,47 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! [`identify`] turns a sheet into a [`Fit`]. Its chapters, each using only those above it:
+//!
+//! * `settings`: which laws are fitted, and how.
+//! * `forward`: the loads of a law along a measured history of deformations.
+//! * `regression`: initial guesses, multistart search, model selection, uncertainty of one fit.
+//! * `curves`: one law from one test: [`identify_tensile`], [`identify_bending`],
+//!   [`identify_loop_bending`], [`identify_shear`].
+//! * `values`: laws from KES values ([`tensile_from_values`], …) and values from laws
+//!   ([`fabric_values`]).
+//! * `fabric`: the whole sheet, with defaults for what it lacks; batches of sheets.
 
-mod assumed;
-mod basis;
-mod batch;
-mod bending;
-mod choice;
-mod curve_fit;
-mod elastica;
-mod elliptic;
 mod error;
-mod estimate;
-mod fabric_keys;
-mod fabric_values;
-mod from_values;
-mod history;
-mod identify;
-mod line;
-mod loop_bending;
-mod loop_model;
-mod measured;
-mod prediction;
-mod pull;
-mod reach;
-mod search;
-mod shear;
-mod shear_from_values;
-mod statistics;
-mod strokes;
-mod tensile;
-mod tensile_start;
-mod tensile_values;
-mod weighting;
+mod settings;
+// Loads of a law along a history.
+mod forward;
+// The regression of one curve.
+mod regression;
+// One law from curves, from values, and values from laws.
+mod curves;
+mod values;
+// The whole fabric.
+mod fabric;
 
-pub use batch::identify_all;
-pub use bending::identify_bending;
-pub use choice::Candidate;
-pub use curve_fit::{CurveFit, Identified};
+pub use curves::bending::identify_bending;
+pub use curves::loop_bending::identify_loop_bending;
+pub use curves::prediction::{Prediction, predict_last_cycle};
+pub use curves::shear::identify_shear;
+pub use curves::tensile::identify_tensile;
 pub use error::Error;
-pub use estimate::{Estimate, Unknown};
-pub use fabric_values::{ValueRow, compare_values, fabric_values};
-pub use from_values::{TensileTarget, bending_from_values, tensile_from_values};
-pub use identify::{Fit, Intervals, Settings, identify, identify_with};
-pub use loop_bending::identify_loop_bending;
-pub use loop_model::{FrictionOrder, LoopModel, Plateau};
-pub use prediction::{Prediction, predict_last_cycle};
-pub use shear::identify_shear;
-pub use shear_from_values::shear_from_values;
-pub use tensile::{Toe, TractionModel, identify_tensile};
-pub use weighting::Weighting;
+pub use fabric::batch::{FittedSheet, identify_all};
+pub use fabric::identify::{Fit, identify, identify_with};
+pub use regression::curve_fit::{CurveFit, Identified};
+pub use regression::estimate::{Estimate, Undetermined};
+pub use regression::selection::Candidate;
+pub use settings::model::{FrictionOrder, LoopModel, Plateau, Toe, TractionModel};
+pub use settings::weighting::Weighting;
+pub use settings::{Intervals, Settings};
+pub use values::bending::bending_from_values;
+pub use values::comparison::{ValueComparison, compare_values};
+pub use values::matched::Matched;
+pub use values::shear::shear_from_values;
+pub use values::simulated::fabric_values;
+pub use values::traction::{TensileTarget, tensile_from_values};

@@ -1,4 +1,5 @@
-//! Many sheets at once: each as if alone, one bad sheet stopping nothing, memory flat.
+//! Many sheets at once: the result of each as if alone, a bad sheet does not stop the others,
+//! memory does not grow.
 
 #![allow(clippy::print_stdout)]
 
@@ -9,7 +10,8 @@ use drape_fit::{Error, Settings, identify, identify_all};
 use drape_kes::{Curve, Direction, Sheet, Test, Values};
 use random::Random;
 
-/// A sheet with tensile values and two noisy bending loops of 200 points, or one that is no fabric's.
+/// Sheet with tensile values and two noisy bending loops of 200 points; a bad one has an impossible
+/// resilience.
 fn sheet(seed: u64, good: bool) -> Sheet {
     let mut random = Random(seed << 32);
     let mut sheet = Sheet::default();
@@ -44,7 +46,7 @@ fn each_fabric_of_a_batch_is_as_if_alone_and_a_bad_one_stops_nothing() {
         &seeds,
         &Settings::default(),
         |&seed| Ok::<_, Error>(sheet(seed, good(seed))),
-        |&seed, result| (seed, result.map(|(_, fit)| fit.clone()).map_err(|e| e.to_string())),
+        |&seed, result| (seed, result.map(|fitted| fitted.fit.clone()).map_err(|e| e.to_string())),
     );
     assert_eq!(summaries.len(), seeds.len());
     for (place, (seed, summary)) in summaries.into_iter().enumerate() {
@@ -56,7 +58,7 @@ fn each_fabric_of_a_batch_is_as_if_alone_and_a_bad_one_stops_nothing() {
     }
 }
 
-/// Highest memory that the process ever held, in kB.
+/// Returns the peak memory of the process, in kB.
 fn peak_memory() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
     let line = status.lines().find(|line| line.starts_with("VmHWM:")).expect("a peak");
@@ -73,7 +75,7 @@ fn ten_thousand_sheets_take_the_memory_of_a_few() {
             &seeds,
             &Settings::default(),
             |&seed| Ok::<_, Error>(sheet(seed, true)),
-            |_, result| result.map_or(f64::NAN, |(_, fit)| fit.curves[0].misfit),
+            |_, result| result.map_or(f64::NAN, |fitted| fitted.fit.curves[0].misfit),
         );
         assert!(misfits.iter().all(|misfit| *misfit < 0.03), "{misfits:?}");
         peaks.push(peak_memory());

@@ -1,4 +1,4 @@
-//! The order of the friction that is chosen is that of the data: 200 noisy loops of each kind.
+//! Model selection finds the order of the friction of the data: 200 noisy loops of each kind.
 
 #![allow(clippy::print_stdout)]
 
@@ -13,16 +13,16 @@ use rayon::prelude::*;
 const TRIALS: u64 = 200;
 /// Standard deviation of the noise over the range of the moments.
 const NOISE: f64 = 0.01;
-/// Least part of the trials in which the law of the data is taken.
+/// Least fraction of the trials in which the law of the data is selected.
 const LEAST: f64 = 0.95;
 /// The KES cycle, and loops that grow from curvatures of drape to those of the test, in 1/m.
 const CYCLE: [f64; 4] = [0.0, 250.0, -250.0, 250.0];
 const NESTED: [f64; 9] = [0.0, 25.0, -25.0, 75.0, -75.0, 150.0, -150.0, 250.0, -250.0];
 
-/// A noisy loop with steps of 2 1/m.
-fn measure(friction: BlimanSorine, turns: &[f64], random: &mut Random) -> Curve {
-    let mut q = vec![turns[0]];
-    for ends in turns.windows(2) {
+/// Returns a noisy loop in steps of 2 1/m.
+fn measure(friction: BlimanSorine, reversals: &[f64], random: &mut Random) -> Curve {
+    let mut q = vec![reversals[0]];
+    for ends in reversals.windows(2) {
         let steps = ((ends[1] - ends[0]).abs() / 2.0).round();
         q.extend((1..=steps as usize).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / steps));
     }
@@ -38,14 +38,14 @@ fn measure(friction: BlimanSorine, turns: &[f64], random: &mut Random) -> Curve 
     Curve::new(Test::Bending, Direction::Warp, q, load).expect("a curve of a law")
 }
 
-/// Part of the trials in which each order is chosen.
-fn chosen(turns: &[f64], friction: impl Fn(&mut Random) -> BlimanSorine + Sync) -> [f64; 3] {
+/// Returns the fraction of the trials in which each order is selected.
+fn chosen(reversals: &[f64], friction: impl Fn(&mut Random) -> BlimanSorine + Sync) -> [f64; 3] {
     let orders: Vec<usize> = (0..TRIALS)
         .into_par_iter()
         .map(|trial| {
             let mut random = Random(trial << 32);
             let friction = friction(&mut random);
-            let curve = measure(friction, turns, &mut random);
+            let curve = measure(friction, reversals, &mut random);
             let fit = identify_bending(&curve, &Settings::default()).expect("identified").fit;
             fit.chosen
         })
@@ -79,9 +79,9 @@ fn parallel(random: &mut Random) -> BlimanSorine {
 
 #[test]
 fn the_order_of_the_friction_is_that_of_the_data() {
-    for (turns, name) in [(&CYCLE[..], "one cycle"), (&NESTED[..], "growing loops")] {
-        let of_first = chosen(turns, first);
-        let of_second = chosen(turns, second);
+    for (reversals, name) in [(&CYCLE[..], "one cycle"), (&NESTED[..], "growing loops")] {
+        let of_first = chosen(reversals, first);
+        let of_second = chosen(reversals, second);
         println!(
             "{name}: made with one element, chosen {of_first:?}; with the second order {of_second:?}"
         );

@@ -1,7 +1,7 @@
 //! Intervals at 95 % must contain the truth in 95 of 100 trials with simulated noise.
 //!
-//! The default run makes fewer trials and allows for the scatter that goes with them. The full run is
-//! `cargo test --release -p drape-fit --test coverage -- --ignored --nocapture`.
+//! The default run makes fewer trials and allows for the scatter that goes with them. The full run
+//! is `cargo test --release -p drape-fit --test coverage -- --ignored --nocapture`.
 
 #![allow(clippy::print_stdout)]
 
@@ -20,17 +20,17 @@ const LEVEL: f64 = 0.95;
 /// Standard deviations of the noise, over the range of the loads.
 const NOISE: [f64; 3] = [0.005, 0.01, 0.02];
 
-/// The loads that a model predicts with some parameters.
+/// Loads of a model with the given parameters.
 type Predict = Box<dyn Fn(&[f64]) -> Vec<f64> + Sync>;
 
-/// A model with its true parameters, each with a name and where the search starts over the truth.
+/// Model with its true parameters and their names.
 struct Case {
     name: &'static str,
     truth: Vec<(&'static str, f64)>,
     predict: Predict,
 }
 
-/// Where the search starts, over the truth.
+/// Start of the search over the truth.
 const START: f64 = 1.3;
 
 struct Trial<'a> {
@@ -50,10 +50,10 @@ impl Problem for Trial<'_> {
     }
 }
 
-/// A history through turning points, with some points in each stretch.
-fn history(turns: &[f64], points: usize) -> Vec<f64> {
-    let mut history = vec![turns[0]];
-    for ends in turns.windows(2) {
+/// Returns a history through reversals, with the given number of points in each branch.
+fn history(reversals: &[f64], points: usize) -> Vec<f64> {
+    let mut history = vec![reversals[0]];
+    for ends in reversals.windows(2) {
         let at = |i: usize| ends[0] + (ends[1] - ends[0]) * i as f64 / points as f64;
         history.extend((1..=points).map(at));
     }
@@ -106,7 +106,7 @@ fn cases() -> [Case; 3] {
     ]
 }
 
-/// What became of the intervals of one parameter.
+/// Number of intervals of one parameter that contain the truth, by method, or are missing.
 #[derive(Clone, Copy, Default)]
 struct Count {
     by_error: usize,
@@ -114,7 +114,7 @@ struct Count {
     missing: usize,
 }
 
-/// One simulated measurement: for each parameter, whether either interval contains the truth.
+/// Fits one simulated measurement: for each parameter, whether either interval contains the truth.
 fn trial(case: &Case, noise: f64, seed: u64) -> Vec<Count> {
     let truth: Vec<f64> = case.truth.iter().map(|(_, value)| *value).collect();
     let mut measured = (case.predict)(&truth);
@@ -150,9 +150,9 @@ fn trial(case: &Case, noise: f64, seed: u64) -> Vec<Count> {
         .collect()
 }
 
-/// Runs trials of every case with every noise, and asserts the part of them that contains the truth.
+/// Runs trials of every case with every noise, and asserts the fraction that contains the truth.
 fn cover(trials: u64, allowed: std::ops::RangeInclusive<f64>) {
-    // Every trial of every case has a noise of its own.
+    // Every trial of every case has its own seed.
     let mut first_seed = 0;
     for case in &cases() {
         for noise in NOISE {
@@ -192,7 +192,8 @@ fn cover(trials: u64, allowed: std::ops::RangeInclusive<f64>) {
 
 #[test]
 fn intervals_contain_the_truth_about_as_often_as_they_say() {
-    // With 300 trials a part scatters by 1.26 %; of 66 parts one in sixty runs has one beyond 3.5 times that.
+    // With 300 trials a part scatters by 1.26 %; of 66 parts one in sixty runs has one beyond 3.5
+    // times that.
     cover(300, 0.906..=0.994);
 }
 

@@ -8,7 +8,7 @@ use drape_fabric::{Law, TractionLaw};
 use drape_fit::{CurveFit, Settings, Toe, TractionModel, identify_loop_bending, identify_tensile};
 use drape_kes::{Curve, Sheet, Test};
 
-/// The curves of files of the cupro weave, some of which its sheet does not use.
+/// Reads curves of the cupro weave, some of which its sheet does not use.
 fn curves(test: &str, slack: bool, files: &[(&str, &str)]) -> Vec<Curve> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fabrics/cupro-weave");
     let mut text = String::from("name = \"cupro\"\n");
@@ -37,10 +37,10 @@ fn print(fit: &CurveFit) {
         "{}: residual {:.2} %, {:.0} independent points",
         fit.name,
         100.0 * fit.misfit,
-        fit.independent
+        fit.effective_points
     );
     for estimate in &fit.parameters {
-        match &estimate.error {
+        match &estimate.standard_error {
             Ok(error) => {
                 println!("    {:12} {:11.4e} ± {error:.1e}", estimate.name, estimate.value)
             }
@@ -53,7 +53,7 @@ fn value(fit: &CurveFit, name: &str) -> f64 {
     fit.parameters.iter().find(|estimate| estimate.name == name).expect("a parameter").value
 }
 
-/// Strain at a tension of a fabric that was never stretched.
+/// Returns the strain of a virgin fabric at a tension.
 fn strain_at(law: &TractionLaw, tension: f64) -> f64 {
     let (mut low, mut high) = (0.0, 0.2);
     for _ in 0..60 {
@@ -77,7 +77,7 @@ fn strips_of_two_lengths_agree_to_the_scatter_of_specimens() {
             .iter()
             .map(|curve| {
                 let found = identify_tensile(curve, &settings).expect("identified");
-                println!("load to {:.1} N/m", curve.load_range().1);
+                println!("load to {:.1} N/m", curve.load_range().high);
                 print(&found.fit);
                 found.law
             })
@@ -115,7 +115,8 @@ fn arches_of_one_fabric_scatter_by_more_than_their_errors() {
             .collect();
         let up_down = alone[0] / alone[1];
         println!("  {direction}: rigidities {alone:?}, up over down {up_down:.2}");
-        // Weight lifts one and presses the other, and the zero drifts: a factor of a few between them.
+        // Weight acts on both with opposite signs, and the zero drifts: they differ by a factor of
+        // a few.
         assert!(up_down > 0.1 && up_down < 10.0, "{direction}: {up_down}");
     }
 }

@@ -1,4 +1,4 @@
-//! A fabric from values alone, and what is said about everything that a sheet does not have.
+//! A fabric from values alone, with a note on everything that the sheet does not have.
 
 use drape_fabric::{BendingBackbone, Fabric, Law, drive};
 use drape_fit::{FrictionOrder, LoopModel, Settings, identify, identify_with};
@@ -6,10 +6,10 @@ use drape_kes::{BendingPoints, Curve, Direction, Model, ShearPoints, Sheet, Test
 
 const STEPS: usize = 4000;
 
-/// The curve that a KES instrument would draw of a law.
-fn cycle(test: Test, law: &impl Law, turns: &[f64]) -> Curve {
-    let mut q = vec![turns[0]];
-    for ends in turns.windows(2) {
+/// Returns the curve of a simulated KES test of a law.
+fn cycle(test: Test, law: &impl Law, reversals: &[f64]) -> Curve {
+    let mut q = vec![reversals[0]];
+    for ends in reversals.windows(2) {
         q.extend((1..=STEPS).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / STEPS as f64));
     }
     let driven: Vec<f64> = match test {
@@ -20,18 +20,18 @@ fn cycle(test: Test, law: &impl Law, turns: &[f64]) -> Curve {
     Curve::new(test, Direction::Warp, q, load).expect("a curve of a law")
 }
 
-/// All sixteen values of a fabric, as the instrument would find them.
+/// Returns the KES values of a fabric from simulated tests.
 fn values_of(fabric: &Fabric, direction: Direction, extension: f64) -> Values {
     let laws = match direction {
         Direction::Warp => &fabric.warp,
         Direction::Weft => &fabric.weft,
     };
-    let pull = cycle(Test::Tensile, &laws.traction, &[0.0, extension, 0.0]);
-    let tensile = pull.tensile_values().expect("a pull");
+    let stretched = cycle(Test::Tensile, &laws.traction, &[0.0, extension, 0.0]);
+    let tensile = stretched.tensile_values().expect("a cycle");
     let loop_ = cycle(Test::Bending, &laws.bending, &[0.0, 250.0, -250.0, 250.0]);
     let bending = loop_.bending_values(&BendingPoints::default()).expect("a loop");
-    let turns = [0.0, 8.0, -8.0, 8.0].map(f64::to_radians);
-    let loop_ = cycle(Test::Shear, &fabric.shear, &turns);
+    let reversals = [0.0, 8.0, -8.0, 8.0].map(f64::to_radians);
+    let loop_ = cycle(Test::Shear, &fabric.shear, &reversals);
     let shear = loop_.shear_values(&ShearPoints::default()).expect("a loop");
     Values {
         b: Some(bending.rigidity / 9.806_65e-5),
@@ -88,8 +88,8 @@ fn a_fabric_from_values_has_these_values() {
         ];
         for (found, exact) in pairs {
             let (found, exact) = (found.expect("measured"), exact.expect("given"));
-            // The curve is drawn with 4000 points a branch and read by lines between them; that the law has
-            // the values is exact.
+            // The law has the values exactly; the curve has 4000 points a branch and is
+            // interpolated linearly.
             assert!((found / exact - 1.0).abs() < 1e-4, "{direction:?}: {found} against {exact}");
         }
     }
@@ -168,7 +168,10 @@ fn a_missing_direction_is_taken_from_the_other() {
 
 #[test]
 fn a_curve_comes_before_the_values() {
-    let law = drape_fit::bending_from_values(2e-5, 1e-3);
+    let law = drape_fit::bending_from_values(&drape_kes::BendingValues {
+        rigidity: 2e-5,
+        loop_width: 1e-3,
+    });
     let mut sheet = sheet(WARP, WARP);
     sheet.curves.push(cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]));
     let fit = identify(&sheet).expect("identified");
@@ -206,10 +209,13 @@ fn a_work_that_linearity_and_extension_contradict_is_named() {
 
 #[test]
 fn the_number_of_threads_does_not_matter() {
-    let law = drape_fit::bending_from_values(2e-5, 1e-3);
+    let law = drape_fit::bending_from_values(&drape_kes::BendingValues {
+        rigidity: 2e-5,
+        loop_width: 1e-3,
+    });
     let mut sheet = sheet(WARP, WARP);
     let mut loop_ = cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]);
-    // Noise, so that the search does not end where every path ends.
+    // With noise the end of the search depends on its path.
     let noisy = loop_.load().iter().enumerate().map(|(i, m)| m + 1e-5 * ((i * i) as f64).sin());
     loop_ =
         Curve::new(Test::Bending, Direction::Warp, loop_.deformation().to_vec(), noisy.collect())
@@ -224,7 +230,10 @@ fn the_number_of_threads_does_not_matter() {
 
 #[test]
 fn a_sheet_asks_for_a_law_and_the_settings_overrule_it() {
-    let law = drape_fit::bending_from_values(2e-5, 1e-3);
+    let law = drape_fit::bending_from_values(&drape_kes::BendingValues {
+        rigidity: 2e-5,
+        loop_width: 1e-3,
+    });
     let mut sheet = sheet(WARP, WARP);
     sheet.curves.push(cycle(Test::Bending, &law, &[0.0, 250.0, -250.0, 0.0]));
     sheet.model = Some(Model::Breen1994);

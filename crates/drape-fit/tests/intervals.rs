@@ -1,7 +1,8 @@
-//! The 95 % intervals that a fit reports contain the truth in 95 of 100 noisy curves, parameter by parameter.
+//! The 95 % intervals that a fit reports contain the truth in 95 of 100 noisy curves, parameter by
+//! parameter.
 //!
-//! Unlike `coverage`, which tries the minimiser, this tries what a user gets: starts read off the curve, weights,
-//! and the widening for residuals that are alike. The full run is
+//! Unlike `coverage`, which tests the minimiser, this tests the whole fit: initial guesses from the
+//! curve, weights, and the widening for correlated residuals. The full run is
 //! `cargo test --release -p drape-fit --test intervals -- --ignored --nocapture`.
 
 #![allow(clippy::print_stdout)]
@@ -25,7 +26,7 @@ use rayon::prelude::*;
 /// Standard deviations of the noise, over the range of the loads.
 const NOISE: [f64; 3] = [0.005, 0.01, 0.02];
 
-/// A curve without noise, and the parameters it was made with.
+/// Curve without noise, with the parameters that it was made with.
 struct Case {
     name: &'static str,
     curve: Curve,
@@ -44,9 +45,9 @@ impl Case {
     }
 }
 
-fn history(turns: &[f64], points: usize) -> Vec<f64> {
-    let mut history = vec![turns[0]];
-    for ends in turns.windows(2) {
+fn history(reversals: &[f64], points: usize) -> Vec<f64> {
+    let mut history = vec![reversals[0]];
+    for ends in reversals.windows(2) {
         let at = |i: usize| ends[0] + (ends[1] - ends[0]) * i as f64 / points as f64;
         history.extend((1..=points).map(at));
     }
@@ -84,7 +85,7 @@ fn cases() -> Vec<Case> {
         plateau: Some(Plateau::Growing),
         ..Settings::default()
     };
-    let pulls = history(&[0.0, 0.035, 0.0, 0.05, 0.0], 50);
+    let cycles = history(&[0.0, 0.035, 0.0, 0.05, 0.0], 50);
     let own = [("stiffness", 1.4e4), ("toe_ratio", 0.65), ("toe_strain", 0.018)];
     let friction = [("plateau", 18.0), ("length", 0.003)];
     let bending = BendingLaw {
@@ -107,7 +108,7 @@ fn cases() -> Vec<Case> {
         },
         Case {
             name: "tensile, two cycles and a toe that moves",
-            curve: curve(Test::Tensile, &tensile(1.3), pulls),
+            curve: curve(Test::Tensile, &tensile(1.3), cycles),
             truth: [&own[..], &[("toe_growth", 1.3)], &friction].concat(),
             settings: tension(Toe::Moving),
         },
@@ -132,11 +133,11 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// For each parameter whether its interval contains the truth, or is missing.
+/// Returns for each parameter whether its interval contains the truth, and whether it is missing.
 fn trial(case: &Case, (noise, intervals): (f64, Intervals), seed: u64) -> Vec<[usize; 2]> {
-    let (low, high) = case.curve.load_range();
+    let span = case.curve.load_range().span();
     let mut random = Random(seed);
-    let load = case.curve.load().iter().map(|f| f + noise * (high - low) * random.normal());
+    let load = case.curve.load().iter().map(|f| f + noise * span * random.normal());
     let q = case.curve.deformation().to_vec();
     let curve = Curve::new(case.curve.test, Direction::Warp, q, load.collect()).expect("a curve");
     let fit = case.fit(&curve, intervals);
@@ -150,10 +151,10 @@ fn trial(case: &Case, (noise, intervals): (f64, Intervals), seed: u64) -> Vec<[u
     counts.collect()
 }
 
-/// Largest part of the trials in which a parameter may have no interval.
+/// Largest fraction of the trials in which a parameter may have no interval.
 ///
-/// At 2 % noise the profile of a toe that moves can be followed to no end in 4 of 100 curves, because the toe
-/// has reached a bound: that is said instead of an interval.
+/// At 2 % noise the profile of a moving toe has no end in 4 of 100 curves, because the toe is at a
+/// bound: the reason is given in place of an interval.
 const OPEN: f64 = 0.05;
 
 fn cover(trials: u64, intervals: Intervals, allowed: RangeInclusive<f64>) {
@@ -191,9 +192,9 @@ fn the_band_contains_the_true_law_at_each_point_in_95_of_100_trials() {
         let inside: Vec<f64> = (0..TRIALS)
             .into_par_iter()
             .map(|seed| {
-                let (low, high) = case.curve.load_range();
+                let span = case.curve.load_range().span();
                 let mut random = Random(seed << 32);
-                let noise = case.curve.load().iter().map(|_| 0.01 * (high - low) * random.normal());
+                let noise = case.curve.load().iter().map(|_| 0.01 * span * random.normal());
                 let load = case.curve.load().iter().zip(noise).map(|(f, noise)| f + noise);
                 let q = case.curve.deformation().to_vec();
                 let curve = Curve::new(case.curve.test, Direction::Warp, q, load.collect());
@@ -205,14 +206,14 @@ fn the_band_contains_the_true_law_at_each_point_in_95_of_100_trials() {
             .collect();
         let part = inside.iter().sum::<f64>() / TRIALS as f64;
         println!("{}: {:.1} % of the points of the true law in the band", case.name, 100.0 * part);
-        // The part of one curve scatters by some 0.1, that of all by 0.01.
+        // The fraction of one curve scatters by some 0.1, that of all by 0.01.
         assert!((0.92..=0.98).contains(&part), "{}: {part}", case.name);
     }
 }
 
 #[test]
 fn reported_intervals_contain_the_truth_about_as_often_as_they_say() {
-    // With 100 trials a part scatters by 2.2 %: this is 3.5 times that on either side.
+    // With 100 trials a fraction scatters by 2.2 %: this is 3.5 times that on either side.
     cover(100, Intervals::Wald, 0.873..=1.0);
 }
 

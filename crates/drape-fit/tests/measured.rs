@@ -1,4 +1,4 @@
-//! The shipped fabrics: how well the laws follow what was measured.
+//! Shipped fabrics: misfit of the laws to the measured curves.
 
 #![allow(clippy::print_stdout)]
 
@@ -27,9 +27,9 @@ fn print(fit: &CurveFit) {
         fit.name,
         100.0 * fit.misfit,
         100.0 * fit.weighted_misfit,
-        fit.determination,
+        fit.r_squared,
         fit.autocorrelation,
-        fit.independent,
+        fit.effective_points,
         fit.iterations,
         fit.evaluations,
         fit.stop
@@ -45,7 +45,7 @@ fn print(fit: &CurveFit) {
     for estimate in &fit.parameters {
         println!(
             "    {:12} {:12.5e} ± {:?} unweighted {:.5e}",
-            estimate.name, estimate.value, estimate.error, estimate.unweighted
+            estimate.name, estimate.value, estimate.standard_error, estimate.unweighted
         );
     }
 }
@@ -121,7 +121,7 @@ fn tagawas_law_is_found_again_in_the_loops_generated_from_it() {
         (friction.length, 100.0 / 24.94),
     ];
     for (found, exact) in exact {
-        // The file gives five decimals of gf·cm/cm, 1e-5 of its range: rounding is all that is left.
+        // The file has five decimals of gf·cm/cm, 1e-5 of its range: rounding.
         assert!((found / exact - 1.0).abs() < 2e-4, "{found:e} against {exact:e}");
     }
     assert!(misfit(&fit, "bending loops, warp") < 1e-5);
@@ -158,7 +158,8 @@ fn matsudairas_values_become_fabrics_that_have_them() {
 fn every_shipped_curve_is_followed_within_two_percent_but_the_arches() {
     for name in ["cupro-weave", "tagawa-2003", "matsudaira-a", "matsudaira-b"] {
         for curve in fabric(name).curves {
-            // The arches' force drifts by as much as the stiffness changes it, and up and down disagree.
+            // The force of the arches drifts by as much as the stiffness changes it, and up and
+            // down disagree.
             let most = if curve.test == Test::LoopBending { 0.09 } else { 0.02 };
             assert!(curve.misfit < most, "{}: {}", curve.name, curve.misfit);
         }

@@ -1,7 +1,8 @@
-//! Noise-free recovery: parameters → curve → fit must return every parameter that the curve determines.
+//! Noise-free recovery: parameters → curve → fit must return every parameter that the curve
+//! determines.
 //!
-//! The fabrics are random within the ranges of real ones, and the search starts from what it sees in the
-//! curve, never from the truth.
+//! The fabrics are random within the ranges of real ones, and the search starts from the
+//! features of the curve, never from the truth.
 
 #![allow(clippy::print_stdout)]
 
@@ -20,10 +21,11 @@ use random::Random;
 
 const FABRICS: u64 = 100;
 
-/// What a parameter may be off by, relative to itself.
+/// Largest relative error of a parameter.
 ///
-/// The loads are exact to 1e-16 of their range and the worst conditioned parameter, the short friction
-/// length of a second order, moves them by some 1e-4 of it per unit: 1e-6 leaves five digits for that.
+/// The loads are exact to 1e-16 of their range and the worst conditioned parameter, the short
+/// friction length of a second order, moves them by some 1e-4 of it per unit: 1e-6 leaves five
+/// digits for that.
 const TOLERANCE: f64 = 1e-6;
 
 fn primed_settings() -> Settings {
@@ -44,10 +46,10 @@ fn loops(model: LoopModel) -> Settings {
     }
 }
 
-/// A history through the given turning points, in steps of about the given size.
-fn history(turns: &[f64], step: f64) -> Vec<f64> {
-    let mut history = vec![turns[0]];
-    for ends in turns.windows(2) {
+/// Returns a history through reversals, in steps of about the given size.
+fn history(reversals: &[f64], step: f64) -> Vec<f64> {
+    let mut history = vec![reversals[0]];
+    for ends in reversals.windows(2) {
         let count = ((ends[1] - ends[0]).abs() / step).ceil() as usize;
         history
             .extend((1..=count).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / count as f64));
@@ -68,7 +70,7 @@ fn values(fit: &CurveFit) -> Vec<f64> {
     fit.parameters.iter().map(|estimate| estimate.value).collect()
 }
 
-/// The largest relative error over many fabrics, with the fabric and the parameter it belongs to.
+/// Asserts the largest relative error over many fabrics, and prints its fabric and parameter.
 fn worst<L>(
     name: &str,
     fabrics: u64,
@@ -112,7 +114,8 @@ fn worst<L>(
     );
 }
 
-/// The strain at which a virgin fabric bears 490 N/m is 2 to 10 %, the toe a fifth to three fifths of it.
+/// The strain at which a virgin fabric bears 490 N/m is 2 to 10 %, the toe a fifth to three fifths
+/// of it.
 fn primed(random: &mut Random) -> (Vec<f64>, TractionLaw, f64) {
     let top = random.logarithmic(0.02, 0.1);
     let toe_ratio = random.between(0.52, 0.9);
@@ -151,8 +154,8 @@ fn a_primed_traction_law_is_recovered_from_one_kes_cycle() {
 fn a_primed_traction_law_is_recovered_from_three_growing_cycles() {
     worst("primed traction, three cycles", 30, |random| {
         let (truth, law, top) = primed(random);
-        let turns = [0.0, 0.7 * top, 0.0, 0.85 * top, 0.0, top, 0.0];
-        let curve = curve(Test::Tensile, &law, history(&turns, top / 60.0), 0.0);
+        let reversals = [0.0, 0.7 * top, 0.0, 0.85 * top, 0.0, top, 0.0];
+        let curve = curve(Test::Tensile, &law, history(&reversals, top / 60.0), 0.0);
         (truth, identify_tensile(&curve, &primed_settings()).expect("identified"))
     });
 }
@@ -221,7 +224,8 @@ fn a_bending_law_with_second_order_friction_is_recovered() {
     worst("bending, second order", FABRICS, |random| {
         let (rigidity, plateau, zero) = bending(random);
         let length = random.logarithmic(15.0, 80.0);
-        // The slow element takes away (stiction) or adds (loops that grow with their amplitude).
+        // The slow element is negative (stiction) or positive (loops that grow with their
+        // amplitude).
         let (order, sign) = match random.unit() < 0.5 {
             true => (FrictionOrder::Second, -1.0),
             false => (FrictionOrder::Parallel, 2.0),
@@ -257,7 +261,8 @@ fn breens_quadratic_and_line_are_recovered_from_the_first_branch() {
     });
 }
 
-/// G of 0.2 to 2 gf/(cm·deg), a loop half as wide as the load at 2° or less, an angle of 0.1° to 1° to slip.
+/// G of 0.2 to 2 gf/(cm·deg), a loop half as wide as the load at 2° or less, an angle of 0.1° to 1°
+/// to slip.
 fn shear(random: &mut Random, grows: bool) -> (Vec<f64>, Curve) {
     let stiffness = random.logarithmic(11.0, 112.0);
     let plateau = stiffness * random.logarithmic(0.004, 0.03);
@@ -270,8 +275,8 @@ fn shear(random: &mut Random, grows: bool) -> (Vec<f64>, Curve) {
         growth,
         locking: None,
     };
-    let turns = [0.0, 8.0, -8.0, 0.0].map(f64::to_radians);
-    let curve = curve(Test::Shear, &law, history(&turns, 0.05_f64.to_radians()), zero);
+    let reversals = [0.0, 8.0, -8.0, 0.0].map(f64::to_radians);
+    let curve = curve(Test::Shear, &law, history(&reversals, 0.05_f64.to_radians()), zero);
     (vec![stiffness, zero, growth, plateau, length], curve)
 }
 
@@ -299,7 +304,7 @@ fn a_shear_law_with_a_constant_plateau_is_recovered() {
     });
 }
 
-/// The largest difference between the curves of two laws, over the range of the first.
+/// Returns the largest difference between the curves of two laws, over the range of the first.
 fn difference(history: &[f64], first: &BendingLaw, second: &BendingLaw) -> f64 {
     let drive = |law: &BendingLaw| drive(law, law.virgin(), history);
     let (first, second) = (drive(first), drive(second));
@@ -320,7 +325,7 @@ fn bending_with(friction: BlimanSorine) -> BendingLaw {
 
 #[test]
 fn a_friction_length_far_below_the_sampling_leaves_no_trace() {
-    // Steps of 2 1/m: a friction that slips within a fiftieth of one has slipped at every sample.
+    // Steps of 2 1/m: a friction length of a fiftieth of one is at its plateau at every sample.
     let short = bending_with(BlimanSorine::first_order(6e-4, 0.04));
     let shorter = bending_with(BlimanSorine::first_order(6e-4, 0.02));
     let apart = difference(&bending_history(), &short, &shorter);
@@ -330,7 +335,7 @@ fn a_friction_length_far_below_the_sampling_leaves_no_trace() {
 
 #[test]
 fn the_plateaus_of_two_elements_of_like_length_are_told_apart_by_their_sum_only() {
-    // The same sum of plateaus, divided quite differently, with lengths that differ by 1 %.
+    // The same sum of plateaus in different shares, with lengths that differ by 1 %.
     let one = bending_with(BlimanSorine::second_order(9e-4, 3e-4, 0.99, 20.0));
     let other = bending_with(BlimanSorine::second_order(7e-4, 1e-4, 0.99, 20.0));
     let apart = difference(&bending_history(), &one, &other);

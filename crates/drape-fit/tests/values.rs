@@ -1,4 +1,4 @@
-//! Values → fabric → values: whatever subset a sheet has, the fabric has it too.
+//! Values → fabric → values: the fabric has any subset of values that the sheet has.
 //!
 //! The recomputed values come from simulated tests that are read as measured curves are.
 
@@ -10,17 +10,17 @@ use drape_fit::{Error, Settings, compare_values, fabric_values, identify};
 use drape_kes::{Curve, Direction, Sheet, Symbol, Test, Values};
 use random::Random;
 
-/// What a value may be off by, relative.
+/// Largest relative error of a value.
 const TOLERANCE: f64 = 1e-3;
 
-/// Values within the ranges of apparel fabrics: B of the 5th to 95th percentile of 251 fabrics, the others
-/// between the extremes of published KES tables for shirtings, suitings and dress fabrics.
+/// Values within the ranges of apparel fabrics: B of the 5th to 95th percentile of 251 fabrics, the
+/// others between the extremes of published KES tables for shirtings, suitings and dress fabrics.
 fn values(random: &mut Random) -> Values {
     // B of 1e-6 to 1.1e-4 N·m, in gf·cm²/cm.
     let b = random.logarithmic(0.01, 1.1);
     let narrow = random.logarithmic(0.1, 5.0);
     let rt = random.between(35.0, 85.0);
-    // Below this no law here is so round and loses so much at once; the README has the table.
+    // Below this no law here has so low a linearity with so wide a loop; the README has the table.
     let least = 0.45 + 0.4 * (0.85 - rt / 100.0);
     let (lt, em) = (random.between(least, 1.0), random.logarithmic(1.0, 15.0));
     Values {
@@ -54,7 +54,7 @@ fn sheet(warp: Values, weft: Values) -> Sheet {
     sheet
 }
 
-/// The worst deviation over trials with random subsets of random values.
+/// Asserts the largest deviation over trials with random subsets of random values.
 fn round_trips(trials: u64) {
     let mut worst = (0.0, String::new());
     for trial in 0..trials {
@@ -68,7 +68,7 @@ fn round_trips(trials: u64) {
         sheet.t = random.coin().then(|| random.logarithmic(0.1, 1.5));
         let fit =
             identify(&sheet).unwrap_or_else(|error| panic!("trial {trial}: {error}; {sheet:?}"));
-        let reading = Settings::default().reading(&sheet);
+        let reading = Settings::default().evaluation_points(&sheet);
         for direction in [Direction::Warp, Direction::Weft] {
             let found = fabric_values(&fit.fabric, direction, &reading);
             for symbol in Symbol::ALL {
@@ -92,7 +92,7 @@ fn round_trips(trials: u64) {
         {
             assert!(given.is_none_or(|given| given == found), "trial {trial}: {found}");
         }
-        // What is missing of both directions is named.
+        // A value that is missing in one direction is named.
         for symbol in [Symbol::B, Symbol::Rt] {
             let one = |direction: Direction| sheet.values(direction).get(symbol).is_some();
             let given = one(Direction::Warp) && one(Direction::Weft);
@@ -124,25 +124,28 @@ fn sets_that_contradict_themselves_are_refused_with_the_reason() {
     };
     let (text, error) = refused(Values { rt: Some(120.0), ..Values::default() });
     assert!(
-        matches!(error, Error::Resilience { .. }) && text.contains("weft: RT is 120.0 %"),
+        matches!(error, Error::InvalidResilience { .. }) && text.contains("weft: RT is 120.0 %"),
         "{text}"
     );
     // Three times the work of a straight line.
     let (text, error) = refused(Values { wt: Some(37.5), em: Some(5.0), ..Values::default() });
-    assert!(matches!(error, Error::Linearity { .. }), "{text}");
+    assert!(matches!(error, Error::InvalidLinearity { .. }), "{text}");
     assert!(text.contains("weft: LT is 3.000, made by WT and EM"), "{text}");
     let (text, error) =
         refused(Values { lt: Some(0.3), rt: Some(40.0), em: Some(5.0), ..Values::default() });
-    assert!(matches!(error, Error::Unreachable { .. }), "{text}");
+    assert!(matches!(error, Error::IncompatibleValues { .. }), "{text}");
     assert!(text.contains("weft: no law here has a linearity LT of 0.300"), "{text}");
 }
 
 #[test]
 fn a_sheet_that_disagrees_with_its_curve_is_named() {
-    let law = drape_fit::bending_from_values(1e-5, 6e-4);
-    let turns = [0.0, 250.0, -250.0, 250.0];
+    let law = drape_fit::bending_from_values(&drape_kes::BendingValues {
+        rigidity: 1e-5,
+        loop_width: 6e-4,
+    });
+    let reversals = [0.0, 250.0, -250.0, 250.0];
     let mut path = vec![0.0];
-    for ends in turns.windows(2) {
+    for ends in reversals.windows(2) {
         path.extend((1..=100).map(|i| ends[0] + (ends[1] - ends[0]) * f64::from(i) / 100.0));
     }
     let load = drape_fabric::drive(&law, drape_fabric::Law::virgin(&law), &path);

@@ -1,15 +1,18 @@
-use crate::Stop;
+//! Error of the crate.
 
-/// What can go wrong, one variant per remedy.
+use crate::report::Stop;
+
+/// Error of a step or of its input, one variant per remedy.
 ///
-/// Whatever the error, the motion and the system's memory are those of the last accepted sub-step.
+/// Whatever the error, the state and the system's memory are those of the last accepted sub-step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// The equations of a step could not be solved, even with the shortest sub-step allowed.
     #[error(
-        "the step from t = {time} s did not converge ({stop}): with dt = {dt:e} s the residual is {residual:e} \
-         against a tolerance of {tolerance:e} after {iterations} iterations; shorten the step or allow more halvings"
+        "the step from t = {time} s did not converge ({stop}): with dt = {dt:e} s the residual is \
+         {residual:e} against a tolerance of {tolerance:e} after {iterations} iterations; shorten \
+         the step or allow more halvings"
     )]
     NotConverged {
         /// Time at which the failing sub-step starts, in s.
@@ -22,15 +25,15 @@ pub enum Error {
         tolerance: f64,
         /// Iterations made in this attempt.
         iterations: usize,
-        /// Why the attempt ended.
+        /// Reason why the attempt ended.
         stop: Stop,
     },
     /// A NaN or an infinity where a number is needed, even with the shortest sub-step allowed.
     #[error("{quantity} of particle {particle} not finite at t = {time} s (dt = {dt:e} s)")]
     NotFinite {
-        /// What is not finite.
+        /// Quantity that is not finite.
         quantity: Quantity,
-        /// The first particle concerned.
+        /// First particle concerned.
         particle: usize,
         /// Time at which the failing (sub)step starts, in s.
         time: f64,
@@ -38,10 +41,10 @@ pub enum Error {
         dt: f64,
     },
     /// Two lengths that must agree do not.
-    #[error("{what}: {found} given for a system that needs {expected}")]
+    #[error("{name}: {found} given for a system that needs {expected}")]
     Dimension {
-        /// Which list is concerned.
-        what: &'static str,
+        /// Name of the list.
+        name: &'static str,
         /// Length that the number of particles asks for.
         expected: usize,
         /// Length found.
@@ -50,7 +53,7 @@ pub enum Error {
     /// A mass is not a positive number.
     #[error("particle {particle} has a mass of {mass} kg; masses must be positive and finite")]
     Mass {
-        /// The first such particle.
+        /// First such particle.
         particle: usize,
         /// Its mass, in kg.
         mass: f64,
@@ -58,7 +61,7 @@ pub enum Error {
     /// The length of a step is not a positive number.
     #[error("a step of {dt} s: its length must be positive and finite")]
     StepLength {
-        /// The length, in s.
+        /// Length, in s.
         dt: f64,
     },
     /// A setting is out of range.
@@ -68,15 +71,15 @@ pub enum Error {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// The range it must lie in, in words.
+        /// Range that it must lie in, in words.
         range: &'static str,
     },
-    /// A sparsity sparsity is malformed.
+    /// A sparsity is malformed.
     #[error("row {row} of the sparsity: {fault}")]
     Sparsity {
-        /// The row concerned.
+        /// Row concerned.
         row: usize,
-        /// What is wrong with it.
+        /// Fault, in words.
         fault: &'static str,
     },
     /// The system's stiffness couples two particles that its sparsity does not.
@@ -87,9 +90,9 @@ pub enum Error {
         /// The other.
         column: usize,
     },
-    /// The method does not let a system guard its ways.
+    /// The method has no place for a step filter.
     #[error(
-        "the system guards the solver's ways, which textbook Broyden and the explicit scheme do not let it; \
+        "textbook Broyden and explicit steps cannot be limited by a step filter; \
          use Broyden's or Newton's method"
     )]
     UnfilteredMethod,
@@ -101,7 +104,7 @@ pub enum Error {
     },
 }
 
-/// A quantity that must be finite.
+/// Quantity that must be finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Quantity {
@@ -113,7 +116,7 @@ pub enum Quantity {
     Target,
     /// Forces, both at the predicted positions and at those of the start.
     Force,
-    /// The stiffness.
+    /// Stiffness at an iterate.
     Stiffness,
 }
 

@@ -1,46 +1,40 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! A caller implements [`System`], with [`StepFilter`] on top where steps must not lead to
+//! intersections, and holds an [`IntegratorState`] and a [`Stepper`] with its [`Settings`]. Each
+//! call of [`Stepper::advance`] passes through three chapters: `integrator` divides the step into
+//! sub-steps and predicts, `nonlinear` solves the equations of each by Newton's and Broyden's
+//! methods, `linear` solves the linear systems in it, on the [`BlockMatrix`] that the system fills.
+//! A [`Report`] tells the work done, an [`Error`] why a step could not be made. [`check_system`] is
+//! for the tests of a new system, [`ErrorEstimate`] for steps of a length by their error,
+//! [`Explicit`] for cross-checks.
 
-mod approach;
-mod block;
-mod block_matrix;
-mod broyden;
-mod check;
-mod cholesky;
-mod conjugate_gradient;
+// Interface of a system.
+mod step_filter;
+mod system;
+mod system_check;
+
+// Chapters, each using those below it.
+mod integrator;
+mod linear;
+mod nonlinear;
+
+// Settings and answers.
 mod error;
-mod error_estimate;
-mod explicit;
-mod fill;
-mod formula;
-mod incomplete;
-mod incremental;
-mod integrator_state;
-mod lane_block;
-mod lanes;
-mod packed;
-mod remainder;
 mod report;
 mod settings;
-mod solver;
-mod sparsity;
-mod step_filter;
-mod stepper;
-mod sub_step;
-mod system;
-mod tangent;
-mod textbook;
-mod vector;
-mod waves;
 
-pub use block_matrix::{BlockMatrix, Coupling};
-pub use check::{Check, check_system};
 pub use error::{Error, Quantity};
-pub use error_estimate::ErrorEstimate;
-pub use explicit::Explicit;
-pub use integrator_state::{IntegratorState, PreviousState};
+pub use integrator::error_estimate::ErrorEstimate;
+pub use integrator::explicit::Explicit;
+pub use integrator::state::{IntegratorState, PreviousState};
+pub use integrator::stepper::Stepper;
+pub use linear::block_matrix::{BlockMatrix, Coupling};
+pub use linear::sparsity::Sparsity;
 pub use report::{Energy, Report, Stop};
 pub use settings::{InitialMatrix, Integrator, LinearSolver, Method, Settings};
-pub use sparsity::Sparsity;
 pub use step_filter::{StepFilter, StepLimit, TrialStep};
-pub use stepper::Stepper;
 pub use system::{Stiffness, System};
+pub use system_check::{Check, check_system};

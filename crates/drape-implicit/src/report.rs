@@ -1,6 +1,9 @@
+//! Report of a step: the work it took, its energy balance, and why an attempt stopped.
+
 use core::ops::AddAssign;
 
-/// What one call of [`Stepper::advance`](crate::Stepper::advance) took, rejected attempts included.
+/// Work done by one call of [`Stepper::advance`](crate::Stepper::advance), rejected attempts
+/// included.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Report {
@@ -20,26 +23,30 @@ pub struct Report {
     pub linear_solves: usize,
     /// Conjugate-gradient iterations in them.
     pub linear_iterations: usize,
-    /// Linear systems left unfinished, at the iteration limit or at a direction of negative curvature.
+    /// Linear systems left unfinished, at the iteration limit or at a direction of negative
+    /// curvature.
     pub linear_truncations: usize,
-    /// Factorisations of the preconditioner begun anew, with a larger shift, after a collapsed pivot.
+    /// Factorisations of the preconditioner begun again, with a larger shift, after a collapsed
+    /// pivot.
     pub pivot_shifts: usize,
-    /// Exact tangents given up for definite ones, because a direction of negative curvature was met at once.
+    /// Exact stiffnesses given up for definite ones, because the first direction of the linear
+    /// solve was one of negative curvature.
     pub negative_curvatures: usize,
-    /// Shortenings in line searches.
+    /// Backtracks of line searches.
     pub backtracks: usize,
     /// Largest final residual of the accepted sub-steps, relative as
     /// [`Settings::tolerance`](crate::Settings::tolerance) is.
     pub residual: f64,
-    /// Most that a sub-step which ended for it promised to gain yet, over its kinetic energy; see
-    /// [`Settings::energy_tolerance`](crate::Settings::energy_tolerance). Zero if none did.
+    /// Largest energy left to gain in a sub-step that ended for it, as a fraction of its kinetic
+    /// energy; see [`Settings::energy_tolerance`](crate::Settings::energy_tolerance). 0 if none
+    /// did.
     pub energy_left: f64,
-    /// The energy balance, if asked for.
+    /// Energy balance, if asked for.
     pub energy: Option<Energy>,
 }
 
 impl AddAssign<&Report> for Report {
-    /// Adds up the work of several steps; the residual and the energy left are the largest of them.
+    /// Adds the work of another step; residual and energy left are the larger of both.
     fn add_assign(&mut self, other: &Report) {
         self.sub_steps += other.sub_steps;
         self.rejected += other.rejected;
@@ -68,9 +75,10 @@ pub struct Energy {
     pub kinetic: f64,
     /// Growth of the incremental potential, work against friction included, in J.
     pub potential: f64,
-    /// Work of the forces that move the held particles, those at the end of each sub-step, in J.
+    /// Work of the forces that move the held particles, by their values at the end of each
+    /// sub-step, in J.
     pub work: f64,
-    /// What the formula of the step lost, in J.
+    /// Energy that the formula of the step lost, in J.
     pub numerical_dissipation: f64,
 }
 
@@ -83,7 +91,7 @@ impl AddAssign for Energy {
     }
 }
 
-/// Why an attempt at a step was given up.
+/// Reason why an attempt at a step was given up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stop {
@@ -93,9 +101,9 @@ pub enum Stop {
     LineSearch,
     /// The stiffness given as definite is not.
     Indefinite,
-    /// What moves by prescription was not allowed to go on.
+    /// The step filter did not let the prescribed motions go on.
     Blocked,
-    /// The system did not certify the solution.
+    /// The step filter found intersections in the solution.
     Intersection,
 }
 
@@ -105,8 +113,8 @@ impl core::fmt::Display for Stop {
             Self::Iterations => "iteration limit",
             Self::LineSearch => "no progress along the last direction",
             Self::Indefinite => "the stiffness given as definite is not",
-            Self::Blocked => "what moves by prescription is blocked",
-            Self::Intersection => "the solution was not certified",
+            Self::Blocked => "the prescribed motions are blocked",
+            Self::Intersection => "the solution has intersections",
         })
     }
 }

@@ -1,105 +1,129 @@
-use crate::Error;
+//! Settings of a [`Stepper`](crate::Stepper).
 
-/// The formula that carries a motion over one step.
+use crate::error::Error;
+
+/// Formula that advances a state by one step.
 ///
-/// Both solve `M (x − x̃)/(β dt)² = f(x)` for the end positions and differ in what they predict, `x̃`, and in
-/// `β`. Both damp oscillations that the step is too long for, at any length.
+/// Both solve `$M\,(x - \tilde x)/(\beta\,\mathrm{dt})^2 = f(x)$` for the end positions, and differ
+/// in `$\beta$` and in the prediction `$\tilde x$`. Both damp oscillations that the step is too
+/// long to resolve, at any length.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Integrator {
-    /// First order, `β = 1` (Ngo Ngoc & Boivin 2004, eq. 6). Damps every motion, by a factor of
+    /// Backward Euler: first order, `β = 1` (\[NB04\] eq. 6). Damps every motion, by a factor of
     /// `1/√(1 + ω²dt²)` per step for an oscillation of angular frequency `ω`.
     BackwardEuler,
-    /// Second-order backward differentiation with variable step, `β = 2/3` for equal steps. Damps a slow
-    /// oscillation by `1 − (ω dt)⁴/4` per step only. The first step and those after [`IntegratorState::restart`] are backward
-    /// Euler; a step is at most twice as long as the one before it, so a longer one is built up to in sub-steps.
+    /// Second-order backward differentiation with variable step, `β = 2/3` for equal steps
+    /// (\[HNW93\] III.5). Damps a slow oscillation by `1 − (ω dt)⁴/4` per step only. The first step
+    /// and those after [`IntegratorState::restart`] are backward Euler; a step is at most twice as
+    /// long as the one before it, so a longer one is divided into sub-steps that double.
     ///
     /// [`IntegratorState::restart`]: crate::IntegratorState::restart
     #[default]
     Bdf2,
 }
 
-/// How the equations of a step are solved.
+/// Method that solves the equations of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// Broyden's rank-one updates of the inverse of a tangent frozen for a few iterations, each tangent's first
-    /// step safeguarded by a line search: [`Method::Newton`] with fewer tangents.
+    /// Newton's method with fewer system matrices: each is kept for a few iterations, in which
+    /// Broyden's rank-one updates improve its inverse. The first step with each matrix is
+    /// safeguarded by a line search.
     #[default]
     Broyden,
-    /// A new tangent in every iteration.
+    /// Newton's method: a new system matrix in every iteration.
     Newton,
-    /// Broyden's method as in the textbooks, from a diagonal matrix, with a line search on the residual.
+    /// Broyden's method as in the textbooks, from a diagonal matrix, with a line search on the
+    /// residual: a baseline to compare with (\[NB04\] section 5, \[Kel95\] chapter 7).
     ///
-    /// It never looks at the couplings between particles, which is its charm and its limit: with a stiffness
-    /// `k` it needs `k dt²/m` of order one. Here as a baseline to compare with (Ngo Ngoc & Boivin 2004, §5;
-    /// Kelley, *Iterative Methods for Linear and Nonlinear Equations*, 1995, ch. 7).
+    /// It never assembles the couplings between particles, and so converges only where the
+    /// stiffness `k` of a coupling gives a `k dt²/m` of order one.
     Textbook {
-        /// The matrix to start from.
+        /// Matrix to start from.
         initial: InitialMatrix,
     },
 }
 
-/// What textbook Broyden starts from.
+/// Matrix that textbook Broyden starts from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum InitialMatrix {
-    /// The inertia `M/(β dt)²`.
+    /// Inertia `M/(β dt)²`.
     #[default]
     Mass,
-    /// The diagonal of inertia and stiffness at the start of the step.
+    /// Diagonal of the system matrix at the start of the step.
     Diagonal,
 }
 
-/// How linear systems with the tangent are solved.
+/// Solver of linear systems with the system matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LinearSolver {
-    /// Conjugate gradients with an incomplete block Cholesky preconditioner: little memory, and the faster one
-    /// unless the step is very long.
+    /// Conjugate gradients with an incomplete block Cholesky preconditioner: little memory, and the
+    /// faster one unless the step is very long.
     #[default]
     ConjugateGradient,
-    /// Sparse Cholesky factorisation: exact, so a cross-check of the other, and independent of how stiff the
-    /// system is; memory and time grow faster than the number of particles.
+    /// Sparse Cholesky factorisation: exact, so a cross-check of the other, and independent of how
+    /// stiff the system is; memory and time grow faster than the number of particles.
     Cholesky,
 }
 
 /// Settings of a [`Stepper`](crate::Stepper).
+///
+/// ```
+/// use drape_implicit::{Integrator, Settings};
+///
+/// let settings = Settings { integrator: Integrator::BackwardEuler, ..Settings::default() };
+/// assert_eq!(settings.check(), Ok(()));
+/// assert!(Settings { tolerance: 0.0, ..settings }.check().is_err());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Formula of the step. Default: second-order backward differentiation.
     pub integrator: Integrator,
-    /// Solver of its equations. Default: Broyden on a frozen tangent.
+    /// Solver of its equations. Default: Newton's method with Broyden steps.
     pub method: Method,
-    /// Solver of the linear systems inside. Default: conjugate gradients.
+    /// Solver of the linear systems in it. Default: conjugate gradients.
     pub linear_solver: LinearSolver,
-    /// A step has converged when `‖M a − f‖₂ ≤ tolerance · acceleration · √Σm²` over the free particles: the
-    /// root-mean-square error of the acceleration, as a fraction of `acceleration`. Default 1e-4.
+    /// Tolerance of the residual. A step has converged when
+    /// `‖M a − f‖₂ ≤ tolerance · acceleration · √Σm²` over the free particles: the root-mean-square
+    /// error of the acceleration, as a fraction of `acceleration`. Default 1e-4.
     pub tolerance: f64,
-    /// A step has also converged when a Newton step promised to gain, by half its decrement `−pᵀφ`, at most this part of
-    /// the kinetic energy `½ Σ m |x − x₀|²/h²` of the way from where the step began, and has left at most a hundred
-    /// times what `tolerance` asks for: what is left then changes the way by little, however stiff what resists it. For
-    /// motion that goes on from there, not for its end. Default 0, which leaves only the tolerance.
+    /// Energy that a converged step may have left to gain, as a fraction of the kinetic energy
+    /// `½ Σ m |x − x₀|²/(β dt)²` of the straight motion from its start. Default 0, which leaves
+    /// only the tolerance.
+    ///
+    /// A step has also converged when a Newton step predicted a decrease of the energy, half its
+    /// decrement `−pᵀφ`, of at most that, and has left a residual of at most a hundred times the
+    /// tolerance. The rest then changes the positions little, however stiff the forces that are
+    /// left unbalanced. For motion that goes on from there, not for its end.
     pub energy_tolerance: f64,
-    /// Acceleration that the tolerance refers to, in m/s². Default 9.81, the one of gravity; a system without
-    /// weight sets the one that matters to it.
+    /// Acceleration that the tolerance refers to, in m/s². Default 9.81, that of gravity; a system
+    /// without weight sets the one that matters to it.
     pub acceleration: f64,
-    /// Iterations after which an attempt at a (sub)step is given up. Default 100: cloth in contact at steps three
-    /// times too long was seen to need 79.
+    /// Iterations after which an attempt at a (sub)step is given up. Default 100: cloth in contact
+    /// at steps three times too long was seen to need 79.
     pub max_iterations: usize,
-    /// How often a failing step may be halved. Default 10: sub-steps down to `dt/1024`.
+    /// Times that a failing step may be halved. Default 10: sub-steps down to `dt/1024`.
     pub max_halvings: u32,
-    /// Broyden: iterations on one tangent, the first (Newton's) included. Default 3: a tangent is kept only close to
-    /// the solution, where two more steps on it are enough or it was not worth keeping.
+    /// Iterations of Broyden's method on one system matrix, the first (Newton's) included. Default
+    /// 3: a matrix is kept only close to the solution, where two more steps on it are enough or it
+    /// was not worth keeping.
     pub iterations_per_matrix: usize,
-    /// Broyden: the linear residual relative to the nonlinear one at which conjugate gradients stop. Default 0.03.
+    /// Forcing term of Broyden steps: linear residual relative to the nonlinear one at which
+    /// conjugate gradients stop. Default 0.03.
     pub broyden_forcing: f64,
-    /// The same for Newton steps. Default 0.01: looser costs more tangents than it saves iterations, and one tangent
-    /// costs as much as ten to fifteen of these; from 0.01 to 0.001 the cost is flat within a tenth.
+    /// Forcing term of Newton steps. Default 0.01: larger ones cost more matrices than they save
+    /// iterations of conjugate gradients, and one matrix costs as much as ten to fifteen of these;
+    /// from 0.01 to 0.001 the cost is flat within a tenth.
     pub newton_forcing: f64,
-    /// Conjugate-gradient iterations after which the direction found so far is taken. Default 2000.
+    /// Iterations of conjugate gradients after which the direction found so far is taken. Default
+    /// 2000.
     pub max_linear_iterations: usize,
-    /// Whether a step of a system that guards its ways begins where velocities lead if nothing is in the way, even if the
-    /// start is better balanced: for motion that goes on, such as creeping to rest, whose forces are small at the start
-    /// however far it has to go. Default false.
+    /// Whether a step with a step filter begins where the velocities lead, if nothing limits the
+    /// step to there, even if the residual at the start is smaller. For motion that goes on, such
+    /// as quasi-static relaxation, whose forces are small at the start however far it has to go.
+    /// Default false.
     pub begin_at_prediction: bool,
-    /// Whether the report has the energy balance, at the price of two potentials per sub-step. Default false.
+    /// Whether the report has the energy balance, at the cost of two potentials per sub-step.
+    /// Default false.
     pub energy_balance: bool,
 }
 

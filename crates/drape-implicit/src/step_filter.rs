@@ -1,20 +1,20 @@
-//! The step filter: continuous collision detection as a protocol on top of [`System`].
+//! Step filter: continuous collision detection as a protocol on top of [`System`] \[Li20\].
 //!
-//! The solver asks a filter before every straight move of the particles, and for a certificate of every
-//! solution; what a filter answers decides how far an iteration goes, never where its direction points.
+//! The solver asks the filter before every straight move of the particles, and for a certificate of
+//! every solution. The answers decide how far an iteration moves, never in which direction.
 
-use crate::System;
+use crate::system::System;
 
 /// Straight step that the solver is about to take, of all particles and obstacles.
 #[derive(Debug)]
 pub struct TrialStep<'a> {
-    /// Positions at the start of the step, in m. The solver may be there already.
+    /// Positions at the start of the step, in m. They are free of intersections.
     pub start: &'a [f64],
     /// Displacements of the particles, in m. The filter shortens them in place.
     pub displacements: &'a mut [f64],
-    /// Fraction of the prescribed motions of this sub-step that is done, 0 to 1.
+    /// Fraction of the prescribed motions of this (sub)step that is done at the start, 0 to 1.
     pub obstacle_time: f64,
-    /// Increase of `obstacle_time` over the step.
+    /// Increase of the obstacle time over the step.
     pub obstacle_advance: f64,
 }
 
@@ -24,7 +24,7 @@ pub struct TrialStep<'a> {
 pub enum StepLimit {
     /// The whole step is allowed; its displacements are unchanged.
     Whole,
-    /// A part of it is: its displacements are shortened.
+    /// A part of the step is allowed; its displacements are shortened.
     Shortened {
         /// Increase of the obstacle time that is allowed with them.
         obstacle_advance: f64,
@@ -39,35 +39,86 @@ impl StepLimit {
     }
 }
 
-/// System whose trial steps are limited so that no intersection arises on them.
+/// System that limits steps so that nothing intersects on them, and certifies solutions.
 ///
-/// [`Stepper::advance_filtered`](crate::Stepper::advance_filtered) starts from the positions at the start of the
-/// (sub)step, moves the particles only as far as [`limit_step`](Self::limit_step) allows, and moves held particles and
-/// obstacles along with them.
+/// [`Stepper::advance_filtered`](crate::Stepper::advance_filtered) starts each (sub)step from the
+/// positions at its start, moves the particles only as far as [`limit_step`](Self::limit_step)
+/// allows, and moves held particles and obstacles along with them.
+///
+/// A filter for a particle above a floor at a height of 0:
+///
+/// ```
+/// use drape_implicit::{StepFilter, StepLimit, System, TrialStep};
+/// # use drape_implicit::{BlockMatrix, Sparsity, Stiffness};
+/// # struct Ball;
+/// # impl System for Ball {
+/// #     fn particles(&self) -> usize { 1 }
+/// #     fn masses(&self) -> &[f64] { &[1.0] }
+/// #     fn held(&self) -> &[bool] { &[false] }
+/// #     fn begin(&mut self, _: f64, _: f64, _: &[f64], _: &mut [f64]) {}
+/// #     fn forces(&mut self, _: &[f64], forces: &mut [f64]) { forces.fill(0.0) }
+/// #     fn potential(&mut self, _: &[f64]) -> f64 { 0.0 }
+/// #     fn stiffness(&mut self, _: &[f64], _: Stiffness, _: &mut BlockMatrix) {}
+/// #     fn sparsity(&self) -> Sparsity { Sparsity::from_pairs(1, []).unwrap() }
+/// #     fn accept(&mut self, _: &[f64], _: &[f64], _: f64) {}
+/// # }
+///
+/// impl StepFilter for Ball {
+///     fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+///         // A tenth of the height is kept.
+///         let (fall, room) = (-step.displacements[1], 0.9 * step.start[1]);
+///         if fall <= room {
+///             return StepLimit::Whole;
+///         }
+///         let fraction = room / fall;
+///         step.displacements.iter_mut().for_each(|d| *d *= fraction);
+///         StepLimit::Shortened { obstacle_advance: fraction * step.obstacle_advance }
+///     }
+///
+///     fn set_obstacle_time(&mut self, _time: f64) {}
+///
+///     fn is_intersection_free(&mut self, positions: &[f64]) -> bool {
+///         positions[1] > 0.0
+///     }
+/// }
+///
+/// let mut displacements = [0.0, -4.0, 0.0];
+/// let step = TrialStep {
+///     start: &[0.0, 1.0, 0.0],
+///     displacements: &mut displacements,
+///     obstacle_time: 0.0,
+///     obstacle_advance: 1.0,
+/// };
+/// let limit = Ball.limit_step(step);
+/// assert_eq!(limit, StepLimit::Shortened { obstacle_advance: 0.225 });
+/// assert_eq!(displacements, [0.0, -0.9, 0.0]);
+/// ```
 pub trait StepFilter: System {
-    /// Whether everything that moves by prescription moves nearly straight from one time to another, in s. A (sub)step
-    /// in which it does not is halved before it is tried.
+    /// Whether everything that moves by prescription moves nearly straight from one time to
+    /// another, in s. A (sub)step in which it does not is halved before it is tried.
     fn is_nearly_straight(&self, _start: f64, _end: f64) -> bool {
         true
     }
 
     /// Limits a straight step to a part on which nothing intersects.
     ///
-    /// Each particle may keep any fraction of its displacement; held particles, and whatever else moves by
-    /// prescription, all keep the same fraction, which the answer tells as the obstacle time that they advance by. Any
-    /// shorter step along the displacements that are left is allowed too.
+    /// Each free particle may keep any fraction of its displacement. Held particles, and whatever
+    /// else moves by prescription, all keep the same fraction; the answer tells it as the advance
+    /// of the obstacle time. Any shorter step along the displacements that are left is allowed too.
     fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit;
 
-    /// Puts obstacles to a fraction of their motion in this (sub)step: 0 is where it starts, 1 where it ends. Forces,
-    /// potential and stiffness are then those of that place. After [`begin`](System::begin) it is 1.
+    /// Moves obstacles to a fraction of their motion in this (sub)step: 0 is its start, 1 its end.
+    ///
+    /// Forces, potential and stiffness are those of that place from then on. After
+    /// [`begin`](System::begin) it is 1.
     fn set_obstacle_time(&mut self, time: f64);
 
-    /// Whether positions, in m, are free of intersections. A solution that is not is rejected, and its (sub)step tried
-    /// again in halves.
+    /// Whether positions, in m, are free of intersections. A solution that is not is rejected, and
+    /// its (sub)step tried again in halves.
     fn is_intersection_free(&mut self, positions: &[f64]) -> bool;
 }
 
-/// Either kind of system, as the solver sees it.
+/// System with or without a filter, as the solver sees it.
 pub(crate) enum SystemRef<'a> {
     Free(&'a mut dyn System),
     Filtered(&'a mut dyn StepFilter),

@@ -1,26 +1,32 @@
-use crate::{BlockMatrix, Sparsity};
+//! Interface of a system of particles: masses, forces, potential and stiffness.
 
-/// Which derivative of the forces [`System::stiffness`] writes.
+use crate::linear::block_matrix::BlockMatrix;
+use crate::linear::sparsity::Sparsity;
+
+/// Variant of the stiffness that [`System::stiffness`] writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stiffness {
-    /// The exact one, indefinite where the system buckles. It makes Newton's method converge fast.
+    /// Hessian of the potential, indefinite where the system buckles. Newton's method converges
+    /// fast with it.
     Exact,
-    /// A positive semi-definite one near it, used where the exact one has a direction of negative curvature.
+    /// Positive semi-definite approximation, used where the exact one has a direction of negative
+    /// curvature.
     Definite,
 }
 
-/// Particles in three dimensions with masses, forces and a stiffness, some of them moved by prescription.
+/// System of particles in three dimensions, with masses, forces and a stiffness. Held particles
+/// move by prescription.
 ///
 /// Vectors are flat, three entries per particle: `x₀ y₀ z₀ x₁ …`. Positions are in m, forces in N.
 ///
-/// One (sub)step runs `begin`, then any number of `forces`, `potential` and `stiffness` in any order, and then
-/// `accept` if it succeeded or the next `begin` if it failed. Whatever the system remembers (friction,
-/// plasticity, lagged normals) is frozen between them, so that forces are a function of the end positions
-/// alone; only `accept` may change it for good. Velocity-dependent forces use the step's mean velocity, which
-/// is such a function too.
+/// One (sub)step calls `begin`, then any number of `forces`, `potential` and `stiffness` in any
+/// order, and then `accept` if it succeeded or the next `begin` if it failed. The memory of a
+/// system (friction, plasticity, lagged normals) is frozen between them, so that forces are a
+/// function of the end positions alone; only `accept` may change it. Forces that depend on velocity
+/// use the mean velocity of the step, which is such a function too.
 ///
-/// A trial position may be unphysical, inside an obstacle for instance: a NaN or infinite force says so, and is
-/// never accepted.
+/// A trial position may be unphysical, inside an obstacle for instance. A NaN or infinite force
+/// says so, and such a position is never accepted.
 pub trait System {
     /// Number of particles.
     fn particles(&self) -> usize;
@@ -28,12 +34,14 @@ pub trait System {
     /// Mass of each particle, finite and positive, in kg.
     fn masses(&self) -> &[f64];
 
-    /// Which particles move by prescription; asked after each [`begin`](Self::begin).
+    /// Whether each particle moves by prescription. Read after each [`begin`](Self::begin).
     fn held(&self) -> &[bool];
 
-    /// Opens an attempted (sub)step that ends at `end_time` and lasts `dt`, both in s, from the positions
-    /// `start`. Writes the end positions of held particles into `target`, which comes filled with `start`;
-    /// what it says of free particles is ignored.
+    /// Begins an attempt at a (sub)step that ends at `end_time` and lasts `dt`, both in s, from the
+    /// positions `start`.
+    ///
+    /// Writes the end positions of held particles into `target`, which is filled with `start` on
+    /// entry; those of free particles are ignored.
     fn begin(&mut self, end_time: f64, dt: f64, start: &[f64], target: &mut [f64]);
 
     /// Overwrites `forces` with the force on each particle, weight included, in N.
@@ -41,23 +49,26 @@ pub trait System {
 
     /// Incremental potential whose negative gradient is the forces, in J.
     ///
-    /// Within a step friction with frozen memory has one too: the work done against it since the start.
+    /// Within a step friction with frozen memory has one too: the work done against it since the
+    /// start.
     fn potential(&mut self, positions: &[f64]) -> f64;
 
-    /// Adds the negative derivative of the forces to `matrix`, which comes filled with zeros, in N/m.
+    /// Adds the negative derivative of the forces to `matrix`, which is filled with zeros on entry,
+    /// in N/m.
     ///
-    /// Held particles need no special care; their rows are cut out afterwards.
+    /// Held particles need no special care; their rows and columns are removed afterwards.
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix);
 
-    /// Which pairs of particles the stiffness couples.
+    /// Sparsity of the stiffness: the pairs of particles that it couples.
     fn sparsity(&self) -> Sparsity;
 
-    /// A number that changes when [`sparsity`](Self::sparsity) does. Read once per call of
+    /// Number that changes when [`sparsity`](Self::sparsity) does. Read once per call of
     /// [`Stepper::advance`](crate::Stepper::advance).
     fn sparsity_version(&self) -> u64 {
         0
     }
 
-    /// Closes an accepted (sub)step: memory may advance to these end positions (m) and velocities (m/s).
+    /// Ends an accepted (sub)step: the memory may advance to its end positions, in m, and
+    /// velocities, in m/s.
     fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64);
 }

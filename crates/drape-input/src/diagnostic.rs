@@ -1,26 +1,39 @@
+//! Mistakes of an input, each with its place and its remedy.
+//!
+//! `document` makes them; the crates that own a structure add their own, and the command line
+//! prints them.
+
 use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// One thing wrong with an input: where, what, and what to do about it.
+/// One mistake of an input, with its place and its remedy.
+///
+/// ```
+/// use drape_input::Diagnostic;
+///
+/// let mistake = Diagnostic::new("curve.csv", "the force is empty").on_line(7).help("fill it in");
+/// assert_eq!(mistake.to_string(), "curve.csv:7: the force is empty\n  help: fill it in");
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The file that was read.
+    /// File that was read.
     pub file: PathBuf,
-    /// Line, counted from 1, where the mistake is known to be in the text.
+    /// Line of the mistake, from 1, where it has a place in the text.
     pub line: Option<usize>,
-    /// Column, counted from 1 in characters.
+    /// Column of the mistake, from 1, in characters.
     pub column: Option<usize>,
     /// Bytes of the text that the mistake covers.
     pub span: Option<Range<usize>>,
-    /// What is wrong, with the value.
+    /// Description of the mistake, with the value.
     pub message: String,
-    /// What to do about it.
+    /// Remedy.
     pub help: Option<String>,
 }
 
 impl Diagnostic {
-    /// A mistake that concerns a whole file.
+    /// Creates a mistake that concerns a whole file.
+    #[must_use]
     pub fn new(file: impl Into<PathBuf>, message: impl Into<String>) -> Self {
         Self {
             file: file.into(),
@@ -39,7 +52,7 @@ impl Diagnostic {
         self
     }
 
-    /// Adds the line, counted from 1.
+    /// Adds the line, from 1.
     #[must_use]
     pub fn on_line(mut self, line: usize) -> Self {
         self.line = Some(line);
@@ -66,15 +79,25 @@ impl fmt::Display for Diagnostic {
 
 impl std::error::Error for Diagnostic {}
 
-/// Everything wrong with an input, in the order of the text.
+/// All mistakes of an input, in the order of the text: the error type of this crate.
+///
+/// ```
+/// use drape_input::{Diagnostic, Diagnostics};
+///
+/// assert_eq!(Diagnostics::check(Vec::new()), Ok(()));
+/// let later = Diagnostic::new("a.toml", "too late").on_line(9);
+/// let earlier = Diagnostic::new("a.toml", "too early").on_line(2);
+/// let mistakes = Diagnostics::check(vec![later, earlier]).expect_err("there are two");
+/// assert_eq!(mistakes.0[0].line, Some(2));
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl Diagnostics {
-    /// `Ok` when nothing is wrong.
+    /// Returns `Ok` where there is no mistake.
     ///
     /// # Errors
-    /// The mistakes, sorted by file and line, when there are any.
+    /// The mistakes, sorted by file and line.
     pub fn check(mut mistakes: Vec<Diagnostic>) -> Result<(), Self> {
         if mistakes.is_empty() {
             return Ok(());

@@ -1,3 +1,7 @@
+//! Text of a TOML file: decoded into a structure, or searched for the place of a key.
+//!
+//! Every crate that reads TOML goes through [`Document`], so all mistakes look alike.
+
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -5,13 +9,24 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::{Diagnostic, Diagnostics, closest};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::spelling::closest;
 
-/// Largest TOML file that is read, in bytes. Sheets, fabrics and scenes have a few kilobytes; a
-/// larger file is a mistake, and refusing it early keeps a wrong path from filling the memory.
+/// Largest TOML file that is read, in bytes.
+///
+/// Sheets, fabrics and scenes have a few kilobytes; the limit keeps a wrong path from filling the
+/// memory.
 const LARGEST: u64 = 1 << 20;
 
-/// The text of a TOML file with its path, from which structures and diagnostics are made.
+/// Text of a TOML file with its path.
+///
+/// ```
+/// use drape_input::Document;
+///
+/// let document = Document::new("scene.toml", "[time]\nstep = 0.0\n");
+/// let mistake = document.at("time.step", "0 s is not a positive time").help("write 0.005");
+/// assert_eq!((mistake.line, mistake.column), (Some(2), Some(8)));
+/// ```
 #[derive(Debug, Clone)]
 pub struct Document {
     path: PathBuf,
@@ -19,7 +34,8 @@ pub struct Document {
 }
 
 impl Document {
-    /// A document from text that is already in memory; `path` is used in messages only.
+    /// Creates a document from text in memory; `path` is used in messages only.
+    #[must_use]
     pub fn new(path: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         let text: String = text.into();
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
@@ -29,12 +45,12 @@ impl Document {
     /// Reads a file.
     ///
     /// # Errors
-    /// When the file is missing, larger than a mebibyte, or not UTF-8.
+    /// The file is missing, larger than a mebibyte, or not UTF-8.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
         let path = path.as_ref();
         let fail = |message: String| Diagnostic::new(path, message);
         let metadata = std::fs::metadata(path)
-            .map_err(|e| fail(format!("cannot open the file: {e}")).help(nearby(path)))?;
+            .map_err(|e| fail(format!("cannot open the file: {e}")).help(suggestion(path)))?;
         if !metadata.is_file() {
             return Err(fail("this is not a file".into()).help("name a TOML file").into());
         }
@@ -51,19 +67,19 @@ impl Document {
         Ok(Self::new(path, text))
     }
 
-    /// The path, as given.
+    /// Returns the path, as given.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The text, without a byte-order mark.
+    /// Returns the text, without a byte-order mark.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The structure that the text describes.
+    /// Decodes the text into a structure.
     ///
     /// # Errors
     /// The first mistake of grammar, spelling or type, with its place.
@@ -92,15 +108,18 @@ impl Document {
         })
     }
 
-    /// A mistake in the value at a key path such as `warp.traction.stiffness` or `curve[2].file`.
+    /// Returns a mistake in the value at a key path such as `warp.traction.stiffness` or
+    /// `curve[2].file`.
     ///
-    /// If the value itself is not written in the text, the nearest table that is gives the place.
+    /// A key with dots in it is quoted, as in TOML: `panel."simon.back".grain`. If the value is not in
+    /// the text, the innermost table that is gives the place.
     #[must_use]
     pub fn at(&self, key: &str, message: impl Into<String>) -> Diagnostic {
         let message = format!("{key}: {}", message.into());
         self.locate(self.find(key), message)
     }
 
+    /// Returns a mistake with the place of a span.
     fn locate(&self, span: Option<Range<usize>>, message: impl Into<String>) -> Diagnostic {
         let mut diagnostic = Diagnostic::new(&self.path, message);
         if let Some(span) = span {
@@ -113,15 +132,12 @@ impl Document {
         diagnostic
     }
 
+    /// Returns the span of the value at a key path.
     fn find(&self, key: &str) -> Option<Range<usize>> {
         let table = DeTable::parse(&self.text).ok()?;
         let mut place = None;
         let mut value: Option<&Spanned<DeValue<'_>>> = None;
-        for part in key.split('.') {
-            let (name, index) = match part.split_once('[') {
-                Some((name, index)) => (name, index.trim_end_matches(']').parse::<usize>().ok()),
-                None => (part, None),
-            };
+        for Part { name, index } in parts(key) {
             let table = match value {
                 None => table.get_ref(),
                 Some(value) => value.get_ref().as_table()?,
@@ -130,7 +146,7 @@ impl Document {
                 return place;
             };
             value = Some(found);
-            // A table header spans only its name; a value is better shown by itself.
+            // A table is shown by its name, any other value by itself.
             place = Some(if found.get_ref().is_table() { found_key.span() } else { found.span() });
             if let Some(index) = index {
                 let Some(element) = found.get_ref().as_array().and_then(|a| a.get(index)) else {
@@ -144,8 +160,35 @@ impl Document {
     }
 }
 
-/// What stands in the folder where a file was not found.
-fn nearby(path: &Path) -> String {
+/// Key of a key path, with the index of an element if it is an array.
+struct Part<'a> {
+    name: &'a str,
+    index: Option<usize>,
+}
+
+/// Splits a key path at its dots outside of quotes.
+fn parts(key: &str) -> impl Iterator<Item = Part<'_>> {
+    let mut quoted = false;
+    let pieces = key.split(move |letter: char| {
+        quoted ^= letter == '"';
+        letter == '.' && !quoted
+    });
+    pieces.map(|piece| match piece.strip_prefix('"').and_then(|rest| rest.split_once('"')) {
+        Some((name, rest)) => Part { name, index: index(rest) },
+        None => match piece.split_once('[') {
+            Some((name, rest)) => Part { name, index: index(rest) },
+            None => Part { name: piece, index: None },
+        },
+    })
+}
+
+/// Returns the number in brackets.
+fn index(text: &str) -> Option<usize> {
+    text.trim_matches(['[', ']']).parse().ok()
+}
+
+/// Suggests the file that was meant by a path that does not exist.
+fn suggestion(path: &Path) -> String {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = std::fs::read_dir(folder) else {
         return format!("there is no folder {}", folder.display());
@@ -209,6 +252,16 @@ mod tests {
         assert_eq!(line("a.b.c.d"), Some(7));
         assert_eq!(line("a.b.e"), Some(6));
         assert_eq!(line("nothing"), None);
+    }
+
+    #[test]
+    fn a_key_with_dots_is_found_in_quotes() {
+        let text = "[panel.\"simon.back\"]\ngrain = 3\nfold = [\n1,\n2]";
+        let document = Document::new("a.toml", text);
+        let line = |key: &str| document.at(key, "").line;
+        assert_eq!(line("panel.\"simon.back\".grain"), Some(2));
+        assert_eq!(line("panel.\"simon.back\".fold[1]"), Some(5));
+        assert_eq!(line("panel.\"simon.back\""), Some(1));
     }
 
     #[test]

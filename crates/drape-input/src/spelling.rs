@@ -1,7 +1,16 @@
-/// The word among `known` that `word` was probably meant to be, or none that is near enough.
+//! Known word nearest to a misspelt one, for the remedies of messages.
+
+/// Returns the word among `known` that `word` was probably meant to be, if one is near enough.
 ///
-/// Nearness is the number of letters to insert, delete, exchange or swap with their neighbour, case
-/// aside; a third of the letters may be wrong.
+/// The distance is the number of letters to insert, delete, exchange or swap with their neighbour,
+/// case aside; a third of the letters may be wrong.
+///
+/// ```
+/// use drape_input::closest;
+///
+/// assert_eq!(closest("densty", ["density", "thickness"]), Some("density"));
+/// assert_eq!(closest("gravity", ["density", "thickness"]), None);
+/// ```
 #[must_use]
 pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = (word.chars().count() / 3).max(1);
@@ -13,7 +22,7 @@ pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, candidate)| candidate)
 }
 
-/// Levenshtein distance, with the swap of two neighbours as one slip (optimal string alignment).
+/// Returns the Levenshtein distance with swaps of neighbours (optimal string alignment).
 fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];

@@ -1,27 +1,35 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! [`Sheet::read`] reads a laboratory's sheet with its [`Curve`]s and [`Values`];
+//! [`Curve::values`] computes KES values from a curve.
+//!
+//! * `unit`: quantities, their units and factors to SI, in one table.
+//! * `test`, `symbol`, `values`: the nine KES values of one direction, in laboratory units and in
+//!   SI.
+//! * `curves`: [`Curve`], its branches, and the KES values read off it at [`EvaluationPoints`].
+//! * `sheets`: [`Sheet`], its TOML and table files, and the checks of what they say.
 
-mod branch;
-mod curve;
-mod curve_file;
 mod error;
-mod loop_values;
-mod model;
-mod plausible;
-mod reading;
-mod section;
-mod sheet;
-mod suspect;
-mod table;
-mod tensile;
 mod unit;
+// Tests, and the values that they give.
+mod symbol;
+mod test;
 mod values;
+// Curves, and the values read off them.
+mod curves;
+// Sheets and their files.
+mod sheets;
 
-pub use branch::{Branch, reversals};
-pub use curve::{Curve, Direction, Test};
+pub use curves::branch::{Branch, reversals};
+pub use curves::curve::{Curve, Extent};
+pub use curves::evaluation::{CurveValue, EvaluationPoints};
+pub use curves::loop_values::{BendingPoints, BendingValues, ShearPoints, ShearValues};
+pub use curves::tensile_values::TensileValues;
 pub use error::Error;
-pub use loop_values::{BendingPoints, BendingValues, ShearPoints, ShearValues};
-pub use model::Model;
-pub use reading::{Reading, Symbol};
-pub use sheet::Sheet;
-pub use tensile::TensileValues;
+pub use sheets::model::Model;
+pub use sheets::sheet::Sheet;
+pub use symbol::Symbol;
+pub use test::{Direction, Test};
 pub use values::Values;

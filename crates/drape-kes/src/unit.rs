@@ -1,37 +1,39 @@
 //! Units of measurement as laboratories write them, and their factors to SI.
+//!
+//! The only table of units; `sheets` parses with it, `values` and `curves` convert with it.
 
 use drape_input::closest;
 
 /// Standard gram-force, in newtons.
 ///
-/// A balance in one place reads differently in another, but the unit is defined: 980.665 dyn.
+/// The reading of a balance depends on the place; the unit is defined as 980.665 dyn.
 pub(crate) const GRAM_FORCE: f64 = 9.806_65e-3;
 
 /// One degree, in radians.
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// What kind of quantity a number is, hence which units it may be written in.
+/// Kind of quantity, which fixes the admissible units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Quantity {
-    /// A pure ratio: strain, linearity, resilience.
+    /// Ratio: strain, linearity, resilience.
     Ratio,
-    /// An angle, in radians.
+    /// Angle, in radians.
     Angle,
-    /// A length, in metres.
+    /// Length, in metres.
     Length,
-    /// A curvature, in 1/m.
+    /// Curvature, in 1/m.
     Curvature,
-    /// A force, in newtons.
+    /// Force, in newtons.
     Force,
-    /// A force per width, in N/m.
+    /// Force per width, in N/m.
     ForcePerWidth,
-    /// A moment, in N·m.
+    /// Moment, in N·m.
     Moment,
-    /// A moment per width, in newtons.
+    /// Moment per width, in newtons.
     MomentPerWidth,
-    /// A bending rigidity per width, in N·m.
+    /// Bending rigidity per width, in N·m.
     BendingRigidity,
-    /// A shear stiffness, in N/(m·rad).
+    /// Shear stiffness, in N/(m·rad).
     ShearStiffness,
     /// Work per area, in J/m².
     WorkPerArea,
@@ -40,7 +42,7 @@ pub(crate) enum Quantity {
 }
 
 impl Quantity {
-    /// The name used in messages.
+    /// Returns the name used in messages.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Ratio => "ratio",
@@ -58,7 +60,7 @@ impl Quantity {
         }
     }
 
-    /// The units of this quantity, the laboratory's first, with their factor to SI.
+    /// Returns the units of this quantity, the laboratory's first, with their factors to SI.
     ///
     /// Spellings are in the normal form of [`normal_form`]: `.` between factors, digits for powers.
     fn units(self) -> &'static [(&'static str, f64)] {
@@ -141,19 +143,20 @@ impl Quantity {
         }
     }
 
-    /// The unit that a bare number of a sheet is in.
+    /// Returns the unit of a bare number in a sheet.
     pub(crate) fn laboratory(self) -> Unit {
         let (spelling, factor) = self.units()[0];
         Unit { quantity: self, spelling, factor }
     }
 
+    /// Returns the spellings of the units, for messages.
     fn list(self) -> String {
         let spellings: Vec<&str> = self.units().iter().map(|unit| unit.0).collect();
         spellings.join(", ")
     }
 }
 
-/// A unit: its quantity and its factor to SI.
+/// Unit with its quantity and its factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Unit {
     pub(crate) quantity: Quantity,
@@ -161,14 +164,14 @@ pub(crate) struct Unit {
     pub(crate) factor: f64,
 }
 
-/// Why a unit was not accepted, with the remedy.
+/// Reason why a unit was not accepted, with the remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct UnitError {
     pub(crate) message: String,
     pub(crate) help: String,
 }
 
-/// The unit written as `text`, if it is one of the given quantities, which are tried in order.
+/// Parses a unit of one of the given quantities, which are tried in order.
 pub(crate) fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, UnitError> {
     let wanted = normal_form(text);
     for &quantity in accepted {
@@ -188,10 +191,18 @@ pub(crate) fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, Unit
     })
 }
 
-/// The number and its unit: `"1.2e-5 N.m"`, or `"0.118"` in the laboratory's unit.
-pub(crate) fn parse_quantity(text: &str, quantity: Quantity) -> Result<(f64, Unit), UnitError> {
+/// Number with its unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Written {
+    /// Number as written, whatever its unit.
+    pub(crate) number: f64,
+    pub(crate) unit: Unit,
+}
+
+/// Parses a number with its unit, `"1.2e-5 N.m"`, or `"0.118"` in the laboratory's unit.
+pub(crate) fn parse_quantity(text: &str, quantity: Quantity) -> Result<Written, UnitError> {
     let text = text.trim();
-    // The longest leading part that reads as a number; what follows is the unit.
+    // The longest leading part that is a number; the rest is the unit.
     let split = (1..=text.len())
         .rev()
         .filter(|&end| text.is_char_boundary(end))
@@ -208,10 +219,10 @@ pub(crate) fn parse_quantity(text: &str, quantity: Quantity) -> Result<(f64, Uni
         "" => quantity.laboratory(),
         written => parse_unit(written, &[quantity])?,
     };
-    Ok((number, unit))
+    Ok(Written { number, unit })
 }
 
-/// One spelling for the many ways of writing the same unit: `gf·cm²/cm`, `gf*cm^2/cm`, `gf cm2/cm`.
+/// Returns the normal form of a unit, for `gf·cm²/cm`, `gf*cm^2/cm` and `gf cm2/cm` alike.
 fn normal_form(text: &str) -> String {
     let mut normal = String::with_capacity(text.len());
     for c in text.trim().chars() {
@@ -285,7 +296,7 @@ mod tests {
             ("12", Quantity::MassPerArea, 0.12),
         ];
         for (text, quantity, si) in cases {
-            let (number, unit) = parse_quantity(text, quantity).unwrap();
+            let Written { number, unit } = parse_quantity(text, quantity).unwrap();
             let error = (number * unit.factor / si - 1.0).abs();
             assert!(error < 1e-14, "{text} reads as {} {}", number, unit.spelling);
         }

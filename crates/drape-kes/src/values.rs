@@ -1,10 +1,19 @@
-//! The sixteen KES values of one direction: symbols in laboratory units, words in SI.
+//! KES values of one direction: symbols in laboratory units, words in SI.
 
+use crate::symbol::Symbol;
 use crate::unit::Quantity;
 
-/// KES values of one direction, in the units that the laboratory prints; each may be missing.
+/// KES values of one direction, in the laboratory's units; each may be missing.
 ///
-/// Fields carry the laboratory's symbols and units. The methods with words convert to SI.
+/// Fields have the laboratory's symbols and units. The methods with words convert to SI.
+///
+/// ```
+/// use drape_kes::Values;
+///
+/// let values = Values { b: Some(0.118), ..Values::default() };
+/// let rigidity = values.bending_rigidity().expect("B is given");
+/// assert!((rigidity / 1.157e-5 - 1.0).abs() < 1e-3);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Values {
     /// B, bending rigidity per width, in gf·cm²/cm.
@@ -28,54 +37,95 @@ pub struct Values {
 }
 
 impl Values {
-    /// B: bending rigidity per width, in N·m.
+    /// Returns B: bending rigidity per width, in N·m.
+    #[must_use]
     pub fn bending_rigidity(&self) -> Option<f64> {
         si(self.b, Quantity::BendingRigidity)
     }
 
-    /// 2HB: width of the bending loop, moment per width, in N.
+    /// Returns 2HB: width of the bending loop, moment per width, in N.
+    #[must_use]
     pub fn bending_loop_width(&self) -> Option<f64> {
         si(self.two_hb, Quantity::MomentPerWidth)
     }
 
-    /// G: shear stiffness, in N/(m·rad).
+    /// Returns G: shear stiffness, in N/(m·rad).
+    #[must_use]
     pub fn shear_stiffness(&self) -> Option<f64> {
         si(self.g, Quantity::ShearStiffness)
     }
 
-    /// 2HG: width of the shear loop at 0.5°, in N/m.
+    /// Returns 2HG: width of the shear loop at 0.5°, in N/m.
+    #[must_use]
     pub fn shear_loop_width(&self) -> Option<f64> {
         si(self.two_hg, Quantity::ForcePerWidth)
     }
 
-    /// 2HG5: width of the shear loop at 5°, in N/m.
+    /// Returns 2HG5: width of the shear loop at 5°, in N/m.
+    #[must_use]
     pub fn shear_loop_width_at_five_degrees(&self) -> Option<f64> {
         si(self.two_hg5, Quantity::ForcePerWidth)
     }
 
-    /// LT: work to the maximum load over the work of a straight line to it, a ratio.
+    /// Returns LT: work to the maximum load over the work of a straight line to it, a ratio.
+    #[must_use]
     pub fn tensile_linearity(&self) -> Option<f64> {
         self.lt
     }
 
-    /// WT: work per area to the maximum load, in J/m².
+    /// Returns WT: work per area to the maximum load, in J/m².
+    #[must_use]
     pub fn tensile_work(&self) -> Option<f64> {
         si(self.wt, Quantity::WorkPerArea)
     }
 
-    /// RT: work recovered over work spent, a ratio.
+    /// Returns RT: work recovered over work spent, a ratio.
+    #[must_use]
     pub fn tensile_resilience(&self) -> Option<f64> {
         si(self.rt, Quantity::Ratio)
     }
 
-    /// EM: strain at the maximum load, a ratio.
+    /// Returns EM: strain at the maximum load, a ratio.
+    #[must_use]
     pub fn tensile_extension(&self) -> Option<f64> {
         si(self.em, Quantity::Ratio)
     }
 
-    /// Whether no value is given at all.
+    /// Returns whether no value is given.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// Returns a value by its symbol, in the laboratory's unit.
+    #[must_use]
+    pub fn get(&self, symbol: Symbol) -> Option<f64> {
+        match symbol {
+            Symbol::B => self.b,
+            Symbol::TwoHb => self.two_hb,
+            Symbol::G => self.g,
+            Symbol::TwoHg => self.two_hg,
+            Symbol::TwoHg5 => self.two_hg5,
+            Symbol::Lt => self.lt,
+            Symbol::Wt => self.wt,
+            Symbol::Rt => self.rt,
+            Symbol::Em => self.em,
+        }
+    }
+
+    /// Returns a mutable reference to a value by its symbol.
+    pub fn get_mut(&mut self, symbol: Symbol) -> &mut Option<f64> {
+        match symbol {
+            Symbol::B => &mut self.b,
+            Symbol::TwoHb => &mut self.two_hb,
+            Symbol::G => &mut self.g,
+            Symbol::TwoHg => &mut self.two_hg,
+            Symbol::TwoHg5 => &mut self.two_hg5,
+            Symbol::Lt => &mut self.lt,
+            Symbol::Wt => &mut self.wt,
+            Symbol::Rt => &mut self.rt,
+            Symbol::Em => &mut self.em,
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Sheets as a laboratory writes them: what is read, and what is said about each slip.
+//! Sheets as a laboratory writes them, and the message for each mistake.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ deformation = { column = "strain", unit = "%" }
 load = { column = "force", unit = "gf/cm" }
 "#;
 
-/// A folder with a sheet and one curve file.
+/// Creates a folder with a sheet and one curve file.
 fn folder(sheet: &str, curve: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     std::fs::write(folder.path().join("sheet.toml"), sheet).expect("written");
@@ -33,7 +33,7 @@ fn mistakes(result: Result<Sheet, Error>) -> Vec<Diagnostic> {
     }
 }
 
-/// The one finding of a bad sheet.
+/// Returns the one finding of a bad sheet.
 fn finding(sheet: &str, curve: &str) -> Diagnostic {
     let findings = mistakes(read(sheet, curve));
     assert_eq!(findings.len(), 1, "{findings:#?}");
@@ -200,7 +200,7 @@ fn every_error_of_a_sheet_is_reported_at_once_in_the_order_of_the_file() {
     let text = "name = \"a\"\nW = -1\ncolour = \"red\"\n[warp]\nB = inf\nEM = 3\n[weft]\nRT = 140\n[[curve]]\ntest = \"tensil\"\n";
     let found = mistakes(read(text, GOOD_CURVE));
     let lines: Vec<_> = found.iter().map(|finding| finding.line).collect();
-    // The curve is told of its wrong test and of each of its four missing keys.
+    // The curve has a wrong test and four missing keys.
     let expected = [2, 3, 5, 8, 9, 9, 9, 9, 10].map(Some);
     assert_eq!(lines, expected, "{found:#?}");
     assert!(found.iter().all(|finding| finding.help.is_some()), "{found:#?}");

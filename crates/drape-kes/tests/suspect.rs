@@ -1,9 +1,9 @@
-//! Wrong curves: each is refused with a precise message, or repaired and the repair told.
+//! Wrong curves: each is refused with a precise message, or repaired with a warning.
 
 use drape_input::{Diagnostic, Diagnostics};
 use drape_kes::{Direction, Error, Sheet, Test};
 
-/// A sheet with one curve of the given test, units and points.
+/// Reads a sheet with one curve of the given test, units and points.
 fn read(test: &str, units: (&str, &str), points: &[(f64, f64)]) -> Result<Sheet, Error> {
     let rows: String = points.iter().map(|(q, f)| format!("{q},{f}\n")).collect();
     read_text(test, units, &format!("q,f\n{rows}"))
@@ -49,14 +49,14 @@ fn says(finding: &Diagnostic, words: &[&str]) {
     assert!(finding.line.is_some() && finding.help.is_some(), "{text}");
 }
 
-/// Loading and recovery of a tensile test: strain in %, load in gf/cm.
+/// Returns loading and recovery of a tensile test: strain in %, load in gf/cm.
 fn tensile() -> Vec<(f64, f64)> {
     let up = (0..=20).map(|i| f64::from(i) * 0.2).map(|e| (e, 30.0 * e * e));
     let down = (0..20).rev().map(|i| f64::from(i) * 0.2).map(|e| (e, 28.0 * e * e * (e / 4.0)));
     up.chain(down).collect()
 }
 
-/// A shear loop: angle in degrees, load in gf/cm.
+/// Returns a shear loop: angle in degrees, load in gf/cm.
 fn shear() -> Vec<(f64, f64)> {
     let load = |a: f64, sense: f64| 0.4 * a + 0.8 * sense;
     let up = (-8..=8).map(f64::from).map(|a| (a, load(a, 1.0)));
@@ -93,7 +93,7 @@ fn swapped_columns_are_refused() {
         |points: Vec<(f64, f64)>| points.into_iter().map(|(q, f)| (f, q)).collect::<Vec<_>>();
     let finding = refusal(read("tensile", ("%", GF), &swap(tensile())));
     says(&finding, &["deformation reaches", "exchange the columns"]);
-    // Here both sizes could be right; the loop is then walked the wrong way round.
+    // Here both sizes could be right; the loop then runs in the wrong direction.
     let finding = refusal(read("shear", ("deg", GF), &swap(shear())));
     says(&finding, &["columns exchanged"]);
 }
@@ -135,7 +135,8 @@ fn a_reversed_sign_is_turned_and_told() {
     let sheet = read("tensile", ("%", GF), &both).expect("safe to repair");
     says(&sheet.warnings()[0], &["deformation and load have the opposite sign"]);
     assert!(
-        sheet.curves[0].load_range().0 >= 0.0 && sheet.curves[0].deformation_range().0 >= -1e-15
+        sheet.curves[0].load_range().low >= 0.0
+            && sheet.curves[0].deformation_range().low >= -1e-15
     );
 }
 

@@ -8,11 +8,11 @@ use crate::minimise::Report;
 /// n\ln\frac{S}{n} + 2k + \frac{2k(k+1)}{n - k - 1}
 /// ```
 ///
-/// with the sum `$S$` of `$n$` squared residuals and `$k$` = free parameters plus one for the noise;
-/// the smallest is the best. Models may be compared when they were fitted to the same data with the
-/// same weights and the same loss. A difference beyond ten leaves the worse model no support, one
-/// below two says nothing \[BA02\]. `None` where there are fewer than two residuals more than
-/// parameters, or where the sum is not a number.
+/// with the sum `$S$` of `$n$` squared residuals and `$k$` = free parameters plus one for the
+/// noise; the smallest is the best. Models may be compared when they were fitted to the same data
+/// with the same weights and the same loss. A difference beyond ten leaves the worse model no
+/// support, one below two says nothing \[BA02\]. `None` where there are fewer than two residuals
+/// more than parameters, or where the sum is not a number.
 ///
 /// The residuals are taken as independent. Where a model misses the data systematically neighbours
 /// are correlated, and differences come out too large.
@@ -57,8 +57,8 @@ mod tests {
 
     #[test]
     fn a_parameter_must_pay_for_itself() {
-        // With 20 residuals the fourth parameter costs 2 + 2·5·6/14 − 2·4·5/15 = 3.619: a reduction of the
-        // sum by the factor exp(−3.619/20) just pays for it.
+        // With 20 residuals the fourth parameter costs 2 + 2·5·6/14 − 2·4·5/15 = 3.619: a reduction
+        // of the sum by the factor exp(−3.619/20) just pays for it.
         let three = akaike(&report(1.0), 20, 3).expect("enough residuals");
         let pays = (-3.619_047_619_f64 / 20.0).exp();
         for (sum, better) in [(pays * 1.001, false), (pays * 0.999, true)] {

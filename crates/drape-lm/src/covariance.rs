@@ -30,21 +30,21 @@ const SVD_ITERATIONS: usize = 10_000;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Undetermined {
-    /// It was held fixed.
+    /// Fixed parameter.
     #[error("the parameter is fixed")]
     Fixed,
-    /// It ended at this bound: the minimum lies beyond, and the error around the bound is not
+    /// Parameter at this bound: the minimum lies beyond, and the error around the bound is not
     /// symmetric.
     #[error("the parameter is at its bound {0:e}")]
     AtBound(f64),
-    /// It can change together with these others (or alone, if there are none) without any effect on
-    /// the residuals: fix one of them, or measure something that separates them.
+    /// Parameter that can change together with these others (or alone, if there are none) without
+    /// any effect on the residuals: fix one of them, or measure something that separates them.
     #[error("the data do not separate the parameter from parameters {0:?}")]
     Unidentifiable(Vec<usize>),
-    /// There are no more residuals than free parameters, or the level is not between 0 and 1.
+    /// No more residuals than free parameters, or a level that is not between 0 and 1.
     #[error("there are too few residuals, or the level is not between 0 and 1")]
     NoDegreesOfFreedom,
-    /// The model has no derivative at the minimum.
+    /// Model without a derivative at the minimum.
     #[error("the model has no derivative at the minimum")]
     NotFinite,
 }
@@ -62,8 +62,8 @@ pub enum Undetermined {
 /// `$K = 1 + \frac{p}{n}\,\mathrm{var}(\psi')/\overline{\psi'}^2$` \[Hub81, §7.6\].
 ///
 /// It holds for residuals that are independent and of one variance after weighting, and for a model
-/// that is nearly linear over the errors; [`profile`](fn@crate::profile) shows where it is not. Where
-/// a model misses its data systematically the errors come out too small.
+/// that is nearly linear over the errors; `profile` shows where it is not. Where a model misses its
+/// data systematically the errors come out too small.
 ///
 /// ```
 /// # use drape_lm::{Covariance, Loss, Parameter, Problem, Settings, minimise};
@@ -91,7 +91,8 @@ pub struct Covariance {
     pub degrees_of_freedom: usize,
     /// Reciprocal condition number of the scaled Jacobian of the free parameters, a ratio.
     pub reciprocal_condition: f64,
-    /// Rise of the sum of the losses, over the variance, where a parameter is one standard error off.
+    /// Rise of the sum of the losses, over the variance, where a parameter is one standard error
+    /// off.
     rise: f64,
     /// Standard errors of the parameters if all others were known.
     conditional: Vec<f64>,
@@ -253,8 +254,8 @@ impl Covariance {
         self.conditional[parameter]
     }
 
-    /// Returns the rise of the sum of the losses where a parameter is one standard error off and the
-    /// others are fitted again.
+    /// Returns the rise of the sum of the losses where a parameter is one standard error off and
+    /// the others are fitted again.
     pub(crate) fn rise_of_one_deviation(&self) -> f64 {
         self.rise * self.residual_deviation.powi(2)
     }

@@ -11,7 +11,7 @@ use crate::problem::{Parameter, Problem};
 /// the central formula.
 const STEP: f64 = 6e-6;
 
-/// A parameter as a function of all parameters.
+/// Parameter as a function of all parameters.
 type Rule<'a> = Box<dyn Fn(&[f64]) -> f64 + Sync + 'a>;
 
 /// Problem in which some parameters are functions of others.

@@ -45,8 +45,8 @@ const SLOPING: f64 = 1e-3;
 const RESIDUAL_ROUNDING: f64 = 1e-13;
 /// Limit on the undamped steps at the end.
 ///
-/// One or two are usual. Where the residuals are large each gains a factor of two or three only, and
-/// a dozen gains four digits.
+/// One or two are usual. Where the residuals are large each gains a factor of two or three only,
+/// and a dozen gains four digits.
 const POLISH_STEPS: usize = 12;
 /// Ratio of the lengths of successive polish steps above which they are rounding.
 const POLISH_SHRINK: f64 = 0.9;
@@ -79,8 +79,8 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// Returns least squares down to rounding: the problems here are small, and the last digits cost
-    /// little.
+    /// Returns least squares down to rounding: the problems here are small, and the last digits
+    /// cost little.
     fn default() -> Self {
         Self {
             reduction: 1e-14,
@@ -96,21 +96,21 @@ impl Default for Settings {
 /// Reason why the iteration stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The sum no longer falls.
+    /// Convergence: the sum no longer falls.
     Reduction,
-    /// The parameters no longer move.
+    /// Convergence: the parameters no longer move.
     Step,
-    /// The residuals are orthogonal to every change of the free parameters.
+    /// Convergence: the residuals are orthogonal to every change of the free parameters.
     Gradient,
-    /// All residuals are zero.
+    /// Convergence: all residuals are zero.
     Exact,
-    /// The limit on iterations was reached.
+    /// Limit on the number of iterations.
     Iterations,
-    /// No step, however short, achieved the predicted reduction.
+    /// Failure of all steps, however short, to achieve the predicted reduction.
     Stalled,
-    /// The residuals at the starting values, or the derivatives at the best point, are not finite.
+    /// Residuals at the starting values, or derivatives at the best point, that are not finite.
     NotFinite,
-    /// There are no parameters or no residuals.
+    /// Problem without parameters or without residuals.
     Empty,
 }
 
@@ -150,15 +150,15 @@ pub struct Report {
 ///
 /// by a singular value decomposition, so that the condition number is not squared. `$D$` holds the
 /// largest norm that each column of `$J$` has had, which makes the method independent of the units
-/// of the parameters. The damping `$\lambda$` follows from the radius `$\Delta$` of the trust region,
-/// and that from the ratio of actual to predicted reduction \[Mor78\]. A damped step is corrected by
-/// the second derivative of the residuals along it, for one evaluation: curved valleys take fewer
-/// steps, and a step whose correction is too large is rejected \[TS12\].
+/// of the parameters. The damping `$\lambda$` follows from the radius `$\Delta$` of the trust
+/// region, and that from the ratio of actual to predicted reduction \[Mor78\]. A damped step is
+/// corrected by the second derivative of the residuals along it, for one evaluation: curved valleys
+/// take fewer steps, and a step whose correction is too large is rejected \[TS12\].
 ///
 /// Parameters at a bound are held while the gradient points outwards; the step of the others is
 /// projected on the bounds, and the prediction is made for the projected step. The last steps are
-/// undamped: the sum is flat at its minimum and no longer separates parameters that the linear model
-/// still does.
+/// undamped: the sum is flat at its minimum and no longer separates parameters that the linear
+/// model still does.
 ///
 /// ```
 /// use drape_lm::{Parameter, Problem, Settings, minimise};
@@ -268,8 +268,8 @@ fn corrected(iterate: &mut Iterate<impl Problem>, step: &[f64], damping: f64) ->
     Some(corrected)
 }
 
-/// Ends where no step can be taken: at a minimum, unless the gradient or the residuals are too large
-/// for one.
+/// Ends where no step can be taken: at a minimum, unless the gradient or the residuals are too
+/// large for one.
 fn no_step(iterate: Iterate<impl Problem>, settings: &Settings, iterations: usize) -> Report {
     let floor = RESIDUAL_ROUNDING * iterate.length(&iterate.values);
     if iterate.gradient() > SLOPING && iterate.residuals.norm() > floor {

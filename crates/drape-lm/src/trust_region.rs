@@ -14,8 +14,8 @@ const DAMPING_ITERATIONS: usize = 60;
 /// Limit on the iterations of the singular value decomposition, far more than it needs.
 const SVD_ITERATIONS: usize = 10_000;
 
-/// Linear model `$\|A z + r\|$` of the residuals in scaled parameters, decomposed once and solved for
-/// any radius.
+/// Linear model `$\|A z + r\|$` of the residuals in scaled parameters, decomposed once and solved
+/// for any radius.
 ///
 /// ```math
 /// z(\lambda) = -V\,\mathrm{diag}\!\left(\frac{\sigma}{\sigma^2 + \lambda}\right) U^T r

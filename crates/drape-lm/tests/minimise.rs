@@ -45,7 +45,8 @@ fn rosenbrocks_valley_is_followed_to_its_end() {
 
 #[test]
 fn powells_singular_problem_is_solved_as_far_as_its_singularity_allows() {
-    // The Jacobian loses rank at the minimum (0, 0, 0, 0): convergence there is linear, not quadratic.
+    // The Jacobian loses rank at the minimum (0, 0, 0, 0): convergence there is linear, not
+    // quadratic.
     let singular = model(4, |p, r| {
         r[0] = p[0] + 10.0 * p[1];
         r[1] = 5f64.sqrt() * (p[2] - p[3]);
@@ -85,7 +86,8 @@ fn a_linear_fit_with_weights_solves_the_normal_equations() {
 
 #[test]
 fn a_bound_holds_and_the_others_still_reach_their_conditional_minimum() {
-    // Least squares of (p − 3, p + q − 5, q − 4): p = 7/3, q = 10/3; with p ≤ 2, q = (5 − 2 + 4)/2 = 3.5.
+    // Least squares of (p − 3, p + q − 5, q − 4): p = 7/3, q = 10/3; with p ≤ 2, q = (5 − 2 + 4)/2
+    // = 3.5.
     let plane = model(3, |p, r| {
         r[0] = p[0] - 3.0;
         r[1] = p[0] + p[1] - 5.0;

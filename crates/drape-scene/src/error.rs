@@ -1,8 +1,10 @@
+//! Error of reading a scene.
+
 use drape_input::Diagnostics;
 
 use crate::tangle::Tangle;
 
-/// Why a scene cannot be read.
+/// Error of reading a scene.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

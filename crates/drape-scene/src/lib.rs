@@ -1,56 +1,28 @@
 #![doc = include_str!("../README.md")]
 
-mod allowance;
-mod clock;
-mod collider;
-mod contact;
-mod cost;
-mod course;
-mod error;
-mod file;
-mod fitting;
-mod fold;
-mod garment;
-mod growth;
-mod inflation;
-mod layers;
-mod material;
-mod model;
-mod noise;
-mod panel;
-mod pin;
-mod pin_reader;
-mod placement;
-mod reader;
+// Values
 mod scene;
-mod settle;
-mod sewing;
-mod shapes;
-mod solver;
-mod start;
-mod stitching;
 mod surfaces;
 mod tangle;
-mod track;
 
-pub use clock::Clock;
-pub use contact::ContactSettings;
-pub use course::Course;
+// From TOML to values
+mod check;
+mod error;
+mod file;
+mod read;
+
 pub use error::Error;
-pub use garment::Seam;
-pub use growth::Growth;
-pub use inflation::Inflation;
-pub use material::{FabricRequest, Material, is_fabric, read_fabric};
-pub use model::Model;
-pub use panel::Panel;
-pub use pin::{Pin, Until};
-pub use reader::FabricReader;
-pub use scene::{MovingBody, Scene};
-pub use settle::Settle;
-pub use sewing::Sewing;
-pub use shapes::Shapes;
-pub use solver::{Integrator, LinearSolver, Method, SolverSettings};
-pub use stitching::{Stitching, Thread};
+pub use scene::clock::Clock;
+pub use scene::contact::{ContactSettings, DistanceGrowth, Inflation};
+pub use scene::garment::{Garment, Sewing};
+pub use scene::material::{FabricReader, FabricRequest, Material, is_fabric, read_fabric};
+pub use scene::model::Model;
+pub use scene::motion::{BodyMotion, MotionKey, RigidMotion, ShapeMotion};
+pub use scene::panel::{Panel, PanelEdge};
+pub use scene::pin::{HoldUntil, Pin};
+pub use scene::relaxation::Relaxation;
+pub use scene::seam::{Seam, SeamConstraint, SeamPairs, SeamWeight};
+pub use scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
+pub use scene::{Environment, MovingBody, Output, Scene, Schedule, Source, Start, View};
 pub use surfaces::StartSurfaces;
 pub use tangle::{Overlap, Tangle};
-pub use track::Track;

@@ -1,3 +1,8 @@
+//! Surfaces of a scene at its start, for checks and for the simulation.
+//!
+//! Every panel and every body is a group of the surface, with contact distances of its own: of a panel half of its fabric's
+//! thickness, as half of the distance between two layers.
+
 use std::ops::Range;
 
 use drape_collide::{
@@ -5,52 +10,71 @@ use drape_collide::{
 };
 use drape_fabric::Fabric;
 
-use crate::course::Course;
-use crate::panel::Panel;
 use crate::scene::Scene;
-use crate::stitching::Stitching;
+use crate::scene::motion::BodyMotion;
+use crate::scene::panel::Panel;
+use crate::scene::seam::SeamPairs;
 
-/// Part of a fabric's thickness under pressure that its surfaces keep between them under any load.
+/// Minimum separation of surfaces as a fraction of the fabric's thickness under pressure.
 const CRUSHED: f64 = 0.5;
 
-/// Largest part of its thickness that a fabric has under pressure, for its contact: one that is not compressed at all
-/// would have contact without end.
+/// Largest thickness under pressure, as a fraction of the thickness, that contact takes into account: a fabric that is not
+/// compressed at all would have infinitely stiff contact.
 const PRESSED: f64 = 0.95;
 
-/// The surfaces of a scene's panels and bodies at its start.
+/// Surfaces of a scene's panels and bodies at its start.
 #[derive(Debug)]
 pub struct StartSurfaces {
-    /// Their contact, with bodies as small as they start.
+    /// Contact of the surfaces, with bodies as small as they start.
     pub contact: SurfaceContact,
     /// Names of the panels and, behind them, of the bodies: of the groups of the surface.
     pub names: Vec<String>,
-    /// Which vertices, among those of all bodies, are each body's.
+    /// Vertices of each body among those of all bodies.
     pub vertices: Vec<Range<usize>>,
-    /// Where the vertices of the bodies belong, in m.
+    /// Positions at which the vertices of the bodies belong, in m.
     pub bodies: Vec<f64>,
-    /// How far inside of there each vertex starts where bodies grow, as vectors, in m.
+    /// Displacements from there to where the vertices start, in m: inward where bodies grow.
     pub inward: Vec<f64>,
-    /// Half of the least distance that two surfaces keep, in m.
-    pub separation: f64,
+    /// Half of the smallest minimum separation, in m.
+    pub min_separation: f64,
+}
+
+/// Coefficient of friction of a group of the surface.
+#[derive(Debug, Clone, Copy)]
+enum Friction {
+    /// Of a fabric with itself.
+    Fabric(f64),
+    /// Of a body with cloth.
+    Body(f64),
+}
+
+impl Friction {
+    /// Coefficient of a pair of groups: of two fabrics the geometric mean, with a body that of the body.
+    fn pair(self, other: Self) -> f64 {
+        match (self, other) {
+            (Self::Fabric(a), Self::Fabric(b)) => (a * b).sqrt(),
+            (Self::Body(body), _) | (_, Self::Body(body)) => body,
+        }
+    }
 }
 
 impl StartSurfaces {
     /// Makes the surfaces of a scene.
     ///
     /// # Errors
-    /// Settings or surfaces that are none.
+    /// Settings or bodies that make no contact.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         let Scene { panels, materials, cloth, bodies, contact, .. } = scene;
         let fabric = |panel: &Panel| &materials[panel.material].fabric;
-        let skin = |fabric: &Fabric| ContactDistances {
+        let distances = |fabric: &Fabric| ContactDistances {
             activation_distance: 0.5 * fabric.thickness,
             min_separation: 0.5 * CRUSHED * fabric.thickness_under_pressure(),
         };
-        let skins = panels.iter().map(|panel| skin(fabric(panel)));
-        let thinnest = skins.min_by(|a, b| a.activation_distance.total_cmp(&b.activation_distance));
+        let all = panels.iter().map(|panel| distances(fabric(panel)));
+        let thinnest = all.min_by(|a, b| a.activation_distance.total_cmp(&b.activation_distance));
         let thinnest =
             thinnest.unwrap_or(ContactDistances { activation_distance: 0.0, min_separation: 0.0 });
-        let sewn = scene.sewing.as_ref().map(|sewing| &sewing.stitching);
+        let sewn = scene.sewing.as_ref().map(|sewing| &sewing.pairs);
         let mut surface = SurfaceParts {
             rest_positions: cloth.coordinates().iter().flat_map(|[u, v]| [*u, *v, 0.0]).collect(),
             triangles: cloth.triangles().to_vec(),
@@ -59,15 +83,15 @@ impl StartSurfaces {
             distances: Vec::new(),
             free_vertices: cloth.particles(),
             seam_pairs: sewn.map_or_else(Vec::new, |sewn| sewn.pairs.clone()),
-            ties: sewn.map_or_else(Vec::new, Stitching::triples),
+            ties: sewn.map_or_else(Vec::new, SeamPairs::tied_triples),
         };
         let mut frictions = Vec::new();
         for (index, panel) in panels.iter().enumerate() {
             surface
                 .groups
                 .extend(std::iter::repeat_n(index as u32, panel.lattice.coordinates.len()));
-            surface.distances.push(skin(fabric(panel)));
-            frictions.push(Err(fabric(panel).surface_friction));
+            surface.distances.push(distances(fabric(panel)));
+            frictions.push(Friction::Fabric(fabric(panel).surface_friction));
         }
         let (mut start, mut inward) = (Vec::new(), Vec::new());
         let mut vertices = Vec::new();
@@ -77,8 +101,8 @@ impl StartSurfaces {
             let count = outline.vertices.len();
             vertices.push(start.len() / 3..start.len() / 3 + count);
             start.extend(outline.vertices.iter().flatten());
-            // What goes from frame to frame has its size from there.
-            let grows = !matches!(moving.course, Some(Course::Shapes(_)));
+            // A body that changes its shape has its size from its frames.
+            let grows = !matches!(moving.motion, Some(BodyMotion::Shapes(_)));
             let depth = contact
                 .inflation
                 .map_or(0.0, |inflation| if grows { inflation.depth } else { 0.0 });
@@ -91,32 +115,27 @@ impl StartSurfaces {
             let half = thinnest.activation_distance;
             let activation_distance = (contact.particles.activation_distance - half).max(half);
             surface.distances.push(ContactDistances { activation_distance, ..thinnest });
-            frictions.push(Ok(moving.body.friction));
+            frictions.push(Friction::Body(moving.body.friction));
         }
         surface.rest_positions.extend(&start);
-        let pair = |a: &Result<f64, f64>, b: &Result<f64, f64>| match (a, b) {
-            // Of two fabrics the geometric mean; a body's coefficient is that with cloth.
-            (Err(a), Err(b)) => (a * b).sqrt(),
-            (Ok(body), _) | (_, Ok(body)) => *body,
-        };
-        let friction = frictions.iter().flat_map(|a| frictions.iter().map(move |b| pair(a, b)));
+        let friction = frictions.iter().flat_map(|a| frictions.iter().map(|b| a.pair(*b)));
         let settings = SurfaceSettings {
             stiffness: contact.stiffness.unwrap_or_else(|| {
                 panels.iter().map(|panel| stiffness(fabric(panel))).fold(0.0, f64::max)
             }),
-            sticking_displacement: contact.stick,
+            sticking_displacement: contact.sticking_displacement,
             friction_coefficients: friction.collect(),
             pinch: contact.pinch,
         };
         let at_start: Vec<f64> = match contact.inflation {
-            Some(_) => start.iter().zip(&inward).map(|(place, way)| place + way).collect(),
+            Some(_) => start.iter().zip(&inward).map(|(place, inward)| place + inward).collect(),
             None => start.clone(),
         };
         let contact = SurfaceContact::new(Surface::new(surface)?, settings, at_start)?;
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|moving| &moving.body.name)).cloned().collect();
-        let separation = thinnest.min_separation;
-        Ok(Self { contact, names, vertices, bodies: start, inward, separation })
+        let min_separation = thinnest.min_separation;
+        Ok(Self { contact, names, vertices, bodies: start, inward, min_separation })
     }
 }
 

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use drape_input::Document;
-use drape_scene::{Error, Integrator, LinearSolver, Method, Scene};
+use drape_scene::{Error, Integrator, LinearSolver, Method, Scene, View};
 
 const FABRIC: &str = r#"name = "plain"
 density = 0.12
@@ -43,24 +43,33 @@ fn what_is_not_said_has_its_default() {
     let scene = read(LEAST).unwrap();
     assert_eq!(scene.name, "unnamed");
     assert_eq!(scene.cloth.particles(), 21 * 31, "10 mm apart");
-    assert_eq!(scene.gravity, [0.0, -9.81, 0.0]);
-    assert!((scene.air - 0.5 * 1.2 * 1.28).abs() < 1e-15);
+    assert_eq!(scene.environment.gravity, [0.0, -9.81, 0.0]);
+    assert!((scene.environment.air - 0.5 * 1.2 * 1.28).abs() < 1e-15);
     assert_eq!(
-        (scene.clock.step, scene.clock.tick(), scene.clock.ticks_to_do()),
+        (
+            scene.schedule.clock.step,
+            scene.schedule.clock.tick(),
+            scene.schedule.clock.ticks_to_do()
+        ),
         (0.004, 0.004, 25)
     );
     assert_eq!(
-        (scene.clock.ticks_per_frame, scene.clock.ticks_max, scene.clock.error),
+        (
+            scene.schedule.clock.ticks_per_frame,
+            scene.schedule.clock.ticks_max,
+            scene.schedule.clock.error
+        ),
         (10, 1, None)
     );
-    assert_eq!((scene.clock.ramp, scene.settle, scene.energy), (0.0, None, true));
+    assert_eq!((scene.schedule.clock.ramp, scene.schedule.relaxation), (0.0, None));
+    assert!(scene.solver.energy_balance);
     let solver = scene.solver;
     assert_eq!((solver.integrator, solver.method), (Integrator::Bdf2, Method::Broyden));
     assert_eq!((solver.linear_solver, solver.tolerance), (LinearSolver::ConjugateGradient, 1e-4));
-    assert_eq!(scene.folder, None);
-    assert!(!scene.held.iter().any(|held| *held));
+    assert_eq!(scene.output.folder, None);
+    assert!(!scene.held_particles().iter().any(|held| *held));
     // The middle of the panel is at the origin.
-    let low = scene.positions.chunks(3).map(|p| p[1]).fold(f64::INFINITY, f64::min);
+    let low = scene.start.positions.chunks(3).map(|p| p[1]).fold(f64::INFINITY, f64::min);
     assert!((low + 0.15).abs() < 1e-12, "{low}");
 }
 
@@ -143,10 +152,10 @@ energy = false
     let scene = read(text).unwrap();
     assert_eq!(scene.name, "all");
     assert_eq!((scene.panels.len(), scene.panels[1].first), (2, 11 * 16));
-    assert_eq!(scene.gravity, [0.0, 0.0, -1.0]);
-    assert!((scene.air - 1.0).abs() < 1e-15);
-    assert_eq!(scene.held.iter().filter(|held| **held).count(), 16 + 1);
-    let towel = &scene.positions[..3 * 176];
+    assert_eq!(scene.environment.gravity, [0.0, 0.0, -1.0]);
+    assert!((scene.environment.air - 1.0).abs() < 1e-15);
+    assert_eq!(scene.held_particles().iter().filter(|held| **held).count(), 16 + 1);
+    let towel = &scene.start.positions[..3 * 176];
     let high = towel.chunks(3).map(|p| (p[1] - 1.0).abs()).fold(0.0, f64::max);
     assert!(high > 5e-4 && high < 1.2e-3, "it lies flat at 1 m but for ripple and noise: {high}");
     let bodies: Vec<_> = scene.bodies.iter().map(|moving| &moving.body).collect();
@@ -156,14 +165,15 @@ energy = false
     let contact = scene.contact.particles;
     assert!((contact.activation_distance - 0.003).abs() < 1e-15);
     assert_eq!((contact.stiffness, contact.slip_speed), (1e6, 0.002));
-    let clock = scene.clock;
+    let clock = scene.schedule.clock;
     assert_eq!((clock.step, clock.ticks_per_step, clock.ticks_max), (0.008, 8, 32));
     assert_eq!((clock.error, clock.ramp, clock.ticks_per_frame), (Some(1e-4), 0.5, 80));
     let solver = scene.solver;
     assert_eq!((solver.integrator, solver.method), (Integrator::BackwardEuler, Method::Newton));
     assert_eq!((solver.linear_solver, solver.tolerance), (LinearSolver::Cholesky, 1e-6));
-    assert!(!scene.energy);
-    assert_eq!((scene.folder, scene.view), (Some("here".into()), [Some(10.0), Some(20.0)]));
+    assert!(!solver.energy_balance);
+    let view = View { azimuth: Some(10.0), elevation: Some(20.0) };
+    assert_eq!((scene.output.folder, scene.output.view), (Some("here".into()), view));
 }
 
 #[test]
@@ -172,8 +182,9 @@ fn a_panel_is_cut_at_its_angle_to_the_grain() {
     let scene = read(&format!("{text}[[pin]]\npanel = \"towel\"\nedge = \"top\"\n")).unwrap();
     let mass: f64 = scene.cloth.masses().iter().sum();
     assert!((mass / (0.2 * 0.3 * 0.12) - 1.0).abs() < 1e-12, "{mass}");
-    let place =
-        |particle: usize| [scene.positions[3 * particle], scene.positions[3 * particle + 1]];
+    let place = |particle: usize| {
+        [scene.start.positions[3 * particle], scene.start.positions[3 * particle + 1]]
+    };
     // The warp leans to the left by 30°, the weft to the right end upwards, and the middle is at the origin.
     let (sin, cos) = 30_f64.to_radians().sin_cos();
     for (particle, [u, v]) in scene.cloth.coordinates().iter().enumerate() {
@@ -182,10 +193,10 @@ fn a_panel_is_cut_at_its_angle_to_the_grain() {
         assert!((found[0] - x).hypot(found[1] - y) < 1e-15, "{found:?}, not {x} {y}");
     }
     // A row at the top: all that is less than half a spacing below it.
-    for (particle, held) in scene.held.iter().enumerate() {
+    for (particle, held) in scene.held_particles().iter().enumerate() {
         assert_eq!(*held, place(particle)[1] > 0.145, "{:?}", place(particle));
     }
-    assert!(scene.held.iter().filter(|held| **held).count() > 20);
+    assert!(scene.held_particles().iter().filter(|held| **held).count() > 20);
 }
 
 #[test]
@@ -193,7 +204,7 @@ fn a_disc_turns_with_its_grain() {
     let disc = |more: &str| read(&with("rectangle = [0.2, 0.3]", &format!("disc = 0.2{more}")));
     let (straight, turned) = (disc("").unwrap(), disc("\ngrain = 90").unwrap());
     assert_eq!(straight.cloth.masses(), turned.cloth.masses());
-    for (a, b) in straight.positions.chunks(3).zip(turned.positions.chunks(3)) {
+    for (a, b) in straight.start.positions.chunks(3).zip(turned.start.positions.chunks(3)) {
         assert_eq!([-a[1], a[0], a[2]], [b[0], b[1], b[2]]);
     }
 }
@@ -209,7 +220,7 @@ fn a_ring_is_held_around_its_hole() {
     let ring = std::f64::consts::PI * (0.15_f64.powi(2) - 0.05_f64.powi(2));
     assert!((mass / (ring * 0.12) - 1.0).abs() < 1e-12, "{mass}");
     let places = scene.cloth.coordinates().iter().map(|[u, v]| u.hypot(*v));
-    for (held, radius) in scene.held.iter().zip(places) {
+    for (held, radius) in scene.held_particles().iter().zip(places) {
         assert_eq!(*held, radius <= 0.08, "at {radius}");
     }
     let mistakes = read(&format!("{text}[[pin]]\npanel = \"towel\"\npoints = [[0, 0]]\n"));
@@ -218,11 +229,11 @@ fn a_ring_is_held_around_its_hole() {
 
 #[test]
 fn rest_is_defined_by_its_table() {
-    let settle = read(&with("", "[settle]")).unwrap().settle.unwrap();
+    let settle = read(&with("", "[settle]")).unwrap().schedule.relaxation.unwrap();
     assert_eq!((settle.speed, settle.residual, settle.inertia), (0.002, 1e-3, false));
     assert!((settle.stride - 0.0025).abs() < 1e-15, "a quarter of the spacing");
     let text = with("", "[settle]\nspeed = 0.01\nresidual = 1e-2\nstride = 0.001\ninertia = true");
-    let settle = read(&text).unwrap().settle.unwrap();
+    let settle = read(&text).unwrap().schedule.relaxation.unwrap();
     assert_eq!((settle.speed, settle.residual, settle.stride), (0.01, 1e-2, 0.001));
     assert!(settle.inertia);
     let scene = read(&with("", "[solver]\nintegrator = \"explicit\"")).unwrap();

@@ -58,7 +58,7 @@ fn stiffness(angle: f64, cells: usize) -> Result<f64, ValidationError> {
     );
     let scene = scene(text, fabric)?;
     let places = scene.panels[0].lattice.panel_coordinates();
-    let starts: Vec<f64> = scene.positions.chunks_exact(3).map(|place| place[1]).collect();
+    let starts: Vec<f64> = scene.start.positions.chunks_exact(3).map(|place| place[1]).collect();
     let mut simulation = Simulation::new(scene)?;
     finish(&mut simulation)?;
     let ends = simulation.frame().positions;

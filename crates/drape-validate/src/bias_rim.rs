@@ -93,7 +93,7 @@ fn specimen(making: Making, fabric: &Fabric) -> Result<Scene, ValidationError> {
 fn bend(making: Making, fabric: &Fabric) -> Result<[Vec<f64>; 2], ValidationError> {
     let scene = specimen(making, fabric)?;
     let particles = scene.pins[1].particles.clone();
-    let starts: Vec<f64> = scene.positions.iter().step_by(3).copied().collect();
+    let starts: Vec<f64> = scene.start.positions.iter().step_by(3).copied().collect();
     let mut simulation = Simulation::new(scene)?;
     let [mut curvatures, mut moments] = [Vec::new(), Vec::new()];
     for _ in 0..STEPS {

@@ -121,7 +121,7 @@ impl Arc {
         path.extend(std::iter::repeat_n(unloaded, RESTING_STEPS));
         let scene = self.scene(of, &path)?;
         // The free leg: from the last row that was bent to the end.
-        let along: Vec<f64> = scene.positions.chunks_exact(3).map(|place| place[0]).collect();
+        let along: Vec<f64> = scene.start.positions.chunks_exact(3).map(|place| place[0]).collect();
         let end = along.iter().copied().fold(f64::MIN, f64::max);
         let ends = [self.length - 0.5 * self.spacing(), end].map(|x| {
             let near = |place: &f64| (place - x).abs() < 0.1 * self.spacing();

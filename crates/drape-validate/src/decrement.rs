@@ -36,10 +36,11 @@ fn swings(friction: bool) -> Result<Vec<[f64; 2]>, ValidationError> {
         format!("gravity = [0, 0, 0]\n{}", motion(period / STEPS, (SWINGS as f64 + 0.5) * period));
     let mut scene = strip.scene(0.0, &rest.replace("energy = false", "energy = true"))?;
     // Flat and fast in the first mode: no yarn is strained, and none has slid.
-    let speeds = scene.velocities.chunks_exact_mut(3).zip(scene.cloth.coordinates());
-    for ((speed, [u, _]), held) in speeds.zip(&scene.held) {
+    let held = scene.held_particles();
+    let speeds = scene.start.velocities.chunks_exact_mut(3).zip(scene.cloth.coordinates());
+    for ((speed, [u, _]), held) in speeds.zip(held) {
         let [deflection, _] = STRIP.mode(u - strip.beyond());
-        speed[1] = if *held { 0.0 } else { frequency * CURVATURE / bend * deflection };
+        speed[1] = if held { 0.0 } else { frequency * CURVATURE / bend * deflection };
     }
     let mut simulation = Simulation::new(scene)?;
     let (mut tips, mut found) = (vec![[0.0; 2]], Vec::new());

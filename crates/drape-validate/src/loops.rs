@@ -123,7 +123,7 @@ pub fn bending_hysteresis() -> Result<Findings, ValidationError> {
         let element = law.friction.elements[0];
         let (plateau, length) = (element.plateau, element.length);
         let curve = measure(&fabric, Test::Bending, Direction::Weft, (0.005, FINE))?;
-        let (_, top) = curve.deformation_range();
+        let top = curve.deformation_range().high;
         let what = |what: &str| format!("{}: {what}", fabric.name);
         let lost = 4.0 * plateau * (top - length * (top / length).tanh());
         let found = steady_area(&curve);

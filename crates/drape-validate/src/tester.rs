@@ -7,7 +7,7 @@ use std::f64::consts::SQRT_2;
 
 use drape_dynamics::{PinLoad, Simulation};
 use drape_fabric::Fabric;
-use drape_kes::{BendingPoints, Curve, Direction, Reading, ShearPoints, Symbol, Test};
+use drape_kes::{BendingPoints, Curve, Direction, EvaluationPoints, ShearPoints, Symbol, Test};
 use drape_scene::Scene;
 
 use crate::ValidationError;
@@ -66,7 +66,7 @@ pub(crate) fn bent((row, cells): (f64, usize), curvature: f64) -> Place {
 
 /// How far the middle of what the second pin holds is beyond a pivot along x, in m.
 pub(crate) fn arm(scene: &Scene, pivot: f64) -> f64 {
-    let held = scene.pins[1].particles.iter().map(|particle| scene.positions[3 * particle]);
+    let held = scene.pins[1].particles.iter().map(|particle| scene.start.positions[3 * particle]);
     held.clone().sum::<f64>() / held.count() as f64 - pivot
 }
 
@@ -293,19 +293,18 @@ impl Comparison {
         let pairs = self.measured.load().iter().zip(self.ideal.load());
         let count = self.measured.load().len().min(self.ideal.load().len());
         let squares: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
-        let (low, high) = self.ideal.load_range();
-        (squares / count as f64).sqrt() / (high - low)
+        (squares / count as f64).sqrt() / self.ideal.load_range().span()
     }
 
     /// The KES values of both, simulated and of the laws, in the laboratory's units; those that both curves have.
     pub fn values(&self) -> Vec<(Symbol, [f64; 2])> {
-        let reading = Reading {
+        let points = EvaluationPoints {
             maximum_tension: LARGEST_TENSION,
             bending: BendingPoints::default(),
             shear: ShearPoints::default(),
         };
-        let [measured, ideal] = [&self.measured, &self.ideal].map(|curve| curve.values(&reading));
+        let [measured, ideal] = [&self.measured, &self.ideal].map(|curve| curve.values(&points));
         let pairs = measured.into_iter().zip(ideal);
-        pairs.filter_map(|((symbol, a), (_, b))| Some((symbol, [a.ok()?, b.ok()?]))).collect()
+        pairs.filter_map(|(a, b)| Some((a.symbol, [a.value.ok()?, b.value.ok()?]))).collect()
     }
 }

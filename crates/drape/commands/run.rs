@@ -46,15 +46,16 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut scene =
         drape::read_scene(&arguments.scene).map_err(|error| refuse(error, arguments))?;
     if let Some(end) = arguments.until {
-        if !(end >= scene.clock.step) {
-            let step = scene.clock.step;
+        if !(end >= scene.schedule.clock.step) {
+            let step = scene.schedule.clock.step;
             return Err(Failure::Usage(format!("--until {end}: a step takes {step} s already")));
         }
-        scene.clock.end = end;
+        scene.schedule.clock.end = end;
     }
-    let folder = folder(arguments, scene.folder.as_ref());
+    let folder = folder(arguments, scene.output.folder.as_ref());
     let output = prepare_folder(&folder, arguments.force || arguments.output.is_none())?;
-    let (view, garment) = (scene.view, scene.sewing.is_some());
+    let view = [scene.output.view.azimuth, scene.output.view.elevation];
+    let garment = scene.sewing.is_some();
     notes(&scene);
     let mut simulation = Simulation::new(scene)?;
     let recorder = output.record(simulation.topology())?;
@@ -91,7 +92,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 /// Prints the notes on the patterns of a scene.
 #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
 fn notes(scene: &Scene) {
-    scene.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    scene.source.notes.iter().for_each(|note| eprintln!("note: {note}"));
 }
 
 /// Returns the folder for the results.
@@ -126,10 +127,6 @@ fn refuse(error: Error, arguments: &RunArguments) -> Failure {
         (Ok(()), _) => format!("the triangles are in {}", path.display()),
         (Err(reason), _) => reason,
     };
-    let mut mistakes = tangle.mistakes.0.iter_mut();
-    if let Some(mistake) = mistakes.find(|mistake| mistake.message.contains("surfaces")) {
-        let help = mistake.help.take().unwrap_or_default();
-        mistake.help = Some(format!("{help}; {told}"));
-    }
+    tangle.add_help(&told);
     Failure::Input(tangle.mistakes)
 }

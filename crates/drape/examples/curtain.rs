@@ -2,6 +2,8 @@
 //! corners that are nearer to each other than the curtain is wide, and prints how it drapes. `cargo
 //! run --release --example curtain`
 
+#![expect(clippy::print_stdout, reason = "an example prints its result")]
+
 use drape::dynamics::Simulation;
 use drape::fit::identify;
 use drape::input::Document;

@@ -1,7 +1,7 @@
 //! Report of a fit: every law with its loop, its parameters and their intervals, and what was
 //! assumed.
 
-use drape::fit::{CurveFit, Estimate, Fit, Settings, Unknown};
+use drape::fit::{CurveFit, Estimate, Fit, Settings, Undetermined};
 use drape::kes::{Curve, Sheet, Test};
 use drape::lm::Stop;
 use drape::report::plot::{Correlation, LoopPlot};
@@ -58,7 +58,7 @@ fn law(curve: &Curve, fit: &CurveFit) -> LawReport {
         statistics: Some(Statistics {
             misfit: fit.misfit,
             rms: fit.rms,
-            r_squared: fit.determination,
+            r_squared: fit.r_squared,
             points: fit.load.len(),
             iterations: fit.iterations,
             evaluations: fit.evaluations,
@@ -87,7 +87,7 @@ fn parameter(test: Test, estimate: &Estimate) -> Parameter {
     let named = quantity::parameter(test, estimate.name);
     let interval = match &estimate.interval {
         Ok([lower, upper]) => Interval::Between { lower: *lower, upper: *upper },
-        Err(Unknown::Fixed) => Interval::Fixed { reason: Unknown::Fixed.to_string() },
+        Err(Undetermined::Fixed) => Interval::Fixed { reason: Undetermined::Fixed.to_string() },
         Err(unknown) => Interval::Unknown { reason: unknown.to_string() },
     };
     Parameter {
@@ -95,7 +95,7 @@ fn parameter(test: Test, estimate: &Estimate) -> Parameter {
         symbol: named.symbol.into(),
         value: estimate.value,
         units: named.units,
-        standard_error: estimate.error.as_ref().ok().copied(),
+        standard_error: estimate.standard_error.as_ref().ok().copied(),
         interval,
         incidental: named.incidental,
     }
@@ -124,7 +124,7 @@ fn notes(fit: &CurveFit) -> Vec<String> {
              intervals are widened by that",
             fit.autocorrelation,
             fit.load.len(),
-            fit.independent
+            fit.effective_points
         ));
     }
     notes

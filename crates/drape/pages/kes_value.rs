@@ -1,7 +1,7 @@
 //! KES values as pages show them: in SI, with the unit of the laboratory beside it.
 
 use drape::fabric::Fabric;
-use drape::fit::{Settings, ValueRow, compare_values, fabric_values};
+use drape::fit::{Settings, ValueComparison, compare_values, fabric_values};
 use drape::kes::{Direction, Sheet, Symbol};
 use drape::report::{ComparedValue, KesValue, Units};
 
@@ -38,17 +38,18 @@ pub(crate) struct SheetValues {
 /// Returns the values that a sheet or its curves have, each with that of the fitted fabric.
 pub(crate) fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> SheetValues {
     let rows = compare_values(sheet, fabric, settings);
-    let warnings = rows.iter().filter_map(ValueRow::warning).collect();
+    let warnings = rows.iter().filter_map(ValueComparison::warning).collect();
     let known = rows.into_iter().filter(|row| row.sheet.is_some() || row.curve.is_ok());
-    let value =
-        |row: ValueRow| shown(row.direction, row.symbol, [row.sheet, row.curve.ok(), row.law]);
+    let value = |row: ValueComparison| {
+        shown(row.direction, row.symbol, [row.sheet, row.curve.ok(), row.law])
+    };
     SheetValues { values: known.map(value).collect(), warnings }
 }
 
 /// Returns the values of a fabric in a direction.
 pub(crate) fn of_fabric(fabric: &Fabric, direction: Direction) -> Vec<KesValue> {
-    let reading = Settings::default().reading(&Sheet::default());
-    let values = fabric_values(fabric, direction, &reading);
+    let points = Settings::default().evaluation_points(&Sheet::default());
+    let values = fabric_values(fabric, direction, &points);
     Symbol::ALL.map(|symbol| shown(direction, symbol, [None, None, values.get(symbol)])).into()
 }
 

@@ -45,7 +45,7 @@ fn radii(scene: &Scene, name: &str) -> Vec<f64> {
     let panel = scene.panels.iter().find(|panel| panel.name == name).unwrap();
     let own = panel.particles();
     let own = 3 * own.start..3 * own.end;
-    scene.positions[own].chunks_exact(3).map(|x| x[0].hypot(x[2])).collect()
+    scene.start.positions[own].chunks_exact(3).map(|x| x[0].hypot(x[2])).collect()
 }
 
 fn refused(scene: Result<Scene, Error>) -> String {
@@ -63,7 +63,7 @@ fn a_layer_starts_two_centimetres_outside_of_the_one_below() {
         assert!(radii(&scene, "inner.front").iter().all(|r| (r - 0.08).abs() < 1e-12));
         assert!(radii(&scene, "outer.front").iter().all(|r| (r - radius).abs() < 1e-12));
         assert!(radii(&scene, "outer.back").iter().all(|r| (r - 0.1).abs() < 1e-12));
-        assert_eq!(scene.notes, [""; 0]);
+        assert_eq!(scene.source.notes, [""; 0]);
     }
 }
 

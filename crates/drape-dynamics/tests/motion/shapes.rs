@@ -197,7 +197,7 @@ fn the_hash_of_a_scene_tells_its_bodies_apart() {
         std::fs::write(folder.path().join("block.obj"), obj(&mesh)).unwrap();
         let samples = [start, way.map(|x| end * x)].map(|way| moved(&block, way));
         std::fs::write(&cache, point_cache(&samples)).unwrap();
-        hashes.push(sheet(scene(folder.path(), &motion)).scene().hash);
+        hashes.push(sheet(scene(folder.path(), &motion)).scene().source.hash);
     }
     hashes.sort();
     hashes.dedup();

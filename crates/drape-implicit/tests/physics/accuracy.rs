@@ -12,7 +12,7 @@ fn spring_law(x: f64) -> [f64; 3] {
     [0.5 * OMEGA * OMEGA * x * x, OMEGA * OMEGA * x, OMEGA * OMEGA]
 }
 
-/// Solves each step to rounding, so that what is left is the formula's error.
+/// Solves each step to rounding, so that only the formula's error is left.
 fn exact(integrator: Integrator) -> Settings {
     Settings { integrator, tolerance: 1e-12, energy_balance: true, ..Settings::default() }
 }

@@ -53,7 +53,8 @@ fn a_stiff_chain_swings_like_the_fine_reference() {
         (squares / 11.0).sqrt()
     };
     let (coarse, fine) = (error(4e-3, 150), error(1e-3, 600));
-    // The swing is some 0.8 m; the order is below two while the axial waves, which no step resolves, ring down.
+    // The swing is some 0.8 m; the order is below two while the axial waves, which no step
+    // resolves, ring down.
     assert!(coarse < 0.02, "4 ms: {coarse} m");
     assert!(fine < 0.003, "1 ms: {fine} m");
 }
@@ -88,8 +89,8 @@ fn a_heavy_chain_comes_to_rest_on_the_catenary() {
 
     let found = -state.positions[3 * (links / 2) + 1];
 
-    // The chain of links: horizontal tension is constant, so the slopes of the links grow by equal amounts from
-    // ±half of one at the middle; that amount follows from the span.
+    // The chain of links: horizontal tension is constant, so the slopes of the links grow by equal
+    // amounts from ±half of one at the middle; that amount follows from the span.
     let link = length / links as f64;
     let slope = |k: usize, growth: f64| (growth * (k as f64 + 0.5)).atan();
     let half_span = |growth| (0..links / 2).map(|k| link * slope(k, growth).cos()).sum::<f64>();
@@ -98,7 +99,8 @@ fn a_heavy_chain_comes_to_rest_on_the_catenary() {
     // Springs of 1e8 N/m under 3 N, 17 mm long, stretch by 2e-6 at most.
     assert!((found / polygon - 1.0).abs() < 2e-6, "{found} m against {polygon} m");
 
-    // The smooth catenary y = a cosh(x/a), of length 2a sinh(span/2a): 60 links are within 1/60² or so.
+    // The smooth catenary y = a cosh(x/a), of length 2a sinh(span/2a): 60 links are within 1/60² or
+    // so.
     let a = bisect(|a| 2.0 * a * (0.5 * span / a).sinh() - length);
     let sag = a * ((0.5 * span / a).cosh() - 1.0);
     assert!((found / sag - 1.0).abs() < 1e-3, "{found} m against {sag} m");
@@ -142,7 +144,8 @@ fn a_free_net_keeps_its_momentum() {
             stepper.advance(&mut other, &mut state, 2e-3).unwrap();
         }
         for (before, after) in before.iter().zip(momentum(&state)) {
-            // Each step may leave the residual it is allowed, and no more: internal forces cancel exactly.
+            // Each step may leave the residual it is allowed, and no more: internal forces cancel
+            // exactly.
             let allowed = 100.0 * 2e-3 * tolerance * 9.81 * magnitude;
             assert!((before - after).abs() < allowed, "{integrator:?}: {before} became {after}");
         }
@@ -176,7 +179,8 @@ fn a_swinging_sheet_loses_the_energy_that_is_reported_and_bdf2_a_fifth_of_it() {
         -energy
     };
     let (first, second) = (loss(Integrator::BackwardEuler), loss(Integrator::Bdf2));
-    // Of the 1 J that the fall releases. What is left of the second order's loss is in waves of a few steps' length.
+    // Of the 1 J that the fall releases. The rest of the second order's loss is in waves of a
+    // few steps' length.
     assert!(first > 0.1, "{first} J");
     assert!(second > 0.0 && second < 0.2 * first, "{second} J against {first} J");
 }

@@ -48,7 +48,7 @@ fn a_long_step_is_made_in_as_many_parts_as_stability_asks_for() {
         explicit.advance(&mut system, &mut state, 0.01).unwrap();
     }
     let farthest = state.positions.iter().fold(0.0, |far: f64, x| far.max(x.abs()));
-    assert!(farthest < 2.0, "it swings within its reach: {farthest}");
+    assert!(farthest < 2.0, "it swings within its amplitude: {farthest}");
 
     // The bound is a bound, and not a loose one: at three times its length the sheet flies apart.
     let mut explicit = Explicit::new(&system).with_fraction(3.0);

@@ -100,7 +100,7 @@ impl System for Linear {
         positions.iter().zip(&resistance).zip(&self.load).map(|((x, r), l)| x * (0.5 * r - l)).sum()
     }
     fn stiffness(&mut self, _: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
-        // The definite approximation: nothing, or, for a liar, what is not definite.
+        // The definite approximation: nothing or, for a liar, a matrix that is not definite.
         if kind == Stiffness::Exact || self.shown == Stiffness::Exact {
             for (i, j, block) in &self.blocks {
                 matrix.add(*i, *j, block);
@@ -161,7 +161,7 @@ fn random_indefinite_and_badly_scaled_systems_are_solved_or_refused() {
             false => refused += 1,
         }
     }
-    // Both ways must have been taken for the test to mean anything.
+    // Both outcomes must have occurred for the test to mean anything.
     assert!(solved > 50 && refused > 20, "{solved} solved, {refused} refused");
 }
 
@@ -211,12 +211,12 @@ fn impossible_input_is_refused_and_named() {
     let mut short = good.clone();
     short.velocities.pop();
     let error = advance(&mut system.clone(), &mut short, 0.1).unwrap_err();
-    assert_eq!(error, Error::Dimension { what: "velocities", expected: 9, found: 8 });
+    assert_eq!(error, Error::Dimension { name: "velocities", expected: 9, found: 8 });
 
     let mut odd = system.clone();
     odd.held.pop();
     let error = advance(&mut odd, &mut good.clone(), 0.1).unwrap_err();
-    assert_eq!(error, Error::Dimension { what: "held", expected: 3, found: 2 });
+    assert_eq!(error, Error::Dimension { name: "held", expected: 3, found: 2 });
 
     let mut broken = good.clone();
     broken.velocities[4] = f64::NAN;

@@ -1,4 +1,4 @@
-//! The solvers against each other and against what defeats each of them.
+//! The solvers against each other, and against systems that defeat each of them.
 
 use drape_implicit::{
     Error, InitialMatrix, Integrator, IntegratorState, LinearSolver, Method, Report, Settings,
@@ -38,8 +38,8 @@ fn every_method_and_linear_solver_finds_the_same_motion() {
             let settings = Settings { method, linear_solver, ..tight.clone() };
             let (state, reports) = swing(8, 500.0, &settings, 2e-3, 30);
             let apart = distance(&state, &reference);
-            // 30 steps with an acceleration error of 1e-8 m/s² each move particles by 1e-11 m, times a
-            // growth of errors that a stiff net is far from.
+            // 30 steps with an acceleration error of 1e-8 m/s² each move particles by 1e-11 m,
+            // times a growth of errors that a stiff net is far from.
             assert!(apart < 1e-9, "{method:?}, {linear_solver:?}: {apart:e} m apart");
             let inner: usize = reports.iter().map(|report| report.linear_iterations).sum();
             assert_eq!(inner == 0, linear_solver == LinearSolver::Cholesky);
@@ -91,7 +91,7 @@ fn textbook_broyden_does_not_converge_on_a_stiff_system_that_the_default_solves(
 }
 
 #[test]
-fn broyden_needs_fewer_tangents_than_newton() {
+fn broyden_needs_fewer_matrices_than_newton() {
     let count = |method| {
         let (_, reports) = swing(
             12,
@@ -226,9 +226,9 @@ fn a_stiffness_that_claims_to_be_definite_and_is_not_stops_the_step() {
     stepper.advance(&mut system, &mut state, 0.01).unwrap();
 }
 
-/// A stiff sheet that falls from rest in every step: its iterations, and how much energy its steps leave to be gained at
-/// the most, over their kinetic energy.
-fn creep(settings: &Settings) -> (usize, f64) {
+/// A stiff sheet that falls from rest in every step: its iterations, and how much energy its steps
+/// leave to be gained at the most, over their kinetic energy.
+fn relax(settings: &Settings) -> (usize, f64) {
     let n = 16;
     let dt = 0.015;
     let mut system = Springs::sheet(n, 5000.0);
@@ -245,11 +245,11 @@ fn creep(settings: &Settings) -> (usize, f64) {
         let mut best = start.clone();
         exact.advance(&mut system, &mut best, dt).unwrap();
         let kinetic = |end: &IntegratorState| {
-            let ways = end.positions.chunks_exact(3).zip(start.positions.chunks_exact(3));
+            let moves = end.positions.chunks_exact(3).zip(start.positions.chunks_exact(3));
             let square = |(a, b): (&[f64], &[f64])| -> f64 {
                 a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
             };
-            let energies = ways.zip(&system.masses).map(|(way, m)| 0.5 * m * square(way));
+            let energies = moves.zip(&system.masses).map(|(ends, m)| 0.5 * m * square(ends));
             energies.sum::<f64>() / (dt * dt)
         };
         let [moves, best_moves] = [kinetic(&state), kinetic(&best)];
@@ -268,30 +268,31 @@ fn a_step_may_end_when_little_energy_is_left_to_gain() {
         tolerance: 1e-3,
         ..Settings::default()
     };
-    let (solved, _) = creep(&settings);
-    for share in [1e-3, 1e-2] {
-        let (iterations, left) = creep(&Settings { energy_tolerance: share, ..settings.clone() });
-        println!("{share:e}: {iterations} of {solved} iterations, {left:e} left");
+    let (solved, _) = relax(&settings);
+    for fraction in [1e-3, 1e-2] {
+        let (iterations, left) =
+            relax(&Settings { energy_tolerance: fraction, ..settings.clone() });
+        println!("{fraction:e}: {iterations} of {solved} iterations, {left:e} left");
         assert!(iterations < solved, "{iterations} of {solved} iterations");
-        assert!(left <= share, "{left:e} of the kinetic energy is left at {share:e}");
+        assert!(left <= fraction, "{left:e} of the kinetic energy is left at {fraction:e}");
     }
-    // What a direction that is not solved for promises tells nothing.
-    let cut = Settings { max_linear_iterations: 1, max_iterations: 1000, ..settings };
-    let patient = Settings { energy_tolerance: 0.5, ..cut.clone() };
-    assert_eq!(creep(&patient).0, creep(&cut).0);
+    // The decrease that a direction predicts means nothing if it is not solved for.
+    let truncated = Settings { max_linear_iterations: 1, max_iterations: 1000, ..settings };
+    let patient = Settings { energy_tolerance: 0.5, ..truncated.clone() };
+    assert_eq!(relax(&patient).0, relax(&truncated).0);
 }
 
-/// Soft on both sides of a stiff middle. From −1 m Newton's method leads to 3 m, where the force is smaller and the
-/// energy larger, and from there back again.
+/// Soft on both sides of a stiff middle. From −1 m Newton's method leads to 3 m, where the force is
+/// smaller and the energy larger, and from there back again.
 fn gully(x: f64) -> [f64; 3] {
     let left = |x: f64| [0.125 * (x + 1.0).powi(2) - (x + 1.0), 0.25 * (x + 1.0) - 1.0, 0.25];
     let middle = |x: f64| {
-        let (way, start) = (x + 0.6, left(-0.6));
-        [start[0] + start[1] * way + 0.5 * 5.175 * way * way, start[1] + 5.175 * way, 5.175]
+        let (d, start) = (x + 0.6, left(-0.6));
+        [start[0] + start[1] * d + 0.5 * 5.175 * d * d, start[1] + 5.175 * d, 5.175]
     };
     let right = |x: f64| {
-        let (way, start) = (x + 0.4, middle(-0.4));
-        [start[0] + start[1] * way + 0.5 * 0.225 * way * way, start[1] + 0.225 * way, 0.225]
+        let (d, start) = (x + 0.4, middle(-0.4));
+        [start[0] + start[1] * d + 0.5 * 0.225 * d * d, start[1] + 0.225 * d, 0.225]
     };
     if x <= -0.6 {
         left(x)

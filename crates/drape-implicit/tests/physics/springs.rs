@@ -38,7 +38,8 @@ impl Springs {
         }
     }
 
-    /// A square sheet of n × n particles, 1 m wide and 0.2 kg, with soft diagonals: a cloth without bending.
+    /// A square sheet of n × n particles, 1 m wide and 0.2 kg, with soft diagonals: a cloth without
+    /// bending.
     pub fn sheet(n: usize, stiffness: f64) -> Self {
         let spacing = 1.0 / (n - 1) as f64;
         let at = |i: usize, j: usize| i * n + j;

@@ -6,7 +6,7 @@ use drape_implicit::{
 };
 
 /// Height at which the floor begins to push, m.
-const REACH: f64 = 1e-3;
+const ACTIVATION_DISTANCE: f64 = 1e-3;
 /// Stiffness of the floor, N/m.
 const STIFFNESS: f64 = 1e8;
 
@@ -68,8 +68,8 @@ impl System for Floor {
         // A barrier that knows of no other side.
         let push = if gap <= 0.0 {
             f64::NAN
-        } else if gap < REACH {
-            STIFFNESS * REACH * (REACH / gap - 1.0)
+        } else if gap < ACTIVATION_DISTANCE {
+            STIFFNESS * ACTIVATION_DISTANCE * (ACTIVATION_DISTANCE / gap - 1.0)
         } else {
             0.0
         };
@@ -78,8 +78,12 @@ impl System for Floor {
 
     fn potential(&mut self, positions: &[f64]) -> f64 {
         let gap = self.gap(positions);
-        let barrier = if gap < REACH {
-            STIFFNESS * REACH * (gap - REACH - REACH * (gap / REACH).ln())
+        let barrier = if gap < ACTIVATION_DISTANCE {
+            STIFFNESS
+                * ACTIVATION_DISTANCE
+                * (gap
+                    - ACTIVATION_DISTANCE
+                    - ACTIVATION_DISTANCE * (gap / ACTIVATION_DISTANCE).ln())
         } else {
             0.0
         };
@@ -88,7 +92,11 @@ impl System for Floor {
 
     fn stiffness(&mut self, positions: &[f64], _: Stiffness, matrix: &mut BlockMatrix) {
         let gap = self.gap(positions);
-        matrix.values_mut()[4] = if gap < REACH { STIFFNESS * (REACH / gap).powi(2) } else { 0.0 };
+        matrix.values_mut()[4] = if gap < ACTIVATION_DISTANCE {
+            STIFFNESS * (ACTIVATION_DISTANCE / gap).powi(2)
+        } else {
+            0.0
+        };
     }
 
     fn sparsity(&self) -> Sparsity {
@@ -156,7 +164,7 @@ fn a_bullet_does_not_pass_a_floor_thinner_than_its_step() {
 }
 
 #[test]
-fn what_goes_on_does_not_look_back_unless_something_is_in_its_way() {
+fn a_step_begins_at_its_prediction_if_asked_to_and_nothing_limits_it() {
     let evaluations = |height: f64, begin_at_prediction: bool| {
         let mut floor = Floor::new(0.0);
         let mut stepper =
@@ -165,17 +173,17 @@ fn what_goes_on_does_not_look_back_unless_something_is_in_its_way() {
         let report = stepper.advance_filtered(&mut floor, &mut state, 0.01).unwrap();
         (report.force_evaluations, state.positions[1])
     };
-    let [(looking, way), (going, same)] =
+    let [(looking, height), (going, same)] =
         [false, true].map(|begin_at_prediction| evaluations(0.5, begin_at_prediction));
-    assert_eq!((looking - going, way), (1, same));
+    assert_eq!((looking - going, height), (1, same));
     assert_eq!(evaluations(0.01, false), evaluations(0.01, true));
 }
 
 #[test]
-fn a_floor_that_rises_by_many_times_its_reach_carries_the_particle() {
+fn a_floor_that_rises_by_many_times_its_activation_distance_carries_the_particle() {
     let mut floor = Floor::new(1.0);
     let mut stepper = Stepper::new(&floor, settings()).unwrap();
-    let mut state = falling(REACH, 0.0);
+    let mut state = falling(ACTIVATION_DISTANCE, 0.0);
     for _ in 0..20 {
         stepper.advance_filtered(&mut floor, &mut state, 0.01).unwrap();
         assert!(state.positions[1] > state.time, "{:?} at {}", state.positions, state.time);
@@ -203,7 +211,8 @@ fn a_solution_that_is_not_certified_is_tried_in_halves() {
 
 #[test]
 fn a_floor_that_rises_too_fast_blocks_the_step() {
-    // It would have to be pushed by 10 m in a step that is allowed no halves, and by a thousandth at a time.
+    // It would have to be pushed by 10 m in a step that is allowed no halves, and by a thousandth
+    // at a time.
     let mut floor = Floor::new(1000.0);
     let settings = Settings { max_halvings: 0, ..settings() };
     let mut stepper = Stepper::new(&floor, settings).unwrap();

@@ -1,4 +1,4 @@
-//! Sub-steps, held particles, and what is remembered between steps.
+//! Sub-steps, held particles, and the state between steps.
 
 use drape_implicit::{
     BlockMatrix, Integrator, IntegratorState, Method, Settings, Sparsity, Stepper, Stiffness,
@@ -90,7 +90,7 @@ impl System for Lift {
     }
     fn begin(&mut self, end_time: f64, _: f64, _: &[f64], target: &mut [f64]) {
         target[1] = self.speed * end_time;
-        // What is said of a free particle must not matter.
+        // The target of a free particle must not matter.
         target[3] = f64::NAN;
     }
     fn forces(&mut self, positions: &[f64], forces: &mut [f64]) {
@@ -161,9 +161,9 @@ fn systems_of_no_free_particles_are_advanced_without_complaint() {
     }
 }
 
-/// A net whose springs tear: the sparsity changes while the stepper lives.
+/// A net that grows a spring: the sparsity changes while the stepper lives.
 #[test]
-fn a_new_pattern_is_taken_up_when_its_version_changes() {
+fn a_new_sparsity_is_taken_up_when_its_version_changes() {
     struct Growing(Springs, u64);
     impl System for Growing {
         fn particles(&self) -> usize {

@@ -103,8 +103,8 @@ fn print(outcomes: &[Outcome]) {
 
 /// Asserts that all starts lead to the certified values.
 ///
-/// Lanczos1 is exempt from the digits of its errors: its residuals are 1e-13 of the data, so that in
-/// double precision they have two or three digits at all.
+/// Lanczos1 is exempt from the digits of its errors: its residuals are 1e-13 of the data, so that
+/// in double precision they have two or three digits at all.
 fn check(outcomes: &[Outcome]) {
     for outcome in outcomes {
         let Outcome { name, start, .. } = outcome;

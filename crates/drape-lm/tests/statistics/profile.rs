@@ -36,7 +36,8 @@ fn the_profile_of_a_linear_fit_is_the_interval_of_its_standard_error() {
     }
 }
 
-/// Decay measured until it is hardly half over: its rate is determined, with an asymmetric interval.
+/// Decay measured until it is hardly half over: its rate is determined, with an asymmetric
+/// interval.
 fn decay() -> Model<impl Fn(&[f64], &mut [f64])> {
     model(14, |p, r| {
         for (i, r) in r.iter_mut().enumerate() {
@@ -60,7 +61,8 @@ fn the_profile_of_a_curved_model_ends_where_the_conditional_sum_reaches_the_leve
     )[1]
     .clone()
     .expect("determined");
-    // With the time constant given the amplitude is a linear fit: the conditional sum is known exactly.
+    // With the time constant given the amplitude is a linear fit: the conditional sum is known
+    // exactly.
     let sum = |tau: f64| {
         let shape: Vec<f64> = (0..14).map(|i| (-(f64::from(i) / 10.0) / tau).exp()).collect();
         let mut measured = vec![0.0; 14];

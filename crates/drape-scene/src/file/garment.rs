@@ -1,27 +1,29 @@
+//! TOML form of garments and their sewing.
+
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::NoiseFile;
+use crate::file::panel::NoiseFile;
 
-/// A pattern that is cut, placed and sewn.
+/// Pattern that is cut, placed and sewn.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentFile {
-    /// What it is called, and its panels after it: `NAME.PANEL`; those of the pattern keep their names if missing.
+    /// Name, which its panels have before theirs: `NAME.PANEL`; they keep the names of the pattern if missing.
     pub(crate) name: Option<String>,
     pub(crate) pattern: String,
-    /// The fabric of the panels that name none.
+    /// Fabric of the panels that name none.
     pub(crate) fabric: String,
     pub(crate) spacing: Option<f64>,
     /// Shift of all panels.
     #[serde(default)]
     pub(crate) center: [f64; 3],
-    /// How far out it is worn; 0 if missing, which is next to the body.
+    /// Layer in which it is worn; 0 if missing, which is next to the body.
     pub(crate) layer: Option<i64>,
     /// Random heights over the panels.
     pub(crate) noise: Option<NoiseFile>,
-    /// What is said of single panels.
+    /// Keys of single panels.
     #[serde(default)]
     pub(crate) panel: BTreeMap<String, GarmentPanelFile>,
 }
@@ -30,21 +32,20 @@ pub(crate) struct GarmentFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentPanelFile {
     pub(crate) fabric: Option<String>,
-    /// Where the origin of the panel's frame is, and its turns about x, y and z in degrees; those of the pattern if both
-    /// are missing.
+    /// Origin of the panel's frame, and its rotations about x, y and z in degrees; those of the pattern if both are missing.
     pub(crate) center: Option<[f64; 3]>,
     pub(crate) turn: Option<[f64; 3]>,
     /// Radius of the cylinder that it is bent to; that of the pattern if missing.
     pub(crate) wrap: Option<f64>,
-    /// How far out it is worn; as far as its garment if missing.
+    /// Layer in which it is worn; that of its garment if missing.
     pub(crate) layer: Option<i64>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SewFile {
-    /// How long the sides of the seams are drawn together.
+    /// Time until the seams are to be closed.
     pub(crate) seconds: Option<f64>,
-    /// How many times as stiff as the fabric a seam is.
+    /// Bending stiffness of a seam over that of the fabric.
     pub(crate) stiffness: Option<f64>,
 }

@@ -47,10 +47,10 @@ fn scene(scene: &Scene) -> String {
          steps of {} s to {} s\n",
         scene.name,
         scene.cloth.particles(),
-        scene.held.iter().filter(|held| **held).count(),
+        scene.held_particles().iter().filter(|held| **held).count(),
         scene.bodies.len(),
-        scene.clock.step,
-        scene.clock.end
+        scene.schedule.clock.step,
+        scene.schedule.clock.end
     );
     for panel in &scene.panels {
         let [across, along] = panel.lattice.spacing;
@@ -69,7 +69,7 @@ fn scene(scene: &Scene) -> String {
     }
     if let Some(sewing) = &scene.sewing {
         for seam in &sewing.seams {
-            let gaps: Vec<f64> = seam.stitching.gaps(&scene.positions).collect();
+            let gaps: Vec<f64> = seam.pairs.gaps(&scene.start.positions).collect();
             let _ = writeln!(
                 text,
                 "  seam \"{}\": {} stitches, open by {:.1} mm, {:.1} mm at most",
@@ -80,7 +80,7 @@ fn scene(scene: &Scene) -> String {
             );
         }
     }
-    scene.notes.iter().for_each(|note| {
+    scene.source.notes.iter().for_each(|note| {
         let _ = writeln!(text, "  note: {note}");
     });
     scene.materials.iter().for_each(|material| text += &indent(&fabric(&material.fabric)));
@@ -128,14 +128,17 @@ fn sheet(file: &Path) -> Result<String, Diagnostics> {
     let mut text =
         format!("sheet \"{}\": {density} kg/m², {} curves\n", sheet.name, sheet.curves.len());
     for curve in &sheet.curves {
-        let ((low, high), (least, most)) = (curve.deformation_range(), curve.load_range());
+        let (deformation, load) = (curve.deformation_range(), curve.load_range());
         let _ = writeln!(
             text,
-            "  {} {}: {} points, deformation {low:.4e} to {high:.4e}, load {least:.4e} to \
-             {most:.4e}",
+            "  {} {}: {} points, deformation {:.4e} to {:.4e}, load {:.4e} to {:.4e}",
             curve.test.name(),
             curve.direction.name(),
-            curve.deformation().len()
+            curve.deformation().len(),
+            deformation.low,
+            deformation.high,
+            load.low,
+            load.high
         );
     }
     sheet.warnings().iter().for_each(|warning| {

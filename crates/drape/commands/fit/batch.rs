@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use drape::fit::identify_all;
+use drape::fit::{FittedSheet, identify_all};
 use drape::kes::Sheet;
 use drape::report::{FitPage, Trust};
 
@@ -73,7 +73,7 @@ pub(crate) fn fit_all(sheets: &[PathBuf], arguments: &FitArguments) -> Result<()
     let settings = arguments.laws.settings();
     let read = |job: &Job<'_>| job.read(arguments.force);
     let rows = identify_all(&jobs, &settings, read, |job, found| {
-        let row = found.and_then(|(sheet, fit)| {
+        let row = found.and_then(|FittedSheet { sheet, fit }| {
             let page = page(sheet, fit, &settings)?;
             file::write(&job.fabric, fit.fabric.to_toml())?;
             store(&page, &job.name, arguments.report.as_deref())?;

@@ -1,0 +1,158 @@
+//! Parts of the cloth that measures refer to: panels, garments, seams, edges, and the fabrics' measured ranges.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use drape_collide::{Body, Shape};
+use drape_scene::{Garment, Material, Panel, Scene, SeamPairs};
+
+/// Parts of the cloth of a scene.
+#[derive(Debug)]
+pub(crate) struct GarmentParts {
+    /// Panels, in the order of the scene.
+    pub(crate) panels: Vec<PanelSpan>,
+    pub(crate) garments: Vec<HungGarment>,
+    /// Lowest point of the bodies, in m, if a garment that is below it falls for ever.
+    pub(crate) ground: Option<f64>,
+    /// Particles of the seams.
+    pub(crate) seams: SeamPairs,
+    /// Edges of panels that are not sewn.
+    pub(crate) free_edges: Vec<FreeEdge>,
+    /// Largest deformation to which each law of each fabric was measured, by the names of fabrics and the keys of laws.
+    pub(crate) measured_ranges: BTreeMap<String, BTreeMap<String, f64>>,
+}
+
+/// Particles of a panel.
+#[derive(Debug, Clone)]
+pub(crate) struct PanelSpan {
+    pub(crate) name: String,
+    /// Name of its fabric in the scene.
+    pub(crate) fabric: String,
+    pub(crate) particles: Range<usize>,
+}
+
+/// Garment, and where it was when it began to hang.
+#[derive(Debug, Clone)]
+pub(crate) struct HungGarment {
+    pub(crate) name: String,
+    particles: Range<usize>,
+    /// Its extent when it began to hang.
+    pub(crate) hung: VerticalExtent,
+}
+
+/// Lowest and highest point, in m.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct VerticalExtent {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+}
+
+/// Edge of a panel that is not sewn, such as a hem.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FreeEdge {
+    /// PANEL.EDGE.
+    pub(crate) name: String,
+    /// Its particles in their order.
+    pub(crate) particles: Vec<u32>,
+}
+
+impl GarmentParts {
+    /// Parts of a scene.
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let span = |panel: &Panel| PanelSpan {
+            name: panel.name.clone(),
+            fabric: scene.materials[panel.material].name.clone(),
+            particles: panel.particles(),
+        };
+        let hung = |garment: &Garment| HungGarment::new(garment, &scene.start.positions);
+        let garments: Vec<HungGarment> = scene.garments.iter().map(hung).collect();
+        let bodies = scene.bodies.iter().map(|moving| &moving.body);
+        let seams = scene.sewing.as_ref().map(|sewing| sewing.pairs.clone());
+        Self {
+            panels: scene.panels.iter().map(span).collect(),
+            ground: if garments.is_empty() { None } else { lowest(bodies) },
+            garments,
+            seams: seams.unwrap_or_default(),
+            free_edges: free_edges(scene),
+            measured_ranges: measured_ranges(&scene.materials),
+        }
+    }
+
+    /// Name of the panel of a particle.
+    pub(crate) fn panel_of(&self, particle: usize) -> &str {
+        let mut panels = self.panels.iter();
+        panels.find(|panel| panel.particles.contains(&particle)).map_or("", |panel| &panel.name)
+    }
+}
+
+impl HungGarment {
+    fn new(garment: &Garment, positions: &[f64]) -> Self {
+        let Garment { name, particles } = garment.clone();
+        let hung = VerticalExtent { low: 0.0, high: 0.0 };
+        let mut own = Self { name, particles, hung };
+        own.hang(positions);
+        own
+    }
+
+    /// Notes its extent as that with which it begins to hang.
+    pub(crate) fn hang(&mut self, positions: &[f64]) {
+        self.hung = self.extent(positions);
+    }
+
+    /// Its extent at some positions.
+    pub(crate) fn extent(&self, positions: &[f64]) -> VerticalExtent {
+        let heights = positions.iter().skip(1).step_by(3);
+        let heights = heights.skip(self.particles.start).take(self.particles.len());
+        let none = VerticalExtent { low: f64::INFINITY, high: f64::NEG_INFINITY };
+        heights.fold(none, |extent, &height| VerticalExtent {
+            low: extent.low.min(height),
+            high: extent.high.max(height),
+        })
+    }
+}
+
+/// Lowest point of bodies, in m, where nothing below them could catch a garment.
+fn lowest<'a>(bodies: impl Iterator<Item = &'a Body> + Clone) -> Option<f64> {
+    if bodies.clone().any(|body| matches!(body.shape, Shape::Plane)) {
+        return None;
+    }
+    let outlines = bodies.filter_map(|body| body.triangulate().ok());
+    let heights = outlines.flat_map(|outline| outline.vertices).map(|[_, height, _]| height);
+    heights.reduce(f64::min)
+}
+
+/// Edges of panels whose particles between the ends are not sewn.
+fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
+    let mut sewn = vec![false; scene.cloth.particles()];
+    for SeamPairs { pairs, ties } in scene.sewing.iter().map(|sewing| &sewing.pairs) {
+        pairs.iter().flatten().for_each(|&particle| sewn[particle as usize] = true);
+        ties.iter().for_each(|tie| sewn[tie.particle as usize] = true);
+    }
+    let edges = scene.panels.iter().flat_map(|panel| {
+        panel.edges.iter().map(move |edge| FreeEdge {
+            name: format!("{}.{}", panel.name, edge.name),
+            particles: edge.nodes.iter().map(|node| panel.first as u32 + node).collect(),
+        })
+    });
+    let inner = |edge: &FreeEdge| {
+        let count = edge.particles.len();
+        count > 2 && edge.particles[1..count - 1].iter().all(|&particle| !sewn[particle as usize])
+    };
+    edges.filter(inner).collect()
+}
+
+/// Largest measured deformations of the fabrics of a scene, as their files tell; where one direction of the yarns stands for
+/// the other, it does so here.
+fn measured_ranges(materials: &[Material]) -> BTreeMap<String, BTreeMap<String, f64>> {
+    let ranges = |material: &Material| {
+        let mut ranges = material.fabric.provenance.as_ref()?.measured_range.clone();
+        for [one, other] in [["warp.traction", "weft.traction"], ["weft.traction", "warp.traction"]]
+        {
+            if let Some(strain) = ranges.get(one).copied() {
+                ranges.entry(other.into()).or_insert(strain);
+            }
+        }
+        Some((material.name.clone(), ranges))
+    };
+    materials.iter().filter_map(ranges).collect()
+}

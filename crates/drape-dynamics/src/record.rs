@@ -1,0 +1,14 @@
+//! Record of a run: frames, their files, and the summary.
+//!
+//! A frame has the positions of all particles and of the bodies' vertices at a time; what all frames have in common is the
+//! topology, stored once. The summary has how the run went: phases, work of the solver, energy, strain, contact, measures.
+//! This chapter reads the world and writes files; it changes nothing.
+
+pub(crate) mod frame;
+pub(crate) mod recorder;
+pub(crate) mod snapshot;
+pub(crate) mod state_hash;
+pub(crate) mod statistics;
+pub(crate) mod stopwatch;
+pub(crate) mod summary;
+pub(crate) mod topology;

@@ -1,0 +1,140 @@
+//! Recorder: files of a run in a folder.
+
+use std::fs;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::record::frame::Frame;
+use crate::record::summary::Summary;
+use crate::record::topology::Topology;
+
+/// Folder of a run, for its frames and its summary.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Output {
+    folder: PathBuf,
+}
+
+/// Name of the file of the summary, which marks a folder as one of results.
+const SUMMARY: &str = "summary.json";
+
+/// Name of the file of the topology.
+const SURFACES: &str = "surfaces.json";
+
+/// Writer of the frames of a run.
+#[derive(Debug)]
+pub struct Recorder<'a> {
+    output: &'a Output,
+    topology: Topology,
+    /// Bodies that were stored last.
+    bodies: Option<StoredBodies>,
+}
+
+/// Bodies in a file.
+#[derive(Debug)]
+struct StoredBodies {
+    /// Positions of their vertices, in m.
+    positions: Vec<f64>,
+    /// Name of the file.
+    file: String,
+}
+
+/// Makes the folder for a run, emptied of the frames of an earlier one if `replace` allows it.
+///
+/// # Errors
+/// When it holds results and `replace` is false, or cannot be made.
+pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, Error> {
+    let output = Output { folder: folder.to_owned() };
+    let fail = |reason| Error::Write { path: folder.to_owned(), reason };
+    if folder.exists() {
+        let frames: Vec<PathBuf> = fs::read_dir(folder)
+            .map_err(fail)?
+            .flatten()
+            .map(|entry| entry.path())
+            .filter(|path| is_result(path))
+            .collect();
+        if !frames.is_empty() && !replace {
+            return Err(Error::Occupied { folder: folder.to_owned() });
+        }
+        for path in frames {
+            fs::remove_file(&path).map_err(|reason| Error::Write { path, reason })?;
+        }
+    }
+    fs::create_dir_all(folder).map_err(fail)?;
+    Ok(output)
+}
+
+fn is_result(path: &Path) -> bool {
+    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let numbered = name.starts_with("frame-") || name.starts_with("bodies-");
+    name == SUMMARY || name == SURFACES || (numbered && name.ends_with(".obj"))
+}
+
+impl Output {
+    /// Path of a file in the folder.
+    #[must_use]
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// Stores the topology as `surfaces.json` and returns the writer of frames.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn record(&self, topology: Topology) -> Result<Recorder<'_>, Error> {
+        self.json(SURFACES, &topology)?;
+        Ok(Recorder { output: self, topology, bodies: None })
+    }
+
+    /// Stores the summary as `summary.json`.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn summary(&self, summary: &Summary) -> Result<(), Error> {
+        self.json(SUMMARY, summary)
+    }
+
+    fn json(&self, name: &str, content: &impl Serialize) -> Result<(), Error> {
+        self.write(&self.path(name), |mut to| {
+            serde_json::to_writer_pretty(&mut to, content)?;
+            writeln!(to)
+        })
+    }
+
+    /// Writes to a temporary file first, so that a reader never sees half of one.
+    fn write(
+        &self,
+        path: &Path,
+        content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+    ) -> Result<(), Error> {
+        let temporary = path.with_extension("part");
+        let write = || -> std::io::Result<()> {
+            let mut to = BufWriter::new(fs::File::create(&temporary)?);
+            content(&mut to)?;
+            to.into_inner().map_err(|e| e.into_error())?.sync_all()?;
+            fs::rename(&temporary, path)
+        };
+        write().map_err(|reason| Error::Write { path: path.to_owned(), reason })
+    }
+}
+
+impl Recorder<'_> {
+    /// Stores a frame as `frame-00012.obj` and, where they have moved, the bodies as `bodies-00012.obj`.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn frame(&mut self, frame: &Frame) -> Result<(), Error> {
+        let stored = self.bodies.as_ref().is_some_and(|own| own.positions == frame.bodies);
+        if !frame.bodies.is_empty() && !stored {
+            let name = format!("bodies-{:05}.obj", frame.number);
+            let path = self.output.path(&name);
+            self.output.write(&path, |to| frame.write_bodies_obj(&self.topology, to))?;
+            self.bodies = Some(StoredBodies { positions: frame.bodies.clone(), file: name });
+        }
+        let bodies = self.bodies.as_ref().map(|own| own.file.as_str());
+        let path = self.output.path(&format!("frame-{:05}.obj", frame.number));
+        self.output.write(&path, |to| frame.write_obj(&self.topology, bodies, to))
+    }
+}

@@ -1,0 +1,22 @@
+//! Hash of a state to the last bit.
+
+use drape_cloth::SeamState;
+
+use crate::world::World;
+
+/// Hash of the positions, velocities and memories of a world.
+pub(crate) fn state_hash(world: &World) -> String {
+    let mut hasher = blake3::Hasher::new();
+    let state = &world.state;
+    for value in state.positions.iter().chain(&state.velocities) {
+        hasher.update(&value.to_le_bytes());
+    }
+    let seams = world.internal.seam_state().into_iter().flat_map(SeamState::memories);
+    for memory in state.memories().chain(seams) {
+        let [first, second] = memory.friction;
+        for value in [memory.position, first, second, memory.peak] {
+            hasher.update(&value.to_le_bytes());
+        }
+    }
+    hasher.finalize().to_hex().to_string()
+}

@@ -1,0 +1,120 @@
+//! Statistics of the steps of a run: work of the solver, and contact.
+
+use drape_implicit::Report;
+
+use crate::record::summary::{Contacts, Solver};
+use crate::world::{Contact, World};
+
+/// Sums and extremes over the steps of a run.
+#[derive(Debug)]
+pub(crate) struct Statistics {
+    solver: Solver,
+    /// Steps made.
+    pub(crate) steps: usize,
+    /// Iterations of all steps.
+    iterations: usize,
+    /// Largest number of pairs that touched after a step.
+    pairs_max: usize,
+    /// Largest numbers of particles that were thinned, and that were released, after a step.
+    thinned_max: usize,
+    released_max: usize,
+    /// Smallest distance of two surfaces after a step, in m.
+    min_distance: f64,
+}
+
+impl Statistics {
+    pub(crate) fn new() -> Self {
+        Self {
+            solver: Solver::default(),
+            steps: 0,
+            iterations: 0,
+            pairs_max: 0,
+            thinned_max: 0,
+            released_max: 0,
+            min_distance: f64::INFINITY,
+        }
+    }
+
+    /// Adds an accepted step that led to a world's state.
+    pub(crate) fn add_step(&mut self, report: &Report, world: &World) {
+        let touching = match &world.contact {
+            Contact::Surfaces(surfaces) => {
+                let near = surfaces.contact.summary();
+                self.min_distance = self.min_distance.min(near.min_distance);
+                let pinched = surfaces.contact.pinched_vertices();
+                self.thinned_max = self.thinned_max.max(pinched.thinned);
+                self.released_max = self.released_max.max(pinched.released);
+                near.touching
+            }
+            Contact::Particles(bodies) => bodies.contact.summary(&world.state.positions).touching,
+        };
+        self.pairs_max = self.pairs_max.max(touching);
+        self.steps += 1;
+        self.add_work(report);
+    }
+
+    /// Adds a step that was taken back because its error was too large.
+    pub(crate) fn add_inexact(&mut self, report: &Report) {
+        self.solver.inexact_steps += 1;
+        self.add_work(report);
+    }
+
+    /// Notes the estimated error of an accepted step, in m.
+    pub(crate) fn note_error(&mut self, error: f64) {
+        self.solver.error_max = Some(self.solver.error_max.unwrap_or(0.0).max(error));
+    }
+
+    fn add_work(&mut self, report: &Report) {
+        let solver = &mut self.solver;
+        solver.iterations_max = solver.iterations_max.max(report.iterations);
+        solver.rejected_steps += report.rejected;
+        solver.sub_steps += report.sub_steps;
+        solver.residual_max = solver.residual_max.max(report.residual);
+        solver.energy_left_max = solver.energy_left_max.max(report.energy_left);
+        solver.force_evaluations += report.force_evaluations;
+        solver.linear_iterations += report.linear_iterations;
+        solver.tangents += report.stiffness_assemblies;
+        solver.potential_evaluations += report.potential_evaluations;
+        self.iterations += report.iterations;
+    }
+
+    /// Work of the solver.
+    pub(crate) fn solver(&self) -> Solver {
+        let iterations_mean = self.iterations as f64 / self.steps.max(1) as f64;
+        Solver { iterations_mean, ..self.solver }
+    }
+
+    /// Contact over the run, and at the state of a world.
+    pub(crate) fn contacts(&self, world: &World) -> Contacts {
+        let positions = &world.state.positions;
+        let contacts = Contacts {
+            pairs_max: self.pairs_max,
+            thinned_max: self.thinned_max,
+            released_max: self.released_max,
+            grown_from: 1.0,
+            grown: world.contact.growth_fraction(),
+            ..Contacts::default()
+        };
+        let finite = |distance: f64| Some(distance).filter(|distance| distance.is_finite());
+        match &world.contact {
+            Contact::Surfaces(surfaces) => {
+                let found = surfaces.contact.intersections_with_released(positions);
+                Contacts {
+                    min_distance: finite(self.min_distance),
+                    intersections: found.map_or(usize::MAX, |found| found.len()),
+                    crossings_found: surfaces.intersections_found,
+                    grown_from: surfaces.grown_from,
+                    ..contacts
+                }
+            }
+            Contact::Particles(bodies) => {
+                let near = bodies.contact.summary(positions);
+                Contacts {
+                    min_distance: finite(near.min_distance),
+                    intersections: near.inside,
+                    ..contacts
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Summary of a run: the content of `summary.json`.
+
+use serde::Serialize;
+
+use crate::world::Energy;
+
+/// Summary of a run: the content of `summary.json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// `ok`, or the reason why the run ended early.
+    pub status: Status,
+    /// Message of the solver on the step that ended the run, with the place where surfaces were then nearest to each other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Version of the program.
+    pub version: String,
+    /// Hash of the scene and its fabrics.
+    pub scene_hash: String,
+    /// Number of particles.
+    pub particles: usize,
+    /// Phases in their order.
+    pub phases: Vec<Phase>,
+    /// Number of steps.
+    pub steps: usize,
+    /// Number of frames, the first at the start.
+    pub frames: usize,
+    /// Time reached, in s.
+    pub simulated_seconds: f64,
+    /// Wall-clock time taken, in s.
+    pub wall_seconds: f64,
+    /// Processor time taken by all threads, in s, where the system tells.
+    pub cpu_seconds: Option<f64>,
+    /// Number of threads.
+    pub threads: usize,
+    /// Work of the solver.
+    pub solver: Solver,
+    /// Balance of the energy, unless the scene does without.
+    pub energy: Option<Energy>,
+    /// Deformation of the cloth at the end.
+    pub strain: Strain,
+    /// Contact over the run and at its end.
+    pub contact: Contacts,
+    /// Whether the cloth came to rest by the scene's criteria.
+    pub settled: bool,
+    /// Largest speed of a particle at the end, in m/s.
+    pub speed_max: f64,
+    /// Root-mean-square acceleration at the end over g: the imbalance of the forces.
+    pub imbalance: f64,
+    /// Hash of the final positions, velocities and memories.
+    pub state_hash: String,
+    /// Warnings about the result.
+    pub warnings: Vec<String>,
+    /// Measures of garments.
+    pub measures: serde_json::Map<String, serde_json::Value>,
+}
+
+/// Phase of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Phase {
+    /// Its name.
+    pub name: PhaseName,
+    /// Time at which it begins, in s.
+    pub start: f64,
+    /// Number of its first frame.
+    pub frame: usize,
+}
+
+/// Name of a phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PhaseName {
+    /// Seams are closed, without gravity.
+    Sew,
+    /// The cloth comes to rest.
+    Relax,
+    /// The cloth moves in time.
+    Simulate,
+}
+
+/// Reason why a run ended.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub enum Status {
+    /// It reached its end, or the cloth came to rest.
+    #[serde(rename = "ok")]
+    Ok,
+    /// The end came before the rest that the scene asks for.
+    #[serde(rename = "did not settle")]
+    DidNotSettle,
+    /// A seam could not be closed.
+    #[serde(rename = "seams open")]
+    SeamsOpen,
+    /// A garment fell off its body.
+    #[serde(rename = "fell off")]
+    FellOff,
+    /// Surfaces that started too near to each other could not part.
+    #[serde(rename = "held together")]
+    HeldTogether,
+    /// Surfaces intersected after a step, however short.
+    #[serde(rename = "certificate failed")]
+    CertificateFailed,
+    /// A step could not be solved.
+    #[serde(rename = "solver failed")]
+    SolverFailed,
+}
+
+/// Work of the solver.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Solver {
+    /// Mean number of iterations per step.
+    pub iterations_mean: f64,
+    /// Largest number of iterations of a step.
+    pub iterations_max: usize,
+    /// Number of attempts that were given up for a shorter step.
+    pub rejected_steps: usize,
+    /// Number of attempts that were given up because their error was too large.
+    pub inexact_steps: usize,
+    /// Number of accepted parts of steps.
+    pub sub_steps: usize,
+    /// Largest residual of an accepted step: root-mean-square error of the acceleration over g. Steps of quasi-static
+    /// relaxation, but for the last ones, may end earlier, with little energy left to gain.
+    pub residual_max: f64,
+    /// Most energy that such a step left to be gained, over its kinetic energy.
+    pub energy_left_max: f64,
+    /// Largest estimated error of the positions of an accepted step, in m, where the scene limits it.
+    pub error_max: Option<f64>,
+    /// Number of evaluations of all forces.
+    pub force_evaluations: usize,
+    /// Number of assemblies of the stiffness.
+    pub tangents: usize,
+    /// Number of evaluations of the potential.
+    pub potential_evaluations: usize,
+    /// Number of iterations of the linear solver.
+    pub linear_iterations: usize,
+}
+
+/// Deformation at the end.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Strain {
+    /// Largest strain of a yarn segment, a ratio.
+    pub traction_max: f64,
+    /// Strain that 99 of 100 segments do not exceed, a ratio.
+    pub traction_p99: f64,
+    /// Largest shear angle, in rad.
+    pub shear_max: f64,
+    /// Curvature that 99 of 100 places do not exceed, in 1/m.
+    pub curvature_p99: f64,
+}
+
+/// Contact of surfaces or, without them, of particles with bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Contacts {
+    /// Largest number of pairs of primitives, or of particles and bodies, that touched after a step.
+    pub pairs_max: usize,
+    /// Smallest distance of two surfaces after any step, or of a particle from a body at the end, in m; none where
+    /// nothing was near.
+    pub min_distance: Option<f64>,
+    /// Number of intersections of surfaces at the end, by exact arithmetic, those of cloth that let a body through among
+    /// them; or of particles inside a body.
+    pub intersections: usize,
+    /// Number of intersections that were found after steps, which were then taken back.
+    pub crossings_found: usize,
+    /// Largest number of particles that bodies pinched after a step, and that kept less of their distance from them.
+    pub thinned_max: usize,
+    /// Largest number of particles that had let a body through after a step: it is not promised that cloth and bodies do
+    /// not intersect there.
+    pub released_max: usize,
+    /// Fraction of their distances that surfaces kept at the start, 0 to 1; below 1 only with `contact.grow`. In between no
+    /// two came nearer than the fraction of that time.
+    pub grown_from: f64,
+    /// Fraction of their distances that surfaces keep at the end, 0 to 1.
+    pub grown: f64,
+}

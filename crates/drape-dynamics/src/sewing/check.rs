@@ -1,0 +1,170 @@
+//! Panels that are sewn: their system's forces against its potential, and their weight at the pin.
+
+use drape_cloth::{Cloth, SeamBending, Tie};
+use drape_implicit::{System, check_system};
+use drape_input::Document;
+use drape_scene::{Pin, Scene, Seam, SeamPairs, Sewing};
+
+use crate::record::summary::Status;
+use crate::sewing::node_map::merge;
+use crate::sewing::reduced_system::ReducedSystem;
+use crate::sewing::reduction::Reduction;
+use crate::simulation::Simulation;
+use crate::world::World;
+use crate::world::check::FABRIC;
+
+/// How the edges of both sheets are sewn: the lower one has so many arcs for each of the upper one.
+fn seam_pairs(fullness: u32) -> SeamPairs {
+    // The top row of the lower sheet, which is 6 arcs of the upper one high as well.
+    let along = 6 * fullness + 1;
+    let lower = |k: u32| 49 + along * (along - 1) + k;
+    let tie = |k: u32| Tie {
+        particle: lower(k),
+        ends: [k / fullness, k / fullness + 1],
+        fraction: f64::from(k % fullness) / f64::from(fullness),
+    };
+    let between = (0..6 * fullness).filter(|k| k % fullness != 0);
+    let pairs = (0..7).map(|k| [k, lower(fullness * k)]).collect();
+    SeamPairs { pairs, ties: between.map(tie).collect() }
+}
+
+/// Sheets of 60 × 60 mm, the upper of 7 × 7 particles, one below the other with gaps of 8 mm, sewn at their edges and held
+/// at the top.
+fn scene(fullness: u32) -> Scene {
+    let text = r#"spacing = 0.01
+contact.surfaces = false
+fabric.plain.file = "plain.toml"
+[[panel]]
+name = "upper"
+fabric = "plain"
+rectangle = [0.06, 0.06]
+center = [0, 0.1, 0]
+noise = { amplitude = 5e-4, seed = 3 }
+[[panel]]
+name = "lower"
+fabric = "plain"
+rectangle = [0.06, 0.06]
+spacing = LOWER
+center = [0.004, 0.032, 0.003]
+noise = { amplitude = 5e-4, seed = 4 }
+[[pin]]
+panel = "upper"
+edge = "top"
+[time]
+step = 0.005
+end = 60
+[settle]
+residual = 1e-4
+"#;
+    let text = text.replace("LOWER", &(0.01 / f64::from(fullness)).to_string());
+    let fabric = Document::new("plain.toml", FABRIC);
+    let mut scene =
+        Scene::from_documents(&Document::new("scene.toml", text), &[fabric]).expect("right");
+    let pairs = seam_pairs(fullness);
+    let seams = vec![Seam { name: "seam".into(), pairs: pairs.clone(), rest_angle: 0.0 }];
+    let lattices = scene.panels.iter().map(|panel| (&panel.lattice, &scene.materials[0].fabric));
+    let lattices: Vec<_> = lattices.collect();
+    let elastic = scene.materials[0].fabric.without_friction();
+    let cloth =
+        Cloth::new(&lattices.iter().map(|(lattice, _)| (*lattice, &elastic)).collect::<Vec<_>>());
+    let seam = drape_cloth::Seam {
+        ties: pairs.ties.clone(),
+        ..drape_cloth::Seam::new(pairs.pairs.clone())
+    };
+    let bending = SeamBending::new(&lattices, &[seam]);
+    let bending = bending.expect("a seam of two edges");
+    scene.cloth = scene.cloth.with_ties(&pairs.ties);
+    scene.sewing = Some(Sewing { seams, pairs, cloth, seconds: 0.5, bending });
+    scene
+}
+
+#[test]
+fn the_forces_on_sewn_particles_agree_with_their_potential() {
+    // With one arc on both sides, and with two and three on one.
+    [1, 2, 3].into_iter().for_each(agree);
+}
+
+fn agree(fullness: u32) {
+    let mut world = World::new(scene(fullness)).expect("contact");
+    let pairs = seam_pairs(fullness);
+    let mut positions = world.state.positions.clone();
+    // With their closing springs, each particle by itself.
+    let trial = |positions: &[f64]| -> Vec<f64> {
+        let shake = |(k, x): (usize, &f64)| x + 2e-4 * (1.7 * k as f64).sin();
+        positions.iter().enumerate().map(shake).collect()
+    };
+    let away = trial(&positions);
+    let check = check_system(&mut world, &positions, &away, 0.2).expect("sound");
+    assert!(check.force_error < 1e-6 && check.stiffness_error < 1e-5, "{check:?}");
+
+    merge(&pairs, world.cloth.masses(), &mut positions);
+    world.finish_sewing(0.5, &positions);
+    let mut reduction = Reduction::new(&world, &pairs).expect("pairs of its particles");
+    let own = reduction.restrict(&positions);
+    let mut sewn = ReducedSystem { world: &mut world, reduction: &mut reduction };
+    let along = 6 * fullness as usize + 1;
+    assert_eq!(sewn.particles(), 49 + along * (along - 1));
+    let mass: f64 = sewn.masses().iter().sum();
+    assert!((mass / (2.0 * 0.06 * 0.06 * 0.15) - 1.0).abs() < 1e-12);
+    let away = trial(&own);
+    let check = check_system(&mut sewn, &own, &away, 0.005).expect("sound");
+    assert!(check.force_error < 1e-6 && check.stiffness_error < 1e-5, "{check:?}");
+    assert!(check.definite_shift <= 1e-10, "{check:?}");
+}
+
+#[test]
+fn sewn_sheets_hang_from_their_pin_with_all_their_weight() {
+    [1, 3].into_iter().for_each(hang);
+}
+
+fn hang(fullness: u32) {
+    let mut simulation = Simulation::new(scene(fullness)).expect("it starts");
+    let summary = simulation.run(&mut ()).expect("it runs");
+    assert_eq!(summary.status, Status::Ok, "{:?}", summary.reason);
+    let positions = simulation.frame().positions;
+    let pairs = seam_pairs(fullness);
+    for [a, b] in &pairs.pairs {
+        let place = |node: &u32| &positions[3 * *node as usize..][..3];
+        assert_eq!(place(a), place(b), "what is sewn is in one place");
+    }
+    assert!(pairs.gaps(&positions).all(|gap| gap < 1e-15), "what is tied is between");
+    let weight = 2.0 * 0.06 * 0.06 * 0.15 * 9.81;
+    let [load] = simulation.pin_loads()[..] else { panic!("one pin") };
+    assert!((load.force[1] / -weight - 1.0).abs() < 1e-3, "{load:?} and {weight}");
+    let remainder = summary.energy.map(|energy| energy.remainder);
+    assert!(remainder.is_some_and(|r| r.abs() < 1e-9), "{remainder:?}");
+}
+
+#[test]
+fn seams_that_are_held_apart_end_the_run() {
+    let mut scene = scene(1);
+    // Both sides of the seam are held.
+    let pin = scene.pins[0].clone();
+    let particles: Vec<usize> = (0..7).chain(49 + 42..49 + 49).collect();
+    let place = |&p: &usize| std::array::from_fn(|axis| scene.start.positions[3 * p + axis]);
+    let start = particles.iter().map(place).collect();
+    scene.pins.push(Pin { particles, start, ..pin });
+    let mut simulation = Simulation::new(scene).expect("it starts");
+    let summary = simulation.run(&mut ()).expect("it runs");
+    assert_eq!(summary.status, Status::SeamsOpen);
+    let reason = summary.reason.expect("it says why");
+    assert!(
+        reason.contains("\"upper\" and \"lower\"") && reason.contains("open by 9."),
+        "{reason}"
+    );
+}
+
+#[test]
+fn values_of_merged_particles_are_those_of_their_independent_ones() {
+    let world = World::new(scene(1)).expect("contact");
+    let one = SeamPairs { pairs: vec![[3, 60]], ties: Vec::new() };
+    let reduction = Reduction::new(&world, &one).expect("particles");
+    let mut values: Vec<f64> = (0..3 * 98).map(f64::from).collect();
+    merge(&one, world.cloth.masses(), &mut values);
+    let [m, n] = [3, 60].map(|node| world.cloth.masses()[node]);
+    let mean = (m * 9.0 + n * 180.0) / (m + n);
+    assert!((values[9] - mean).abs() < 1e-12 && values[9] == values[180]);
+    let mut wide = vec![f64::NAN; values.len()];
+    reduction.prolong(&reduction.restrict(&values), &mut wide);
+    assert_eq!(wide, values);
+}

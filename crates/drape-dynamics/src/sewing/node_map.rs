@@ -1,0 +1,158 @@
+//! Map from independent particles of a sewn garment to all particles of its panels.
+//!
+//! The map `$S$` has a row for each particle of the panels, with one weight, 1, or, for a tied particle, the two weights
+//! `$1 - \lambda$` and `$\lambda$` of the ends between which it lies.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use drape_cloth::Tie;
+use drape_collide::equivalence_classes;
+use drape_scene::SeamPairs;
+
+/// Row of the map: the independent particles that give the position of a particle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Row {
+    /// The two ends of a tied particle; twice the same where it is not tied.
+    pub(super) ends: [u32; 2],
+    /// Fraction of the distance from the first end to the second; 0 at an end.
+    pub(super) fraction: f64,
+}
+
+/// Weight of an independent particle in a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Weight {
+    pub(super) particle: usize,
+    pub(super) weight: f64,
+}
+
+/// Pair of independent particles that a pair of rows couples, with the product of their weights.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct CoupledPair {
+    pub(super) row: usize,
+    pub(super) column: usize,
+    pub(super) weight: f64,
+}
+
+impl Row {
+    /// Weights of the row that are not zero.
+    pub(super) fn weights(&self) -> impl Iterator<Item = Weight> + use<> {
+        let [first, second] = self.ends.map(|particle| particle as usize);
+        let both = [(first, 1.0 - self.fraction), (second, self.fraction)];
+        let both = both.map(|(particle, weight)| Weight { particle, weight });
+        both.into_iter().take(if self.is_tied() { 2 } else { 1 })
+    }
+
+    pub(super) fn is_tied(&self) -> bool {
+        self.fraction != 0.0
+    }
+
+    /// Number of the independent particle of a row that is not tied.
+    pub(super) fn particle(&self) -> usize {
+        self.ends[0] as usize
+    }
+
+    /// Writes the value of the row from those of all independent particles.
+    pub(super) fn interpolate(&self, values: &[f64], value: &mut [f64]) {
+        let [first, second] = self.ends.map(|end| &values[3 * end as usize..][..3]);
+        value.copy_from_slice(first);
+        if self.is_tied() {
+            value.iter_mut().zip(second).for_each(|(x, end)| *x += self.fraction * (end - *x));
+        }
+    }
+}
+
+/// Pairs of independent particles that a block in the row and column of two particles couples.
+pub(super) fn coupled_pairs(row: &Row, column: &Row) -> impl Iterator<Item = CoupledPair> {
+    row.weights().flat_map(move |a| {
+        column.weights().map(move |b| CoupledPair {
+            row: a.particle,
+            column: b.particle,
+            weight: a.weight * b.weight,
+        })
+    })
+}
+
+/// The same for the block of a particle with itself: each pair once.
+pub(super) fn coupled_pairs_of_one(row: &Row) -> impl Iterator<Item = CoupledPair> {
+    coupled_pairs(row, row).filter(|pair| pair.row <= pair.column)
+}
+
+/// Merges the particles of pairs: moves them to the mean of all that they are sewn to, weighted with their masses, and
+/// moves tied particles between their ends.
+pub(crate) fn merge(pairs: &SeamPairs, masses: &[f64], values: &mut [f64]) {
+    let rows = rows(masses.len(), pairs);
+    let free = || rows.iter().zip(masses).filter(|(row, _)| !row.is_tied());
+    let count = rows.iter().map(|row| row.particle() + 1).max().unwrap_or(0);
+    let mut whole = vec![0.0; count];
+    free().for_each(|(row, mass)| whole[row.particle()] += mass);
+    let mut means = vec![0.0; 3 * whole.len()];
+    let all = rows.iter().zip(masses).zip(values.chunks_exact(3));
+    for ((row, mass), value) in all.filter(|((row, _), _)| !row.is_tied()) {
+        let fraction = mass / whole[row.particle()];
+        (0..3).for_each(|axis| means[3 * row.particle() + axis] += fraction * value[axis]);
+    }
+    for (row, value) in rows.iter().zip(values.chunks_exact_mut(3)) {
+        row.interpolate(&means, value);
+    }
+}
+
+/// Masses of the independent particles from those of all particles.
+pub(super) fn reduced_masses(rows: &[Row], masses: &[f64]) -> Vec<f64> {
+    let count = rows.iter().map(|row| row.particle() + 1).max().unwrap_or(0);
+    let mut reduced = vec![0.0; count];
+    for (row, mass) in rows.iter().zip(masses) {
+        row.weights().for_each(|own| reduced[own.particle] += own.weight * mass);
+    }
+    reduced
+}
+
+/// Rows of the map for so many particles. Independent particles are numbered in the order of their first particle of the
+/// panels; the particles of a pair have the same.
+pub(super) fn rows(particles: usize, pairs: &SeamPairs) -> Vec<Row> {
+    let first = equivalence_classes(particles, &pairs.pairs);
+    let mut tie = vec![None; particles];
+    pairs.ties.iter().for_each(|own| tie[own.particle as usize] = Some(*own));
+    let mut count = 0;
+    let mut independent = vec![0; particles];
+    for particle in (0..particles).filter(|&particle| tie[particle].is_none()) {
+        let own = first[particle] as usize;
+        if own == particle {
+            independent[particle] = count;
+            count += 1;
+        } else {
+            independent[particle] = independent[own];
+        }
+    }
+    let row = |particle: usize| match tie[particle] {
+        Some(Tie { ends, fraction, .. }) => {
+            Row { ends: ends.map(|end| independent[end as usize]), fraction }
+        }
+        None => Row { ends: [independent[particle]; 2], fraction: 0.0 },
+    };
+    (0..particles).map(row).collect()
+}
+
+/// Groups of independent particles that ties join, directly or through others.
+pub(super) fn tied_groups(rows: &[Row], independent: usize) -> Vec<Vec<u32>> {
+    let tied: Vec<[u32; 2]> = rows.iter().filter(|row| row.is_tied()).map(|row| row.ends).collect();
+    let first = equivalence_classes(independent, &tied);
+    let mut groups: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    let joined: BTreeSet<u32> = tied.into_iter().flatten().collect();
+    joined.into_iter().for_each(|own| groups.entry(first[own as usize]).or_default().push(own));
+    groups.into_values().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn particles_in_pairs_are_one_through_any_chain() {
+        let independent = |particles: usize, pairs: &[[u32; 2]]| -> Vec<u32> {
+            let pairs = SeamPairs { pairs: pairs.to_vec(), ties: Vec::new() };
+            rows(particles, &pairs).iter().map(|row| row.ends[0]).collect()
+        };
+        assert_eq!(independent(6, &[[4, 1], [5, 4], [2, 2]]), [0, 1, 2, 3, 1, 1]);
+        assert_eq!(independent(3, &[]), [0, 1, 2]);
+    }
+}

@@ -1,0 +1,104 @@
+//! Accuracy to which steps of quasi-static relaxation and of sewing are solved.
+
+use drape_implicit::{Integrator, Method, Settings};
+use drape_scene::Relaxation;
+
+use crate::sewing::closing_springs;
+use crate::stepping::scheme::Scheme;
+
+/// Fraction of the imbalance of a relaxing cloth to which its next step is solved: the forces that drive the cloth are then
+/// known to some per cent. Steps solved better cost more and lead to the same rest.
+const RELATIVE_TOLERANCE: f64 = 0.1;
+
+/// Loosest tolerance of a step of relaxation, over g. Looser ones saved no time on a cloth on a cube.
+const TOLERANCE_MAX: f64 = 1e-2;
+
+/// Fraction of its kinetic energy that a step of relaxation may leave to be gained: its forces are stiff, and most of the
+/// imbalance after a few iterations hardly moves the cloth. From four starts a cloth on a cube took 1450 assemblies of the
+/// stiffness without it, 810 with it, and 800 with three times as much; a cloth on a sphere then stored 2 % more.
+const ENERGY: f64 = 3e-3;
+
+/// Multiple of the imbalance at rest below which steps leave no energy to be gained.
+const NEAR_REST: f64 = 2.0;
+
+/// Linear residual relative to the nonlinear one at which the linear solver of a step of relaxation stops: with so loose a
+/// tolerance a better direction is wasted. From 0.003 to 0.03 the time fell by a third.
+const FORCING: f64 = 0.03;
+
+/// Accuracy of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Accuracy {
+    /// Root-mean-square error of the acceleration that it may leave, over g.
+    pub(crate) tolerance: f64,
+    /// Fraction of its kinetic energy that it may leave to be gained.
+    pub(crate) energy: f64,
+}
+
+impl Accuracy {
+    /// Accuracy of the first steps of a relaxation.
+    pub(crate) const RELAXATION: Self = Self { tolerance: TOLERANCE_MAX, energy: ENERGY };
+
+    /// Accuracy of steps while a garment is sewn.
+    pub(crate) const SEWING: Self = Self { tolerance: closing_springs::TOLERANCE, energy: 1e-2 };
+
+    /// Whether steps are solved so well that the cloth may count as at rest.
+    pub(crate) fn suffices(self, settings: &Settings, rest: &Relaxation) -> bool {
+        self.energy == 0.0
+            && self.tolerance <= settings.tolerance.max(RELATIVE_TOLERANCE * rest.residual)
+    }
+
+    /// Accuracy of the next step after one that left an imbalance, over g: the better the nearer the cloth is to rest.
+    pub(crate) fn refined(self, settings: &Settings, rest: &Relaxation, imbalance: f64) -> Self {
+        let decade = 10.0_f64.powf((RELATIVE_TOLERANCE * imbalance).log10().floor());
+        let tolerance = self.tolerance.min(decade.max(settings.tolerance));
+        let near = imbalance <= NEAR_REST * rest.residual;
+        Self { tolerance, energy: if near { 0.0 } else { self.energy } }
+    }
+}
+
+/// Scheme of the steps that are made now, with their accuracy.
+#[derive(Debug)]
+pub(crate) struct PhaseScheme {
+    pub(crate) scheme: Scheme,
+    pub(crate) accuracy: Accuracy,
+}
+
+impl PhaseScheme {
+    /// Scheme of the steps of a simulation, or of relaxation with the accuracy with which that begins.
+    pub(crate) fn new(scheme: &Scheme, relaxation: Option<Accuracy>) -> Self {
+        match (scheme, relaxation) {
+            (Scheme::Implicit(settings), Some(Accuracy { tolerance, energy })) => {
+                let accuracy = Accuracy { tolerance: settings.tolerance.max(tolerance), energy };
+                Self { scheme: relaxation_scheme(settings, accuracy), accuracy }
+            }
+            (Scheme::Implicit(settings), None) => {
+                let accuracy = Accuracy { tolerance: settings.tolerance, energy: 0.0 };
+                Self { scheme: scheme.clone(), accuracy }
+            }
+            (Scheme::Explicit, _) => {
+                let accuracy = Accuracy { tolerance: 0.0, energy: 0.0 };
+                Self { scheme: Scheme::Explicit, accuracy }
+            }
+        }
+    }
+}
+
+/// Scheme of steps of relaxation, by the formula without a past. A stiffness kept for a second iteration is worth nothing
+/// in long steps. Begun at the prediction of the last step, a cloth on a cube took 23 300 iterations of conjugate gradients
+/// instead of 33 400, one on a sphere 75 200 instead of 123 000, a gathered flounce 108 700 instead of 208 300, a T-shirt
+/// as many.
+pub(crate) fn relaxation_scheme(settings: &Settings, accuracy: Accuracy) -> Scheme {
+    let method = match settings.method {
+        Method::Broyden => Method::Newton,
+        chosen => chosen,
+    };
+    Scheme::Implicit(Settings {
+        method,
+        tolerance: accuracy.tolerance,
+        energy_tolerance: accuracy.energy,
+        newton_forcing: FORCING,
+        integrator: Integrator::BackwardEuler,
+        begin_at_prediction: true,
+        ..settings.clone()
+    })
+}

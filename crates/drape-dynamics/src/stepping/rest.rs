@@ -1,0 +1,51 @@
+//! Detection of rest: the cloth has been slow and balanced for a while.
+
+use drape_scene::Relaxation;
+
+/// Time for which the cloth must stay slow to be at rest, in s.
+///
+/// A swing stops for a moment at each of its ends; a tenth of a second is longer than that for everything but a cloth of
+/// many metres, and short against the seconds a drape takes.
+const REST_TIME: f64 = 0.1;
+
+/// Detector of rest.
+#[derive(Debug)]
+pub(crate) struct RestDetector {
+    /// Criteria of rest, where the simulation is to come to rest.
+    pub(crate) criteria: Option<Relaxation>,
+    /// Time for which the cloth has been slow, in ticks of the clock.
+    quiet_ticks: usize,
+}
+
+/// Motion of the cloth after a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StepMotion {
+    /// Length of the step, in ticks of the clock.
+    pub(crate) ticks: usize,
+    /// Largest speed of a particle, in m/s.
+    pub(crate) speed_max: f64,
+    /// Root-mean-square acceleration of the free particles, over g.
+    pub(crate) imbalance: f64,
+    /// Whether nothing that the scene prescribes is still to change, and the step was solved well enough.
+    pub(crate) counts: bool,
+}
+
+impl RestDetector {
+    /// Detector of rest by criteria; without them the cloth never counts as at rest.
+    pub(crate) fn new(criteria: Option<Relaxation>) -> Self {
+        Self { criteria, quiet_ticks: 0 }
+    }
+
+    /// Takes a step into account.
+    pub(crate) fn update(&mut self, step: &StepMotion) {
+        let Some(criteria) = self.criteria else { return };
+        let slow = step.speed_max <= criteria.speed && step.imbalance <= criteria.residual;
+        let quiet = slow && step.counts;
+        self.quiet_ticks = if quiet { self.quiet_ticks + step.ticks } else { 0 };
+    }
+
+    /// Whether the cloth is at rest, with a tick of a length, in s.
+    pub(crate) fn is_at_rest(&self, tick: f64) -> bool {
+        self.criteria.is_some() && self.quiet_ticks as f64 * tick >= REST_TIME
+    }
+}

@@ -1,0 +1,109 @@
+//! Time-stepping schemes: implicit steps with their solver, or explicit ones.
+
+use drape_implicit::{
+    Error, Explicit, InitialMatrix, Integrator, IntegratorState, LinearSolver, Method, Report,
+    Settings, StepFilter, Stepper, System,
+};
+use drape_scene::SolverSettings;
+
+/// Scheme by which a scene is integrated in time.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Scheme {
+    /// Implicit steps, with the settings of their solver.
+    Implicit(Settings),
+    /// Many small explicit steps in each: a cross-check, not a way to get results.
+    Explicit,
+}
+
+impl Scheme {
+    /// Returns the scheme that a scene asks for.
+    #[must_use]
+    pub fn new(solver: &SolverSettings) -> Self {
+        let integrator = match solver.integrator {
+            drape_scene::Integrator::Bdf2 => Integrator::Bdf2,
+            drape_scene::Integrator::BackwardEuler => Integrator::BackwardEuler,
+            drape_scene::Integrator::Explicit => return Self::Explicit,
+        };
+        let method = match solver.method {
+            drape_scene::Method::Broyden => Method::Broyden,
+            drape_scene::Method::Newton => Method::Newton,
+            drape_scene::Method::TextbookMass => Method::Textbook { initial: InitialMatrix::Mass },
+            drape_scene::Method::TextbookDiagonal => {
+                Method::Textbook { initial: InitialMatrix::Diagonal }
+            }
+        };
+        let linear_solver = match solver.linear_solver {
+            drape_scene::LinearSolver::ConjugateGradient => LinearSolver::ConjugateGradient,
+            drape_scene::LinearSolver::Cholesky => LinearSolver::Cholesky,
+        };
+        Self::Implicit(Settings {
+            integrator,
+            method,
+            linear_solver,
+            tolerance: solver.tolerance,
+            energy_balance: solver.energy_balance,
+            ..Settings::default()
+        })
+    }
+
+    /// Order of accuracy of its formula.
+    pub(crate) fn order(&self) -> f64 {
+        match self {
+            Self::Implicit(settings) if settings.integrator == Integrator::Bdf2 => 2.0,
+            _ => 1.0,
+        }
+    }
+}
+
+/// Integrator of one system by a scheme.
+#[derive(Debug)]
+pub(crate) enum TimeStepper {
+    Implicit(Box<Stepper>),
+    Explicit(Box<Explicit>),
+}
+
+impl TimeStepper {
+    /// Sets up a scheme for a system.
+    pub(crate) fn new(scheme: &Scheme, system: &dyn System) -> Result<Self, Error> {
+        Ok(match scheme {
+            Scheme::Implicit(settings) => {
+                Self::Implicit(Box::new(Stepper::new(system, settings.clone())?))
+            }
+            Scheme::Explicit => Self::Explicit(Box::new(Explicit::new(system))),
+        })
+    }
+
+    /// Advances a system by a step of a length, in s.
+    pub(crate) fn advance(
+        &mut self,
+        system: &mut dyn System,
+        state: &mut IntegratorState,
+        dt: f64,
+    ) -> Result<Report, Error> {
+        match self {
+            Self::Implicit(stepper) => stepper.advance(system, state, dt),
+            Self::Explicit(explicit) => explicit.advance(system, state, dt),
+        }
+    }
+
+    /// Advances a system whose steps a filter limits by a step of a length, in s.
+    pub(crate) fn advance_filtered(
+        &mut self,
+        filter: &mut dyn StepFilter,
+        state: &mut IntegratorState,
+        dt: f64,
+    ) -> Result<Report, Error> {
+        match self {
+            Self::Implicit(stepper) => stepper.advance_filtered(filter, state, dt),
+            Self::Explicit(_) => Err(Error::UnfilteredMethod),
+        }
+    }
+
+    /// Report of the parts of a step that failed.
+    pub(crate) fn unfinished(&self) -> Option<&Report> {
+        match self {
+            Self::Implicit(stepper) => Some(stepper.report()),
+            Self::Explicit(_) => None,
+        }
+    }
+}

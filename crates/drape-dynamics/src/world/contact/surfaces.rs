@@ -1,0 +1,208 @@
+//! Surfaces of panels and bodies, kept apart by a barrier and a step filter.
+//!
+//! Bodies move here vertex by vertex: from where they belong at the start of the simulation, less what is left of their
+//! inflation, by their motion. The solver's step filter asks here how far a trial step may go, and whether an accepted one
+//! is free of intersections.
+
+use std::ops::Range;
+
+use drape_collide::{Body, Error, PairDistance, Shape, SurfaceContact, SurfaceStep};
+use drape_implicit::{StepLimit, TrialStep};
+use drape_scene::{BodyMotion, DistanceGrowth, Inflation, Scene, StartSurfaces};
+
+use super::step::{ContactEnergy, ContactStep};
+
+/// Fraction of the distance that surfaces keep by which a body's vertex may deviate from a straight path within a step;
+/// bodies that turn faster are given more steps.
+const DEVIATION: f64 = 0.05;
+
+/// Multiple of its length that the growth of distances may take before the run fails.
+const PATIENCE: f64 = 2.0;
+
+/// Surfaces of a world.
+#[derive(Debug)]
+pub(crate) struct Surfaces {
+    pub(crate) contact: SurfaceContact,
+    bodies: Vec<Body>,
+    /// Names of the panels and, behind them, of the bodies: of the groups of the surface.
+    names: Vec<String>,
+    /// Positions at which the bodies' vertices belong at the start of the simulation, in m.
+    start: Vec<f64>,
+    inflation: Option<Inflating>,
+    growth: Option<DistanceGrowth>,
+    /// Fraction of the distances that is kept at the start, 0 to 1.
+    pub(crate) grown_from: f64,
+    moving: Vec<MovingSurface>,
+    /// Largest deviation of a vertex of a body from a straight path within a step, in m.
+    deviation: f64,
+    /// Number of intersections that were found after steps, which were then taken back.
+    pub(crate) intersections_found: usize,
+    held: Vec<usize>,
+    /// Positions of the bodies' vertices at the end of the step, in m.
+    ends: Vec<f64>,
+}
+
+/// Bodies that start smaller than they are.
+#[derive(Debug)]
+struct Inflating {
+    inflation: Inflation,
+    /// Displacements from where the bodies' vertices belong to where they start, in m.
+    inward: Vec<f64>,
+    /// Positions of the vertices before the motion of their bodies, in m.
+    positions: Vec<f64>,
+}
+
+/// Surface of a body that moves.
+#[derive(Debug)]
+struct MovingSurface {
+    /// Its vertices among those of all bodies.
+    vertices: Range<usize>,
+    motion: BodyMotion,
+    /// Whether it is a floor, whose corners are too far out for their paths to matter.
+    is_floor: bool,
+}
+
+impl Surfaces {
+    /// Surfaces of a scene that has been checked, at its start.
+    pub(crate) fn new(scene: &Scene) -> Result<Self, Error> {
+        let StartSurfaces { mut contact, names, vertices, bodies, inward, min_separation } =
+            StartSurfaces::new(scene)?;
+        let positions = &scene.start.positions;
+        contact.summary_at(positions)?;
+        let growth = scene.contact.growth;
+        if growth.is_some() {
+            contact.shrink_distances(positions)?;
+        }
+        let moving = scene.bodies.iter().zip(vertices).filter_map(|(moving, vertices)| {
+            let motion = moving.motion.clone()?;
+            let is_floor = matches!(moving.body.shape, Shape::Plane);
+            Some(MovingSurface { vertices, motion, is_floor })
+        });
+        let held = scene.held_particles();
+        Ok(Self {
+            grown_from: contact.growth_fraction(),
+            contact,
+            bodies: scene.bodies.iter().map(|moving| moving.body.clone()).collect(),
+            names,
+            inflation: scene.contact.inflation.map(|inflation| Inflating {
+                inflation,
+                inward,
+                positions: bodies.clone(),
+            }),
+            growth,
+            moving: moving.collect(),
+            deviation: 2.0 * DEVIATION * min_separation,
+            intersections_found: 0,
+            held: (0..held.len()).filter(|&particle| held[particle]).collect(),
+            ends: bodies.clone(),
+            start: bodies,
+        })
+    }
+
+    /// Bodies at the start of the simulation.
+    pub(crate) fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// Whether all bodies move nearly straight between two times on the clock of motions, in s, as is assumed in a step.
+    pub(crate) fn move_nearly_straight(&self, times: [f64; 2]) -> bool {
+        let places = self.start.as_chunks::<3>().0;
+        let bodies = self.moving.iter().filter(|moving| !moving.is_floor);
+        bodies.into_iter().all(|MovingSurface { vertices, motion, .. }| {
+            motion.deviation_from_straight(times, &places[vertices.clone()]) <= self.deviation
+        })
+    }
+
+    /// Time from which bodies have their size, in s; infinite as long as surfaces keep less than their distances.
+    pub(crate) fn full_size_time(&self) -> f64 {
+        if self.contact.growth_fraction() < 1.0 {
+            return f64::INFINITY;
+        }
+        self.inflation.as_ref().map_or(0.0, |inflating| inflating.inflation.seconds)
+    }
+
+    /// Whether the distances should have grown long before a time, in s, and have not.
+    pub(crate) fn growth_is_stuck(&self, time: f64) -> bool {
+        let late = |growth: DistanceGrowth| time >= PATIENCE * growth.seconds;
+        self.contact.growth_fraction() < 1.0 && self.growth.is_some_and(late)
+    }
+
+    /// Opens a step and returns the energy of contact at its start if that is asked for.
+    pub(crate) fn begin(&mut self, step: &ContactStep<'_>) -> Option<ContactEnergy> {
+        if let Some(growth) = self.growth {
+            let more = (1.0 - self.grown_from) * step.dt / growth.seconds;
+            self.contact.grow_distances(step.positions, more);
+        }
+        let Self { start, inflation, ends, .. } = self;
+        let start =
+            inflation.as_mut().map_or(&start[..], |own| own.positions_at(step.end_time, start));
+        ends.copy_from_slice(start);
+        for MovingSurface { vertices, motion, .. } in &self.moving {
+            let own = 3 * vertices.start..3 * vertices.end;
+            motion.write_positions(step.motion_end, &start[own.clone()], &mut ends[own]);
+        }
+        self.contact.begin(step.positions, ends);
+        step.with_energy.then(|| ContactEnergy {
+            contact: self.contact.potential(step.positions),
+            friction: 0.0,
+            body_work: self.contact.growth_work(),
+        })
+    }
+
+    /// Limits a step to a fraction that keeps all surfaces apart.
+    pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
+        let TrialStep { start, displacements, obstacle_time, mut obstacle_advance } = step;
+        let whole = self.contact.limit_step(SurfaceStep {
+            from: start,
+            displacements,
+            held: &self.held,
+            progress: obstacle_time,
+            advance: &mut obstacle_advance,
+        });
+        match whole {
+            true => StepLimit::Whole,
+            false => StepLimit::Shortened { obstacle_advance },
+        }
+    }
+
+    /// Whether no surface intersects another at some positions.
+    pub(crate) fn is_intersection_free(&mut self, positions: &[f64]) -> bool {
+        match self.contact.intersections(positions) {
+            Ok(found) => {
+                self.intersections_found += found.len();
+                found.is_empty()
+            }
+            Err(_) => false,
+        }
+    }
+
+    /// Description of the place where surfaces are closest to their minimum separation, with the positions of the
+    /// particles, in m.
+    pub(crate) fn describe_closest(&self, positions: &[f64]) -> Option<String> {
+        let PairDistance { pair, distance } = self.contact.closest_pair()?;
+        let of = |vertex: u32| &self.names[self.contact.surface().group(vertex) as usize];
+        let [one, other] = [pair.vertices[0], pair.vertices[3]].map(of);
+        let first = 3 * pair.vertices.into_iter().min()? as usize;
+        let [x, y, z] = positions.get(first..first + 3)?.try_into().ok()?;
+        Some(format!(
+            "surfaces are nearest to what they keep between \"{one}\" and \"{other}\" near ({x:.4}, {y:.4}, {z:.4}) m, \
+             {:.4} of {:.4} mm",
+            1e3 * distance,
+            1e3 * pair.min_separation
+        ))
+    }
+}
+
+impl Inflating {
+    /// Positions of the bodies' vertices at a time, in s, from where they belong, without the motion of their bodies.
+    fn positions_at<'a>(&'a mut self, time: f64, full: &'a [f64]) -> &'a [f64] {
+        let remaining = self.inflation.remaining(time);
+        if !(remaining > 0.0) {
+            return full;
+        }
+        for ((position, full), inward) in self.positions.iter_mut().zip(full).zip(&self.inward) {
+            *position = full + remaining * inward;
+        }
+        &self.positions
+    }
+}

@@ -1,0 +1,156 @@
+//! Balance of the energy of a cloth, summed over the accepted steps.
+//!
+//! Every entry is found by itself: energy that internal forces store and lose from their memories, that of contact,
+//! friction with bodies and air from their forces, and the loss of the integrator from its formula. The residual of the
+//! balance, [`Energy::remainder`], therefore tells whether they agree.
+
+use drape_implicit::Report;
+use serde::Serialize;
+
+use super::contact::ContactEnergy;
+
+/// Balance of the energy since the start, in J: the energy put in is stored, or lost in one of five ways.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Energy {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Energy stored in the fabric since the start.
+    pub elastic: f64,
+    /// Work done against the weight; the fall makes it negative.
+    pub gravity: f64,
+    /// Energy stored in the contact with bodies since the start.
+    pub contact: f64,
+    /// Energy lost in the fabric's friction.
+    pub friction_dissipated: f64,
+    /// Energy lost in the friction with bodies.
+    pub body_dissipated: f64,
+    /// Energy lost to the air.
+    pub air_dissipated: f64,
+    /// Energy lost by the formula of the integrator, and by the residual that the solver leaves.
+    pub numerical_dissipated: f64,
+    /// Cost of the rotation of the cloth: a step measures curvatures along the normals at its start, the memory of the
+    /// bending friction along those at its end. Of either sign, some thousandths of the friction at usual steps, less at
+    /// shorter ones, and nothing where bending has no friction.
+    pub turning_dissipated: f64,
+    /// Work done on the cloth by bodies that move and by pins; where a pin holds in some directions alone, the work of its
+    /// springs counts.
+    pub work_in: f64,
+    /// Residual of the balance: rounding.
+    pub remainder: f64,
+}
+
+/// Sums of the energy over the steps.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct EnergyBalance {
+    /// Energy stored by the internal forces now, in J.
+    stored: f64,
+    /// Energy of contact at the start of the step.
+    contact: ContactEnergy,
+    /// Potential of the internal forces when it was first and last asked for in this step, in J. With the balance on, the
+    /// integrator does so at the start and at the end.
+    internal: Option<FirstAndLast>,
+    /// Kinetic energy at the start, in J.
+    kinetic_at_start: f64,
+    sums: Energy,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct FirstAndLast {
+    first: f64,
+    last: f64,
+}
+
+/// Energies of one step, in J.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct StepEnergy {
+    /// Work against the weight.
+    pub(crate) gravity: f64,
+    /// Growth of the energy of contact.
+    pub(crate) contact: f64,
+    /// Work of the springs of pins, with their forces at the end of the step.
+    pub(crate) spring_work: f64,
+    /// Fall of the potential of these springs, which jumps with their prescribed positions at the start of the step.
+    pub(crate) spring_potential_fall: f64,
+    /// Work of bodies that move, or of the growth of distances of surfaces, against contact.
+    pub(crate) body_work: f64,
+    /// Work of the friction of bodies that move.
+    pub(crate) body_friction_work: f64,
+    /// Work against the friction with bodies, with its force at the end of the step.
+    pub(crate) body_friction_loss: f64,
+    /// Growth of the potential of that friction, of which the solution of the step is the minimum.
+    pub(crate) body_friction_potential: f64,
+    /// Work against the air, with its force at the end of the step; its potential is half of that.
+    pub(crate) air: f64,
+    /// Work against the forces that remove momentum.
+    pub(crate) momentum_removal: f64,
+    /// Loss in the friction of the internal forces.
+    pub(crate) internal_friction: f64,
+    /// Energy stored by the internal forces at the end.
+    pub(crate) stored: f64,
+}
+
+impl EnergyBalance {
+    /// Begins a balance with the energy that the internal forces store, and the kinetic energy, in J.
+    pub(crate) fn new(stored: f64, kinetic: f64) -> Self {
+        Self { stored, kinetic_at_start: kinetic, ..Self::default() }
+    }
+
+    /// Opens a step with the energy of contact at its start.
+    pub(crate) fn begin(&mut self, contact: ContactEnergy) {
+        self.contact = contact;
+        self.internal = None;
+    }
+
+    /// Energy of contact at the start of the step.
+    pub(crate) fn contact_at_start(&self) -> ContactEnergy {
+        self.contact
+    }
+
+    /// Notes a potential of the internal forces that was evaluated in the step, in J.
+    pub(crate) fn note_internal_potential(&mut self, potential: f64) {
+        let first = self.internal.map_or(potential, |noted| noted.first);
+        self.internal = Some(FirstAndLast { first, last: potential });
+    }
+
+    /// Adds an accepted step.
+    pub(crate) fn add(&mut self, step: &StepEnergy) {
+        let FirstAndLast { first, last } = self.internal.unwrap_or_default();
+        let sums = &mut self.sums;
+        sums.turning_dissipated +=
+            last - first - (step.stored - self.stored) - step.internal_friction;
+        sums.gravity += step.gravity;
+        sums.contact += step.contact;
+        sums.work_in += step.body_work + step.body_friction_work + step.spring_work;
+        sums.elastic += step.stored - self.stored;
+        sums.friction_dissipated += step.internal_friction;
+        sums.body_dissipated += step.body_friction_loss;
+        sums.air_dissipated += step.air;
+        // The integrator takes potentials for the work of all forces. For forces that grow along the step, as friction and
+        // drag with the speed, that falls short of the work at its end.
+        sums.numerical_dissipated +=
+            step.body_friction_potential - step.body_friction_loss - 0.5 * step.air;
+        sums.numerical_dissipated += step.spring_work - step.spring_potential_fall;
+        sums.numerical_dissipated += step.body_friction_work;
+        sums.numerical_dissipated += step.momentum_removal;
+        self.stored = step.stored;
+    }
+
+    /// Adds the loss and the work that the integrator reports.
+    pub(crate) fn add_report(&mut self, report: &Report) {
+        if let Some(energy) = &report.energy {
+            self.sums.numerical_dissipated += energy.numerical_dissipation;
+            self.sums.work_in += energy.work;
+        }
+    }
+
+    /// Balance so far, with the kinetic energy now, in J.
+    pub(crate) fn energy(&self, kinetic: f64) -> Energy {
+        let Energy { elastic, gravity, contact, .. } = self.sums;
+        let Energy { friction_dissipated, body_dissipated, air_dissipated, .. } = self.sums;
+        let held = kinetic - self.kinetic_at_start + elastic + gravity + contact;
+        let turning = self.sums.turning_dissipated;
+        let lost = friction_dissipated + body_dissipated + air_dissipated + turning;
+        let remainder = self.sums.work_in - held - lost - self.sums.numerical_dissipated;
+        Energy { kinetic, remainder, ..self.sums }
+    }
+}

@@ -1,0 +1,57 @@
+//! Gravity, which may grow to its value over a ramp, and the energy of the cloth in its field.
+
+/// Gravity in the course of a simulation.
+#[derive(Debug)]
+pub(crate) struct Gravity {
+    /// Acceleration at the end of the ramp, in m/s².
+    full: [f64; 3],
+    /// Acceleration at the end of the step, in m/s².
+    now: [f64; 3],
+    /// Time at which the ramp begins, in s: when the garment has been sewn.
+    ramp_start: f64,
+    /// Length of the ramp, in s.
+    ramp: f64,
+}
+
+impl Gravity {
+    /// Returns gravity with an acceleration, in m/s², and a ramp, in s, that begins at time 0.
+    pub(crate) fn new(acceleration: [f64; 3], ramp: f64) -> Self {
+        Self { full: acceleration, now: acceleration, ramp_start: 0.0, ramp }
+    }
+
+    /// Begins the ramp at a time, in s.
+    pub(crate) fn start_ramp(&mut self, time: f64) {
+        self.ramp_start = time;
+    }
+
+    /// Time at which the ramp ends, in s.
+    pub(crate) fn ramp_end(&self) -> f64 {
+        self.ramp_start + self.ramp
+    }
+
+    /// Opens a step that ends at a time, in s.
+    pub(crate) fn begin(&mut self, end_time: f64) {
+        let since = end_time - self.ramp_start;
+        let fraction = if since < self.ramp { (since / self.ramp).max(0.0) } else { 1.0 };
+        self.now = self.full.map(|g| fraction * g);
+    }
+
+    /// Opens a step without gravity.
+    pub(crate) fn begin_without(&mut self) {
+        self.now = [0.0; 3];
+    }
+
+    /// Overwrites the forces with the weights of particles, in N.
+    pub(crate) fn write_forces(&self, masses: &[f64], forces: &mut [f64]) {
+        for (force, mass) in forces.chunks_exact_mut(3).zip(masses) {
+            force.iter_mut().zip(self.now).for_each(|(f, g)| *f = mass * g);
+        }
+    }
+
+    /// Potential energy of particles, 0 at the origin, in J.
+    pub(crate) fn potential(&self, masses: &[f64], positions: &[f64]) -> f64 {
+        let height = |x: &[f64]| -> f64 { x.iter().zip(self.now).map(|(x, g)| -x * g).sum() };
+        let heights = positions.chunks_exact(3).map(height);
+        masses.iter().zip(heights).map(|(mass, height)| mass * height).sum()
+    }
+}

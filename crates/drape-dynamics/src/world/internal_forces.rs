@@ -1,0 +1,281 @@
+//! Internal forces of the cloth: connectors of the yarns or Breen's particles, and bending across seams.
+//!
+//! The matrix of the solver has a block for each pair of particles that act on each other. Where seams or closing springs
+//! couple more pairs than the connectors do, the connectors' stiffness is assembled in a matrix of its own and then
+//! scattered.
+
+use drape_cloth::{Breen, Cloth, SeamBending, SeamState, State, Trial, Workspace};
+use drape_implicit::{BlockMatrix, Sparsity};
+
+/// Internal forces of a cloth.
+#[derive(Debug)]
+pub(crate) struct InternalForces {
+    /// Connectors of the cloth. In Breen's model they keep the account of strains alone.
+    workspace: Workspace,
+    breen: Option<Breen>,
+    /// Bending across the seams, once they are closed.
+    seams: Option<BentSeams>,
+    /// Pairs of particles that act on each other.
+    sparsity: Sparsity,
+    /// Number of times that these pairs have changed.
+    version: u64,
+    /// Matrix of the connectors alone, where the sparsity has more pairs.
+    scatter: Option<Scatter>,
+}
+
+/// Bending across seams, and its memory.
+#[derive(Debug)]
+struct BentSeams {
+    bending: SeamBending,
+    state: SeamState,
+}
+
+/// Matrix of the connectors, and the place of each of its blocks in the whole matrix.
+#[derive(Debug)]
+struct Scatter {
+    values: Vec<f64>,
+    slots: Vec<usize>,
+}
+
+impl Scatter {
+    fn new(connectors: &drape_cloth::Sparsity, whole: &Sparsity) -> Self {
+        let slots = blocks(connectors).filter_map(|[row, column]| whole.slot(row, column));
+        Self { values: vec![0.0; 9 * connectors.blocks()], slots: slots.collect() }
+    }
+}
+
+/// Row and column of each block of a cloth's connectors.
+fn blocks(connectors: &drape_cloth::Sparsity) -> impl Iterator<Item = [usize; 2]> {
+    (0..connectors.offsets.len() - 1).flat_map(|row| {
+        let columns = &connectors.columns[connectors.offsets[row]..connectors.offsets[row + 1]];
+        columns.iter().map(move |&column| [row, column])
+    })
+}
+
+/// Sparsity of a cloth's connectors and of some more pairs.
+fn sparsity(connectors: &drape_cloth::Sparsity, more: &[[u32; 2]]) -> Sparsity {
+    let more = more.iter().map(|pair| pair.map(|particle| particle as usize));
+    let particles = connectors.offsets.len() - 1;
+    let pairs = blocks(connectors).chain(more);
+    Sparsity::from_pairs(particles, pairs).expect("pairs are of the cloth's particles")
+}
+
+impl InternalForces {
+    /// Internal forces of a cloth, in Breen's model if there is one, with room for springs between more pairs.
+    pub(crate) fn new(
+        cloth: &Cloth,
+        breen: Option<Breen>,
+        springs: &[[u32; 2]],
+        positions: &[f64],
+    ) -> Self {
+        let sparsity = sparsity(cloth.sparsity(), springs);
+        let mut forces = Self {
+            workspace: cloth.workspace(),
+            breen,
+            seams: None,
+            scatter: (!springs.is_empty()).then(|| Scatter::new(cloth.sparsity(), &sparsity)),
+            sparsity,
+            version: 0,
+        };
+        forces.update_sparsity(cloth, positions);
+        forces
+    }
+
+    pub(crate) fn sparsity(&self) -> &Sparsity {
+        &self.sparsity
+    }
+
+    pub(crate) fn sparsity_version(&self) -> u64 {
+        self.version
+    }
+
+    /// Begins to bend the seams of a cloth that has been sewn; closing springs need no room any more.
+    pub(crate) fn sew(&mut self, cloth: &Cloth, bending: SeamBending, positions: &[f64]) {
+        self.workspace = cloth.workspace();
+        let pairs: Vec<[u32; 2]> = bending.pairs().collect();
+        self.sparsity = sparsity(cloth.sparsity(), &pairs);
+        self.scatter = Some(Scatter::new(cloth.sparsity(), &self.sparsity));
+        self.version += 1;
+        let state = bending.state(positions).expect("a place for every particle");
+        self.seams = Some(BentSeams { bending, state });
+    }
+
+    /// Memory of the seams.
+    pub(crate) fn seam_state(&self) -> Option<&SeamState> {
+        self.seams.as_ref().map(|seams| &seams.state)
+    }
+
+    /// Restores a memory of the seams.
+    pub(crate) fn restore_seams(&mut self, state: Option<SeamState>) {
+        if let (Some(seams), Some(state)) = (&mut self.seams, state) {
+            seams.state = state;
+        }
+    }
+
+    /// Takes the pairs of Breen's particles that have come near each other into the sparsity. Those that have left stay
+    /// until then.
+    fn update_sparsity(&mut self, cloth: &Cloth, positions: &[f64]) {
+        let Some(breen) = &mut self.breen else { return };
+        let near = breen.close_pairs(positions);
+        let known = |&[a, b]: &[u32; 2]| self.sparsity.slot(a as usize, b as usize).is_some();
+        if !near.iter().all(known) {
+            self.sparsity = sparsity(cloth.sparsity(), near);
+            self.version += 1;
+        }
+    }
+
+    pub(crate) fn add_forces(&mut self, trial: Trial<'_>, forces: &mut [f64]) {
+        match &mut self.breen {
+            Some(breen) => breen.add_forces(trial.positions, forces),
+            None => self.workspace.add_forces(trial, forces),
+        }
+        if let Some(BentSeams { bending, state }) = &self.seams {
+            bending.add_forces(state, trial.positions, forces);
+        }
+    }
+
+    pub(crate) fn potential(&mut self, trial: Trial<'_>) -> f64 {
+        let seams = self.seams.as_ref();
+        let seams = seams.map_or(0.0, |own| own.bending.potential(&own.state, trial.positions));
+        seams
+            + match &mut self.breen {
+                Some(breen) => breen.energy(trial.positions),
+                None => self.workspace.potential(trial),
+            }
+    }
+
+    /// Adds the stiffness. A pair of Breen's particles that has come near since the matrix was laid out has no block in it;
+    /// each of its particles then bears twice the pair's block by itself, which is more than the two bear together.
+    pub(crate) fn add_stiffness(
+        &mut self,
+        trial: Trial<'_>,
+        definite: bool,
+        matrix: &mut BlockMatrix,
+    ) {
+        let Some(breen) = &mut self.breen else {
+            let Some(Scatter { values, slots }) = &mut self.scatter else {
+                self.workspace.add_stiffness(trial, definite, matrix.values_mut());
+                return;
+            };
+            values.fill(0.0);
+            self.workspace.add_stiffness(trial, definite, values);
+            for (block, &slot) in values.as_chunks::<9>().0.iter().zip(&*slots) {
+                matrix.add_block(slot, block);
+            }
+            if let Some(BentSeams { bending, state }) = &self.seams {
+                bending.add_stiffness(state, trial.positions, definite, |row, column, block| {
+                    matrix.add(row as usize, column as usize, &block);
+                });
+            }
+            return;
+        };
+        breen.add_stiffness(trial.positions, definite, &mut |[a, b], block| {
+            let (row, column) = (a as usize, b as usize);
+            match matrix.sparsity().slot(row, column) {
+                Some(slot) => matrix.add_block(slot, block),
+                None => {
+                    let against = block.map(|entry| -entry);
+                    matrix.add(row, row, &against);
+                    matrix.add(column, column, &against);
+                }
+            }
+        });
+    }
+
+    /// Moves state and memory to accepted positions, in m, and velocities, in m/s; returns the energy dissipated, in J.
+    pub(crate) fn commit(
+        &mut self,
+        cloth: &Cloth,
+        state: &mut State,
+        positions: &[f64],
+        velocities: &[f64],
+    ) -> f64 {
+        let mut dissipated = self.workspace.commit(cloth, state, positions, velocities);
+        if let Some(BentSeams { bending, state }) = &mut self.seams {
+            dissipated += bending.commit(state, positions);
+        }
+        self.update_sparsity(cloth, positions);
+        if self.breen.is_some() { 0.0 } else { dissipated }
+    }
+
+    /// Recoverable energy of a state, in J.
+    pub(crate) fn stored(&mut self, cloth: &Cloth, state: &State) -> f64 {
+        let seams = self.seams.as_ref();
+        let seams = seams.map_or(0.0, |own| own.bending.stored(&own.state, &state.positions));
+        seams
+            + match &mut self.breen {
+                Some(breen) => breen.energy(&state.positions),
+                None => self.workspace.stored(cloth, state),
+            }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use drape_cloth::Lattice;
+    use drape_fabric::Fabric;
+    use drape_input::Document;
+
+    use super::*;
+
+    const FABRIC: &str = r#"name = "plain"
+density = 0.12
+thickness = 0.0003
+shear = { stiffness = 35.0 }
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
+bending.rigidity = 1.2e-5
+[weft]
+traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
+bending.rigidity = 0.8e-5
+"#;
+
+    #[test]
+    fn a_pair_without_a_block_is_borne_by_its_particles_alone_and_more() {
+        let fabric = Fabric::from_document(&Document::new("plain.toml", FABRIC)).expect("right");
+        let lattice = Lattice::rectangle(0.04, 0.04, 0.01).expect("a sheet");
+        let panels = [(&lattice, &fabric), (&lattice, &fabric)];
+        let cloth = Cloth::new(&panels);
+        let place = |gap: f64| -> Vec<f64> {
+            let sheet =
+                |height: f64| lattice.coordinates.iter().flat_map(move |&[u, v]| [u, v, height]);
+            sheet(0.0).chain(sheet(gap)).collect()
+        };
+        let state = cloth.state(place(0.05)).expect("it fits");
+        let breen = Breen::new(&panels).expect("no rims");
+        let mut forces = InternalForces::new(&cloth, Some(breen), &[], &state.positions);
+        let fill = |forces: &mut InternalForces| {
+            let mut matrix = BlockMatrix::zeros(forces.sparsity().clone());
+            forces.add_stiffness(cloth.trial(&state, &place(0.008)), true, &mut matrix);
+            assert_eq!(matrix.outside_sparsity(), None);
+            matrix
+        };
+        let (before, alone) = (forces.sparsity_version(), fill(&mut forces));
+        forces.update_sparsity(&cloth, &place(0.008));
+        assert_eq!(forces.sparsity_version(), before + 1);
+        let whole = fill(&mut forces);
+        assert!(whole.sparsity().blocks() > alone.sparsity().blocks());
+        // Sheets that near each other by a length of one each: the coupled matrix has them pull four times as much as
+        // sheets that move as one, which it does not feel at all.
+        let count = cloth.particles();
+        let energy = |matrix: &BlockMatrix, lower: f64| {
+            let way = |k: usize| if k / 3 < count / 2 { lower } else { 1.0 };
+            let way: Vec<f64> =
+                (0..3 * count).map(|k| if k % 3 == 2 { way(k) } else { 0.0 }).collect();
+            let mut pull = vec![0.0; way.len()];
+            matrix.multiply(&way, &mut pull);
+            way.iter().zip(&pull).map(|(a, b)| a * b).sum::<f64>()
+        };
+        let (together, against) = (energy(&whole, 1.0), energy(&whole, -1.0));
+        assert!(against > 0.0 && together.abs() < 1e-12 * against, "{together} and {against}");
+        for lower in [1.0, -1.0, 0.3] {
+            let (alone, whole) = (energy(&alone, lower), energy(&whole, lower));
+            assert!(alone >= whole * (1.0 - 1e-12), "{alone} and {whole} for {lower}");
+        }
+        // Where they go against each other the two are the same.
+        assert!((energy(&alone, -1.0) / against - 1.0).abs() < 1e-12);
+        // Once more changes nothing.
+        forces.update_sparsity(&cloth, &place(0.008));
+        assert_eq!(forces.sparsity_version(), before + 1);
+    }
+}

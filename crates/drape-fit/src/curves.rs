@@ -1,0 +1,30 @@
+//! One law from one kind of test: tensile, bending, shear, loop bending.
+//!
+//! All fits have the same stages: features read off the curve, initial guesses by linear
+//! least squares on a grid of the nonlinear parameters, candidate laws with a forward model each,
+//! and from there the regression. The laws are
+//!
+//! ```math
+//! F(q) = F_0 + k\,q + F_r(q) \quad\text{(bending, shear)}, \qquad
+//! F(\varepsilon) = F_0 + F_e(\varepsilon - \varepsilon_0) + F_r \quad\text{(tension)}
+//! ```
+//!
+//! with friction `$F_r$` and the unknown zeros `$F_0$`, `$\varepsilon_0$` of the instrument
+//! \[NB04, eqs. 3–5\]. The chapter turns curves of drape-kes into laws of drape-fabric; it knows no
+//! KES values and no sheet.
+//!
+//! * `features`: what is read off a curve before any fit.
+//! * `linear_loop`, `piecewise`: the two models of bending and shear loops.
+//! * `bending`, `shear`, `loop_bending`: their fits.
+//! * `tensile_form`, `tensile_start`, `prediction`, `tensile`: the tensile fit.
+
+pub(crate) mod bending;
+pub(crate) mod features;
+pub(crate) mod linear_loop;
+pub(crate) mod loop_bending;
+pub(crate) mod piecewise;
+pub(crate) mod prediction;
+pub(crate) mod shear;
+pub(crate) mod tensile;
+pub(crate) mod tensile_form;
+pub(crate) mod tensile_start;

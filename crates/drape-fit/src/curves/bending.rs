@@ -1,0 +1,78 @@
+//! Bending law from a bending loop.
+
+use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine};
+use drape_kes::{Curve, Test};
+
+use crate::curves::features::check;
+use crate::curves::linear_loop::{LinearLaw, LoopForm, MeasuredLoop, orders};
+use crate::curves::piecewise::{backbone, fit_first_branch};
+use crate::error::Error;
+use crate::forward::loop_drive::drive_loop;
+use crate::regression::curve_fit::{FitOptions, Identified, fit_curve};
+use crate::regression::selection::CandidateModel;
+use crate::settings::Settings;
+use crate::settings::model::{LoopModel, Plateau};
+
+/// Identifies the bending law of one direction from a bending curve.
+///
+/// A linear backbone with friction is fitted to the whole history. The zero of the moment is fitted
+/// too: it absorbs the offset of the instrument, and the difference between the two sides of the
+/// fabric, which the law does not have. A [`LoopModel::Piecewise`] is fitted to the first loading
+/// branch.
+///
+/// ```
+/// use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Law, drive};
+/// use drape_fit::{Settings, identify_bending};
+/// use drape_kes::{Curve, Direction, Test};
+///
+/// let law = BendingLaw {
+///     backbone: BendingBackbone::Linear { rigidity: 1.2e-5 },
+///     rest_curvature: 0.0,
+///     friction: BlimanSorine::first_order(6e-4, 4.0),
+/// };
+/// // The KES cycle, in 1/m.
+/// let curvature: Vec<f64> = (0..=125).chain((-125..125).rev()).map(|i| 2.0 * f64::from(i)).collect();
+/// let moment = drive(&law, law.virgin(), &curvature);
+/// let curve = Curve::new(Test::Bending, Direction::Weft, curvature, moment).expect("it moves");
+///
+/// let found = identify_bending(&curve, &Settings::default())?.law;
+/// assert!((found.friction.plateau() / 6e-4 - 1.0).abs() < 1e-9);
+/// # Ok::<(), drape_fit::Error>(())
+/// ```
+///
+/// # Errors
+/// The curve is of another test, has no load, or does not rise.
+pub fn identify_bending(
+    curve: &Curve,
+    settings: &Settings,
+) -> Result<Identified<BendingLaw>, Error> {
+    check(curve, Test::Bending)?;
+    let curvature = curve.deformation();
+    if settings.bending == Some(LoopModel::Piecewise) {
+        let law = |p: &[f64]| BendingLaw {
+            backbone: BendingBackbone::Piecewise(backbone(p)),
+            rest_curvature: 0.0,
+            friction: BlimanSorine::none(),
+        };
+        let fit = fit_first_branch(curve, curvature, settings, |p, history, out| {
+            drive_loop(&law(p), history.iter().copied(), out);
+        })?;
+        return Ok(Identified { law: law(&fit.values()), fit });
+    }
+    let measured = MeasuredLoop::new(curve, "rigidity", curvature)?;
+    let forms = orders(settings.bending);
+    let forms = forms.map(|order| LoopForm { order, plateau: Plateau::Constant });
+    let forms: Vec<LoopForm> = forms.collect();
+    let model = |form: &LoopForm| measured.model(*form, form.order.name().into());
+    let models: Vec<CandidateModel<'_>> = forms.iter().map(model).collect();
+    let weights = settings.weighting.weights(curve, 0.0);
+    let options = FitOptions { weights, intervals: settings.intervals };
+    let fit = fit_curve(curve, &models, options);
+    let LinearLaw { stiffness, friction, .. } = forms[fit.chosen].law(&fit.values());
+    let law = BendingLaw {
+        backbone: BendingBackbone::Linear { rigidity: stiffness },
+        rest_curvature: 0.0,
+        friction,
+    };
+    Ok(Identified { law, fit })
+}

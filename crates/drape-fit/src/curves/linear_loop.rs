@@ -1,0 +1,366 @@
+//! Linear backbone with friction along a hysteresis loop, for bending and shear.
+//!
+//! ```math
+//! F = F_0 + k\,q + P\,[u(\eta x) + w\,u(x)], \qquad u = c + \gamma g
+//! ```
+//!
+//! with the fast plateau `$P$`, the slow one `$wP$`, the lengths `$\eta x$` and `$x$`, and the unit
+//! friction `$u$` of `forward::friction_path` with the growth `$\gamma$` of the plateau; one
+//! element has `$w = 0$`, `$\eta = 1$`. `bending` and `shear` build their candidates here.
+
+use drape_fabric::BlimanSorine;
+use drape_kes::Curve;
+use drape_lm::Parameter;
+use nalgebra::DMatrix;
+
+use crate::curves::features::{largest, mean_slope, zero};
+use crate::error::Error;
+use crate::forward::friction_path::{FrictionPath, UnitFriction};
+use crate::regression::linear::{LinearFit, Solution, geometric_grid};
+use crate::regression::residuals::{ForwardModel, NamedParameter};
+use crate::regression::selection::CandidateModel;
+use crate::settings::model::{FrictionOrder, LoopModel, Plateau};
+
+/// Shortest friction length over the largest deformation: below it friction is a step at any
+/// sampling.
+pub(crate) const LEAST_LENGTH: f64 = 1e-4;
+/// Number of friction lengths to start from.
+///
+/// Neighbours differ by half, well within the convergence of a search.
+const LENGTHS: usize = 14;
+/// Friction lengths to start from, over the largest deformation, at equal ratios.
+///
+/// Below the first friction is like a step, beyond the last like stiffness.
+const LENGTH_RANGE: [f64; 2] = [0.003, 0.9];
+/// Number of starts that are searched.
+const STARTS: usize = 2;
+/// Largest growth of a plateau, per unit of the deformation: over the KES range, a hundredfold.
+const LARGEST_GROWTH: f64 = 700.0;
+/// Slow plateau over the fast one, up to the sign, to start from where the linear fit finds no pair
+/// of elements.
+const SLOW_START: f64 = 0.3;
+/// Fast length over the slow one, to start from where the linear fit finds no pair of elements.
+const RATIO_START: f64 = 0.2;
+/// Largest negative slow plateau over the fast one: beyond, next to nothing is left.
+const LARGEST_REDUCTION: f64 = 0.95;
+/// Largest positive slow plateau over the fast one.
+const LARGEST_ADDITION: f64 = 20.0;
+
+/// Parameters that a linear backbone with friction has.
+#[derive(Clone, Copy)]
+pub(crate) struct LoopForm {
+    pub(crate) order: FrictionOrder,
+    pub(crate) plateau: Plateau,
+}
+
+/// Linear backbone with friction, and the zero of its load.
+#[derive(Clone, Copy)]
+pub(crate) struct LinearLaw {
+    pub(crate) stiffness: f64,
+    pub(crate) zero: f64,
+    /// Growth of the plateau per unit of the deformation.
+    pub(crate) growth: f64,
+    pub(crate) friction: BlimanSorine,
+}
+
+impl LoopForm {
+    fn grows(self) -> bool {
+        self.plateau == Plateau::Growing
+    }
+
+    /// Returns the law with parameters in the order of [`MeasuredLoop::starts`].
+    pub(crate) fn law(self, p: &[f64]) -> LinearLaw {
+        let (growth, rest) = match self.grows() {
+            true => (p[2], &p[3..]),
+            false => (0.0, &p[2..]),
+        };
+        LinearLaw { stiffness: p[0], zero: p[1], growth, friction: friction(rest) }
+    }
+}
+
+/// Returns the orders of friction that a setting admits.
+pub(crate) fn orders(model: Option<LoopModel>) -> impl Iterator<Item = FrictionOrder> {
+    let wanted = move |order: &FrictionOrder| match model {
+        Some(LoopModel::Linear(wanted)) => *order == wanted,
+        _ => true,
+    };
+    FrictionOrder::ALL.into_iter().filter(wanted)
+}
+
+/// Returns the friction with the parameters plateau and length, and for two elements the slow
+/// plateau over the fast one and the fast length over the slow one.
+pub(crate) fn friction(p: &[f64]) -> BlimanSorine {
+    match *p {
+        [plateau, length] => BlimanSorine::first_order(plateau, length),
+        [plateau, length, slow, ratio] => {
+            BlimanSorine::second_order(plateau, -slow * plateau, ratio, length)
+        }
+        _ => BlimanSorine::none(),
+    }
+}
+
+/// Forward model of a linear backbone with friction along a history.
+struct LinearLoop<'a> {
+    history: &'a [f64],
+    path: &'a FrictionPath,
+    form: LoopForm,
+}
+
+/// Friction element with its unit loads along the history.
+struct Element {
+    plateau: f64,
+    unit: UnitFriction,
+}
+
+impl LinearLoop<'_> {
+    fn elements(&self, law: &LinearLaw) -> Vec<Element> {
+        let present = law.friction.elements.into_iter();
+        // The second element of the first order is absent; it has no parameters either.
+        let count = if self.form.order == FrictionOrder::First { 1 } else { 2 };
+        present
+            .take(count)
+            .map(|dahl| Element {
+                plateau: dahl.plateau,
+                unit: self.path.unit_friction(dahl.length),
+            })
+            .collect()
+    }
+}
+
+impl ForwardModel for LinearLoop<'_> {
+    fn loads(&self, p: &[f64], out: &mut [f64]) {
+        let law = self.form.law(p);
+        for (load, q) in out.iter_mut().zip(self.history) {
+            *load = law.zero + law.stiffness * q;
+        }
+        for Element { plateau, unit } in &self.elements(&law) {
+            let columns = unit.constant.iter().zip(&unit.growing);
+            for (load, (constant, growing)) in out.iter_mut().zip(columns) {
+                *load += plateau * (constant + law.growth * growing);
+            }
+        }
+    }
+
+    fn jacobian(&self, p: &[f64], out: &mut DMatrix<f64>) -> bool {
+        let law = self.form.law(p);
+        let elements = self.elements(&law);
+        let first = if self.form.grows() { 3 } else { 2 };
+        let (plateau, length) = (p[first], p[first + 1]);
+        let (slow, ratio) = match elements.len() {
+            2 => (p[first + 2], p[first + 3]),
+            _ => (0.0, 1.0),
+        };
+        for (i, q) in self.history.iter().enumerate() {
+            let unit = |e: usize| {
+                let unit = &elements[e].unit;
+                let load = unit.constant[i] + law.growth * unit.growing[i];
+                let slope = unit.constant_slope[i] + law.growth * unit.growing_slope[i];
+                [load, slope, unit.growing[i]]
+            };
+            let fast = unit(0);
+            let [slow_load, slow_slope, slow_growing] =
+                if elements.len() == 2 { unit(1) } else { [0.0; 3] };
+            out[(i, 0)] = *q;
+            out[(i, 1)] = 1.0;
+            if self.form.grows() {
+                out[(i, 2)] = plateau * (fast[2] + slow * slow_growing);
+            }
+            out[(i, first)] = fast[0] + slow * slow_load;
+            out[(i, first + 1)] = plateau * (ratio * fast[1] + slow * slow_slope);
+            if elements.len() == 2 {
+                out[(i, first + 2)] = plateau * slow_load;
+                out[(i, first + 3)] = plateau * length * fast[1];
+            }
+        }
+        true
+    }
+}
+
+/// Measured loop, prepared for initial guesses.
+pub(crate) struct MeasuredLoop<'a> {
+    curve: &'a Curve,
+    /// Deformation of the law at each point.
+    history: &'a [f64],
+    path: FrictionPath,
+    /// Name of the stiffness.
+    name: &'static str,
+    /// Slope of the line through all points.
+    slope: f64,
+    /// Largest deformation of the law.
+    largest: f64,
+    lengths: [f64; LENGTHS],
+    fit: LinearFit,
+}
+
+/// Initial guess, with the sum of squares that it leaves.
+struct Start {
+    residual_sum: f64,
+    stiffness: f64,
+    zero: f64,
+    growth: f64,
+    friction: Vec<f64>,
+}
+
+impl<'a> MeasuredLoop<'a> {
+    /// Prepares a loop along a history of the law's deformation.
+    pub(crate) fn new(
+        curve: &'a Curve,
+        name: &'static str,
+        history: &'a [f64],
+    ) -> Result<Self, Error> {
+        let slope = mean_slope(curve)?;
+        let largest = largest(history);
+        let path = FrictionPath::new(history);
+        let [from, to] = LENGTH_RANGE;
+        let lengths = geometric_grid(from * largest, to * largest);
+        // Columns: the history, one, then for each length the friction with a constant plateau of
+        // one, and its growth by one over the largest deformation.
+        let mut columns = vec![history.to_vec(), vec![1.0; history.len()]];
+        for length in lengths {
+            let UnitFriction { constant, mut growing, .. } = path.unit_friction(length);
+            growing.iter_mut().for_each(|load| *load /= largest);
+            columns.extend([constant, growing]);
+        }
+        let fit = LinearFit::new(&columns, curve.load());
+        Ok(Self { curve, history, path, name, slope, largest, lengths, fit })
+    }
+
+    /// Returns the candidate of one form.
+    pub(crate) fn model(&self, form: LoopForm, name: String) -> CandidateModel<'_> {
+        let forward = LinearLoop { history: self.history, path: &self.path, form };
+        CandidateModel {
+            name,
+            starts: self.starts(form),
+            prediction: None,
+            forward: Box::new(forward),
+        }
+    }
+
+    fn starts(&self, form: LoopForm) -> Vec<Vec<NamedParameter>> {
+        let mut starts = self.single(form);
+        if form.order != FrictionOrder::First {
+            let singles = std::mem::take(&mut starts);
+            starts = self.pairs(form);
+            if starts.is_empty() {
+                let sign = if form.order == FrictionOrder::Second { -1.0 } else { 1.0 };
+                starts = singles;
+                for start in &mut starts {
+                    start.friction.extend([sign * SLOW_START, RATIO_START]);
+                }
+            }
+        }
+        starts.sort_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum));
+        starts.truncate(STARTS);
+        if starts.is_empty() {
+            starts.push(self.fallback(form));
+        }
+        starts.iter().map(|start| self.named(form, start)).collect()
+    }
+
+    /// Returns guesses with one friction element, at the local minima over its length.
+    fn single(&self, form: LoopForm) -> Vec<Start> {
+        let start = |i: usize| {
+            let mut columns = vec![0, 1, 2 + 2 * i];
+            columns.extend(form.grows().then_some(3 + 2 * i));
+            let Solution { coefficients: c, residual_sum } = self.fit.solve(&columns)?;
+            let growth = c.get(3).map_or(0.0, |added| added / c[2] / self.largest);
+            (c[2] > 0.0).then(|| Start {
+                residual_sum,
+                stiffness: c[0],
+                zero: c[1],
+                growth,
+                friction: vec![c[2], self.lengths[i]],
+            })
+        };
+        let all: Vec<Option<Start>> = (0..LENGTHS).map(start).collect();
+        // Neighbours of a minimum lead to the same end.
+        let sum = |i: usize| all[i].as_ref().map_or(f64::INFINITY, |start| start.residual_sum);
+        let minimum: Vec<bool> = (0..LENGTHS)
+            .map(|i| (i == 0 || sum(i) < sum(i - 1)) && (i + 1 == LENGTHS || sum(i) <= sum(i + 1)))
+            .collect();
+        let kept = all.into_iter().zip(minimum);
+        kept.filter_map(|(start, minimum)| start.filter(|_| minimum)).collect()
+    }
+
+    /// Returns guesses with two friction elements, for each pair of lengths.
+    fn pairs(&self, form: LoopForm) -> Vec<Start> {
+        let start = |fast: usize, slow: usize| {
+            let mut columns = vec![0, 1, 2 + 2 * fast, 2 + 2 * slow];
+            if form.grows() {
+                columns.extend([3 + 2 * fast, 3 + 2 * slow]);
+            }
+            let Solution { coefficients: c, residual_sum } = self.fit.solve(&columns)?;
+            let part = c[3] / c[2];
+            let admitted = match form.order {
+                FrictionOrder::Second => part < 0.0 && part > -LARGEST_REDUCTION,
+                _ => part > 0.0 && part < LARGEST_ADDITION,
+            };
+            // Both elements grow alike: their mean.
+            let growth = match c.get(4..6) {
+                Some(added) => (added[0] + added[1]) / (c[2] + c[3]) / self.largest,
+                None => 0.0,
+            };
+            (c[2] > 0.0 && admitted).then(|| Start {
+                residual_sum,
+                stiffness: c[0],
+                zero: c[1],
+                growth,
+                friction: vec![
+                    c[2],
+                    self.lengths[slow],
+                    part,
+                    self.lengths[fast] / self.lengths[slow],
+                ],
+            })
+        };
+        (0..LENGTHS)
+            .flat_map(|slow| (0..slow).map(move |fast| (fast, slow)))
+            .filter_map(|(fast, slow)| start(fast, slow))
+            .collect()
+    }
+
+    /// Returns the guess for a curve for which the linear fit has no solution.
+    fn fallback(&self, form: LoopForm) -> Start {
+        let mut friction = vec![0.05 * self.curve.load_range().span(), 0.05 * self.largest];
+        match form.order {
+            FrictionOrder::First => {}
+            FrictionOrder::Parallel => friction.extend([SLOW_START, RATIO_START]),
+            FrictionOrder::Second => friction.extend([-SLOW_START, RATIO_START]),
+        }
+        Start { residual_sum: 0.0, stiffness: self.slope, zero: 0.0, growth: 0.0, friction }
+    }
+
+    fn named(&self, form: LoopForm, start: &Start) -> Vec<NamedParameter> {
+        let (slope, load) = (self.slope, self.curve.load_range().span());
+        let largest = self.largest;
+        let mut named = vec![
+            NamedParameter::new(
+                self.name,
+                Parameter::new(start.stiffness).between(1e-3 * slope, 10.0 * slope),
+            ),
+            NamedParameter::new("zero", Parameter { start: start.zero, ..zero(self.curve) }),
+        ];
+        if form.grows() {
+            let growth = Parameter::new(start.growth.max(0.0))
+                .with_scale(1.0 / largest)
+                .between(0.0, LARGEST_GROWTH);
+            named.push(NamedParameter::new("growth", growth));
+        }
+        let plateau =
+            Parameter::new(start.friction[0]).with_scale(0.01 * load).between(0.0, 2.0 * load);
+        let length =
+            Parameter::new(start.friction[1]).between(LEAST_LENGTH * largest, 5.0 * largest);
+        named.push(NamedParameter::new("plateau", plateau));
+        named.push(NamedParameter::new("length", length));
+        if let [_, _, slow, ratio] = *start.friction {
+            let (least, most) = match form.order {
+                FrictionOrder::Second => (-LARGEST_REDUCTION, 0.0),
+                _ => (0.0, LARGEST_ADDITION),
+            };
+            let slow = Parameter::new(slow).between(least, most);
+            named.push(NamedParameter::new("slow", slow));
+            named.push(NamedParameter::new("ratio", Parameter::new(ratio).between(0.01, 0.95)));
+        }
+        named
+    }
+}

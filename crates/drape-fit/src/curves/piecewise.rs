@@ -1,0 +1,85 @@
+//! Fit of the first loading branch by a parabola that continues as a straight line \[BHW94, §5.1\].
+//!
+//! The elastic model of 1994, without friction, for bending and for shear.
+
+use drape_fabric::Piecewise;
+use drape_kes::Curve;
+use drape_lm::Parameter;
+
+use crate::curves::features::{StraightLine, falling, largest};
+use crate::error::Error;
+use crate::regression::curve_fit::{CurveFit, FitOptions, branch_of_each_point, fit_curve};
+use crate::regression::residuals::NamedParameter;
+use crate::regression::selection::CandidateModel;
+use crate::settings::Settings;
+
+/// Part of the largest deformation above which the slope of the line is read.
+const OUTER: f64 = 0.6;
+/// Ends of the parabola to start from, over the largest deformation.
+const KNOTS: [f64; 3] = [0.1, 0.3, 0.6];
+
+/// Fits the first branch of a curve, along a history of the law's deformation.
+///
+/// `drive` writes the loads of the law with the given parameters along a history.
+pub(crate) fn fit_first_branch(
+    curve: &Curve,
+    history: &[f64],
+    settings: &Settings,
+    drive: impl Fn(&[f64], &[f64], &mut [f64]) + Sync + Send,
+) -> Result<CurveFit, Error> {
+    let first = first_branch(curve)?;
+    let branch = &history[..first.load().len()];
+    let model = CandidateModel {
+        name: "a quadratic and a line on the first branch".into(),
+        starts: starts(&first)?,
+        prediction: None,
+        forward: Box::new(|p: &[f64], out: &mut [f64]| drive(p, branch, out)),
+    };
+    let weights = settings.weighting.weights(&first, 0.0);
+    let options = FitOptions { weights, intervals: settings.intervals };
+    let mut fit = fit_curve(&first, &[model], options);
+    let points = curve.load().len();
+    fit.load.resize(points, 0.0);
+    drive(&fit.values(), history, &mut fit.load);
+    fit.band.resize(points, 0.0);
+    (fit.deformation, fit.measured) = (curve.deformation().to_vec(), curve.load().to_vec());
+    fit.branches = branch_of_each_point(curve);
+    Ok(fit)
+}
+
+/// Returns initial guesses: the line through the outer part, and a few ends of the parabola.
+fn starts(first: &Curve) -> Result<Vec<Vec<NamedParameter>>, Error> {
+    let top = largest(first.deformation());
+    let points = first.deformation().iter().zip(first.load()).map(|(q, load)| [*q, *load]);
+    let outer = StraightLine::through(points.filter(|[q, _]| *q > OUTER * top));
+    let StraightLine { slope, intercept } =
+        outer.filter(|line| line.slope > 0.0).ok_or_else(|| falling(first))?;
+    let load = first.load_range().span();
+    let start = |knot: f64| {
+        let knot = knot * top;
+        let intercept = Parameter::new(intercept).with_scale(load).between(-load, load);
+        vec![
+            NamedParameter::new("slope", Parameter::new(slope).between(1e-3 * slope, 1e3 * slope)),
+            NamedParameter::new("intercept", intercept),
+            NamedParameter::new("knot", Parameter::new(knot).between(1e-3 * top, top)),
+        ]
+    };
+    Ok(KNOTS.map(start).into())
+}
+
+/// Returns the backbone with the parameters of [`starts`].
+pub(crate) fn backbone(p: &[f64]) -> Piecewise {
+    Piecewise { slope: p[0], intercept: p[1], knot: p[2] }
+}
+
+/// Returns the first branch of a curve, which must rise.
+fn first_branch(curve: &Curve) -> Result<Curve, Error> {
+    let branches = curve.branches();
+    let branch = branches.first().filter(|branch| branch.rising);
+    let points = branch.ok_or_else(|| falling(curve))?.points.clone();
+    let (q, load) = (&curve.deformation()[points.clone()], &curve.load()[points]);
+    let first = Curve::new(curve.test, curve.direction, q.to_vec(), load.to_vec());
+    let mut first = first.expect("a branch has two points and moves");
+    first.name.clone_from(&curve.name);
+    Ok(first)
+}

@@ -1,0 +1,135 @@
+//! Traction law from a tensile curve.
+
+use drape_fabric::TractionLaw;
+use drape_kes::{Curve, Test};
+
+use crate::curves::features::check;
+use crate::curves::prediction::{last_cycle, predict};
+use crate::curves::tensile_form::{StripKind, TensileForm};
+use crate::curves::tensile_start::InitialGuess;
+use crate::error::Error;
+use crate::regression::curve_fit::{FitOptions, Identified, fit_curve};
+use crate::regression::selection::CandidateModel;
+use crate::settings::Settings;
+
+/// Identifies the traction law of one direction from a tensile curve, along its whole history.
+///
+/// For a strip that hung slack, the strain at which it becomes taut and the zero of the force are
+/// fitted too. A curve without recovery determines neither friction nor how the fabric changes once
+/// it has been stretched: the law then has no friction, and a toe that does not move.
+///
+/// Where the last cycle goes further than those before it, a law is selected only if it also
+/// predicts that cycle better than the laws of higher preference
+/// ([`predict_last_cycle`](fn@crate::curves::prediction::predict_last_cycle)): a toe that moves
+/// fits any two cycles better, because it compensates for the constant stiffness of the line, and
+/// may then miss the third by more.
+///
+/// # Errors
+/// The curve is of another test, has no load, or does not rise.
+pub fn identify_tensile(
+    curve: &Curve,
+    settings: &Settings,
+) -> Result<Identified<TractionLaw>, Error> {
+    check(curve, Test::Tensile)?;
+    let guess = InitialGuess::new(curve)?;
+    let strip = StripKind { slack: curve.slack, recovers: guess.recovers };
+    let forms = TensileForm::admitted(strip, settings);
+    let predicted = prediction_errors(curve, &forms);
+    let model = |(form, prediction): (&TensileForm, &Option<f64>)| CandidateModel {
+        prediction: *prediction,
+        ..guess.model(*form, curve)
+    };
+    let models: Vec<CandidateModel<'_>> = forms.iter().zip(&predicted).map(model).collect();
+    let weights = settings.weighting.weights(curve, guess.zero.strain);
+    let options = FitOptions { weights, intervals: settings.intervals };
+    let fit = fit_curve(curve, &models, options);
+    Ok(Identified { law: forms[fit.chosen].law(&fit.values()), fit })
+}
+
+/// Returns the errors with which the forms predict the last cycle, where there is one and several
+/// forms.
+fn prediction_errors(curve: &Curve, forms: &[TensileForm]) -> Vec<Option<f64>> {
+    let last = last_cycle(curve).filter(|_| forms.len() > 1);
+    // Earlier cycles that give no law select none.
+    let found = last.and_then(|last| predict(curve, last, forms).ok());
+    match found {
+        Some(found) => found.iter().map(|prediction| Some(prediction.error)).collect(),
+        None => vec![None; forms.len()],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drape_fabric::{BlimanSorine, Buckling, Primed, TractionBackbone};
+    use drape_kes::Direction;
+
+    use crate::forward::strip_drive::drive_slack_strip;
+    use crate::settings::model::TractionModel;
+
+    fn primed() -> Settings {
+        Settings { traction: Some(TractionModel::Primed), ..Settings::default() }
+    }
+
+    /// Three growing cycles of a strip that hangs slack by 2 % between them.
+    fn clamps(top: f64) -> Vec<f64> {
+        let reversals = [-0.02, 0.6 * top, -0.02, 0.8 * top, -0.02, top, -0.02];
+        let steps = 60;
+        let branch = |ends: &[f64]| {
+            let (from, to) = (ends[0], ends[1]);
+            (0..steps).map(move |i| from + (to - from) * f64::from(i) / f64::from(steps))
+        };
+        reversals.windows(2).flat_map(branch).collect()
+    }
+
+    #[test]
+    fn a_slack_strip_gives_its_law_and_both_of_its_zeros() {
+        for (toe_ratio, toe, growth) in [(0.55, 0.02, 1.3), (0.7, 0.012, 1.6), (0.8, 0.025, 1.15)] {
+            let (top, free_strain, zero) = (0.04, 0.003, 0.4);
+            let exact = TractionLaw {
+                backbone: TractionBackbone::Primed(Primed {
+                    stiffness: 6e3,
+                    toe_ratio,
+                    toe_strain: toe,
+                    toe_strain_after: growth * toe,
+                }),
+                friction: BlimanSorine::first_order(4.0, 0.002),
+                buckling: Buckling::default(),
+            };
+            let taut = clamps(top);
+            let mut load = vec![0.0; taut.len()];
+            drive_slack_strip(&exact, taut.iter().copied(), &mut load);
+            let load = load.iter().map(|load| load + zero).collect();
+            let strain = taut.iter().map(|strain| strain + free_strain).collect();
+            let mut curve = Curve::new(Test::Tensile, Direction::Warp, strain, load).unwrap();
+            curve.slack = true;
+            let found = identify_tensile(&curve, &primed()).unwrap();
+            let truth = [free_strain, zero, 6e3, toe_ratio, toe, growth, 4.0, 0.002];
+            for (estimate, exact) in found.fit.parameters.iter().zip(truth) {
+                let (name, value) = (estimate.name, estimate.value);
+                let error = (value / exact - 1.0).abs();
+                assert!(error < 1e-6, "{name} is {value:e}, exactly {exact:e}; {:?}", found.fit);
+            }
+        }
+    }
+
+    #[test]
+    fn a_strip_in_compression_is_refused() {
+        let strain = vec![-0.03, -0.02, -0.01];
+        let load = vec![-3.0, -2.0, -1.0];
+        let curve = Curve::new(Test::Tensile, Direction::Weft, strain, load).unwrap();
+        let result = identify_tensile(&curve, &primed());
+        assert!(matches!(result, Err(Error::FallingLoad { .. })), "{result:?}");
+    }
+
+    #[test]
+    fn a_curve_without_recovery_gives_no_friction_and_a_toe_that_does_not_move() {
+        let strain: Vec<f64> = (0..=50).map(|i| 0.001 * f64::from(i)).collect();
+        let load = strain.iter().map(|e| 4e3 * e + 5e4 * e * e).collect();
+        let curve = Curve::new(Test::Tensile, Direction::Weft, strain, load).unwrap();
+        let law = identify_tensile(&curve, &primed()).unwrap().law;
+        assert_eq!(law.friction, BlimanSorine::none());
+        let TractionBackbone::Primed(primed) = law.backbone else { panic!("primed was asked for") };
+        assert_eq!(primed.toe_strain, primed.toe_strain_after);
+    }
+}

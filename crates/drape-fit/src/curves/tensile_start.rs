@@ -1,0 +1,310 @@
+//! Initial guesses of a tensile fit, from the curve itself and linear least squares.
+//!
+//! ```math
+//! F = k\left[f_1(\varepsilon) + (1 - r)\,\frac{f_{0.6} - f_1}{1 - 0.6}\right] + F_c\,u(\varepsilon)
+//! ```
+//!
+//! For a given end of the priming zone and friction length the load is linear in stiffness `$k$`,
+//! `$k$` times toe ratio `$r$`, and plateau `$F_c$`, where `$f_r$` is the backbone of unit
+//! stiffness and toe ratio `$r$` and `$u$` the unit friction. Ends and lengths are tried on a grid.
+
+use std::ops::Range;
+
+use drape_fabric::{
+    BlimanSorine, Buckling, Polynomial, Primed, TOE_RATIO_MIN, TractionBackbone, TractionLaw,
+};
+use drape_kes::Curve;
+use drape_lm::Parameter;
+
+use crate::curves::features::{StraightLine, falling};
+use crate::curves::linear_loop::LEAST_LENGTH;
+use crate::curves::tensile_form::{TensileForm, Zeros};
+use crate::error::Error;
+use crate::forward::strip_drive::drive_strip;
+use crate::regression::linear::{LinearFit, Solution};
+use crate::regression::residuals::NamedParameter;
+use crate::regression::selection::CandidateModel;
+use crate::settings::model::{Toe, TractionModel};
+
+/// Ends of the priming zone to start from, over the largest strain.
+const TOES: [f64; 5] = [0.12, 0.25, 0.45, 0.7, 1.0];
+/// Final ends of a moving priming zone to start from, over the virgin end.
+const GROWTHS: [f64; 3] = [1.1, 1.4, 1.8];
+/// Friction lengths to start from, over the largest strain.
+const LENGTHS: [f64; 4] = [0.005, 0.02, 0.07, 0.25];
+/// Number of starts that are searched.
+const STARTS: usize = 3;
+/// Toe ratio of the second of the two backbones whose combinations have any toe ratio.
+const DEEP: f64 = 0.6;
+/// Part of the load range by which the load of a slack strip has begun to rise.
+const SLACK_LOAD: f64 = 0.02;
+/// Part of the first loading branch above which its slope is read.
+const UPPER: f64 = 0.6;
+
+/// Features of a tensile curve before any search.
+pub(crate) struct InitialGuess {
+    /// Whether the curve has a recovery branch.
+    pub(crate) recovers: bool,
+    /// Strain and load at which the strip becomes taut.
+    pub(crate) zero: Zeros,
+    /// Largest strain, from there.
+    top_strain: f64,
+    /// Largest load, from there.
+    top_load: f64,
+    /// Slope of the upper part of the first loading branch.
+    stiffness: f64,
+    /// Strains from where the strip becomes taut; zero while it is slack.
+    strains: Vec<f64>,
+    load: Vec<f64>,
+}
+
+/// Initial guess, with the sum of squares that it leaves.
+struct Start {
+    residual_sum: f64,
+    backbone: Vec<f64>,
+    plateau: f64,
+    length: f64,
+}
+
+/// Linear combination of backbone columns and a friction column.
+struct Combination {
+    residual_sum: f64,
+    coefficients: Vec<f64>,
+    /// Length of the friction, zero without friction.
+    length: f64,
+}
+
+impl InitialGuess {
+    pub(crate) fn new(curve: &Curve) -> Result<Self, Error> {
+        let (strain, load) = (curve.deformation(), curve.load());
+        let branches = curve.branches();
+        let loading = branches.first().filter(|branch| branch.rising);
+        let loading = loading.ok_or_else(|| falling(curve))?.points.clone();
+        let zero = match curve.slack {
+            true => taut(curve, &loading),
+            false => Zeros { strain: 0.0, load: 0.0 },
+        };
+        let top_strain = curve.deformation_range().high - zero.strain;
+        let top_load = curve.load_range().high - zero.load;
+        if !(top_strain > 0.0 && top_load > 0.0) {
+            return Err(falling(curve));
+        }
+        let upper = zero.strain + UPPER * (strain[loading.end - 1] - zero.strain);
+        let points = loading.filter(|&i| strain[i] >= upper).map(|i| [strain[i], load[i]]);
+        let stiffness = StraightLine::through(points).map(|line| line.slope);
+        let stiffness = stiffness.filter(|k| *k > 0.0).ok_or_else(|| falling(curve))?;
+        let from_zero = |strain: &f64| {
+            let strain = strain - zero.strain;
+            if curve.slack { strain.max(0.0) } else { strain }
+        };
+        Ok(Self {
+            recovers: branches.len() > 1,
+            zero,
+            top_strain,
+            top_load,
+            stiffness,
+            strains: strain.iter().map(from_zero).collect(),
+            load: load.iter().map(|load| load - zero.load).collect(),
+        })
+    }
+
+    /// Returns the candidate of one form on a curve.
+    pub(crate) fn model<'a>(&self, form: TensileForm, curve: &'a Curve) -> CandidateModel<'a> {
+        CandidateModel {
+            name: form.name().into(),
+            starts: self.starts(&form),
+            prediction: None,
+            forward: form.forward(curve),
+        }
+    }
+
+    /// Returns the guesses of the grid that follow the curve best.
+    fn starts(&self, form: &TensileForm) -> Vec<Vec<NamedParameter>> {
+        let mut starts = match (form.model, form.toe) {
+            (TractionModel::Polynomial, _) => self.polynomials(form),
+            (TractionModel::Primed, Toe::Still) => self.primed(form, &[1.0]),
+            (TractionModel::Primed, Toe::Moving) => self.primed(form, &GROWTHS),
+        };
+        starts.sort_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum));
+        starts.truncate(STARTS);
+        if starts.is_empty() {
+            starts.push(self.fallback(form));
+        }
+        starts.iter().map(|start| self.named(form, start)).collect()
+    }
+
+    /// Returns the guess with the best friction length for each end of the priming zone and each
+    /// growth.
+    fn primed(&self, form: &TensileForm, growths: &[f64]) -> Vec<Start> {
+        let top = self.top_strain;
+        let start = |toe: f64, growth: f64| {
+            let law = |stiffness: f64, toe_ratio: f64, friction: BlimanSorine| TractionLaw {
+                backbone: TractionBackbone::Primed(Primed {
+                    stiffness,
+                    toe_ratio,
+                    toe_strain: toe * top,
+                    toe_strain_after: growth * toe * top,
+                }),
+                friction,
+                buckling: Buckling::default(),
+            };
+            let column = |law: TractionLaw| self.column(&law);
+            let mut columns = vec![
+                column(law(1.0, 1.0, BlimanSorine::none())),
+                column(law(1.0, DEEP, BlimanSorine::none())),
+            ];
+            let frictions = self.frictions(form);
+            columns.extend(frictions.iter().map(|friction| column(law(0.0, DEEP, *friction))));
+            let Combination { residual_sum, coefficients: c, length } =
+                self.best(&columns, 2, form)?;
+            // The load is linear in the toe ratio r: 1 − r is that of the second backbone times its
+            // part.
+            let stiffness = c[0] + c[1];
+            let ratio = 1.0 - (1.0 - DEEP) * c[1] / stiffness;
+            let mut backbone = vec![stiffness, ratio.clamp(1.05 * TOE_RATIO_MIN, 0.98), toe * top];
+            if form.toe == Toe::Moving {
+                backbone.push(growth);
+            }
+            let plateau = c.get(2).copied().unwrap_or(0.0);
+            (stiffness > 0.0).then_some(Start { residual_sum, backbone, plateau, length })
+        };
+        let pairs = TOES.iter().flat_map(|&toe| growths.iter().map(move |&growth| (toe, growth)));
+        pairs.filter_map(|(toe, growth)| start(toe, growth)).collect()
+    }
+
+    /// Returns the best polynomial over all friction lengths.
+    fn polynomials(&self, form: &TensileForm) -> Vec<Start> {
+        let law = |quadratic: f64, quartic: f64, friction: BlimanSorine| TractionLaw {
+            backbone: TractionBackbone::Polynomial(Polynomial { quadratic, quartic }),
+            friction,
+            buckling: Buckling::default(),
+        };
+        let mut columns = vec![
+            self.column(&law(1.0, 0.0, BlimanSorine::none())),
+            self.column(&law(0.0, 1.0, BlimanSorine::none())),
+        ];
+        let frictions = self.frictions(form);
+        columns.extend(frictions.iter().map(|friction| self.column(&law(0.0, 0.0, *friction))));
+        let best = self.best(&columns, 2, form);
+        let start = best.map(|best| Start {
+            residual_sum: best.residual_sum,
+            backbone: vec![best.coefficients[0].max(0.0), best.coefficients[1].max(0.0)],
+            plateau: best.coefficients.get(2).copied().unwrap_or(0.0),
+            length: best.length,
+        });
+        start.into_iter().collect()
+    }
+
+    /// Returns the loads of a law along the curve.
+    fn column(&self, law: &TractionLaw) -> Vec<f64> {
+        let mut out = vec![0.0; self.strains.len()];
+        drive_strip(law, self.strains.iter().copied(), &mut out);
+        out
+    }
+
+    /// Returns the frictions of unit plateau on the grid of lengths.
+    fn frictions(&self, form: &TensileForm) -> Vec<BlimanSorine> {
+        let lengths = if form.strip.recovers { &LENGTHS[..] } else { &[] };
+        let friction = |part: &f64| BlimanSorine::first_order(1.0, part * self.top_strain);
+        lengths.iter().map(friction).collect()
+    }
+
+    /// Returns the best combination of the backbone columns, which come first, with one of the
+    /// friction columns.
+    fn best(
+        &self,
+        columns: &[Vec<f64>],
+        backbone_columns: usize,
+        form: &TensileForm,
+    ) -> Option<Combination> {
+        let fit = LinearFit::new(columns, &self.load);
+        let backbone: Vec<usize> = (0..backbone_columns).collect();
+        if !form.strip.recovers {
+            let Solution { coefficients, residual_sum } = fit.solve(&backbone)?;
+            return Some(Combination { residual_sum, coefficients, length: 0.0 });
+        }
+        let with = |(i, part): (usize, &f64)| {
+            let columns = [&backbone[..], &[backbone_columns + i]].concat();
+            let Solution { coefficients, residual_sum } = fit.solve(&columns)?;
+            (coefficients[backbone_columns] > 0.0).then_some(Combination {
+                residual_sum,
+                coefficients,
+                length: part * self.top_strain,
+            })
+        };
+        let all = LENGTHS.iter().enumerate().filter_map(with);
+        all.min_by(|a, b| a.residual_sum.total_cmp(&b.residual_sum))
+    }
+
+    /// Returns the guess for a curve for which the linear fit has no solution.
+    fn fallback(&self, form: &TensileForm) -> Start {
+        let (strain, load) = (self.top_strain, self.top_load);
+        let backbone = match form.model {
+            TractionModel::Primed => {
+                let mut backbone = vec![self.stiffness, 0.7, 0.5 * strain];
+                backbone.extend((form.toe == Toe::Moving).then_some(1.2));
+                backbone
+            }
+            TractionModel::Polynomial => {
+                vec![0.5 * load / strain.powi(2), 0.5 * load / strain.powi(4)]
+            }
+        };
+        Start { residual_sum: 0.0, backbone, plateau: 0.02 * load, length: 0.05 * strain }
+    }
+
+    fn named(&self, form: &TensileForm, start: &Start) -> Vec<NamedParameter> {
+        let mut named = if form.strip.slack { self.zeros() } else { Vec::new() };
+        let mut push = |name, parameter| named.push(NamedParameter::new(name, parameter));
+        let (strain, load) = (self.top_strain, self.top_load);
+        let backbone = &start.backbone;
+        match form.model {
+            TractionModel::Primed => {
+                let k = self.stiffness;
+                push("stiffness", Parameter::new(backbone[0]).between(1e-2 * k, 1e2 * k));
+                push("toe_ratio", Parameter::new(backbone[1]).between(TOE_RATIO_MIN, 1.0));
+                let toe_strain = Parameter::new(backbone[2]);
+                push("toe_strain", toe_strain.between(1e-3 * strain, 2.0 * strain));
+                if let Some(growth) = backbone.get(3) {
+                    push("toe_growth", Parameter::new(*growth).between(1.0, 2.0));
+                }
+            }
+            TractionModel::Polynomial => {
+                let term = |value: f64, power: i32| {
+                    let size = load / strain.powi(power);
+                    Parameter::new(value).with_scale(0.01 * size).between(0.0, 10.0 * size)
+                };
+                push("quadratic", term(backbone[0], 2));
+                push("quartic", term(backbone[1], 4));
+            }
+        }
+        if form.strip.recovers {
+            let plateau = Parameter::new(start.plateau).with_scale(0.01 * load);
+            push("plateau", plateau.between(0.0, load));
+            let length = Parameter::new(start.length);
+            push("length", length.between(LEAST_LENGTH * strain, 5.0 * strain));
+        }
+        named
+    }
+
+    /// Returns the zeros of a slack strip as parameters.
+    fn zeros(&self) -> Vec<NamedParameter> {
+        let around = |value: f64, half: f64| {
+            Parameter::new(value).with_scale(half).between(value - half, value + half)
+        };
+        vec![
+            NamedParameter::new("free strain", around(self.zero.strain, 0.3 * self.top_strain)),
+            NamedParameter::new("zero", around(self.zero.load, 0.2 * self.top_load)),
+        ]
+    }
+}
+
+/// Returns strain and load at which a slack strip becomes taut on its first loading branch.
+fn taut(curve: &Curve, loading: &Range<usize>) -> Zeros {
+    let (strain, load) = (curve.deformation(), curve.load());
+    let span = curve.load_range().span();
+    let risen = |&i: &usize| load[i] > load[loading.start] + SLACK_LOAD * span;
+    let first = loading.clone().find(risen).unwrap_or(loading.start);
+    let taut = first.saturating_sub(1);
+    let before = &load[loading.start..=taut];
+    Zeros { strain: strain[taut], load: before.iter().sum::<f64>() / before.len() as f64 }
+}

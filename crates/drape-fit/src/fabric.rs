@@ -1,0 +1,17 @@
+//! The whole fabric from a sheet, and many fabrics at once.
+//!
+//! Curves come before values, values before defaults; what is missing of one direction is taken
+//! from the other, and every default is named in the result. [`identify`](identify::identify) runs
+//! the fits of `curves` in parallel, fills the rest from `values`, and checks the fabric.
+//!
+//! * `laws`: each law from curves or values, with notes.
+//! * `keys`, `measured_range`: provenance: standard errors by key, and the largest measured
+//!   deformations.
+//! * `identify`: one sheet; `batch`: many.
+
+pub(crate) mod batch;
+
+pub(crate) mod identify;
+pub(crate) mod keys;
+pub(crate) mod laws;
+pub(crate) mod measured_range;

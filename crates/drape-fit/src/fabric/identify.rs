@@ -1,0 +1,159 @@
+//! One fabric from one sheet.
+
+use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
+use drape_kes::{BendingValues, Direction, Sheet};
+
+use crate::error::Error;
+use crate::fabric::keys::standard_errors;
+use crate::fabric::laws::SheetLaws;
+use crate::fabric::measured_range::measured_range;
+use crate::regression::curve_fit::CurveFit;
+use crate::settings::Settings;
+use crate::values::assumed;
+use crate::values::bending::bending_from_values;
+use crate::values::matched::Noted;
+
+/// Identified fabric, with the fits and assumptions that it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// Identified fabric.
+    pub fabric: Fabric,
+    /// Fit of each of the sheet's curves, in the order of the sheet.
+    pub curves: Vec<CurveFit>,
+    /// Notes on what the sheet does not have and what was taken in its place.
+    pub assumed: Vec<String>,
+}
+
+/// Identifies a fabric from a sheet, with the default settings.
+///
+/// ```
+/// use drape_fit::identify;
+/// use drape_kes::{Sheet, Values};
+///
+/// let mut sheet = Sheet::default();
+/// sheet.name = "shirting".into();
+/// sheet.w = Some(12.0);
+/// sheet.warp = Values { b: Some(0.09), em: Some(4.5), rt: Some(62.0), ..Values::default() };
+///
+/// let fit = identify(&sheet)?;
+/// assert!((fit.fabric.density - 0.12).abs() < 1e-12);
+/// assert!(fit.assumed.iter().any(|note| note == "weft bending: not measured, the warp's taken"));
+/// # Ok::<(), drape_fit::Error>(())
+/// ```
+///
+/// # Errors
+/// A curve or a set of values gives no law, or the fabric is impossible.
+pub fn identify(sheet: &Sheet) -> Result<Fit, Error> {
+    identify_with(sheet, &Settings::default())
+}
+
+/// Identifies a fabric from a sheet.
+///
+/// Curves come before values, values before defaults, and each default is named. Of several curves
+/// of one test and direction the first gives the law, except that loop-bending curves give one law
+/// together. What is missing of one direction is taken from the other.
+///
+/// # Errors
+/// A curve or a set of values gives no law, or the fabric is impossible.
+pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
+    let settings = &settings.with_default_model(sheet.model);
+    let laws = SheetLaws::new(sheet, settings)?;
+    let mut notes = Vec::new();
+
+    let density = sheet.density().unwrap_or_else(|| {
+        notes.push(format!("density: not measured, {} kg/m² taken", assumed::DENSITY));
+        assumed::DENSITY
+    });
+    let thickness = sheet.thickness().unwrap_or_else(|| {
+        notes.push(format!("thickness: not measured, {} m taken", assumed::THICKNESS));
+        assumed::THICKNESS
+    });
+    let pressed_thickness = sheet.pressed_thickness();
+    if pressed_thickness.is_none() {
+        notes.push("pressed_thickness: not measured, 0.7 of the thickness taken".into());
+    }
+    let surface_friction = sheet.miu.unwrap_or_else(|| {
+        notes.push(format!("surface_friction: not measured, {SURFACE_FRICTION} taken"));
+        SURFACE_FRICTION
+    });
+    let [warp, weft] = [Direction::Warp, Direction::Weft].map(|direction| laws.traction(direction));
+    let traction =
+        both("traction", [warp?, weft?], &mut notes, |notes| laws.assumed_traction(notes))?;
+    let [warp, weft] =
+        [Direction::Warp, Direction::Weft].map(|direction| laws.bending(direction, density));
+    let bending = both("bending", [warp, weft], &mut notes, |notes| {
+        let rigidity = assumed::bending_rigidity(density);
+        let law = bending_from_values(&BendingValues { rigidity, loop_width: 0.0 });
+        notes
+            .push("bending: not measured, a bending length of 20 mm without friction taken".into());
+        Ok(law)
+    })?;
+    let shear = laws.shear(&mut notes);
+    notes.push("traction in compression: not measured, buckling at 0.2 % taken".into());
+    if let Some(locking) = shear.locking {
+        let degrees = locking.onset.asin().to_degrees();
+        notes.push(format!("shear beyond {degrees:.1}°: not measured, jamming before 60° taken"));
+    }
+    let fits = laws.into_fits();
+    let fabric = Fabric {
+        name: sheet.name.clone(),
+        source: sheet.source.trim().to_owned(),
+        density,
+        thickness,
+        pressed_thickness,
+        surface_friction,
+        warp: fabric::YarnLaws { traction: traction.warp, bending: bending.warp },
+        weft: fabric::YarnLaws { traction: traction.weft, bending: bending.weft },
+        shear,
+        provenance: Some(Provenance {
+            sheet: sheet.name.clone(),
+            digest: sheet.digest(),
+            fitted_by: concat!("drape-fit ", env!("CARGO_PKG_VERSION")).to_owned(),
+            assumed: notes.clone(),
+            standard_errors: standard_errors(&fits),
+            measured_range: measured_range(sheet),
+        }),
+    };
+    if let Some(problem) = fabric.problems().into_iter().next() {
+        let fabric::Problem { key, message, help } = problem;
+        return Err(Error::InvalidFabric { key, message, help });
+    }
+    Ok(Fit { fabric, curves: fits, assumed: notes })
+}
+
+/// Laws of one kind in both directions.
+struct BothLaws<L> {
+    warp: L,
+    weft: L,
+}
+
+/// Returns the laws of both directions; where one is missing the other is taken for it.
+fn both<L: Copy>(
+    kind: &str,
+    [warp, weft]: [Option<Noted<L>>; 2],
+    notes: &mut Vec<String>,
+    assume: impl FnOnce(&mut Vec<String>) -> Result<L, Error>,
+) -> Result<BothLaws<L>, Error> {
+    let mut take = |found: Option<Noted<L>>| {
+        found.map(|found| {
+            notes.extend(found.notes);
+            found.law
+        })
+    };
+    let (warp, weft) = (take(warp), take(weft));
+    match (warp, weft) {
+        (Some(warp), Some(weft)) => Ok(BothLaws { warp, weft }),
+        (Some(warp), None) => {
+            notes.push(format!("weft {kind}: not measured, the warp's taken"));
+            Ok(BothLaws { warp, weft: warp })
+        }
+        (None, Some(weft)) => {
+            notes.push(format!("warp {kind}: not measured, the weft's taken"));
+            Ok(BothLaws { warp: weft, weft })
+        }
+        (None, None) => {
+            let law = assume(notes)?;
+            Ok(BothLaws { warp: law, weft: law })
+        }
+    }
+}

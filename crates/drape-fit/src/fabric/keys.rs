@@ -1,0 +1,63 @@
+//! Key paths of the fitted parameters in a fabric file, for the provenance.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use drape_kes::Test;
+
+use crate::regression::curve_fit::CurveFit;
+
+/// Returns the standard errors of the numbers of a fabric by their key paths, where they have one.
+///
+/// Of several curves of one law the one that gives the fabric's law counts: a bending loop before
+/// loop bending, whose strips share their law.
+pub(crate) fn standard_errors(fits: &[CurveFit]) -> BTreeMap<String, f64> {
+    let mut errors = BTreeMap::new();
+    let mut taken = BTreeSet::new();
+    let arches = fits.iter().filter(|fit| fit.test == Test::LoopBending);
+    for fit in fits.iter().filter(|fit| fit.test != Test::LoopBending).chain(arches) {
+        let law = law(fit);
+        if taken.insert(law.clone()) {
+            let two_elements = fit.parameters.iter().any(|estimate| estimate.name == "ratio");
+            for estimate in &fit.parameters {
+                let key = key(fit.test, estimate.name, two_elements);
+                if let (Some(key), Ok(error)) = (key, &estimate.standard_error) {
+                    errors.insert(format!("{law}.{key}"), *error);
+                }
+            }
+        }
+    }
+    errors
+}
+
+/// Returns the key path of the law that a curve gives.
+fn law(fit: &CurveFit) -> String {
+    let direction = fit.direction.name();
+    match fit.test {
+        Test::Tensile => format!("{direction}.traction"),
+        Test::Bending | Test::LoopBending => format!("{direction}.bending"),
+        Test::Shear => "shear".into(),
+    }
+}
+
+/// Returns the key of a parameter within its law; `None` for parameters of the test and for those
+/// that enter two numbers.
+fn key(test: Test, parameter: &str, two_elements: bool) -> Option<&'static str> {
+    Some(match (test, parameter) {
+        (Test::Tensile, "stiffness") => "primed.stiffness",
+        (Test::Tensile, "toe_ratio") => "primed.toe_ratio",
+        (Test::Tensile, "toe_strain") => "primed.toe_strain",
+        (Test::Tensile, "quadratic") => "polynomial.quadratic",
+        (Test::Tensile, "quartic") => "polynomial.quartic",
+        (Test::Shear, "stiffness") => "stiffness",
+        (Test::Shear, "growth") => "growth",
+        (_, "rigidity") => "rigidity",
+        (_, "slope") => "piecewise.slope",
+        (_, "intercept") => "piecewise.intercept",
+        (_, "knot") => "piecewise.knot",
+        (_, "plateau") => "friction[0].plateau",
+        // Of two elements the fitted length is that of the second.
+        (_, "length") if two_elements => "friction[1].length",
+        (_, "length") => "friction[0].length",
+        _ => return None,
+    })
+}

@@ -1,0 +1,235 @@
+//! Laws of a sheet: from its curves where there are any, else from its values, with notes on what
+//! was assumed.
+
+use drape_fabric::{BendingLaw, ShearLaw, TractionLaw};
+use drape_kes::{BendingValues, Curve, Direction, ShearValues, Sheet, Test, Values};
+use rayon::prelude::*;
+
+use crate::curves::bending::identify_bending;
+use crate::curves::loop_bending::identify_loop_bending;
+use crate::curves::shear::identify_shear;
+use crate::curves::tensile::identify_tensile;
+use crate::error::Error;
+use crate::regression::curve_fit::{CurveFit, Identified};
+use crate::settings::Settings;
+use crate::values::assumed;
+use crate::values::bending::bending_from_values;
+use crate::values::completion::tensile_law;
+use crate::values::matched::{Matched, Noted, REPORTED_DEVIATION};
+use crate::values::shear::shear_from_values;
+use crate::values::traction::{TensileTarget, tensile_from_values};
+
+/// Law of one curve.
+enum CurveLaw {
+    Traction(Identified<TractionLaw>),
+    Bending(Identified<BendingLaw>),
+    LoopBending(Identified<BendingLaw>),
+    Shear(Identified<ShearLaw>),
+}
+
+/// Returns the curves that are identified together, by their indices in the sheet: the loop-bending
+/// curves of a direction, every other curve by itself.
+fn groups(curves: &[Curve]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (index, curve) in curves.iter().enumerate() {
+        let together = |group: &&mut Vec<usize>| {
+            let first = &curves[group[0]];
+            curve.test == Test::LoopBending
+                && first.test == curve.test
+                && first.direction == curve.direction
+        };
+        match groups.iter_mut().find(together) {
+            Some(group) => group.push(index),
+            None => groups.push(vec![index]),
+        }
+    }
+    groups
+}
+
+impl CurveLaw {
+    fn of_group(group: &[&Curve], settings: &Settings) -> Result<Vec<Self>, Error> {
+        let curve = group[0];
+        Ok(match curve.test {
+            Test::Tensile => vec![Self::Traction(identify_tensile(curve, settings)?)],
+            Test::Bending => vec![Self::Bending(identify_bending(curve, settings)?)],
+            Test::Shear => vec![Self::Shear(identify_shear(curve, settings)?)],
+            Test::LoopBending => {
+                identify_loop_bending(group, settings)?.into_iter().map(Self::LoopBending).collect()
+            }
+        })
+    }
+
+    fn into_fit(self) -> CurveFit {
+        match self {
+            Self::Traction(found) => found.fit,
+            Self::Bending(found) | Self::LoopBending(found) => found.fit,
+            Self::Shear(found) => found.fit,
+        }
+    }
+}
+
+/// Sheet with the laws of its curves.
+pub(crate) struct SheetLaws<'a> {
+    sheet: &'a Sheet,
+    settings: &'a Settings,
+    /// Laws in the order of the sheet's curves.
+    laws: Vec<CurveLaw>,
+}
+
+impl<'a> SheetLaws<'a> {
+    /// Identifies the law of every curve, in parallel.
+    pub(crate) fn new(sheet: &'a Sheet, settings: &'a Settings) -> Result<Self, Error> {
+        let groups = groups(&sheet.curves);
+        let identified: Result<Vec<Vec<CurveLaw>>, Error> = groups
+            .par_iter()
+            .map(|group| {
+                let curves: Vec<&Curve> = group.iter().map(|&index| &sheet.curves[index]).collect();
+                CurveLaw::of_group(&curves, settings)
+            })
+            .collect();
+        let indices = groups.into_iter().flatten();
+        let mut laws: Vec<(usize, CurveLaw)> =
+            indices.zip(identified?.into_iter().flatten()).collect();
+        laws.sort_by_key(|(index, _)| *index);
+        let laws = laws.into_iter().map(|(_, laws)| laws).collect();
+        Ok(Self { sheet, settings, laws })
+    }
+
+    /// Returns the fit of each curve, in the order of the sheet.
+    pub(crate) fn into_fits(self) -> Vec<CurveFit> {
+        self.laws.into_iter().map(CurveLaw::into_fit).collect()
+    }
+
+    /// Returns the traction law of the first tensile curve of a direction, or of its values.
+    pub(crate) fn traction(
+        &self,
+        direction: Direction,
+    ) -> Result<Option<Noted<TractionLaw>>, Error> {
+        let from_curve = self.laws.iter().find_map(|laws| match laws {
+            CurveLaw::Traction(found) if found.fit.direction == direction => Some(found.law),
+            _ => None,
+        });
+        if let Some(law) = from_curve {
+            let mut notes = Vec::new();
+            if law.friction.plateau() == 0.0 {
+                let name = direction.name();
+                notes.push(format!("{name} traction friction: no recovery measured, none taken"));
+            }
+            return Ok(Some(Noted { law, notes }));
+        }
+        tensile_law(direction.name(), self.sheet.values(direction), self.sheet.maximum_tension())
+    }
+
+    /// Returns the traction law of the default values.
+    pub(crate) fn assumed_traction(&self, notes: &mut Vec<String>) -> Result<TractionLaw, Error> {
+        notes.push(format!(
+            "traction: not measured, EM {:.0} %, LT {} and RT {:.0} % taken",
+            100.0 * assumed::EXTENSION,
+            assumed::LINEARITY,
+            100.0 * assumed::RESILIENCE
+        ));
+        let target = TensileTarget {
+            maximum_tension: self.sheet.maximum_tension(),
+            extension: assumed::EXTENSION,
+            linearity: assumed::LINEARITY,
+            resilience: assumed::RESILIENCE,
+        };
+        tensile_from_values(&target).map(|found| found.law)
+    }
+
+    /// Returns the bending law of the first bending curve of a direction, of its loop-bending
+    /// curves, or of its values.
+    pub(crate) fn bending(&self, direction: Direction, density: f64) -> Option<Noted<BendingLaw>> {
+        let from_loop = self.laws.iter().find_map(|laws| match laws {
+            CurveLaw::Bending(found) if found.fit.direction == direction => Some(found.law),
+            _ => None,
+        });
+        let from_arches = self.laws.iter().find_map(|laws| match laws {
+            CurveLaw::LoopBending(found) if found.fit.direction == direction => Some(found.law),
+            _ => None,
+        });
+        if let Some(law) = from_loop.or(from_arches) {
+            return Some(Noted { law, notes: Vec::new() });
+        }
+        let values = self.sheet.values(direction);
+        let (rigidity, width) = (values.bending_rigidity(), values.bending_loop_width());
+        if rigidity.is_none() && width.is_none() {
+            return None;
+        }
+        let name = direction.name();
+        let mut notes = Vec::new();
+        let rigidity = rigidity.unwrap_or_else(|| {
+            notes.push(format!("{name} B: not measured, a bending length of 20 mm taken"));
+            assumed::bending_rigidity(density)
+        });
+        let loop_width = width.unwrap_or_else(|| {
+            notes.push(format!("{name} 2HB: not measured, no bending friction taken"));
+            0.0
+        });
+        if loop_width > 0.0 {
+            let length = assumed::BENDING_FRICTION_LENGTH;
+            notes.push(format!("{name} bending friction length: not in 2HB, {length} 1/m taken"));
+        }
+        let law = bending_from_values(&BendingValues { rigidity, loop_width });
+        Some(Noted { law, notes })
+    }
+
+    /// Returns the law of the first shear curve, or of the mean of the values of both directions.
+    pub(crate) fn shear(&self, notes: &mut Vec<String>) -> ShearLaw {
+        let from_curve = self.laws.iter().find_map(|laws| match laws {
+            CurveLaw::Shear(found) => Some(found.law),
+            _ => None,
+        });
+        if let Some(law) = from_curve {
+            return law;
+        }
+        let mut mean = |name: &str, value: fn(&Values) -> Option<f64>| {
+            let values = [value(&self.sheet.warp), value(&self.sheet.weft)];
+            if let [Some(warp), Some(weft)] = values
+                && (warp - weft).abs() > REPORTED_DEVIATION * warp.abs()
+            {
+                let (warp, weft) = (format!("{warp:.4}"), format!("{weft:.4}"));
+                notes
+                    .push(format!("{name}: the mean of warp {warp} and weft {weft} (in SI) taken"));
+            }
+            let known: Vec<f64> = values.into_iter().flatten().collect();
+            (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
+        };
+        let stiffness = mean("G", Values::shear_stiffness);
+        let narrow = mean("2HG", Values::shear_loop_width);
+        let wide = mean("2HG5", Values::shear_loop_width_at_five_degrees);
+        let stiffness = stiffness.unwrap_or_else(|| {
+            let taken = assumed::SHEAR_STIFFNESS;
+            notes.push(format!("shear stiffness: not measured, {taken} N/(m·rad) taken"));
+            taken
+        });
+        let [loop_width, wide_loop_width] = match (narrow, wide) {
+            (Some(narrow), Some(wide)) => [narrow, wide],
+            (Some(width), None) | (None, Some(width)) => {
+                notes.push("shear loop: one width measured, the same taken at every angle".into());
+                [width, width]
+            }
+            (None, None) => {
+                let taken = assumed::SHEAR_LOOP_WIDTH;
+                notes.push(format!("shear loop: not measured, a width of {taken} N/m taken"));
+                [taken, taken]
+            }
+        };
+        let target = ShearValues { stiffness, loop_width, wide_loop_width };
+        let Matched { law, deviation } = shear_from_values(&target, &self.settings.shear_points);
+        let length = law.friction.elements[0].length;
+        if wide_loop_width < loop_width && length > assumed::SHEAR_FRICTION_LENGTH {
+            notes.push(format!("shear friction length: a sine of {length:.4}, since 2HG5 < 2HG"));
+        } else {
+            let taken = format!("a sine of {length} taken");
+            notes.push(format!("shear friction length: not in the values, {taken}"));
+        }
+        if deviation > REPORTED_DEVIATION {
+            let percent = 100.0 * deviation;
+            notes.push(format!(
+                "G, 2HG and 2HG5: met to {percent:.1} % only, no friction widens so"
+            ));
+        }
+        law
+    }
+}

@@ -1,0 +1,27 @@
+//! Regression of one curve: nonlinear least squares with several initial guesses and several laws.
+//!
+//! The residuals of a law along a curve, over the range `$\Delta F$` of the measured load, are
+//!
+//! ```math
+//! r_i(p) = \frac{F(q_1 \dots q_i;\,p) - F_i}{\Delta F}, \qquad p^* = \arg\min_p \sum_i w_i r_i^2
+//! ```
+//!
+//! `curves` hands over candidate laws with initial guesses and a forward model each, and gets back
+//! a [`CurveFit`](crate::CurveFit). The minimiser is drape-lm; the chapter knows no law of a
+//! fabric.
+//!
+//! * `linear`: linear least squares for the initial guesses, with the nonlinear parameters on a
+//!   grid.
+//! * `residuals`: forward model and residuals, as a problem of drape-lm.
+//! * `search`: the minimiser from several starts.
+//! * `selection`: which of several laws the data support, by Akaike's criterion.
+//! * `estimate`, `uncertainty`: parameters with errors, intervals and correlations.
+//! * `curve_fit`: the result.
+
+pub(crate) mod curve_fit;
+pub(crate) mod estimate;
+pub(crate) mod linear;
+pub(crate) mod residuals;
+pub(crate) mod search;
+pub(crate) mod selection;
+pub(crate) mod uncertainty;

@@ -1,0 +1,202 @@
+//! Fit of one curve: selection of a law, weighted fit, uncertainty.
+//!
+//! The fits of `curves` end here; reports and `fabric` read the [`CurveFit`].
+
+use drape_kes::{Curve, Direction, Test};
+use drape_lm::{Problem, Stop};
+
+use crate::regression::estimate::Estimate;
+use crate::regression::residuals::Residuals;
+use crate::regression::search::{SearchResult, refine};
+use crate::regression::selection::{Candidate, CandidateModel, select};
+use crate::regression::uncertainty::{FitEnd, Independence, Uncertainty, uncertainty};
+use crate::settings::Intervals;
+
+/// Fit of a law to a measured curve: quality, parameters, candidates, loads.
+///
+/// ```
+/// use drape_fit::{Settings, identify_shear};
+/// use drape_kes::{Curve, Direction, Test};
+///
+/// // An elastic fabric of 30 N/(m·rad), sheared to 8° and back to −8°.
+/// let angles: Vec<f64> =
+///     (0..=80).chain((-80..80).rev()).map(|i| (0.1 * f64::from(i)).to_radians()).collect();
+/// let forces = angles.iter().map(|angle| 30.0 * angle.sin()).collect();
+/// let curve = Curve::new(Test::Shear, Direction::Warp, angles, forces).expect("it moves");
+///
+/// let fit = identify_shear(&curve, &Settings::default())?.fit;
+/// assert!(fit.misfit < 1e-9 && fit.r_squared > 0.999_999);
+/// let stiffness = &fit.parameters[0];
+/// assert!(stiffness.name == "stiffness" && (stiffness.value / 30.0 - 1.0).abs() < 1e-6);
+/// # Ok::<(), drape_fit::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurveFit {
+    /// Name of the curve.
+    pub name: String,
+    /// Test of the curve.
+    pub test: Test,
+    /// Yarns along which the strip was loaded.
+    pub direction: Direction,
+    /// Root mean square residual over the range of the measured load, without weights; a ratio.
+    pub misfit: f64,
+    /// Root mean square residual, in the unit of the load.
+    pub rms: f64,
+    /// Root mean square residual over the range of the measured load, with the weights of the fit;
+    /// a ratio.
+    pub weighted_misfit: f64,
+    /// Coefficient of determination `$R^2$`, without weights.
+    pub r_squared: f64,
+    /// Correlation of the residuals of neighbouring points, a ratio.
+    ///
+    /// Zero for a law that leaves nothing but noise, near one for a law that misses the curve
+    /// systematically.
+    pub autocorrelation: f64,
+    /// Number of independent residuals with the same information.
+    ///
+    /// `$n(1-\rho)/(1+\rho)$` with the autocorrelation `$\rho$`, where that is more than chance.
+    pub effective_points: f64,
+    /// Number of iterations of the best start.
+    pub iterations: usize,
+    /// Number of evaluations of the law along the history, over all starts of all candidates.
+    pub evaluations: usize,
+    /// Reason why the search stopped.
+    pub stop: Stop,
+    /// Fitted parameters.
+    pub parameters: Vec<Estimate>,
+    /// Correlations of the parameters, in their order; `None` where one is undetermined.
+    pub correlations: Vec<Vec<Option<f64>>>,
+    /// Laws that were compared, in the order of preference.
+    pub candidates: Vec<Candidate>,
+    /// Index of the selected one.
+    pub chosen: usize,
+    /// Deformation at each point of the curve, in SI.
+    pub deformation: Vec<f64>,
+    /// Measured load at each point, in SI.
+    pub measured: Vec<f64>,
+    /// Load of the law at each point, in SI.
+    pub load: Vec<f64>,
+    /// Half width of the 95 % band around the load of the law, in SI.
+    ///
+    /// It comes from the errors of the parameters that the curve determines. Zero at points that
+    /// were not used.
+    pub band: Vec<f64>,
+    /// Branch of each point, from zero; a reversal belongs to the branch that it ends.
+    pub branches: Vec<usize>,
+}
+
+/// Law with its fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Identified<L> {
+    /// Identified law.
+    pub law: L,
+    /// Fit of the law to the curve.
+    pub fit: CurveFit,
+}
+
+/// Weights and intervals of the fit of a selected law.
+pub(crate) struct FitOptions {
+    /// Weights of the squared residuals; empty for none.
+    pub(crate) weights: Vec<f64>,
+    pub(crate) intervals: Intervals,
+}
+
+/// Selects one of several laws, and fits it with its weights.
+///
+/// The selection is made without weights: a criterion of weighted residuals would take the noise of
+/// heavy points for structure.
+pub(crate) fn fit_curve(
+    curve: &Curve,
+    models: &[CandidateModel<'_>],
+    options: FitOptions,
+) -> CurveFit {
+    let selection = select(curve, models);
+    let model = &models[selection.chosen];
+    let problem = Residuals::new(curve, &*model.forward).weighted(options.weights);
+    let unweighted = selection.result.report.parameters.clone();
+    let result = refine(&problem, selection.result);
+    let mut load = vec![0.0; curve.load().len()];
+    model.forward.loads(&result.report.parameters, &mut load);
+    let weighted = !problem.weights().is_empty();
+    let end = FitEnd {
+        parameters: &result.parameters,
+        report: &result.report,
+        unweighted: if weighted { &unweighted } else { &result.report.parameters },
+    };
+    let uncertainty = uncertainty(&problem, &end, options.intervals);
+    let mut fit = CurveFit::new(curve, result, uncertainty, load);
+    fit.evaluations += selection.evaluations;
+    (fit.candidates, fit.chosen) = (selection.candidates, selection.chosen);
+    fit
+}
+
+impl CurveFit {
+    /// Collects the fit of a curve by one law from the loads of the law.
+    ///
+    /// A load equal to the measured one to the last bit marks a point that was not used.
+    pub(crate) fn new(
+        curve: &Curve,
+        result: SearchResult,
+        uncertainty: Uncertainty,
+        load: Vec<f64>,
+    ) -> Self {
+        let span = curve.load_range().span();
+        let residuals: Vec<f64> = load.iter().zip(curve.load()).map(|(a, b)| a - b).collect();
+        let n = residuals.len() as f64;
+        let square: f64 = residuals.iter().map(|r| r * r).sum();
+        let mean = curve.load().iter().sum::<f64>() / n;
+        let variance: f64 = curve.load().iter().map(|load| (load - mean).powi(2)).sum();
+        let independence = Independence::of(&residuals);
+        let rms = (square / n).sqrt();
+        Self {
+            name: curve.name.clone(),
+            test: curve.test,
+            direction: curve.direction,
+            misfit: rms / span,
+            rms,
+            weighted_misfit: result.report.rms,
+            r_squared: 1.0 - square / variance,
+            autocorrelation: independence.correlation,
+            effective_points: independence.effective_count,
+            iterations: result.report.iterations,
+            evaluations: result.evaluations,
+            stop: result.report.stop,
+            parameters: uncertainty.estimates,
+            correlations: uncertainty.correlations,
+            candidates: Vec::new(),
+            chosen: 0,
+            deformation: curve.deformation().to_vec(),
+            measured: curve.load().to_vec(),
+            band: uncertainty.band.iter().map(|width| width * span).collect(),
+            load,
+            branches: branch_of_each_point(curve),
+        }
+    }
+
+    /// Returns the load of the law less the measured one at each point, in SI.
+    pub fn residuals(&self) -> impl Iterator<Item = f64> {
+        self.load.iter().zip(&self.measured).map(|(law, measured)| law - measured)
+    }
+
+    /// Returns the values of the parameters.
+    pub(crate) fn values(&self) -> Vec<f64> {
+        self.parameters.iter().map(|estimate| estimate.value).collect()
+    }
+
+    /// Returns Akaike's criterion of the selected law; `None` where the points are too few.
+    #[must_use]
+    pub fn criterion(&self) -> Option<f64> {
+        self.candidates.get(self.chosen)?.criterion
+    }
+}
+
+/// Returns the index of the branch of each point.
+pub(crate) fn branch_of_each_point(curve: &Curve) -> Vec<usize> {
+    let mut branches = vec![0; curve.load().len()];
+    for (index, branch) in curve.branches().iter().enumerate() {
+        // The first point of a later branch is the reversal, which ends the one before.
+        let first = branch.points.start + usize::from(index > 0);
+        branches[first..branch.points.end].fill(index);
+    }
+    branches
+}

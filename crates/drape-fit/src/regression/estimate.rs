@@ -1,0 +1,82 @@
+//! Fitted parameter with its uncertainty.
+
+use std::fmt;
+
+/// Fitted parameter, in SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Name of the parameter.
+    pub name: &'static str,
+    /// Value, in SI.
+    pub value: f64,
+    /// Standard error, or the reason why there is none.
+    ///
+    /// It holds for noise of one size at all points, whatever the weights, and is widened where the
+    /// residuals of neighbouring points are correlated (`CurveFit::effective_points`).
+    pub standard_error: Result<f64, Undetermined>,
+    /// 95 % interval, or the reason why there is none.
+    pub interval: Result<[f64; 2], Undetermined>,
+    /// Value without weights: the difference to `value` is the effect of the weights.
+    pub unweighted: f64,
+}
+
+impl Estimate {
+    /// Returns whether the interval contains zero or is missing: the data do not support the
+    /// parameter.
+    #[must_use]
+    pub fn is_doubtful(&self) -> bool {
+        self.interval.as_ref().map_or(true, |[lower, upper]| lower * upper <= 0.0)
+    }
+}
+
+/// Reason why a parameter has no standard error or no interval.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Undetermined {
+    /// Fixed parameter.
+    Fixed,
+    /// Parameter at this bound, in its unit: the minimum lies beyond.
+    AtBound(f64),
+    /// Parameter that can change together with these others, or alone if there are none, without
+    /// any effect.
+    Unidentifiable(Vec<&'static str>),
+    /// No more points than parameters.
+    TooFewPoints,
+    /// Law without a derivative by the parameter there.
+    NotSmooth,
+    /// Interval without an end, or with a profile that could not be followed to the end.
+    NoEnd,
+}
+
+impl Undetermined {
+    /// Returns the reason of the minimiser with the names of the parameters.
+    pub(crate) fn named(reason: drape_lm::Undetermined, names: &[&'static str]) -> Self {
+        match reason {
+            drape_lm::Undetermined::Fixed => Self::Fixed,
+            drape_lm::Undetermined::AtBound(bound) => Self::AtBound(bound),
+            drape_lm::Undetermined::Unidentifiable(others) => {
+                Self::Unidentifiable(others.iter().map(|&other| names[other]).collect())
+            }
+            drape_lm::Undetermined::NoDegreesOfFreedom => Self::TooFewPoints,
+            _ => Self::NotSmooth,
+        }
+    }
+}
+
+impl fmt::Display for Undetermined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fixed => write!(f, "kept fixed"),
+            Self::AtBound(bound) => write!(f, "at its bound {bound:.4e}"),
+            Self::Unidentifiable(others) if others.is_empty() => {
+                write!(f, "without effect on the curve")
+            }
+            Self::Unidentifiable(others) => {
+                write!(f, "not told apart from {}", others.join(", "))
+            }
+            Self::TooFewPoints => write!(f, "too few points"),
+            Self::NotSmooth => write!(f, "the law has no derivative there"),
+            Self::NoEnd => write!(f, "the curve sets it no end"),
+        }
+    }
+}

@@ -1,0 +1,284 @@
+//! Standard errors, intervals, correlations and the confidence band of one fit.
+//!
+//! `curve_fit` and the loop-bending fit call [`uncertainty`] at the end of a search; the covariance
+//! itself is that of drape-lm.
+
+use std::ops::Range;
+
+use drape_lm::{
+    Covariance, End, Interval, Loss, Parameter, Problem, ProfileSettings, Report, profile,
+    student_quantile,
+};
+use nalgebra::{DMatrix, DVector};
+
+use crate::regression::estimate::{Estimate, Undetermined};
+use crate::regression::residuals::NamedParameter;
+use crate::settings::Intervals;
+
+/// Level of the intervals.
+const LEVEL: f64 = 0.95;
+/// Step of central differences over the size of the parameter: the cube root of the rounding unit.
+const STEP: f64 = 6e-6;
+/// Smallest size taken for a parameter, over its scale.
+const LEAST_SIZE: f64 = 0.01;
+/// Correlation of neighbours, times the root of the number of points, below which the points count
+/// as independent.
+///
+/// Chance exceeds it in one of forty curves of independent noise.
+const CHANCE: f64 = 2.0;
+
+/// Ratio of bounds from which on a parameter is estimated on the logarithmic scale.
+///
+/// It is two decades; all scale parameters here have more.
+const DECADES: f64 = 100.0;
+
+/// Correlation of the residuals, and the number of independent ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Independence {
+    /// Correlation of the residuals of neighbouring points.
+    pub(crate) correlation: f64,
+    /// Number of independent residuals whose mean has the same variance.
+    pub(crate) effective_count: f64,
+    /// Number of independent residuals whose variance is known as well.
+    pub(crate) effective_squares: f64,
+}
+
+impl Independence {
+    /// Computes both for residuals in the order of measurement, taken as an autoregressive process
+    /// of first order with correlation `$\rho$`.
+    ///
+    /// `$n(1-\rho)/(1+\rho)$` of them are independent, and `$n(1-\rho^2)/(1+\rho^2)$` of their
+    /// squares \[Bar35\].
+    pub(crate) fn of(residuals: &[f64]) -> Self {
+        let n = residuals.len() as f64;
+        let square: f64 = residuals.iter().map(|r| r * r).sum();
+        let pairs: f64 = residuals.windows(2).map(|pair| pair[0] * pair[1]).sum();
+        let correlation = if square > 0.0 { pairs / square } else { 0.0 };
+        let effective = |kept: f64| match correlation * n.sqrt() > CHANCE {
+            true => n * (1.0 - kept) / (1.0 + kept),
+            false => n,
+        };
+        Self {
+            correlation,
+            effective_count: effective(correlation),
+            effective_squares: effective(correlation * correlation),
+        }
+    }
+}
+
+/// End of a search.
+pub(crate) struct FitEnd<'a> {
+    pub(crate) parameters: &'a [NamedParameter],
+    pub(crate) report: &'a Report,
+    /// Values of the parameters without weights.
+    pub(crate) unweighted: &'a [f64],
+}
+
+/// Parameters with their errors and correlations, and the confidence band of the model.
+pub(crate) struct Uncertainty {
+    pub(crate) estimates: Vec<Estimate>,
+    pub(crate) correlations: Vec<Vec<Option<f64>>>,
+    /// Half width of the 95 % band of the model at each residual, in the unit of the residuals.
+    pub(crate) band: Vec<f64>,
+}
+
+impl Uncertainty {
+    /// Returns the part that belongs to some of the parameters and some of the residuals.
+    pub(crate) fn part(
+        &self,
+        parameters: impl Iterator<Item = usize>,
+        residuals: Range<usize>,
+    ) -> Self {
+        let chosen: Vec<usize> = parameters.collect();
+        let row = |&i: &usize| chosen.iter().map(|&j| self.correlations[i][j]).collect();
+        Self {
+            estimates: chosen.iter().map(|&i| self.estimates[i].clone()).collect(),
+            correlations: chosen.iter().map(row).collect(),
+            band: self.band[residuals].to_vec(),
+        }
+    }
+}
+
+/// Computes the uncertainty of a fit at its end.
+///
+/// With residuals `$r$` of one variance and weights `$W$` the covariance is the sandwich estimator
+///
+/// ```math
+/// \sigma^2 A^{-1} B A^{-1}, \qquad A = J^T W J, \quad B = J^T W^2 J
+/// ```
+///
+/// which is `$\sigma^2 (J^TJ)^{-1}$` where all weights are one.
+pub(crate) fn uncertainty(
+    problem: &(impl Problem + Sync),
+    end: &FitEnd<'_>,
+    intervals: Intervals,
+) -> Uncertainty {
+    let report = end.report;
+    let parameters: Vec<Parameter> = end.parameters.iter().map(|named| named.parameter).collect();
+    let names: Vec<&'static str> = end.parameters.iter().map(|named| named.name).collect();
+    let count = parameters.len();
+    let mut residuals = vec![0.0; problem.residual_count()];
+    problem.residuals(&report.parameters, &mut residuals);
+    let independence = Independence::of(&residuals);
+    let covariance = Covariance::of(problem, &parameters, report, Loss::Squares);
+    // A parameter that is undetermined is left out: it is taken as known.
+    let known = |j: usize| covariance.undetermined(j).is_none();
+    let jacobian = derivatives(problem, &parameters, &report.parameters, known);
+    let sandwich = sandwich(&covariance, problem.weights(), &residuals, &jacobian);
+    let widening = residuals.len() as f64 / independence.effective_count;
+    let degrees = (independence.effective_squares - count as f64).max(1.0) as usize;
+    let quantile = student_quantile(LEVEL, degrees);
+    let error = |j: usize| match covariance.standard_error(j) {
+        Ok(_) => Ok((widening * sandwich[(j, j)]).max(0.0).sqrt()),
+        Err(reason) => Err(Undetermined::named(reason, &names)),
+    };
+    let profiles = (intervals == Intervals::Profile).then(|| {
+        let settings = ProfileSettings { level: LEVEL, ..ProfileSettings::default() };
+        profile(problem, &parameters, report, &settings)
+    });
+    let interval = |j: usize| {
+        let value = report.parameters[j];
+        let half = error(j).map(|error| error * quantile);
+        let Some(profiles) = &profiles else {
+            return half.map(|half| wald_interval(value, half, &parameters[j]));
+        };
+        let naive = covariance.half_width(j, LEVEL);
+        let stretch = match (&half, &naive) {
+            (Ok(half), Ok(naive)) if *naive > 0.0 => half / naive,
+            _ => widening.sqrt(),
+        };
+        match &profiles[j] {
+            Ok(profile) => stretched(profile, value, stretch, &parameters[j]),
+            Err(reason) => Err(Undetermined::named(reason.clone(), &names)),
+        }
+    };
+    let estimate = |j: usize| Estimate {
+        name: names[j],
+        value: report.parameters[j],
+        standard_error: error(j),
+        interval: interval(j),
+        unweighted: end.unweighted[j],
+    };
+    let correlation = |i: usize, j: usize| {
+        let naive = covariance.correlation(i, j)?;
+        let sizes = (sandwich[(i, i)] * sandwich[(j, j)]).sqrt();
+        Some(if sizes > 0.0 { (sandwich[(i, j)] / sizes).clamp(-1.0, 1.0) } else { naive })
+    };
+    Uncertainty {
+        estimates: (0..count).map(estimate).collect(),
+        correlations: (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect(),
+        band: band(&jacobian, &(&sandwich * widening)).map(|error| quantile * error).collect(),
+    }
+}
+
+/// Returns the standard errors of the model at each residual, from its Jacobian and the covariance
+/// of the parameters.
+fn band(jacobian: &DMatrix<f64>, covariance: &DMatrix<f64>) -> impl Iterator<Item = f64> {
+    let spread = jacobian * covariance;
+    let variances = (0..jacobian.nrows()).map(|i| spread.row(i).dot(&jacobian.row(i)));
+    variances.map(|variance| variance.max(0.0).sqrt()).collect::<Vec<_>>().into_iter()
+}
+
+/// Returns the interval of half a width on either side of a value, on the logarithmic scale for a
+/// scale parameter.
+///
+/// With a length known to a half the search finds twice the length as easily as half of it: the
+/// interval on the logarithm contains the truth where the other one is too short above and extends
+/// below zero.
+fn wald_interval(value: f64, half: f64, parameter: &Parameter) -> [f64; 2] {
+    if parameter.lower > 0.0 && parameter.upper >= DECADES * parameter.lower {
+        let factor = (half / value).exp();
+        return [value / factor, value * factor];
+    }
+    [value - half, value + half]
+}
+
+/// Returns a profile interval with its distances from the value stretched to the actual noise.
+fn stretched(
+    profile: &Interval,
+    value: f64,
+    stretch: f64,
+    parameter: &Parameter,
+) -> Result<[f64; 2], Undetermined> {
+    let end = |end: &End| {
+        let end = end.value().ok_or(Undetermined::NoEnd)?;
+        let stretched = value + stretch * (end - value);
+        Ok(stretched.clamp(parameter.lower, parameter.upper))
+    };
+    Ok([end(&profile.lower)?, end(&profile.upper)?])
+}
+
+/// Returns the covariance of the parameters for noise of one size; zero for those that are
+/// undetermined.
+fn sandwich(
+    covariance: &Covariance,
+    weights: &[f64],
+    residuals: &[f64],
+    jacobian: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let count = jacobian.ncols();
+    let variance = covariance.residual_deviation.powi(2);
+    let mut inverse =
+        DMatrix::from_fn(count, count, |i, j| covariance.covariance(i, j).unwrap_or(0.0));
+    if weights.is_empty() || !(variance > 0.0 && variance.is_finite()) {
+        return inverse;
+    }
+    inverse /= variance;
+    let mut weighted = jacobian.clone();
+    for (i, weight) in weights.iter().enumerate() {
+        weighted.row_mut(i).scale_mut(*weight);
+    }
+    let middle = weighted.tr_mul(&weighted);
+    let square: f64 = residuals.iter().map(|r| r * r).sum();
+    let spare = weights.len().saturating_sub(count).max(1) as f64;
+    &inverse * middle * &inverse * (square / spare)
+}
+
+/// Returns the derivatives of the residuals by the parameters that are wanted; zero by the others.
+fn derivatives(
+    problem: &impl Problem,
+    parameters: &[Parameter],
+    values: &[f64],
+    wanted: impl Fn(usize) -> bool,
+) -> DMatrix<f64> {
+    let rows = problem.residual_count();
+    let mut jacobian = DMatrix::zeros(rows, parameters.len());
+    if problem.jacobian(values, &mut jacobian) {
+        for (_, mut column) in jacobian.column_iter_mut().enumerate().filter(|(j, _)| !wanted(*j)) {
+            column.fill(0.0);
+        }
+        return jacobian;
+    }
+    let (mut high, mut low) = (DVector::zeros(rows), DVector::zeros(rows));
+    let mut trial = values.to_vec();
+    for (j, parameter) in parameters.iter().enumerate().filter(|(j, _)| wanted(*j)) {
+        let step = STEP * values[j].abs().max(LEAST_SIZE * parameter.scale);
+        let ends = [values[j] + step, values[j] - step]
+            .map(|end| end.clamp(parameter.lower, parameter.upper));
+        for (end, out) in ends.iter().zip([&mut high, &mut low]) {
+            trial[j] = *end;
+            problem.residuals(&trial, out.as_mut_slice());
+        }
+        trial[j] = values[j];
+        jacobian.set_column(j, &((&high - &low) / (ends[0] - ends[1])));
+    }
+    jacobian
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_that_are_alike_count_less() {
+        let alternating: Vec<f64> = (0..100).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        assert_eq!(Independence::of(&alternating).effective_count, 100.0);
+        // Each value ten times: nine of ten neighbours are equal.
+        let blocks: Vec<f64> =
+            (0..100).map(|i| if (i / 10) % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        let blocks = Independence::of(&blocks);
+        // 90 pairs of one sign less 9 of the other, of 100.
+        assert!((blocks.correlation - 0.81).abs() < 1e-12, "{blocks:?}");
+        assert!((blocks.effective_count - 19.0 / 1.81).abs() < 1e-9, "{blocks:?}");
+    }
+}

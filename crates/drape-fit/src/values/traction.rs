@@ -1,0 +1,233 @@
+//! Traction law from EM, LT and RT.
+//!
+//! ```math
+//! r = \left(\frac{F(EM)}{F_m},\ \frac{W}{\tfrac12 LT\,F_m\,EM},\ \frac{W'}{RT\,W}\right) - 1
+//! ```
+//!
+//! Three residuals, three parameters (elastic load, plateau, shape), solved by drape-lm.
+
+use drape_fabric::{
+    BlimanSorine, Buckling, Law, Polynomial, Primed, TOE_RATIO_MIN, TractionBackbone, TractionLaw,
+};
+use drape_lm::{Parameter, Problem, Settings, minimise};
+
+use crate::error::Error;
+use crate::values::assumed::TENSILE_FRICTION_LENGTH;
+use crate::values::matched::Matched;
+
+/// Relative deviation of the values of a law below which they are met.
+pub(crate) const VALUE_TOLERANCE: f64 = 1e-6;
+/// Largest relative deviation of the nearest law before the values are taken for mistaken.
+///
+/// Low linearity with wide loops (LT 0.5 with RT 40 %) is met to a few percent only.
+const LARGEST_DEVIATION: f64 = 0.1;
+/// Bisections for the strain at which the recovery reaches zero load.
+const BISECTIONS: usize = 60;
+
+/// KES values of a tensile test, in SI, that a law is to have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TensileTarget {
+    /// Largest load, per width; in N/m.
+    pub maximum_tension: f64,
+    /// EM: strain at the largest load, a ratio.
+    pub extension: f64,
+    /// LT: work over that of a straight line, a ratio.
+    pub linearity: f64,
+    /// RT: recovered work over work spent, a ratio.
+    pub resilience: f64,
+}
+
+/// Returns the traction law that has the values EM, LT and RT at the given load.
+///
+/// A priming zone that ends at EM is made as deep as LT needs: of all priming zones with these
+/// values it leaves the fabric stiffest at rest. For a curve with a lower linearity than that can
+/// have (an elastic LT below 0.67) the even polynomial is taken. How the fabric changes once it has
+/// been stretched is not in the values: the toe does not move.
+///
+/// The deviation is the root mean square of the relative deviations of the values: rounding, except
+/// for the lowest linearity with the widest loops.
+///
+/// ```
+/// use drape_fit::{TensileTarget, tensile_from_values};
+///
+/// // FM = 490 N/m, EM = 5 %, LT = 0.75, RT = 55 %.
+/// let target =
+///     TensileTarget { maximum_tension: 490.0, extension: 0.05, linearity: 0.75, resilience: 0.55 };
+/// assert!(tensile_from_values(&target)?.deviation < 1e-6);
+/// # Ok::<(), drape_fit::Error>(())
+/// ```
+///
+/// # Errors
+/// No law here comes near these values.
+pub fn tensile_from_values(target: &TensileTarget) -> Result<Matched<TractionLaw>, Error> {
+    let nearest = |shape: Shape| {
+        let problem = TensileProblem { shape, target };
+        let report = minimise(&problem, &problem.parameters(), &Settings::default());
+        Matched { law: problem.law(&report.parameters), deviation: report.rms }
+    };
+    let (primed, polynomial) = (nearest(Shape::Primed), nearest(Shape::Polynomial));
+    // The polynomial is for curves that the priming zone cannot follow.
+    let primed_is_best = primed.deviation <= polynomial.deviation.max(VALUE_TOLERANCE);
+    let best = if primed_is_best { primed } else { polynomial };
+    if best.deviation < LARGEST_DEVIATION {
+        return Ok(best);
+    }
+    let TensileTarget { linearity, resilience, .. } = *target;
+    Err(Error::IncompatibleValues { name: "tension".into(), linearity, resilience })
+}
+
+/// Returns load at EM, WT and RT·WT of a law, for one exact cycle to EM and back to zero load.
+fn cycle_values(law: &TractionLaw, extension: f64) -> [f64; 3] {
+    let virgin = law.virgin();
+    let load = law.respond(&virgin, extension).load;
+    let work = law.work(&virgin, extension);
+    let stretched = law.commit(&virgin, extension);
+    let (mut slack, mut taut) = (0.0, extension);
+    if law.respond(&stretched, slack).load < 0.0 {
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (slack + taut);
+            if law.respond(&stretched, middle).load < 0.0 {
+                slack = middle;
+            } else {
+                taut = middle;
+            }
+        }
+    } else {
+        taut = slack;
+    }
+    [load, work, -law.work(&stretched, taut)]
+}
+
+/// Family of backbones with one shape parameter.
+#[derive(Clone, Copy)]
+enum Shape {
+    /// Priming zone that ends at EM; the parameter is its toe ratio.
+    Primed,
+    /// Even polynomial; the parameter is the share of the fourth power in the load at EM.
+    Polynomial,
+}
+
+struct TensileProblem<'a> {
+    shape: Shape,
+    target: &'a TensileTarget,
+}
+
+impl TensileProblem<'_> {
+    /// Returns elastic load at EM and plateau, over the largest load, and the shape parameter.
+    fn parameters(&self) -> [Parameter; 3] {
+        let shape = match self.shape {
+            Shape::Primed => Parameter::new(0.7).between(TOE_RATIO_MIN, 1.0),
+            Shape::Polynomial => Parameter::new(0.3).between(0.0, 1.0),
+        };
+        let plateau = 0.25 * (1.0 - self.target.resilience);
+        [
+            Parameter::new(1.0).between(0.0, 2.0),
+            Parameter::new(plateau).with_scale(0.01).between(0.0, 1.0),
+            shape,
+        ]
+    }
+
+    fn law(&self, p: &[f64]) -> TractionLaw {
+        let TensileTarget { maximum_tension, extension, .. } = *self.target;
+        let elastic = p[0] * maximum_tension;
+        let backbone = match self.shape {
+            Shape::Primed => {
+                let (toe_ratio, toe_strain) = (p[2], extension);
+                TractionBackbone::Primed(Primed {
+                    stiffness: elastic / (toe_ratio * toe_strain),
+                    toe_ratio,
+                    toe_strain,
+                    toe_strain_after: toe_strain,
+                })
+            }
+            Shape::Polynomial => TractionBackbone::Polynomial(Polynomial {
+                quadratic: elastic * (1.0 - p[2]) / extension.powi(2),
+                quartic: elastic * p[2] / extension.powi(4),
+            }),
+        };
+        let length = TENSILE_FRICTION_LENGTH * extension;
+        let friction = BlimanSorine::first_order(p[1] * maximum_tension, length);
+        TractionLaw { backbone, friction, buckling: Buckling::default() }
+    }
+}
+
+impl Problem for TensileProblem<'_> {
+    fn residual_count(&self) -> usize {
+        3
+    }
+
+    fn residuals(&self, p: &[f64], out: &mut [f64]) {
+        let target = self.target;
+        let work = 0.5 * target.linearity * target.maximum_tension * target.extension;
+        let exact = [target.maximum_tension, work, target.resilience * work];
+        let found = cycle_values(&self.law(p), target.extension);
+        for ((residual, found), exact) in out.iter_mut().zip(found).zip(exact) {
+            *residual = found / exact - 1.0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drape_fabric::drive;
+    use drape_kes::{Curve, Direction, Test};
+
+    /// Points per branch; interpolation and trapezoids between them err by less than the tolerance.
+    const STEPS: usize = 4000;
+
+    fn cycle(test: Test, law: &impl Law, reversals: &[f64]) -> Curve {
+        let mut q = vec![reversals[0]];
+        for ends in reversals.windows(2) {
+            let at = |i: usize| ends[0] + (ends[1] - ends[0]) * i as f64 / STEPS as f64;
+            q.extend((1..=STEPS).map(at));
+        }
+        let load = drive(law, law.virgin(), &q);
+        Curve::new(test, Direction::Warp, q, load).unwrap()
+    }
+
+    fn same(found: f64, exact: f64, tolerance: f64) {
+        let error = (found / exact - 1.0).abs();
+        assert!(error < tolerance, "{found} where {exact} was asked for");
+    }
+
+    #[test]
+    fn the_traction_law_gives_its_values_back_over_the_range_of_fabrics() {
+        for linearity in [0.5, 0.6, 0.7, 0.8, 0.9] {
+            for resilience in [0.4, 0.55, 0.7, 0.9] {
+                for extension in [0.015, 0.05, 0.12] {
+                    let target = TensileTarget {
+                        maximum_tension: 490.3325,
+                        extension,
+                        linearity,
+                        resilience,
+                    };
+                    let Matched { law, deviation } = tensile_from_values(&target)
+                        .unwrap_or_else(|error| panic!("{target:?}: {error}"));
+                    if linearity < 0.6 && resilience < 0.6 {
+                        assert!(deviation < LARGEST_DEVIATION, "{target:?}: {deviation}");
+                        continue;
+                    }
+                    let curve = cycle(Test::Tensile, &law, &[0.0, extension, 0.0]);
+                    let values = curve.tensile_values().unwrap();
+                    same(values.maximum_tension, 490.3325, 1e-5);
+                    same(values.linearity, linearity, 1e-4);
+                    same(values.resilience.unwrap(), resilience, 1e-4);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn values_that_no_curve_has_are_refused() {
+        for (linearity, resilience) in [(0.2, 0.5), (1.6, 0.5)] {
+            let target =
+                TensileTarget { maximum_tension: 490.3325, extension: 0.05, linearity, resilience };
+            let result = tensile_from_values(&target);
+            assert!(
+                matches!(result, Err(Error::IncompatibleValues { .. })),
+                "{target:?}: {result:?}"
+            );
+        }
+    }
+}

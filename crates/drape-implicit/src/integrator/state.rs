@@ -1,0 +1,115 @@
+//! State that the integrator advances: positions, velocities, time, and the past of the formula.
+
+use crate::error::Error;
+
+/// Positions, velocities and time, with the past that a second-order formula needs.
+///
+/// Written to disk and read back it continues as if nothing had happened, to the last bit: a
+/// [`Stepper`](crate::Stepper) has no memory of its own.
+///
+/// ```
+/// use drape_implicit::IntegratorState;
+///
+/// let mut state = IntegratorState::at_rest(vec![0.0, 1.0, 0.0]);
+/// assert_eq!(state.velocities, [0.0; 3]);
+/// // After a change by hand the past no longer fits.
+/// state.velocities[1] = -2.0;
+/// state.restart();
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct IntegratorState {
+    /// Time, in s.
+    ///
+    /// Each call of [`Stepper::advance`](crate::Stepper::advance) adds the step's length. A caller
+    /// that takes many equal steps sets it to their number times the length, so that rounding
+    /// errors do not add up.
+    pub time: f64,
+    /// Positions, three per particle, in m.
+    pub positions: Vec<f64>,
+    /// Velocities, three per particle, in m/s.
+    pub velocities: Vec<f64>,
+    /// State before the last accepted sub-step, for second-order steps.
+    pub previous: Option<PreviousState>,
+}
+
+/// State one sub-step earlier.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PreviousState {
+    /// Length of the sub-step since then, in s.
+    pub dt: f64,
+    /// Positions before it, in m.
+    pub positions: Vec<f64>,
+    /// Velocities before it, in m/s.
+    pub velocities: Vec<f64>,
+}
+
+impl IntegratorState {
+    /// State at time 0 with given positions, in m, and velocities, in m/s.
+    #[must_use]
+    pub fn new(positions: Vec<f64>, velocities: Vec<f64>) -> Self {
+        Self { time: 0.0, positions, velocities, previous: None }
+    }
+
+    /// State at time 0, at rest at given positions, in m.
+    #[must_use]
+    pub fn at_rest(positions: Vec<f64>) -> Self {
+        let velocities = vec![0.0; positions.len()];
+        Self::new(positions, velocities)
+    }
+
+    /// Forgets the past, so that the next step is of first order. Call it after positions or
+    /// velocities were changed by hand, or when the forces have jumped.
+    pub fn restart(&mut self) {
+        self.previous = None;
+    }
+
+    /// Checks that all lists have three numbers per particle, and that the past has a length.
+    pub(crate) fn check(&self, particles: usize) -> Result<(), Error> {
+        check_length("positions", 3 * particles, self.positions.len())?;
+        check_length("velocities", 3 * particles, self.velocities.len())?;
+        if let Some(previous) = &self.previous {
+            if !(previous.dt > 0.0 && previous.dt.is_finite()) {
+                return Err(Error::StepLength { dt: previous.dt });
+            }
+            check_length("previous positions", 3 * particles, previous.positions.len())?;
+            check_length("previous velocities", 3 * particles, previous.velocities.len())?;
+        }
+        Ok(())
+    }
+
+    /// Takes over positions and velocities at the end of a sub-step, and keeps those at its start as
+    /// the past. Buffers are exchanged: the given ones are left with values of no meaning.
+    pub(crate) fn advance(
+        &mut self,
+        span: Span,
+        positions: &mut Vec<f64>,
+        velocities: &mut Vec<f64>,
+    ) {
+        let previous = self.previous.get_or_insert_with(|| PreviousState {
+            dt: span.dt,
+            positions: vec![0.0; positions.len()],
+            velocities: vec![0.0; velocities.len()],
+        });
+        previous.dt = span.dt;
+        core::mem::swap(&mut previous.positions, &mut self.positions);
+        core::mem::swap(&mut previous.velocities, &mut self.velocities);
+        core::mem::swap(&mut self.positions, positions);
+        core::mem::swap(&mut self.velocities, velocities);
+        self.time = span.end;
+    }
+}
+
+/// Checks that a list has the length that the number of particles asks for.
+pub(crate) fn check_length(name: &'static str, expected: usize, found: usize) -> Result<(), Error> {
+    if expected == found { Ok(()) } else { Err(Error::Dimension { name, expected, found }) }
+}
+
+/// Start, end and length of a sub-step, in s.
+///
+/// The length is exact in binary; end less start is rounded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    pub start: f64,
+    pub end: f64,
+    pub dt: f64,
+}

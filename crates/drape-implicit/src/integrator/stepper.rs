@@ -1,0 +1,237 @@
+//! Stepper: checks its input, divides a step into sub-steps and attempts each.
+
+use super::state::{IntegratorState, Span, check_length};
+use super::step_control::StepControl;
+use super::sub_step::SubStepper;
+use crate::error::{Error, Quantity};
+use crate::linear::system_matrix::SystemMatrix;
+use crate::linear::vector::first_not_finite;
+use crate::nonlinear::halt::Halt;
+use crate::nonlinear::solver::NonlinearSolver;
+use crate::report::Report;
+use crate::settings::Settings;
+use crate::step_filter::{StepFilter, SystemRef};
+use crate::system::System;
+
+/// Integrator that advances the state of a system in time.
+///
+/// It holds settings and work space, nothing that the next step depends on: a new stepper gives the
+/// same bits. After the first step of a system none allocates memory, unless its sparsity changes
+/// or a state restarts.
+///
+/// A particle that falls freely for a second, by backward Euler in ten steps:
+///
+/// ```
+/// use drape_implicit::{
+///     BlockMatrix, Integrator, IntegratorState, Settings, Sparsity, Stepper, Stiffness, System,
+/// };
+///
+/// struct Stone;
+///
+/// impl System for Stone {
+///     fn particles(&self) -> usize { 1 }
+///     fn masses(&self) -> &[f64] { &[0.5] }
+///     fn held(&self) -> &[bool] { &[false] }
+///     fn begin(&mut self, _end: f64, _dt: f64, _start: &[f64], _target: &mut [f64]) {}
+///     fn forces(&mut self, _x: &[f64], forces: &mut [f64]) {
+///         forces.copy_from_slice(&[0.0, -0.5 * 9.81, 0.0]);
+///     }
+///     fn potential(&mut self, x: &[f64]) -> f64 { 0.5 * 9.81 * x[1] }
+///     fn stiffness(&mut self, _x: &[f64], _kind: Stiffness, _matrix: &mut BlockMatrix) {}
+///     fn sparsity(&self) -> Sparsity {
+///         Sparsity::from_pairs(1, []).expect("no pairs, no mistake")
+///     }
+///     fn accept(&mut self, _x: &[f64], _v: &[f64], _dt: f64) {}
+/// }
+///
+/// let settings = Settings { integrator: Integrator::BackwardEuler, ..Settings::default() };
+/// let mut stepper = Stepper::new(&Stone, settings)?;
+/// let mut state = IntegratorState::at_rest(vec![0.0; 3]);
+/// for _ in 0..10 {
+///     stepper.advance(&mut Stone, &mut state, 0.1)?;
+/// }
+/// // Backward Euler: g dt² (1 + 2 + … + 10).
+/// assert!((state.positions[1] + 9.81 * 0.01 * 55.0).abs() < 1e-12);
+/// # Ok::<(), drape_implicit::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Stepper {
+    sub_stepper: SubStepper,
+    sparsity_version: u64,
+    /// Report of the last call.
+    report: Report,
+}
+
+impl Stepper {
+    /// Prepares to advance a system.
+    ///
+    /// # Errors
+    /// [`Error::Setting`], [`Error::Dimension`], or [`Error::TooLarge`] with the factorising
+    /// solver.
+    pub fn new(system: &dyn System, settings: Settings) -> Result<Self, Error> {
+        settings.check()?;
+        let solver = solver_for(system, &settings)?;
+        Ok(Self {
+            sub_stepper: SubStepper::new(system.particles(), solver, settings),
+            sparsity_version: system.sparsity_version(),
+            report: Report::default(),
+        })
+    }
+
+    /// Settings of the stepper.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.sub_stepper.settings
+    }
+
+    /// Report of the last call of [`Self::advance`] or [`Self::advance_filtered`]. After one that
+    /// failed it counts the work done until then.
+    #[must_use]
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+
+    /// Advances the state by exactly `dt`, in s, in one step or, where that fails, in halves,
+    /// quarters …
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] or [`Error::NotFinite`] if the shortest sub-step allowed fails, and
+    /// others for input that no step can be made with. The state is then at the end of the last
+    /// sub-step accepted, which its time tells.
+    pub fn advance(
+        &mut self,
+        system: &mut dyn System,
+        state: &mut IntegratorState,
+        dt: f64,
+    ) -> Result<Report, Error> {
+        self.advance_either(SystemRef::Free(system), state, dt)
+    }
+
+    /// Advances the state as [`Self::advance`] does, with every step limited by a filter and every
+    /// solution certified by it.
+    ///
+    /// # Errors
+    /// Those of [`Self::advance`], and [`Error::UnfilteredMethod`] with the textbook method.
+    pub fn advance_filtered(
+        &mut self,
+        filter: &mut dyn StepFilter,
+        state: &mut IntegratorState,
+        dt: f64,
+    ) -> Result<Report, Error> {
+        self.advance_either(SystemRef::Filtered(filter), state, dt)
+    }
+
+    fn advance_either(
+        &mut self,
+        mut system: SystemRef<'_>,
+        state: &mut IntegratorState,
+        dt: f64,
+    ) -> Result<Report, Error> {
+        let mut report = Report::default();
+        let advanced = self.take_sub_steps(&mut system, state, dt, &mut report);
+        self.report.clone_from(&report);
+        advanced.map(|()| report)
+    }
+
+    fn take_sub_steps(
+        &mut self,
+        system: &mut SystemRef<'_>,
+        state: &mut IntegratorState,
+        dt: f64,
+        report: &mut Report,
+    ) -> Result<(), Error> {
+        self.check(system.system(), state, dt)?;
+        let mut control = StepControl::new(self.settings(), state, dt);
+        while !control.is_finished() {
+            let straight = |start, end| system.is_nearly_straight(start, end);
+            let span = control.next(state.time, straight);
+            match self.sub_stepper.attempt(system, state, span, report) {
+                Ok(()) => {
+                    report.sub_steps += 1;
+                    control.accept();
+                }
+                Err(Halt::Fatal(error)) => return Err(error),
+                Err(halt) => {
+                    report.rejected += 1;
+                    if !control.halve() {
+                        return Err(self.failure(halt, span));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check(
+        &mut self,
+        system: &dyn System,
+        state: &IntegratorState,
+        dt: f64,
+    ) -> Result<(), Error> {
+        let particles = self.sub_stepper.masses.len();
+        check_lengths(system, state, particles, dt)?;
+        let masses = &mut self.sub_stepper.masses;
+        masses.copy_from_slice(system.masses());
+        let bad = masses.iter().position(|&mass| !(mass > 0.0 && mass.is_finite()));
+        if let Some(particle) = bad {
+            return Err(Error::Mass { particle, mass: masses[particle] });
+        }
+        let previous = state.previous.as_ref();
+        let start = [
+            (Quantity::Position, Some(&state.positions)),
+            (Quantity::Velocity, Some(&state.velocities)),
+            (Quantity::Position, previous.map(|previous| &previous.positions)),
+            (Quantity::Velocity, previous.map(|previous| &previous.velocities)),
+        ];
+        for (quantity, values) in start {
+            if let Some(particle) = values.and_then(|values| first_not_finite(values)) {
+                return Err(Error::NotFinite { quantity, particle, time: state.time, dt });
+            }
+        }
+        if system.sparsity_version() != self.sparsity_version {
+            self.sub_stepper.solver = solver_for(system, self.settings())?;
+            self.sparsity_version = system.sparsity_version();
+        }
+        Ok(())
+    }
+
+    fn failure(&self, halt: Halt, span: Span) -> Error {
+        let Span { start: time, dt, .. } = span;
+        match halt {
+            Halt::Fatal(error) => error,
+            Halt::NotFinite { quantity, particle } => {
+                Error::NotFinite { quantity, particle, time, dt }
+            }
+            Halt::Stop(stop) => Error::NotConverged {
+                time,
+                dt,
+                residual: self.sub_stepper.relative_residual(),
+                tolerance: self.settings().tolerance,
+                iterations: self.sub_stepper.solver.search.iterations,
+                stop,
+            },
+        }
+    }
+}
+
+/// Checks that the step has a length and that all lists are as long as the particles ask for.
+fn check_lengths(
+    system: &dyn System,
+    state: &IntegratorState,
+    particles: usize,
+    dt: f64,
+) -> Result<(), Error> {
+    if !(dt > 0.0 && dt.is_finite()) {
+        return Err(Error::StepLength { dt });
+    }
+    check_length("particles", particles, system.particles())?;
+    check_length("masses", particles, system.masses().len())?;
+    check_length("held", particles, system.held().len())?;
+    state.check(particles)
+}
+
+fn solver_for(system: &dyn System, settings: &Settings) -> Result<NonlinearSolver, Error> {
+    let sparsity = system.sparsity();
+    check_length("sparsity", system.particles(), sparsity.particles())?;
+    Ok(NonlinearSolver::new(SystemMatrix::new(sparsity, settings)?, settings))
+}

@@ -1,0 +1,282 @@
+//! Symmetric sparse matrix of 3x3 blocks, which a system assembles its stiffness into.
+
+use crate::linear::block::{self, Block};
+use crate::linear::sparsity::Sparsity;
+
+/// Symmetric sparse matrix of 3x3 blocks, upper half stored; a stiffness is in N/m.
+///
+/// Blocks are row-major and in the order of the [`Sparsity`]. A block above the diagonal stands for
+/// itself and for its transpose below. Diagonal blocks are stored whole.
+///
+/// ```
+/// use drape_implicit::{BlockMatrix, Sparsity};
+///
+/// // A spring of 100 N/m along x between two particles.
+/// let mut stiffness = BlockMatrix::zeros(Sparsity::from_pairs(2, [[0, 1]])?);
+/// let mut block = [0.0; 9];
+/// block[0] = 100.0;
+/// stiffness.add(0, 0, &block);
+/// stiffness.add(1, 1, &block);
+/// stiffness.add(0, 1, &block.map(|entry| -entry));
+///
+/// let mut product = [0.0; 6];
+/// stiffness.multiply(&[0.0, 0.0, 0.0, 0.01, 0.0, 0.0], &mut product);
+/// assert_eq!(product, [-1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+/// # Ok::<(), drape_implicit::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct BlockMatrix {
+    sparsity: Sparsity,
+    blocks: Vec<Block>,
+    couplings: Vec<Coupling>,
+    outside: Option<[usize; 2]>,
+}
+
+/// Block of two different particles that the sparsity has no slot for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    /// Particle of the row.
+    pub row: u32,
+    /// Particle of the column.
+    pub column: u32,
+    /// Entries, row-major, in N/m.
+    pub block: [f64; 9],
+}
+
+/// Failure of a factorisation or solve: the matrix is not positive definite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct NotDefinite;
+
+impl BlockMatrix {
+    /// Returns the matrix of zeros on a sparsity.
+    #[must_use]
+    pub fn zeros(sparsity: Sparsity) -> Self {
+        let blocks = vec![block::ZERO; sparsity.blocks()];
+        Self { sparsity, blocks, couplings: Vec::new(), outside: None }
+    }
+
+    /// Sparsity of the matrix.
+    #[must_use]
+    pub fn sparsity(&self) -> &Sparsity {
+        &self.sparsity
+    }
+
+    /// Blocks, one per slot of the sparsity.
+    #[must_use]
+    pub fn blocks(&self) -> &[[f64; 9]] {
+        &self.blocks
+    }
+
+    /// Blocks, one per slot of the sparsity, to write into.
+    pub fn blocks_mut(&mut self) -> &mut [[f64; 9]] {
+        &mut self.blocks
+    }
+
+    /// All entries, nine per slot.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        self.blocks.as_flattened()
+    }
+
+    /// All entries, nine per slot, to write into.
+    pub fn values_mut(&mut self) -> &mut [f64] {
+        self.blocks.as_flattened_mut()
+    }
+
+    /// Sets every entry to zero and removes all couplings.
+    pub fn clear(&mut self) {
+        self.blocks.fill(block::ZERO);
+        self.couplings.clear();
+        self.outside = None;
+    }
+
+    /// Adds to the block of a slot.
+    ///
+    /// # Panics
+    /// If the sparsity has no such slot.
+    pub fn add_block(&mut self, slot: usize, value: &[f64; 9]) {
+        for (entry, value) in self.blocks[slot].iter_mut().zip(value) {
+            *entry += value;
+        }
+    }
+
+    /// Adds to the block in row `i` and column `j`, and so to its mirror image.
+    ///
+    /// Give each pair once, in either order. A block outside the sparsity is not added; its place
+    /// is kept in [`outside_sparsity`](Self::outside_sparsity), and the step ends with an error.
+    pub fn add(&mut self, i: usize, j: usize, value: &[f64; 9]) {
+        match self.sparsity.slot(i, j) {
+            Some(slot) if i <= j => self.add_block(slot, value),
+            Some(slot) => self.add_block(slot, &block::transposed(value)),
+            None => self.outside = self.outside.or(Some([i, j])),
+        }
+    }
+
+    /// Adds to the block in row `i` and column `j`, inside the sparsity or not.
+    ///
+    /// For blocks that come and go, as those of contact do. Give each pair once, in either order. A
+    /// block outside the sparsity is part of the matrix but not of its preconditioner, so conjugate
+    /// gradients take more iterations. A particle that the matrix does not have is an error, as in
+    /// [`add`](Self::add).
+    pub fn add_coupling(&mut self, i: usize, j: usize, value: &[f64; 9]) {
+        let particles = self.sparsity.particles();
+        if i >= particles || j >= particles || self.sparsity.slot(i, j).is_some() {
+            return self.add(i, j, value);
+        }
+        self.couplings.push(Coupling { row: i as u32, column: j as u32, block: *value });
+    }
+
+    /// Blocks outside the sparsity, in the order in which they were added.
+    #[must_use]
+    pub fn couplings(&self) -> &[Coupling] {
+        &self.couplings
+    }
+
+    /// Row and column of the first block since the last [`clear`](Self::clear) that was not added.
+    #[must_use]
+    pub fn outside_sparsity(&self) -> Option<[usize; 2]> {
+        self.outside
+    }
+
+    /// Writes the product `A x` into `y`.
+    ///
+    /// # Panics
+    /// If `x` or `y` has fewer than three entries per particle.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        y.fill(0.0);
+        let x = block::triples(x);
+        let y = block::triples_mut(y);
+        for row in 0..self.sparsity.particles() {
+            let slots = self.sparsity.row(row);
+            let own = x[row];
+            let mut sum = [0.0; 3];
+            block::add_product(&self.blocks[slots.start], &own, &mut sum);
+            let above = slots.start + 1..slots.end;
+            let columns = &self.sparsity.columns()[above.clone()];
+            for (&column, block) in columns.iter().zip(&self.blocks[above]) {
+                let column = column as usize;
+                block::add_product(block, &x[column], &mut sum);
+                block::add_transposed_product(block, &own, &mut y[column]);
+            }
+            for (y, sum) in y[row].iter_mut().zip(sum) {
+                *y += sum;
+            }
+        }
+        for Coupling { row, column, block } in &self.couplings {
+            let (row, column) = (*row as usize, *column as usize);
+            block::add_product(block, &x[column], &mut y[row]);
+            block::add_transposed_product(block, &x[row], &mut y[column]);
+        }
+    }
+
+    /// Turns a stiffness into the system matrix of a step: adds the inertia of each particle, in
+    /// N/m, to the diagonal, and removes from the rows and columns of held particles all else.
+    pub(crate) fn add_inertia(&mut self, inertia: &[f64], held: &[bool]) {
+        for (row, (&inertia, &row_held)) in inertia.iter().zip(held).enumerate() {
+            let slots = self.sparsity.row(row);
+            for slot in slots.clone() {
+                if row_held || held[self.sparsity.columns()[slot] as usize] {
+                    self.blocks[slot] = block::ZERO;
+                }
+            }
+            let diagonal = &mut self.blocks[slots.start];
+            for k in [0, 4, 8] {
+                diagonal[k] += inertia;
+            }
+        }
+        self.couplings
+            .retain(|coupling| !held[coupling.row as usize] && !held[coupling.column as usize]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> BlockMatrix {
+        let sparsity = Sparsity::from_pairs(3, [[0, 1], [0, 2]]).unwrap();
+        let mut matrix = BlockMatrix::zeros(sparsity);
+        for (k, value) in matrix.values_mut().iter_mut().enumerate() {
+            *value = (k as f64 * 0.7).sin();
+        }
+        // Diagonal blocks of a symmetric matrix are symmetric.
+        for row in 0..3 {
+            let slot = matrix.sparsity().row(row).start;
+            let b = matrix.blocks()[slot];
+            let t = block::transposed(&b);
+            matrix.add_block(slot, &t);
+        }
+        matrix
+    }
+
+    #[test]
+    fn multiplication_agrees_with_the_dense_matrix() {
+        let matrix = sample();
+        let mut dense = vec![vec![0.0; 9]; 9];
+        for row in 0..3 {
+            for slot in matrix.sparsity().row(row) {
+                let column = matrix.sparsity().columns()[slot] as usize;
+                for r in 0..3 {
+                    for c in 0..3 {
+                        dense[3 * row + r][3 * column + c] = matrix.blocks()[slot][3 * r + c];
+                        dense[3 * column + c][3 * row + r] = matrix.blocks()[slot][3 * r + c];
+                    }
+                }
+            }
+        }
+        let x: Vec<f64> = (0..9).map(|k| (k as f64).cos()).collect();
+        let mut y = vec![f64::NAN; 9];
+        matrix.multiply(&x, &mut y);
+        for (row, y) in dense.iter().zip(&y) {
+            let expected: f64 = row.iter().zip(&x).map(|(a, x)| a * x).sum();
+            assert!((y - expected).abs() < 1e-14, "{y} against {expected}");
+        }
+    }
+
+    #[test]
+    fn a_block_given_below_the_diagonal_lands_transposed_above_it() {
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(2, [[0, 1]]).unwrap());
+        let value = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
+        matrix.add(1, 0, &value);
+        assert_eq!(matrix.blocks()[1], block::transposed(&value));
+        assert_eq!(matrix.outside_sparsity(), None);
+    }
+
+    #[test]
+    fn a_block_outside_the_sparsity_is_remembered() {
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(3, [[0, 1]]).unwrap());
+        matrix.add(2, 1, &[1.0; 9]);
+        matrix.add(0, 2, &[1.0; 9]);
+        assert_eq!(matrix.outside_sparsity(), Some([2, 1]));
+        matrix.clear();
+        assert_eq!(matrix.outside_sparsity(), None);
+    }
+
+    #[test]
+    fn couplings_outside_the_sparsity_count_and_are_removed_with_the_held() {
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(3, [[0, 1]]).unwrap());
+        let value = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
+        matrix.add_coupling(2, 0, &value);
+        matrix.add_coupling(1, 0, &value);
+        assert_eq!(matrix.blocks()[1], block::transposed(&value), "has room");
+        let x = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        let mut y = [f64::NAN; 9];
+        matrix.multiply(&x, &mut y);
+        assert_eq!(y, [4.0, 5.0, 6.0, 1.0, 4.0, 7.0, 1.0, 4.0, 7.0]);
+        matrix.add_coupling(0, 3, &value);
+        assert_eq!(matrix.outside_sparsity(), Some([0, 3]));
+        matrix.add_inertia(&[0.0; 3], &[false, false, true]);
+        assert!(matrix.couplings().is_empty());
+    }
+
+    #[test]
+    fn held_particles_keep_nothing_but_their_inertia() {
+        let mut matrix = sample();
+        let free = matrix.blocks()[0];
+        matrix.add_inertia(&[2.0, 3.0, 5.0], &[false, true, false]);
+        assert_eq!(matrix.blocks()[1], block::ZERO, "coupling to the held particle");
+        assert_eq!(matrix.blocks()[3], [3.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 3.0]);
+        assert_eq!(matrix.blocks()[0][0], free[0] + 2.0);
+        assert_eq!(matrix.blocks()[0][1], free[1]);
+    }
+}

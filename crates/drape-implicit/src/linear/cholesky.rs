@@ -1,0 +1,196 @@
+//! Sparse Cholesky factorisation by faer, in one thread. The sparsity is ordered and analysed once.
+
+use faer::Conj;
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::perm::PermRef;
+use faer::sparse::linalg::amd;
+use faer::sparse::linalg::cholesky::{
+    LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
+use faer::{MatMut, Par, Side};
+
+use crate::error::Error;
+use crate::linear::block_matrix::{BlockMatrix, NotDefinite};
+use crate::linear::sparsity::Sparsity;
+
+/// One thread: on two cores and on many, faer's own parallel factorisation was never faster for
+/// matrices of this kind, and its global default takes every core of the machine.
+const PARALLEL: Par = Par::Seq;
+
+/// Factor `L` of a matrix, and the memory to compute it.
+pub(crate) struct Cholesky {
+    symbolic: SymbolicCholesky<usize>,
+    lower: SymbolicSparseColMat<usize>,
+    entries: Vec<f64>,
+    factor: Vec<f64>,
+    memory: MemBuffer,
+}
+
+impl core::fmt::Debug for Cholesky {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Cholesky").field("factor", &self.factor.len()).finish_non_exhaustive()
+    }
+}
+
+impl Cholesky {
+    /// Orders and analyses a sparsity.
+    pub(crate) fn new(sparsity: &Sparsity) -> Result<Self, Error> {
+        let blocks = sparsity.blocks();
+        let lower = scalar_lower(sparsity);
+        let size = lower.nrows();
+        let too_large = |_| Error::TooLarge { blocks };
+        let Ordering { forward, inverse } = minimum_degree(sparsity).map_err(too_large)?;
+        let symbolic = factorize_symbolic_cholesky(
+            lower.as_ref(),
+            Side::Lower,
+            SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, size)),
+            Default::default(),
+        )
+        .map_err(too_large)?;
+        let factorise = symbolic.factorize_numeric_llt_scratch::<f64>(PARALLEL, Default::default());
+        let solve = symbolic.solve_in_place_scratch::<f64>(1, PARALLEL);
+        let memory = MemBuffer::try_new(StackReq::or(factorise, solve))
+            .map_err(|_| Error::TooLarge { blocks })?;
+        Ok(Self {
+            entries: vec![0.0; lower.col_ptr()[size]],
+            factor: vec![0.0; symbolic.len_val()],
+            symbolic,
+            lower,
+            memory,
+        })
+    }
+
+    /// Factorises a matrix on the sparsity.
+    pub(crate) fn factorise(&mut self, matrix: &BlockMatrix) -> Result<(), NotDefinite> {
+        fill_lower(matrix, &mut self.entries);
+        self.symbolic
+            .factorize_numeric_llt(
+                &mut self.factor,
+                SparseColMatRef::new(self.lower.as_ref(), &self.entries),
+                Side::Lower,
+                LltRegularization::default(),
+                PARALLEL,
+                MemStack::new(&mut self.memory),
+                Default::default(),
+            )
+            .map(|_| ())
+            .map_err(|_| NotDefinite)
+    }
+
+    /// Solves for `x`, which holds the right side on entry.
+    pub(crate) fn solve(&mut self, x: &mut [f64]) {
+        let rows = x.len();
+        LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(x, rows, 1),
+            PARALLEL,
+            MemStack::new(&mut self.memory),
+        );
+    }
+}
+
+/// Permutation of the unknowns and its inverse.
+struct Ordering {
+    forward: Vec<usize>,
+    inverse: Vec<usize>,
+}
+
+/// Minimum-degree ordering of the particles, three unknowns each: the same fill as ordering the
+/// unknowns, in half the time.
+fn minimum_degree(sparsity: &Sparsity) -> Result<Ordering, FaerError> {
+    let particles = sparsity.particles();
+    let columns: Vec<usize> = sparsity.columns().iter().map(|&column| column as usize).collect();
+    let graph = SymbolicSparseColMatRef::new_checked(
+        particles,
+        particles,
+        sparsity.offsets(),
+        None,
+        &columns,
+    );
+    let mut forward = vec![0; particles];
+    let mut inverse = vec![0; particles];
+    let request = amd::order_maybe_unsorted_scratch::<usize>(particles, columns.len());
+    let mut memory = MemBuffer::try_new(request).map_err(|_| FaerError::OutOfMemory)?;
+    let stack = MemStack::new(&mut memory);
+    amd::order_maybe_unsorted(&mut forward, &mut inverse, graph, Default::default(), stack)?;
+    let expand =
+        |order: &[usize]| order.iter().flat_map(|&p| [3 * p, 3 * p + 1, 3 * p + 2]).collect();
+    Ok(Ordering { forward: expand(&forward), inverse: expand(&inverse) })
+}
+
+/// Scalar lower half by columns. A block row of the upper half, transposed, is three of its
+/// columns.
+fn scalar_lower(sparsity: &Sparsity) -> SymbolicSparseColMat<usize> {
+    let size = 3 * sparsity.particles();
+    let mut offsets = vec![0];
+    let mut rows = Vec::with_capacity(9 * sparsity.blocks());
+    for row in 0..sparsity.particles() {
+        for component in 0..3 {
+            rows.extend(3 * row + component..3 * row + 3);
+            for slot in sparsity.row(row).skip(1) {
+                let column = sparsity.columns()[slot] as usize;
+                rows.extend(3 * column..3 * column + 3);
+            }
+            offsets.push(rows.len());
+        }
+    }
+    SymbolicSparseColMat::new_checked(size, size, offsets, None, rows)
+}
+
+/// Writes the entries in the order of [`scalar_lower`].
+fn fill_lower(matrix: &BlockMatrix, entries: &mut [f64]) {
+    let mut entries = entries.iter_mut();
+    for row in 0..matrix.sparsity().particles() {
+        for component in 0..3 {
+            for (k, slot) in matrix.sparsity().row(row).enumerate() {
+                let first = if k == 0 { component } else { 0 };
+                let part = &matrix.blocks()[slot][3 * component + first..3 * component + 3];
+                for (value, entry) in part.iter().zip(entries.by_ref()) {
+                    *entry = *value;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A band matrix with unsymmetric blocks off the diagonal, dominated by its diagonal or not.
+    fn band(own: f64) -> BlockMatrix {
+        let pairs = (1..12).map(|i| [i - 1, i]).chain((4..12).map(|i| [i - 4, i]));
+        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(12, pairs.clone()).unwrap());
+        for i in 0..12 {
+            matrix.add(i, i, &[own, 0.2, 0.1, 0.2, own, -0.3, 0.1, -0.3, own]);
+        }
+        for (k, [i, j]) in pairs.enumerate() {
+            let value = core::array::from_fn(|entry| (k as f64 + 1.3 * entry as f64).sin());
+            matrix.add(i, j, &value);
+        }
+        matrix
+    }
+
+    #[test]
+    fn the_factor_undoes_the_multiplication() {
+        let matrix = band(10.0);
+        let mut cholesky = Cholesky::new(matrix.sparsity()).unwrap();
+        assert_eq!(cholesky.factorise(&matrix), Ok(()));
+        let expected: Vec<f64> = (0..36).map(|k| (k as f64).cos()).collect();
+        let mut x = vec![0.0; 36];
+        matrix.multiply(&expected, &mut x);
+        cholesky.solve(&mut x);
+        for (x, expected) in x.iter().zip(&expected) {
+            assert!((x - expected).abs() < 1e-14, "{x} against {expected}");
+        }
+    }
+
+    #[test]
+    fn an_indefinite_matrix_is_reported() {
+        let matrix = band(0.5);
+        let mut cholesky = Cholesky::new(matrix.sparsity()).unwrap();
+        assert_eq!(cholesky.factorise(&matrix), Err(NotDefinite));
+    }
+}

@@ -1,0 +1,43 @@
+//! Sparsities of cloth, for tests.
+
+use crate::linear::sparsity::Sparsity;
+
+/// Couplings of woven cloth: neighbours, those beyond them, and those across a cell.
+pub(crate) fn weave(n: usize) -> Sparsity {
+    let steps = [(0, 1), (0, 2), (1, -1), (1, 0), (1, 1), (2, 0)];
+    let cells = (0..n as i64).flat_map(|i| (0..n as i64).map(move |j| (i, j)));
+    let inside =
+        |&((_, _), (i, j)): &((i64, i64), (i64, i64))| i < n as i64 && (0..n as i64).contains(&j);
+    let number = |(i, j): (i64, i64)| i as usize * n + j as usize;
+    let pairs = cells
+        .flat_map(|(i, j)| steps.map(|(down, right)| ((i, j), (i + down, j + right))))
+        .filter(inside)
+        .map(|(a, b)| [number(a), number(b)]);
+    Sparsity::from_pairs(n * n, pairs).unwrap()
+}
+
+/// A square of `n` by `n` with a chain around it, numbered last, each link tied to the nearest of
+/// the square.
+pub(crate) fn rimmed(n: usize) -> Sparsity {
+    let inside = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    let steps = [(0, 1), (1, 0), (1, 1)];
+    let lattice = inside
+        .flat_map(|(i, j)| steps.map(|(down, right)| ((i, j), (i + down, j + right))))
+        .filter(|&(_, (i, j))| i < n && j < n)
+        .map(|((i, j), (k, l))| [i * n + j, k * n + l]);
+    let side = |k: usize| {
+        (0..n - 1).map(move |along| match k {
+            0 => along,
+            1 => along * n + n - 1,
+            2 => n * n - 1 - along,
+            _ => (n - 1 - along) * n,
+        })
+    };
+    let edge: Vec<usize> = (0..4).flat_map(side).collect();
+    let first = n * n;
+    let links = (0..edge.len()).flat_map(|k| {
+        let next = (k + 1) % edge.len();
+        [[first + k, first + next], [first + k, edge[k]], [first + k, edge[next]]]
+    });
+    Sparsity::from_pairs(first + edge.len(), lattice.chain(links)).unwrap()
+}

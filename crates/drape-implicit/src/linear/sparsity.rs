@@ -1,0 +1,185 @@
+//! Sparsity of a symmetric matrix of 3x3 blocks: which particles are coupled.
+
+use crate::error::Error;
+
+/// Sparsity of a symmetric matrix of 3x3 blocks: the particles that each particle's force depends
+/// on.
+///
+/// Only the upper half is kept. Row `i` lists its own column first (the diagonal block), then the
+/// columns `j > i` that are coupled to it, ascending. The position of a block in this list is its
+/// *slot*.
+///
+/// ```
+/// use drape_implicit::Sparsity;
+///
+/// // A chain of three particles.
+/// let sparsity = Sparsity::from_pairs(3, [[0, 1], [2, 1]])?;
+/// assert_eq!(sparsity.columns(), [0, 1, 1, 2, 2]);
+/// assert_eq!(sparsity.slot(1, 2), Some(3));
+/// assert_eq!(sparsity.slot(0, 2), None);
+/// # Ok::<(), drape_implicit::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sparsity {
+    offsets: Vec<usize>,
+    columns: Vec<u32>,
+}
+
+impl Sparsity {
+    /// Builds the sparsity from row offsets, one more than there are particles and starting at 0,
+    /// and the columns of all blocks.
+    ///
+    /// # Errors
+    /// [`Error::Sparsity`] if a row does not start with its diagonal, is not ascending, or leaves
+    /// the matrix.
+    pub fn new(offsets: Vec<usize>, columns: Vec<u32>) -> Result<Self, Error> {
+        let rows = offsets.len().saturating_sub(1);
+        let fault = |row, fault| Err(Error::Sparsity { row, fault });
+        if offsets.first() != Some(&0) {
+            return fault(0, "the first row offset must be 0");
+        }
+        if offsets.last() != Some(&columns.len()) {
+            return fault(rows, "the last row offset must be the number of columns listed");
+        }
+        if u32::try_from(columns.len()).is_err() {
+            return fault(rows, "more than 2³² blocks");
+        }
+        for row in 0..rows {
+            if offsets[row + 1] <= offsets[row] || offsets[row + 1] > columns.len() {
+                return fault(row, "row offsets must grow: each row has at least its diagonal");
+            }
+            let list = &columns[offsets[row]..offsets[row + 1]];
+            if list[0] as usize != row {
+                return fault(row, "the first block of a row must be its diagonal");
+            }
+            if list.windows(2).any(|pair| pair[0] >= pair[1]) {
+                return fault(row, "the columns of a row must ascend without repeats");
+            }
+            if list[list.len() - 1] as usize >= rows {
+                return fault(row, "a column lies outside the matrix");
+            }
+        }
+        Ok(Self { offsets, columns })
+    }
+
+    /// Builds the sparsity from the pairs of particles that act on each other, in any order;
+    /// repeats are allowed.
+    ///
+    /// # Errors
+    /// [`Error::Sparsity`] if a pair names a particle that does not exist.
+    pub fn from_pairs(
+        particles: usize,
+        pairs: impl IntoIterator<Item = [usize; 2]>,
+    ) -> Result<Self, Error> {
+        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); particles];
+        for [i, j] in pairs {
+            let (low, high) = (i.min(j), i.max(j));
+            let fault = "a pair names a particle that does not exist";
+            let column = u32::try_from(high).ok().filter(|_| high < particles);
+            let column = column.ok_or(Error::Sparsity { row: high, fault })?;
+            if low < high {
+                rows[low].push(column);
+            }
+        }
+        let mut offsets = Vec::with_capacity(particles + 1);
+        let mut columns = Vec::new();
+        offsets.push(0);
+        for (row, list) in rows.iter_mut().enumerate() {
+            list.sort_unstable();
+            list.dedup();
+            columns.push(row as u32);
+            columns.append(list);
+            offsets.push(columns.len());
+        }
+        Self::new(offsets, columns)
+    }
+
+    /// Number of particles, which is the number of block rows.
+    #[must_use]
+    pub fn particles(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// Number of stored blocks.
+    #[must_use]
+    pub fn blocks(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// First slot of each row, and the end of the last row.
+    #[must_use]
+    pub fn offsets(&self) -> &[usize] {
+        &self.offsets
+    }
+
+    /// Column of each stored block.
+    #[must_use]
+    pub fn columns(&self) -> &[u32] {
+        &self.columns
+    }
+
+    /// Slots of a row, its diagonal first.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    #[must_use]
+    pub fn row(&self, row: usize) -> core::ops::Range<usize> {
+        self.offsets[row]..self.offsets[row + 1]
+    }
+
+    /// Slot that couples two particles, given in either order; `None` if they are not coupled.
+    #[must_use]
+    pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
+        let (low, high) = (i.min(j), i.max(j));
+        if high >= self.particles() {
+            return None;
+        }
+        let row = self.row(low);
+        let found = self.columns[row.clone()].binary_search(&(high as u32)).ok()?;
+        Some(row.start + found)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_in_any_order_give_the_sorted_upper_half() {
+        let sparsity = Sparsity::from_pairs(4, [[2, 0], [0, 1], [3, 2], [0, 2], [1, 1]]).unwrap();
+        assert_eq!(sparsity.offsets(), [0, 3, 4, 6, 7]);
+        assert_eq!(sparsity.columns(), [0, 1, 2, 1, 2, 3, 3]);
+        assert_eq!(sparsity.slot(2, 0), Some(2));
+        assert_eq!(sparsity.slot(3, 3), Some(6));
+        assert_eq!(sparsity.slot(1, 3), None);
+        assert_eq!(sparsity.slot(1, 9), None);
+    }
+
+    #[test]
+    fn malformed_sparsities_are_refused_with_their_row() {
+        let cases: [(&[usize], &[u32], usize); 7] = [
+            (&[], &[], 0),
+            (&[1, 2], &[0, 1], 0),
+            (&[0, 1], &[0, 1], 1),
+            (&[0, 2, 2], &[0, 1], 1),
+            (&[0, 1, 2], &[0, 0], 1),
+            (&[0, 3, 4, 5], &[0, 2, 1, 1, 2], 0),
+            (&[0, 2], &[0, 1], 0),
+        ];
+        for (offsets, columns, expected) in cases {
+            match Sparsity::new(offsets.to_vec(), columns.to_vec()) {
+                Err(Error::Sparsity { row, .. }) => {
+                    assert_eq!(row, expected, "{offsets:?} {columns:?}")
+                }
+                other => panic!("{offsets:?} {columns:?} gave {other:?}"),
+            }
+        }
+        assert!(Sparsity::from_pairs(2, [[0, 2]]).is_err());
+    }
+
+    #[test]
+    fn an_empty_system_has_an_empty_sparsity() {
+        let sparsity = Sparsity::from_pairs(0, []).unwrap();
+        assert_eq!((sparsity.particles(), sparsity.blocks()), (0, 0));
+    }
+}

@@ -1,0 +1,24 @@
+//! Measured curves and the KES values read off them.
+//!
+//! A curve is one history of deformation and load per width. Its branches lie between reversals; a
+//! loop is read where a rising and a falling branch pass an evaluation point \[Kaw80\]:
+//!
+//! ```math
+//! 2HB = F_\uparrow(\kappa_1) - F_\downarrow(\kappa_1), \qquad
+//! B = \frac{\bar F(\kappa_2) - \bar F(\kappa_0)}{\kappa_2 - \kappa_0}, \qquad
+//! \bar F = \tfrac12(F_\uparrow + F_\downarrow)
+//! ```
+//!
+//! and likewise 2HG, 2HG5 and G; EM, WT, LT and RT are areas of the tensile curve. `sheets` makes
+//! curves from files, drape-fit fits laws to them. The chapter reads no file and fits nothing.
+//!
+//! * `branch`: reversals and branches of a history.
+//! * `curve`: the curve itself.
+//! * `loop_values`, `tensile_values`: values of one test, in SI.
+//! * `evaluation`: all values of a curve, in laboratory units.
+
+pub(crate) mod branch;
+pub(crate) mod curve;
+pub(crate) mod evaluation;
+pub(crate) mod loop_values;
+pub(crate) mod tensile_values;

@@ -1,0 +1,178 @@
+//! Measured load–deformation curve, in SI.
+
+use std::ops::Range;
+
+use crate::curves::branch::{Branch, reversals};
+use crate::error::Error;
+use crate::test::{Direction, Test};
+
+/// Lowest and highest of a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// Lowest value.
+    pub low: f64,
+    /// Highest value.
+    pub high: f64,
+}
+
+impl Extent {
+    fn of(values: &[f64]) -> Self {
+        let empty = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
+        values.iter().fold(empty, |e, &v| Self { low: e.low.min(v), high: e.high.max(v) })
+    }
+
+    /// Returns the difference between highest and lowest.
+    #[must_use]
+    pub fn span(self) -> f64 {
+        self.high - self.low
+    }
+}
+
+/// Point of a curve, in SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Point {
+    pub(crate) deformation: f64,
+    pub(crate) load: f64,
+}
+
+/// Load–deformation curve in the order of measurement, in SI.
+///
+/// Its points are one history: a fabric has memory, so loading, unloading and repeated cycles must
+/// stay in the order in which they happened.
+///
+/// ```
+/// use drape_kes::{Curve, Direction, Test};
+///
+/// // A strip stretched by 4 % and released.
+/// let strain = vec![0.0, 0.02, 0.04, 0.02, 0.01];
+/// let tension = vec![0.0, 60.0, 200.0, 30.0, 0.0];
+/// let curve = Curve::new(Test::Tensile, Direction::Warp, strain, tension)?;
+/// assert_eq!(curve.branches().len(), 2);
+/// assert_eq!(curve.load_range().high, 200.0);
+/// # Ok::<(), drape_kes::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Name used in reports.
+    pub name: String,
+    /// Test, which fixes the meaning of deformation and load.
+    pub test: Test,
+    /// Yarns along which the strip was loaded.
+    pub direction: Direction,
+    /// Free length of the specimen between the clamps, if it was given; in metres.
+    pub gauge: Option<f64>,
+    /// Whether the strip hung slack at the start: the zeros of strain and force are then unknown,
+    /// and fitted.
+    pub slack: bool,
+    deformation: Vec<f64>,
+    load: Vec<f64>,
+}
+
+impl Curve {
+    /// Creates a curve from its points in SI, in the order of measurement.
+    ///
+    /// # Errors
+    /// The two columns differ in length, there are fewer than two points, a value is not finite, or
+    /// the deformation never changes.
+    pub fn new(
+        test: Test,
+        direction: Direction,
+        deformation: Vec<f64>,
+        load: Vec<f64>,
+    ) -> Result<Self, Error> {
+        if deformation.len() != load.len() {
+            let (deformations, loads) = (deformation.len(), load.len());
+            return Err(Error::UnpairedColumns { deformations, loads });
+        }
+        if deformation.len() < 2 {
+            return Err(Error::TooFewPoints { points: deformation.len() });
+        }
+        for (index, (&q, &f)) in deformation.iter().zip(&load).enumerate() {
+            if !(q.is_finite() && f.is_finite()) {
+                return Err(Error::NotFinite { index, deformation: q, load: f });
+            }
+        }
+        if deformation.iter().all(|&q| q == deformation[0]) {
+            return Err(Error::ConstantDeformation { deformation: deformation[0] });
+        }
+        let name = format!("{} {}", test.name(), direction.name());
+        Ok(Self { name, test, direction, gauge: None, slack: false, deformation, load })
+    }
+
+    /// Returns the points, in the order of measurement.
+    pub(crate) fn points(&self) -> impl Iterator<Item = Point> {
+        let pairs = self.deformation.iter().zip(&self.load);
+        pairs.map(|(&deformation, &load)| Point { deformation, load })
+    }
+
+    /// Returns the curve with other points.
+    pub(crate) fn with_points(mut self, points: Vec<Point>) -> Self {
+        self.deformation = points.iter().map(|point| point.deformation).collect();
+        self.load = points.iter().map(|point| point.load).collect();
+        self
+    }
+
+    /// Returns the deformation at each point, in SI: see [`Test`].
+    #[must_use]
+    pub fn deformation(&self) -> &[f64] {
+        &self.deformation
+    }
+
+    /// Returns the load per width at each point, in SI: see [`Test`].
+    #[must_use]
+    pub fn load(&self) -> &[f64] {
+        &self.load
+    }
+
+    /// Returns the lowest and the highest deformation, in SI.
+    #[must_use]
+    pub fn deformation_range(&self) -> Extent {
+        Extent::of(&self.deformation)
+    }
+
+    /// Returns the lowest and the highest load, in SI.
+    #[must_use]
+    pub fn load_range(&self) -> Extent {
+        Extent::of(&self.load)
+    }
+
+    /// Returns the branches of the history, in order.
+    #[must_use]
+    pub fn branches(&self) -> Vec<Branch> {
+        let q = self.deformation();
+        reversals(q)
+            .windows(2)
+            .map(|ends| Branch { points: ends[0]..ends[1] + 1, rising: q[ends[1]] > q[ends[0]] })
+            .collect()
+    }
+
+    /// Returns the cycles of the history, each a branch with the branch back, as ranges of points.
+    #[must_use]
+    pub fn cycles(&self) -> Vec<Range<usize>> {
+        let branches = self.branches();
+        branches
+            .chunks(2)
+            .filter(|pair| pair.len() == 2)
+            .map(|pair| pair[0].points.start..pair[1].points.end)
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(deformation: &[f64], load: &[f64]) -> Result<Curve, Error> {
+        Curve::new(Test::Bending, Direction::Warp, deformation.to_vec(), load.to_vec())
+    }
+
+    #[test]
+    fn a_curve_needs_two_paired_finite_points_that_move() {
+        assert!(curve(&[0.0, 1.0], &[0.0, 2.0]).is_ok());
+        assert!(matches!(curve(&[0.0, 1.0], &[0.0]), Err(Error::UnpairedColumns { .. })));
+        assert!(matches!(curve(&[0.0], &[0.0]), Err(Error::TooFewPoints { points: 1 })));
+        let nan = curve(&[0.0, 1.0], &[0.0, f64::NAN]);
+        assert!(matches!(nan, Err(Error::NotFinite { index: 1, .. })));
+        assert!(matches!(curve(&[1.0, 1.0], &[0.0, 2.0]), Err(Error::ConstantDeformation { .. })));
+    }
+}

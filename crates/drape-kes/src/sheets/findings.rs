@@ -1,0 +1,26 @@
+//! Errors and warnings about one sheet, collected while it is read.
+
+use drape_input::{Diagnostic, Document};
+
+/// File being read, with the errors and warnings so far.
+pub(crate) struct Findings<'t> {
+    pub(crate) document: &'t Document,
+    pub(crate) errors: Vec<Diagnostic>,
+    pub(crate) warnings: Vec<Diagnostic>,
+}
+
+impl<'t> Findings<'t> {
+    pub(crate) fn new(document: &'t Document) -> Self {
+        Self { document, errors: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// Adds an error in the value at a key path.
+    pub(crate) fn error(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+        self.errors.push(self.document.at(key, message).help(help));
+    }
+
+    /// Adds a warning about the value at a key path.
+    pub(crate) fn warn(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+        self.warnings.push(self.document.at(key, message).help(help));
+    }
+}

@@ -1,0 +1,32 @@
+//! Law that a sheet asks for.
+
+/// Law that the bending and shear loops of a sheet are to be fitted with, in place of the one that
+/// the data support.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Model {
+    /// Linear backbone with one friction element.
+    FirstOrder,
+    /// Linear backbone with two friction elements in parallel.
+    TwoElements,
+    /// Linear backbone with a fast friction element less a slow one \[BS95\].
+    SecondOrder,
+    /// Parabola that continues as a straight line, without friction, on the first branch \[BHW94\].
+    Breen1994,
+}
+
+impl Model {
+    /// All models.
+    pub const ALL: [Self; 4] =
+        [Self::FirstOrder, Self::TwoElements, Self::SecondOrder, Self::Breen1994];
+
+    /// Returns the name used in sheets.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FirstOrder => "first-order",
+            Self::TwoElements => "two-elements",
+            Self::SecondOrder => "second-order",
+            Self::Breen1994 => "breen-1994",
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! Typed access to the tables of a TOML file, key by key, with all mistakes collected.
+//!
+//! A derived deserialiser stops at the first unknown key. A laboratory's sheet is written by hand,
+//! so all of its mistakes are reported at once.
+
+use drape_input::closest;
+use toml::de::{DeTable, DeValue};
+
+use crate::sheets::findings::Findings;
+use crate::sheets::table::Column;
+use crate::unit::{Quantity, Written, parse_quantity};
+
+/// Table of the file, with its key path.
+#[derive(Clone)]
+pub(crate) struct Section<'t> {
+    path: String,
+    table: &'t DeTable<'t>,
+}
+
+/// Number of the file: as written, in SI, and in the laboratory's unit.
+#[derive(Clone, Debug)]
+pub(crate) struct Measured {
+    /// Value in SI.
+    pub(crate) si: f64,
+    /// Value in the laboratory's unit.
+    pub(crate) laboratory: f64,
+    /// Number as written, whatever its unit.
+    pub(crate) number: f64,
+    /// Text as written.
+    pub(crate) written: String,
+    /// Key path.
+    pub(crate) key: String,
+}
+
+/// Column of a table file, or a length for all of its rows.
+#[derive(Clone, Debug)]
+pub(crate) enum ColumnOrLength {
+    Column(Column),
+    /// Length, in metres.
+    Length(f64),
+}
+
+/// Key whose value is one of several words.
+pub(crate) struct Choice<'a, T> {
+    pub(crate) key: &'a str,
+    /// Admissible values.
+    pub(crate) values: &'a [T],
+    /// Word for each of them.
+    pub(crate) name: fn(T) -> &'static str,
+}
+
+impl<'t> Section<'t> {
+    /// Returns the whole file.
+    pub(crate) fn root(table: &'t DeTable<'t>) -> Self {
+        Self { path: String::new(), table }
+    }
+
+    /// Returns the key path of a key of this table.
+    pub(crate) fn key(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// Reports every key that is not in a list.
+    pub(crate) fn allow(&self, keys: &[&str], findings: &mut Findings<'_>) {
+        for key in self.table.keys().map(|key| key.get_ref().as_ref()) {
+            if !keys.contains(&key) {
+                let help = match closest(key, keys.iter().copied()) {
+                    Some(close) => format!("did you mean `{close}`?"),
+                    None => format!("known here: {}", keys.join(", ")),
+                };
+                findings.error(&self.key(key), "there is no such key", help);
+            }
+        }
+    }
+
+    fn get(&self, key: &str) -> Option<&'t DeValue<'t>> {
+        self.table.get(key).map(|value| value.get_ref())
+    }
+
+    /// Returns whether a key is there; reports it with an example if not, unless it is there
+    /// misspelt, which `allow` reports.
+    fn has(&self, key: &str, example: &str, findings: &mut Findings<'_>) -> bool {
+        let there = self.get(key).is_some();
+        let misspelt = || {
+            let mut keys = self.table.keys().map(|k| k.get_ref().as_ref());
+            keys.any(|k: &str| k != key && closest(k, [key]).is_some())
+        };
+        if !there && !misspelt() {
+            let help = format!("add a line such as {key} = {example}");
+            findings.error(&self.key(key), "is missing", help);
+        }
+        there
+    }
+
+    fn wrong_kind(&self, key: &str, wanted: &str, findings: &mut Findings<'_>) {
+        let found = match self.get(key) {
+            Some(DeValue::String(_)) => "text",
+            Some(DeValue::Integer(_) | DeValue::Float(_)) => "a number",
+            Some(DeValue::Boolean(_)) => "true or false",
+            Some(DeValue::Array(_)) => "a list",
+            Some(DeValue::Table(_)) => "a table",
+            _ => "something else",
+        };
+        let message = format!("is {found} where {wanted} is needed");
+        findings.error(&self.key(key), message, format!("write {wanted}"));
+    }
+
+    /// Returns a text, if the key is there.
+    pub(crate) fn text(&self, key: &str, findings: &mut Findings<'_>) -> Option<String> {
+        match self.get(key)? {
+            DeValue::String(text) => Some(text.to_string()),
+            _ => {
+                self.wrong_kind(key, "text in quotes", findings);
+                None
+            }
+        }
+    }
+
+    /// Returns one of several words, which must be there.
+    pub(crate) fn required_choice<T: Copy>(
+        &self,
+        choice: &Choice<'_, T>,
+        findings: &mut Findings<'_>,
+    ) -> Option<T> {
+        let example = format!("\"{}\"", (choice.name)(choice.values[0]));
+        let written = self.required_text(choice.key, &example, findings)?;
+        self.chosen(choice, &written, findings)
+    }
+
+    /// Returns one of several words, if the key is there.
+    pub(crate) fn choice<T: Copy>(
+        &self,
+        choice: &Choice<'_, T>,
+        findings: &mut Findings<'_>,
+    ) -> Option<T> {
+        let written = self.text(choice.key, findings)?;
+        self.chosen(choice, &written, findings)
+    }
+
+    fn chosen<T: Copy>(
+        &self,
+        choice: &Choice<'_, T>,
+        written: &str,
+        findings: &mut Findings<'_>,
+    ) -> Option<T> {
+        let names: Vec<&str> = choice.values.iter().map(|&value| (choice.name)(value)).collect();
+        if let Some(index) = names.iter().position(|name| *name == written) {
+            return Some(choice.values[index]);
+        }
+        let help = match closest(written, names.iter().copied()) {
+            Some(close) => format!("did you mean \"{close}\"?"),
+            None => format!("it is one of {}", names.join(", ")),
+        };
+        findings.error(&self.key(choice.key), format!("\"{written}\" is not known"), help);
+        None
+    }
+
+    /// Returns a text, which must be there.
+    pub(crate) fn required_text(
+        &self,
+        key: &str,
+        example: &str,
+        findings: &mut Findings<'_>,
+    ) -> Option<String> {
+        self.has(key, example, findings).then(|| self.text(key, findings)).flatten()
+    }
+
+    /// Returns a truth value, `false` if the key is not there.
+    pub(crate) fn flag(&self, key: &str, findings: &mut Findings<'_>) -> bool {
+        match self.get(key) {
+            None => false,
+            Some(DeValue::Boolean(flag)) => *flag,
+            Some(_) => {
+                self.wrong_kind(key, "true or false", findings);
+                false
+            }
+        }
+    }
+
+    /// Returns a finite number, bare in the laboratory's unit or text with its unit.
+    pub(crate) fn measured(
+        &self,
+        key: &str,
+        quantity: Quantity,
+        findings: &mut Findings<'_>,
+    ) -> Option<Measured> {
+        let own = quantity.laboratory();
+        let (number, unit, written) = match self.get(key)? {
+            DeValue::String(text) => match parse_quantity(text, quantity) {
+                Ok(Written { number, unit }) => (number, unit, text.to_string()),
+                Err(error) => {
+                    findings.error(&self.key(key), error.message, error.help);
+                    return None;
+                }
+            },
+            value => {
+                let Some(number) = bare_number(value) else {
+                    self.wrong_kind(key, "a number, or text with a number and its unit", findings);
+                    return None;
+                };
+                (number, own, number.to_string())
+            }
+        };
+        if !number.is_finite() {
+            let help = "write the measured value, or remove the line if it was not measured";
+            findings.error(&self.key(key), format!("{written} is not a finite number"), help);
+            return None;
+        }
+        let si = number * unit.factor;
+        let laboratory = if unit == own { number } else { si / own.factor };
+        Some(Measured { si, laboratory, number, written, key: self.key(key) })
+    }
+
+    /// Returns a table inside this one, if the key is there.
+    pub(crate) fn section(&self, key: &str, findings: &mut Findings<'_>) -> Option<Section<'t>> {
+        match self.get(key)? {
+            DeValue::Table(table) => Some(Section { path: self.key(key), table }),
+            _ => {
+                self.wrong_kind(key, "a table", findings);
+                None
+            }
+        }
+    }
+
+    /// Returns a table inside this one, which must be there.
+    pub(crate) fn required_section(
+        &self,
+        key: &str,
+        example: &str,
+        findings: &mut Findings<'_>,
+    ) -> Option<Section<'t>> {
+        self.has(key, example, findings).then(|| self.section(key, findings)).flatten()
+    }
+
+    /// Returns the tables of an array of tables.
+    pub(crate) fn sections(&self, key: &str, findings: &mut Findings<'_>) -> Vec<Section<'t>> {
+        let items: Vec<_> = match self.get(key) {
+            None => return Vec::new(),
+            Some(DeValue::Array(array)) => array.iter().map(|item| item.get_ref()).collect(),
+            // Anything else fails the test below.
+            Some(other) => vec![other],
+        };
+        let whole = items.len();
+        let sections: Vec<_> = items
+            .into_iter()
+            .enumerate()
+            .filter_map(|(index, item)| {
+                let path = format!("{}[{index}]", self.key(key));
+                item.as_table().map(|table| Section { path, table })
+            })
+            .collect();
+        if sections.len() < whole || !matches!(self.get(key), Some(DeValue::Array(_))) {
+            self.wrong_kind(key, &format!("a list of [[{key}]] tables"), findings);
+            return Vec::new();
+        }
+        sections
+    }
+
+    /// Returns a column, by its name or by its number from 1.
+    pub(crate) fn column(&self, key: &str, findings: &mut Findings<'_>) -> Option<Column> {
+        if !self.has(key, "\"name in the header\"", findings) {
+            return None;
+        }
+        let column = match self.get(key)? {
+            DeValue::String(name) => Some(Column::Name(name.to_string())),
+            DeValue::Integer(number) => number.as_str().parse().ok().map(Column::Number),
+            _ => None,
+        };
+        if column.is_none() {
+            self.wrong_kind(key, "a column name, or its place from 1", findings);
+        }
+        column
+    }
+
+    /// Returns a length with its unit (a bare number is in metres), or a column in metres.
+    pub(crate) fn column_or_length(
+        &self,
+        key: &str,
+        findings: &mut Findings<'_>,
+    ) -> Option<ColumnOrLength> {
+        let length = match self.get(key)? {
+            DeValue::String(text) if starts_with_number(text) => {
+                self.measured(key, Quantity::Length, findings)?.si
+            }
+            DeValue::String(name) => {
+                return Some(ColumnOrLength::Column(Column::Name(name.to_string())));
+            }
+            value => {
+                let Some(length) = bare_number(value) else {
+                    self.wrong_kind(key, "a column name, or text such as \"5 cm\"", findings);
+                    return None;
+                };
+                length
+            }
+        };
+        if length > 0.0 && length.is_finite() {
+            return Some(ColumnOrLength::Length(length));
+        }
+        let help = "write the length with its unit, such as \"5 cm\"";
+        findings.error(&self.key(key), format!("{length} m is not a positive length"), help);
+        None
+    }
+}
+
+fn starts_with_number(text: &str) -> bool {
+    text.trim_start().starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
+}
+
+fn bare_number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+            .ok()
+            .map(|integer| integer as f64),
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        _ => None,
+    }
+}

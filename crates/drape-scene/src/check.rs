@@ -1,0 +1,194 @@
+//! Check of a scene: from the content of its file to checked values in SI units.
+//!
+//! A [`Checker`](self::checker::Checker) has the file and collects its mistakes; every part of a scene has a function that
+//! takes the checker and returns the checked value. Values are checked where they enter, once, and mistakes are collected, so
+//! that one reading names all that can be found. Panels, times, bodies and contact come first; seams, pins and the start need
+//! sound panels and follow only without mistakes. Files are read here, but for fabrics, which the caller's function reads.
+
+pub(crate) mod body;
+pub(crate) mod checker;
+mod contact;
+mod fabrics;
+mod garment;
+mod hash;
+mod motion;
+mod panel;
+mod pins;
+mod solver;
+mod start;
+mod time;
+
+use drape_cloth::{Breen, Cloth};
+use drape_input::{Diagnostics, Document};
+
+use crate::error::Error;
+use crate::file::SceneFile;
+use crate::scene::garment::Garment;
+use crate::scene::material::{FabricReader, Material};
+use crate::scene::model::Model;
+use crate::scene::panel::Panel;
+use crate::scene::{Environment, MovingBody, Output, Scene, Schedule, Source, Start, View};
+
+use self::body::CheckedBody;
+use self::checker::Checker;
+use self::contact::ContactBounds;
+use self::garment::cost::cost;
+use self::garment::distance::check_distance;
+use self::garment::sewing::{frictionless_cloth, sewing};
+use self::hash::Content;
+use self::panel::PlacedPanel;
+
+/// Density of air at 20 °C and sea level, in kg/m³.
+const AIR_DENSITY: f64 = 1.2;
+
+/// Drag coefficient of a flat plate across the flow.
+const AIR_DRAG: f64 = 1.28;
+
+/// Documents of a scene: its own, and others that it names by their paths; its fabrics are read by a function.
+pub(crate) struct Documents<'a> {
+    pub(crate) scene: &'a Document,
+    pub(crate) others: &'a [Document],
+    pub(crate) fabrics: FabricReader<'a>,
+}
+
+/// Checks the content of a scene's file.
+pub(crate) fn check(documents: &Documents<'_>, file: SceneFile) -> Result<Scene, Error> {
+    let document = documents.scene;
+    let checker = &mut Checker::new(document, &file, documents.others);
+    let model = solver::model(checker);
+    let materials = fabrics::materials(checker, documents.fabrics, model);
+    let mut placed = panel::panels(checker, &materials);
+    let count = placed.iter().map(|own| own.positions.len() / 3).sum();
+    let plain = placed.len();
+    let (mut seams, mut notes, mut garments) = (Vec::new(), Vec::new(), Vec::new());
+    for garment in garment::garments(checker, &materials, count) {
+        let particles = garment.particles();
+        garments.extend(particles.map(|particles| Garment { name: garment.name, particles }));
+        placed.extend(garment.panels);
+        seams.extend(garment.seams);
+        notes.extend(garment.notes);
+    }
+    check_names(checker, &placed);
+    let clock = time::clock(checker);
+    let spacings = placed.iter().flat_map(|own| own.panel.lattice.spacing);
+    let spacing = spacings.fold(f64::INFINITY, f64::min);
+    let relaxation = time::relaxation(checker, spacing.min(1.0));
+    let motion_seconds = time::motion_seconds(checker);
+    let solver = solver::solver(checker);
+    let environment = environment(checker);
+    let bodies = body::bodies(checker);
+    check_distance(checker, &placed[plain..], &bodies);
+    if file.keeps_surfaces_apart() {
+        body::check_speeds(checker, &bodies, clock.step, spacing);
+    }
+    let bounds = ContactBounds { spacing, step: clock.step, end: clock.end };
+    let contact = contact::contact(checker, bounds);
+    // Seams, pins and the start need sound panels.
+    checker.finish()?;
+
+    let pairs: Vec<_> = placed
+        .iter()
+        .map(|PlacedPanel { panel, .. }| {
+            let material = materials[panel.material].as_ref();
+            (&panel.lattice, &material.expect("mistakes were reported").fabric)
+        })
+        .collect();
+    let sewing = sewing(checker, seams, &pairs);
+    let breen = (model == Model::Breen1994).then(|| Breen::new(&pairs)).transpose();
+    let breen =
+        breen.map_err(|error| Diagnostics::from(document.at("model", error.to_string())))?;
+    let cloth = match model {
+        Model::Kes => Cloth::new(&pairs),
+        Model::Breen1994 => frictionless_cloth(&pairs),
+    };
+    let cloth = cloth.with_ties(sewing.iter().flat_map(|sewing| &sewing.pairs.ties));
+    let materials: Vec<Material> = materials.into_iter().flatten().collect();
+    let positions: Vec<f64> = placed.iter().flat_map(|own| &own.positions).copied().collect();
+    let velocities = placed.iter().flat_map(|own| &own.velocities).copied().collect();
+    let panels: Vec<Panel> = placed.into_iter().map(|own| own.panel).collect();
+    let pins = pins::pins(checker, &panels, &positions);
+    let bodies = with_friction(bodies, &materials);
+    let content = Content {
+        document,
+        materials: &materials,
+        positions: &positions,
+        bodies: &bodies,
+        panels: &panels,
+        sewing: sewing.as_ref(),
+    };
+    let source = Source { file: document.path().to_owned(), hash: content.hash(), notes };
+    let mut scene = Scene {
+        source,
+        materials,
+        panels,
+        garments,
+        cloth,
+        breen,
+        sewing,
+        start: Start { positions, velocities },
+        pins,
+        bodies,
+        contact,
+        environment,
+        schedule: Schedule { clock, relaxation, motion_seconds },
+        solver,
+        output: Output {
+            folder: file.output.folder.as_ref().map(|folder| checker.folder.join(folder)),
+            view: View { azimuth: file.output.azimuth, elevation: file.output.elevation },
+        },
+        name: file.name.clone().unwrap_or_else(|| "unnamed".into()),
+    };
+    hold(&mut scene);
+    let mut scene = start::check_start(checker, scene)?;
+    if !scene.garments.is_empty() && relaxation.is_some() {
+        scene.source.notes.extend(cost(scene.cloth.particles(), spacing));
+    }
+    Ok(scene)
+}
+
+/// Checks that panels are told apart by their names. Names that the scene itself has twice have been reported.
+fn check_names(checker: &mut Checker<'_>, placed: &[PlacedPanel]) {
+    let file = checker.file;
+    let twice = |name: &str| file.panel.iter().filter(|panel| panel.name == name).count() > 1;
+    let placed: Vec<_> = placed.iter().filter(|own| !twice(&own.panel.name)).collect();
+    for (index, PlacedPanel { panel, .. }) in placed.iter().enumerate() {
+        if placed[..index].iter().any(|other| other.panel.name == panel.name) {
+            let message = format!("there are two panels \"{}\"", panel.name);
+            let help =
+                "give each its own name; the panels of a garment with a name are called NAME.PANEL";
+            checker.fail_file(message, help);
+        }
+    }
+}
+
+/// Checks air and gravity.
+fn environment(checker: &mut Checker<'_>) -> Environment {
+    let file = checker.file;
+    let air = file.air.as_ref();
+    let density = air.and_then(|a| a.density).unwrap_or(AIR_DENSITY);
+    let drag = air.and_then(|a| a.drag).unwrap_or(AIR_DRAG);
+    checker.within("air.density", density, 0.0..=100.0, "in kg/m³; 1.2 is usual, 0 a vacuum");
+    checker.within("air.drag", drag, 0.0..=10.0, "1.28 for a plate");
+    let gravity = file.gravity.unwrap_or([0.0, -9.81, 0.0]);
+    if gravity.iter().any(|g| !g.is_finite()) {
+        checker.fail("gravity", format!("{gravity:?} is not finite"), "in m/s², [0, -9.81, 0]");
+    }
+    Environment { gravity, air: 0.5 * density * drag }
+}
+
+/// Gives bodies without friction of their own the largest friction of a fabric.
+fn with_friction(bodies: Vec<CheckedBody>, materials: &[Material]) -> Vec<MovingBody> {
+    let fallback = materials.iter().map(|m| m.fabric.surface_friction).fold(0.0, f64::max);
+    let with_friction = |CheckedBody { body, friction, motion }| MovingBody {
+        body: body.with_friction(friction.unwrap_or(fallback)),
+        motion,
+    };
+    bodies.into_iter().map(with_friction).collect()
+}
+
+/// Takes the velocities of particles that are held in all directions.
+fn hold(scene: &mut Scene) {
+    let held = scene.held_particles();
+    let velocities = scene.start.velocities.chunks_exact_mut(3).zip(held);
+    velocities.filter(|(_, held)| *held).for_each(|(velocity, _)| velocity.fill(0.0));
+}

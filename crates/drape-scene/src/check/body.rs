@@ -1,0 +1,215 @@
+//! Bodies of a scene: primitives and meshes, with their motions.
+
+mod shape_files;
+
+use drape_collide::{Body, Mesh, Pose, Shape};
+
+use crate::check::checker::Checker;
+use crate::check::motion::rigid_motion;
+use crate::file::body::{CommonFile, MeshBodyFile};
+use crate::scene::motion::{BodyMotion, rotate, rotate_pose};
+
+use self::shape_files::{Sampling, ShapeError, read_shapes};
+
+/// Shortest and longest body of a mesh, in m. A figure of 1.7 m that was read in another unit is 1.7 mm, 170 m or 1.7 km
+/// long.
+const SIZE_MIN: f64 = 2e-3;
+const SIZE_MAX: f64 = 100.0;
+
+/// Body, with its friction where the file gives it.
+pub(crate) struct CheckedBody {
+    pub(crate) body: Body,
+    /// Coefficient of friction; the fabric's if missing.
+    pub(crate) friction: Option<f64>,
+    /// Motion; none if it stays.
+    pub(crate) motion: Option<BodyMotion>,
+}
+
+/// Entry of a body in a scene.
+struct Entry<'a> {
+    /// Kind of the body, a key of the scene.
+    kind: &'a str,
+    /// Index among the bodies of this kind.
+    index: usize,
+    common: CommonFile<'a>,
+}
+
+/// Checks the bodies of a scene.
+pub(crate) fn bodies(checker: &mut Checker<'_>) -> Vec<CheckedBody> {
+    let (colliders, unit) = (&checker.file.collider, checker.unit);
+    let mut bodies = Vec::new();
+    for (index, sphere) in colliders.sphere.iter().enumerate() {
+        let shape = Shape::Sphere { radius: sphere.radius * unit };
+        let entry = Entry { kind: "sphere", index, common: sphere.common() };
+        bodies.push(rigid_body(checker, &entry, shape));
+    }
+    for (index, cuboid) in colliders.boxes.iter().enumerate() {
+        let half_extents = cuboid.size.map(|side| 0.5 * side * unit);
+        let shape = Shape::Box { half_extents, edge_radius: cuboid.edge_radius * unit };
+        let entry = Entry { kind: "box", index, common: cuboid.common() };
+        bodies.push(rigid_body(checker, &entry, shape));
+    }
+    for (index, cylinder) in colliders.cylinder.iter().enumerate() {
+        let shape = Shape::Cylinder {
+            radius: cylinder.radius * unit,
+            half_height: 0.5 * cylinder.height * unit,
+            edge_radius: cylinder.edge_radius * unit,
+        };
+        let entry = Entry { kind: "cylinder", index, common: cylinder.common() };
+        bodies.push(rigid_body(checker, &entry, shape));
+    }
+    for (index, plane) in colliders.plane.iter().enumerate() {
+        let entry = Entry { kind: "plane", index, common: plane.common() };
+        bodies.push(rigid_body(checker, &entry, Shape::Plane));
+    }
+    // Rigid meshes come before those that change their shape.
+    let meshes = || colliders.mesh.iter().enumerate();
+    let changes = |mesh: &MeshBodyFile| mesh.frames.is_some() || mesh.point_cache().is_some();
+    for (index, mesh) in meshes().filter(|(_, mesh)| !changes(mesh)) {
+        bodies.extend(rigid_mesh(checker, index, mesh));
+    }
+    for (index, mesh) in meshes() {
+        match changes(mesh) {
+            true => bodies.extend(changing_mesh(checker, index, mesh)),
+            false => check_no_frames(checker, index, mesh),
+        }
+    }
+    bodies
+}
+
+/// Makes a rigid body of a shape.
+fn rigid_body(checker: &mut Checker<'_>, entry: &Entry<'_>, shape: Shape) -> CheckedBody {
+    let Entry { kind, index, common } = entry;
+    let name = common.name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned);
+    let center = common.center.map(|x| x * checker.unit);
+    let key = format!("collider.{kind}[{index}].motion");
+    let motion = common.motion.and_then(|motion| rigid_motion(checker, &key, motion, center));
+    let body = Body::new(name, shape, rotate_pose(Pose::new(center), common.turn));
+    CheckedBody { body, friction: common.friction, motion: motion.map(BodyMotion::Rigid) }
+}
+
+/// Makes a rigid body of a mesh.
+fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> Option<CheckedBody> {
+    let path = checker.folder.join(&file.file);
+    match Mesh::load(path, file.scale.unwrap_or(checker.unit)) {
+        Ok(mesh) => {
+            check_size(checker, index, &mesh);
+            let entry = Entry { kind: "mesh", index, common: file.common() };
+            Some(rigid_body(checker, &entry, Shape::Mesh(mesh)))
+        }
+        Err(error) => {
+            checker.fail_with(&format!("collider.mesh[{index}].file"), &error);
+            None
+        }
+    }
+}
+
+/// Checks the size of a mesh: one that is no size for cloth has another unit than the scene says.
+fn check_size(checker: &mut Checker<'_>, index: usize, mesh: &Mesh) {
+    let vertices = mesh.vertices();
+    let extent = |axis: usize| {
+        let values = || vertices.iter().map(|vertex| vertex[axis]);
+        values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
+    };
+    let longest = (0..3).map(extent).fold(0.0, f64::max);
+    if !(SIZE_MIN..=SIZE_MAX).contains(&longest) {
+        let message = format!("the body is {longest:.4} m long");
+        let help = "is the unit right? scale = 0.001 reads a file in millimetres, 0.01 one in centimetres, 1 one in \
+                    metres; bodies are 2 mm to 100 m long";
+        checker.fail(&format!("collider.mesh[{index}].scale"), message, help);
+    }
+}
+
+/// Refuses keys of frames in a mesh that has none.
+fn check_no_frames(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) {
+    for (key, given) in [("rate", file.rate), ("start", file.start)] {
+        if given.is_some() {
+            let help = "it belongs to motion = \"….pc2\" or frames = \"…_*.obj\"";
+            let key = format!("collider.mesh[{index}].{key}");
+            checker.fail(&key, "the body has no frames", help);
+        }
+    }
+}
+
+/// Makes a body of a mesh that changes its shape.
+fn changing_mesh(
+    checker: &mut Checker<'_>,
+    index: usize,
+    file: &MeshBodyFile,
+) -> Option<CheckedBody> {
+    let key = if file.frames.is_some() { "frames" } else { "motion" };
+    let key = format!("collider.mesh[{index}].{key}");
+    let Some(rate) = file.rate else {
+        let help = "add rate = 24, or how many frames a second has";
+        checker.fail(&key, "the motion has no rate", help);
+        return None;
+    };
+    let help = "frames per second; 24 is usual";
+    let sound = checker.within(&format!("collider.mesh[{index}].rate"), rate, 1e-3..=1e5, help);
+    let start = file.start.unwrap_or(0.0);
+    let help = "when the first frame is left, in s";
+    let key_of_start = format!("collider.mesh[{index}].start");
+    if !checker.within(&key_of_start, start, 0.0..=1e6, help) || !sound {
+        return None;
+    }
+    if !checker.file.keeps_surfaces_apart() {
+        let help = "it needs contact.surfaces = true, which is the default";
+        checker.fail(&key, "only surfaces meet a body that changes its shape", help);
+        return None;
+    }
+    let common = file.common();
+    let (unit, scale) = (checker.unit, file.scale.unwrap_or(checker.unit));
+    let place = |point: [f64; 3]| {
+        let arm = rotate(point.map(|x| scale * x), common.turn);
+        [0, 1, 2].map(|axis| common.center[axis] * unit + arm[axis])
+    };
+    match read_shapes(file, checker.folder, Sampling { rate, start }, place) {
+        Ok(shapes) => {
+            check_size(checker, index, &shapes.mesh);
+            let name = common.name.map_or_else(|| format!("mesh {}", index + 1), str::to_owned);
+            let body = Body::new(name, Shape::Mesh(shapes.mesh), Pose::default());
+            let motion = Some(BodyMotion::Shapes(shapes.motion));
+            Some(CheckedBody { body, friction: common.friction, motion })
+        }
+        Err(ShapeError::File(error)) => {
+            checker.fail_with(&key, &error);
+            None
+        }
+        Err(ShapeError::Mismatch(message)) => {
+            let help = "export the body and its motion anew, with the same vertices";
+            checker.fail(&key, message, help);
+            None
+        }
+    }
+}
+
+/// Checks that no body moves farther than the spacing of particles, in m, in a step, in s: the cloth could not follow it.
+pub(crate) fn check_speeds(
+    checker: &mut Checker<'_>,
+    bodies: &[CheckedBody],
+    step: f64,
+    spacing: f64,
+) {
+    for CheckedBody { body, motion, .. } in bodies {
+        // The far corners of a floor are no bodies.
+        let (Some(motion), false) = (motion, matches!(body.shape, Shape::Plane)) else {
+            continue;
+        };
+        let Ok(outline) = body.triangulate() else { continue };
+        let speed = motion.max_speed(&outline.vertices);
+        if !(speed * step <= spacing) {
+            let message = format!(
+                "the body \"{}\" moves at {speed:.3} m/s, {:.2} mm in a step, and particles are {:.2} mm apart",
+                body.name,
+                1e3 * speed * step,
+                1e3 * spacing
+            );
+            let longest = spacing / speed;
+            let help = format!(
+                "cloth follows a body by a spacing in a step at most: give time.step = {longest:.1e} or less, slow the \
+                 body, or let only particles meet it with contact.surfaces = false"
+            );
+            checker.fail("time.step", message, &help);
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! Files of bodies that change their shape: point caches, and sequences of meshes.
+
+use std::path::{Path, PathBuf};
+
+use drape_collide::{Mesh, PointCache, Triangulation, read_mesh};
+
+use crate::file::body::MeshBodyFile;
+use crate::scene::motion::ShapeMotion;
+
+/// Largest distance in another frame of vertices that are one in the first frame, in m: some digits of a 32-bit float.
+const PARTED: f64 = 1e-6;
+
+/// Square of the sine of the sharpest triangle of a frame, about: what the mesh of a body may have too.
+const FLAT: f64 = 1e-12;
+
+/// Number of vertices that all frames of a sequence may have together: 400 MB of positions.
+const VERTICES_MAX: usize = 1 << 24;
+
+/// Error of files that make no motion.
+#[derive(Debug)]
+pub(crate) enum ShapeError {
+    /// A file cannot be read.
+    File(drape_collide::Error),
+    /// Files do not fit together.
+    Mismatch(String),
+}
+
+impl From<drape_collide::Error> for ShapeError {
+    fn from(error: drape_collide::Error) -> Self {
+        Self::File(error)
+    }
+}
+
+/// Times of the frames of a motion.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sampling {
+    /// Frames per second.
+    pub(crate) rate: f64,
+    /// Time at which the first frame is left, in s.
+    pub(crate) start: f64,
+}
+
+/// Mesh of a body and its motion.
+pub(crate) struct Shapes {
+    pub(crate) mesh: Mesh,
+    pub(crate) motion: ShapeMotion,
+}
+
+/// Frames of a motion as they are in files.
+struct Frames {
+    /// Number of frames from one sample to the next.
+    stride: f64,
+    /// File of each sample.
+    paths: Vec<PathBuf>,
+    samples: Vec<Vec<[f64; 3]>>,
+}
+
+/// Reads the mesh of a body and its frames. `place` brings a point of the files to its place in the world, in m.
+pub(crate) fn read_shapes(
+    file: &MeshBodyFile,
+    folder: &Path,
+    sampling: Sampling,
+    place: impl Fn([f64; 3]) -> [f64; 3],
+) -> Result<Shapes, ShapeError> {
+    let of_mesh = read_mesh(folder.join(&file.file))?;
+    let frames = match (file.point_cache(), &file.frames) {
+        (Some(cache), None) => {
+            let path = folder.join(cache);
+            let cache = PointCache::read(&path)?;
+            let paths = vec![path; cache.samples.len()];
+            Frames { stride: cache.frames_per_sample, paths, samples: cache.samples }
+        }
+        (None, Some(pattern)) => sequence(folder, pattern, &of_mesh)?,
+        _ => {
+            let message = "give either motion = \"….pc2\" or frames = \"…_*.obj\"".to_owned();
+            return Err(ShapeError::Mismatch(message));
+        }
+    };
+    for (path, sample) in frames.paths.iter().zip(&frames.samples) {
+        let (found, needed) = (sample.len(), of_mesh.vertices.len());
+        if found != needed {
+            return Err(ShapeError::Mismatch(format!(
+                "{} has {found} vertices, and {} has {needed}",
+                path.display(),
+                file.file
+            )));
+        }
+    }
+    let samples = frames.samples.iter();
+    let samples = samples.map(|sample| sample.iter().map(|&x| place(x)).collect());
+    let samples: Vec<Vec<[f64; 3]>> = samples.collect();
+    let Some(first) = samples.first() else {
+        return Err(ShapeError::Mismatch("the motion has no frames".to_owned()));
+    };
+    let mesh = Mesh::new(first, &of_mesh.triangles)?;
+    let coincident = coincident_vertices(first, &of_mesh.triangles);
+    for (number, (path, sample)) in frames.paths.iter().zip(&samples).enumerate() {
+        check_frame(sample, &coincident, &of_mesh.triangles).map_err(|fault| {
+            ShapeError::Mismatch(format!("frame {number} of {}: {fault}", path.display()))
+        })?;
+    }
+    let kept = |sample: &Vec<[f64; 3]>| {
+        mesh.source_vertices().iter().flat_map(|&source| sample[source as usize]).collect()
+    };
+    let positions: Vec<Vec<f64>> = samples.iter().map(kept).collect();
+    let Sampling { rate, start } = sampling;
+    let times = (0..positions.len()).map(|k| start + k as f64 * frames.stride / rate).collect();
+    Ok(Shapes { motion: ShapeMotion::new(times, positions), mesh })
+}
+
+/// Reads the meshes of a sequence of files, `*` in whose name stands for their numbers.
+fn sequence(folder: &Path, pattern: &str, of_mesh: &Triangulation) -> Result<Frames, ShapeError> {
+    let pattern = folder.join(pattern);
+    let name = pattern.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let Some((before, after)) = name.split_once('*') else {
+        let message = format!("\"{name}\" has no * for the number of the frame");
+        return Err(ShapeError::Mismatch(message));
+    };
+    let parent = pattern.parent().unwrap_or(Path::new(""));
+    let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
+    let entries = std::fs::read_dir(parent).map_err(|error| {
+        let reason = error.to_string();
+        drape_collide::Error::UnreadableFile { path: parent.to_path_buf(), reason }
+    })?;
+    let mut numbered: Vec<(u64, PathBuf)> = Vec::new();
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let number = name.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
+        if let Some(number) = number.and_then(|number| number.parse().ok()) {
+            numbered.push((number, path));
+        }
+    }
+    numbered.sort();
+    let (Some((first, _)), Some((last, _))) = (numbered.first(), numbered.last()) else {
+        return Err(ShapeError::Mismatch(format!("there is no file {}", pattern.display())));
+    };
+    if (last - first) as usize != numbered.len() - 1 {
+        let missing = (*first..).zip(&numbered).find(|(number, (own, _))| number != own);
+        let (number, _) = missing.unwrap_or((*first, &numbered[0]));
+        let message = format!("of {} there is no or a second number {number}", pattern.display());
+        return Err(ShapeError::Mismatch(message));
+    }
+    let total = of_mesh.vertices.len().saturating_mul(numbered.len());
+    if total > VERTICES_MAX {
+        let message =
+            format!("the frames have {total} vertices, and at most {VERTICES_MAX} are read");
+        return Err(ShapeError::Mismatch(message));
+    }
+    let mut samples = Vec::new();
+    for (_, path) in &numbered {
+        let frame = read_mesh(path)?;
+        if frame.vertices.len() == of_mesh.vertices.len() && frame.triangles != of_mesh.triangles {
+            let message = format!("{} has other triangles than the body", path.display());
+            return Err(ShapeError::Mismatch(message));
+        }
+        samples.push(frame.vertices);
+    }
+    let paths = numbered.into_iter().map(|(_, path)| path).collect();
+    Ok(Frames { stride: 1.0, paths, samples })
+}
+
+/// Returns pairs of vertices that triangles use and that are at the very same place.
+fn coincident_vertices(places: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
+    let bits = |vertex: &u32| places[*vertex as usize].map(|value| (value + 0.0).to_bits());
+    used.sort_by_key(|vertex| (bits(vertex), *vertex));
+    used.dedup();
+    let same = used.windows(2).filter(|pair| bits(&pair[0]) == bits(&pair[1]));
+    same.map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// Checks a frame: its vertices are near, coincident ones stay so, and triangles keep an area.
+fn check_frame(
+    sample: &[[f64; 3]],
+    coincident: &[[u32; 2]],
+    triangles: &[[u32; 3]],
+) -> Result<(), String> {
+    let at = |vertex: u32| sample[vertex as usize];
+    let minus = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|k| a[k] - b[k]);
+    let square = |a: [f64; 3]| a.iter().map(|x| x * x).sum::<f64>();
+    // Written so that NaN fails.
+    let far = |place: &[f64; 3]| !place.iter().all(|x| x.abs() <= 1e6);
+    if let Some(vertex) = sample.iter().position(far) {
+        return Err(format!("vertex {vertex} is at {:?} m", sample[vertex]));
+    }
+    for &[a, b] in coincident {
+        if square(minus(at(a), at(b))) > PARTED * PARTED {
+            return Err(format!("the vertices {a} and {b} part, which are one in the first frame"));
+        }
+    }
+    for (number, &[a, b, c]) in triangles.iter().enumerate() {
+        let (e, f) = (minus(at(b), at(a)), minus(at(c), at(a)));
+        let longest = square(e).max(square(f)).max(square(minus(f, e)));
+        let dot: f64 = e.iter().zip(f).map(|(e, f)| e * f).sum();
+        let area = square(e) * square(f) - dot * dot;
+        if !(area > FLAT * longest * longest) && longest > 0.0 {
+            return Err(format!("triangle {number} has no area"));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,69 @@
+//! Fabrics of a scene.
+
+use drape_cloth::Lattice;
+use drape_fabric::Fabric;
+
+use crate::check::checker::{Checker, UnknownName};
+use crate::scene::material::{FabricReader, FabricRequest, Material};
+use crate::scene::model::Model;
+
+/// Reads the fabrics in the order of their names; none where a fabric has mistakes.
+pub(crate) fn materials(
+    checker: &mut Checker<'_>,
+    reader: FabricReader<'_>,
+    model: Model,
+) -> Vec<Option<Material>> {
+    let file = checker.file;
+    if file.fabric.is_empty() {
+        let help = "add [fabric.NAME] with file = \"…\", a fabric.toml or a sheet.toml";
+        checker.fail_file("the scene has no fabric", help);
+    }
+    let read = |(name, entry): (&String, &crate::file::FabricFile)| {
+        let path = checker.folder.join(&entry.file);
+        let (file, fabric) = if let Some(document) = checker.given(&path) {
+            (path, Fabric::from_document(document))
+        } else if path.exists() {
+            let file = if path.is_dir() { path.join("sheet.toml") } else { path };
+            let fabric = reader(FabricRequest { file: &file, model });
+            (file, fabric)
+        } else {
+            let message = format!("there is no file {}", path.display());
+            let help = "the path is relative to the scene's folder";
+            checker.fail(&format!("fabric.{name}.file"), message, help);
+            return None;
+        };
+        let fabric = fabric.map_err(|mistakes| checker.extend(mistakes)).ok()?;
+        Some(Material { name: name.clone(), file, fabric })
+    };
+    file.fabric.iter().map(read).collect()
+}
+
+/// Returns the number of the fabric of a name.
+pub(crate) fn material_index(checker: &mut Checker<'_>, key: &str, name: &str) -> Option<usize> {
+    let known: Vec<&str> = checker.file.fabric.keys().map(String::as_str).collect();
+    let material = known.iter().position(|own| *own == name);
+    if material.is_none() {
+        let message = format!("there is no fabric \"{name}\"");
+        let unknown = UnknownName { name, known: &known, kind: "fabrics of this scene" };
+        checker.unknown(key, message, unknown);
+    }
+    material
+}
+
+/// Checks that the particles of a panel are farther apart than its fabric is thick.
+pub(crate) fn check_thickness(
+    checker: &mut Checker<'_>,
+    key: &str,
+    lattice: &Lattice,
+    material: &Material,
+) {
+    let spacing = lattice.spacing[0].min(lattice.spacing[1]);
+    let thickness = material.fabric.thickness;
+    if spacing < thickness {
+        let message = format!(
+            "the spacing of {spacing} m is less than the thickness {thickness} m of fabric \"{}\"",
+            material.name
+        );
+        checker.fail(&format!("{key}.spacing"), message, "use a larger spacing");
+    }
+}

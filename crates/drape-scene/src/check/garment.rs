@@ -1,0 +1,179 @@
+//! Garments of a scene: patterns that are cut at the spacing, with each panel at its place.
+
+mod allowances;
+pub(crate) mod cost;
+pub(crate) mod distance;
+mod lattice;
+mod layer;
+mod placed_panel;
+pub(crate) mod sewing;
+
+use std::ops::Range;
+use std::path::Path;
+
+use drape_cloth::Tie;
+use drape_input::{Diagnostic, Diagnostics};
+use drape_pattern::{CutPattern, Cutter, Error, NodeId, Pattern};
+
+use crate::check::checker::{Checker, UnknownName};
+use crate::check::fabrics::check_thickness;
+use crate::check::panel::noise::noise;
+use crate::check::panel::{PlacedPanel, SPACING};
+use crate::file::garment::GarmentFile;
+use crate::scene::material::Material;
+use crate::scene::seam::{Seam, SeamPairs};
+
+use self::lattice::node_numbers;
+use self::layer::layer;
+use self::placed_panel::{Piece, placed_panel};
+
+/// Garment as its panels and its seams.
+pub(crate) struct CutGarment {
+    /// Its own name, or else that of the file of its pattern.
+    pub(crate) name: String,
+    pub(crate) panels: Vec<PlacedPanel>,
+    pub(crate) seams: Vec<Seam>,
+    /// Notes on its pattern.
+    pub(crate) notes: Vec<String>,
+}
+
+impl CutGarment {
+    /// Its particles in the scene, if it has some.
+    pub(crate) fn particles(&self) -> Option<Range<usize>> {
+        let [first, last] = [self.panels.first()?, self.panels.last()?];
+        Some(first.panel.first..last.panel.first + last.positions.len() / 3)
+    }
+}
+
+/// Checks the garments of a scene, whose particles are numbered from `first` on.
+pub(crate) fn garments(
+    checker: &mut Checker<'_>,
+    materials: &[Option<Material>],
+    first: usize,
+) -> Vec<CutGarment> {
+    let file = checker.file;
+    let mut first = first;
+    let mut garments = Vec::new();
+    for (index, entry) in file.garment.iter().enumerate() {
+        let key = format!("garment[{index}]");
+        let path = checker.folder.join(&entry.pattern);
+        let Some(pattern) = pattern(checker, &key, &path) else { continue };
+        let Some(garment) = cut(checker, &key, entry, Numbered { pattern: &pattern, first }) else {
+            continue;
+        };
+        for placed in &garment.panels {
+            if let Some(Some(material)) = materials.get(placed.panel.material) {
+                check_thickness(checker, &key, &placed.panel.lattice, material);
+            }
+        }
+        first += garment.panels.iter().map(|own| own.positions.len() / 3).sum::<usize>();
+        garments.push(garment);
+    }
+    garments
+}
+
+/// Reads the pattern of a garment.
+fn pattern(checker: &mut Checker<'_>, key: &str, path: &Path) -> Option<Pattern> {
+    let given = checker.given(path);
+    if given.is_none() && !path.exists() {
+        let message = format!("there is no file {}", path.display());
+        let help = "the path is relative to the scene's folder";
+        checker.fail(&format!("{key}.pattern"), message, help);
+        return None;
+    }
+    let read = match given {
+        Some(document) => Pattern::parse(document).map_err(Error::from),
+        None => Pattern::read(path),
+    };
+    match read {
+        Ok(pattern) => Some(pattern),
+        Err(Error::Input(mistakes)) => {
+            checker.extend(mistakes);
+            None
+        }
+        Err(error) => {
+            checker.extend(Diagnostics::from(Diagnostic::new(path, error.to_string())));
+            None
+        }
+    }
+}
+
+/// Pattern whose particles are numbered from a number on.
+struct Numbered<'a> {
+    pattern: &'a Pattern,
+    first: usize,
+}
+
+/// Cuts a pattern at the spacing of a garment and puts each panel at its place.
+fn cut(
+    checker: &mut Checker<'_>,
+    key: &str,
+    entry: &GarmentFile,
+    numbered: Numbered<'_>,
+) -> Option<CutGarment> {
+    let Numbered { pattern, first } = numbered;
+    let unit = checker.unit;
+    let known: Vec<&str> = pattern.panels().iter().map(drape_pattern::Panel::name).collect();
+    for name in entry.panel.keys().filter(|name| !known.contains(&name.as_str())) {
+        let message = format!("the pattern has no panel \"{name}\"");
+        let unknown = UnknownName { name, known: &known, kind: "panels of the pattern" };
+        checker.unknown(&format!("{key}.panel.{name}"), message, unknown);
+    }
+    let spacing = entry.spacing.or(checker.file.spacing).map_or(SPACING, |s| s * unit);
+    let cut = pieces(checker, key, Cutter::new(spacing).cut(pattern))?;
+    let layer = layer(checker, &format!("{key}.layer"), entry.layer).unwrap_or(0);
+    let mut noise = noise(checker, &format!("{key}.noise"), entry.noise.as_ref());
+    let (mut panels, mut pieces, mut next) = (Vec::new(), Vec::new(), first);
+    for (index, own) in cut.panels.iter().enumerate() {
+        let numbers = node_numbers(own);
+        let piece = Piece { key, entry, pattern, cut: &cut, index, numbers: &numbers, first: next };
+        panels.extend(placed_panel(checker, &piece, layer, &mut noise));
+        pieces.push((next, numbers));
+        next += own.positions.len();
+    }
+    let node = |id: NodeId| {
+        let (first, numbers) = &pieces[id.panel];
+        *first as u32 + numbers[id.node as usize]
+    };
+    let seams = pattern.seams().iter().zip(&cut.seams).map(|(seam, nodes)| {
+        let tie = |tie: &drape_pattern::Tie| Tie {
+            particle: node(tie.node),
+            ends: nodes.ends(tie).map(node),
+            fraction: tie.fraction,
+        };
+        let pairs = nodes.pairs.iter().map(|pair| pair.map(node)).collect();
+        let pairs = SeamPairs { pairs, ties: nodes.ties.iter().map(tie).collect() };
+        Seam { name: seam.name.clone(), rest_angle: seam.angle, pairs }
+    });
+    let notes = pattern.notes().iter().chain(&cut.notes).map(ToString::to_string).collect();
+    let name = match &entry.name {
+        Some(name) => name.clone(),
+        None => {
+            let name = Path::new(&entry.pattern).file_stem().unwrap_or_default();
+            name.to_string_lossy().into_owned()
+        }
+    };
+    let whole = panels.len() == known.len();
+    whole.then(|| CutGarment { name, panels, seams: seams.collect(), notes })
+}
+
+/// Takes the cut of a pattern, or its mistakes.
+fn pieces(
+    checker: &mut Checker<'_>,
+    key: &str,
+    cut: Result<CutPattern, Error>,
+) -> Option<CutPattern> {
+    let key = format!("{key}.pattern");
+    match cut {
+        Ok(cut) => return Some(cut),
+        Err(Error::Pattern(mistakes)) => {
+            for mistake in mistakes {
+                checker.fail(&key, mistake.to_string(), &mistake.help());
+            }
+        }
+        Err(error) => {
+            checker.fail(&key, error.to_string(), "correct the pattern");
+        }
+    }
+    None
+}

@@ -1,0 +1,42 @@
+//! Lattices of cut panels.
+
+use drape_cloth::{Grain, Lattice, Mesh};
+use drape_pattern::Cut;
+
+use crate::check::garment::allowances::AllowanceLine;
+
+/// Returns the number of each node of a cut in its lattice: those of the grid come first, row by row, then those of the
+/// outline.
+pub(crate) fn node_numbers(cut: &Cut) -> Vec<u32> {
+    let inner = cut.lattice.iter().flatten().count() as u32;
+    let (mut grid, mut outline) = (0..inner, inner..);
+    let number = |place: &Option<[u32; 2]>| match place {
+        Some(_) => grid.next(),
+        None => outline.next(),
+    };
+    cut.lattice.iter().map(number).map(Option::unwrap_or_default).collect()
+}
+
+/// Makes the lattice of a cut, with the numbers of its nodes, an angle of its grain, in rad, and allowances.
+pub(crate) fn lattice(
+    cut: &Cut,
+    numbers: &[u32],
+    grain: f64,
+    allowances: &[AllowanceLine],
+) -> Result<Lattice, drape_cloth::Error> {
+    let mut coordinates = vec![[0.0; 2]; numbers.len()];
+    let mut grid = vec![None; numbers.len()];
+    for (node, &own) in numbers.iter().enumerate() {
+        coordinates[own as usize] = cut.yarns[node];
+        grid[own as usize] = cut.lattice[node];
+    }
+    let mesh = Mesh {
+        spacing: cut.spacing,
+        coordinates,
+        grid: grid.into_iter().flatten().collect(),
+        cells: cut.quads.iter().map(|quad| quad.map(|node| numbers[node as usize])).collect(),
+        triangles: cut.triangles.iter().map(|t| t.map(|node| numbers[node as usize])).collect(),
+    };
+    let allowances: Vec<_> = allowances.iter().map(|own| own.numbered(numbers)).collect();
+    Lattice::from_mesh(mesh, Grain::from_degrees(grain.to_degrees()))?.with_allowances(&allowances)
+}

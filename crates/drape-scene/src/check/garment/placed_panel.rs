@@ -1,0 +1,124 @@
+//! Panels of a cut pattern at their places.
+
+use drape_pattern::{CutPattern, Pattern, Placement};
+
+use crate::check::checker::Checker;
+use crate::check::fabrics::material_index;
+use crate::check::garment::allowances::allowances;
+use crate::check::garment::lattice::lattice;
+use crate::check::garment::layer::{layer, worn_at};
+use crate::check::panel::PlacedPanel;
+use crate::check::panel::folds::{FoldLine, UnfoldedPanel, folded};
+use crate::check::panel::noise::Noise;
+use crate::file::garment::{GarmentFile, GarmentPanelFile};
+use crate::scene::panel::{Panel, PanelEdge};
+
+/// Panel of a cut pattern, and the garment that it is of.
+pub(crate) struct Piece<'a> {
+    /// Key of the garment.
+    pub(crate) key: &'a str,
+    pub(crate) entry: &'a GarmentFile,
+    pub(crate) pattern: &'a Pattern,
+    pub(crate) cut: &'a CutPattern,
+    /// Index of the panel.
+    pub(crate) index: usize,
+    /// Number of each of its nodes in its lattice.
+    pub(crate) numbers: &'a [u32],
+    /// Number of its first particle in the scene.
+    pub(crate) first: usize,
+}
+
+impl<'a> Piece<'a> {
+    fn panel(&self) -> &'a drape_pattern::Panel {
+        &self.pattern.panels()[self.index]
+    }
+
+    /// Keys of the panel in the scene.
+    fn own(&self) -> Option<&'a GarmentPanelFile> {
+        self.entry.panel.get(self.panel().name())
+    }
+}
+
+/// Makes a panel of a garment of some layer.
+pub(crate) fn placed_panel(
+    checker: &mut Checker<'_>,
+    piece: &Piece<'_>,
+    layer_of_garment: u32,
+    noise: &mut Option<Noise>,
+) -> Option<PlacedPanel> {
+    let &Piece { key, entry, pattern, cut, index, numbers, first } = piece;
+    let (panel, own) = (piece.panel(), piece.own());
+    let allowances = allowances(pattern, cut, index);
+    let cut = &cut.panels[index];
+    let placement = placement(checker, piece);
+    let layer_key = format!("{key}.panel.{}.layer", panel.name());
+    let layer = layer(checker, &layer_key, own.and_then(|own| own.layer));
+    let layer = layer.unwrap_or(layer_of_garment);
+    let (fabric_key, fabric) = match own.and_then(|own| own.fabric.as_ref()) {
+        Some(fabric) => (format!("{key}.panel.{}.fabric", panel.name()), fabric),
+        None => (format!("{key}.fabric"), &entry.fabric),
+    };
+    let material = material_index(checker, &fabric_key, fabric);
+    let lattice = lattice(cut, numbers, panel.grain(), &allowances).map_err(|error| {
+        let message = format!("panel \"{}\": {error}", panel.name());
+        let help = "choose another spacing, and report the pattern";
+        checker.fail(&format!("{key}.pattern"), message, help);
+    });
+    let lines = panel.folds().iter().map(|fold| FoldLine { ends: fold.ends, angle: fold.angle });
+    let unfolded = UnfoldedPanel { lattice: lattice.ok()?, lines };
+    let lattice = folded(checker, key, panel.name(), unfolded)?;
+    let (placement, material) = (worn_at(placement?, layer), material?);
+    let mut positions = vec![0.0; 3 * cut.positions.len()];
+    for (&node, &place) in numbers.iter().zip(&cut.positions) {
+        let height = noise.as_mut().map_or(0.0, |noise| noise.height(place));
+        let point = placement.point(place);
+        for axis in 0..3 {
+            positions[3 * node as usize + axis] =
+                point[axis] + height * placement.rotation[axis][2];
+        }
+    }
+    let edges = panel.outline().iter().zip(&cut.edges).map(|(edge, nodes)| PanelEdge {
+        name: edge.name.clone(),
+        nodes: nodes.iter().map(|&node| numbers[node as usize]).collect(),
+    });
+    let edges = edges.collect();
+    let name = match &entry.name {
+        Some(garment) => format!("{garment}.{}", panel.name()),
+        None => panel.name().to_owned(),
+    };
+    let panel = Panel { name, material, lattice, first, edges, layer };
+    let velocities = vec![0.0; positions.len()];
+    Some(PlacedPanel { panel, positions, velocities })
+}
+
+/// Checks the placement of a panel: that of the scene, or else of the pattern; shifted with the garment.
+fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> {
+    let &Piece { key, entry, .. } = piece;
+    let (unit, own) = (checker.unit, piece.own());
+    let written = own.filter(|own| own.center.is_some() || own.turn.is_some());
+    let mut placement = match (written, piece.panel().placement()) {
+        (Some(own), _) => {
+            let center = own.center.unwrap_or_default().map(|x| x * unit);
+            Placement::new(own.turn.unwrap_or_default().map(f64::to_radians), center)
+        }
+        (None, Some(given)) => *given,
+        (None, None) => {
+            let name = piece.panel().name();
+            let help = format!(
+                "add center = [x, y, z] and turn = [x, y, z] to [garment.panel.{name}], or origin and turn to the pattern"
+            );
+            checker.fail(key, format!("panel \"{name}\" has no place in space"), &help);
+            return None;
+        }
+    };
+    if let Some(radius) = own.and_then(|own| own.wrap) {
+        placement.wrap = Some(radius * unit);
+    }
+    let numbers =
+        placement.rotation.iter().flatten().chain(&placement.translation).chain(&placement.wrap);
+    if numbers.chain(&entry.center).any(|x| !x.is_finite()) {
+        checker.fail(&format!("{key}.center"), "is not finite", "in the file's unit");
+    }
+    (0..3).for_each(|axis| placement.translation[axis] += entry.center[axis] * unit);
+    Some(placement)
+}

@@ -1,0 +1,66 @@
+//! Sewing of garments.
+
+use drape_cloth::{Cloth, Lattice, SeamBending};
+use drape_fabric::Fabric;
+
+use crate::check::checker::Checker;
+use crate::scene::garment::Sewing;
+use crate::scene::seam::{Seam, SeamPairs};
+
+/// Time until the seams are to be closed when the scene does not say, in s.
+const SECONDS: f64 = 1.0;
+
+/// Checks the sewing of seams between panels, if there are seams.
+pub(crate) fn sewing(
+    checker: &mut Checker<'_>,
+    seams: Vec<Seam>,
+    panels: &[(&Lattice, &Fabric)],
+) -> Option<Sewing> {
+    let file = checker.file;
+    let seconds = file.sew.seconds.unwrap_or(SECONDS);
+    checker.within("sew.seconds", seconds, 1e-3..=1e3, "in s; 1 is usual");
+    if seams.is_empty() {
+        if file.sew.seconds.is_some() || file.sew.stiffness.is_some() {
+            let help = "seams are in the pattern of a [[garment]]";
+            checker.fail("sew", "nothing is sewn", help);
+        }
+        return None;
+    }
+    let explicit = file.solver.integrator.as_deref() == Some("explicit");
+    for (wrong, key, word) in [
+        (explicit, "solver.integrator", "explicit"),
+        (file.model.as_deref() == Some("breen-1994"), "model", "breen-1994"),
+    ] {
+        if wrong {
+            let message = format!("\"{word}\" cannot sew");
+            checker.fail(key, message, "leave it out in a scene with seams");
+        }
+    }
+    let stiffness = file.sew.stiffness.unwrap_or(drape_cloth::Seam::STIFFNESS);
+    let help = "how many times as stiff as the fabric a seam is; 3 is usual";
+    checker.within("sew.stiffness", stiffness, 0.0..=1e3, help);
+    let bending = |seam: &Seam| drape_cloth::Seam {
+        stiffness,
+        rest_angle: seam.rest_angle,
+        ties: seam.pairs.ties.clone(),
+        ..drape_cloth::Seam::new(seam.pairs.pairs.clone())
+    };
+    let bending: Vec<drape_cloth::Seam> = seams.iter().map(bending).collect();
+    let bending = SeamBending::new(panels, &bending).map_err(|error| {
+        let help = "choose another spacing, and report the pattern";
+        checker.fail("garment", error.to_string(), help);
+    });
+    // At the tip of a dart a pair is one particle already.
+    let pairs = seams.iter().flat_map(|seam| &seam.pairs.pairs).filter(|[a, b]| a != b);
+    let ties = seams.iter().flat_map(|seam| &seam.pairs.ties);
+    let pairs = SeamPairs { pairs: pairs.copied().collect(), ties: ties.copied().collect() };
+    let cloth = frictionless_cloth(panels);
+    Some(Sewing { seams, pairs, cloth, seconds, bending: bending.ok()? })
+}
+
+/// Makes a cloth whose laws have no friction: it keeps the account of its strains and of nothing else.
+pub(crate) fn frictionless_cloth(panels: &[(&Lattice, &Fabric)]) -> Cloth {
+    let fabrics: Vec<Fabric> = panels.iter().map(|(_, fabric)| fabric.without_friction()).collect();
+    let lattices = panels.iter().map(|(lattice, _)| *lattice);
+    Cloth::new(&lattices.zip(&fabrics).collect::<Vec<_>>())
+}

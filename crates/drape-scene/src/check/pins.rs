@@ -1,0 +1,163 @@
+//! Pins of a scene.
+
+use drape_input::closest;
+
+use crate::check::checker::Checker;
+use crate::check::motion::rigid_motion;
+use crate::file::pin::PinFile;
+use crate::scene::panel::Panel;
+use crate::scene::pin::{HoldUntil, Pin};
+
+/// Checks the pins of panels whose particles start at some positions, in m.
+pub(crate) fn pins(checker: &mut Checker<'_>, panels: &[Panel], positions: &[f64]) -> Vec<Pin> {
+    let file = checker.file;
+    let mut pins = Vec::new();
+    for (index, entry) in file.pin.iter().enumerate() {
+        pins.extend(pin(checker, index, entry, Placed { panels, positions }));
+    }
+    for (index, entry) in file.pin.iter().enumerate() {
+        // A pin that holds until the cloth has come to rest lets go only where something follows.
+        if entry.until.as_deref() == Some("rest") && file.motion.is_none() {
+            let help = "leave until out, or add [motion] with what follows the rest";
+            checker.fail(&format!("pin[{index}].until"), "the run ends at rest", help);
+        }
+    }
+    pins
+}
+
+/// Panels, and the positions of their particles, in m.
+struct Placed<'a> {
+    panels: &'a [Panel],
+    positions: &'a [f64],
+}
+
+/// Checks a pin.
+fn pin(checker: &mut Checker<'_>, index: usize, pin: &PinFile, placed: Placed<'_>) -> Option<Pin> {
+    let Placed { panels, positions } = placed;
+    let key = format!("pin[{index}]");
+    let names: Vec<&str> = panels.iter().map(|p| p.name.as_str()).collect();
+    let Some(panel) = panels.iter().find(|p| p.name == pin.panel) else {
+        let help = format!("the panels of this scene are: {}", names.join(", "));
+        let message = format!("there is no panel \"{}\"", pin.panel);
+        checker.fail(&format!("{key}.panel"), message, &help);
+        return None;
+    };
+    let mut particles = points(checker, &key, pin, panel);
+    if let Some(edge) = pin.edge.as_deref() {
+        if panel.edges.is_empty() {
+            particles.extend(rows_at_edge(checker, &key, pin, panel));
+        } else {
+            particles.extend(named_edge(checker, &key, edge, panel));
+        }
+    }
+    if pin.points.is_empty() && pin.edge.is_none() {
+        let help = "give points = [[u, v], …] or edge = \"top\"";
+        checker.fail(&key, "the pin holds nothing", help);
+        return None;
+    }
+    if pin.rows.is_some() && pin.edge.is_none() {
+        let help = "rows = 2 belongs to an edge";
+        checker.fail(&format!("{key}.rows"), "there is no edge", help);
+    }
+    particles.sort_unstable();
+    particles.dedup();
+    let place = |&particle: &usize| std::array::from_fn(|axis| positions[3 * particle + axis]);
+    let start: Vec<[f64; 3]> = particles.iter().map(place).collect();
+    let middle = std::array::from_fn(|axis| {
+        start.iter().map(|place| place[axis]).sum::<f64>() / start.len() as f64
+    });
+    let motion = match &pin.motion {
+        Some(motion) => Some(rigid_motion(checker, &format!("{key}.motion"), motion, middle)?),
+        None => None,
+    };
+    let release = pin.release.unwrap_or(f64::INFINITY);
+    if pin.release.is_some() {
+        checker.within(&format!("{key}.release"), release, 0.0..=1e5, "when it lets go, in s");
+    }
+    let choices = [("end", HoldUntil::End), ("sewn", HoldUntil::Sewn), ("rest", HoldUntil::Rest)];
+    let until = checker.choice(&format!("{key}.until"), pin.until.as_deref(), &choices);
+    let axes = axes(checker, &key, pin);
+    Some(Pin { particles, start, motion, release, until, axes })
+}
+
+/// Checks whether a pin holds along x, y and z.
+fn axes(checker: &mut Checker<'_>, key: &str, pin: &PinFile) -> [bool; 3] {
+    let Some(names) = &pin.axes else { return [true; 3] };
+    if names.is_empty() {
+        let help = "axes = [\"y\"] holds up and down; without axes it holds altogether";
+        checker.fail(&format!("{key}.axes"), "it holds in no direction", help);
+    }
+    let mut axes = [false; 3];
+    for (number, name) in names.iter().enumerate() {
+        let key = format!("{key}.axes[{number}]");
+        axes[checker.choice(&key, Some(name.as_str()), &[("x", 0), ("y", 1), ("z", 2)])] = true;
+    }
+    axes
+}
+
+/// Finds the particles of an edge of a garment's panel.
+fn named_edge(checker: &mut Checker<'_>, key: &str, edge: &str, panel: &Panel) -> Vec<usize> {
+    if let Some(found) = panel.edges.iter().find(|own| own.name == edge) {
+        return found.nodes.iter().map(|&node| panel.first + node as usize).collect();
+    }
+    let names: Vec<&str> = panel.edges.iter().map(|own| own.name.as_str()).collect();
+    let help = match closest(edge, names.iter().copied()) {
+        Some(near) => format!("did you mean \"{near}\"? its edges are: {}", names.join(", ")),
+        None => format!("its edges are: {}", names.join(", ")),
+    };
+    let message = format!("panel \"{}\" has no edge \"{edge}\"", panel.name);
+    checker.fail(&format!("{key}.edge"), message, &help);
+    Vec::new()
+}
+
+/// Finds the particles nearest to the points that a pin names, or all within its radius of them.
+fn points(checker: &mut Checker<'_>, key: &str, pin: &PinFile, panel: &Panel) -> Vec<usize> {
+    let unit = checker.unit;
+    let coordinates = panel.lattice.panel_coordinates();
+    let [across, along] = panel.lattice.spacing;
+    let mut particles = Vec::new();
+    for (number, point) in pin.points.iter().enumerate() {
+        let [u, v] = point.map(|x| x * unit);
+        let distance = |c: &[f64; 2]| (c[0] - u).hypot(c[1] - v);
+        let by_distance = |a: &usize, b: &usize| {
+            distance(&coordinates[*a]).total_cmp(&distance(&coordinates[*b]))
+        };
+        let nearest = (0..coordinates.len()).min_by(by_distance);
+        if let Some(radius) = pin.radius {
+            let within = |&place: &usize| distance(&coordinates[place]) <= radius * unit;
+            let before = particles.len();
+            particles.extend((0..coordinates.len()).filter(within).map(|p| panel.first + p));
+            if particles.len() > before {
+                continue;
+            }
+        }
+        match nearest {
+            Some(nearest) if distance(&coordinates[nearest]) <= across.hypot(along) => {
+                particles.push(panel.first + nearest);
+            }
+            _ => {
+                let message = format!("{point:?} is not on panel \"{}\"", panel.name);
+                let help = "places are width × height from the lower left corner of a rectangle, \
+                            from the middle of a disc";
+                checker.fail(&format!("{key}.points[{number}]"), message, help);
+            }
+        }
+    }
+    particles
+}
+
+/// Finds the particles of the outermost rows along an edge: those less than half a spacing farther inside it than the last of
+/// the rows, also where the rows run at an angle to it.
+fn rows_at_edge(checker: &mut Checker<'_>, key: &str, pin: &PinFile, panel: &Panel) -> Vec<usize> {
+    let rows = pin.rows.unwrap_or(1);
+    let edges =
+        [("top", (1, 1.0)), ("bottom", (1, -1.0)), ("left", (0, -1.0)), ("right", (0, 1.0))];
+    let (axis, end) = checker.choice(&format!("{key}.edge"), pin.edge.as_deref(), &edges);
+    let depths = panel.lattice.depths(axis, end);
+    let numbered = depths.iter().enumerate().filter(|(_, depth)| **depth < rows as f64 - 0.5);
+    let particles: Vec<usize> = numbered.map(|(particle, _)| panel.first + particle).collect();
+    if particles.is_empty() {
+        checker.fail(&format!("{key}.rows"), "holds nothing", "rows = 1 or more");
+    }
+    particles
+}

@@ -1,0 +1,49 @@
+//! Model of the cloth, and settings of the solver.
+
+use crate::check::checker::Checker;
+use crate::scene::model::Model;
+use crate::scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
+
+/// Root-mean-square error of the acceleration over g that a step may leave when the scene does not say.
+const TOLERANCE: f64 = 1e-4;
+
+/// Checks the model of the internal forces.
+pub(crate) fn model(checker: &mut Checker<'_>) -> Model {
+    let models = [("kes", Model::Kes), ("breen-1994", Model::Breen1994)];
+    checker.choice("model", checker.file.model.as_deref(), &models)
+}
+
+/// Checks the settings of the solver.
+pub(crate) fn solver(checker: &mut Checker<'_>) -> SolverSettings {
+    let file = checker.file;
+    let solver = &file.solver;
+    let integrators = [
+        ("bdf2", Integrator::Bdf2),
+        ("backward-euler", Integrator::BackwardEuler),
+        ("explicit", Integrator::Explicit),
+    ];
+    let methods = [
+        ("broyden", Method::Broyden),
+        ("newton", Method::Newton),
+        ("textbook-mass", Method::TextbookMass),
+        ("textbook-diagonal", Method::TextbookDiagonal),
+    ];
+    let linear = [
+        ("conjugate-gradient", LinearSolver::ConjugateGradient),
+        ("cholesky", LinearSolver::Cholesky),
+    ];
+    let word = solver.integrator.as_deref();
+    let integrator = checker.choice("solver.integrator", word, &integrators);
+    let method = checker.choice("solver.method", solver.method.as_deref(), &methods);
+    let linear_solver = checker.choice("solver.linear", solver.linear.as_deref(), &linear);
+    let tolerance = solver.tolerance.unwrap_or(TOLERANCE);
+    let help = "rms acceleration error over g; 1e-4 is usual";
+    checker.within("solver.tolerance", tolerance, 1e-10..=0.1, help);
+    let varies = file.settle.is_some() || file.time.error.is_some();
+    if integrator == Integrator::Explicit && varies {
+        let help = "leave out [settle] and time.error, or take \"bdf2\"";
+        checker.fail("solver.integrator", "explicit steps are of one length", help);
+    }
+    let energy_balance = file.output.energy.unwrap_or(true);
+    SolverSettings { integrator, method, linear_solver, tolerance, energy_balance }
+}

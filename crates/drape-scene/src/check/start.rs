@@ -1,0 +1,74 @@
+//! Start of a scene: whether its cloth is outside of its bodies, its surfaces apart, its layers in order.
+
+mod layers;
+mod tangle;
+
+use drape_collide::{ParticleContact, SurfaceContact};
+use drape_input::Diagnostics;
+
+use crate::check::checker::Checker;
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::surfaces::StartSurfaces;
+use crate::tangle::Tangle;
+
+use self::layers::check_layers;
+use self::tangle::{Tangled, check_tangle};
+
+/// Checks the start of a scene that has no other mistakes, and returns the scene with notes on its layers.
+pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result<Scene, Error> {
+    let surfaces = scene.contact.surfaces.then(|| StartSurfaces::new(&scene)).transpose();
+    let mut surfaces = surfaces.map_err(|error| mistake(checker, "contact.surfaces", &error))?;
+    let tangle = surfaces.as_mut().and_then(|surfaces| check_tangle(checker, surfaces, &scene));
+    let particles = scene.particle_contact();
+    let particles = particles.map_err(|error| mistake(checker, "collider", &error))?;
+    match (&surfaces, scene.contact.inflation) {
+        (Some(surfaces), Some(_)) => check_panels_outside(checker, &surfaces.contact, &scene),
+        _ => check_particles_outside(checker, &particles, &scene),
+    }
+    if tangle.is_none() {
+        let notes = check_layers(checker, &scene);
+        scene.source.notes.extend(notes);
+    }
+    let Err(mistakes) = checker.finish() else { return Ok(scene) };
+    Err(match tangle {
+        Some(Tangled { overlaps, mistake }) => Error::Tangled(Box::new(Tangle {
+            mistakes,
+            mistake,
+            folder: scene.output.folder,
+            overlaps: overlaps.first,
+            total: overlaps.total,
+        })),
+        None => Error::Input(mistakes),
+    })
+}
+
+/// Mistake of a scene of which no contact can be made.
+fn mistake(checker: &Checker<'_>, key: &str, error: &drape_collide::Error) -> Diagnostics {
+    checker.document().at(key, error.to_string()).into()
+}
+
+/// Checks that no particle starts inside a body.
+fn check_particles_outside(checker: &mut Checker<'_>, contact: &ParticleContact, scene: &Scene) {
+    let summary = contact.summary(&scene.start.positions);
+    if summary.inside > 0 {
+        let body = summary.nearest.map_or("", |nearest| &contact.bodies()[nearest.body].name);
+        let message = format!(
+            "{} particles start inside a body (deepest {:.4} m, in {body})",
+            summary.inside, -summary.min_distance
+        );
+        let help = "move or turn the panel so that it starts outside, or let bodies grow with contact.inflate";
+        checker.fail("panel", message, help);
+    }
+}
+
+/// Checks that no panel starts inside a body. Of panels that cross no body, one particle tells.
+fn check_panels_outside(checker: &mut Checker<'_>, contact: &SurfaceContact, scene: &Scene) {
+    for panel in &scene.panels {
+        if contact.is_inside_body(panel.first, &scene.start.positions) {
+            let message = format!("all of \"{}\" starts inside a body", panel.name);
+            let help = "move or turn the panel so that it starts outside";
+            checker.fail("panel", message, help);
+        }
+    }
+}

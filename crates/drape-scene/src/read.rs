@@ -1,0 +1,42 @@
+//! Reading of scenes, from files or from memory.
+
+use std::path::Path;
+
+use drape_input::Document;
+
+use crate::check::{Documents, check};
+use crate::error::Error;
+use crate::file::SceneFile;
+use crate::scene::Scene;
+use crate::scene::material::{FabricReader, read_fabric};
+
+impl Scene {
+    /// Reads a scene and everything it names. Its fabrics are in files of fabrics.
+    ///
+    /// # Errors
+    /// All mistakes that could be found, each with file, line, value and remedy; with them the triangles that cross at
+    /// the start, if some do.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        Self::read_with(path, &read_fabric)
+    }
+
+    /// Reads a scene and everything it names, with a function that makes its fabrics, of files of any kind.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn read_with(path: impl AsRef<Path>, fabrics: FabricReader<'_>) -> Result<Self, Error> {
+        let scene = &Document::read(path)?;
+        let file: SceneFile = scene.decode()?;
+        check(&Documents { scene, others: &[], fabrics }, file)
+    }
+
+    /// Makes a scene of a document in memory. A fabric or a pattern whose path, seen from the scene's folder, is that of one of
+    /// the other documents is taken from there.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn from_documents(scene: &Document, others: &[Document]) -> Result<Self, Error> {
+        let file: SceneFile = scene.decode()?;
+        check(&Documents { scene, others, fabrics: &read_fabric }, file)
+    }
+}

@@ -1,0 +1,69 @@
+//! Pins: particles that are held, or led along a motion.
+
+use crate::scene::motion::RigidMotion;
+
+/// Pin of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pin {
+    /// Particles that it holds.
+    pub particles: Vec<usize>,
+    /// Their positions at the start, in m.
+    pub start: Vec<[f64; 3]>,
+    /// Their motion; none if they stay.
+    pub motion: Option<RigidMotion>,
+    /// Time at which it lets go, in s; infinite if it never does.
+    pub release: f64,
+    /// Event at which it lets go.
+    pub until: HoldUntil,
+    /// Whether it holds along x, y and z.
+    pub axes: [bool; 3],
+}
+
+/// Event at which a pin lets go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HoldUntil {
+    /// The garment is sewn.
+    Sewn,
+    /// The cloth has come to rest, and bodies begin to move.
+    Rest,
+    /// The run ends.
+    End,
+}
+
+impl Pin {
+    /// Returns whether it holds its particles in a step that ends at a time, in s.
+    #[must_use]
+    pub fn holds(&self, end_time: f64) -> bool {
+        end_time <= self.release
+    }
+
+    /// Returns whether its particles are held in all directions; they are attached by springs otherwise.
+    #[must_use]
+    pub fn holds_all_axes(&self) -> bool {
+        self.axes == [true; 3]
+    }
+
+    /// Sets the time of its release, in s, if it is to hold until an event.
+    pub fn release_at(&mut self, event: HoldUntil, time: f64) {
+        if self.until == event {
+            self.release = time;
+        }
+    }
+
+    /// Returns its particles with their positions at a time on the clock of motions, in s.
+    pub fn positions(&self, time: f64) -> impl Iterator<Item = (usize, [f64; 3])> {
+        let moved = self.motion.as_ref().map(|motion| motion.transform(time));
+        let place = move |&start: &[f64; 3]| moved.as_ref().map_or(start, |moved| moved(start));
+        self.particles.iter().copied().zip(self.start.iter().map(place))
+    }
+
+    /// Writes the positions of its particles at a time on the clock of motions, in s, into the flat array of all
+    /// positions. A pin without a motion leaves them as they are.
+    pub fn write_positions(&self, time: f64, positions: &mut [f64]) {
+        if self.motion.is_some() {
+            for (particle, place) in self.positions(time) {
+                positions[3 * particle..3 * particle + 3].copy_from_slice(&place);
+            }
+        }
+    }
+}

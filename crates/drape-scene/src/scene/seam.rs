@@ -1,0 +1,91 @@
+//! Seams: pairs of particles that become one, and particles that are tied between two others.
+
+use drape_cloth::Tie;
+
+/// Line along which two edges are sewn together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seam {
+    /// Name in the pattern.
+    pub name: String,
+    /// Particles of both sides, in the order in which it runs; those of a pair are one at the tip of a dart.
+    pub pairs: SeamPairs,
+    /// Angle by which its sides are turned towards their right sides at rest, in rad.
+    pub rest_angle: f64,
+}
+
+/// Particles that seams hold together.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SeamPairs {
+    /// Pairs that become one.
+    pub pairs: Vec<[u32; 2]>,
+    /// Particles that then lie between two others: those of the longer side of a gather.
+    pub ties: Vec<Tie>,
+}
+
+/// Constraint of a seam pair or a tie: a weighted sum of positions, the gap, is to vanish.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeamConstraint {
+    /// Particles with their weights, which sum up to zero.
+    pub weights: Vec<SeamWeight>,
+}
+
+/// Weight of a particle in a constraint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SeamWeight {
+    /// Particle.
+    pub particle: u32,
+    /// Weight.
+    pub weight: f64,
+}
+
+impl SeamPairs {
+    /// Returns whether there are neither pairs nor ties.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.pairs.is_empty() && self.ties.is_empty()
+    }
+
+    /// Returns the constraints, those of the pairs first.
+    pub fn constraints(&self) -> impl Iterator<Item = SeamConstraint> {
+        let own = |weights: &[(u32, f64)]| {
+            let weight = |&(particle, weight)| SeamWeight { particle, weight };
+            SeamConstraint { weights: weights.iter().map(weight).collect() }
+        };
+        let pairs = self.pairs.iter().map(move |&[a, b]| own(&[(a, 1.0), (b, -1.0)]));
+        let ties = self.ties.iter().map(move |&Tie { particle, ends: [a, b], fraction }| {
+            own(&[(particle, 1.0), (a, fraction - 1.0), (b, -fraction)])
+        });
+        pairs.chain(ties)
+    }
+
+    /// Returns the tied particles, each with the two that it lies between.
+    #[must_use]
+    pub fn tied_triples(&self) -> Vec<[u32; 3]> {
+        self.ties.iter().map(|&Tie { particle, ends: [a, b], .. }| [particle, a, b]).collect()
+    }
+
+    /// Returns the widths of the gaps at positions of all particles, in m, one for each constraint.
+    pub fn gaps(&self, positions: &[f64]) -> impl Iterator<Item = f64> {
+        self.constraints().map(|constraint| constraint.width(positions))
+    }
+}
+
+impl SeamConstraint {
+    /// Returns the gap at positions of all particles, in m.
+    #[must_use]
+    pub fn gap(&self, positions: &[f64]) -> [f64; 3] {
+        let mut gap = [0.0; 3];
+        for &SeamWeight { particle, weight } in &self.weights {
+            for (axis, gap) in gap.iter_mut().enumerate() {
+                *gap += weight * positions[3 * particle as usize + axis];
+            }
+        }
+        gap
+    }
+
+    /// Returns the width of the gap at positions of all particles, in m.
+    #[must_use]
+    pub fn width(&self, positions: &[f64]) -> f64 {
+        self.gap(positions).iter().map(|x| x * x).sum::<f64>().sqrt()
+    }
+}

@@ -1,0 +1,52 @@
+//! Settings of the solver that a scene asks for.
+
+/// Settings of the solver that a scene asks for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolverSettings {
+    /// Formula of a step.
+    pub integrator: Integrator,
+    /// Iteration that solves the equations of an implicit step.
+    pub method: Method,
+    /// Solver of the linear systems of that iteration.
+    pub linear_solver: LinearSolver,
+    /// Root-mean-square error of the acceleration that a step may leave, over g.
+    pub tolerance: f64,
+    /// Whether the balance of the energy is kept.
+    pub energy_balance: bool,
+}
+
+/// Formula of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Integrator {
+    /// Backward differences of second order.
+    #[default]
+    Bdf2,
+    /// Backward Euler, of first order.
+    BackwardEuler,
+    /// Many small explicit steps in each: a cross-check, not a way to get results.
+    Explicit,
+}
+
+/// Iteration that solves the equations of an implicit step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Broyden's quasi-Newton method, begun with the system matrix.
+    #[default]
+    Broyden,
+    /// Newton's method.
+    Newton,
+    /// Broyden's method begun with the masses.
+    TextbookMass,
+    /// Broyden's method begun with the diagonal of the system matrix.
+    TextbookDiagonal,
+}
+
+/// Solver of the linear systems.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LinearSolver {
+    /// Preconditioned conjugate gradients.
+    #[default]
+    ConjugateGradient,
+    /// Sparse Cholesky factorisation.
+    Cholesky,
+}
