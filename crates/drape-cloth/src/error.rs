@@ -1,8 +1,10 @@
-/// Why a cloth cannot be made.
+//! Errors of panels, seams and states: what does not fit, with the values.
+
+/// Reason why a cloth, or a part of it, cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A length that must be greater than 0 is not.
+    /// Length that must be greater than 0 and is not.
     #[error("{what} is {value} m; it must be greater than 0")]
     Length {
         /// Name of the length.
@@ -10,7 +12,7 @@ pub enum Error {
         /// Its value, in m.
         value: f64,
     },
-    /// The particles are too far apart for the panel.
+    /// Spacing of the particles that is too large for the panel.
     #[error(
         "a spacing of {spacing} m leaves fewer than 3 particles across {size} m; use {} m or less",
         size / 2.0
@@ -21,61 +23,61 @@ pub enum Error {
         /// Smallest size of the panel, in m.
         size: f64,
     },
-    /// More particles than the indices can count.
+    /// Number of particles beyond the range of the indices.
     #[error("a spacing of {spacing} m makes {particles:.3e} particles, more than {limit:.0e}")]
     TooMany {
         /// Distance between particles, in m.
         spacing: f64,
-        /// Particles it makes.
+        /// Number of particles with this spacing.
         particles: f64,
         /// Largest number of particles.
         limit: f64,
     },
-    /// The parts of a panel that was cut elsewhere do not fit together.
+    /// Inconsistent part of a panel that was cut elsewhere.
     #[error("{part} {index} of the panel {what}")]
     Mesh {
-        /// What kind of part: node, cell or triangle.
+        /// Kind of part: node, cell or triangle.
         part: &'static str,
-        /// Which of them, counted from 0.
+        /// Index of the part, counted from 0.
         index: usize,
-        /// What is wrong with it.
+        /// Problem with the part.
         what: &'static str,
     },
-    /// A seam does not fit the panels.
+    /// Seam that does not fit the panels.
     #[error("seam {seam}, pair {pair}: {what}")]
     Seam {
-        /// Which seam, counted from 0.
+        /// Index of the seam, counted from 0.
         seam: usize,
-        /// Which of its pairs, counted from 0.
+        /// Index of the pair, counted from 0.
         pair: usize,
-        /// What is wrong with it.
+        /// Problem with the pair.
         what: &'static str,
     },
-    /// An allowance has no width.
+    /// Width of an allowance that is negative or not finite.
     #[error("an allowance is {width} m wide; give 0 or more")]
     Width {
         /// The width, in m.
         width: f64,
     },
-    /// A fold does not fit its panel.
+    /// Fold that does not fit its panel.
     #[error("fold {fold} {what}")]
     Fold {
-        /// Which fold of the panel, counted from 0.
+        /// Index of the fold of the panel, counted from 0.
         fold: usize,
-        /// What is wrong with it.
+        /// Problem with the fold.
         what: &'static str,
     },
-    /// The model knows no panels with a rim of triangles.
+    /// Panel with a rim of triangles in a model that has none.
     #[error(
-        "the model of Breen, House & Wozny knows no rims: cut the panel as a rectangle or a disc"
+        "the model of Breen, House & Wozny has no rims: cut the panel as a rectangle or a disc"
     )]
     Rim,
-    /// The positions given do not fit the cloth.
+    /// Number of coordinates that does not fit the cloth.
     #[error("{found} numbers were given for the positions of {particles} particles; give 3 each")]
     Positions {
-        /// How many numbers were given.
+        /// Number of coordinates given.
         found: usize,
-        /// How many particles the cloth has.
+        /// Number of particles of the cloth.
         particles: usize,
     },
 }

@@ -7,29 +7,30 @@
 //!  (Lattice)  (arrays)   (one strip)    (Cloth, Workspace)  reference: what the kernels are held to
 //! ```
 //!
-//! `Cloth::new` goes from left to right once; a solver calls [`Workspace`] at every trial and
-//! [`Cloth::commit`] once per accepted step. `measure` holds the formulas that all share. Each module
-//! uses those above it in the list below, never those beneath.
+//! [`Cloth::new`] goes from left to right once; a solver calls [`Workspace`] at every trial and
+//! [`Workspace::commit`] once per accepted step. `measure` holds the formulas that all share.
+//!
+//! The modules are listed in layers: a module uses those of its own and of earlier layers.
 
-// What a cloth is made of.
+// Panels before deformation, and the measures of connectors.
 mod error;
 mod measure;
 mod panel;
 
-// Connectors in arrays, and the kernels on them.
+// Connectors in arrays, the kernels on them, and their memories.
 mod kernel;
 mod layout;
 mod rim;
+mod state;
 
 // Connectors in scalar form: seams, the model of Breen, the reference.
 mod breen;
 mod reference;
 mod seam;
 
-// The cloth, its state, and their evaluation.
+// The cloth and its evaluation.
 mod cloth;
 mod evaluate;
-mod state;
 
 pub use breen::particles::Breen;
 pub use cloth::{Areas, Cloth, Strains};

@@ -2,7 +2,7 @@
 
 use drape_cloth::{Error, Grain, Lattice};
 
-/// Rectangles at many angles, sizes and places of the grid, with what they are.
+/// Rectangles at many angles, sizes and offsets of the grid, with a description.
 fn rectangles() -> Vec<(String, [f64; 2], Lattice)> {
     let mut rectangles = Vec::new();
     for angle in [-75.0, -10.0, 3.0, 15.0, 30.0, 45.0, 60.0, 89.0, 135.0, 170.0] {

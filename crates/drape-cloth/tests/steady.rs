@@ -1,4 +1,4 @@
-//! What must not change: bits with the number of threads, and the heap while a cloth is evaluated.
+//! Invariants of an evaluation: the bits for any number of threads, and the heap.
 
 use drape_cloth::{Cloth, Lattice, State, Workspace};
 use drape_fabric::Fabric;
@@ -40,7 +40,7 @@ fn ripple(cloth: &Cloth, time: f64) -> Vec<f64> {
     cloth.coordinates().iter().flat_map(wave).collect()
 }
 
-/// Everything that an evaluation gives.
+/// Results of an evaluation: state, sum of energies, forces, stiffness.
 type Numbers = (State, f64, Vec<f64>, Vec<f64>);
 
 /// Five steps with some trials each.

@@ -32,7 +32,7 @@ pub use batch::shear::ShearBatch;
 pub use batch::traction::TractionBatch;
 pub use breen::{BreenWork, Work, breen_curvature};
 pub use check::Problem;
-pub use drape_hysteresis::{BlimanSorine, Dahl, Loads, PreparedDahl, Response, Stroke};
+pub use drape_hysteresis::{BlimanSorine, Dahl, Loads, PassedKnot, PreparedDahl, Response, Stroke};
 pub use fabric::{Fabric, Provenance, SURFACE_FRICTION, YarnLaws};
 pub use laws::bending::{BendingBackbone, BendingLaw};
 pub use laws::law::{Law, Memory, drive};

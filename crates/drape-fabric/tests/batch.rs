@@ -51,7 +51,7 @@ fn compare<L: Law, B: BatchLaw>(law: &L, batch: &B, range: (f64, f64), places: &
         batch.add_work(&memory, &trial, &mut end);
         let positions = apart.map(|memory| memory.position);
         batch.add_work(&memory, &positions, &mut start);
-        let lost = batch.commit(&mut together.from_mut(0), 0, &trial);
+        let lost = batch.commit(&mut together.tail_mut(0), 0, &trial);
         let mut stored = [0.0; LANES];
         batch.add_stored(&together.batch(0), &mut stored);
         for lane in 0..LANES {

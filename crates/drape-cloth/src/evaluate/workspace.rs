@@ -162,7 +162,7 @@ impl Workspace {
         cloth.update_normals(state);
         let State { normals: flat_normals, grid, rim: rim_memories, .. } = state;
         let first = |strip: &Strip| strip.offset + cloth.panels[strip.panel].margin;
-        let (memories, normals) = grid.from_mut(first(&cloth.strips[0]));
+        let (memories, normals) = grid.tail_mut(first(&cloth.strips[0]));
         let (arch, pool) = (self.arch, &self.pool);
         let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
         for_each(

@@ -49,11 +49,11 @@ impl GridMemories {
     }
 
     /// Splits into all memories from an index on, to write, and the normals.
-    pub(crate) fn from_mut(&mut self, start: usize) -> (GridMemoriesMut<'_>, &VectorColumns) {
+    pub(crate) fn tail_mut(&mut self, start: usize) -> (GridMemoriesMut<'_>, &VectorColumns) {
         let memories = GridMemoriesMut {
-            traction: self.traction.each_mut().map(|m| m.from_mut(start)),
-            shear: self.shear.each_mut().map(|m| m.from_mut(start)),
-            bending: self.bending.each_mut().map(|m| m.from_mut(start)),
+            traction: self.traction.each_mut().map(|m| m.tail_mut(start)),
+            shear: self.shear.each_mut().map(|m| m.tail_mut(start)),
+            bending: self.bending.each_mut().map(|m| m.tail_mut(start)),
         };
         (memories, &self.normals)
     }

@@ -150,7 +150,7 @@ impl Lattice {
 
     /// Returns the panel with its yarns at an angle in its own frame, for discs and rings.
     #[must_use]
-    pub fn turned(self, grain: Grain) -> Self {
+    pub fn with_grain(self, grain: Grain) -> Self {
         Self { grain, ..self }
     }
 

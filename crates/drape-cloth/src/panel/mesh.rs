@@ -44,15 +44,23 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
 }
 
+/// Extent of the grid of a [`Mesh`].
+struct Extent {
+    columns: usize,
+    rows: usize,
+    /// Lowest column and lowest row.
+    low: [u32; 2],
+}
+
 impl Mesh {
-    /// Returns the numbers of columns and rows of the grid, and the lowest column and row.
-    fn extent(&self) -> ([usize; 2], [u32; 2]) {
+    fn extent(&self) -> Extent {
         let ends = |k: usize| {
             let all = self.grid.iter().map(|point| point[k]);
-            (all.clone().min().unwrap_or(0), all.max().unwrap_or(0))
+            [all.clone().min().unwrap_or(0), all.max().unwrap_or(0)]
         };
         let ends = [ends(0), ends(1)];
-        (ends.map(|(low, high)| (high - low) as usize + 1), ends.map(|(low, _)| low))
+        let [columns, rows] = ends.map(|[low, high]| (high - low) as usize + 1);
+        Extent { columns, rows, low: ends.map(|[low, _]| low) }
     }
 
     fn check(&self) -> Result<(), Error> {
@@ -67,7 +75,7 @@ impl Mesh {
         if self.cells.is_empty() && self.triangles.is_empty() {
             return wrong("panel", 0, "has neither cells nor triangles");
         }
-        let ([columns, rows], _) = self.extent();
+        let Extent { columns, rows, .. } = self.extent();
         let particles = (columns as f64 * rows as f64).max(self.coordinates.len() as f64);
         if particles > PARTICLES_MAX {
             let spacing = self.spacing[0].min(self.spacing[1]);
@@ -133,7 +141,7 @@ impl Lattice {
     /// cell and no triangle.
     pub fn from_mesh(mesh: Mesh, grain: Grain) -> Result<Self, Error> {
         mesh.check()?;
-        let ([columns, rows], low) = mesh.extent();
+        let Extent { columns, rows, low } = mesh.extent();
         let quarter = 0.25 * mesh.spacing[0] * mesh.spacing[1];
         let mut grid = vec![None; columns * rows];
         for (node, point) in mesh.grid.iter().enumerate() {

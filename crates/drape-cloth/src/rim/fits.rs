@@ -2,7 +2,7 @@
 
 use crate::layout::connectors::BendingConnectors;
 use crate::measure::vector::Vector;
-use crate::panel::fold::WeightedNode;
+use crate::panel::fold::{Fold, WeightedNode};
 use crate::panel::lattice::Lattice;
 use crate::rim::neighbourhood::Neighbourhoods;
 use crate::rim::quadratic_fit::QuadraticFit;
@@ -75,7 +75,7 @@ impl PanelFits {
                         coordinates: lattice.coordinates[node.node as usize],
                         weight: node.weights[direction],
                     });
-                    let curvature = |fold: &crate::panel::fold::Fold| {
+                    let curvature = |fold: &Fold| {
                         fold.rest_curvature(weighted.clone(), points[0], direction, lattice.spacing)
                     };
                     lattice.folds.iter().map(curvature).sum()

@@ -42,9 +42,9 @@ impl RimMemories {
     /// Returns all memories, to write.
     pub(crate) fn all_mut(&mut self) -> RimMemoriesMut<'_> {
         RimMemoriesMut {
-            traction: self.traction.each_mut().map(|m| m.from_mut(0)),
-            shear: self.shear.from_mut(0),
-            bending: self.bending.each_mut().map(|m| m.from_mut(0)),
+            traction: self.traction.each_mut().map(|m| m.tail_mut(0)),
+            shear: self.shear.tail_mut(0),
+            bending: self.bending.each_mut().map(|m| m.tail_mut(0)),
         }
     }
 }

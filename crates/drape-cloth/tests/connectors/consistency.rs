@@ -1,4 +1,4 @@
-//! Forces and tangents against differences, conservation, the connectors one by one, and bits.
+//! Forces and stiffness against finite differences, conservation, the reference, and bits.
 
 use drape_cloth::{Breen, Cloth, Error, Fold, Grain, Lattice, Mesh, Reference, State};
 use drape_fabric::Fabric;
@@ -35,7 +35,7 @@ pub fn panels() -> Vec<(&'static str, Lattice)> {
     ]
 }
 
-/// A panel of about 100 mm with two folds that cross each other, at no angle in particular.
+/// A panel of about 100 mm with two folds that cross each other at arbitrary angles.
 fn folded((name, lattice): (&'static str, Lattice)) -> (&'static str, Lattice) {
     let [low, high] = [f64::min, f64::max].map(|of: fn(f64, f64) -> f64| {
         [0, 1].map(|k| lattice.coordinates.iter().map(|c| c[k]).reduce(of).expect("a node"))
@@ -62,7 +62,7 @@ fn cases() -> Vec<(&'static str, Lattice, Fabric)> {
 #[test]
 fn forces_are_the_derivative_of_the_potential() {
     for (name, lattice, fabric) in cases() {
-        let (cloth, state, trial) = tried(&lattice, &fabric, (1e-3, 0.07));
+        let (cloth, state, trial) = tried(&lattice, &fabric, 1e-3, 0.07);
         let mut forces = vec![0.0; trial.len()];
         cloth.add_forces(&state, &trial, &mut forces);
         let scale = forces.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
@@ -85,7 +85,7 @@ fn forces_are_the_derivative_of_the_potential() {
 #[test]
 fn the_stiffness_is_the_derivative_of_the_forces() {
     for (name, lattice, fabric) in cases() {
-        let (cloth, state, trial) = tried(&lattice, &fabric, (1e-3, 0.07));
+        let (cloth, state, trial) = tried(&lattice, &fabric, 1e-3, 0.07);
         let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
         cloth.add_stiffness(&state, &trial, false, &mut values);
         let mut random = Random(11);
@@ -117,7 +117,7 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
 #[test]
 fn the_definite_stiffness_has_no_negative_direction() {
     for (name, lattice, fabric) in cases() {
-        let (cloth, state, trial) = tried(&lattice, &fabric, (3e-3, 0.07));
+        let (cloth, state, trial) = tried(&lattice, &fabric, 3e-3, 0.07);
         let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
         cloth.add_stiffness(&state, &trial, true, &mut values);
         let mut random = Random(5);
@@ -137,15 +137,15 @@ fn internal_forces_and_torques_cancel() {
     let elastic = elastic.replace("rest_curvature = 3.0", "");
     for (name, lattice) in panels() {
         // Without friction and rest curvature nothing depends on the frozen normal.
-        let (cloth, state, trial) = tried(&lattice, &fabric(&elastic), (1e-3, 0.07));
+        let (cloth, state, trial) = tried(&lattice, &fabric(&elastic), 1e-3, 0.07);
         let (force, torque) = balance(&cloth, &state, &trial);
         println!("{name}: elastic, net force {force:.1e}, net torque {torque:.1e}");
         assert!(force < 1e-12 && torque < 1e-12, "{name}: {force:e} {torque:e}");
-        let (cloth, state, trial) = tried(&lattice, &fabric(RICH), (1e-5, 0.0602));
+        let (cloth, state, trial) = tried(&lattice, &fabric(RICH), 1e-5, 0.0602);
         let (force, torque) = balance(&cloth, &state, &trial);
         println!("{name}: with friction, net force {force:.1e}, net torque {torque:.1e}");
         assert!(force < 1e-12, "{name}: net force {force:e}");
-        // The frozen normals' share; those of four nodes are coarse.
+        // The error of the frozen normals; those of four nodes are coarse.
         let limit = if name == "triangle" { 2e-5 } else { 1e-6 };
         assert!(torque < limit, "{name}: net torque {torque:e}");
     }
@@ -161,7 +161,7 @@ fn mixed() -> Vec<Lattice> {
     all
 }
 
-/// Waves that come and go.
+/// Waves that change with time.
 fn wave(cloth: &Cloth, time: f64) -> Vec<f64> {
     let place = |&[u, v]: &[f64; 2]| {
         let height = 0.02 * (1.0 + 0.5 * time) * (20.0 * u + 13.0 * v + time).sin();
@@ -209,7 +209,7 @@ fn the_batches_give_the_numbers_of_the_connectors_one_by_one() {
     }
 }
 
-/// Everything that an evaluation gives.
+/// Results of an evaluation: state, forces, stiffness, sums.
 fn numbers(cloth: &Cloth) -> (State, Vec<f64>, Vec<f64>, Vec<f64>) {
     let mut state = cloth.state(wave(cloth, 0.0)).expect("it fits");
     let mut sums = Vec::new();
@@ -244,7 +244,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 
 /// The mesh of a rectangle that is all grid.
 fn grid(columns: u32, rows: u32, spacing: f64) -> Mesh {
-    let places: Vec<[u32; 2]> =
+    let points: Vec<[u32; 2]> =
         (0..=rows).flat_map(|row| (0..=columns).map(move |column| [column, row])).collect();
     let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
     let corners = |(column, row): (u32, u32)| {
@@ -253,8 +253,8 @@ fn grid(columns: u32, rows: u32, spacing: f64) -> Mesh {
     };
     Mesh {
         spacing: [spacing; 2],
-        coordinates: places.iter().map(|place| place.map(|k| f64::from(k) * spacing)).collect(),
-        grid: places,
+        coordinates: points.iter().map(|point| point.map(|k| f64::from(k) * spacing)).collect(),
+        grid: points,
         cells: cells.map(corners).collect(),
         triangles: Vec::new(),
     }

@@ -26,16 +26,16 @@ fn internal_forces_and_torques_cancel() {
     let elastic = elastic.replace("rest_curvature = 3.0", "");
     for (name, lattice) in grids() {
         // Without friction and rest curvature nothing depends on the frozen normal.
-        let (cloth, state, trial) = tried(&lattice, &fabric(&elastic), (1e-3, 0.07));
+        let (cloth, state, trial) = tried(&lattice, &fabric(&elastic), 1e-3, 0.07);
         let (force, torque) = balance(&cloth, &state, &trial);
         println!("{name}: elastic, net force {force:.1e}, net torque {torque:.1e}");
         assert!(force < 1e-12 && torque < 1e-12, "{name}: {force:e} {torque:e}");
-        // The frozen normal's share: the friction moment times the part of the curvature across
-        // the normal. Noise of the positions and turning within the step both raise it.
+        // The error of the frozen normal: the friction moment times the part of the curvature across
+        // the normal. Noise of the positions and rotation within the step both raise it.
         for (step, shake, radius, limit) in
             [("one of a simulation", 1e-5, 0.0602, 1e-7), ("a violent one", 1e-3, 0.07, 1e-5)]
         {
-            let (cloth, state, trial) = tried(&lattice, &fabric(LINEN), (shake, radius));
+            let (cloth, state, trial) = tried(&lattice, &fabric(LINEN), shake, radius);
             let (force, torque) = balance(&cloth, &state, &trial);
             println!("{name}: with friction, step {step}: force {force:.1e}, torque {torque:.1e}");
             assert!(force < 1e-12, "{name}: net force {force:e}");
@@ -47,25 +47,25 @@ fn internal_forces_and_torques_cancel() {
 }
 
 #[test]
-fn forces_turn_with_the_cloth() {
+fn forces_rotate_with_the_cloth() {
     let lattice = Lattice::rectangle(0.10, 0.08, 0.012).expect("a rectangle");
-    let (cloth, state, trial) = tried(&lattice, &fabric(LINEN), (1e-3, 0.07));
-    let turn = |x: &[f64]| -> Vec<f64> { x.chunks(3).flat_map(|p| [p[2], p[0], p[1]]).collect() };
+    let (cloth, state, trial) = tried(&lattice, &fabric(LINEN), 1e-3, 0.07);
+    let rotate = |x: &[f64]| -> Vec<f64> { x.chunks(3).flat_map(|p| [p[2], p[0], p[1]]).collect() };
     let mut forces = vec![0.0; trial.len()];
     cloth.add_forces(&state, &trial, &mut forces);
-    let mut turned_state = cloth.state(turn(&state.positions)).expect("fits");
-    // The same history, turned.
+    let mut rotated_state = cloth.state(rotate(&state.positions)).expect("fits");
+    // The same path, rotated.
     let mut random = Random(7);
-    turned_state
-        .clone_from(&cloth.state(turn(&bent(&lattice, 0.4, 0.0, &mut random))).expect("fits"));
+    rotated_state
+        .clone_from(&cloth.state(rotate(&bent(&lattice, 0.4, 0.0, &mut random))).expect("fits"));
     for radius in [0.1, 0.06] {
-        let positions = turn(&bent(&lattice, radius, 1e-3, &mut random));
-        cloth.commit(&mut turned_state, &positions, &vec![0.0; trial.len()]);
+        let positions = rotate(&bent(&lattice, radius, 1e-3, &mut random));
+        cloth.commit(&mut rotated_state, &positions, &vec![0.0; trial.len()]);
     }
-    let mut turned = vec![0.0; trial.len()];
-    cloth.add_forces(&turned_state, &turn(&trial), &mut turned);
+    let mut rotated = vec![0.0; trial.len()];
+    cloth.add_forces(&rotated_state, &rotate(&trial), &mut rotated);
     let scale = forces.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
-    for (a, b) in turn(&forces).iter().zip(&turned) {
+    for (a, b) in rotate(&forces).iter().zip(&rotated) {
         assert!((a - b).abs() < 1e-10 * scale, "{a} against {b}");
     }
 }
@@ -92,7 +92,7 @@ fn a_cylinder_has_the_energy_of_the_fabric_bent_to_its_curvature() {
                 [u, corner * (1.0 - angle.cos()), corner * angle.sin()]
             })
             .collect();
-        // Accepted, the friction has slipped by the true curvature, however far the sheet turned.
+        // After the commit the friction has slipped by the true curvature, however far the sheet rotated.
         let dissipated = cloth.commit(&mut state, &rolled, &vec![0.0; flat.len()]);
         let work = cloth.stored(&state) + dissipated;
         let bending = fabric.warp.bending;

@@ -128,7 +128,7 @@ pub fn rectangle([width, height]: [f64; 2], degrees: f64, spacing: f64) -> Latti
     shape(&format!("M0 0 L{w} 0 L{w} -{h} L0 -{h} Z"), degrees, spacing)
 }
 
-/// All panels of the patterns in the repository at 10 mm, as they lie and with the grain turned by 45°.
+/// All panels of the patterns in the repository at 10 mm, as they lie and with the grain rotated by 45°.
 pub static GARMENTS: LazyLock<Vec<(String, Lattice)>> = LazyLock::new(garments);
 
 fn garments() -> Vec<(String, Lattice)> {
@@ -136,16 +136,16 @@ fn garments() -> Vec<(String, Lattice)> {
     for file in ["pencil-skirt.toml", "shirt.json", "skirt.json", "teagan.json", "trousers.json"] {
         let path = format!("{}/../drape-pattern/patterns/{file}", env!("CARGO_MANIFEST_DIR"));
         let pattern = Pattern::read(path).expect("it is read");
-        for turn in [0.0, 45.0_f64] {
-            let turned = |panel: &Panel| {
-                let grain = panel.grain() + turn.to_radians();
+        for angle in [0.0, 45.0_f64] {
+            let rotated = |panel: &Panel| {
+                let grain = panel.grain() + angle.to_radians();
                 panel.clone().with_grain(grain).expect("an angle")
             };
-            let panels = pattern.panels().iter().map(turned).collect();
+            let panels = pattern.panels().iter().map(rotated).collect();
             let pattern = Pattern::new(panels, pattern.seams().to_vec()).expect("as before");
             let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
             for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
-                let name = format!("{file} {} {turn}°", panel.name());
+                let name = format!("{file} {} {angle}°", panel.name());
                 all.push((name, lattice(cut, panel.grain().to_degrees())));
             }
         }

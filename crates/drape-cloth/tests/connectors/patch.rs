@@ -1,4 +1,4 @@
-//! Even strains, on the panels of real garments.
+//! Uniform strains, on the panels of real garments.
 
 use drape_cloth::{Cloth, Lattice};
 use drape_fabric::Law;
@@ -30,9 +30,9 @@ fn thin() -> Vec<(String, Lattice)> {
 }
 
 #[test]
-fn an_even_strain_leaves_no_force_inside_and_has_the_energy_of_the_laws() {
+fn a_uniform_strain_leaves_no_force_inside_and_has_the_energy_of_the_laws() {
     let fabric = fabric(LINEAR);
-    // Warp and weft stretched by 3 and 2 %, leaned by a sine of 0.08, and the whole turned in space.
+    // Warp and weft stretched by 3 and 2 %, leaned by a sine of 0.08, and the whole rotated in space.
     let (stretch, sine) = ([1.03, 1.02], 0.08_f64);
     let warp = [stretch[0] * sine, stretch[0] * (1.0 - sine * sine).sqrt()];
     let place = |&[u, v]: &[f64; 2]| {
@@ -71,7 +71,9 @@ fn an_even_strain_leaves_no_force_inside_and_has_the_energy_of_the_laws() {
         off = off.max((found / exact - 1.0).abs());
         assert!((found / exact - 1.0).abs() < 1e-10, "{name}: {found} against {exact}");
     }
-    println!("even strain: force inside over that at the outline {inside:.1e}, energy {off:.1e}");
+    println!(
+        "uniform strain: force inside over that at the outline {inside:.1e}, energy {off:.1e}"
+    );
 }
 
 /// Whether each particle is at a side of only one triangle.

@@ -41,7 +41,7 @@ fn the_grid_gives_the_numbers_of_the_connectors_one_by_one() {
     for (which, panels) in cloths.into_iter().enumerate() {
         let cloth = Cloth::new(panels);
         let mut random = Random(3);
-        // Waves that come and go, and a shake of a few hundredths of the spacing.
+        // Waves that change with time, and noise of a few hundredths of the spacing.
         let mut place = |shake: f64, time: f64| -> Vec<f64> {
             let wave = |&[u, v]: &[f64; 2]| {
                 let height = 0.02 * (1.0 + 0.5 * time) * (20.0 * u + 13.0 * v + time).sin();

@@ -10,15 +10,15 @@ fn rolled(lattice: &Lattice, radius: f64, angle: f64) -> Vec<f64> {
     let (sin, cos) = angle.sin_cos();
     let place = |&[u, v]: &[f64; 2]| {
         let (along, across) = (cos * u + sin * v, cos * v - sin * u);
-        let turn = across / radius;
-        [along, radius * turn.sin(), radius * (1.0 - turn.cos())]
+        let angle = across / radius;
+        [along, radius * angle.sin(), radius * (1.0 - angle.cos())]
     };
     lattice.coordinates.iter().flat_map(place).collect()
 }
 
 /// Bending energies of a panel rolled about axes at angles in degrees, over those of the laws.
 fn energies(lattice: &Lattice, radius: f64, angles: &[f64]) -> Vec<f64> {
-    // What twice the rigidity stores more: chords shorter than arcs are compressed in both.
+    // The difference to twice the rigidity: chords shorter than arcs are compressed in both.
     let stiff = LINEAR.replace("1.2e-5", "2.4e-5").replace("0.7e-5", "1.4e-5");
     let fabrics = [LINEAR, &stiff].map(fabric);
     let cloths = fabrics.each_ref().map(|fabric| Cloth::new(&[(lattice, fabric)]));
@@ -64,8 +64,8 @@ fn normals_are_exact_on_planes_and_of_second_order_on_cylinders() {
         let state = cloth.state(rolled(lattice, radius, 0.7)).expect("it fits");
         let normals = state.normals().chunks_exact(3).zip(&lattice.coordinates);
         let off = normals.map(|(normal, [u, v])| {
-            let turn = (cos * v - sin * u) / radius;
-            let exact = [0.0, -turn.sin(), turn.cos()];
+            let angle = (cos * v - sin * u) / radius;
+            let exact = [0.0, -angle.sin(), angle.cos()];
             (0..3).map(|k| (normal[k] - exact[k]).powi(2)).sum::<f64>().sqrt()
         });
         off.fold(0.0, f64::max)

@@ -6,10 +6,10 @@ use crate::bias::{dot, outline, solve};
 use crate::panels::{LINEAR, RICH, fabric, garment, rectangle, shape};
 use crate::shaken::{Random, multiply};
 
-/// Two panels side by side, and the places of all nodes in a common plane in which the seam is closed.
+/// Two panels side by side, and the points of all nodes in a common plane in which the seam is closed.
 struct Sewn {
     panels: [Lattice; 2],
-    places: Vec<[f64; 2]>,
+    points: Vec<[f64; 2]>,
     pairs: Vec<[u32; 2]>,
     ties: Vec<Tie>,
 }
@@ -26,8 +26,8 @@ impl Sewn {
                 .map(|[x, y]| [x + shift[0], y + shift[1]])
                 .collect()
         };
-        let places: Vec<Vec<[f64; 2]>> = panels.iter().zip(shifts).map(place).collect();
-        let first = places[0].len() as u32;
+        let points: Vec<Vec<[f64; 2]>> = panels.iter().zip(shifts).map(place).collect();
+        let first = points[0].len() as u32;
         let outer = panels.each_ref().map(|panel| {
             let mut ends = outline(panel).concat();
             ends.sort_unstable();
@@ -37,21 +37,21 @@ impl Sewn {
         let mut pairs = Vec::new();
         for &a in &outer[0] {
             for &b in &outer[1] {
-                let [p, q] = [places[0][a as usize], places[1][b as usize]];
+                let [p, q] = [points[0][a as usize], points[1][b as usize]];
                 if (p[0] - q[0]).hypot(p[1] - q[1]) < 1e-9 {
                     pairs.push([a, first + b]);
                 }
             }
         }
-        let height = |pair: &[u32; 2]| places[0][pair[0] as usize][1];
+        let height = |pair: &[u32; 2]| points[0][pair[0] as usize][1];
         pairs.sort_by(|a, b| height(a).total_cmp(&height(b)));
         let mut ties = Vec::new();
         for two in pairs.windows(2) {
             let ends = [two[0][0], two[1][0]];
-            let [p, q] = ends.map(|node| places[0][node as usize]);
+            let [p, q] = ends.map(|node| points[0][node as usize]);
             let length = (q[0] - p[0]).hypot(q[1] - p[1]);
             let between = |node: &u32| -> Option<Tie> {
-                let place = places[1][*node as usize];
+                let place = points[1][*node as usize];
                 let [x, y] = [place[0] - p[0], place[1] - p[1]];
                 let fraction = (x * (q[0] - p[0]) + y * (q[1] - p[1])) / (length * length);
                 let off = x.hypot(y) - fraction * length;
@@ -62,7 +62,7 @@ impl Sewn {
             own.sort_by(|a, b| a.fraction.total_cmp(&b.fraction));
             ties.extend(own);
         }
-        Self { places: places.concat(), panels, pairs, ties }
+        Self { points: points.concat(), panels, pairs, ties }
     }
 
     /// Two halves of a strip, each of a width and a height in m, with their yarns at an angle.
@@ -100,7 +100,7 @@ impl Sewn {
     }
 
     fn positions(&self, place: impl Fn([f64; 2]) -> [f64; 3]) -> Vec<f64> {
-        self.places.iter().flat_map(|&p| place(p)).collect()
+        self.points.iter().flat_map(|&p| place(p)).collect()
     }
 }
 
@@ -144,8 +144,8 @@ fn all() -> Vec<(&'static str, Sewn)> {
 fn forces_and_stiffness_are_derivatives_of_the_potential() {
     for (name, sewn) in all() {
         let (bending, state, trial) = worn(&sewn, RICH, 0.5);
-        let at = |way: &[f64], step: f64| -> Vec<f64> {
-            trial.iter().zip(way).map(|(x, w)| x + step * w).collect()
+        let at = |direction: &[f64], step: f64| -> Vec<f64> {
+            trial.iter().zip(direction).map(|(x, w)| x + step * w).collect()
         };
         let forces = |positions: &[f64]| {
             let mut forces = vec![0.0; positions.len()];
@@ -156,24 +156,25 @@ fn forces_and_stiffness_are_derivatives_of_the_potential() {
         let mut random = Random(4);
         let size = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         for _ in 0..10 {
-            let way: Vec<f64> = trial.iter().map(|_| random.next()).collect();
+            let direction: Vec<f64> = trial.iter().map(|_| random.next()).collect();
             let d = 1e-6;
-            let work = |step: f64| bending.potential(&state, &at(&way, step * d));
+            let work = |step: f64| bending.potential(&state, &at(&direction, step * d));
             let slope = (work(-2.0) - 8.0 * work(-1.0) + 8.0 * work(1.0) - work(2.0)) / (12.0 * d);
-            let error = (dot(&push, &way) + slope) / (size(&push) * (way.len() as f64).sqrt());
+            let error =
+                (dot(&push, &direction) + slope) / (size(&push) * (direction.len() as f64).sqrt());
             assert!(error.abs() < 1e-7, "{name}: force {error:e}");
             let mut product = vec![0.0; trial.len()];
             bending.add_stiffness(&state, &trial, false, |row, column, block| {
                 for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
                     let (row, column) = (3 * row as usize + i, 3 * column as usize + j);
-                    product[row] += block[3 * i + j] * way[column];
+                    product[row] += block[3 * i + j] * direction[column];
                     if row / 3 != column / 3 {
-                        product[column] += block[3 * i + j] * way[row];
+                        product[column] += block[3 * i + j] * direction[row];
                     }
                 }
             });
             let d = 1e-7;
-            let [a, b, e, f] = [-2.0, -1.0, 1.0, 2.0].map(|step| forces(&at(&way, step * d)));
+            let [a, b, e, f] = [-2.0, -1.0, 1.0, 2.0].map(|step| forces(&at(&direction, step * d)));
             for k in 0..product.len() {
                 let slope = (a[k] - 8.0 * b[k] + 8.0 * e[k] - f[k]) / (12.0 * d);
                 let error = (product[k] + slope) / size(&product);
@@ -183,7 +184,7 @@ fn forces_and_stiffness_are_derivatives_of_the_potential() {
             bending.add_stiffness(&state, &trial, true, |row, column, block| {
                 let twice = if row == column { 1.0 } else { 2.0 };
                 for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
-                    let ends = way[3 * row as usize + i] * way[3 * column as usize + j];
+                    let ends = direction[3 * row as usize + i] * direction[3 * column as usize + j];
                     energy += twice * block[3 * i + j] * ends;
                 }
             });
@@ -277,11 +278,11 @@ fn rolled(sewn: &Sewn, stiffness: f64, radius: f64) -> f64 {
 }
 
 /// Drop of the end of a strip that is clamped at the other, for a small load.
-fn drop((panels, places): (&[Lattice], &[[f64; 2]]), seam: Option<(&Sewn, f64)>) -> f64 {
+fn drop((panels, points): (&[Lattice], &[[f64; 2]]), seam: Option<(&Sewn, f64)>) -> f64 {
     let fabric = fabric(LINEAR);
     let panels: Vec<_> = panels.iter().map(|panel| (panel, &fabric)).collect();
     let cloth = Cloth::new(&panels);
-    let flat: Vec<f64> = places.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
+    let flat: Vec<f64> = points.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect();
     let state = cloth.state(flat.clone()).expect("it fits");
     let mut values = vec![0.0; 9 * cloth.sparsity().blocks()];
     cloth.add_stiffness(&state, &flat, false, &mut values);
@@ -296,7 +297,7 @@ fn drop((panels, places): (&[Lattice], &[[f64; 2]]), seam: Option<(&Sewn, f64)>)
         });
         sewn.pairs.iter().for_each(|&[a, b]| master[b as usize] = a as usize);
     }
-    let held = |node: usize| places[node][0] < 0.015;
+    let held = |node: usize| points[node][0] < 0.015;
     let apply = |heights: &[f64]| -> Vec<f64> {
         let of = |node: usize| if held(master[node]) { 0.0 } else { heights[master[node]] };
         let spread: Vec<f64> = (0..master.len()).flat_map(|node| [0.0, 0.0, of(node)]).collect();
@@ -314,9 +315,9 @@ fn drop((panels, places): (&[Lattice], &[[f64; 2]]), seam: Option<(&Sewn, f64)>)
         }
         sums
     };
-    let end = places.iter().map(|place| place[0]).fold(0.0, f64::max);
+    let end = points.iter().map(|place| place[0]).fold(0.0, f64::max);
     let at_end = |place: &[f64; 2]| if place[0] > end - 1e-9 { 1.0 } else { 0.0 };
-    let load: Vec<f64> = places.iter().map(at_end).collect();
+    let load: Vec<f64> = points.iter().map(at_end).collect();
     let heights = solve(apply, &load, 1e-9);
     dot(&heights, &load) / load.iter().sum::<f64>().powi(2)
 }
@@ -346,7 +347,7 @@ fn a_sewn_strip_bends_nearly_as_one_that_is_not() {
             // On the bias a linear strip also drops by turning into a saddle, which costs nothing. What is tied has no
             // place of its own, which is not made up here.
             if degrees == 0.0 && sewn.ties.is_empty() {
-                let sewn = drop((&sewn.panels, &sewn.places), Some((&sewn, stiffness)));
+                let sewn = drop((&sewn.panels, &sewn.points), Some((&sewn, stiffness)));
                 println!(
                     "{name}, stiffness {stiffness}: drop over the unsewn {:.4}",
                     sewn / unsewn

@@ -1,4 +1,4 @@
-//! Cloth in shaken shapes, and what is asked of its forces and stiffness there.
+//! Cloth in shapes with noise, products with its stiffness, and sums of its forces.
 
 use drape_cloth::{Cloth, Lattice, State};
 use drape_fabric::Fabric;
@@ -24,18 +24,19 @@ pub fn bent(lattice: &Lattice, radius: f64, shake: f64, random: &mut Random) -> 
     lattice.coordinates.iter().flat_map(|&c| place(c)).map(shaken).collect()
 }
 
-/// A cloth with history: committed twice on the way to a shaken shape, and a trial at the radius.
+/// A cloth committed twice before a shape with noise, and a trial at the radius.
 pub fn tried(
     lattice: &Lattice,
     fabric: &Fabric,
-    (shake, radius): (f64, f64),
+    shake: f64,
+    radius: f64,
 ) -> (Cloth, State, Vec<f64>) {
     let mut random = Random(7);
     let cloth = Cloth::new(&[(lattice, fabric)]);
     let mut state = cloth.state(bent(lattice, 0.4, 0.0, &mut random)).expect("fits");
     let rest = vec![0.0; 3 * cloth.particles()];
-    for way in [0.1, 0.06] {
-        let positions = bent(lattice, way, shake, &mut random);
+    for radius in [0.1, 0.06] {
+        let positions = bent(lattice, radius, shake, &mut random);
         cloth.commit(&mut state, &positions, &rest);
     }
     let trial = bent(lattice, radius, shake, &mut random);

@@ -107,7 +107,7 @@ impl Memories {
 
     /// Returns all memories from `start` on, to write.
     #[must_use]
-    pub fn from_mut(&mut self, start: usize) -> MemoriesMut<'_> {
+    pub fn tail_mut(&mut self, start: usize) -> MemoriesMut<'_> {
         MemoriesMut(self.0.each_mut().map(|column| &mut column[start..]))
     }
 }

@@ -127,7 +127,7 @@ fn lattice(checker: &mut Checker<'_>, key: &str, entry: &PanelFile) -> Option<La
                 None => Lattice::disc_on(grid, radius(disc), spacing),
                 Some(hole) => Lattice::ring_on(grid, [hole, disc].map(radius), spacing),
             };
-            round.map(|round| round.turned(grain))
+            round.map(|round| round.with_grain(grain))
         }
         (Some(_), None, Some(_)) => {
             let message = format!("panel \"{}\" has a hole in a rectangle", entry.name);
