@@ -53,7 +53,7 @@ impl GrainFrame {
     }
 
     /// Returns a point of the panel's frame in the grain's frame.
-    pub fn from_panel(self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub fn to_grain(self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.cosine * x + self.sine * y, self.cosine * y - self.sine * x]
     }
 }
@@ -91,7 +91,7 @@ impl Cut {
             [origin[0] + spacing * x, origin[1] + spacing * y]
         });
         let yarns: Vec<[f64; 2]> =
-            outline.nodes.iter().map(|&p| grain.from_panel(p)).chain(inner).collect();
+            outline.nodes.iter().map(|&p| grain.to_grain(p)).chain(inner).collect();
         let inside = yarns[sides..].iter().map(|&p| grain.to_panel(p));
         let positions = outline.nodes.iter().copied().chain(inside).collect();
         let columns = nodes.iter().map(|node| Some(node.map(|k| k as u32)));

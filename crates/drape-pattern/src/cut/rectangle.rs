@@ -64,7 +64,7 @@ impl Cut {
         grain: GrainFrame,
         spacing: f64,
     ) -> Option<Self> {
-        let polygon: Vec<[f64; 2]> = sampled.nodes.iter().map(|&p| grain.from_panel(p)).collect();
+        let polygon: Vec<[f64; 2]> = sampled.nodes.iter().map(|&p| grain.to_grain(p)).collect();
         let border = Border::of(&polygon, spacing)?;
         let [columns, rows] = border.cells;
         let all = || (0..=rows).flat_map(|row| (0..=columns).map(move |column| [column, row]));
