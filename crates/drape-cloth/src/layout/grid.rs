@@ -246,19 +246,18 @@ impl GridPanel {
     }
 
     /// Pairs of particles that a connector joins, the first of each less than the second.
-    pub(crate) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> {
-        let pair = |index: usize, (from, to): (usize, usize)| {
-            (self.particles[index + from], self.particles[index + to])
-        };
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {
+        let pair =
+            |index: usize, ends: [usize; 2]| ends.map(|offset| self.particles[index + offset]);
         let stride = self.stride;
         let [a, b, d, c] = [0, 1, stride, stride + 1];
-        let sides = [(a, b), (a, d), (a, c), (b, d), (b, c), (d, c)];
+        let sides = [[a, b], [a, d], [a, c], [b, d], [b, c], [d, c]];
         let cells = self.cells.iter();
         let cells = cells.flat_map(move |&index| sides.map(|side| pair(index, side)));
         let ends = self.yarns.iter().flat_map(move |yarns| {
             let starts = yarns.triples.iter().map(|index| index - yarns.step);
             // Between triangles of a rim, neighbours on a yarn share no cell.
-            let sides = [(0, yarns.step), (yarns.step, 2 * yarns.step), (0, 2 * yarns.step)];
+            let sides = [[0, yarns.step], [yarns.step, 2 * yarns.step], [0, 2 * yarns.step]];
             starts.flat_map(move |index| sides.map(|side| pair(index, side)))
         });
         cells.chain(ends)

@@ -15,9 +15,9 @@ pub struct Sparsity {
 
 impl Sparsity {
     /// Returns the sparsity of the given pairs, the first of each less than the second.
-    pub(crate) fn new(particles: usize, pairs: impl Iterator<Item = (u32, u32)>) -> Self {
+    pub(crate) fn new(particles: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Self {
         let mut rows: Vec<Vec<usize>> = (0..particles).map(|i| vec![i]).collect();
-        for (first, second) in pairs {
+        for [first, second] in pairs {
             rows[first as usize].push(second as usize);
         }
         let mut sparsity = Self { offsets: vec![0], columns: Vec::new() };

@@ -73,10 +73,10 @@ impl Stencils {
 }
 
 /// Pairs of the nodes of a stencil, each with itself and those after it.
-pub(crate) fn pairs(nodes: &[StencilNode]) -> impl Iterator<Item = (u32, u32)> {
+pub(crate) fn pairs(nodes: &[StencilNode]) -> impl Iterator<Item = [u32; 2]> {
     let with = |(k, node): (usize, &StencilNode)| {
         let row = node.node;
-        nodes[k..].iter().map(move |other| (row, other.node))
+        nodes[k..].iter().map(move |other| [row, other.node])
     };
     nodes.iter().enumerate().flat_map(with)
 }

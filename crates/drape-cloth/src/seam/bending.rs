@@ -4,7 +4,7 @@ use drape_fabric::{Fabric, Law, Memory};
 
 use crate::error::Error;
 use crate::measure::bending::BendingResponse;
-use crate::measure::vector::{Vector, add_at, scale};
+use crate::measure::vector::{Vector, WeightedNode, add_at, scale};
 use crate::panel::lattice::Lattice;
 use crate::seam::builder::{SeamBuilder, SeamProblem};
 use crate::seam::connector::SeamConnector;
@@ -135,10 +135,10 @@ impl SeamBending {
     /// once.
     pub fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {
         self.connectors.iter().flat_map(|connector| {
-            let with = |(k, &(first, _)): (usize, &(u32, f64))| {
-                connector.nodes[k + 1..].iter().map(move |&(second, _)| [first, second])
-            };
-            connector.nodes.iter().enumerate().flat_map(with)
+            let nodes = connector.nodes.iter().enumerate();
+            nodes.flat_map(|(k, first)| {
+                connector.nodes[k + 1..].iter().map(move |second| [first.node, second.node])
+            })
         })
     }
 
@@ -155,7 +155,7 @@ impl SeamBending {
     pub fn add_forces(&self, state: &SeamState, trial: &[f64], forces: &mut [f64]) {
         for one in self.each(state) {
             let moment = one.respond(trial, false).gradient;
-            for &(node, weight) in &one.connector.nodes {
+            for &WeightedNode { node, weight } in &one.connector.nodes {
                 add_at(forces, node, scale(moment, -one.connector.area * weight));
             }
         }
@@ -188,10 +188,10 @@ impl SeamBending {
             let hessian = one.respond(trial, definite).hessian;
             let hessian = hessian.as_flattened();
             let SeamConnector { nodes, area, .. } = one.connector;
-            for (k, &(row, weight)) in nodes.iter().enumerate() {
-                for &(column, factor) in &nodes[k..] {
-                    let size = area * weight * factor;
-                    put(row, column, std::array::from_fn(|k| size * hessian[k]));
+            for (k, row) in nodes.iter().enumerate() {
+                for column in &nodes[k..] {
+                    let size = area * row.weight * column.weight;
+                    put(row.node, column.node, std::array::from_fn(|k| size * hessian[k]));
                 }
             }
         }

@@ -13,7 +13,7 @@ use super::svg::{dots, line};
 use crate::check;
 use crate::error::Error;
 
-/// Way in which a series of a graph is drawn.
+/// Look of a series of a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Look {
@@ -30,7 +30,7 @@ pub enum Look {
 pub struct GraphSeries {
     /// Name in the legend; series that look alike and have the same name share an entry.
     pub label: String,
-    /// Way in which it is drawn.
+    /// Look of its points.
     pub look: Look,
     /// Points in order.
     pub points: Vec<[f64; 2]>,

@@ -14,7 +14,7 @@ const LETTER: f64 = 5.9;
 /// Width of the sign before a label with the room around it, in px.
 const SIGN: f64 = 46.0;
 
-/// Way in which a series is drawn.
+/// Sign of a series in the legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sign {
     Points,
