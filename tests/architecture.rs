@@ -17,15 +17,7 @@ use modules::Modules;
 use serde_json::Value;
 
 /// Crates that do not keep all of these rules yet.
-const LEFT: &[&str] = &[
-    "drape-cloth",
-    "drape-collide",
-    "drape-dynamics",
-    "drape-pattern",
-    "drape-report",
-    "drape-scene",
-    "drape-validate",
-];
+const LEFT: &[&str] = &["drape-collide", "drape-validate"];
 
 /// Largest number of files of a folder.
 const FILES_MAX: usize = 14;

@@ -17,7 +17,7 @@ use crate::record::statistics::Statistics;
 use crate::record::stopwatch::Stopwatch;
 use crate::record::summary::{Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
-use crate::sewing::closing_springs::Closing;
+use crate::sewing::closing_springs::SeamState;
 use crate::sewing::node_map::merge;
 use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
 use crate::world::{Energy, PinLoad, World};
@@ -388,10 +388,10 @@ impl Simulation {
     fn check_seams(&mut self) -> Result<(), drape_implicit::Error> {
         let Some(springs) = self.world.closing_springs() else { return Ok(()) };
         let positions = &self.world.state.positions;
-        match springs.closing(positions, self.stepping.time(), self.last.imbalance) {
-            Closing::Closing => {}
-            Closing::Closed => self.finish_sewing()?,
-            Closing::Failed(gap) => {
+        match springs.state(positions, self.stepping.time(), self.last.imbalance) {
+            SeamState::Open => {}
+            SeamState::Closed => self.finish_sewing()?,
+            SeamState::Failed(gap) => {
                 let first = 3 * gap.ends[0] as usize;
                 let [x, y, z] = [0, 1, 2].map(|axis| positions[first + axis]);
                 let [one, other] = gap.ends.map(|end| self.parts.panel_of(end as usize));

@@ -1,3 +1,5 @@
+//! Darts of a shipped skirt.
+
 use drape_pattern::{Panel, Pattern};
 
 use crate::garments::{cut, shipped};

@@ -1,3 +1,5 @@
+//! Shipped garments, cut at several spacings.
+
 use drape_pattern::{CutPattern, Cutter, Error, Mistake, Note, Panel, Pattern, Quality};
 
 use crate::invariants;

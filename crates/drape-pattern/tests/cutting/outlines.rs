@@ -1,3 +1,5 @@
+//! Outlines of any shape, and what is refused.
+
 use drape_pattern::{
     Curve, Cutter, Edge, EdgeId, Error, MAX_EASE, Mistake, Note, Panel, Pattern, Quality, Seam,
 };

@@ -1,3 +1,5 @@
+//! Rectangles, along the grain and at an angle to it.
+
 use drape_pattern::{Cutter, Edge, EdgeId, MAX_EASE, NodeId, Panel, Pattern, Quality, Seam};
 
 use crate::invariants;

@@ -5,27 +5,16 @@
 
 use super::axis::Axis;
 use super::legend::{Legend, LegendEntry};
+use super::margin::{ACROSS, LEFT, RIGHT, WIDTH};
 use super::scale::{Scale, Tick};
 use super::style::Placement;
 use super::svg::px;
-
-/// Width of a plot, in px.
-pub(crate) const WIDTH: f64 = 720.0;
-
-/// Room for the labels left of a frame, in px.
-pub(crate) const LEFT: f64 = 68.0;
-
-/// Room right of a frame, in px.
-pub(crate) const RIGHT: f64 = 14.0;
 
 /// Room for the labels below a frame, in px.
 const BOTTOM: f64 = 46.0;
 
 /// Distance of the title of the x axis below the frame, in px.
 const X_TITLE: f64 = 38.0;
-
-/// First and last pixel across a frame.
-pub(crate) const ACROSS: [f64; 2] = [LEFT, WIDTH - RIGHT];
 
 /// Two axes with their scales.
 pub(crate) struct Plane<'a> {

@@ -4,8 +4,9 @@ use askama::Template;
 use serde::Serialize;
 
 use super::axis::Axis;
-use super::chart::{ACROSS, Chart, Frame, Heading, Plane};
+use super::chart::{Chart, Frame, Heading, Plane};
 use super::legend::{Legend, LegendItem, Sign};
+use super::margin::ACROSS;
 use super::scale::Scale;
 use super::style::Placement;
 use super::svg::{dots, line};
