@@ -19,10 +19,10 @@ use crate::state::State;
 
 /// Buffers for evaluating one cloth many times: after it has been made, nothing allocates.
 ///
-/// The methods are those of [`Cloth`]. They use the threads of the pool in which the workspace was made
-/// and the widest vector instructions of the machine. The numbers depend on neither, because the cloth is
-/// cut into the same strips for any number of threads, and the sums of the strips are added in their
-/// order.
+/// The methods are those of [`Cloth`]. They use the threads of the pool in which the workspace was
+/// made and the widest vector instructions of the machine. The numbers depend on neither, because
+/// the cloth is cut into the same strips for any number of threads, and the sums of the strips are
+/// added in their order.
 #[derive(Debug, Clone)]
 pub struct Workspace {
     pool: BufferPool,

@@ -1,12 +1,13 @@
-//! Memories of the connectors on the grids of a cloth, and the normals that bending is measured about.
+//! Memories of the connectors on the grids of a cloth, and the normals that bending is measured
+//! about.
 
 use drape_fabric::{BatchLaw, Memories, MemoriesMut};
 
 use crate::layout::columns::VectorColumns;
 use crate::layout::grid::GridPanel;
 
-/// Memories of the connectors, and the normals at the last commit, in columns: panel after panel, each
-/// with its margins.
+/// Memories of the connectors, and the normals at the last commit, in columns: panel after panel,
+/// each with its margins.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct GridMemories {
     /// Of the segments along warp and weft.

@@ -11,11 +11,11 @@ use crate::rim::neighbourhood::Neighbourhoods;
 use crate::rim::stencils::{Stencils, pairs};
 use crate::rim::triangles::Triangles;
 
-/// Rim of a panel: traction and shear of its triangles, and bending where no triple of the grid has its
-/// middle.
+/// Rim of a panel: traction and shear of its triangles, and bending where no triple of the grid has
+/// its middle.
 ///
-/// Indices count over the rims of the cloth, each padded to a whole number of batches with connectors of
-/// no area.
+/// Indices count over the rims of the cloth, each padded to a whole number of batches with
+/// connectors of no area.
 #[derive(Debug, Clone)]
 pub(crate) struct Rim {
     /// Index among the rims of the cloth.

@@ -130,7 +130,8 @@ impl SeamBuilder {
                 }
                 sides[side].push(ends[1][side]);
             }
-            // Over the mouth of a dart one side has one particle at both pairs, and the other jumps.
+            // Over the mouth of a dart one side has one particle at both pairs, and the other
+            // jumps.
             let stays = [0, 1].iter().any(|&side| ends[0][side] == ends[1][side]);
             let triangles = |side: &Vec<u32>| -> Result<Vec<SideTriangle>, SeamProblem> {
                 side.windows(2).map(|two| self.side_triangle(pair, two[0], two[1])).collect()
@@ -203,8 +204,8 @@ impl SeamBuilder {
         }
     }
 
-    /// Appends the connectors of a segment between two triangles, whose sides there have the given sum of
-    /// lengths, in m.
+    /// Appends the connectors of a segment between two triangles, whose sides there have the given
+    /// sum of lengths, in m.
     fn append_between(
         &self,
         seam: &Seam,
@@ -226,8 +227,8 @@ impl SeamBuilder {
                 nodes.push(WeightedNode { node, weight: size * weight });
             }
         }
-        // The wrong side of the second panel is up if the seam runs anticlockwise along both outlines, or
-        // clockwise along both.
+        // The wrong side of the second panel is up if the seam runs anticlockwise along both
+        // outlines, or clockwise along both.
         let sign = if one.along == other.along { -1.0 } else { 1.0 };
         let faces = [one.face(1.0), other.face(sign)];
         for triangle in triangles {
@@ -288,7 +289,8 @@ impl SeamBuilder {
         self.append_yarns(&draft, connectors);
     }
 
-    /// Appends the connectors of both yarns of a particle's panel, each with its fraction of a curvature.
+    /// Appends the connectors of both yarns of a particle's panel, each with its fraction of a
+    /// curvature.
     fn append_yarns(&self, draft: &Draft<'_>, connectors: &mut Vec<SeamConnector>) {
         let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
         for &WeightedNode { node, weight } in draft.nodes {
@@ -312,8 +314,8 @@ impl SeamBuilder {
     }
 }
 
-/// Returns the law of a yarn that takes a fraction `$c$` of a curvature as a law of the whole curvature:
-/// `$M'(\kappa) = c\,M(c\,\kappa)$`.
+/// Returns the law of a yarn that takes a fraction `$c$` of a curvature as a law of the whole
+/// curvature: `$M'(\kappa) = c\,M(c\,\kappa)$`.
 fn law_of_fraction(law: BendingLaw, fraction: f64) -> BendingLaw {
     let backbone = match law.backbone {
         BendingBackbone::Linear { rigidity } => {

@@ -56,8 +56,8 @@ impl SeamConnector {
         self.measure(positions, normal).curvature()
     }
 
-    /// Returns energy per area and derivatives. With a rest angle the curvature is counted about the
-    /// normal, as the friction is.
+    /// Returns energy per area and derivatives. With a rest angle the curvature is counted about
+    /// the normal, as the friction is.
     pub(crate) fn respond(
         &self,
         memory: &Memory,

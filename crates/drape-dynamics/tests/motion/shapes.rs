@@ -46,8 +46,8 @@ fn moved(outline: &Triangulation, displacement: [f64; 3]) -> Vec<[f64; 3]> {
     outline.vertices.iter().map(|x| [0, 1, 2].map(|axis| x[axis] + displacement[axis])).collect()
 }
 
-/// A block below the middle of the sheet, whose coordinates and displacement are fractions of two: exact in
-/// 32 bits too.
+/// A block below the middle of the sheet, whose coordinates and displacement are fractions of two:
+/// exact in 32 bits too.
 fn block() -> (Triangulation, [f64; 3]) {
     let shape = Shape::Box { half_extents: [0.0625, 0.03125, 0.0625], edge_radius: 0.0 };
     (outline(shape, [0.0, -0.03515625, 0.0]), [0.0078125, 0.015625, 0.0])

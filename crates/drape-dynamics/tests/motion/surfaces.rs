@@ -62,7 +62,8 @@ fn a_belt_carries_a_sheet_without_creeping() {
              size = [1, 0.02, 1]\ncenter = [0, -0.01, 0]\nfriction = {friction}\n[collider.box.motion]\n\
              times = [0, 0.5]\nshift = [[0, 0, 0], [0.05, 0, 0]]\n[time]\nstep = 0.002\nend = 0.7\n"
         );
-        // A pressure of 2 Pa is borne by a quarter of the stiffness, 4 µm inside the activation distance.
+        // A pressure of 2 Pa is borne by a quarter of the stiffness, 4 µm inside the activation
+        // distance.
         let panel = format!("{FLAT}center = [0, 9.96e-4, 0]\n");
         run(&Sheet { side: 0.2, scene, panel, ..Sheet::default() })
     };
@@ -113,8 +114,8 @@ fn a_fast_sheet_does_not_pass_a_thin_plate() {
 #[test]
 fn friction_holds_on_a_slope_and_lets_go_beyond_its_limit() {
     let displacement = |friction: f64, end: f64| {
-        // What bears the sheet's weight on a slope of tan 0.5 is 0.0022 mm inside the activation distance of 1
-        // mm.
+        // What bears the sheet's weight on a slope of tan 0.5 is 0.0022 mm inside the activation
+        // distance of 1 mm.
         let slope = -0.5_f64.atan().to_degrees();
         let normal = [0.5_f64.atan().sin(), 0.5_f64.atan().cos()];
         let place = |height: f64| normal.map(|n| n * height);

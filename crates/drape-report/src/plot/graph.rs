@@ -71,7 +71,8 @@ pub struct GraphPlot {
 }
 
 impl GraphPlot {
-    /// Refuses a plot without points, numbers that are not finite or have no logarithm, and units out of range.
+    /// Refuses a plot without points, numbers that are not finite or have no logarithm, and units
+    /// out of range.
     ///
     /// # Errors
     /// The first fault.
@@ -175,7 +176,8 @@ pub(crate) fn graph_figure(plot: &GraphPlot, placement: Placement) -> String {
     figure.render().expect("writing to a string does not fail")
 }
 
-/// Returns the series with their classes: references share one, the others take the colours in turn.
+/// Returns the series with their classes: references share one, the others take the colours in
+/// turn.
 fn classified(series: &[GraphSeries]) -> Vec<Classified<'_>> {
     let mut tones = (0..TONES).cycle();
     let class = |series| Classified {
@@ -204,7 +206,8 @@ fn scales(plot: &GraphPlot, top: f64) -> [Scale; 2] {
         return [x, y];
     }
     let width = ACROSS[1] - ACROSS[0];
-    // Length of a unit of the x axis, in px: as the width allows, unless the frame becomes too high.
+    // Length of a unit of the x axis, in px: as the width allows, unless the frame becomes too
+    // high.
     let units = plot.axes[1].in_si / plot.axes[0].in_si;
     let unit = (width / x.width()).min(HEIGHTS[1] / (y.width() * units));
     let height = (unit * y.width() * units).max(HEIGHTS[0]);

@@ -6,7 +6,8 @@ use super::svg::px;
 /// Height of a row of the legend, in px.
 const ROW: f64 = 24.0;
 
-/// Mean width of a letter of a label, in px: that of lower-case words in common sans-serif faces at 13 px.
+/// Mean width of a letter of a label, in px: that of lower-case words in common sans-serif faces at
+/// 13 px.
 ///
 /// The room around the sign makes up for wider words.
 const LETTER: f64 = 5.9;

@@ -8,8 +8,8 @@ use super::vector::{Bounds, Vector, add, at, cross, dot, norm, scale, subtract, 
 
 /// Longest edge of a facet, over the radius of the scene.
 ///
-/// The light of the sky is evaluated at corners and interpolated, so large triangles are split until they
-/// can resolve the shade at the foot of a body.
+/// The light of the sky is evaluated at corners and interpolated, so large triangles are split
+/// until they can resolve the shade at the foot of a body.
 const LONGEST_EDGE: f64 = 1.0 / 24.0;
 
 /// Cosine of the angle between normals above which an edge of a body is smooth: 40°.
