@@ -8,13 +8,14 @@
 //!
 //! A connector of area `$W$` has the energy `$W\int T\,\mathrm{d}s$` and the forces
 //! `$f_i = -W\,T\,\partial s/\partial x_i$`, which conserve linear and angular momentum and do not
-//! depend on the spacing. The forces of \[NB04, eqs. 4–5\] agree to first order if their lever arm is
-//! the segment `$h$`. In the second derivative of bending, the normal is the one at the start of the
-//! step: its rotation within the step is neglected.
+//! depend on the spacing. The forces of \[NB04, eqs. 4–5\] agree to first order if their lever arm
+//! is the segment `$h$`. In the second derivative of bending, the normal is the one at the start of
+//! the step: its rotation within the step is neglected.
 //!
-//! `vector`, `block` and `half` hold the algebra, `turning_angle` the curvature of a second difference,
-//! `bending` a bending connector in scalar form (used by `reference` and `seam`), `yarn_tangent` the
-//! normals, `triangle_strain` the strains that are reported. Nothing here knows a cloth.
+//! `vector`, `block` and `half` hold the algebra, `turning_angle` the curvature of a second
+//! difference, `bending` a bending connector in scalar form (used by `reference` and `seam`),
+//! `yarn_tangent` the normals, `triangle_strain` the strains that are reported. Nothing here knows
+//! a cloth.
 
 pub(crate) mod bending;
 pub(crate) mod block;

@@ -486,7 +486,7 @@ impl Simulation {
     fn fail(&mut self, error: &drape_implicit::Error) {
         let status = match error {
             drape_implicit::Error::NotConverged { stop: Stop::Intersection, .. } => {
-                Status::CertificateFailed
+                Status::Intersecting
             }
             _ => Status::SolverFailed,
         };

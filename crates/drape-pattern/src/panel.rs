@@ -15,7 +15,8 @@ const FARTHEST: f64 = 1000.0;
 /// Largest gap between edges that is closed, in m: the rounding of the digits of a file.
 const GAP: f64 = 1e-5;
 
-/// Length of the shortest edge of an outline, and side of the smallest square that is a panel, in m.
+/// Length of the shortest edge of an outline, and side of the smallest square that is a panel, in
+/// m.
 const SHORTEST: f64 = 1e-6;
 
 /// Piece of cloth with a checked outline: closed, simple, anticlockwise.
@@ -130,8 +131,8 @@ impl Panel {
         Ok(self)
     }
 
-    /// Returns the panel turned over, at the same position: reflected in its y axis, with its edges in the
-    /// order that they had before a clockwise outline was reversed.
+    /// Returns the panel turned over, at the same position: reflected in its y axis, with its edges
+    /// in the order that they had before a clockwise outline was reversed.
     #[must_use]
     pub(crate) fn turned_over(mut self) -> Self {
         let mirror = |edge: &Edge| edge.reversed().mapped(true, |[x, y]| [-x, y]);

@@ -1,7 +1,8 @@
-//! Chart: what all plots over two axes share, from values in SI to the frame and the title of the x axis.
+//! Chart: what all plots over two axes share, from values in SI to the frame and the title of the x
+//! axis.
 //!
-//! `loop_plot`, `graph` and `overlay` build a [`Plane`] of their values, take frames and pixels from it, and
-//! put a [`Chart`] into their template.
+//! `loop_plot`, `graph` and `overlay` build a [`Plane`] of their values, take frames and pixels
+//! from it, and put a [`Chart`] into their template.
 
 use super::axis::Axis;
 use super::legend::{Legend, LegendEntry};
@@ -23,7 +24,8 @@ pub(crate) struct Plane<'a> {
 }
 
 impl<'a> Plane<'a> {
-    /// Returns the plane of a frame between a top and a bottom pixel, with linear scales around values in SI.
+    /// Returns the plane of a frame between a top and a bottom pixel, with linear scales around
+    /// values in SI.
     pub(crate) fn around(
         axes: [&'a Axis; 2],
         x: impl Iterator<Item = f64>,
