@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::detection::{ActiveParticle, Chunk};
+use super::detection::{ActiveParticle, Chunk, Nearest};
 use super::friction::Friction;
 use super::settings::ParticleSettings;
-use super::summary::{Nearest, ParticleSummary, touching_particles};
+use super::summary::{ParticleSummary, touching_particles};
 use crate::barrier::Barrier;
 use crate::body::{Body, Pose, SignedDistance, Solid};
 use crate::error::Error;

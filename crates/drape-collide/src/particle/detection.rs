@@ -3,7 +3,6 @@
 //! A distance changes by no more than the particle moves, so a particle that was far from a body is
 //! not looked at again until it has moved far enough.
 
-use super::summary::{Nearest, NearestParticle};
 use crate::body::{DistanceBound, SignedDistance, Solid};
 use crate::vector::{Vector, at, norm, subtract};
 
@@ -22,6 +21,14 @@ pub(crate) struct ActiveParticle {
     pub(crate) particle: usize,
     pub(crate) body: usize,
     pub(crate) signed: SignedDistance,
+}
+
+/// Signed distance of a particle from a body, in m.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Nearest {
+    pub(crate) distance: f64,
+    pub(crate) particle: usize,
+    pub(crate) body: usize,
 }
 
 /// Lower bound of the distance of a particle from a body at an earlier position.
@@ -109,8 +116,7 @@ impl Chunk {
                 if known.bound(point) < limit {
                     let distance = solid.signed_distance(point).distance;
                     if distance < limit {
-                        let of = NearestParticle { particle, body };
-                        nearest = Some(Nearest { distance, of });
+                        nearest = Some(Nearest { distance, particle, body });
                     }
                 }
             }

@@ -1,6 +1,6 @@
 //! Counts, distances and loads of the contact of particles.
 
-use super::detection::ActiveParticle;
+use super::detection::{ActiveParticle, Nearest};
 
 /// Counts, distances and loads of particles in contact with bodies.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,13 +28,6 @@ pub struct NearestParticle {
     pub body: usize,
 }
 
-/// Signed distance of a particle from a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Nearest {
-    pub(crate) distance: f64,
-    pub(crate) of: NearestParticle,
-}
-
 impl ParticleSummary {
     /// Summary of active particles, in their order; loads are added by the caller.
     pub(super) fn new<'a>(
@@ -50,7 +43,7 @@ impl ParticleSummary {
             touching.count(particle, distance.is_finite());
             inside.count(particle, distance < 0.0);
             if distance < nearest.map_or(f64::INFINITY, |nearest| nearest.distance) {
-                nearest = Some(Nearest { distance, of: NearestParticle { particle, body } });
+                nearest = Some(Nearest { distance, particle, body });
             }
         }
         let nearest = nearest.or_else(nearest_inactive);
@@ -61,7 +54,8 @@ impl ParticleSummary {
             inside: inside.total,
             invalid: points.len() - points.filter(finite).count(),
             min_distance: nearest.map_or(f64::INFINITY, |nearest| nearest.distance),
-            nearest: nearest.map(|nearest| nearest.of),
+            nearest: nearest
+                .map(|Nearest { particle, body, .. }| NearestParticle { particle, body }),
             loads: vec![[0.0; 3]; bodies],
         }
     }
