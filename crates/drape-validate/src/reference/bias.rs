@@ -1,3 +1,5 @@
+//! Stiffness of strips cut at an angle to the yarns [Kil63]. The case `bias-strip` calls it.
+
 /// Stiffness of a strip cut at an angle (in rad) to its first yarns, in N/m.
 ///
 /// ```math

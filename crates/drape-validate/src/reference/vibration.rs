@@ -1,8 +1,13 @@
+//! Vibrations of hanging strips and pendulums: modes, periods and swings.
+//!
+//! Modes of a chain are zeros of a Bessel function [Ber38]; those of a strip with bending rigidity come from
+//! cubic finite elements; the period of a pendulum is an arithmetic–geometric mean [Gau99].
+
 use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::integrate::way;
+use super::runge_kutta::trajectory;
 
 /// Angular frequencies of the swinging modes of a chain of length `$L$` that hangs from one end, over
 /// `$\sqrt{g/L}$`: half the zeros of the Bessel function `$J_0$` [Bernoulli 1732].
@@ -104,7 +109,8 @@ pub fn pendulum_period(amplitude: f64) -> f64 {
 /// many even times of a number of such periods. By integration of `$\theta'' = -\sin\theta$`.
 pub fn pendulum_swing(amplitude: f64, periods: f64, places: usize) -> Vec<[f64; 2]> {
     let end = periods * TAU;
-    let swing = way(|_, [angle, rate]| [rate, -f64::sin(angle)], [amplitude, 0.0], end, places);
+    let swing =
+        trajectory(|_, [angle, rate]| [rate, -f64::sin(angle)], [amplitude, 0.0], end, places);
     let time = |k: usize| periods * (k + 1) as f64 / places as f64;
     let later = swing.enumerate().map(|(k, [angle, _])| [time(k), angle]);
     std::iter::once([0.0, amplitude]).chain(later).collect()
