@@ -184,7 +184,7 @@ pub fn spacing_bound(fabric: &Fabric) -> f64 {
 }
 
 /// Where the grid of a start has a particle, from the specimen's middle in spacings: places that fill the square evenly
-/// (the additive recurrence of the plastic number, Roberts 2018).
+/// (the additive recurrence of the plastic number, [Rob18]).
 fn grid(seed: u64) -> [f64; 2] {
     [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (seed as f64 * step).fract() - 0.5)
 }

@@ -24,8 +24,8 @@ pub struct Tip {
 /// \theta'' = -(\lambda\sigma + \mu)\cos\theta,\qquad \theta'(0) = 0,\qquad \theta(1) = 0
 /// ```
 ///
-/// for `$\lambda = wL^3/B$` and `$\mu = PL^2/B$`: the heavy elastica [Bickley 1934] where `$\mu = 0$`, the
-/// end-loaded cantilever [Bisshopp & Drucker 1945] where `$\lambda = 0$`. Solved by shooting from the tip.
+/// for `$\lambda = wL^3/B$` and `$\mu = PL^2/B$`: the heavy elastica [Bic34] where `$\mu = 0$`, the
+/// end-loaded cantilever [BD45] where `$\lambda = 0$`. Solved by shooting from the tip.
 pub fn cantilever(weight: f64, load: f64) -> Tip {
     let start = [tip_slope(weight, load), 0.0, 0.0, 0.0];
     let [_, _, drop, reach] = march(elastica(weight, load), start, 1.0, STEPS);

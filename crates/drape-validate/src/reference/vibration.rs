@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use super::runge_kutta::trajectory;
 
 /// Angular frequencies of the swinging modes of a chain of length `$L$` that hangs from one end, over
-/// `$\sqrt{g/L}$`: half the zeros of the Bessel function `$J_0$` [Bernoulli 1732].
+/// `$\sqrt{g/L}$`: half the zeros of the Bessel function `$J_0$` [Ber38].
 pub const CHAIN_MODES: [f64; 3] = [1.202_412_778_848, 2.760_039_055_143, 4.326_863_956_455];
 
 /// Elements along the hanging strip: the lowest frequencies are then right to a millionth for a rigidity of 1e-6
@@ -96,7 +96,7 @@ fn cubic(t: f64, h: f64) -> [[f64; 4]; 3] {
 /// T/T_0 = 1/\mathrm{agm}\left(1, \cos\tfrac{\alpha}{2}\right)
 /// ```
 ///
-/// with the arithmetic–geometric mean [Gauss 1799].
+/// with the arithmetic–geometric mean [Gau99].
 pub fn pendulum_period(amplitude: f64) -> f64 {
     let (mut a, mut b) = (1.0, (0.5 * amplitude).cos());
     for _ in 0..8 {

@@ -129,7 +129,7 @@ fn bend(making: Making, fabric: &Fabric) -> Result<[Vec<f64>; 2], ValidationErro
     Ok([curvatures, moments])
 }
 
-/// Curvature of the circle through points of a plane, by least squares of their powers [Kåsa 1976].
+/// Curvature of the circle through points of a plane, by least squares of their powers [Kas76].
 fn curvature(points: &[[f64; 2]]) -> f64 {
     let mut normal = nalgebra::SMatrix::<f64, 3, 3>::zeros();
     let mut right = nalgebra::SVector::<f64, 3>::zeros();

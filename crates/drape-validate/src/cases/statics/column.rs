@@ -9,7 +9,7 @@ use crate::findings::{Check, Findings};
 use crate::reference;
 use crate::setup::{GRAVITY, Strip, finish};
 
-/// An upright strip leans the more the nearer its weight is to the critical one [Southwell 1932].
+/// An upright strip leans the more the nearer its weight is to the critical one [Sou32].
 pub(crate) fn column() -> Result<Findings, ValidationError> {
     let lean = |weight: f64| -> Result<f64, ValidationError> {
         let strip = Strip::default().of_weight(weight);
