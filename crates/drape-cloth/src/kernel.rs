@@ -16,7 +16,8 @@
 //! is
 //!
 //! ```math
-//! f_i = \sum_{\text{directions}} P_{i \to i+1} - P_{i-1 \to i} - \left(M_{i-1} - 2M_i + M_{i+1}\right)
+//! f_i = \sum_{\text{directions}} P_{i \to i+1} - P_{i-1 \to i}
+//!   - \left(M_{i-1} - 2M_i + M_{i+1}\right)
 //! ```
 //!
 //! so it reads two points to each side along its yarns, and the cells around it:

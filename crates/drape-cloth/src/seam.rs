@@ -2,10 +2,10 @@
 //! outlines.
 //!
 //! ```text
-//!      panel 1      │      panel 2         across a segment a–b: from the two triangles (c, d) beside it
-//!    ───────┬───── a ┬───── ───┬───
-//!           │  c  ╱│╲  d       │           along the seam: three nodes in a row on each side
-//!    ───────┴───── b ┴─────────┴───
+//!      panel 1      │      panel 2         across a segment a–b: from the two
+//!    ───────┬───── a ┬───── ───┬───        triangles (c, d) beside it
+//!           │  c  ╱│╲  d       │           along the seam: three nodes in a row
+//!    ───────┴───── b ┴─────────┴───        on each side
 //!                  │ seam
 //! ```
 //!

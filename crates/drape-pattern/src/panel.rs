@@ -31,7 +31,8 @@ const SHORTEST: f64 = 1e-6;
 ///
 /// let crossed = [0, 2, 1, 3].map(|k| corners[k]);
 /// let edge = |k: usize| Edge::line(k.to_string(), crossed[k], crossed[(k + 1) % 4]);
-/// let mistakes = Panel::new("bow tie", (0..4).map(edge).collect()).expect_err("it crosses itself");
+/// let mistakes = Panel::new("bow tie", (0..4).map(edge).collect());
+/// let mistakes = mistakes.expect_err("it crosses itself");
 /// assert!(mistakes[0].to_string().contains("cross or touch"));
 /// ```
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! Forces of a strip.
 //!
 //! ```text
-//!   loads of segments, corners, triples  →  edge gradients P, moments M  →  forces (a sum per point)
+//!   loads of segments, corners, triples  →  edge gradients P, moments M  →  forces of points
 //! ```
 #![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 

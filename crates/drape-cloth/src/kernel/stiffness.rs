@@ -1,8 +1,9 @@
 //! Stiffness of a strip: the blocks of the second derivatives of its potential.
 //!
 //! ```text
-//!   shear blocks of corners, bending blocks of triples  →  blocks of neighbours along the yarns and
-//!   across the cells  →  a row of the matrix per point, its own block from the others' sum
+//!   shear blocks of corners, bending blocks of triples
+//!     →  blocks of neighbours along the yarns and across the cells
+//!     →  a row of the matrix per point, its own block from the others' sum
 //!
 //!   pair_blocks of a point A                       bending_blocks at c couple a, c and b:
 //!      D ── C     0: A–D (warp)   2: A–C             a ── c ── b    1, −2, 1
@@ -59,7 +60,8 @@ pub(crate) fn add_stiffness(
 /// `$q$` and lengths `$l_p$`, `$l_q$`,
 ///
 /// ```math
-/// \frac{1}{l_pl_q}\left[t\,qp^T - (tc+g)(pp^T+qq^T) + (tc^2+gc)\,pq^T + g\right],\qquad c = p\cdot q
+/// \frac{1}{l_pl_q}\left[t\,qp^T - (tc+g)(pp^T+qq^T) + (tc^2+gc)\,pq^T + g\right],
+/// \qquad c = p\cdot q
 /// ```
 ///
 /// with load `$g$` and tangent `$t$` times the area. Without `$g$` the stiffness is definite.
@@ -133,7 +135,8 @@ fn compute_bending_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, ki
 /// tension and, with the other edges `$a$` of the corners at an edge `$e$` of length `$l$`,
 ///
 /// ```math
-/// \frac{1}{l^2}\sum\left[t\,aa^T - (tc+g)(ae^T+ea^T) + (tc^2+3gc)\,ee^T - gc\right],\qquad c = a\cdot e
+/// \frac{1}{l^2}\sum\left[t\,aa^T - (tc+g)(ae^T+ea^T) + (tc^2+3gc)\,ee^T - gc\right],
+/// \qquad c = a\cdot e
 /// ```
 #[inline(always)]
 fn edge_blocks(

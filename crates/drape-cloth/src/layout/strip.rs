@@ -18,7 +18,7 @@ const STRIP_ROWS: usize = 16;
 ///
 /// ```text
 ///    rows        ┌────────────────────────┐
-///     r+2, r+1   │ margin, computed twice │  read: positions;  computed: edges, loads;  not written
+///     r+2, r+1   │ margin, computed twice │  read: positions;  computed: edges, loads
 ///                ├────────────────────────┤
 ///     r          │ points of the strip    │
 ///     …          │                        │  written: forces, blocks, memories, sums

@@ -8,7 +8,8 @@
 //!
 //! ```math
 //! \kappa^2 = \frac{\alpha^2}{h^2} = \frac{16}{h^2}\arcsin^2\sqrt{v}
-//!   = \frac{16}{h^2}\left(v + \frac{v^2}{3} + \frac{8v^3}{45} + \frac{4v^4}{35} + \frac{128v^5}{1575} + \ldots\right)
+//!   = \frac{16}{h^2}\left(v + \frac{v^2}{3} + \frac{8v^3}{45} + \frac{4v^4}{35}
+//!   + \frac{128v^5}{1575} + \ldots\right)
 //! ```
 //!
 //! Five terms leave an error of the angle of 0.01 % at 140° and of 0.13 % at 180°. The kernels, the

@@ -44,7 +44,8 @@ use crate::seam::description::Seam;
 /// # "#;
 /// # let document = drape_input::Document::new("plain.toml", text);
 /// # let fabric = drape_fabric::Fabric::from_document(&document)?;
-/// // Two squares of 3 × 3 particles, the right side of the first sewn to the left side of the second.
+/// // Two squares of 3 × 3 particles: the right side of the first is sewn to the left side of the
+/// // second.
 /// let square = Lattice::rectangle(0.02, 0.02, 0.01)?;
 /// let panels = [(&square, &fabric), (&square, &fabric)];
 /// let seams = SeamBending::new(&panels, &[Seam::new(vec![[2, 9], [5, 12], [8, 15]])])?;
