@@ -1,3 +1,5 @@
+//! Error of a case that cannot be run to its end. All modules return it; the suite tells it.
+
 use drape_input::Diagnostics;
 
 /// Why a case could not be run.

@@ -1,6 +1,16 @@
+//! Findings: what a case returns, as plain data.
+//!
+//! A case compares figures of a simulation with a reference ([`Check`]), and adds what a person looks
+//! at: plots ([`Graph`]) and pictures ([`Still`]). `drape validate` prints the checks and draws the rest;
+//! this crate draws nothing.
+
+mod check;
+mod graph;
+
 use drape_dynamics::Snapshot;
 
-use crate::{Check, Graph};
+pub use check::{Check, Kind};
+pub use graph::{Axis, Graph, Layout, Series, Source};
 
 /// What a case came to: figures beside their references, and what there is to look at.
 #[derive(Debug, Clone, PartialEq, Default)]

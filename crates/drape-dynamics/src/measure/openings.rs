@@ -132,7 +132,7 @@ impl Plane {
         self.axes.map(|axis| dot(axis, subtract(point, self.middle)))
     }
 
-    /// Where the plane cuts the sides of a triangle.
+    /// Points where the plane cuts the sides of a triangle.
     fn cuts(&self, corners: [[f64; 3]; 3]) -> Vec<[f64; 2]> {
         let heights = corners.map(|corner| dot(self.normal, subtract(corner, self.middle)));
         let cut = |k: usize| {

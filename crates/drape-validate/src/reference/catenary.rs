@@ -1,4 +1,6 @@
-use super::integrate::root;
+//! Catenary: the shape of an inextensible limp line between two supports. The case `catenary` calls it.
+
+use super::root;
 
 /// Sag of an inextensible line of a length between two supports at the same height, over the span.
 ///

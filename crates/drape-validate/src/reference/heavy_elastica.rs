@@ -1,4 +1,7 @@
-use super::integrate::{march, root, way};
+//! Heavy elastica: a clamped strip bent by its weight [Bic34] and by a load at its tip [BD45].
+
+use super::root;
+use super::runge_kutta::{march, trajectory};
 
 /// Steps of the integration along the strip: the error of the fourth order is then below 1e-10 of the length.
 const STEPS: usize = 4000;
@@ -21,8 +24,8 @@ pub struct Tip {
 /// \theta'' = -(\lambda\sigma + \mu)\cos\theta,\qquad \theta'(0) = 0,\qquad \theta(1) = 0
 /// ```
 ///
-/// for `$\lambda = wL^3/B$` and `$\mu = PL^2/B$`: the heavy elastica [Bickley 1934] where `$\mu = 0$`, the
-/// end-loaded cantilever [Bisshopp & Drucker 1945] where `$\lambda = 0$`. Solved by shooting from the tip.
+/// for `$\lambda = wL^3/B$` and `$\mu = PL^2/B$`: the heavy elastica [Bic34] where `$\mu = 0$`, the
+/// end-loaded cantilever [BD45] where `$\lambda = 0$`. Solved by shooting from the tip.
 pub fn cantilever(weight: f64, load: f64) -> Tip {
     let start = [tip_slope(weight, load), 0.0, 0.0, 0.0];
     let [_, _, drop, reach] = march(elastica(weight, load), start, 1.0, STEPS);
@@ -30,10 +33,11 @@ pub fn cantilever(weight: f64, load: f64) -> Tip {
 }
 
 /// The whole shape of the same strip, from its clamp at (0, 0): reach and drop over the length at so many even places.
-pub fn cantilever_shape((weight, load): (f64, f64), places: usize) -> Vec<[f64; 2]> {
+pub fn cantilever_shape(weight: f64, load: f64, places: usize) -> Vec<[f64; 2]> {
     let start = [tip_slope(weight, load), 0.0, 0.0, 0.0];
-    let shape: Vec<[f64; 4]> =
-        std::iter::once(start).chain(way(elastica(weight, load), start, 1.0, STEPS)).collect();
+    let shape: Vec<[f64; 4]> = std::iter::once(start)
+        .chain(trajectory(elastica(weight, load), start, 1.0, STEPS))
+        .collect();
     let [_, _, drop, reach] = shape[STEPS];
     let at = |k: usize| {
         let [_, _, down, across] = shape[STEPS - k * STEPS / places];
@@ -82,7 +86,7 @@ mod tests {
 
     #[test]
     fn the_shape_goes_from_the_clamp_to_the_tip() {
-        let (shape, tip) = (cantilever_shape((10.0, 0.0), 40), cantilever(10.0, 0.0));
+        let (shape, tip) = (cantilever_shape(10.0, 0.0, 40), cantilever(10.0, 0.0));
         let ([x0, y0], [x1, y1]) = (shape[0], shape[shape.len() - 1]);
         assert!(x0.abs() < 1e-9 && y0.abs() < 1e-9, "it begins at {x0}, {y0}");
         assert!((x1 - tip.reach).abs() < 1e-9 && (y1 - tip.drop).abs() < 1e-9, "{tip:?}");

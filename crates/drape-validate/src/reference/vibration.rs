@@ -1,11 +1,16 @@
+//! Vibrations of hanging strips and pendulums: modes, periods and swings.
+//!
+//! Modes of a chain are zeros of a Bessel function [Ber38]; those of a strip with bending rigidity come from
+//! cubic finite elements; the period of a pendulum is an arithmetic–geometric mean [Gau99].
+
 use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::integrate::way;
+use super::runge_kutta::trajectory;
 
 /// Angular frequencies of the swinging modes of a chain of length `$L$` that hangs from one end, over
-/// `$\sqrt{g/L}$`: half the zeros of the Bessel function `$J_0$` [Bernoulli 1732].
+/// `$\sqrt{g/L}$`: half the zeros of the Bessel function `$J_0$` [Ber38].
 pub const CHAIN_MODES: [f64; 3] = [1.202_412_778_848, 2.760_039_055_143, 4.326_863_956_455];
 
 /// Elements along the hanging strip: the lowest frequencies are then right to a millionth for a rigidity of 1e-6
@@ -91,7 +96,7 @@ fn cubic(t: f64, h: f64) -> [[f64; 4]; 3] {
 /// T/T_0 = 1/\mathrm{agm}\left(1, \cos\tfrac{\alpha}{2}\right)
 /// ```
 ///
-/// with the arithmetic–geometric mean [Gauss 1799].
+/// with the arithmetic–geometric mean [Gau99].
 pub fn pendulum_period(amplitude: f64) -> f64 {
     let (mut a, mut b) = (1.0, (0.5 * amplitude).cos());
     for _ in 0..8 {
@@ -104,7 +109,8 @@ pub fn pendulum_period(amplitude: f64) -> f64 {
 /// many even times of a number of such periods. By integration of `$\theta'' = -\sin\theta$`.
 pub fn pendulum_swing(amplitude: f64, periods: f64, places: usize) -> Vec<[f64; 2]> {
     let end = periods * TAU;
-    let swing = way(|_, [angle, rate]| [rate, -f64::sin(angle)], [amplitude, 0.0], end, places);
+    let swing =
+        trajectory(|_, [angle, rate]| [rate, -f64::sin(angle)], [amplitude, 0.0], end, places);
     let time = |k: usize| periods * (k + 1) as f64 / places as f64;
     let later = swing.enumerate().map(|(k, [angle, _])| [time(k), angle]);
     std::iter::once([0.0, amplitude]).chain(later).collect()
