@@ -2,7 +2,7 @@
 
 use drape_input::Diagnostics;
 
-/// Why a case could not be run.
+/// Reason why a case cannot be run.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ValidationError {

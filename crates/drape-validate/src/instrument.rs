@@ -1,9 +1,10 @@
 //! Instruments: the KES tests, answered by the laws alone and by simulated specimens.
 //!
-//! `cycle` has the deformations of each test. `ideal` and `bias` answer with the laws of the fabric, as
-//! if it deformed evenly. `specimen` is a panel in two clamps with its true size; `measurement` drives
-//! it and reads the load of the moving clamp as the instrument does, and `comparison` holds the two
-//! curves against each other. `drape test` and the cases of loops call this chapter.
+//! `cycle` has the deformations of each test. `ideal` and `bias` answer with the laws of the
+//! fabric, as if it deformed evenly. `specimen` is a panel in two clamps with its true size;
+//! `measurement` drives it and reads the load of the moving clamp as the instrument does, and
+//! `comparison` holds the two curves against each other. `drape test` and the cases of loops call
+//! this chapter.
 
 mod bias;
 mod comparison;

@@ -4,11 +4,11 @@
 //!
 //! `setup` turns strips and shipped fabrics into scenes in memory. [`instrument`] and
 //! [`drapemeter`] simulate the tests of a laboratory; `outline` reads closed curves from draped
-//! cloth. [`mod@reference`] has the exact solutions. Each of `cases` runs one experiment, compares it
-//! and returns [`Findings`]; [`CASES`] lists them for the command line.
+//! cloth. [`mod@reference`] has the exact solutions. Each of `cases` runs one experiment, compares
+//! it and returns [`Findings`]; [`CASES`] lists them for the command line.
 //!
-//! Modules use each other in this order only: `error`, `progress`, `bisection`, `findings`, `setup`,
-//! `instrument`, `outline`, `drapemeter`, `reference`, `cases`, `suite`.
+//! Modules use each other in this order only: `error`, `progress`, `bisection`, `findings`,
+//! `setup`, `instrument`, `outline`, `drapemeter`, `reference`, `cases`, `suite`.
 
 // What a case returns.
 mod error;

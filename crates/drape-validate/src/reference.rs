@@ -1,9 +1,9 @@
 //! Exact solutions of the statics and dynamics of thin strips.
 //!
-//! Each function answers one question with one formula and its source; none comes from a simulation.
-//! `runge_kutta` integrates where no closed form exists. A ratio such as `$wL^3/B$` stands for all strips
-//! with the same shape: `$w$` weight per area, `$L$` length, `$B$` bending rigidity per width. The cases
-//! compare simulations with these.
+//! Each function answers one question with one formula and its source; none comes from a
+//! simulation. `runge_kutta` integrates where no closed form exists. A ratio such as `$wL^3/B$`
+//! stands for all strips with the same shape: `$w$` weight per area, `$L$` length, `$B$` bending
+//! rigidity per width. The cases compare simulations with these.
 
 mod bias;
 mod catenary;

@@ -1,7 +1,7 @@
 //! Suite: the cases of `drape validate` with their names and titles.
 //!
-//! The command line asks for a case by its name, runs it, and shows its [`Outcome`]. A long case takes many
-//! minutes and is left out unless it is asked for.
+//! The command line asks for a case by its name, runs it, and shows its [`Outcome`]. A long case
+//! takes many minutes and is left out unless it is asked for.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,12 +10,12 @@ use crate::error::ValidationError;
 use crate::findings::{Check, Findings, Graph, Still};
 use crate::progress::Progress;
 
-/// A case of the suite.
+/// Case of the suite.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
-    /// The name by which it is asked for.
+    /// Name by which it is asked for.
     pub name: &'static str,
-    /// What it shows, and where the reference is from.
+    /// Title, with the source of the reference.
     pub title: &'static str,
     run: Run,
 }
@@ -27,12 +27,13 @@ enum Run {
 }
 
 impl Case {
-    /// Whether it takes many minutes, and is left out unless asked for.
+    /// Returns whether it takes many minutes.
+    #[must_use]
     pub fn is_long(&self) -> bool {
         matches!(self.run, Run::Long(_))
     }
 
-    /// Simulates and compares.
+    /// Simulates, compares and returns the findings.
     ///
     /// # Errors
     /// A simulation that cannot be run to its end.
@@ -44,7 +45,7 @@ impl Case {
     }
 }
 
-/// Every case, in the order of the report.
+/// Cases, in the order of the report.
 pub const CASES: &[Case] = &[
     Case {
         name: "instruments",
@@ -193,29 +194,30 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// What came of a case.
+/// Outcome of a case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
-    /// The case's name.
+    /// Name of the case.
     pub name: String,
-    /// Its title.
+    /// Title of the case.
     pub title: String,
-    /// Its figures; none where it could not be run.
+    /// Checks; none where it could not be run.
     pub checks: Vec<Check>,
-    /// Its plots.
+    /// Plots.
     #[serde(skip)]
     pub graphs: Vec<Graph>,
-    /// Its pictures.
+    /// Pictures.
     #[serde(skip)]
     pub stills: Vec<Still>,
-    /// Why it could not be run.
+    /// Reason why it could not be run.
     pub failure: Option<String>,
-    /// How long it took, in s.
+    /// Time that it took, in s.
     pub seconds: f64,
 }
 
 impl Outcome {
-    /// Runs a case.
+    /// Runs a case and returns its outcome.
+    #[must_use]
     pub fn of(case: &Case, progress: &Progress<'_>) -> Self {
         let start = std::time::Instant::now();
         let (findings, failure) = match case.run(progress) {
@@ -234,7 +236,8 @@ impl Outcome {
         }
     }
 
-    /// Whether it could be run, and every figure is within its limit.
+    /// Returns whether it could be run and every figure is within its limit.
+    #[must_use]
     pub fn passes(&self) -> bool {
         self.failure.is_none() && self.checks.iter().all(Check::passes)
     }

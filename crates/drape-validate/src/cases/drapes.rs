@@ -1,7 +1,7 @@
 //! Cases of drapes: whole cloths against published experiments.
 //!
-//! Drape coefficients are compared with measurements on the FRL drapemeter [Mat15], their grids and
-//! starts with each other, and cloths on a cube with what a paper says of three fabrics [BHW94].
+//! Drape coefficients are compared with measurements on the FRL drapemeter \[Mat15\], their grids and
+//! starts with each other, and cloths on a cube with what a paper says of three fabrics \[BHW94\].
 
 mod breen;
 mod coefficient;

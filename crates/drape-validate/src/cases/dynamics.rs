@@ -1,8 +1,8 @@
 //! Cases of dynamics: strips in motion against exact solutions.
 //!
-//! Modes of hanging strips, the period of a pendulum, the fall and the rotation of a free strip, the
-//! decrement of a strip with friction, and a measured experiment in a vacuum. `history` records a figure
-//! step by step and reads periods from it.
+//! Modes of hanging strips, the period of a pendulum, the fall and the rotation of a free strip,
+//! the decrement of a strip with friction, and a measured experiment in a vacuum. `history` records
+//! a figure step by step and reads periods from it.
 
 mod decrement;
 mod free;

@@ -1,8 +1,8 @@
 //! Cases of statics: strips and sheets at rest against exact solutions.
 //!
 //! A strip is let go without inertia until it rests, and its shape, load or energy is compared. The
-//! references are the heavy elastica, the end-loaded cantilever, the catenary, the critical weight of a
-//! column, the stiffness of bias strips, and the energy of a bent sheet.
+//! references are the heavy elastica, the end-loaded cantilever, the catenary, the critical weight
+//! of a column, the stiffness of bias strips, and the energy of a bent sheet.
 
 mod bias_strip;
 mod cantilever;

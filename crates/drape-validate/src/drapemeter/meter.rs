@@ -1,7 +1,7 @@
 //! Drapemeter: the scene of a specimen that is let down, and what its shadow shows.
 //!
-//! The FRL and Cusick instruments differ by their diameters. Places of the grid over the starts follow the
-//! additive recurrence of the plastic number [Rob18].
+//! The FRL and Cusick instruments differ by their diameters. Places of the grid over the starts
+//! follow the additive recurrence of the plastic number \[Rob18\].
 
 use std::f64::consts::PI;
 
@@ -21,8 +21,8 @@ const PEDESTAL: f64 = 0.3;
 /// Distance at which the cloth feels disc and platform, in m.
 const GAP: f64 = 1e-3;
 
-/// Tolerance of a step, over g. Ten times tighter takes half as long again, and two starts of a wool drape to the same
-/// within 0.05 points, as they do ten times looser.
+/// Tolerance of a step, over g. Ten times tighter takes half as long again, and two starts of a
+/// wool drape to the same within 0.05 points, as they do ten times looser.
 const TOLERANCE: f64 = 1e-3;
 
 /// Length over which the heights of an uneven specimen change, in m.
@@ -31,36 +31,39 @@ const UNEVEN_LENGTH: f64 = 0.02;
 /// How long the specimen hangs before its shadow is read, in s.
 const REST: f64 = 2.5;
 
-/// How far beyond the disc particles are held, over the spacing: the last ones lie half a spacing beyond the line
-/// where the slope is held, and half a spacing less than this beyond the disc on the average.
+/// How far beyond the disc particles are held, over the spacing: the last ones lie half a spacing
+/// beyond the line where the slope is held, and half a spacing less than this beyond the disc on
+/// the average.
 const CLAMP_REACH: f64 = 1.0;
 
-/// How far inside the disc the simulated cloth ends, over the spacing: a connector reaches two spacings from a particle
-/// that moves to others that are held.
+/// How far inside the disc the simulated cloth ends, over the spacing: a connector reaches two
+/// spacings from a particle that moves to others that are held.
 const HELD_ROWS: f64 = 2.0;
 
 /// How far a fold must stand out, in m.
 const PROMINENCE: f64 = 3e-3;
 
-/// A drapemeter: its disc and the specimen's size, radii in m, and how the specimen is treated.
+/// Drapemeter: radii of disc and specimen, in m, and the protocol.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drapemeter {
     /// Radius of the disc that holds the specimen.
     pub disc: f64,
     /// Radius of the specimen.
     pub specimen: f64,
-    /// How it is let down.
+    /// Protocol of the test.
     pub protocol: Protocol,
 }
 
 impl Drapemeter {
     /// The FRL meter: 127 mm on 63.5 mm.
+    #[must_use]
     pub fn frl() -> Self {
         Self::of_diameters(0.127, 0.254)
     }
 
-    /// Cusick's, 18 cm, with a specimen of some diameter in m: 0.24 for limp fabrics, 0.3, or 0.36 for stiff ones
-    /// (BS 5058, ISO 9073-9).
+    /// Cusick's, 18 cm, with a specimen of some diameter in m: 0.24 for limp fabrics, 0.3, or 0.36
+    /// for stiff ones (BS 5058, ISO 9073-9).
+    #[must_use]
     pub fn cusick(specimen: f64) -> Self {
         Self::of_diameters(0.18, specimen)
     }
@@ -71,7 +74,8 @@ impl Drapemeter {
 }
 
 impl Drapemeter {
-    /// Drapes specimens of particles at a spacing, in m, from so many starts, side by side; tells after each.
+    /// Drapes specimens of particles at a spacing, in m, from so many starts, side by side; tells
+    /// after each.
     ///
     /// # Errors
     /// Those of the first start that fails, and fewer than two starts.
@@ -94,12 +98,13 @@ impl Drapemeter {
         Ok(Study { drapes })
     }
 
-    /// Drapes a specimen of particles at a spacing, in m, from a start that a seed perturbs: how uneven it is, and
-    /// where the grid lies on it.
+    /// Drapes a specimen of particles at a spacing, in m, from a start that a seed perturbs: how
+    /// uneven it is, and where the grid lies on it.
     ///
-    /// The specimen lies on the disc and on a platform around it, which sinks away from under it, and then hangs in air
-    /// for a while. Its inertia matters, however slow the platform: as folds fall into place the cloth sways, and works
-    /// against its friction. Without inertia a cotton and a wool of 83 and 50 % drape to 91 and 58 %.
+    /// The specimen lies on the disc and on a platform around it, which sinks away from under it,
+    /// and then hangs in air for a while. Its inertia matters, however slow the platform: as folds
+    /// fall into place the cloth sways, and works against its friction. Without inertia a cotton
+    /// and a wool of 83 and 50 % drape to 91 and 58 %.
     ///
     /// # Errors
     /// A simulation that cannot be run to its end.
@@ -175,16 +180,17 @@ impl Drapemeter {
     }
 }
 
-/// The coarsest spacing at which a fabric's drape coefficient is within some points of that of finer ones, in m: 0.22 of
-/// the length at which its weight bends it, `$(B/w)^{1/3}$`.
+/// The coarsest spacing at which a fabric's drape coefficient is within some points of that of
+/// finer ones, in m: 0.22 of the length at which its weight bends it, `$(B/w)^{1/3}$`.
+#[must_use]
 pub fn spacing_bound(fabric: &Fabric) -> f64 {
     let rigidity = fabric.warp.bending.backbone.respond(0.0).tangent;
     let rigidity = rigidity.min(fabric.weft.bending.backbone.respond(0.0).tangent);
     0.22 * (rigidity / (fabric.density * GRAVITY)).cbrt()
 }
 
-/// Where the grid of a start has a particle, from the specimen's middle in spacings: places that fill the square evenly
-/// (the additive recurrence of the plastic number, [Rob18]).
+/// Where the grid of a start has a particle, from the specimen's middle in spacings: places that
+/// fill the square evenly (the additive recurrence of the plastic number, \[Rob18\]).
 fn grid(seed: u64) -> [f64; 2] {
     [0.754_877_666_246_693, 0.569_840_290_998_053].map(|step| (seed as f64 * step).fract() - 0.5)
 }

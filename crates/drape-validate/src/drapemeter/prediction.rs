@@ -1,8 +1,8 @@
 //! Prediction of a drape coefficient from a KES sheet that leaves parameters open.
 //!
-//! Each open parameter is taken to either end of its range. To first order the changes of independent
-//! parameters add as squares, so the interval around the fitted coefficient `$D$` ends at
-//! `$D \pm \sqrt{\sum_i \Delta_i^2}$`.
+//! Each open parameter is taken to either end of its range. To first order the changes of
+//! independent parameters add as squares, so the interval around the fitted coefficient `$D$` ends
+//! at `$D \pm \sqrt{\sum_i \Delta_i^2}$`.
 
 use drape_fabric::{Fabric, ShearBackbone};
 
@@ -10,11 +10,11 @@ use super::meter::Drapemeter;
 use super::study::{Sampling, Study};
 use crate::error::ValidationError;
 
-/// A parameter that a sheet may leave open.
+/// Parameter that a sheet may leave open.
 ///
-/// Its logarithm is taken to be normally distributed, with one in twenty fabrics below and one above its ends; the
-/// parameters are taken to be independent. No survey of many fabrics is behind the ends; they are meant to be wide for
-/// apparel weaves.
+/// Its logarithm is taken to be normally distributed, with one in twenty fabrics below and one
+/// above its ends; the parameters are taken to be independent. No survey of many fabrics is behind
+/// the ends; they are meant to be wide for apparel weaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnmeasuredParameter {
     /// G.
@@ -30,6 +30,7 @@ impl UnmeasuredParameter {
     pub const ALL: [Self; 3] = [Self::ShearStiffness, Self::ShearLoop, Self::BendingSlip];
 
     /// Its name, and its ends in the laboratory's units.
+    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::ShearStiffness => "G 0.3 to 1 gf/(cm·deg)",
@@ -38,8 +39,9 @@ impl UnmeasuredParameter {
         }
     }
 
-    /// The two fabrics with this at the end where it drapes most and where it drapes least; none if it was not
-    /// assumed in the fabric's fit.
+    /// The two fabrics with this at the end where it drapes most and where it drapes least; none if
+    /// it was not assumed in the fabric's fit.
+    #[must_use]
     pub fn ends(self, fabric: &Fabric) -> Option<[Fabric; 2]> {
         let assumed = &fabric.provenance.as_ref()?.assumed;
         let named = |what: &str| assumed.iter().any(|text| text.starts_with(what));
@@ -78,7 +80,7 @@ impl UnmeasuredParameter {
     }
 }
 
-/// A drape coefficient with what the sheet leaves open.
+/// Prediction of a drape coefficient, with what the sheet leaves open.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
     /// The fabric as it was fitted.
@@ -88,7 +90,8 @@ pub struct Prediction {
 }
 
 impl Prediction {
-    /// Drapes a fabric as fitted and with each open parameter at its ends, at a spacing, in m, from so many starts.
+    /// Drapes a fabric as fitted and with each open parameter at its ends, at a spacing, in m, from
+    /// so many starts.
     ///
     /// # Errors
     /// Those of [`Drapemeter::study`].
@@ -110,13 +113,15 @@ impl Prediction {
     }
 
     /// Studies that a prediction of a fabric takes.
+    #[must_use]
     pub fn studies(fabric: &Fabric) -> u64 {
         let open = UnmeasuredParameter::ALL.iter().filter(|open| open.ends(fabric).is_some());
         1 + 2 * open.count() as u64
     }
 
-    /// What nine of ten fabrics with the same sheet drape to: to first order, the changes of independent parameters
-    /// add up as squares.
+    /// What nine of ten fabrics with the same sheet drape to: to first order, the changes of
+    /// independent parameters add up as squares.
+    #[must_use]
     pub fn interval(&self) -> [f64; 2] {
         let middle = self.fitted.mean();
         let reach = |sign: f64| {

@@ -1,13 +1,14 @@
-//! Protocol of a drape test: how the platform sinks, how the disc is shaken, and how even a specimen is.
+//! Protocol of a drape test: how the platform sinks, how the disc is shaken, and how even a
+//! specimen is.
 
 use std::f64::consts::TAU;
 
-/// How a specimen is let down, and how that is simulated.
+/// Protocol of a drape test, and of its simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Protocol {
-    /// How fast the platform sinks, in m/s. The standards do not give it.
+    /// Speed of the sinking platform, in m/s. The standards do not give it.
     pub sink_speed: f64,
-    /// How the disc is shaken when the platform is down.
+    /// Shaking of the disc when the platform is down.
     pub shake: Option<Shake>,
     /// Turn of the specimen about the upright, in degrees: what is read must not depend on it.
     pub turn: f64,
@@ -15,9 +16,10 @@ pub struct Protocol {
     pub step: f64,
     /// How uneven the specimen is at first, by heights that change over 20 mm: the greatest, in m.
     ///
-    /// They are the same at every spacing. If each particle had a height of its own, the cloth would be curved the more
-    /// the finer its grid, and the friction of its yarns would slip, it seems, before it moves: at 2.3 mm a cotton then
-    /// drapes to 75 % in four folds or five, where it drapes to 83 % in five or six.
+    /// They are the same at every spacing. If each particle had a height of its own, the cloth
+    /// would be curved the more the finer its grid, and the friction of its yarns would slip, it
+    /// seems, before it moves: at 2.3 mm a cotton then drapes to 75 % in four folds or five, where
+    /// it drapes to 83 % in five or six.
     pub unevenness: f64,
 }
 
@@ -27,7 +29,7 @@ impl Default for Protocol {
     }
 }
 
-/// Keys of the way of a shaken disc in a period.
+/// Keys of the trajectory of a shaken disc in a period.
 const SHAKE_KEYS: usize = 8;
 
 /// Strokes of the disc up and down, a sine in time.
@@ -35,14 +37,15 @@ const SHAKE_KEYS: usize = 8;
 pub struct Shake {
     /// Greatest distance from its place, in m.
     pub amplitude: f64,
-    /// Strokes per second.
+    /// Frequency of the strokes, in 1/s.
     pub frequency: f64,
-    /// How many.
+    /// Number of strokes.
     pub strokes: usize,
 }
 
 impl Shake {
-    /// Three strokes of 10 mm to either side at 2 Hz, as a hand gives: 1.6 times gravity at the turns.
+    /// Three strokes of 10 mm to either side at 2 Hz, as a hand gives: 1.6 times gravity at the
+    /// turns.
     pub const BOUNCE: Self = Self { amplitude: 0.01, frequency: 2.0, strokes: 3 };
 
     fn seconds(&self) -> f64 {

@@ -7,17 +7,17 @@ use super::protocol::{Protocol, Shake};
 use super::study::{Sampling, Study};
 use crate::error::ValidationError;
 
-/// A fabric in a drapemeter, one thing of which is varied.
+/// Drapemeter and fabric of which one factor is varied.
 type Setting = (Drapemeter, Fabric);
 
-/// Something that is varied from a lower to a higher value.
+/// Factor that is varied from a lower to a higher value.
 pub struct Factor {
-    /// What, and from where to where.
+    /// Name, with both values.
     pub name: &'static str,
     set: fn(&mut Setting, usize),
 }
 
-/// All factors, in the order of a table.
+/// Factors, in the order of the table.
 pub const FACTORS: [Factor; 13] = [
     Factor { name: "no friction, with friction", set: friction },
     Factor { name: "2HG 0 to 2 gf/cm", set: shear_loop },
@@ -35,8 +35,8 @@ pub const FACTORS: [Factor; 13] = [
 ];
 
 impl Factor {
-    /// Drapes a fabric with this at its lower and at its higher value, at a spacing, in m, from so many starts; tells
-    /// after each.
+    /// Drapes a fabric with this at its lower and at its higher value, at a spacing, in m, from so
+    /// many starts; tells after each.
     ///
     /// # Errors
     /// Those of [`Drapemeter::study`].

@@ -7,18 +7,18 @@ use std::collections::BTreeMap;
 /// Harmonics of the edge that count as its shape.
 pub(super) const HARMONICS: usize = 20;
 
-/// What is read from the shadow of a draped specimen.
+/// Drape of a specimen, read from its shadow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drape {
-    /// Area of the shadow beyond the disc over that of the flat specimen beyond it.
+    /// Drape coefficient: area of the shadow beyond the disc over that of the flat specimen.
     pub coefficient: f64,
-    /// Folds: maxima of the shadow's edge.
+    /// Number of nodes: maxima of the shadow's edge.
     pub nodes: usize,
     /// Amplitudes of the edge's harmonics 1, 2, … around the disc, in m.
     pub amplitudes: Vec<f64>,
     /// Radius of the shadow's edge at even angles, in m.
     pub edge: Vec<f64>,
-    /// How fast the fastest particle still was, in m/s.
+    /// Speed of the fastest particle, in m/s.
     pub speed: f64,
 }
 
@@ -39,27 +39,31 @@ pub struct Study {
 }
 
 impl Study {
-    /// Mean of the drape coefficients.
+    /// Returns the mean of the drape coefficients.
+    #[must_use]
     pub fn mean(&self) -> f64 {
         let sum: f64 = self.drapes.iter().map(|drape| drape.coefficient).sum();
         sum / self.drapes.len() as f64
     }
 
-    /// Standard deviation of the drape coefficients over the starts.
+    /// Returns the standard deviation of the drape coefficients over the starts.
+    #[must_use]
     pub fn deviation(&self) -> f64 {
         let mean = self.mean();
         let squares = self.drapes.iter().map(|drape| (drape.coefficient - mean).powi(2));
         (squares.sum::<f64>() / (self.drapes.len() as f64 - 1.0)).sqrt()
     }
 
-    /// How many starts ended with each number of nodes.
+    /// Returns the number of starts with each number of nodes.
+    #[must_use]
     pub fn nodes(&self) -> BTreeMap<usize, usize> {
         let mut counts = BTreeMap::new();
         self.drapes.iter().for_each(|drape| *counts.entry(drape.nodes).or_default() += 1);
         counts
     }
 
-    /// Mean amplitudes of the edge's harmonics 1, 2, …, in m.
+    /// Returns the mean amplitudes of the edge's harmonics 1, 2, …, in m.
+    #[must_use]
     pub fn amplitudes(&self) -> Vec<f64> {
         let mean = |harmonic: usize| {
             let sum: f64 = self.drapes.iter().map(|drape| drape.amplitudes[harmonic]).sum();

@@ -2,82 +2,85 @@
 //!
 //! The pages choose colours and draw it.
 
-/// A plot of a case: where looking beats reading. All numbers are in SI.
+/// Plot of a case, in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Graph {
-    /// What is shown.
+    /// Title.
     pub title: String,
-    /// Across and up.
+    /// Axes across and up.
     pub axes: [Axis; 2],
-    /// How the axes are laid out.
+    /// Layout of the axes.
     pub layout: Layout,
-    /// What is drawn.
+    /// Series, in the order of drawing.
     pub series: Vec<Series>,
 }
 
-/// What an axis shows, and in which unit.
+/// Axis: its quantity and its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
-    /// The quantity.
+    /// Quantity.
     pub label: &'static str,
-    /// The unit, empty for a ratio.
+    /// Unit; empty for a ratio.
     pub unit: &'static str,
-    /// One unit in SI.
+    /// Size of the unit, in SI.
     pub in_si: f64,
 }
 
-/// How the axes of a graph are laid out.
+/// Layout of the axes of a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layout {
-    /// Each as its numbers need.
+    /// Each axis spans its numbers.
     Free,
-    /// A unit is as long up as across: for shapes.
+    /// Units of both axes are of one length: for shapes.
     ToScale,
-    /// Both logarithmic.
+    /// Both axes are logarithmic.
     Logarithmic,
 }
 
-/// One series of a graph.
+/// Series of points of a graph.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// Its name; references of one name share it.
+    /// Name; references of one name share it.
     pub label: String,
-    /// Where its points come from.
+    /// Source of its points.
     pub source: Source,
-    /// Its points in order.
+    /// Points in order.
     pub points: Vec<[f64; 2]>,
 }
 
-/// Where a series comes from.
+/// Source of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Source {
-    /// A simulation, in places that are shown one by one.
+    /// Simulation, drawn as single points.
     Simulated,
-    /// A simulation, in so many places that they are a line.
+    /// Simulation, drawn as a line.
     Traced,
-    /// What the simulation is held against.
+    /// Reference.
     Reference,
 }
 
 impl Axis {
-    /// An axis of a ratio.
+    /// Returns the axis of a ratio.
+    #[must_use]
     pub const fn ratio(label: &'static str) -> Self {
         Self { label, unit: "", in_si: 1.0 }
     }
 
-    /// An axis with a unit.
+    /// Returns an axis with a unit.
+    #[must_use]
     pub const fn new(label: &'static str, unit: &'static str, in_si: f64) -> Self {
         Self { label, unit, in_si }
     }
 }
 
 impl Graph {
-    /// A graph without series yet.
+    /// Returns a graph without series.
+    #[must_use]
     pub fn new(title: impl Into<String>, axes: [Axis; 2]) -> Self {
         Self { title: title.into(), axes, layout: Layout::Free, series: Vec::new() }
     }
 
-    /// The same laid out otherwise.
+    /// Returns the graph with another layout.
     #[must_use]
     pub fn laid_out(self, layout: Layout) -> Self {
         Self { layout, ..self }

@@ -1,6 +1,7 @@
 //! Comparison of the curve of a simulated instrument with the ideal one.
 //!
-//! The distance is the root mean square of the differences of the loads over the range of the ideal ones.
+//! The distance is the root mean square of the differences of the loads over the range of the ideal
+//! ones.
 
 use drape_fabric::Fabric;
 use drape_kes::{BendingPoints, Curve, Direction, EvaluationPoints, ShearPoints, Symbol, Test};
@@ -10,12 +11,12 @@ use super::ideal::ideal;
 use super::measurement::{Resolution, measure};
 use crate::error::ValidationError;
 
-/// A curve of a simulated instrument beside that of the laws.
+/// Curve of a simulated instrument beside the ideal one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    /// What the simulated instrument draws.
+    /// Curve of the simulated instrument.
     pub measured: Curve,
-    /// What the laws alone answer.
+    /// Curve of the laws alone.
     pub ideal: Curve,
 }
 
@@ -34,7 +35,9 @@ impl Comparison {
         Ok(Self { measured, ideal: ideal(fabric, test, direction, resolution.points) })
     }
 
-    /// Root mean square of the differences of the loads, over the range of the laws' loads.
+    /// Returns the root mean square of the differences of the loads, over the range of the ideal
+    /// loads.
+    #[must_use]
     pub fn distance(&self) -> f64 {
         let pairs = self.measured.load().iter().zip(self.ideal.load());
         let count = self.measured.load().len().min(self.ideal.load().len());
@@ -42,7 +45,8 @@ impl Comparison {
         (squares / count as f64).sqrt() / self.ideal.load_range().span()
     }
 
-    /// The KES values of both, simulated and of the laws, in the laboratory's units; those that both curves have.
+    /// Returns the KES values that both curves have, measured and ideal, in the laboratory's units.
+    #[must_use]
     pub fn values(&self) -> Vec<(Symbol, [f64; 2])> {
         let points = EvaluationPoints {
             maximum_tension: LARGEST_TENSION,

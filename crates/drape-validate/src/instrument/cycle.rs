@@ -1,7 +1,7 @@
-//! Cycle: the deformations through which each KES test goes, point by point [Kaw80].
+//! Cycle: the deformations through which each KES test goes, point by point \[Kaw80\].
 //!
-//! Tensile: to 500 gf/cm and back. Bending: between ±2.5 1/cm. Shear: between ±8°. The laws alone and the
-//! simulated instruments follow the same cycle.
+//! Tensile: to 500 gf/cm and back. Bending: between ±2.5 1/cm. Shear: between ±8°. The laws alone
+//! and the simulated instruments follow the same cycle.
 
 use drape_fabric::{Fabric, Law, TractionLaw};
 use drape_kes::{Direction, Test};
@@ -24,7 +24,9 @@ pub(crate) const LARGEST_CURVATURE: f64 = 250.0;
 /// Strain at which a tensile test is given up.
 const LARGEST_STRAIN: f64 = 0.5;
 
-/// The deformations that an instrument goes through, in steps of one branch's given part; in the units of a [`Curve`].
+/// Returns the deformations of a test, with so many points in a branch, in the units of a
+/// [`drape_kes::Curve`].
+#[must_use]
 pub fn cycle(fabric: &Fabric, test: Test, direction: Direction, points: usize) -> Vec<f64> {
     let turns: &[f64] = match test {
         Test::Tensile => &[0.0, extension(&laws(fabric, direction).traction, LARGEST_TENSION), 0.0],
@@ -34,12 +36,12 @@ pub fn cycle(fabric: &Fabric, test: Test, direction: Direction, points: usize) -
     path(turns, points)
 }
 
-/// Where a test to both sides turns round.
+/// Returns the turning points of a test to both sides.
 pub(super) fn there_and_back(largest: f64) -> [f64; 4] {
     [0.0, largest, -largest, largest]
 }
 
-/// Steps of one branch's given part from turn to turn.
+/// Returns so many even steps from each turning point to the next.
 pub(super) fn path(turns: &[f64], points: usize) -> Vec<f64> {
     let branch = |ends: &[f64]| {
         let [from, to] = [ends[0], ends[1]];
@@ -48,7 +50,7 @@ pub(super) fn path(turns: &[f64], points: usize) -> Vec<f64> {
     std::iter::once(turns[0]).chain(turns.windows(2).flat_map(branch)).collect()
 }
 
-/// The strain at which a first pull reaches a tension, in N/m.
+/// Returns the strain at which a virgin specimen has a tension in N/m.
 pub(crate) fn extension(law: &TractionLaw, tension: f64) -> f64 {
     let virgin = law.virgin();
     bisect(0.0..LARGEST_STRAIN, |strain| law.respond(&virgin, strain).load < tension).high

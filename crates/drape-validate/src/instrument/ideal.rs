@@ -1,17 +1,18 @@
 //! Ideal curve of a test: the laws of a fabric driven through the cycle of the instrument.
 //!
-//! The fabric deforms evenly, so strain, angle or curvature is that of the clamps, and the load per width
-//! is that of the law.
+//! The fabric deforms evenly, so strain, angle or curvature is that of the clamps, and the load per
+//! width is that of the law.
 
 use drape_fabric::{Fabric, Law, YarnLaws, drive};
 use drape_kes::{Curve, Direction, Test};
 
 use super::cycle::cycle;
 
-/// The curve of an instrument that deforms the fabric evenly: the laws alone.
+/// Returns the curve of an instrument that deforms the fabric evenly: that of the laws alone.
 ///
 /// # Panics
 /// If the loads are not finite, which those of a checked fabric are.
+#[must_use]
 pub fn ideal(fabric: &Fabric, test: Test, direction: Direction, points: usize) -> Curve {
     let path = cycle(fabric, test, direction, points);
     let laws = laws(fabric, direction);
@@ -26,7 +27,7 @@ pub fn ideal(fabric: &Fabric, test: Test, direction: Direction, points: usize) -
     curve(test, direction, path, load).expect("a checked fabric has finite loads")
 }
 
-/// A curve, of a tensile test up to where the fabric is slack on the way back.
+/// Returns a curve; that of a tensile test ends where the returning fabric is slack.
 pub(crate) fn curve(
     test: Test,
     direction: Direction,
@@ -43,7 +44,7 @@ pub(crate) fn curve(
     Curve::new(test, direction, path, load)
 }
 
-/// The laws of a direction.
+/// Returns the laws of a direction.
 pub(crate) fn laws(fabric: &Fabric, direction: Direction) -> &YarnLaws {
     match direction {
         Direction::Warp => &fabric.warp,

@@ -1,9 +1,9 @@
 //! Measurement: the curve that a simulated instrument draws of a specimen.
 //!
-//! Every step of the simulation is a point. With the force `$F$` and the moment `$M$` of the moving clamp, the
-//! width `$b$` and the angle `$\varphi$`, the loads per width are `$-F_x/b$` in the tensile test,
-//! `$(1+\varepsilon)(F_x\tan\varphi - F_z)/b$` in the shear test at the strain `$\varepsilon$` of its tension,
-//! and `$-M/b$` in the bending test.
+//! Every step of the simulation is a point. With the force `$F$` and the moment `$M$` of the moving
+//! clamp, the width `$b$` and the angle `$\varphi$`, the loads per width are `$-F_x/b$` in the
+//! tensile test, `$(1+\varepsilon)(F_x\tan\varphi - F_z)/b$` in the shear test at the strain
+//! `$\varepsilon$` of its tension, and `$-M/b$` in the bending test.
 
 use drape_fabric::Fabric;
 use drape_kes::{Curve, Direction, Test};
@@ -27,9 +27,10 @@ pub struct Resolution {
     pub points: usize,
 }
 
-/// The curve that a simulated instrument draws of a specimen of particles at a spacing, in m.
+/// Returns the curve that a simulated instrument draws of a specimen.
 ///
-/// The path is [`cycle`]'s with so many points in a branch; the spacing is the nearest that divides the free length.
+/// The path is [`cycle`]'s with so many points in a branch; the spacing is the nearest that divides
+/// the free length.
 ///
 /// # Errors
 /// A specimen that cannot be simulated, or a load that is no number.
@@ -51,7 +52,7 @@ pub fn measure(
     Ok(curve(test, direction, path, load)?)
 }
 
-/// Tension per width at strains.
+/// Returns the tensions per width at strains, in N/m.
 fn stretch(fabric: &Fabric, direction: Direction, spacing: f64, path: &[f64]) -> Loads {
     let specimen = Specimen::between_lines(spacing);
     let place = |strain: &f64| Place { shift: [strain * GAUGE, 0.0, 0.0], turn: 0.0 };
@@ -60,10 +61,10 @@ fn stretch(fabric: &Fabric, direction: Direction, spacing: f64, path: &[f64]) ->
     Ok(from_rest(loads.iter().map(|load| -load.force[0] / WIDTH)))
 }
 
-/// Force per width across the specimen at angles, less the part of its tension: that is not the fabric's resistance.
+/// Returns the shear forces per width at angles, less the part of the tension, in N/m.
 ///
-/// The clamp moves so that the yarns keep the length that the tension has given them. The law is one per area of relaxed
-/// cloth, so the force counts by that length over the relaxed one.
+/// The clamp moves so that the yarns keep the length that the tension has given them. The law is
+/// one per area of relaxed cloth, so the force counts by that length over the relaxed one.
 fn shear(fabric: &Fabric, direction: Direction, spacing: f64, path: &[f64]) -> Loads {
     let specimen = Specimen::between_lines(spacing);
     let strain = extension(&laws(fabric, direction).traction, SHEAR_TENSION);
@@ -82,7 +83,7 @@ fn shear(fabric: &Fabric, direction: Direction, spacing: f64, path: &[f64]) -> L
     Ok(from_rest(across.map(|(load, angle)| share * (load.force[0] * angle.tan() - load.force[2]))))
 }
 
-/// Moment per width at curvatures.
+/// Returns the moments per width at curvatures, in N.
 fn bend(fabric: &Fabric, direction: Direction, specimen: &Specimen, path: &[f64]) -> Loads {
     let rows = Rows { distance: specimen.row, cells: specimen.cells };
     let places: Vec<Place> = path[1..].iter().map(|&curvature| bent(rows, curvature)).collect();
@@ -90,8 +91,8 @@ fn bend(fabric: &Fabric, direction: Direction, specimen: &Specimen, path: &[f64]
     Ok(from_rest(loads.iter().map(|load| -load.moment[2] / WIDTH)))
 }
 
-/// The curve of a bending specimen cut on the bias, up to a curvature in 1/m; it stands as one of the warp. The spacing is
-/// one of [`bias_spacing`].
+/// The curve of a bending specimen cut on the bias, up to a curvature in 1/m; it stands as one of
+/// the warp. The spacing is one of [`bias_spacing`].
 ///
 /// # Errors
 /// Those of [`measure`].
@@ -106,14 +107,16 @@ pub fn bend_on_the_bias(
     Ok(curve(Test::Bending, Direction::Warp, path, load)?)
 }
 
-/// The spacing nearest to one in m, and below 8 mm, whose rows across a specimen on the bias divide its free length.
+/// The spacing nearest to one in m, and below 8 mm, whose rows across a specimen on the bias divide
+/// its free length.
+#[must_use]
 pub fn bias_spacing(spacing: f64) -> f64 {
     Specimen::on_the_bias(spacing).spacing
 }
 
 type Loads = Result<Vec<f64>, ValidationError>;
 
-/// A history that begins without load.
+/// Returns a history of loads that begins without load.
 fn from_rest(loads: impl Iterator<Item = f64>) -> Vec<f64> {
     std::iter::once(0.0).chain(loads).collect()
 }

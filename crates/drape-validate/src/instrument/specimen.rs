@@ -22,10 +22,11 @@ pub(crate) const GAUGE: f64 = 0.05;
 /// Free length in the bending test: 1 cm.
 const BENDING_GAUGE: f64 = 0.01;
 
-/// Time between two points of a curve, in s: as long as an instrument takes, and longer than any wave.
+/// Time between two points of a curve, in s: as long as an instrument takes, and longer than any
+/// wave.
 const STEP: f64 = 0.1;
 
-/// The specimen, level, its yarns along x, and the clamp that moves.
+/// Specimen, level along x, with the clamp that moves.
 pub(crate) struct Specimen {
     /// Angle from its length to the weft, in degrees.
     grain: f64,
@@ -34,17 +35,17 @@ pub(crate) struct Specimen {
     pub(super) row: f64,
     /// Whole rows between the lines of the clamps.
     pub(super) cells: usize,
-    /// What the clamp that stays and the one that moves hold, as a pin's rows.
+    /// Rows that the fixed and the moving clamp hold.
     rows: [usize; 2],
     /// Length of the panel and the middle of it along x; the line of the clamp that stays is at 0.
     length: f64,
     middle: f64,
-    /// What the moving clamp turns about, along x.
+    /// Pivot of the moving clamp, along x.
     pivot: f64,
 }
 
 impl Specimen {
-    /// Between two lines of particles.
+    /// Returns a specimen between two lines of particles.
     pub(super) fn between_lines(spacing: f64) -> Self {
         let cells = (GAUGE / spacing).round().max(1.0) as usize;
         let spacing = GAUGE / cells as f64;
@@ -60,9 +61,9 @@ impl Specimen {
         }
     }
 
-    /// In clamps that hold the slope too: three rows each, its line midway between the second and the third, which
-    /// bends as the first free cell does. A single cell is bent at the third row of both, which the clamp that stays
-    /// holds. The moving clamp turns about its third row.
+    /// In clamps that hold the slope too: three rows each, its line midway between the second and
+    /// the third, which bends as the first free cell does. A single cell is bent at the third row
+    /// of both, which the clamp that stays holds. The moving clamp turns about its third row.
     pub(super) fn in_clamps(spacing: f64) -> Self {
         let cells = (BENDING_GAUGE / spacing).round().max(1.0) as usize;
         let h = BENDING_GAUGE / cells as f64;
@@ -78,8 +79,9 @@ impl Specimen {
         }
     }
 
-    /// The same on the bias: rows of particles across the specimen are nearer to each other than particles along the
-    /// yarns by a factor of √2, and what a pin takes for two rows are three of them.
+    /// The same on the bias: rows of particles across the specimen are nearer to each other than
+    /// particles along the yarns by a factor of √2, and what a pin takes for two rows are three of
+    /// them.
     pub(super) fn on_the_bias(spacing: f64) -> Self {
         let cells = (BENDING_GAUGE * SQRT_2 / spacing).round().max(2.0) as usize;
         let h = BENDING_GAUGE / cells as f64;
@@ -87,14 +89,16 @@ impl Specimen {
         Self { grain: 45.0, spacing: h * SQRT_2, rows: [2, 2], ..along }
     }
 
-    /// The panel's keys that cut it on the bias from a grid with rows at both ends; a particle in its middle is in a row.
+    /// The panel's keys that cut it on the bias from a grid with rows at both ends; a particle in
+    /// its middle is in a row.
     fn bias_keys(&self) -> String {
         let odd = (self.length / self.row).round() % 2.0 == 1.0;
         let grid = if odd { 0.5 * self.spacing } else { 0.0 };
         format!("grain = {}\ngrid = [{grid:e}, 0]\n", self.grain)
     }
 
-    /// Moves the clamp from place to place, one in each step, and records what it bears; the moment is about its pivot.
+    /// Moves the clamp from place to place, one in each step, and records what it bears; the moment
+    /// is about its pivot.
     pub(super) fn drive(
         &self,
         fabric: &Fabric,

@@ -2,7 +2,7 @@
 //!
 //! The prominence of a maximum is its height above the higher of the two minima beside it.
 
-/// Places of the maxima of a closed curve that stand out by at least so much.
+/// Returns the places of the maxima of a closed curve with at least a prominence.
 pub(crate) fn maxima(curve: &[f64], prominence: f64) -> Vec<usize> {
     let count = curve.len();
     let at = |k: usize| curve[k % count];

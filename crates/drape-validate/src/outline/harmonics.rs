@@ -6,11 +6,12 @@
 //! a_n = \frac2N\sum_k r_k\cos\frac{2\pi nk}{N},\qquad b_n = \frac2N\sum_k r_k\sin\frac{2\pi nk}{N}
 //! ```
 //!
-//! and its amplitude is `$\sqrt{a_n^2 + b_n^2}$`. The first harmonics alone are the curve without ripples.
+//! and its amplitude is `$\sqrt{a_n^2 + b_n^2}$`. The first harmonics alone are the curve without
+//! ripples.
 
 use std::f64::consts::TAU;
 
-/// A closed curve by its first harmonics.
+/// Closed curve by its first harmonics.
 pub(crate) struct Harmonics {
     mean: f64,
     /// Cosine and sine parts.

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 /// An edge of the surface, by its ends in rising order.
 type Edge = [u32; 2];
 
-/// The longest closed curve in which a surface meets a horizontal plane: places (x, z) in order, in m. None if there is no
-/// closed one.
+/// The longest closed curve in which a surface meets a horizontal plane: places (x, z) in order, in
+/// m. None if there is no closed one.
 pub(crate) fn section(
     triangles: &[[u32; 3]],
     positions: &[f64],
@@ -55,7 +55,7 @@ pub(crate) fn section(
     longest
 }
 
-/// Length of a closed curve.
+/// Returns the length of a closed curve.
 pub(crate) fn length(curve: &[[f64; 2]]) -> f64 {
     let after = curve.iter().cycle().skip(1);
     curve.iter().zip(after).map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1])).sum()
@@ -83,7 +83,8 @@ mod tests {
 
     use super::*;
 
-    /// A cone of some sides around the y axis: its tip, a ring of radius 1 at height 0, and one of radius 2 at −1.
+    /// A cone of some sides around the y axis: its tip, a ring of radius 1 at height 0, and one of
+    /// radius 2 at −1.
     fn cone(sides: u32) -> (Vec<[u32; 3]>, Vec<f64>) {
         let ring = |radius: f64, height: f64| {
             (0..sides).flat_map(move |k| {

@@ -24,7 +24,7 @@ pub(crate) struct Surface<'a> {
     pub(crate) positions: &'a [f64],
 }
 
-/// What light from straight above leaves dark, in squares.
+/// Shadow from straight above, in square pixels.
 pub(crate) struct Shadow {
     side: usize,
     dark: Vec<bool>,
@@ -102,12 +102,12 @@ impl Shadow {
         }
     }
 
-    /// In m².
+    /// Returns the area of the shadow, in m².
     pub(crate) fn area(&self) -> f64 {
         self.dark.iter().filter(|dark| **dark).count() as f64 * PIXEL * PIXEL
     }
 
-    /// Radius of the outermost dark square at each angle, in m.
+    /// Returns the radius of the outermost dark pixel at each angle, in m.
     pub(crate) fn edge(&self) -> Vec<f64> {
         let half = 0.5 * self.side as f64;
         let radius = |angle: f64| {

@@ -1,4 +1,4 @@
-//! Logarithmic decrement of a strip whose bending has the friction of a Dahl element [Dahl68].
+//! Logarithmic decrement of a strip whose bending has the friction of a Dahl element \[Dahl68\].
 
 /// Zero of `$\cos k\cosh k = -1$` that belongs to the first mode of a cantilever.
 const WAVE: f64 = 1.875_104_068_711_961;
@@ -15,7 +15,7 @@ pub struct DahlStrip {
     pub rigidity: f64,
     /// Plateau `$F$` of the friction per width, in N.
     pub plateau: f64,
-    /// Its length `$\ell$`, in 1/m.
+    /// Length `$\ell$` of the friction, in 1/m.
     pub sliding: f64,
 }
 
@@ -38,13 +38,16 @@ pub struct CycleLoss {
 }
 
 impl DahlStrip {
-    /// Angular frequency of the first mode without friction, in rad/s, for a mass per area in kg/m².
+    /// Returns the angular frequency of the first mode without friction, in rad/s, for a mass per
+    /// area in kg/m².
+    #[must_use]
     pub fn frequency(&self, density: f64) -> f64 {
         (WAVE / self.length).powi(2) * (self.rigidity / density).sqrt()
     }
 
-    /// Deflection in the first mode at a place from the clamp over that at the tip, and curvature over the tip's deflection
-    /// in 1/m².
+    /// Deflection in the first mode at a place from the clamp over that at the tip, and curvature
+    /// over the tip's deflection in 1/m².
+    #[must_use]
     pub fn mode(&self, place: f64) -> Deflection {
         let shape = |part: f64| {
             let k = WAVE * part;
@@ -60,18 +63,19 @@ impl DahlStrip {
         }
     }
 
-    /// Energy per width that a cycle between deflections of the tip of `$\pm a$` loses, in J/m, and the logarithmic
-    /// decrement of free swings of that amplitude.
+    /// Energy per width that a cycle between deflections of the tip of `$\pm a$` loses, in J/m, and
+    /// the logarithmic decrement of free swings of that amplitude.
     ///
-    /// A steady loop between `$\pm\kappa$` has the area `$4F(\kappa - \ell\tanh\frac\kappa\ell)$`, and at its ends the
-    /// element holds `$\frac12F\ell\tanh^2\frac\kappa\ell$`. Over the curvatures of the first mode, which little friction does
-    /// not change,
+    /// A steady loop between `$\pm\kappa$` has the area `$4F(\kappa - \ell\tanh\frac\kappa\ell)$`,
+    /// and at its ends the element holds `$\frac12F\ell\tanh^2\frac\kappa\ell$`. Over the
+    /// curvatures of the first mode, which little friction does not change,
     ///
     /// ```math
     /// \delta = \frac{W}{a\,\mathrm{d}U/\mathrm{d}a},\qquad
     /// W = \int 4F(\kappa - \ell\tanh\tfrac\kappa\ell)\,\mathrm{d}s,\qquad
     /// U = \int \tfrac12B\kappa^2 + \tfrac12F\ell\tanh^2\tfrac\kappa\ell\,\mathrm{d}s
     /// ```
+    #[must_use]
     pub fn decrement(&self, tip: f64) -> CycleLoss {
         let Self { length, rigidity, plateau, sliding } = *self;
         let (mut lost, mut growth) = (0.0, 0.0);

@@ -8,11 +8,12 @@ use drape_scene::Scene;
 
 use crate::error::ValidationError;
 
-/// A line before the tables of a scene in which one piece of cloth touches nothing: what it is held against has no
-/// thickness, and to prove that it keeps clear of itself would take three times as long.
+/// A line before the tables of a scene in which one piece of cloth touches nothing: what it is held
+/// against has no thickness, and to prove that it keeps clear of itself would take three times as
+/// long.
 pub(crate) const ALONE: &str = "contact.surfaces = false\n";
 
-/// A scene in memory, whose fabric is `fabric.toml`.
+/// Returns a scene from text, whose fabric is `fabric.toml`.
 ///
 /// # Errors
 /// A scene or a fabric that cannot be read.
@@ -21,7 +22,7 @@ pub(crate) fn scene(scene: String, fabric: String) -> Result<Scene, ValidationEr
     Ok(Scene::from_documents(&Document::new("scene.toml", scene), &[fabric])?)
 }
 
-/// A simulation of a scene in memory, whose fabric is `fabric.toml`.
+/// Returns a simulation of a scene from text, whose fabric is `fabric.toml`.
 ///
 /// # Errors
 /// A scene or a fabric that cannot be read, or a scene that cannot be prepared.
@@ -29,7 +30,7 @@ pub(crate) fn simulation(text: String, fabric: String) -> Result<Simulation, Val
     Ok(Simulation::new(scene(text, fabric)?)?)
 }
 
-/// Runs a simulation to its end.
+/// Steps a simulation until its end.
 ///
 /// # Errors
 /// A step that cannot be solved, or a strip that does not come to rest where the scene asks for it.
@@ -37,7 +38,7 @@ pub fn finish(simulation: &mut Simulation) -> Result<(), ValidationError> {
     finish_with(simulation, |_, _| ())
 }
 
-/// The same, told after every step.
+/// Steps a simulation until its end, and calls a function after every step.
 pub(crate) fn finish_with(
     simulation: &mut Simulation,
     mut told: impl FnMut(&Simulation, &Step),

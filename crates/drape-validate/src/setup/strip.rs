@@ -1,7 +1,7 @@
 //! Strip: a rectangular strip of a fabric with linear laws, held at its left end.
 //!
-//! Exact solutions are those of thin strips, so most cases simulate one. Its weight counts by the ratio
-//! `$wL^3/B$` of its weight per area `$w$`, length `$L$` and bending rigidity `$B$`.
+//! Exact solutions are those of thin strips, so most cases simulate one. Its weight counts by the
+//! ratio `$wL^3/B$` of its weight per area `$w$`, length `$L$` and bending rigidity `$B$`.
 
 use drape_dynamics::Simulation;
 use drape_scene::Scene;
@@ -12,15 +12,15 @@ use crate::error::ValidationError;
 /// Acceleration of gravity in all scenes here, in m/s².
 pub const GRAVITY: f64 = 9.81;
 
-/// How the left end of a strip is held.
+/// Hold of the left end of a strip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Hold {
     /// In a clamp: place and slope.
     ///
-    /// It holds three rows of particles, and its line lies midway between the second and the third: there the
-    /// slope is held, and the third row bends as the first free cell of a beam does. (The second row of a panel
-    /// bends for the half cell at its edge as well, so a line next to the first row would be a third of a cell
-    /// off.)
+    /// It holds three rows of particles, and its line lies midway between the second and the third:
+    /// there the slope is held, and the third row bends as the first free cell of a beam does. (The
+    /// second row of a panel bends for the half cell at its edge as well, so a line next to the
+    /// first row would be a third of a cell off.)
     #[default]
     Clamp,
     /// By a hinge: the first row stays in its place and turns.
@@ -29,7 +29,7 @@ pub enum Hold {
     Free,
 }
 
-/// Friction of a Dahl element in bending [Dahl68].
+/// Friction of a Dahl element in bending \[Dahl68\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     /// Plateau per width, in N; none if zero.
@@ -47,7 +47,7 @@ pub struct LinePoint {
     pub position: [f64; 3],
 }
 
-/// A rectangular strip of an elastic fabric along its weft, held at its left end, where its free length begins.
+/// Rectangular strip along its weft, held at its left end, where its free length begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strip {
     /// Free length, in m.
@@ -56,7 +56,7 @@ pub struct Strip {
     pub width: f64,
     /// Whole cells along the free length.
     pub cells: usize,
-    /// How it is held.
+    /// Hold of its left end.
     pub hold: Hold,
     /// Mass per area, in kg/m².
     pub density: f64,
@@ -66,12 +66,13 @@ pub struct Strip {
     pub stiffness: f64,
     /// Friction of bending of both yarn systems.
     pub friction: Friction,
-    /// Turns per second about z through its middle, at the start.
+    /// Rate of turning about z through its middle at the start, in 1/s.
     pub spin: f64,
 }
 
 impl Default for Strip {
-    /// A strip of 10 × 2 cm of a fabric of 200 g/m² with a bending length of 20 mm, nearly inextensible.
+    /// A strip of 10 × 2 cm of a fabric of 200 g/m² with a bending length of 20 mm, nearly
+    /// inextensible.
     fn default() -> Self {
         Self {
             length: 0.1,
@@ -88,19 +89,21 @@ impl Default for Strip {
 }
 
 impl Strip {
-    /// The length at which a strip's weight over its rigidity, wL³/B, is a given ratio; the same cells.
+    /// Returns the strip with the length at which `$wL^3/B$` is a given ratio, with as many cells.
+    #[must_use]
     pub fn of_weight(self, ratio: f64) -> Self {
         let length = (ratio * self.rigidity / (self.density * GRAVITY)).cbrt();
         Self { length, width: 0.2 * length, ..self }
     }
 
-    /// Spacing of the particles along the strip, in m.
+    /// Returns the spacing of the particles along the strip, in m.
+    #[must_use]
     pub fn spacing(&self) -> f64 {
         let held = if self.hold == Hold::Clamp { 0.5 } else { 0.0 };
         self.length / (self.cells as f64 + held)
     }
 
-    /// What the strip holds beyond its free length at the left, in m.
+    /// Returns the length of the strip inside its clamp, in m.
     pub(crate) fn beyond(&self) -> f64 {
         if self.hold == Hold::Clamp { 1.5 * self.spacing() } else { 0.0 }
     }
@@ -123,8 +126,8 @@ impl Strip {
         )
     }
 
-    /// A simulation of the strip without air, level along x and held at the origin, then turned about z by an
-    /// angle in degrees.
+    /// Returns a simulation of the strip without air, held at the origin, turned from x about z by
+    /// an angle in degrees.
     ///
     /// The text is the rest of the scene: time, further pins, how it is solved.
     ///
@@ -134,7 +137,7 @@ impl Strip {
         Ok(Simulation::new(self.scene(angle, rest)?)?)
     }
 
-    /// The scene of [`Strip::simulation`].
+    /// Returns the scene of [`Strip::simulation`].
     ///
     /// # Errors
     /// A scene that cannot be read.
@@ -164,7 +167,8 @@ impl Strip {
         scene(text, self.fabric())
     }
 
-    /// Places along the middle of the strip with their distance from its held end, both in m; from there.
+    /// Returns the points of the middle line of the strip, from its held end on.
+    #[must_use]
     pub fn line(&self, simulation: &Simulation) -> Vec<LinePoint> {
         let coordinates = simulation.coordinates();
         let positions = simulation.frame().positions;
@@ -183,7 +187,8 @@ impl Strip {
         line
     }
 
-    /// The middle of the free end, in m.
+    /// Returns the middle of the free end, in m.
+    #[must_use]
     pub fn tip(&self, simulation: &Simulation) -> [f64; 3] {
         self.line(simulation).last().map_or([f64::NAN; 3], |point| point.position)
     }

@@ -1,4 +1,5 @@
-//! Cases `cube` and `breen`: what is said of three fabrics on a cube [BHW94, §6 and §7], in both models.
+//! Cases `cube` and `breen`: what is said of three fabrics on a cube \[BHW94, §6 and §7\], in both
+//! models.
 
 use drape_fabric::Fabric;
 use rayon::prelude::*;
@@ -18,10 +19,12 @@ const COARSE: f64 = 0.04;
 /// Starts of each cloth.
 const STARTS: u64 = 3;
 
-/// The paper's 45° of the cotton's billow, in degrees: it is read from photographs. Less than this is no asymmetry, more is.
+/// The paper's 45° of the cotton's billow, in degrees: it is read from photographs. Less than this
+/// is no asymmetry, more is.
 const DIRECTION: f64 = 3.0;
 
-/// Rise of the energy in a step that rounding and the tolerance of a step allow, over the fall in all.
+/// Rise of the energy in a step that rounding and the tolerance of a step allow, over the fall in
+/// all.
 const RISE: f64 = 1e-6;
 
 /// The residual at which a scene says that cloth is at rest, over g.
@@ -116,9 +119,10 @@ pub(crate) fn coarse_cube() -> Result<Findings, ValidationError> {
 
 /// All cloths in both models.
 ///
-/// The paper says that the cotton has a single large billow at 45°, that the wool, being less stiff, collapses into two
-/// smaller folds, and that the polyester/cotton, whose warp is stiffer, always has an asymmetric one. No figure of its
-/// fabrics is public. Matsudaira's wool is published and limp; his cotton is published too, but not stiff.
+/// The paper says that the cotton has a single large billow at 45°, that the wool, being less
+/// stiff, collapses into two smaller folds, and that the polyester/cotton, whose warp is stiffer,
+/// always has an asymmetric one. No figure of its fabrics is public. Matsudaira's wool is published
+/// and limp; his cotton is published too, but not stiff.
 pub(crate) fn cubes(progress: &Progress<'_>) -> Result<Findings, ValidationError> {
     let fabrics: Result<Vec<_>, ValidationError> =
         CLOTHS.iter().map(|(name, text)| Ok((*name, fabric(text)?))).collect();

@@ -1,4 +1,5 @@
-//! Cases `drapemeter-cotton` and `drapemeter-wool`: drape coefficients against measured ones [Mat15].
+//! Cases `drapemeter-cotton` and `drapemeter-wool`: drape coefficients against measured ones
+//! \[Mat15\].
 //!
 //! What the sheet leaves open is varied; the measured coefficient lies within the prediction.
 
@@ -10,13 +11,13 @@ use crate::findings::{Check, Findings};
 use crate::progress::Progress;
 use crate::setup::fabrics::{COTTON, WOOL, fabric};
 
-/// How far a prediction may reach to either side, standard deviation over starts, and difference of spacings and of
-/// turns; points.
+/// How far a prediction may reach to either side, standard deviation over starts, and difference of
+/// spacings and of turns; points.
 const HALF_WIDTH: f64 = 8.0;
 
 const DEVIATION: f64 = 3.0;
 
-/// Published measurement of a fabric on the FRL drapemeter [Mat15].
+/// Published measurement of a fabric on the FRL drapemeter \[Mat15\].
 struct Measured {
     /// Text of the fabric.
     fabric: &'static str,

@@ -1,4 +1,4 @@
-//! Cloth on a cube: a square metre of cloth let down on a cube of half a metre [BHW94].
+//! Cloth on a cube: a square metre of cloth let down on a cube of half a metre \[BHW94\].
 
 use drape_dynamics::{Simulation, Snapshot};
 use drape_fabric::Fabric;
@@ -10,7 +10,8 @@ use crate::setup::{finish_with, simulation};
 /// Half of the cube's side, in m.
 const HALF: f64 = 0.25;
 
-/// Height at which the draped cloth is cut, in m: just above the lowest place of the hem that is no corner's.
+/// Height at which the draped cloth is cut, in m: just above the lowest place of the hem that is no
+/// corner's.
 const CUT: f64 = 0.3;
 
 /// Places of the cut that are looked at.
@@ -59,11 +60,11 @@ pub(crate) struct Draped {
     pub(crate) snapshot: Snapshot,
     /// The cut, places (x, z) in m.
     pub(crate) cut: Vec<[f64; 2]>,
-    /// Billows of each corner: places of the cut that stand out from the cube, nearer to the corner than to the middle of
-    /// a side.
+    /// Billows of each corner: places of the cut that stand out from the cube, nearer to the corner
+    /// than to the middle of a side.
     pub(crate) billows: [usize; 4],
-    /// Where the quarter of a side of cloth hangs that lies on no side of the cube: the middle of it seen from the cube's
-    /// edge, along x and along z, in m.
+    /// Where the quarter of a side of cloth hangs that lies on no side of the cube: the middle of
+    /// it seen from the cube's edge, along x and along z, in m.
     pub(crate) corners: [[f64; 2]; 4],
     /// Time of each step and energy of fabric, weight and contact since the start, in s and J.
     pub(crate) energy: Vec<[f64; 2]>,
@@ -115,8 +116,8 @@ impl Draped {
         }
     }
 
-    /// Directions in which the corners hang, in degrees from the diagonal of the cube; towards the sides that the warp
-    /// hangs down is positive.
+    /// Directions in which the corners hang, in degrees from the diagonal of the cube; towards the
+    /// sides that the warp hangs down is positive.
     pub(crate) fn leans(&self) -> [f64; 4] {
         self.corners.map(|[x, z]| z.atan2(x).to_degrees() - 45.0)
     }

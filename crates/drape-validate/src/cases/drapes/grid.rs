@@ -9,8 +9,8 @@ use crate::setup::fabrics::{COTTON, WOOL, fabric};
 
 const CONVERGENCE: f64 = 2.0;
 
-/// The finer spacing, over the one that the fabric asks for; and that of the table of what matters, which is of changes
-/// and takes a hundred specimens, at most 5 mm too.
+/// The finer spacing, over the one that the fabric asks for; and that of the table of what matters,
+/// which is of changes and takes a hundred specimens, at most 5 mm too.
 const FINER: f64 = 0.7;
 
 /// The cotton on a finer grid, and on a turned one.

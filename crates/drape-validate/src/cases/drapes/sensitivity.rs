@@ -1,4 +1,5 @@
-//! Cases `sensitivity-cotton` and `sensitivity-wool`: changes of the drape coefficient as one factor is varied.
+//! Cases `sensitivity-cotton` and `sensitivity-wool`: changes of the drape coefficient as one
+//! factor is varied.
 
 use super::{points, spacing};
 use crate::drapemeter::{Drapemeter, FACTORS, Factor, Sampling};

@@ -1,6 +1,6 @@
 //! Case `decrement`: the swings of a strip with friction against the area of its loop.
 //!
-//! The logarithmic decrement is that of [`crate::reference::DahlStrip`] [Dahl68].
+//! The logarithmic decrement is that of [`crate::reference::DahlStrip`] \[Dahl68\].
 
 use std::f64::consts::TAU;
 
@@ -24,7 +24,8 @@ const SWINGS: usize = 6;
 
 const STEPS: f64 = 250.0;
 
-/// Largest deflections of the tip to one side, in m, each with what the friction has taken until then, in J/m.
+/// Largest deflections of the tip to one side, in m, each with what the friction has taken until
+/// then, in J/m.
 fn swings(friction: bool) -> Result<Vec<[f64; 2]>, ValidationError> {
     let plateau = if friction { STRIP.plateau } else { 0.0 };
     let strip = Strip {

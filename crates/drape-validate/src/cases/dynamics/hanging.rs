@@ -1,6 +1,6 @@
 //! Cases `hanging-chain` and `hanging-strip`: modes of strips that hang.
 //!
-//! A limp strip has the modes of a chain [Ber38]; a clamped one with bending rigidity those of
+//! A limp strip has the modes of a chain \[Ber38\]; a clamped one with bending rigidity those of
 //! [`reference::strip_modes`].
 
 use std::f64::consts::TAU;
@@ -23,8 +23,8 @@ fn bessel(x: f64) -> f64 {
 
 /// Small swings of a limp strip that hangs from a hinge, mode by mode.
 ///
-/// A straight strip a little off the vertical holds all modes at once. They are orthogonal in the mass, so the
-/// deflection weighed with the shape of one swings with its frequency alone.
+/// A straight strip a little off the vertical holds all modes at once. They are orthogonal in the
+/// mass, so the deflection weighed with the shape of one swings with its frequency alone.
 pub(crate) fn hanging_chain() -> Result<Findings, ValidationError> {
     let strip = Strip {
         length: 0.5,
@@ -76,7 +76,8 @@ pub(crate) fn hanging_strip() -> Result<Findings, ValidationError> {
         let unit = (GRAVITY / strip.length).sqrt();
         let exact = reference::strip_modes(1.0 / ratio, 1)[0];
         let period_exact = TAU / (exact * unit);
-        // The strip starts straight down and gravity is a little slanted: it swings about its slanted rest.
+        // The strip starts straight down and gravity is a little slanted: it swings about its
+        // slanted rest.
         let slant: f64 = 0.005;
         let rest = format!("gravity = [{:e}, -{GRAVITY}, 0]\n", slant * GRAVITY)
             + &motion(period_exact / 400.0, 4.0 * period_exact);

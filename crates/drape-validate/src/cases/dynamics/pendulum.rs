@@ -1,7 +1,7 @@
 //! Case `pendulum`: the period of a stiff strip on a hinge at large amplitudes.
 //!
-//! A rod of length `$L$` on a hinge has the small period `$2\pi\sqrt{2L/3g}$`, and at an amplitude `$\alpha$`
-//! that over `$\mathrm{agm}(1, \cos\frac\alpha2)$` [Gau99].
+//! A rod of length `$L$` on a hinge has the small period `$2\pi\sqrt{2L/3g}$`, and at an amplitude
+//! `$\alpha$` that over `$\mathrm{agm}(1, \cos\frac\alpha2)$` \[Gau99\].
 
 use std::f64::consts::TAU;
 

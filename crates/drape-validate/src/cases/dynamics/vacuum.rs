@@ -1,9 +1,10 @@
-//! Case `vacuum`: a strip in a vacuum, in a clamp that turns [THK03].
+//! Case `vacuum`: a strip in a vacuum, in a clamp that turns \[THK03\].
 //!
-//! The paper's text has lost digits. How its strip was set swinging, its exact size and the pressure in the
-//! chamber are not legible; its measured shapes are in photographs only. So what is held against a reference
-//! here is what must be true of any such experiment: without friction in the fabric nothing slows the strip,
-//! with it the fabric does, and the trajectory of the strip does not depend on the grid.
+//! The paper's text has lost digits. How its strip was set swinging, its exact size and the
+//! pressure in the chamber are not legible; its measured shapes are in photographs only. So what is
+//! held against a reference here is what must be true of any such experiment: without friction in
+//! the fabric nothing slows the strip, with it the fabric does, and the trajectory of the strip
+//! does not depend on the grid.
 
 use drape_dynamics::Simulation;
 use drape_fabric::Fabric;
@@ -64,7 +65,8 @@ struct Run<'a> {
     end: f64,
 }
 
-/// The strip below a clamp on the x axis that begins turned by an angle and then turns by others, in degrees.
+/// The strip below a clamp on the x axis that begins turned by an angle and then turns by others,
+/// in degrees.
 fn strip(fabric: &Fabric, run: &Run<'_>) -> Result<Simulation, ValidationError> {
     let Run { spacing, angle, keys, step, end } = *run;
     let spacing = LENGTH / (LENGTH / spacing).round();

@@ -1,6 +1,7 @@
 //! Case `bias-bending`: bending specimens cut at 45° to their yarns.
 //!
-//! Their moment is `$\tfrac12(M_1(\kappa/2) + M_2(\kappa/2))$`, to which square cells add their shear.
+//! Their moment is `$\tfrac12(M_1(\kappa/2) + M_2(\kappa/2))$`, to which square cells add their
+//! shear.
 
 use super::VALUE_LIMIT;
 use crate::error::ValidationError;
@@ -14,16 +15,17 @@ use crate::setup::fabrics::{COTTON, CUPRO, fabric};
 /// Points of a branch of a specimen on the bias.
 const FEW: usize = 25;
 
-/// Curvature times spacing squared, in m, where the shear of cells on the bias adds a hundredth to the moment of the
-/// cupro's elastic laws; to that of the cotton's it adds less.
+/// Curvature times spacing squared, in m, where the shear of cells on the bias adds a hundredth to
+/// the moment of the cupro's elastic laws; to that of the cotton's it adds less.
 const BIAS_RANGE: f64 = 3e-4;
 
 /// Bending specimens of two fabrics cut at 45° to their yarns.
 ///
-/// The cells' shear counts as bending when they fold along their diagonals, see [`on_the_bias_in_cells`]; so at the
-/// spacings of the other specimens the whole loop is held against the laws in such cells, and against the laws alone
-/// where that adds less than a hundredth to the moment: up to a curvature that goes with the inverse of the spacing
-/// squared. At a millimetre and a quarter it is a fiftieth at 2.5 cm⁻¹, and the KES values are the laws'.
+/// The cells' shear counts as bending when they fold along their diagonals, see
+/// [`on_the_bias_in_cells`]; so at the spacings of the other specimens the whole loop is held
+/// against the laws in such cells, and against the laws alone where that adds less than a hundredth
+/// to the moment: up to a curvature that goes with the inverse of the spacing squared. At a
+/// millimetre and a quarter it is a fiftieth at 2.5 cm⁻¹, and the KES values are the laws'.
 pub(crate) fn bias_bending() -> Result<Findings, ValidationError> {
     let mut checks = Vec::new();
     for text in [CUPRO, COTTON] {

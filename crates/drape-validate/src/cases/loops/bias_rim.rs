@@ -1,4 +1,5 @@
-//! Case `bias-rim`: bending specimens cut on the bias, as a grid and as a grid with a rim of triangles.
+//! Case `bias-rim`: bending specimens cut on the bias, as a grid and as a grid with a rim of
+//! triangles.
 //!
 //! Both are compared with the moment of the laws, and with each other.
 
@@ -20,13 +21,15 @@ const GAUGE: f64 = 0.03;
 
 const CLAMPED: f64 = 0.01;
 
-/// Part of the width in which curvatures are read: particles of ragged sides are not on the cylinder.
+/// Part of the width in which curvatures are read: particles of ragged sides are not on the
+/// cylinder.
 const MIDDLE: f64 = 0.8;
 
 /// Spacing of the particles along the yarns, in m.
 const SPACING: f64 = 0.0025;
 
-/// Curvature up to which it is bent, in 1/m: where the shear of folded cells adds half a per cent at most.
+/// Curvature up to which it is bent, in 1/m: where the shear of folded cells adds half a per cent
+/// at most.
 const LARGEST: f64 = 40.0;
 
 /// Steps in which it is, and how long each takes, in s.
@@ -101,7 +104,8 @@ fn specimen(making: Making, fabric: &Fabric) -> Result<Scene, ValidationError> {
     Ok(Scene::from_documents(&Document::new("scene.toml", scene), &[fabric, pattern])?)
 }
 
-/// Curvatures in the middle half of a specimen's length, in 1/m, and the moments per width there, in N, step by step.
+/// Curvatures in the middle half of a specimen's length, in 1/m, and the moments per width there,
+/// in N, step by step.
 fn bend(making: Making, fabric: &Fabric) -> Result<[Vec<f64>; 2], ValidationError> {
     let scene = specimen(making, fabric)?;
     let particles = scene.pins[1].particles.clone();
@@ -129,7 +133,7 @@ fn bend(making: Making, fabric: &Fabric) -> Result<[Vec<f64>; 2], ValidationErro
     Ok([curvatures, moments])
 }
 
-/// Curvature of the circle through points of a plane, by least squares of their powers [Kas76].
+/// Curvature of the circle through points of a plane, by least squares of their powers \[Kas76\].
 fn curvature(points: &[[f64; 2]]) -> f64 {
     let mut normal = nalgebra::SMatrix::<f64, 3, 3>::zeros();
     let mut right = nalgebra::SVector::<f64, 3>::zeros();
@@ -147,8 +151,8 @@ fn curvature(points: &[[f64; 2]]) -> f64 {
 
 /// Both makings of two fabrics, against the laws and against each other.
 ///
-/// Where the clamps end among the particles of a rim is known to half a spacing; so the curvature is read in the middle,
-/// where the moment is the clamp's less what its force has for an arm.
+/// Where the clamps end among the particles of a rim is known to half a spacing; so the curvature
+/// is read in the middle, where the moment is the clamp's less what its force has for an arm.
 pub(crate) fn bias_rim() -> Result<Findings, ValidationError> {
     let mut checks = Vec::new();
     for text in [CUPRO, COTTON] {

@@ -1,7 +1,7 @@
 //! Case `hysteresis`: energy lost in a cycle of bending, and the residual curvature.
 //!
-//! With the rigidity `$B$` beside a Dahl element of plateau `$F$` and length `$\ell$` [Dahl68], the steady loop
-//! between `$\pm\kappa$` loses `$4F(\kappa - \ell\tanh(\kappa/\ell))$` per area.
+//! With the rigidity `$B$` beside a Dahl element of plateau `$F$` and length `$\ell$` \[Dahl68\], the
+//! steady loop between `$\pm\kappa$` loses `$4F(\kappa - \ell\tanh(\kappa/\ell))$` per area.
 
 use drape_kes::{Curve, Direction, Test};
 
@@ -15,9 +15,10 @@ use crate::setup::fabrics::{COTTON, CUPRO, fabric};
 /// Points of a branch where the area of a loop is wanted: trapezoids then err by a thousandth.
 const FINE: usize = 200;
 
-/// Energy that a bent specimen loses in a cycle, and the curvature that it keeps, against the closed forms for a linear
-/// rigidity beside a Dahl element of plateau `$F$` and length `$\ell$`: the steady loop between `$\pm\kappa$` loses
-/// `$4F(\kappa - \ell\tanh(\kappa/\ell))$`, and its unloading branch is
+/// Energy that a bent specimen loses in a cycle, and the curvature that it keeps, against the
+/// closed forms for a linear rigidity beside a Dahl element of plateau `$F$` and length `$\ell$`:
+/// the steady loop between `$\pm\kappa$` loses `$4F(\kappa - \ell\tanh(\kappa/\ell))$`, and its
+/// unloading branch is
 /// `$M = B\kappa' - F + 2F e^{(\kappa' - \kappa)/\ell}/(1 + e^{-2\kappa/\ell})$`.
 pub(crate) fn hysteresis() -> Result<Findings, ValidationError> {
     let mut findings = Findings::default();

@@ -1,6 +1,7 @@
 //! Case `instruments`: specimens along the yarns in every simulated instrument.
 //!
-//! Loops at three spacings are compared with those of the laws; at 5 mm the KES values are read from both.
+//! Loops at three spacings are compared with those of the laws; at 5 mm the KES values are read
+//! from both.
 
 use drape_kes::{Direction, Test};
 

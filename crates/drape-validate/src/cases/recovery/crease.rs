@@ -1,9 +1,10 @@
 //! Cases `permanent-set` and `crease`: the residual curvature of a bent specimen.
 //!
-//! One clamp stays and the other turns until the specimen between them is an arc, holds it, turns back until
-//! it bears no moment, and lets go: a slow release. One that is let go at once, even without inertia, springs
-//! beyond where it would rest, and keeps 57 to 69 % of that (measured with the specimens of `permanent-set`).
-//! Nothing in the model flows with time: how long the specimen is held makes no difference.
+//! One clamp stays and the other turns until the specimen between them is an arc, holds it, turns
+//! back until it bears no moment, and lets go: a slow release. One that is let go at once, even
+//! without inertia, springs beyond where it would rest, and keeps 57 to 69 % of that (measured with
+//! the specimens of `permanent-set`). Nothing in the model flows with time: how long the specimen
+//! is held makes no difference.
 
 use std::f64::consts::PI;
 
@@ -27,7 +28,8 @@ const STEP: f64 = 0.1;
 /// Steps in which the clamp turns, and in which it turns back.
 const STEPS: usize = 60;
 
-/// Steps for which it holds the bent specimen, for which it stops before it lets go, and for which the specimen is free.
+/// Steps for which it holds the bent specimen, for which it stops before it lets go, and for which
+/// the specimen is free.
 const HOLDING: usize = 10;
 
 const RESTING_STEPS: usize = 10;
@@ -145,7 +147,8 @@ impl Arc {
 
 /// Curvature at which no moment is left after a first bending to a curvature, both in 1/m.
 ///
-/// A Dahl element of plateau `$F$` and length `$\ell$` has reached `$f_1 = F(1 - e^{-\kappa_1/\ell})$` and goes back along
+/// A Dahl element of plateau `$F$` and length `$\ell$` has reached
+/// `$f_1 = F(1 - e^{-\kappa_1/\ell})$` and goes back along
 /// `$f = -F + (f_1 + F)e^{(\kappa - \kappa_1)/\ell}$`; the elastic moment is `$B\kappa$`.
 fn kept_curvature(law: &BendingLaw, largest: f64) -> f64 {
     let rigidity = law.backbone.respond(0.0).tangent;
@@ -195,9 +198,10 @@ fn fold(fabric: &Fabric, holding: usize) -> Arc {
 
 /// A strip of 40 mm folded in half, held and let go.
 ///
-/// Where the fold was the strip keeps the curvature at which the friction holds what is elastic, and no more: a degree or
-/// few. Fabrics keep far more in the laboratory. Their fibres, bent to the radius of a yarn, yield and creep, of which a
-/// loop that was measured up to 2.5 cm⁻¹ tells nothing.
+/// Where the fold was the strip keeps the curvature at which the friction holds what is elastic,
+/// and no more: a degree or few. Fabrics keep far more in the laboratory. Their fibres, bent to the
+/// radius of a yarn, yield and creep, of which a loop that was measured up to 2.5 cm⁻¹ tells
+/// nothing.
 pub(crate) fn crease() -> Result<Findings, ValidationError> {
     let mut checks = each(|what, fabric, direction| {
         let arc = fold(fabric, HOLDING);

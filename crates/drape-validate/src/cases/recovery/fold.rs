@@ -1,8 +1,8 @@
 //! Case `fold`: a strip that is folded at rest.
 //!
-//! It starts flat, without weight and without friction, and is held at one end. Its energy is least, none, when
-//! both parts are flat and turned by the angle of the fold, so it comes to that angle whatever its
-//! rigidities.
+//! It starts flat, without weight and without friction, and is held at one end. Its energy is
+//! least, none, when both parts are flat and turned by the angle of the fold, so it comes to that
+//! angle whatever its rigidities.
 
 use drape_dynamics::Simulation;
 use nalgebra::Vector3;
@@ -11,7 +11,8 @@ use crate::error::ValidationError;
 use crate::findings::{Axis, Check, Findings, Graph, Layout, Source};
 use crate::setup::{ALONE, finish, scene};
 
-/// Width and height of the strip, and that at which the fold crosses its middle, off the nodes, in m.
+/// Width and height of the strip, and that at which the fold crosses its middle, off the nodes, in
+/// m.
 const SIZE: [f64; 2] = [0.06, 0.16];
 
 const HEIGHT: f64 = 0.083;
@@ -19,7 +20,8 @@ const HEIGHT: f64 = 0.083;
 /// Distance of the particles, in m.
 const SPACING: f64 = 0.005;
 
-/// How far from a fold its parts are flat, in spacings: slanting ones are rounded over two on each side.
+/// How far from a fold its parts are flat, in spacings: slanting ones are rounded over two on each
+/// side.
 const FLAT: f64 = 2.0;
 
 /// A fabric of different rigidities along warp and weft.
@@ -37,7 +39,8 @@ struct Folded {
     line: Vec<[f64; 2]>,
 }
 
-/// A strip with a fold of an angle along a line that slants from its width, both in degrees, at rest.
+/// A strip with a fold of an angle along a line that slants from its width, both in degrees, at
+/// rest.
 fn folded(angle: f64, slant: f64) -> Result<Folded, ValidationError> {
     let [width, height] = SIZE;
     let (sin, cos) = slant.to_radians().sin_cos();

@@ -1,10 +1,10 @@
-//! Case `bias-strip`: strips cut at an angle to the grain stretch [Kil63].
+//! Case `bias-strip`: strips cut at an angle to the grain stretch \[Kil63\].
 //!
-//! Their sides are ragged. Since every cell has its exact area, an even strain has its exact energy, and only
-//! the cells at the sides can give way. Over the angles between and five places of the grid the stiffness was
-//! off by 0.14 % (root mean square; 0.3 % at most) with 4 cells across, 0.034 % with 8 and 0.013 % with 16: of
-//! second order at first, and then as the part of the width that the sides are. Fewer than three cells are no
-//! strip.
+//! Their sides are ragged. Since every cell has its exact area, an even strain has its exact
+//! energy, and only the cells at the sides can give way. Over the angles between and five places of
+//! the grid the stiffness was off by 0.14 % (root mean square; 0.3 % at most) with 4 cells across,
+//! 0.034 % with 8 and 0.013 % with 16: of second order at first, and then as the part of the width
+//! that the sides are. Fewer than three cells are no strip.
 
 use drape_dynamics::Simulation;
 use nalgebra::{SMatrix, SVector};
@@ -19,18 +19,21 @@ const WIDTH: f64 = 0.05;
 
 const LENGTH: f64 = 8.0;
 
-/// Between which heights above the free end the strain is measured, in widths: the clamp is five widths away from there.
+/// Between which heights above the free end the strain is measured, in widths: the clamp is five
+/// widths away from there.
 const GAUGE: std::ops::Range<f64> = 0.5..3.0;
 
 /// The middle part of the width in which it is.
 const MIDDLE: f64 = 0.6;
 
-/// Tensile stiffness of warp and weft, and shear stiffness, in N/m: those of a shirting, without a toe.
+/// Tensile stiffness of warp and weft, and shear stiffness, in N/m: those of a shirting, without a
+/// toe.
 const YARNS: [f64; 2] = [4000.0, 2500.0];
 
 const SHEAR: f64 = 30.0;
 
-/// Mass per area in kg/m², and a gravity in m/s² that stretches the strip by less than a part in a thousand.
+/// Mass per area in kg/m², and a gravity in m/s² that stretches the strip by less than a part in a
+/// thousand.
 const DENSITY: f64 = 0.2;
 
 const GRAVITY: f64 = 0.1;
@@ -42,9 +45,10 @@ const FEW_CELLS: usize = 4;
 
 /// Stiffness of a strip whose warp is at an angle, in degrees, from its length, in N/m.
 ///
-/// The strip hangs from a clamp under its own weight, which it also leans and narrows under. Away from the clamp the
-/// stress at a height `$y$` above the free end is `$\sigma = \rho g y$` along the strip, whatever the grain; so the
-/// displacement along it is `$\sigma y/2E$`, a turn, and a square of the place across.
+/// The strip hangs from a clamp under its own weight, which it also leans and narrows under. Away
+/// from the clamp the stress at a height `$y$` above the free end is `$\sigma = \rho g y$` along
+/// the strip, whatever the grain; so the displacement along it is `$\sigma y/2E$`, a turn, and a
+/// square of the place across.
 fn stiffness(angle: f64, cells: usize) -> Result<f64, ValidationError> {
     let yarns = YARNS.map(|stiffness| {
         format!(

@@ -1,7 +1,7 @@
 //! Case `heavy-cantilever`: a clamped strip bends under its own weight.
 //!
-//! The tip's drop over its reach is that of the heavy elastica [Bic34], and its error falls with the
-//! second order of the spacing.
+//! The tip's drop over its reach is that of the heavy elastica \[Bic34\], and its error falls with
+//! the second order of the spacing.
 
 use super::REST;
 use crate::error::ValidationError;
@@ -12,7 +12,8 @@ use crate::setup::{Strip, finish};
 /// Across and down, over the length of a strip.
 const SHAPE: [Axis; 2] = [Axis::ratio("reach over length"), Axis::ratio("height over length")];
 
-/// Shape of a strip that bends under its own weight: across and up over its length, from the clamp on.
+/// Shape of a strip that bends under its own weight: across and up over its length, from the clamp
+/// on.
 fn cantilever(weight: f64, cells: usize) -> Result<Vec<[f64; 2]>, ValidationError> {
     let strip = Strip { cells, ..Strip::default() }.of_weight(weight);
     let mut simulation = strip.simulation(0.0, REST)?;

@@ -1,7 +1,8 @@
-//! Case `column`: the weight at which an upright strip bends over [Gre81].
+//! Case `column`: the weight at which an upright strip bends over \[Gre81\].
 //!
-//! Near the critical ratio `$\lambda_c$` of `$\lambda = wL^3/B$` a small side force gives the deflection
-//! `$\delta \propto \lambda/(\lambda_c - \lambda)$`; two weights give `$\lambda_c$` [Sou32].
+//! Near the critical ratio `$\lambda_c$` of `$\lambda = wL^3/B$` a small side force gives the
+//! deflection `$\delta \propto \lambda/(\lambda_c - \lambda)$`; two weights give `$\lambda_c$`
+//! \[Sou32\].
 
 use super::REST;
 use crate::error::ValidationError;
@@ -9,7 +10,7 @@ use crate::findings::{Check, Findings};
 use crate::reference;
 use crate::setup::{GRAVITY, Strip, finish};
 
-/// An upright strip leans the more the nearer its weight is to the critical one [Sou32].
+/// An upright strip leans the more the nearer its weight is to the critical one \[Sou32\].
 pub(crate) fn column() -> Result<Findings, ValidationError> {
     let lean = |weight: f64| -> Result<f64, ValidationError> {
         let strip = Strip::default().of_weight(weight);

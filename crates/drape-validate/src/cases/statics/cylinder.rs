@@ -1,4 +1,5 @@
-//! Case `cylinder`: the energy of a sheet that is wrapped on a cylinder, and of one that is twisted.
+//! Case `cylinder`: the energy of a sheet that is wrapped on a cylinder, and of one that is
+//! twisted.
 //!
 //! The energy per area is `$B/2R^2$` along the yarns and `$(B_1 + B_2)/8R^2$` at 45° to them.
 
@@ -35,11 +36,12 @@ fn energy(
 
 /// Sheets wrapped on a cylinder, and one that is twisted.
 ///
-/// On a cylinder of radius `$R$` yarns at an angle `$\vartheta$` to its axis are helices with the curvature
-/// `$\sin^2\vartheta/R$`, so the energy per area is `$B/2R^2$` along the yarns and `$(B_1 + B_2)/8R^2$` at 45°. Rows of
-/// particles are wrapped as a sheet that does not stretch: their chords keep their length. A saddle `$z = tuv$` along the
-/// yarns twists them by `$t$` and bends none; it stretches and shears by the order of `$t^2$`, which is
-/// nothing beside `$t$` where that is small: the twisting stiffness is none.
+/// On a cylinder of radius `$R$` yarns at an angle `$\vartheta$` to its axis are helices with the
+/// curvature `$\sin^2\vartheta/R$`, so the energy per area is `$B/2R^2$` along the yarns and
+/// `$(B_1 + B_2)/8R^2$` at 45°. Rows of particles are wrapped as a sheet that does not stretch:
+/// their chords keep their length. A saddle `$z = tuv$` along the yarns twists them by `$t$` and
+/// bends none; it stretches and shears by the order of `$t^2$`, which is nothing beside `$t$` where
+/// that is small: the twisting stiffness is none.
 pub(crate) fn cylinder() -> Result<Findings, ValidationError> {
     let fabric = fabric(CUPRO)?;
     let [warp, weft] =

@@ -1,4 +1,4 @@
-//! Case `end-load`: a clamped strip bends under a load at its tip [BD45].
+//! Case `end-load`: a clamped strip bends under a load at its tip \[BD45\].
 
 use super::REST;
 use crate::error::ValidationError;
@@ -6,10 +6,11 @@ use crate::findings::{Axis, Check, Findings, Graph, Source};
 use crate::reference;
 use crate::setup::{Strip, finish};
 
-/// A strip without weight whose tip a pin holds at a drop, and at the reach where it pulls straight down.
+/// A strip without weight whose tip a pin holds at a drop, and at the reach where it pulls straight
+/// down.
 ///
-/// The pin's horizontal force is found to be nought by two trials: it is linear in the reach, and steep, because
-/// a strip hardly stretches.
+/// The pin's horizontal force is found to be nought by two trials: it is linear in the reach, and
+/// steep, because a strip hardly stretches.
 pub(crate) fn end_loaded_cantilever() -> Result<Findings, ValidationError> {
     let strip = Strip::default();
     let hold = |drop: f64, reach: f64| -> Result<[f64; 2], ValidationError> {

@@ -1,4 +1,5 @@
-//! Cases `catenary` and `self-stretch`: a limp strip between two hinges, and one that hangs straight down.
+//! Cases `catenary` and `self-stretch`: a limp strip between two hinges, and one that hangs
+//! straight down.
 
 use super::REST;
 use crate::error::ValidationError;
