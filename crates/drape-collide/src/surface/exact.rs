@@ -1,6 +1,6 @@
 //! Exact tests: intersections of edges with triangles, and points inside bodies.
 //!
-//! The predicates are exact for the positions as they are rounded ([She97], by the crate `robust`);
+//! The predicates are exact for the positions as they are rounded \[She97\], by the crate `robust`;
 //! touching counts as an intersection. A point is inside a body if the solid angle of its triangles
 //! is that of the whole sphere.
 //!
