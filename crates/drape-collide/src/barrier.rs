@@ -12,7 +12,7 @@
 /// `$k_A \hat g$` before it sinks in. A smaller value carries more and conditions worse.
 const EXTENDED: f64 = 0.1;
 
-/// Two-stage barrier `$b(g)$` of a gap `$g$` below an activation gap `$\hat g$` (\[Che25\]).
+/// Two-stage barrier `$b(g)$` of a gap `$g$` below an activation gap `$\hat g$` \[Che25\].
 ///
 /// ```math
 /// b = \tfrac12 (\hat g - g)^2                         \quad (\hat g/2 \le g < \hat g), \qquad

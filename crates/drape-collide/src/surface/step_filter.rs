@@ -5,8 +5,8 @@
 //! of the second at most `$k$`, `$d \ge h - k$`. Two filters use it, both continuous collision
 //! detection (CCD) with all rounding bounded:
 //!
-//! - one fraction `$t$` for all vertices, by conservative advancement (\[Mir96\]),
-//! - a fraction for each vertex, by two planes that divide the room of each pair (\[Che26\]).
+//! - one fraction `$t$` for all vertices, by conservative advancement \[Mir96\],
+//! - a fraction for each vertex, by two planes that divide the room of each pair \[Che26\].
 //!
 //! [`contact`](super::contact) passes trial steps of the solver here. This chapter uses
 //! [`tracked_pairs`](super::tracked_pairs) and [`distance`](super::distance).

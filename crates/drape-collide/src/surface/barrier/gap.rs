@@ -35,10 +35,10 @@ const PARALLEL: f64 = 1e-28;
 /// b(g) = -\tfrac14 \hat g^2 (\ln(2g/\hat g) - \tfrac12) \;\; (0 < g < \hat g/2)
 /// ```
 ///
-/// with `$\hat g = \hat d - \xi$` and the stiffness `$k$` in N/m³ (\[Che25\]); the mollifier `$m$`
-/// fades out two edges as they become parallel, where their closest points would jump (\[Li20\],
-/// §5). The sum over all pairs of vertices with triangles and of edges is continuous with its
-/// gradient, whatever features the closest points lie on. A closed gap, `$d \le \xi$`, has an
+/// with `$\hat g = \hat d - \xi$` and the stiffness `$k$` in N/m³ \[Che25\]; the mollifier `$m$`
+/// fades out two edges as they become parallel, where their closest points would jump
+/// \[Li20, §5\]. The sum over all pairs of vertices with triangles and of edges is continuous with
+/// its gradient, whatever features the closest points lie on. A closed gap, `$d \le \xi$`, has an
 /// infinite energy, and derivatives that are not finite.
 #[derive(Debug, Clone)]
 pub struct Gap {

@@ -8,7 +8,7 @@ use crate::vector::{Vector, cross, dot, subtract};
 /// m = c (2 - c), \qquad c = \min(1, |e_1 \times e_2|^2 / \epsilon)
 /// ```
 ///
-/// with the threshold `$\epsilon$` of the pair (\[Li20\], eq. 24). It is continuous with its
+/// with the threshold `$\epsilon$` of the pair \[Li20, eq. 24\]. It is continuous with its
 /// gradient, and 1 throughout for a vertex and a triangle.
 #[derive(Debug, Clone)]
 pub(crate) struct Mollifier {

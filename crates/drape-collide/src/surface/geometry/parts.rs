@@ -7,7 +7,7 @@ use crate::vector::at;
 /// Distances of contact: of a pair of primitives, or half of them of a group.
 ///
 /// A pair of two groups has the sum of both. Its primitives repel each other below the activation
-/// distance `$\hat d$` and are kept above the minimum separation `$\xi$` (\[Li21\]).
+/// distance `$\hat d$` and are kept above the minimum separation `$\xi$` \[Li21\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactDistances {
     /// Activation distance `$\hat d$`, in m.
