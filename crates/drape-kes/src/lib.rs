@@ -21,6 +21,8 @@ mod values;
 mod curves;
 // Sheets and their files.
 mod sheets;
+// Tables of any instrument.
+mod tables;
 
 pub use curves::branch::{Branch, reversals};
 pub use curves::curve::{Curve, Extent};
