@@ -7,11 +7,13 @@ pub(crate) struct Findings<'t> {
     pub(crate) document: &'t Document,
     pub(crate) errors: Vec<Diagnostic>,
     pub(crate) warnings: Vec<Diagnostic>,
+    /// What was taken for what, a line for each file.
+    pub(crate) readings: Vec<String>,
 }
 
 impl<'t> Findings<'t> {
     pub(crate) fn new(document: &'t Document) -> Self {
-        Self { document, errors: Vec::new(), warnings: Vec::new() }
+        Self { document, errors: Vec::new(), warnings: Vec::new(), readings: Vec::new() }
     }
 
     /// Adds an error in the value at a key path.

@@ -7,7 +7,7 @@ use drape_input::closest;
 use toml::de::{DeTable, DeValue};
 
 use crate::sheets::findings::Findings;
-use crate::sheets::table::Column;
+use crate::tables::layout::{Column, Take};
 use crate::unit::{Quantity, Written, parse_quantity};
 
 /// Table of the file, with its key path.
@@ -177,6 +177,90 @@ impl<'t> Section<'t> {
         }
     }
 
+    /// Returns texts: one, or a list of them, which must be there.
+    pub(crate) fn required_texts(
+        &self,
+        key: &str,
+        example: &str,
+        findings: &mut Findings<'_>,
+    ) -> Option<Vec<String>> {
+        if !self.has(key, example, findings) {
+            return None;
+        }
+        let text = |value: &DeValue<'_>| value.as_str().map(str::to_owned);
+        let texts = match self.get(key)? {
+            DeValue::Array(items) => items.iter().map(|item| text(item.get_ref())).collect(),
+            one => text(one).map(|text| vec![text]),
+        };
+        let texts = texts.filter(|texts: &Vec<String>| !texts.is_empty());
+        if texts.is_none() {
+            self.wrong_kind(key, "text in quotes, or a list of such texts", findings);
+        }
+        texts
+    }
+
+    /// Returns a whole number that is not negative, if the key is there; `false` is none.
+    pub(crate) fn whole(&self, key: &str, findings: &mut Findings<'_>) -> Option<usize> {
+        let value = match self.get(key)? {
+            DeValue::Integer(number) => number.as_str().parse().ok(),
+            DeValue::Boolean(false) => Some(0),
+            _ => None,
+        };
+        if value.is_none() {
+            self.wrong_kind(key, "a number of lines, such as 12", findings);
+        }
+        value
+    }
+
+    /// Returns a choice among several of a kind: a number from 1, a list of them, or `"all"`.
+    pub(crate) fn take(&self, key: &str, findings: &mut Findings<'_>) -> Take {
+        let Some(value) = self.get(key) else { return Take::Undeclared };
+        let number = |value: &DeValue<'_>| match value {
+            DeValue::Integer(number) => number.as_str().parse::<usize>().ok(),
+            _ => None,
+        };
+        let take = match value {
+            DeValue::String(text) if text == "all" => Some(Take::All),
+            DeValue::Array(items) => {
+                let numbers: Option<Vec<usize>> =
+                    items.iter().map(|item| number(item.get_ref())).collect();
+                numbers.filter(|numbers| !numbers.is_empty()).map(Take::These)
+            }
+            one => number(one).map(|number| Take::These(vec![number])),
+        };
+        if take.is_none() {
+            self.wrong_kind(key, "a number from 1, a list such as [1, 3], or \"all\"", findings);
+        }
+        take.unwrap_or_default()
+    }
+
+    /// Returns a sheet of a spreadsheet, by its name or its number from 1, if the key is there.
+    pub(crate) fn name_or_number(&self, key: &str, findings: &mut Findings<'_>) -> Option<Column> {
+        let found = as_column(self.get(key)?);
+        if found.is_none() {
+            self.wrong_kind(key, "a name in quotes, or a number from 1", findings);
+        }
+        found
+    }
+
+    /// Returns columns, by their names or numbers from 1: none, one, or a list of them.
+    pub(crate) fn columns(&self, key: &str, findings: &mut Findings<'_>) -> Vec<Column> {
+        let Some(value) = self.get(key) else { return Vec::new() };
+        let columns = match value {
+            DeValue::Array(items) => items.iter().map(|item| as_column(item.get_ref())).collect(),
+            one => as_column(one).map(|column| vec![column]),
+        };
+        if columns.is_none() {
+            self.wrong_kind(key, "a column name, its place from 1, or a list of them", findings);
+        }
+        columns.unwrap_or_default()
+    }
+
+    /// Returns whether a key is there.
+    pub(crate) fn declares(&self, key: &str) -> bool {
+        self.get(key).is_some()
+    }
+
     /// Returns a finite number, bare in the laboratory's unit or text with its unit.
     pub(crate) fn measured(
         &self,
@@ -222,16 +306,6 @@ impl<'t> Section<'t> {
         }
     }
 
-    /// Returns a table inside this one, which must be there.
-    pub(crate) fn required_section(
-        &self,
-        key: &str,
-        example: &str,
-        findings: &mut Findings<'_>,
-    ) -> Option<Section<'t>> {
-        self.has(key, example, findings).then(|| self.section(key, findings)).flatten()
-    }
-
     /// Returns the tables of an array of tables.
     pub(crate) fn sections(&self, key: &str, findings: &mut Findings<'_>) -> Vec<Section<'t>> {
         let items: Vec<_> = match self.get(key) {
@@ -254,22 +328,6 @@ impl<'t> Section<'t> {
             return Vec::new();
         }
         sections
-    }
-
-    /// Returns a column, by its name or by its number from 1.
-    pub(crate) fn column(&self, key: &str, findings: &mut Findings<'_>) -> Option<Column> {
-        if !self.has(key, "\"name in the header\"", findings) {
-            return None;
-        }
-        let column = match self.get(key)? {
-            DeValue::String(name) => Some(Column::Name(name.to_string())),
-            DeValue::Integer(number) => number.as_str().parse().ok().map(Column::Number),
-            _ => None,
-        };
-        if column.is_none() {
-            self.wrong_kind(key, "a column name, or its place from 1", findings);
-        }
-        column
     }
 
     /// Returns a length with its unit (a bare number is in metres), or a column in metres.
@@ -299,6 +357,14 @@ impl<'t> Section<'t> {
         let help = "write the length with its unit, such as \"5 cm\"";
         findings.error(&self.key(key), format!("{length} m is not a positive length"), help);
         None
+    }
+}
+
+fn as_column(value: &DeValue<'_>) -> Option<Column> {
+    match value {
+        DeValue::String(name) => Some(Column::Name(name.to_string())),
+        DeValue::Integer(number) => number.as_str().parse().ok().map(Column::Number),
+        _ => None,
     }
 }
 

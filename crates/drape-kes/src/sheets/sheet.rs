@@ -70,6 +70,7 @@ pub struct Sheet {
     /// Measured curves, in SI.
     pub curves: Vec<Curve>,
     warnings: Vec<Diagnostic>,
+    readings: Vec<String>,
 }
 
 impl Sheet {
@@ -91,7 +92,7 @@ impl Sheet {
         let mut findings = Findings::new(&document);
         let sheet = Self::check(&Section::root(table.get_ref()), &mut findings);
         Diagnostics::check(findings.errors)?;
-        Ok(Self { warnings: findings.warnings, ..sheet })
+        Ok(Self { warnings: findings.warnings, readings: findings.readings, ..sheet })
     }
 
     fn check(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
@@ -112,7 +113,7 @@ impl Sheet {
         let curves = root
             .sections("curve", findings)
             .iter()
-            .filter_map(|section| curve_file::read(section, findings))
+            .flat_map(|section| curve_file::read(section, findings))
             .collect();
         let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
         Self {
@@ -128,6 +129,7 @@ impl Sheet {
             weft,
             curves,
             warnings: Vec::new(),
+            readings: Vec::new(),
         }
     }
 
@@ -198,6 +200,13 @@ impl Sheet {
                 .for_each(|value| [index as f64, value].into_iter().for_each(&mut number));
         }
         hasher.finalize().to_hex().to_string()
+    }
+
+    /// Returns what each curve file was taken for, a line each: its encoding, separators, header,
+    /// columns, units and repeats, as far as they were not declared.
+    #[must_use]
+    pub fn readings(&self) -> &[String] {
+        &self.readings
     }
 
     /// Returns warnings about values that are admissible but that few fabrics have, and about

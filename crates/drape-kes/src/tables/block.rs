@@ -42,7 +42,8 @@ impl Block {
     pub(crate) fn number_columns(&self) -> Vec<usize> {
         let has_numbers = |column: &usize| {
             let first = self.rows.iter().take(8).filter_map(|row| row.cells.get(*column));
-            first.clone().any(Cell::is_number) && first.filter(|cell| !cell.is_empty()).all(Cell::is_number)
+            first.clone().any(Cell::is_number)
+                && first.filter(|cell| !cell.is_empty()).all(Cell::is_number)
         };
         (0..self.width()).filter(has_numbers).collect()
     }
@@ -115,7 +116,8 @@ fn part(row: &Row, first: Option<&Row>, is_header: bool) -> Part {
         return if numbers >= 2 { Part::Numbers } else { Part::Text };
     };
     let was_number = |column: usize| first.cells.get(column).is_some_and(Cell::is_number);
-    let start = row.filled().next().filter(|(column, cell)| !cell.is_number() && was_number(*column));
+    let start =
+        row.filled().next().filter(|(column, cell)| !cell.is_number() && was_number(*column));
     match start {
         Some((_, cell)) if is_statistic(&cell.text()) => Part::Statistics,
         Some(_) => Part::Text,
@@ -125,15 +127,41 @@ fn part(row: &Row, first: Option<&Row>, is_header: bool) -> Part {
 
 fn is_statistic(text: &str) -> bool {
     const WORDS: [&str; 22] = [
-        "mean", "average", "avg", "ave", "max", "min", "maximum", "minimum", "median", "sd", "s d",
-        "std", "std dev", "stdev", "cv", "cv%", "cv (%)", "mittelwert", "moyenne", "平均", "標準偏差", "σ",
+        "mean",
+        "average",
+        "avg",
+        "ave",
+        "max",
+        "min",
+        "maximum",
+        "minimum",
+        "median",
+        "sd",
+        "s d",
+        "std",
+        "std dev",
+        "stdev",
+        "cv",
+        "cv%",
+        "cv (%)",
+        "mittelwert",
+        "moyenne",
+        "平均",
+        "標準偏差",
+        "σ",
     ];
     let text = heading::normal(text);
     WORDS.contains(&text.as_str()) || text.starts_with("standard dev") || text.starts_with("x̄")
 }
 
 /// Ends the block of the collected rows, if there are any.
-fn finish(grid: &Grid, found: &mut Blocks, above: &mut Vec<Row>, rows: &mut Vec<Row>, lines: Lines) {
+fn finish(
+    grid: &Grid,
+    found: &mut Blocks,
+    above: &mut Vec<Row>,
+    rows: &mut Vec<Row>,
+    lines: Lines,
+) {
     if rows.is_empty() {
         return;
     }
@@ -163,7 +191,8 @@ fn finish(grid: &Grid, found: &mut Blocks, above: &mut Vec<Row>, rows: &mut Vec<
 
 /// Takes header, units and titles of groups from the text above a block.
 fn take_header(block: &mut Block, declared: Option<usize>, spaced: bool) {
-    let ruled = |row: &Row| row.filled().all(|(_, cell)| cell.text().chars().all(|c| "-=_+|~".contains(c)));
+    let ruled =
+        |row: &Row| row.filled().all(|(_, cell)| cell.text().chars().all(|c| "-=_+|~".contains(c)));
     block.above.retain(|row| !ruled(row) || declared == Some(row.line));
     let units = block.above.last().filter(|row| is_row_of_units(row) && declared != Some(row.line));
     let units = units.cloned();
@@ -265,7 +294,7 @@ fn is_row_of_names(row: &Row, first: Option<&Row>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tables::grid::{Separator, separator};
+    use crate::tables::grid::separator;
 
     fn of(text: &str, lines: Lines) -> Vec<Block> {
         let rows = separator(text).split(text).expect("it splits");
@@ -303,7 +332,9 @@ mod tests {
         let header = Lines { header: Some(2), skip: 0 };
         let [block] = &of(text, header)[..] else { panic!("not one block") };
         assert_eq!((block.headings[0].name.as_str(), block.rows.len()), ("3", 2));
-        let [block] = &of(text, Lines { skip: 3, header: None })[..] else { panic!("not one block") };
+        let [block] = &of(text, Lines { skip: 3, header: None })[..] else {
+            panic!("not one block")
+        };
         assert_eq!(block.rows.len(), 1);
     }
 }

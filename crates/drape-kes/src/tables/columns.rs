@@ -69,7 +69,11 @@ pub(crate) fn pairs(
 }
 
 /// Joins the columns of both axes.
-fn joined(block: &Block, deformations: Vec<usize>, loads: Vec<usize>) -> Result<Vec<Pair>, NoColumns> {
+fn joined(
+    block: &Block,
+    deformations: Vec<usize>,
+    loads: Vec<usize>,
+) -> Result<Vec<Pair>, NoColumns> {
     let label = |column: usize| label(block, column);
     let pair = |deformation: usize, load: usize, label: String| Pair { deformation, load, label };
     match (deformations.len(), loads.len()) {
@@ -77,10 +81,12 @@ fn joined(block: &Block, deformations: Vec<usize>, loads: Vec<usize>) -> Result<
         (1, _) => Ok(loads.iter().map(|&load| pair(deformations[0], load, label(load))).collect()),
         (all, many) if all == many => {
             let both = deformations.into_iter().zip(loads);
-            Ok(both.map(|(q, f)| {
-                let of_load = label(f);
-                pair(q, f, if of_load.is_empty() { label(q) } else { of_load })
-            }).collect())
+            Ok(both
+                .map(|(q, f)| {
+                    let of_load = label(f);
+                    pair(q, f, if of_load.is_empty() { label(q) } else { of_load })
+                })
+                .collect())
         }
         (_, 1) => {
             // The deformation of the same group, or the nearest to the left.
@@ -120,7 +126,9 @@ fn base(block: &Block, column: usize) -> String {
     let name = heading::normal(&heading.name);
     let words = name.split(' ').map(|word| word.trim_end_matches(|c: char| c.is_ascii_digit()));
     let kept = words.filter(|word| {
-        !word.is_empty() && heading::directions(word).is_empty() && !heading::is_specimen(&format!("{word} 1"))
+        !word.is_empty()
+            && heading::directions(word).is_empty()
+            && !heading::is_specimen(&format!("{word} 1"))
     });
     kept.collect::<Vec<_>>().join(" ")
 }
@@ -136,8 +144,9 @@ fn of_axis(block: &Block, axis: &AxisQuery<'_>, taken: &[usize]) -> Result<Vec<u
     }
     let numbers = block.number_columns();
     let open = numbers.iter().copied().filter(|column| !taken.contains(column));
-    let mut fitting: Vec<Candidate> =
-        open.filter_map(|column| rank(block, column, axis).map(|rank| Candidate { column, rank })).collect();
+    let mut fitting: Vec<Candidate> = open
+        .filter_map(|column| rank(block, column, axis).map(|rank| Candidate { column, rank }))
+        .collect();
     fitting.sort_by_key(|candidate| (candidate.rank, candidate.column));
     let Some(best) = fitting.first().copied() else {
         return Err(none_fits(block, axis));

@@ -39,7 +39,8 @@ pub(crate) fn decode(bytes: &[u8], declared: Option<&'static Encoding>) -> Resul
     }
     let taken = |encoding: &'static Encoding, bytes: &[u8], why: &str| {
         let (text, _) = encoding.decode_without_bom_handling(bytes);
-        let why = if why.is_empty() { String::new() } else { format!("{} ({why})", encoding.name()) };
+        let why =
+            if why.is_empty() { String::new() } else { format!("{} ({why})", encoding.name()) };
         Ok(Decoded { text: text.into_owned(), reading: why })
     };
     if let Some((encoding, mark)) = Encoding::for_bom(bytes) {
@@ -61,7 +62,9 @@ pub(crate) fn decode(bytes: &[u8], declared: Option<&'static Encoding>) -> Resul
 }
 
 fn strict(encoding: &'static Encoding, bytes: &[u8]) -> Option<String> {
-    encoding.decode_without_bom_handling_and_without_replacement(bytes).map(|text| text.into_owned())
+    encoding
+        .decode_without_bom_handling_and_without_replacement(bytes)
+        .map(|text| text.into_owned())
 }
 
 /// Returns the place of the first byte that an encoding does not have.
@@ -71,9 +74,8 @@ fn first_error(encoding: &'static Encoding, bytes: &[u8]) -> usize {
     let (mut good, mut bad) = (0, bytes.len());
     while bad - good > 1 {
         let middle = good.midpoint(bad);
-        let whole = (0..4).any(|cut| {
-            middle >= cut + good && strict(encoding, &bytes[..middle - cut]).is_some()
-        });
+        let whole = (0..4)
+            .any(|cut| middle >= cut + good && strict(encoding, &bytes[..middle - cut]).is_some());
         if whole { good = middle } else { bad = middle }
     }
     good
@@ -99,9 +101,7 @@ fn unmarked_utf_16(bytes: &[u8]) -> Option<&'static Encoding> {
 /// the letters of its word.
 fn is_japanese(bytes: &[u8]) -> bool {
     let Some(text) = strict(SHIFT_JIS, bytes) else { return false };
-    let wide = |letter: char| {
-        matches!(letter, '\u{3000}'..='\u{30ff}' | '\u{4e00}'..='\u{9fff}' | '\u{ff01}'..='\u{ff5e}')
-    };
+    let wide = |letter: char| matches!(letter, '\u{3000}'..='\u{30ff}' | '\u{4e00}'..='\u{9fff}' | '\u{ff01}'..='\u{ff5e}');
     let letters: Vec<char> = text.chars().collect();
     let (mut together, mut alone) = (0, 0);
     for run in letters.split(|&letter| !wide(letter)).filter(|run| !run.is_empty()) {
@@ -141,7 +141,8 @@ mod tests {
 
     #[test]
     fn western_words_are_not_taken_for_japanese() {
-        for text in ["Déformation;Force (N)", "Prüfzeit;Standardkraft", "Winkel in °", "µm;é"] {
+        for text in ["Déformation;Force (N)", "Prüfzeit;Standardkraft", "Winkel in °", "µm;é"]
+        {
             let bytes = WINDOWS_1252.encode(text).0;
             let decoded = decode(&bytes, None).expect("it is detected");
             assert_eq!(decoded.text, text, "{}", decoded.reading);

@@ -31,7 +31,8 @@ impl Heading {
             }
         }
         for sign in [" / ", "/", ", ", " in ", " en ", ":", " ", "_"] {
-            if let Some((name, unit)) = cell.split_once(sign).filter(|_| sign == "/").or_else(|| cell.rsplit_once(sign))
+            if let Some((name, unit)) =
+                cell.split_once(sign).filter(|_| sign == "/").or_else(|| cell.rsplit_once(sign))
                 && !name.trim().is_empty()
                 && is_unit(unit.trim())
             {
@@ -107,23 +108,74 @@ const WORDS: [(Kind, &[&str]); 11] = [
     (
         Kind::Other,
         &[
-            "time", "zeit", "temps", "tiempo", "tempo", "時間", "stress", "spannung", "contrainte",
-            "応力", "temperature", "temperatur", "温度", "width", "breite", "largeur", "幅",
-            "thickness", "dicke", "épaisseur", "厚", "speed", "geschwindigkeit", "速度", "energy",
-            "work", "仕事", "modulus", "area", "index", "remark", "note", "bemerkung", "備考",
-            "specimen length", "date", "point",
+            "time",
+            "zeit",
+            "temps",
+            "tiempo",
+            "tempo",
+            "時間",
+            "stress",
+            "spannung",
+            "contrainte",
+            "応力",
+            "temperature",
+            "temperatur",
+            "温度",
+            "width",
+            "breite",
+            "largeur",
+            "幅",
+            "thickness",
+            "dicke",
+            "épaisseur",
+            "厚",
+            "speed",
+            "geschwindigkeit",
+            "速度",
+            "energy",
+            "work",
+            "仕事",
+            "modulus",
+            "area",
+            "index",
+            "remark",
+            "note",
+            "bemerkung",
+            "備考",
+            "specimen length",
+            "date",
+            "point",
         ],
     ),
     (Kind::Cycle, &["cycle", "zyklus", "zyklen", "ciclo", "サイクル", "回数", "loop no"]),
     (
         Kind::Distance,
-        &["distance", "grip separation", "jaw separation", "einspannlänge", "abstand", "つかみ間", "チャック間"],
+        &[
+            "distance",
+            "grip separation",
+            "jaw separation",
+            "einspannlänge",
+            "abstand",
+            "つかみ間",
+            "チャック間",
+        ],
     ),
     (
         Kind::Strain,
         &[
-            "strain", "dehnung", "déformation", "deformation", "deformazione", "deformación",
-            "ひずみ", "歪", "伸び率", "伸長率", "伸度", "elongation (%)", "nominal strain",
+            "strain",
+            "dehnung",
+            "déformation",
+            "deformation",
+            "deformazione",
+            "deformación",
+            "ひずみ",
+            "歪",
+            "伸び率",
+            "伸長率",
+            "伸度",
+            "elongation (%)",
+            "nominal strain",
         ],
     ),
     (
@@ -138,28 +190,69 @@ const WORDS: [(Kind, &[&str]); 11] = [
     (
         Kind::Force,
         &[
-            "force", "load", "kraft", "charge", "forza", "carico", "fuerza", "carga", "荷重",
-            "力", "張力", "tension",
+            "force", "load", "kraft", "charge", "forza", "carico", "fuerza", "carga", "荷重", "力",
+            "張力", "tension",
         ],
     ),
     (
         Kind::Extension,
         &[
-            "extension", "elongation", "verlängerung", "standardweg", "standard travel", "weg",
-            "allongement", "allungamento", "elongación", "alargamiento", "伸び", "伸長", "変位",
-            "displacement", "déplacement", "extensometer", "längenänderung", "travel", "verfahrweg",
+            "extension",
+            "elongation",
+            "verlängerung",
+            "standardweg",
+            "standard travel",
+            "weg",
+            "allongement",
+            "allungamento",
+            "elongación",
+            "alargamiento",
+            "伸び",
+            "伸長",
+            "変位",
+            "displacement",
+            "déplacement",
+            "extensometer",
+            "längenänderung",
+            "travel",
+            "verfahrweg",
         ],
     ),
     (
         Kind::Position,
-        &["position", "crosshead", "traverse", "traverso", "stroke", "ストローク", "クロスヘッド", "hub", "kolbenweg"],
+        &[
+            "position",
+            "crosshead",
+            "traverse",
+            "traverso",
+            "stroke",
+            "ストローク",
+            "クロスヘッド",
+            "hub",
+            "kolbenweg",
+        ],
     ),
     (
         Kind::Specimen,
         &[
-            "specimen", "sample", "probe", "prüfling", "échantillon", "éprouvette", "provino",
-            "probeta", "試料", "試験片", "サンプル", "test", "repeat", "replicate", "run",
-            "versuch", "essai", "prüfung",
+            "specimen",
+            "sample",
+            "probe",
+            "prüfling",
+            "échantillon",
+            "éprouvette",
+            "provino",
+            "probeta",
+            "試料",
+            "試験片",
+            "サンプル",
+            "test",
+            "repeat",
+            "replicate",
+            "run",
+            "versuch",
+            "essai",
+            "prüfung",
         ],
     ),
 ];
@@ -204,16 +297,45 @@ const JOINED: [&str; 8] =
 
 /// Words of the two directions, in titles, names of sheets and headings.
 const DIRECTIONS: [(Direction, &[&str]); 2] = [
-    (Direction::Warp, &["warp", "kette", "kettrichtung", "chaîne", "chaine", "ordito", "urdimbre", "たて", "タテ", "経"]),
+    (
+        Direction::Warp,
+        &[
+            "warp",
+            "kette",
+            "kettrichtung",
+            "chaîne",
+            "chaine",
+            "ordito",
+            "urdimbre",
+            "たて",
+            "タテ",
+            "経",
+        ],
+    ),
     (
         Direction::Weft,
-        &["weft", "filling", "fill", "woof", "schuss", "schussrichtung", "trame", "trama", "よこ", "ヨコ", "緯"],
+        &[
+            "weft",
+            "filling",
+            "fill",
+            "woof",
+            "schuss",
+            "schussrichtung",
+            "trame",
+            "trama",
+            "よこ",
+            "ヨコ",
+            "緯",
+        ],
     ),
 ];
 
 /// Words of the tests, in titles and names of sheets.
 const TESTS: [(Test, &[&str]); 3] = [
-    (Test::Tensile, &["tensile", "tension", "fb1 tensile", "zug", "zugversuch", "traction", "引張", "引っ張り"]),
+    (
+        Test::Tensile,
+        &["tensile", "tension", "fb1 tensile", "zug", "zugversuch", "traction", "引張", "引っ張り"],
+    ),
     (Test::Shear, &["shear", "schub", "scher", "cisaillement", "せん断", "剪断"]),
     (Test::Bending, &["bending", "pure bending", "fb2", "biege", "biegung", "flexion", "曲げ"]),
 ];
@@ -236,8 +358,23 @@ fn named<T: Copy>(known: &[(T, &[&str])], label: &str) -> Vec<T> {
 
 /// Words of a part of one history.
 const PARTS: [&str; 17] = [
-    "cycle", "zyklus", "サイクル", "loading", "unloading", "recovery", "return", "belastung",
-    "entlastung", "hin", "rück", "retour", "aller", "往", "復", "回復", "戻り",
+    "cycle",
+    "zyklus",
+    "サイクル",
+    "loading",
+    "unloading",
+    "recovery",
+    "return",
+    "belastung",
+    "entlastung",
+    "hin",
+    "rück",
+    "retour",
+    "aller",
+    "往",
+    "復",
+    "回復",
+    "戻り",
 ];
 
 /// Returns whether a label names a part of one history: a cycle, the way back.
@@ -248,8 +385,22 @@ pub(crate) fn is_part(label: &str) -> bool {
 
 /// Words of a specimen of several, besides its number.
 const SPECIMENS: [&str; 16] = [
-    "specimen", "sample", "probe", "prüfling", "test", "versuch", "repeat", "replicate", "run",
-    "échantillon", "éprouvette", "essai", "試料", "試験片", "n", "no",
+    "specimen",
+    "sample",
+    "probe",
+    "prüfling",
+    "test",
+    "versuch",
+    "repeat",
+    "replicate",
+    "run",
+    "échantillon",
+    "éprouvette",
+    "essai",
+    "試料",
+    "試験片",
+    "n",
+    "no",
 ];
 
 /// Returns whether a label is that of one specimen of several: a number, with a word for specimens.
@@ -258,7 +409,8 @@ pub(crate) fn is_specimen(label: &str) -> bool {
     let has_number = label.contains(|letter: char| letter.is_ascii_digit());
     has_number
         && label.split(' ').all(|word| {
-            let word = word.trim_matches(|letter: char| letter.is_ascii_digit() || "()[],;/".contains(letter));
+            let word = word
+                .trim_matches(|letter: char| letter.is_ascii_digit() || "()[],;/".contains(letter));
             word.is_empty()
                 || SPECIMENS.contains(&word)
                 || word == "of"
@@ -274,11 +426,25 @@ mod tests {
     #[test]
     fn the_unit_is_found_however_it_is_set_off() {
         for cell in [
-            "Load (N)", "Load [N]", "Load（N）", "Load / N", "Load, N", "Load in N", "Load_N",
-            "Load N", "\"Load (N)\"", "Load: N", "Load <N>", "Load/N",
+            "Load (N)",
+            "Load [N]",
+            "Load（N）",
+            "Load / N",
+            "Load, N",
+            "Load in N",
+            "Load_N",
+            "Load N",
+            "\"Load (N)\"",
+            "Load: N",
+            "Load <N>",
+            "Load/N",
         ] {
             let heading = Heading::parse(cell);
-            assert_eq!((heading.name.as_str(), heading.unit.as_deref()), ("Load", Some("N")), "{cell}");
+            assert_eq!(
+                (heading.name.as_str(), heading.unit.as_deref()),
+                ("Load", Some("N")),
+                "{cell}"
+            );
         }
         let heading = Heading::parse("F (gf/cm)");
         assert_eq!((heading.name.as_str(), heading.unit.as_deref()), ("F", Some("gf/cm")));

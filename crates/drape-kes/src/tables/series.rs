@@ -98,7 +98,8 @@ pub(crate) fn find(
             }
         }
     }
-    if let (true, Some((_, NoColumns { line, message, help }))) = (found.series.is_empty(), refused) {
+    if let (true, Some((_, NoColumns { line, message, help }))) = (found.series.is_empty(), refused)
+    {
         let finding = Diagnostic::new(path, message).help(help);
         return Err(Diagnostic { line, ..finding }.into());
     }
@@ -135,14 +136,17 @@ fn tables(
         }
     };
     if grids.is_empty() {
-        let names: Vec<String> = file.grids.iter().map(|grid| format!("\"{}\"", grid.sheet)).collect();
+        let names: Vec<String> =
+            file.grids.iter().map(|grid| format!("\"{}\"", grid.sheet)).collect();
         let wanted = match &layout.sheet {
             Some(Column::Name(name)) => format!("\"{name}\""),
             Some(Column::Number(number)) => number.to_string(),
             None => String::new(),
         };
         let help = match names.as_slice() {
-            [one] if one == "\"\"" => "this file is text, without sheets: remove `sheet`".to_owned(),
+            [one] if one == "\"\"" => {
+                "this file is text, without sheets: remove `sheet`".to_owned()
+            }
             _ => format!("sheets of the file: {}", names.join(", ")),
         };
         return Err(Diagnostic::new(path, format!("there is no sheet {wanted}")).help(help).into());
@@ -153,15 +157,22 @@ fn tables(
         if let Some(line) = layout.lines.header.filter(|&line| line > 0)
             && of_grid.blocks.iter().all(|block| block.header_line != Some(line))
         {
-            return Err(Diagnostic::new(path, format!("line {line} is no header: nothing is in it, or no numbers follow"))
-                .on_line(line)
-                .help("write the line of the names of the columns, counted from 1").into());
+            return Err(Diagnostic::new(
+                path,
+                format!("line {line} is no header: nothing is in it, or no numbers follow"),
+            )
+            .on_line(line)
+            .help("write the line of the names of the columns, counted from 1")
+            .into());
         }
         if !of_grid.statistics.is_empty() {
             let lines: Vec<String> = of_grid.statistics.iter().map(ToString::to_string).collect();
-            found.reading.push(format!("means and deviations on line {} left out", lines.join(", ")));
+            found
+                .reading
+                .push(format!("means and deviations on line {} left out", lines.join(", ")));
         }
-        let stated: Vec<Row> = of_grid.blocks.iter().flat_map(|block| block.above.clone()).collect();
+        let stated: Vec<Row> =
+            of_grid.blocks.iter().flat_map(|block| block.above.clone()).collect();
         let first = tables.len();
         for block in of_grid.blocks {
             let part = heading::is_part(&block.title()) && !heading::is_specimen(&block.title());
@@ -270,7 +281,10 @@ fn choose(
     if all == 1 {
         if let Some(series) = found.series.iter().find(|series| other(&series.label)) {
             let (test, direction) = (test.name(), direction.name());
-            let message = format!("its title is \"{}\", and it is given as {test}, {direction}", series.label);
+            let message = format!(
+                "its title is \"{}\", and it is given as {test}, {direction}",
+                series.label
+            );
             found.warnings.push(Warning { message, help: "check test and direction" });
         }
         return Ok(());
@@ -361,13 +375,18 @@ fn decimal(series: &Series, layout: &Layout) -> Result<Decimal, Diagnostics> {
     match (seen, either) {
         ([Some((line, point)), Some((other, comma))], _) => refuse(
             line.max(other),
-            format!("\"{point}\" on line {line} has a decimal point, \"{comma}\" on line {other} a comma"),
+            format!(
+                "\"{point}\" on line {line} has a decimal point, \"{comma}\" on line {other} a comma"
+            ),
         ),
         ([None, Some(_)], _) => Ok(Decimal::Comma),
         ([None, None], Some((line, text))) => {
             let thousands = text.replace(',', "");
             let fraction = text.replace(',', ".");
-            refuse(line, format!("\"{text}\" may be {fraction} or {thousands}, and no other number tells"))
+            refuse(
+                line,
+                format!("\"{text}\" may be {fraction} or {thousands}, and no other number tells"),
+            )
         }
         _ => Ok(Decimal::Point),
     }
@@ -384,7 +403,9 @@ fn take_cycles(series: &mut Series, layout: &Layout) -> Result<(), Diagnostics> 
         return Err(finding.help(format!("cycles of the file: {}", join(&known))).into());
     }
     let mut number = numbers.iter();
-    series.block.rows.retain(|_| number.next().is_some_and(|number| number.is_some_and(|n| wanted.contains(&n))));
+    series.block.rows.retain(|_| {
+        number.next().is_some_and(|number| number.is_some_and(|n| wanted.contains(&n)))
+    });
     Ok(())
 }
 
@@ -395,7 +416,8 @@ fn cycle_of_each_row(series: &Series) -> Result<Vec<Option<usize>>, Diagnostics>
         heading.and_then(|heading| heading::kind(&heading.name)) == Some(Kind::Cycle)
     };
     if let Some(column) = (0..block.width()).find(is_cycle) {
-        let number = |row: &Row| row.cells.get(column)?.number(*decimal).map(|number| number as usize);
+        let number =
+            |row: &Row| row.cells.get(column)?.number(*decimal).map(|number| number as usize);
         return Ok(block.rows.iter().map(number).collect());
     }
     let deformation = series.numbers(pair.deformation)?;
@@ -416,7 +438,9 @@ fn describe(found: &mut Found, layout: &Layout) {
         reading.push("decimal comma".to_owned());
     }
     match (block.header_line, block.units_line) {
-        (Some(header), Some(units)) => reading.push(format!("header on line {header}, units on line {units}")),
+        (Some(header), Some(units)) => {
+            reading.push(format!("header on line {header}, units on line {units}"))
+        }
         (Some(header), None) if header > 1 => reading.push(format!("header on line {header}")),
         (None, _) => reading.push("no header".to_owned()),
         _ => {}
@@ -440,10 +464,11 @@ impl Series {
 
     /// Returns the numbers of a column, all finite.
     pub(crate) fn numbers(&self, column: usize) -> Result<Vec<f64>, Diagnostics> {
-        let number = |row: &Row| match row.cells.get(column).and_then(|cell| cell.number(self.decimal)) {
-            Some(number) if number.is_finite() => Ok(number),
-            _ => Err(self.not_a_number(row, column).into()),
-        };
+        let number =
+            |row: &Row| match row.cells.get(column).and_then(|cell| cell.number(self.decimal)) {
+                Some(number) if number.is_finite() => Ok(number),
+                _ => Err(self.not_a_number(row, column).into()),
+            };
         self.block.rows.iter().map(number).collect()
     }
 

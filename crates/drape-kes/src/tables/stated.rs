@@ -7,15 +7,34 @@ use crate::unit::{Quantity, parse_unit};
 
 /// Words of the free length of the specimen.
 pub(crate) const GAUGE: [&str; 14] = [
-    "gauge length", "grip separation", "jaw separation", "einspannlänge", "messlänge", "l0",
-    "specimen length", "longueur utile", "distance entre mors", "チャック間", "つかみ間隔",
-    "標点距離", "試料長", "free length",
+    "gauge length",
+    "grip separation",
+    "jaw separation",
+    "einspannlänge",
+    "messlänge",
+    "l0",
+    "specimen length",
+    "longueur utile",
+    "distance entre mors",
+    "チャック間",
+    "つかみ間隔",
+    "標点距離",
+    "試料長",
+    "free length",
 ];
 
 /// Words of the width of the specimen.
 pub(crate) const WIDTH: [&str; 10] = [
-    "specimen width", "sample width", "probenbreite", "breite", "largeur", "試料幅", "試験片幅",
-    "幅", "width", "anchura",
+    "specimen width",
+    "sample width",
+    "probenbreite",
+    "breite",
+    "largeur",
+    "試料幅",
+    "試験片幅",
+    "幅",
+    "width",
+    "anchura",
 ];
 
 /// Length that a file states.
@@ -44,7 +63,10 @@ fn of_row(row: &Row, words: &[&str]) -> Option<Stated> {
     };
     let heading = Heading::parse(name);
     let plain = normal(&heading.name);
-    if !words.iter().any(|word| plain.starts_with(word) || (!word.is_ascii() && plain.contains(word))) {
+    if !words
+        .iter()
+        .any(|word| plain.starts_with(word) || (!word.is_ascii() && plain.contains(word)))
+    {
         return None;
     }
     let (number, own) = split_unit(value.trim())?;
@@ -71,8 +93,12 @@ mod tests {
     #[test]
     fn a_length_is_read_however_it_is_stated() {
         for text in [
-            "Gauge length;50;mm\n", "Gauge length (mm);50\n", "Gauge length: 50 mm\n",
-            "Einspannlänge;50,0 mm\n", "チャック間距離(mm);50\n", "L0;5;cm\n",
+            "Gauge length;50;mm\n",
+            "Gauge length (mm);50\n",
+            "Gauge length: 50 mm\n",
+            "Einspannlänge;50,0 mm\n",
+            "チャック間距離(mm);50\n",
+            "L0;5;cm\n",
         ] {
             let rows = Separator::Semicolon.split(text).expect("it splits");
             let found = stated(&rows, &GAUGE).expect(text);
