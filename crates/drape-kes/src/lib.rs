@@ -30,6 +30,7 @@ pub use curves::evaluation::{CurveValue, EvaluationPoints};
 pub use curves::loop_values::{BendingPoints, BendingValues, ShearPoints, ShearValues};
 pub use curves::tensile_values::TensileValues;
 pub use error::Error;
+pub use sheets::listed::SheetValue;
 pub use sheets::model::Model;
 pub use sheets::sheet::Sheet;
 pub use symbol::Symbol;

@@ -11,15 +11,21 @@
 //!
 //! * `findings`: the list of errors and warnings.
 //! * `section`: typed access to a TOML table.
+//! * `spelling`, `value_keys`: the values; `compression`: what those of KES-FB3 give together;
+//!   `listed`: all of them, with their use.
 //! * `plausible`, `suspect`: values and curves that cannot be right.
 //! * `axis`, `convert`, `curve_file`: a `[[curve]]` made into a curve; `model`, `sheet`: the sheet.
 
 pub(crate) mod axis;
+pub(crate) mod compression;
 pub(crate) mod convert;
 pub(crate) mod curve_file;
 pub(crate) mod findings;
+pub(crate) mod listed;
 pub(crate) mod model;
 pub(crate) mod plausible;
 pub(crate) mod section;
 pub(crate) mod sheet;
+pub(crate) mod spelling;
 pub(crate) mod suspect;
+pub(crate) mod value_keys;

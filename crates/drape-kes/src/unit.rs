@@ -45,6 +45,8 @@ pub(crate) enum Quantity {
     WorkPerArea,
     /// Mass per area, in kg/m².
     MassPerArea,
+    /// Height of a surface, in metres.
+    Roughness,
 }
 
 impl Quantity {
@@ -63,6 +65,7 @@ impl Quantity {
             Self::ShearStiffness => "shear stiffness",
             Self::WorkPerArea => "work per area",
             Self::MassPerArea => "mass per area",
+            Self::Roughness => "roughness",
         }
     }
 
@@ -170,6 +173,7 @@ impl Quantity {
                 ("N/m", 1.0),
                 ("mJ/m2", 1e-3),
             ],
+            Self::Roughness => &[("um", 1e-6), ("mm", 1e-3), ("m", 1.0)],
             Self::MassPerArea => {
                 &[("mg/cm2", 1e-2), ("kg/m2", 1.0), ("g/m2", 1e-3), ("g/cm2", 10.0), ("gsm", 1e-3)]
             }

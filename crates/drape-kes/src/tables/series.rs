@@ -8,7 +8,7 @@ use drape_input::{Diagnostic, Diagnostics};
 use crate::tables::block::{Block, blocks};
 use crate::tables::columns::{AxisQuery, NoColumns, Pair, pairs};
 use crate::tables::file::TableFile;
-use crate::tables::grid::{Cell, Row};
+use crate::tables::grid::{Cell, Row, Separator};
 use crate::tables::heading::{self, Kind};
 use crate::tables::layout::{Column, Layout, Take};
 use crate::tables::number::{Decimal, Evidence};
@@ -73,6 +73,7 @@ pub(crate) fn find(
     let tables = tables(path, file, layout, &mut found)?;
     let mut refused: Option<(usize, NoColumns)> = None;
     for Table { block, stated } in tables {
+        refuse_comma_twice(path, file, &block)?;
         match pairs(&block, &request.deformation, &request.load) {
             Ok(pairs) => {
                 let several = pairs.len() > 1;
@@ -110,6 +111,28 @@ pub(crate) fn find(
     }
     describe(&mut found, layout);
     Ok(found)
+}
+
+/// Refuses a table whose comma parts the cells and the numbers: `0,5,1,25` below two names.
+fn refuse_comma_twice(path: &Path, file: &TableFile, block: &Block) -> Result<(), Diagnostics> {
+    let names = block.headings.len();
+    let by_comma = file.grids.iter().all(|grid| grid.separator == Some(Separator::Comma));
+    let mut widths = block.rows.iter().map(|row| row.cells.len());
+    let whole = |cell: &Cell| matches!(cell.evidence(), Some(Evidence::Whole) | None);
+    let twice = by_comma
+        && names >= 2
+        && widths.clone().any(|width| width > names)
+        && widths.all(|width| (names..=2 * names).contains(&width))
+        && block.rows.iter().all(|row| row.cells.iter().all(whole));
+    if !twice {
+        return Ok(());
+    }
+    let message = format!(
+        "{names} names stand above up to {} cells: the comma is both decimal sign and separator",
+        block.width()
+    );
+    let help = "export the file with semicolons or tabs between the cells, or with a decimal point";
+    Err(Diagnostic::new(path, message).on_line(block.first_line()).help(help).into())
 }
 
 /// Table with the text of its sheet.
