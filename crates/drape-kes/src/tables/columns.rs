@@ -162,10 +162,12 @@ fn of_axis(block: &Block, axis: &AxisQuery<'_>, taken: &[usize]) -> Result<Vec<u
     }
     let names: Vec<String> =
         fitting.iter().map(|candidate| block.column_name(candidate.column)).collect();
+    let alone = names.iter().filter(|name| **name == names[0]).count() == 1;
+    let first = if alone { names[0].clone() } else { (best.column + 1).to_string() };
     Err(NoColumns {
         line: block.header_line,
         message: format!("columns {} could each be the {}", names.join(" and "), axis.name),
-        help: format!("name the one to take: {} = {{ column = {} }}", axis.name, names[0]),
+        help: format!("name the one to take: {} = {{ column = {first} }}", axis.name),
     })
 }
 
