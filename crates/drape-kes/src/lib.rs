@@ -6,9 +6,10 @@
 //! [`Curve::values`] computes KES values from a curve.
 //!
 //! * `unit`: quantities, their units and factors to SI, in one table.
-//! * `test`, `symbol`, `values`: the nine KES values of one direction, in laboratory units and in
+//! * `test`, `symbol`, `values`: the KES values of one direction, in laboratory units and in
 //!   SI.
 //! * `curves`: [`Curve`], its branches, and the KES values read off it at [`EvaluationPoints`].
+//! * `tables`: the files of instruments and spreadsheets, made into columns of numbers.
 //! * `sheets`: [`Sheet`], its TOML and table files, and the checks of what they say.
 
 mod error;

@@ -447,7 +447,10 @@ fn two_cells_of_load_are_answered_with_the_key_that_decides() {
         &found,
         "two.csv",
         Some(1),
-        &["\"Load cell A\" and \"Load cell B\" could each be the load", "load = { column = \"Load cell A\" }"],
+        &[
+            "\"Load cell A\" and \"Load cell B\" could each be the load",
+            "load = { column = \"Load cell A\" }",
+        ],
     );
     assert_read("two.csv", text.as_bytes(), "load = { column = \"Load cell A\" }");
 }

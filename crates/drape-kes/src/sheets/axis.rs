@@ -39,6 +39,14 @@ const ZERO: Choice<'_, Zero> = Choice {
     name: Zero::name,
 };
 
+/// Keys and quantities of an axis.
+struct Form {
+    key: &'static str,
+    /// Keys of its table; the third is that of its gauge or width.
+    keys: &'static [&'static str],
+    accepted: &'static [Quantity],
+}
+
 /// Axis, as the sheet describes it, with its key paths for messages.
 pub(crate) struct AxisKeys {
     pub(crate) columns: Vec<Column>,
@@ -60,7 +68,9 @@ impl AxisKeys {
         test: Test,
         findings: &mut Findings<'_>,
     ) -> Option<Self> {
-        Self::read(section, "deformation", &DEFORMATION_KEYS, deformations(test), findings)
+        let form =
+            Form { key: "deformation", keys: &DEFORMATION_KEYS, accepted: deformations(test) };
+        Self::read(section, &form, findings)
     }
 
     /// Reads the load.
@@ -69,7 +79,8 @@ impl AxisKeys {
         test: Test,
         findings: &mut Findings<'_>,
     ) -> Option<Self> {
-        Self::read(section, "load", &LOAD_KEYS, loads(test), findings)
+        let form = Form { key: "load", keys: &LOAD_KEYS, accepted: loads(test) };
+        Self::read(section, &form, findings)
     }
 
     /// Reports the keys of both axes that are wrong whatever the test is.
@@ -81,13 +92,8 @@ impl AxisKeys {
         }
     }
 
-    fn read(
-        section: &Section<'_>,
-        key: &str,
-        keys: &[&str],
-        accepted: &[Quantity],
-        findings: &mut Findings<'_>,
-    ) -> Option<Self> {
+    fn read(section: &Section<'_>, form: &Form, findings: &mut Findings<'_>) -> Option<Self> {
+        let Form { key, keys, accepted } = *form;
         let size_key = keys[2];
         let path = section.key(key);
         let mut read = Self {

@@ -12,7 +12,6 @@
 use drape_input::Diagnostic;
 
 use crate::sheets::axis::{AxisKeys, Zero, deformations, loads};
-use crate::sheets::curve_file::collect;
 use crate::sheets::findings::Findings;
 use crate::sheets::section::ColumnOrLength;
 use crate::sheets::suspect::AsWritten;
@@ -34,6 +33,13 @@ pub(crate) struct AxisValues {
     pub(crate) written: AsWritten,
     /// What it was taken for, in words.
     pub(crate) reading: String,
+}
+
+/// Column of a series.
+#[derive(Clone, Copy)]
+struct AxisColumn<'a> {
+    series: &'a Series,
+    column: usize,
 }
 
 /// Numbers of a column with their unit.
@@ -61,7 +67,7 @@ pub(crate) fn deformation(
     findings: &mut Findings<'_>,
 ) -> Option<AxisValues> {
     let column = series.pair.deformation;
-    let written = numbers(axis, deformations(test), column, series, findings)?;
+    let written = numbers(axis, deformations(test), &AxisColumn { series, column }, findings)?;
     let sign = sign(axis);
     let name = format!("deformation from {} in {}", written.column, written.unit.spelling);
     if written.unit.quantity != Quantity::Length {
@@ -86,7 +92,11 @@ pub(crate) fn deformation(
     };
     let factor = written.unit.factor;
     let first = written.numbers[0] * factor / gauge[0];
-    let zero = zero(test, axis, &written, first, findings)?;
+    let zero = match test {
+        // The arch of loop bending is measured by the distance of its clamps, from any start.
+        Test::LoopBending => axis.zero.unwrap_or(Zero::Distance),
+        _ => zero(axis, &written, first, findings)?,
+    };
     let strain = |(&number, &length): (&f64, &f64)| {
         let d = number * factor;
         let strain = match zero {
@@ -117,7 +127,6 @@ fn article(zero: Zero) -> &'static str {
 /// Returns the zero of a length: the declared one, or the one that its first value and its name
 /// agree on.
 fn zero(
-    test: Test,
     axis: &AxisKeys,
     written: &Numbers,
     first: f64,
@@ -125,10 +134,6 @@ fn zero(
 ) -> Option<Zero> {
     if let Some(zero) = axis.zero {
         return Some(zero);
-    }
-    // The arch of loop bending is measured by the distance of its clamps, from any start.
-    if test == Test::LoopBending {
-        return Some(Zero::Distance);
     }
     let by_value = if first.abs() <= FIRST_EXTENSION {
         Some(Zero::Extension)
@@ -164,7 +169,8 @@ pub(crate) fn load(
     findings: &mut Findings<'_>,
 ) -> Option<AxisValues> {
     let accepted = loads(test);
-    let written = numbers(axis, accepted, series.pair.load, series, findings)?;
+    let written =
+        numbers(axis, accepted, &AxisColumn { series, column: series.pair.load }, findings)?;
     let width = sizes(axis, series, findings)?;
     let per_width = written.unit.quantity == accepted[0];
     let name = format!("load from {} in {}", written.column, written.unit.spelling);
@@ -208,10 +214,10 @@ fn sign(axis: &AxisKeys) -> f64 {
 fn numbers(
     axis: &AxisKeys,
     accepted: &[Quantity],
-    column: usize,
-    series: &Series,
+    of: &AxisColumn<'_>,
     findings: &mut Findings<'_>,
 ) -> Option<Numbers> {
+    let AxisColumn { series, column } = *of;
     let heading = series.block.headings.get(column);
     let of_header = heading.and_then(|heading| heading.unit.as_deref());
     let of_cells = (series.is_percent(column) && of_header.is_none()).then_some("%");
@@ -243,7 +249,7 @@ fn numbers(
             }
         }
     };
-    let numbers = collect(series.numbers(column), findings)?;
+    let numbers = findings.collect(series.numbers(column))?;
     if numbers.is_empty() {
         let finding = Diagnostic::new(&series.path, "the table has no rows of numbers");
         findings.errors.push(finding.help("a curve needs at least two points, one per line"));
@@ -278,7 +284,7 @@ fn sizes(
                     return None;
                 }
             };
-            let sizes = collect(series.numbers(column), findings)?;
+            let sizes = findings.collect(series.numbers(column))?;
             if let Some(size) = sizes.iter().find(|&&size| size <= 0.0) {
                 let message = format!("{}: the file has a length of {size} m", axis.size_key);
                 let finding = Diagnostic::new(&series.path, message);

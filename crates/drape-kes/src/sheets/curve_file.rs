@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use drape_input::{Diagnostics, closest};
+use drape_input::closest;
 
 use crate::curves::curve::Curve;
 use crate::error::Error;
@@ -150,7 +150,7 @@ impl CurveKeys {
     /// Reads the curves of one file; `None` after reporting why there is none.
     fn curves(&self, file: &str, findings: &mut Findings<'_>) -> Option<Vec<Curve>> {
         let path = self.locate(file, findings)?;
-        let table_file = collect(file::read(&path, &self.layout), findings)?;
+        let table_file = findings.collect(file::read(&path, &self.layout))?;
         let request = Request {
             test: self.test,
             direction: self.direction,
@@ -158,7 +158,7 @@ impl CurveKeys {
             load: self.load.query("load", self.test),
         };
         let Found { series, mut reading, warnings } =
-            collect(find(&path, &table_file, &self.layout, &request), findings)?;
+            findings.collect(find(&path, &table_file, &self.layout, &request))?;
         for warning in warnings {
             findings.warn(&self.paths.file, warning.message, warning.help);
         }
@@ -233,9 +233,4 @@ fn suggestion(path: &Path, written: &str) -> String {
         Some(close) => format!("did you mean \"{close}\"?"),
         None => "files are looked for beside the sheet".to_owned(),
     }
-}
-
-/// Returns a result, or `None` after collecting its mistakes.
-pub(crate) fn collect<T>(result: Result<T, Diagnostics>, findings: &mut Findings<'_>) -> Option<T> {
-    result.map_err(|Diagnostics(mistakes)| findings.errors.extend(mistakes)).ok()
 }

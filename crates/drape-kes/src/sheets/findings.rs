@@ -1,6 +1,6 @@
 //! Errors and warnings about one sheet, collected while it is read.
 
-use drape_input::{Diagnostic, Document};
+use drape_input::{Diagnostic, Diagnostics, Document};
 
 /// File being read, with the errors and warnings so far.
 pub(crate) struct Findings<'t> {
@@ -24,5 +24,10 @@ impl<'t> Findings<'t> {
     /// Adds a warning about the value at a key path.
     pub(crate) fn warn(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
         self.warnings.push(self.document.at(key, message).help(help));
+    }
+
+    /// Returns a result, or `None` after collecting its mistakes.
+    pub(crate) fn collect<T>(&mut self, result: Result<T, Diagnostics>) -> Option<T> {
+        result.map_err(|Diagnostics(mistakes)| self.errors.extend(mistakes)).ok()
     }
 }

@@ -81,22 +81,28 @@ pub(crate) struct Blocks {
 /// Finds the blocks of a grid.
 pub(crate) fn blocks(grid: &Grid, lines: Lines) -> Blocks {
     let mut found = Blocks::default();
-    let mut above: Vec<Row> = Vec::new();
-    let mut rows: Vec<Row> = Vec::new();
+    let mut open = OpenBlock::default();
     let from = lines.header.unwrap_or(0).max(lines.skip + 1);
     for row in grid.rows.iter().filter(|row| row.line >= from) {
         let is_header = lines.header == Some(row.line);
-        match part(row, rows.first(), is_header) {
-            Part::Numbers => rows.push(row.clone()),
+        match part(row, open.rows.first(), is_header) {
+            Part::Numbers => open.rows.push(row.clone()),
             Part::Statistics => found.statistics.push(row.line),
             Part::Text => {
-                finish(grid, &mut found, &mut above, &mut rows, lines);
-                above.push(row.clone());
+                open.finish(grid, lines, &mut found);
+                open.above.push(row.clone());
             }
         }
     }
-    finish(grid, &mut found, &mut above, &mut rows, lines);
+    open.finish(grid, lines, &mut found);
     found
+}
+
+/// Rows of a block that may go on.
+#[derive(Default)]
+struct OpenBlock {
+    above: Vec<Row>,
+    rows: Vec<Row>,
 }
 
 /// Part that a row plays.
@@ -154,39 +160,35 @@ fn is_statistic(text: &str) -> bool {
     WORDS.contains(&text.as_str()) || text.starts_with("standard dev") || text.starts_with("x̄")
 }
 
-/// Ends the block of the collected rows, if there are any.
-fn finish(
-    grid: &Grid,
-    found: &mut Blocks,
-    above: &mut Vec<Row>,
-    rows: &mut Vec<Row>,
-    lines: Lines,
-) {
-    if rows.is_empty() {
-        return;
+impl OpenBlock {
+    /// Ends the block of the collected rows, if there are any.
+    fn finish(&mut self, grid: &Grid, lines: Lines, found: &mut Blocks) {
+        if self.rows.is_empty() {
+            return;
+        }
+        let mut block = Block {
+            sheet: grid.sheet.clone(),
+            above: std::mem::take(&mut self.above),
+            header_line: None,
+            units_line: None,
+            headings: Vec::new(),
+            groups: Vec::new(),
+            rows: std::mem::take(&mut self.rows),
+        };
+        if lines.header != Some(0) {
+            take_header(&mut block, lines.header, grid.separator == Some(Separator::Space));
+        }
+        // A block below a title alone has the header of the one above it.
+        if block.header_line.is_none()
+            && let Some(before) = found.blocks.last()
+            && before.width() == block.width()
+        {
+            block.headings.clone_from(&before.headings);
+            block.header_line = before.header_line;
+            block.units_line = before.units_line;
+        }
+        found.blocks.push(block);
     }
-    let mut block = Block {
-        sheet: grid.sheet.clone(),
-        above: std::mem::take(above),
-        header_line: None,
-        units_line: None,
-        headings: Vec::new(),
-        groups: Vec::new(),
-        rows: std::mem::take(rows),
-    };
-    if lines.header != Some(0) {
-        take_header(&mut block, lines.header, grid.separator == Some(Separator::Space));
-    }
-    // A block below a title alone has the header of the one above it.
-    if block.header_line.is_none()
-        && let Some(before) = found.blocks.last()
-        && before.width() == block.width()
-    {
-        block.headings.clone_from(&before.headings);
-        block.header_line = before.header_line;
-        block.units_line = before.units_line;
-    }
-    found.blocks.push(block);
 }
 
 /// Takes header, units and titles of groups from the text above a block.
