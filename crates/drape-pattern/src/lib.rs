@@ -44,3 +44,4 @@ pub use note::Note;
 pub use panel::{Fold, Panel};
 pub use pattern::{EdgeId, Pattern, Seam};
 pub use placement::Placement;
+pub use read::{Place, Request, SeamKeys, Unit};
