@@ -31,8 +31,10 @@ mod note;
 mod cut;
 mod read;
 
-// Pictures of cuts.
+// Pictures of cuts, patterns to files.
 mod figure;
+mod layout;
+mod write;
 
 pub use cut::{Cut, CutPattern, Cutter, NodeId, Quality, SeamNodes, Tie};
 pub use ease::MAX_EASE;
@@ -45,3 +47,4 @@ pub use panel::{Fold, Panel};
 pub use pattern::{EdgeId, Pattern, Seam};
 pub use placement::Placement;
 pub use read::{Place, Request, SeamKeys, Unit};
+pub use write::{Page, Paper};

@@ -8,6 +8,7 @@
 //! and remedies. What a file may not say itself, such as the unit of a drawing, is in a [`Request`]. Checks of
 //! outlines and seams are in `panel` and `pattern`; the chapter hands on a checked [`Pattern`] to `cut`.
 
+mod chains;
 mod diagnostic;
 mod dxf;
 mod freesewing;

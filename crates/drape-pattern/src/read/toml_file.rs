@@ -74,6 +74,31 @@ impl File<'_> {
         Ok(Some(Request { path, unit, size: from.size.clone() }))
     }
 
+    /// Removes what does not fit a pattern, whose drawing was changed: panels and edges that it has no more, and
+    /// seams of them, whose names are returned.
+    pub(crate) fn fit(&mut self, pattern: &Pattern) -> Vec<String> {
+        let panels = pattern.panels();
+        self.keys.panel.retain(|name, keys| {
+            let panel = panels.iter().find(|panel| panel.name() == name);
+            let has = |edge: &str| panel.is_some_and(|p| p.outline().iter().any(|e| e.name == edge));
+            keys.hems.retain(|edge, _| has(edge));
+            panel.is_some()
+        });
+        let words: BTreeSet<String> = panels
+            .iter()
+            .flat_map(|p| p.outline().iter().map(move |e| format!("{}.{}", p.name(), e.name)))
+            .collect();
+        let mut lost = Vec::new();
+        self.keys.seam.retain(|name, seam| {
+            let fits = seam.sides.iter().flatten().all(|word| words.contains(word));
+            if !fits {
+                lost.push(name.clone());
+            }
+            fits
+        });
+        lost
+    }
+
     /// Returns the pattern: its own panels and seams, and those of the pattern that it adds to.
     pub(crate) fn pattern(&self, base: Option<Pattern>) -> Result<Pattern, Diagnostics> {
         let Self { document, keys } = self;
