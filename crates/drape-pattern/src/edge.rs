@@ -148,9 +148,11 @@ impl Edge {
             Curve::Line | Curve::Arc { .. } => distance / length,
             _ => self.segment().inv_arclen(distance, accuracy),
         };
-        let ends: Vec<f64> = [0.0].into_iter().chain(distances.iter().copied()).chain([length]).collect();
+        let ends: Vec<f64> =
+            [0.0].into_iter().chain(distances.iter().copied()).chain([length]).collect();
         let part = |(number, pair): (usize, &[f64])| {
-            let (from, to) = (parameter(pair[0]), if pair[1] < length { parameter(pair[1]) } else { 1.0 });
+            let (from, to) =
+                (parameter(pair[0]), if pair[1] < length { parameter(pair[1]) } else { 1.0 });
             let pair_of = |p: Point| [p.x, p.y];
             let curve = match self.segment().subsegment(from..to) {
                 _ if matches!(self.curve, Curve::Arc { .. }) => match self.curve {
@@ -180,7 +182,8 @@ impl Edge {
         let length = self.length();
         let count = 1000;
         let at = |k: usize| k as f64 / f64::from(count);
-        let points: Vec<[f64; 2]> = (0..=count as usize).map(|k| self.at_parameter(at(k))).collect();
+        let points: Vec<[f64; 2]> =
+            (0..=count as usize).map(|k| self.at_parameter(at(k))).collect();
         let (mut along, mut best) = (0.0, [0.0, f64::INFINITY]);
         for pair in points.windows(2) {
             let chord = difference(pair[1], pair[0]);

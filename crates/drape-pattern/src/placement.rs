@@ -132,7 +132,9 @@ mod tests {
 
     #[test]
     fn angles_give_the_rotation_again() {
-        for angles in [[0.3, -1.1, 2.0], [-3.0, 0.2, -0.4], [0.4, FRAC_PI_2, 0.9], [0.4, -FRAC_PI_2, 0.9]] {
+        for angles in
+            [[0.3, -1.1, 2.0], [-3.0, 0.2, -0.4], [0.4, FRAC_PI_2, 0.9], [0.4, -FRAC_PI_2, 0.9]]
+        {
             let placement = Placement::new(angles, [0.1, 0.2, 0.3]);
             let again = Placement::new(placement.angles(), [0.1, 0.2, 0.3]);
             for point in [[0.3, 0.1], [-0.2, 0.7]] {

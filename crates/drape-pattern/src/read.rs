@@ -11,6 +11,7 @@
 mod chains;
 mod diagnostic;
 mod dxf;
+mod fit;
 mod freesewing;
 mod garmentcode;
 mod marks;

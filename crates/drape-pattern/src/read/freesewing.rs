@@ -147,7 +147,8 @@ impl Reader<'_> {
         let mut edges = match edges(path, &points) {
             Ok(edges) => edges,
             Err(index) => {
-                let message = format!("parts.{name}.paths.{key}.ops[{index}] is no part of an outline");
+                let message =
+                    format!("parts.{name}.paths.{key}.ops[{index}] is no part of an outline");
                 let help = "ops are M with p first, L with p, C with cp1, cp2 and p, Z last";
                 self.mistakes.push(Diagnostic::new(self.document.path(), message).help(help));
                 return None;

@@ -4,7 +4,7 @@ use crate::edge::{Curve, Edge, difference, distance};
 use crate::note::Note;
 
 /// Distance below which a point lies on a line, in m.
-const ON_LINE: f64 = 1e-5;
+const ON_LINE: f64 = 5e-5;
 
 /// Distance from the outline below which a mark is a notch of it, in m.
 const NOTCH: f64 = 2e-3;
@@ -43,8 +43,9 @@ pub(crate) fn unfold(edges: &mut Vec<Edge>, [from, to]: [[f64; 2]; 2]) -> Option
         let arm = difference(p, from);
         along[0] * arm[1] - along[1] * arm[0]
     };
-    let on_line =
-        |e: &Edge| e.curve == Curve::Line && off(e.start).abs() < ON_LINE && off(e.end).abs() < ON_LINE;
+    let on_line = |e: &Edge| {
+        e.curve == Curve::Line && off(e.start).abs() < ON_LINE && off(e.end).abs() < ON_LINE
+    };
     let fold = edges.iter().position(on_line)?;
     let mirror = |p: [f64; 2]| {
         let twice = 2.0 * off(p);
@@ -119,7 +120,8 @@ pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline>
                 "panel {}: its outline is the inner of two, the sewing line",
                 inner.outline.name
             );
-            let reason = format!("the other, \"{}\", runs round it and is the cut line", outer.outline.name);
+            let reason =
+                format!("the other, \"{}\", runs round it and is the cut line", outer.outline.name);
             notes.push(Note::Taken { taken, reason });
             *outer = inner;
         } else {

@@ -108,7 +108,8 @@ pub(crate) fn seams(
 fn edge(word: &str, known: &Known<'_>) -> Result<Option<EdgeId>, (String, String)> {
     // Names of panels and edges may have dots: the longest panel counts that the word begins with.
     let rest = |name: &str| word.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
-    let panels = known.iter().enumerate().filter_map(|(k, (name, _))| Some((k, *name, rest(name)?)));
+    let panels =
+        known.iter().enumerate().filter_map(|(k, (name, _))| Some((k, *name, rest(name)?)));
     let Some((panel, name, edge)) = panels.max_by_key(|(_, name, _)| name.len()) else {
         let (panel, edge) = word.rsplit_once('.').unwrap_or((word, ""));
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();

@@ -35,7 +35,8 @@ const EDGES: usize = 20_000;
 
 /// Returns the pattern of a drawing.
 pub(crate) fn read(document: &Document, request: &Request) -> Result<Pattern, Diagnostics> {
-    let options = roxmltree::ParsingOptions { allow_dtd: true, nodes_limit: NODES, ..Default::default() };
+    let options =
+        roxmltree::ParsingOptions { allow_dtd: true, nodes_limit: NODES, ..Default::default() };
     let tree = roxmltree::Document::parse_with_options(document.text(), options)
         .map_err(|error| syntax(document, &error))?;
     let root = tree.root_element();
@@ -149,9 +150,8 @@ impl Reader<'_> {
                 crate::length::Millimetres(gap)
             );
             let help = "join the ends in the drawing, or delete the line";
-            self.mistakes.push(
-                Diagnostic::new(self.document.path(), message).on_line(line).help(help),
-            );
+            self.mistakes
+                .push(Diagnostic::new(self.document.path(), message).on_line(line).help(help));
         }
     }
 
@@ -171,7 +171,10 @@ impl Reader<'_> {
             edges.iter_mut().zip(names).for_each(|(edge, name)| edge.name = name);
         } else {
             let numbers = 1..;
-            edges.iter_mut().zip(numbers).for_each(|(edge, n): (_, usize)| edge.name = n.to_string());
+            edges
+                .iter_mut()
+                .zip(numbers)
+                .for_each(|(edge, n): (_, usize)| edge.name = n.to_string());
             if own.is_some() {
                 let taken = format!("panel {name}: its edges are numbered anew");
                 let reason = "their number is another than when the drawing was written".into();
@@ -194,7 +197,8 @@ impl Reader<'_> {
             }
         };
         self.mistakes.extend(wrong_unit(&panel).map(|m| {
-            let help = "if the unit is wrong, say it: drape convert … --unit mm (cm, m, in, pt, px)";
+            let help =
+                "if the unit is wrong, say it: drape convert … --unit mm (cm, m, in, pt, px)";
             at(diagnostic(self.document, &m).help(help))
         }));
         match grain {

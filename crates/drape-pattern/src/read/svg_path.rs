@@ -92,13 +92,14 @@ pub(crate) struct Subpath {
 
 /// Returns the edges of a path, in m, with y up.
 pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mistake> {
-    let parts = subpaths(data)
-        .map_err(|command| Mistake::PathSyntax { panel: panel.into(), command })?;
+    let parts =
+        subpaths(data).map_err(|command| Mistake::PathSyntax { panel: panel.into(), command })?;
     if let [_, Subpath { command, .. }, ..] = parts[..] {
         return Err(Mistake::PathParts { panel: panel.into(), command });
     }
     let edges = parts.into_iter().next().map_or(Vec::new(), |mut part| {
-        part.edges = part.edges.iter().map(|e| e.mapped(true, |[x, y]| [unit * x, -unit * y])).collect();
+        part.edges =
+            part.edges.iter().map(|e| e.mapped(true, |[x, y]| [unit * x, -unit * y])).collect();
         part.settled()
     });
     Ok(edges)
@@ -107,7 +108,8 @@ pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mis
 impl Subpath {
     /// Returns its edges, in m, without a closing edge that is the rounding of the digits.
     pub(crate) fn settled(mut self) -> Vec<Edge> {
-        let shut = |edge: &Edge| edge.curve == Curve::Line && distance(edge.start, edge.end) <= 1e-5;
+        let shut =
+            |edge: &Edge| edge.curve == Curve::Line && distance(edge.start, edge.end) <= 1e-5;
         if self.closed && self.edges.len() > 1 && self.edges.last().is_some_and(shut) {
             self.edges.pop();
         }

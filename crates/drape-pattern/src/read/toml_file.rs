@@ -56,7 +56,7 @@ impl File<'_> {
         let path = folder.join(&from.file);
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
             let help = "add to that file itself; `from` is for patterns of other formats";
-            return Err(self.document.at("from.file", "is a *.toml", ).help(help).into());
+            return Err(self.document.at("from.file", "is a *.toml").help(help).into());
         }
         if !path.is_file() {
             let message = format!("there is no file {}", path.display());
@@ -80,7 +80,8 @@ impl File<'_> {
         let panels = pattern.panels();
         self.keys.panel.retain(|name, keys| {
             let panel = panels.iter().find(|panel| panel.name() == name);
-            let has = |edge: &str| panel.is_some_and(|p| p.outline().iter().any(|e| e.name == edge));
+            let has =
+                |edge: &str| panel.is_some_and(|p| p.outline().iter().any(|e| e.name == edge));
             keys.hems.retain(|edge, _| has(edge));
             panel.is_some()
         });
@@ -192,7 +193,8 @@ impl Reader<'_> {
             self.notes.push(Note::NoGrain { panels: grainless });
         }
         for entry in entries {
-            if let Some((keys, of)) = entry.keys.and_then(|keys| Some((keys, keys.copy_of.as_ref()?)))
+            if let Some((keys, of)) =
+                entry.keys.and_then(|keys| Some((keys, keys.copy_of.as_ref()?)))
                 && !keys.omit
                 && !keys.has_shape()
             {
@@ -210,7 +212,12 @@ impl Reader<'_> {
     }
 
     /// Returns a copy of a panel, by its name among those that are made.
-    fn copy(&mut self, name: &str, keys: &PanelKeys, (of, made): (&str, &Made<'_>)) -> Option<Panel> {
+    fn copy(
+        &mut self,
+        name: &str,
+        keys: &PanelKeys,
+        (of, made): (&str, &Made<'_>),
+    ) -> Option<Panel> {
         let Some((_, panel)) = made.iter().find(|(other, _)| *other == of) else {
             let known = made.iter().map(|(name, _)| *name);
             let help = match closest(of, known.clone()) {
@@ -238,10 +245,14 @@ impl Reader<'_> {
         base: Option<&Pattern>,
         panels: &Made<'_>,
     ) -> Result<Pattern, Diagnostics> {
-        let known: Known<'_> = panels.iter().map(|(name, panel)| {
-            let edges = |panel: &Panel| panel.outline().iter().map(|e| e.name.clone()).collect();
-            (*name, panel.as_ref().map(edges))
-        }).collect();
+        let known: Known<'_> = panels
+            .iter()
+            .map(|(name, panel)| {
+                let edges =
+                    |panel: &Panel| panel.outline().iter().map(|e| e.name.clone()).collect();
+                (*name, panel.as_ref().map(edges))
+            })
+            .collect();
         let added = seams(&self.place(), &keys.seam, &known);
         let added = added.unwrap_or_else(|more| {
             self.mistakes.extend(more);
@@ -249,7 +260,8 @@ impl Reader<'_> {
         });
         let given = base.map(|base| self.kept(base, panels)).unwrap_or_default();
         if let Some(base) = base {
-            let own = |name: &String| keys.panel.get(name).is_none_or(|k| k.grain.is_none() && !k.omit);
+            let own =
+                |name: &String| keys.panel.get(name).is_none_or(|k| k.grain.is_none() && !k.omit);
             for note in base.reader_notes() {
                 match note {
                     Note::NoGrain { panels } => {

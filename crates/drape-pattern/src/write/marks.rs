@@ -74,7 +74,11 @@ impl<F: Fn([f64; 2]) -> [f64; 2]> Drawn<'_, F> {
             pair(b)
         );
         let size = (0.25 * clearance).clamp(2.0, 8.0);
-        text(svg, self.panel.name(), &Text { at: [middle[0] + 2.0, middle[1]], size, anchor: "start" });
+        text(
+            svg,
+            self.panel.name(),
+            &Text { at: [middle[0] + 2.0, middle[1]], size, anchor: "start" },
+        );
         if let Some(fabric) = self.panel.fabric() {
             let at = [middle[0] + 2.0, middle[1] + 1.2 * size];
             text(svg, fabric, &Text { at, size: 0.8 * size, anchor: "start" });
@@ -88,7 +92,8 @@ impl<F: Fn([f64; 2]) -> [f64; 2]> Drawn<'_, F> {
                 && self.pattern.edge(*id).name == edge.name
         };
         let seams = self.pattern.seams().iter();
-        let letter = seams.map(|seam| seam.sides.iter().flatten().any(sewn)).position(|found| found);
+        let letter =
+            seams.map(|seam| seam.sides.iter().flatten().any(sewn)).position(|found| found);
         let words = match letter {
             Some(number) => format!("{} · {}", letters(number), edge.name),
             None => edge.name.clone(),
@@ -109,7 +114,8 @@ impl<F: Fn([f64; 2]) -> [f64; 2]> Drawn<'_, F> {
     /// other side end.
     fn seam(&self, seam: &Seam, side: usize, svg: &mut String) {
         let against = side == 1 && !seam.reversed;
-        let lengths = |side: usize| seam.sides[side].iter().map(|&id| self.pattern.edge(id).length());
+        let lengths =
+            |side: usize| seam.sides[side].iter().map(|&id| self.pattern.edge(id).length());
         let total: f64 = lengths(side).sum();
         let other: f64 = lengths(1 - side).sum();
         let mut met = vec![0.5];
@@ -177,9 +183,8 @@ fn inner_point(polygon: &[[f64; 2]]) -> ([f64; 2], f64) {
     let ((left, right), (top, bottom)) = (range(0), range(1));
     let steps = 24;
     let at = |k: i32| (f64::from(k) + 0.5) / f64::from(steps);
-    let grid = (0..steps * steps).map(|k| {
-        [left + at(k % steps) * (right - left), top + at(k / steps) * (bottom - top)]
-    });
+    let grid = (0..steps * steps)
+        .map(|k| [left + at(k % steps) * (right - left), top + at(k / steps) * (bottom - top)]);
     let inside = grid.filter(|&p| crossings(polygon, p) % 2 == 1);
     let clear = inside.map(|p| (p, clearance(polygon, p)));
     let middle = [0.5 * (left + right), 0.5 * (top + bottom)];
@@ -205,7 +210,8 @@ fn clearance(polygon: &[[f64; 2]], p: [f64; 2]) -> f64 {
     let of = |(a, b): ([f64; 2], [f64; 2])| {
         let (side, arm) = (difference(b, a), difference(p, a));
         let square = side[0] * side[0] + side[1] * side[1];
-        let t = ((arm[0] * side[0] + arm[1] * side[1]) / square.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let t =
+            ((arm[0] * side[0] + arm[1] * side[1]) / square.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         distance(p, [a[0] + t * side[0], a[1] + t * side[1]])
     };
     sides(polygon).map(of).fold(f64::MAX, f64::min)

@@ -120,7 +120,9 @@ fn outline(panel: &Panel, on_sheet: &impl Fn([f64; 2]) -> [f64; 2]) -> String {
         let _ = match edge.curve {
             Curve::Line => write!(data, "L{end}"),
             Curve::Quadratic(control) => write!(data, "Q{} {end}", pair(control)),
-            Curve::Cubic([first, second]) => write!(data, "C{} {} {end}", pair(first), pair(second)),
+            Curve::Cubic([first, second]) => {
+                write!(data, "C{} {} {end}", pair(first), pair(second))
+            }
             Curve::Arc { sweep } => {
                 let rounded = |p| on_sheet(p).map(|x| (1e4 * x).round() / 1e4);
                 let half = 0.5 * distance(rounded(edge.start), rounded(edge.end));
@@ -154,10 +156,8 @@ fn metadata(pattern: &Pattern) -> String {
         for fold in panel.folds() {
             let [from, to] = fold.ends.map(|end| super::number::point(&end));
             let angle = degrees(fold.angle);
-            let _ = writeln!(
-                text,
-                "[[panel.{key}.fold]]\nfrom = {from}\nto = {to}\nangle = {angle}"
-            );
+            let _ =
+                writeln!(text, "[[panel.{key}.fold]]\nfrom = {from}\nto = {to}\nangle = {angle}");
         }
     }
     pattern.seams().iter().for_each(|seam| pattern.seam(seam, &mut text));

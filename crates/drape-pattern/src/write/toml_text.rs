@@ -73,10 +73,8 @@ impl Pattern {
         for fold in panel.folds() {
             let [from, to] = fold.ends.map(|end| point(&end));
             let angle = degrees(fold.angle);
-            let _ = writeln!(
-                text,
-                "\n[[panel.{key}.fold]]\nfrom = {from}\nto = {to}\nangle = {angle}"
-            );
+            let _ =
+                writeln!(text, "\n[[panel.{key}.fold]]\nfrom = {from}\nto = {to}\nangle = {angle}");
         }
     }
 

@@ -27,7 +27,10 @@ pub(crate) fn scale(
 ) -> Result<(f64, Note), Diagnostics> {
     let root = tree.root_element();
     let taken = |metres: f64, reason: String| {
-        let note = Note::Taken { taken: format!("a unit of the drawing is {:.6} mm", 1e3 * metres), reason };
+        let note = Note::Taken {
+            taken: format!("a unit of the drawing is {:.6} mm", 1e3 * metres),
+            reason,
+        };
         (metres, note)
     };
     if let Some(unit) = request.unit {
@@ -39,7 +42,10 @@ pub(crate) fn scale(
     let view = root.attribute("viewBox").map(ViewBox::from_str);
     if let Some(Err(_)) = view {
         let message = format!("viewBox is \"{}\"", root.attribute("viewBox").unwrap_or_default());
-        return Err(fail(message, "four numbers: x, y, width and height, such as 0 0 210 297".into()));
+        return Err(fail(
+            message,
+            "four numbers: x, y, width and height, such as 0 0 210 297".into(),
+        ));
     }
     let view = view.and_then(Result::ok);
     let sides = [("width", view.map(|v| v.w)), ("height", view.map(|v| v.h))];
@@ -66,7 +72,10 @@ pub(crate) fn scale(
                 return Err(fail(message, help));
             }
             let least = a.min(b);
-            return Ok(taken(least, "the smaller of what width and height say for the viewBox".into()));
+            return Ok(taken(
+                least,
+                "the smaller of what width and height say for the viewBox".into(),
+            ));
         }
         [(name, metres), ..] => {
             let of = root.attribute(name).unwrap_or_default();
@@ -75,7 +84,9 @@ pub(crate) fn scale(
                     let units = if name == "width" { view.w } else { view.h };
                     format!("its {name} is {of} for {units} units of the viewBox")
                 }
-                None => format!("its {name} is {of} and there is no viewBox: pixels, 96 to the inch"),
+                None => {
+                    format!("its {name} is {of} and there is no viewBox: pixels, 96 to the inch")
+                }
             };
             return Ok(taken(metres, reason));
         }
@@ -112,19 +123,25 @@ fn by_program(
         (Some(view), Some(size)) if view.w > 0.0 && size.number > 0.0 => size.number / view.w,
         _ => 1.0,
     };
-    let inkscape = root.attributes().find(|a| {
-        a.name() == "version" && a.namespace().is_some_and(|n| n.contains("inkscape"))
-    });
+    let inkscape = root
+        .attributes()
+        .find(|a| a.name() == "version" && a.namespace().is_some_and(|n| n.contains("inkscape")));
     if let Some(version) = inkscape {
         let old = version.value().starts_with("0.4") || version.value().starts_with("0.91");
         if !old {
             let metres = pixels * Unit::PIXEL.metres();
-            return Some((metres, "Inkscape's pixels are 96 to the inch from version 0.92 on".into()));
+            return Some((
+                metres,
+                "Inkscape's pixels are 96 to the inch from version 0.92 on".into(),
+            ));
         }
     }
     let head: String = document.text().chars().take(2000).collect();
     if head.contains("Adobe Illustrator") {
-        return Some((pixels * Unit::POINT.metres(), "Illustrator's pixels are 72 to the inch".into()));
+        return Some((
+            pixels * Unit::POINT.metres(),
+            "Illustrator's pixels are 72 to the inch".into(),
+        ));
     }
     None
 }

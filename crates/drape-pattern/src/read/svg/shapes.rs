@@ -134,10 +134,17 @@ fn shown(node: Node<'_, '_>) -> bool {
     node.ancestors().filter(Node::is_element).all(|n| {
         let aside = matches!(
             n.tag_name().name(),
-            "defs" | "symbol" | "clipPath" | "mask" | "pattern" | "marker" | "metadata" | "text" | "title"
+            "defs"
+                | "symbol"
+                | "clipPath"
+                | "mask"
+                | "pattern"
+                | "marker"
+                | "metadata"
+                | "text"
+                | "title"
         );
-        let style: String =
-            n.attribute("style").unwrap_or_default().split_whitespace().collect();
+        let style: String = n.attribute("style").unwrap_or_default().split_whitespace().collect();
         let hidden = n.attribute("display") == Some("none") || style.contains("display:none");
         !(aside || hidden)
     })
@@ -151,11 +158,13 @@ fn name(node: Node<'_, '_>) -> String {
     }
     let named = |n: Node<'_, '_>| {
         let label = n.attributes().find(|a| a.name() == "label").map(|a| a.value().to_owned());
-        let title = || n.children().find(|c| c.tag_name().name() == "title")?.text().map(str::to_owned);
+        let title =
+            || n.children().find(|c| c.tag_name().name() == "title")?.text().map(str::to_owned);
         let id = || n.attribute("id").filter(|id| !is_automatic(id)).map(str::to_owned);
         label.or_else(title).or_else(id).filter(|name| !name.trim().is_empty())
     };
-    let around = node.ancestors().take(DEPTH).filter(|n| n.is_element() && n.tag_name().name() != "svg");
+    let around =
+        node.ancestors().take(DEPTH).filter(|n| n.is_element() && n.tag_name().name() != "svg");
     let found = around.filter(|n| !is_layer(*n)).find_map(named);
     let found = found.or_else(|| node.attribute("id").map(str::to_owned));
     let clean = |name: String| name.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -169,8 +178,10 @@ fn is_layer(node: Node<'_, '_>) -> bool {
 
 /// Returns whether an identifier was made by a program, such as `path1234`.
 fn is_automatic(id: &str) -> bool {
-    let rest = id.trim_end_matches(|letter: char| letter.is_ascii_digit() || matches!(letter, '-' | '_'));
-    let words = ["path", "rect", "g", "polygon", "polyline", "circle", "ellipse", "svg", "layer", "line"];
+    let rest =
+        id.trim_end_matches(|letter: char| letter.is_ascii_digit() || matches!(letter, '-' | '_'));
+    let words =
+        ["path", "rect", "g", "polygon", "polyline", "circle", "ellipse", "svg", "layer", "line"];
     words.contains(&rest) || rest.is_empty()
 }
 
@@ -190,7 +201,9 @@ fn data(node: Node<'_, '_>) -> Option<String> {
         None => Some(0.0),
         // A size may have a unit; without one it is in the drawing's.
         Some(text) => Some(svgtypes::Length::from_str(text).ok()?)
-            .filter(|length| matches!(length.unit, svgtypes::LengthUnit::None | svgtypes::LengthUnit::Px))
+            .filter(|length| {
+                matches!(length.unit, svgtypes::LengthUnit::None | svgtypes::LengthUnit::Px)
+            })
             .map(|length| length.number),
     };
     match node.tag_name().name() {
@@ -212,7 +225,13 @@ fn data(node: Node<'_, '_>) -> Option<String> {
             Some(format!(
                 "M{} {y} h{across} a{r} {r} 0 0 1 {r} {r} v{down} a{r} {r} 0 0 1 {} {r} h{} \
                  a{r} {r} 0 0 1 {} {} v{} a{r} {r} 0 0 1 {r} {} Z",
-                x + r, -r, -across, -r, -r, -down, -r
+                x + r,
+                -r,
+                -across,
+                -r,
+                -r,
+                -down,
+                -r
             ))
         }
         "circle" | "ellipse" => {
@@ -234,7 +253,9 @@ fn data(node: Node<'_, '_>) -> Option<String> {
 fn transform(node: Node<'_, '_>) -> Affine {
     let mut all = Affine::IDENTITY;
     for n in node.ancestors().take(DEPTH).filter(Node::is_element) {
-        if let Some(t) = n.attribute("transform").and_then(|t| svgtypes::Transform::from_str(t).ok()) {
+        if let Some(t) =
+            n.attribute("transform").and_then(|t| svgtypes::Transform::from_str(t).ok())
+        {
             all = Affine::new([t.a, t.b, t.c, t.d, t.e, t.f]) * all;
         }
     }

@@ -28,12 +28,7 @@ impl Reader<'_> {
     }
 
     /// Adds a mistake at a key.
-    pub(crate) fn fail(
-        &mut self,
-        key: &str,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) {
+    pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
         self.mistakes.push(self.document.at(key, message).help(help));
     }
 
@@ -215,7 +210,8 @@ impl Reader<'_> {
                 }
             },
             _ => {
-                let help = "give one of start and outline, rectangle = [width, height], path, copy_of";
+                let help =
+                    "give one of start and outline, rectangle = [width, height], path, copy_of";
                 self.fail(&key, format!("panel {name} has no single shape"), help);
                 return None;
             }
