@@ -37,7 +37,7 @@ pub enum Note {
         format: &'static str,
     },
     /// A part of the file is no panel.
-    #[error("{part} is left out: {reason}")]
+    #[error("left out, {part}: {reason}")]
     LeftOut {
         /// The part.
         part: String,

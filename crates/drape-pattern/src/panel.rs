@@ -174,6 +174,17 @@ impl Panel {
         self
     }
 
+    /// Returns the panel with its outline and folds shifted in its frame, in m; `None` if that is too far.
+    #[must_use]
+    pub(crate) fn shifted(&self, by: [f64; 2]) -> Option<Self> {
+        let near = |p: [f64; 2]| p.iter().all(|x| x.abs() <= FARTHEST);
+        let moved = |p: [f64; 2]| [p[0] + by[0], p[1] + by[1]];
+        let mut panel = self.clone();
+        panel.outline = self.outline.iter().map(|edge| edge.mapped(false, moved)).collect();
+        panel.folds.iter_mut().for_each(|fold| fold.ends = fold.ends.map(moved));
+        panel.outline.iter().all(|edge| near(edge.start)).then_some(panel)
+    }
+
     /// Returns the panel with its edges changed by a function that keeps the outline where it is.
     #[must_use]
     pub(crate) fn with_edges(mut self, change: impl Fn(&Edge) -> Vec<Edge>) -> Self {

@@ -191,7 +191,7 @@ impl Reader<'_> {
         }
         let closed = part.paths.iter().filter(|(key, path)| {
             let last = path.ops.last().is_some_and(|op| kind(op) == "Z");
-            last && !key.starts_with("__") && !key.to_lowercase().contains("sa")
+            last && !key.starts_with("__") && !is_allowance(key)
         });
         let areas = closed.filter_map(|(key, path)| {
             let edges = edges(path, &Points::new()).ok()?;
@@ -216,6 +216,11 @@ impl Reader<'_> {
         });
         Some((key, path))
     }
+}
+
+/// Returns whether a path is named as one of a seam allowance.
+fn is_allowance(key: &str) -> bool {
+    key == "sa" || key.starts_with("saBase") || key.ends_with("SA") || key.ends_with("Sa")
 }
 
 /// Returns the letter of an operation in SVG, however it is written.

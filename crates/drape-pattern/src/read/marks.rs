@@ -81,20 +81,21 @@ const SEWING: f64 = 0.6;
 /// another is its sewing line if it is nearly as large, and else a mark or a hole.
 pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline> {
     struct Measured {
+        number: usize,
         outline: Outline,
         polygon: Vec<[f64; 2]>,
         area: f64,
     }
     let mut small = 0;
     let mut measured = Vec::new();
-    for outline in all {
+    for (number, outline) in all.into_iter().enumerate() {
         let polygon: Vec<[f64; 2]> = outline.edges.iter().flat_map(Edge::polyline).collect();
         let area = outline.edges.iter().map(Edge::area).sum::<f64>().abs();
         // What is not finite is answered where the panel is made.
         if size(&polygon) < MARK && outline.own.is_none() {
             small += 1;
         } else {
-            measured.push(Measured { outline, polygon, area });
+            measured.push(Measured { number, outline, polygon, area });
         }
     }
     if small > 0 {
@@ -110,11 +111,11 @@ pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline>
                 && inner.area < outer.area
                 && sample(&inner.polygon).all(|p| inside(&outer.polygon, p))
         };
-        let Some(number) = kept.iter().position(lies_in) else {
+        let Some(index) = kept.iter().position(lies_in) else {
             kept.push(inner);
             continue;
         };
-        let outer = &mut kept[number];
+        let outer = &mut kept[index];
         if inner.area > SEWING * outer.area {
             let taken = format!(
                 "panel {}: its outline is the inner of two, the sewing line",
@@ -130,6 +131,8 @@ pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline>
             notes.push(Note::LeftOut { part, reason });
         }
     }
+    // In the order of the file.
+    kept.sort_by_key(|one| one.number);
     let mut names: Vec<String> = Vec::new();
     let mut kept: Vec<Outline> = kept.into_iter().map(|one| one.outline).collect();
     for outline in &mut kept {

@@ -83,12 +83,21 @@ struct Reader<'a> {
     notes: Vec<Note>,
 }
 
+/// Returns the corners of the bounding box of edges, with their control points.
+fn extent(edges: &[Edge]) -> [[f64; 2]; 2] {
+    let numbers: Vec<f64> = edges.iter().flat_map(Edge::coordinates).collect();
+    let axis = |axis: usize| numbers.iter().skip(axis).step_by(2).copied();
+    let low = [0, 1].map(|k| axis(k).fold(f64::MAX, f64::min));
+    [low, [0, 1].map(|k| axis(k).fold(f64::MIN, f64::max))]
+}
+
 impl Reader<'_> {
     /// Returns the panels among the shapes.
     fn panels(&mut self, shapes: Vec<Shape>) -> Vec<Panel> {
         let scale = self.scale;
         let up = |[x, y]: [f64; 2]| [scale * x, -scale * y];
         let (mut outlines_found, mut grains, mut notches) = (Vec::new(), Vec::new(), Vec::new());
+        let mut opened = Vec::new();
         for shape in shapes {
             let line = shape.line;
             let mut parts = Vec::new();
@@ -106,10 +115,7 @@ impl Reader<'_> {
                 Role::Notch => notches.extend(open.iter().filter_map(ends)),
                 Role::Other => {
                     parts.extend(joined(&mut open));
-                    for edges in open {
-                        let name = shape.name.clone();
-                        self.opened(name, line, &edges);
-                    }
+                    opened.extend(open.into_iter().map(|edges| (shape.name.clone(), line, edges)));
                 }
                 Role::Outline => parts.extend(open.into_iter().filter(|e| !e.is_empty())),
             }
@@ -128,6 +134,18 @@ impl Reader<'_> {
             }
         }
         let found = outlines(outlines_found, &mut self.notes);
+        let boxes: Vec<[[f64; 2]; 2]> =
+            found.iter().map(|outline| extent(&outline.edges)).collect();
+        for (name, line, edges) in opened {
+            let [low, high] = extent(&edges);
+            let within = |[from, to]: &[[f64; 2]; 2]| {
+                (0..2).all(|k| from[k] - 1e-3 <= low[k] && high[k] <= to[k] + 1e-3)
+            };
+            // Lines on a panel are marks.
+            if !boxes.iter().any(within) {
+                self.opened(name, line, &edges);
+            }
+        }
         found.into_iter().filter_map(|outline| self.panel(outline, &grains, &notches)).collect()
     }
 

@@ -262,7 +262,7 @@ impl Reader<'_> {
         for (number, what) in [(8, "lines inside"), (11, "cut-outs"), (13, "drill holes")] {
             let found = count(number);
             if found > 0 {
-                let part = format!("panel {name}: {found} {what}, layer {number},");
+                let part = format!("panel {name}: {found} {what} on layer {number}");
                 self.notes.push(Note::LeftOut {
                     part,
                     reason: "the pattern has no words for them".into(),

@@ -167,7 +167,12 @@ fn name(node: Node<'_, '_>) -> String {
         node.ancestors().take(DEPTH).filter(|n| n.is_element() && n.tag_name().name() != "svg");
     let found = around.filter(|n| !is_layer(*n)).find_map(named);
     let found = found.or_else(|| node.attribute("id").map(str::to_owned));
-    let clean = |name: String| name.split_whitespace().collect::<Vec<_>>().join(" ");
+    // FreeSewing names groups `fs-stack-STACK-part-PART`.
+    let clean = |name: String| {
+        let part = name.strip_prefix("fs-stack-").and_then(|rest| rest.split_once("-part-"));
+        let name = part.map_or(name.as_str(), |(_, part)| part);
+        name.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
     found.map(clean).unwrap_or_else(|| node.tag_name().name().into())
 }
 
@@ -180,8 +185,10 @@ fn is_layer(node: Node<'_, '_>) -> bool {
 fn is_automatic(id: &str) -> bool {
     let rest =
         id.trim_end_matches(|letter: char| letter.is_ascii_digit() || matches!(letter, '-' | '_'));
-    let words =
-        ["path", "rect", "g", "polygon", "polyline", "circle", "ellipse", "svg", "layer", "line"];
+    let words = [
+        "path", "rect", "g", "polygon", "polyline", "circle", "ellipse", "svg", "layer", "line",
+        "fs",
+    ];
     words.contains(&rest) || rest.is_empty()
 }
 

@@ -39,6 +39,8 @@ pub(crate) struct PanelKeys {
     pub(crate) mirrored: bool,
     #[serde(default)]
     pub(crate) omit: bool,
+    /// Shift of the outline and the folds in the panel's frame.
+    pub(crate) shift: Option<[f64; 2]>,
     #[serde(default)]
     pub(crate) split: BTreeMap<String, Vec<f64>>,
     #[serde(default)]

@@ -64,6 +64,17 @@ impl Reader<'_> {
     pub(crate) fn changed(&mut self, panel: Panel, keys: &PanelKeys) -> Option<Panel> {
         let key = key(panel.name());
         let mut panel = self.split(panel, keys)?;
+        if let Some(shift) = keys.shift {
+            let by = shift.map(|x| x * self.metres);
+            match panel.shifted(by) {
+                Some(moved) => panel = moved,
+                None => {
+                    let help = "a length along x and one along y, within 1000 m";
+                    self.fail(&format!("{key}.shift"), format!("is {shift:?}"), help);
+                    return None;
+                }
+            }
+        }
         self.check_hems(&panel, keys)?;
         let metres = self.metres;
         if !keys.hems.is_empty() {

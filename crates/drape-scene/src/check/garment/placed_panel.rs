@@ -63,7 +63,8 @@ pub(crate) fn placed_panel(
     let given = panel.fabric().filter(|_| own.is_none_or(|own| own.fabric.is_none()));
     let material = match given {
         Some(name) if !checker.file.fabric.contains_key(name) => {
-            let message = format!("panel \"{}\" of the pattern is of fabric \"{name}\"", panel.name());
+            let message =
+                format!("panel \"{}\" of the pattern is of fabric \"{name}\"", panel.name());
             let help = format!(
                 "add [fabric.{}], or panel.{}.fabric to the garment",
                 toml_key(name),
