@@ -10,8 +10,9 @@ use crate::edge::{Curve, Edge, difference, distance};
 /// Largest distance of a point from the curve, in m.
 pub(crate) const TOLERANCE: f64 = 5e-5;
 
-/// Number of times that the parameters are moved.
-const ROUNDS: usize = 12;
+/// Largest number of times that the parameters are moved; the gain of a round below which they are not.
+const ROUNDS: usize = 100;
+const GAIN: f64 = 0.99;
 
 /// Returns edges from the first to the last of some points that pass all of them within the tolerance.
 pub(crate) fn fitted(points: &[[f64; 2]]) -> Vec<Edge> {
@@ -59,13 +60,19 @@ fn one(points: &[[f64; 2]]) -> Option<Edge> {
             [0, 1].map(|k| (middle[k] - weights[0] * start[k] - weights[1] * end[k]) / weights[2]);
         return Some(line.curved(Curve::Quadratic(control)));
     }
+    let mut last = f64::INFINITY;
     for _ in 0..ROUNDS {
         let controls = controls(points, &parameters)?;
         let all = [start, controls[0], controls[1], end];
         let worst = points.iter().zip(&parameters).map(|(p, t)| distance(*p, at(&all, *t)));
-        if worst.fold(0.0, f64::max) <= TOLERANCE {
+        let worst = worst.fold(0.0, f64::max);
+        if worst <= TOLERANCE {
             return Some(line.curved(Curve::Cubic(controls)));
         }
+        if !(worst < GAIN * last) {
+            return None;
+        }
+        last = worst;
         for (point, t) in points.iter().zip(&mut parameters) {
             *t = nearer(&all, *point, *t);
         }

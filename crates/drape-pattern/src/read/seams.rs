@@ -153,6 +153,25 @@ pub(crate) fn located(place: &Place<'_>, mistake: &Mistake) -> Diagnostic {
     place.at(&key, mistake.to_string(), &mistake.help())
 }
 
+/// Returns the answer to a mistake of a pattern to which a file adds seams.
+pub(crate) fn answer(
+    place: &Place<'_>,
+    mistake: &Mistake,
+    seams: &BTreeMap<String, SeamKeys>,
+) -> Diagnostic {
+    let located = located(place, mistake);
+    match mistake {
+        Mistake::SewnTwice { first, .. } if !seams.contains_key(first) => {
+            let key = toml_key(first);
+            located.help(format!(
+                "the pattern sews it in seam {first}: name yours [seam.{key}] to take its place, or sew \
+                 other edges"
+            ))
+        }
+        _ => located,
+    }
+}
+
 impl Pattern {
     /// Returns the pattern with the seams that a table of a file states; one with the name of a seam of the
     /// pattern takes its place.
@@ -174,17 +193,7 @@ impl Pattern {
         match Self::new(self.panels().to_vec(), all) {
             Ok(pattern) => Ok(pattern.with_notes(notes)),
             Err(mistakes) => {
-                let mistakes = mistakes.iter().map(|mistake| match mistake {
-                    Mistake::SewnTwice { first, .. } if !seams.contains_key(first) => {
-                        let help = format!(
-                            "the pattern sews it in seam {first}; name yours [seam.{}] to take its \
-                             place, or sew other edges",
-                            toml_key(first)
-                        );
-                        located(place, mistake).help(help)
-                    }
-                    _ => located(place, mistake),
-                });
+                let mistakes = mistakes.iter().map(|mistake| answer(place, mistake, seams));
                 Err(Diagnostics(mistakes.collect()))
             }
         }

@@ -31,7 +31,7 @@ use drape_input::{Diagnostic, Diagnostics, Document, closest};
 use self::keys::{PanelKeys, PatternKeys};
 use self::panels::{Reader, key};
 use super::request::Request;
-use super::seams::{Known, located, merged, seams};
+use super::seams::{Known, answer, merged, seams};
 use super::unit::Unit;
 use crate::note::Note;
 use crate::panel::Panel;
@@ -282,7 +282,7 @@ impl Reader<'_> {
             Ok(pattern) => Ok(pattern.with_notes(self.notes)),
             Err(all) => {
                 let place = self.place();
-                Err(sorted(all.iter().map(|mistake| located(&place, mistake)).collect()))
+                Err(sorted(all.iter().map(|mistake| answer(&place, mistake, &keys.seam)).collect()))
             }
         }
     }
