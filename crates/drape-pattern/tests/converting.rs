@@ -222,10 +222,9 @@ fn the_unit_of_a_drawing_is_detected_or_asked_for() {
         let notched: Vec<&Edge> =
             panel.outline().iter().filter(|e| !e.notches.is_empty()).collect();
         assert_eq!(notched.len(), 1, "{size}");
-        assert!(
-            noted(&pattern, "a unit of the drawing is")
-                && noted(&pattern, "it lies in panel bodice")
-        );
+        assert!(noted(&pattern, "a unit of the drawing is"));
+        let inner = ["it lies in panel bodice", "2 closed shapes under 20 mm"];
+        assert!(inner.iter().any(|words| noted(&pattern, words)), "{:?}", pattern.notes());
     }
     for size in [
         "viewBox=\"0 0 600 500\"",

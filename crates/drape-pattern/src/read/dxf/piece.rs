@@ -19,6 +19,9 @@ const CORNER: f64 = 2e-4;
 /// Angle, in rad, from which on a vertex is a corner where the file marks none: 20°.
 const TURN: f64 = 0.35;
 
+/// Number of places at which the width of a seam allowance is measured.
+const PLACES: usize = 60;
+
 /// Largest number of edges of an outline.
 const EDGES: usize = 50_000;
 
@@ -285,8 +288,20 @@ impl Reader<'_> {
 
 /// Returns the median distance of a sewing line from the cut line round it, in m.
 fn allowance(sewing: &[Edge], cut: &[Edge]) -> Option<f64> {
-    let step = sewing.len() / 40 + 1;
-    let points = sewing.iter().step_by(step).map(|edge| edge.at(0.5));
+    let total: f64 = sewing.iter().map(Edge::length).sum();
+    let mut points = Vec::new();
+    let mut before = 0.0;
+    for edge in sewing {
+        let length = edge.length();
+        // Places at equal distances along the whole line.
+        while points.len() < PLACES
+            && before + length > (points.len() as f64 + 0.5) * total / PLACES as f64
+        {
+            let along = (points.len() as f64 + 0.5) * total / PLACES as f64 - before;
+            points.push(edge.at(along / length));
+        }
+        before += length;
+    }
     let off = |p: [f64; 2]| {
         let near = cut.iter().map(|edge| {
             let chord = difference(edge.end, edge.start);
@@ -297,7 +312,7 @@ fn allowance(sewing: &[Edge], cut: &[Edge]) -> Option<f64> {
         });
         near.fold(f64::MAX, f64::min)
     };
-    let mut all: Vec<f64> = points.map(off).collect();
+    let mut all: Vec<f64> = points.into_iter().map(off).collect();
     all.sort_by(f64::total_cmp);
     all.get(all.len() / 2).copied().filter(|width| width.is_finite())
 }
