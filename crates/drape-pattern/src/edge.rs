@@ -81,8 +81,8 @@ impl Edge {
 
     /// Returns the angle of the arc of a radius, in m, between the ends of the edge, in rad.
     ///
-    /// `large` chooses the longer arc, `left` the one that runs anticlockwise. A radius under half the
-    /// distance of the ends is taken as half of it, as in SVG.
+    /// `large` chooses the longer arc, `left` the one that runs anticlockwise. A radius under half
+    /// the distance of the ends is taken as half of it, as in SVG.
     #[must_use]
     pub fn arc_sweep(&self, radius: f64, large: bool, left: bool) -> f64 {
         let half = (0.5 * distance(self.start, self.end) / radius.abs()).min(1.0).asin();
@@ -138,7 +138,8 @@ impl Edge {
         Self { name, start, end, curve, hem: self.hem, notches }
     }
 
-    /// Returns the parts of the edge between distances from its start, in m, each numbered after its name.
+    /// Returns the parts of the edge between distances from its start, in m, each numbered after
+    /// its name.
     ///
     /// Distances must lie within the edge, in ascending order.
     pub(crate) fn split(&self, distances: &[f64]) -> Vec<Self> {
@@ -176,8 +177,8 @@ impl Edge {
         ends.windows(2).enumerate().map(part).collect()
     }
 
-    /// Returns the distance along the edge of its point nearest to another, and the distance between them,
-    /// in m, as exact as chords of a thousandth of the edge are.
+    /// Returns the distance along the edge of its point nearest to another, and the distance
+    /// between them, in m, as exact as chords of a thousandth of the edge are.
     pub(crate) fn nearest(&self, point: [f64; 2]) -> [f64; 2] {
         let length = self.length();
         let count = 1000;
@@ -309,7 +310,8 @@ impl Edge {
         [start, end.map(|x| -x)]
     }
 
-    /// Returns the signed area between the edge and the origin, positive if it runs anticlockwise, in m².
+    /// Returns the signed area between the edge and the origin, positive if it runs anticlockwise,
+    /// in m².
     pub(crate) fn area(&self) -> f64 {
         let bulge = match self.curve {
             Curve::Arc { sweep } if sweep != 0.0 => {
@@ -397,7 +399,8 @@ mod tests {
 
     #[test]
     fn equal_fractions_are_equal_lengths() {
-        // Its radius of curvature is nowhere under 0.1, so a chord is 1e-5 shorter than its arc at most.
+        // Its radius of curvature is nowhere under 0.1, so a chord is 1e-5 shorter than its arc at
+        // most.
         let cubic = edge(Curve::Cubic([[1.4, 0.6], [0.6, 1.4]]));
         let points: Vec<_> = (0..=1000).map(|k| cubic.at(f64::from(k) / 1000.0)).collect();
         let chords: Vec<f64> = points.windows(2).map(|p| distance(p[0], p[1])).collect();

@@ -12,8 +12,8 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Returns the layout of panels with a gap between them and round them. A row ends before it is wider than
-    /// a limit, if it has a panel.
+    /// Returns the layout of panels with a gap between them and round them. A row ends before it is
+    /// wider than a limit, if it has a panel.
     pub(crate) fn new(extents: &[Extent], gap: f64, limit: f64) -> Self {
         let height = |k: usize| extents[k][1][1] - extents[k][0][1];
         let mut order: Vec<usize> = (0..extents.len()).collect();

@@ -1,12 +1,13 @@
 //! Reading of patterns from files.
 //!
-//! [`Pattern::read`] tells the format by the ending of the path and by the content: the project's own
-//! TOML (`toml_file`), JSON of GarmentCode and its predecessor (`garmentcode`), JSON of FreeSewing
-//! (`freesewing`), drawings in SVG (`svg`), and DXF of pattern makers' programs (`dxf`, ASTM D6673); `svg_path`
-//! reads the path data of SVG, which is also a key of the TOML. Each reader converts lengths to m and angles
-//! to rad, makes [`Panel`](crate::Panel)s and seams of the file, and collects all mistakes with their places
-//! and remedies. What a file may not say itself, such as the unit of a drawing, is in a [`Request`]. Checks of
-//! outlines and seams are in `panel` and `pattern`; the chapter hands on a checked [`Pattern`] to `cut`.
+//! [`Pattern::read`] tells the format by the ending of the path and by the content: the project's
+//! own TOML (`toml_file`), JSON of GarmentCode and its predecessor (`garmentcode`), JSON of
+//! FreeSewing (`freesewing`), drawings in SVG (`svg`), and DXF of pattern makers' programs (`dxf`,
+//! ASTM D6673); `svg_path` reads the path data of SVG, which is also a key of the TOML. Each reader
+//! converts lengths to m and angles to rad, makes [`Panel`](crate::Panel)s and seams of the file,
+//! and collects all mistakes with their places and remedies. What a file may not say itself, such
+//! as the unit of a drawing, is in a [`Request`]. Checks of outlines and seams are in `panel` and
+//! `pattern`; the chapter hands on a checked [`Pattern`] to `cut`.
 
 mod chains;
 mod diagnostic;
@@ -42,8 +43,8 @@ const LARGEST: u64 = 1 << 24;
 const ENDINGS: [&str; 4] = ["toml", "json", "svg", "dxf"];
 
 impl Pattern {
-    /// Reads a pattern: the project's own format in TOML, GarmentCode's or FreeSewing's in JSON, a drawing in
-    /// SVG or DXF.
+    /// Reads a pattern: the project's own format in TOML, GarmentCode's or FreeSewing's in JSON, a
+    /// drawing in SVG or DXF.
     ///
     /// # Errors
     /// All mistakes of the file, each with its place and a remedy.
@@ -63,8 +64,8 @@ impl Pattern {
         Ok(parse(&document, request)?)
     }
 
-    /// Returns the pattern of a document in any of the formats, told apart by the ending of its path and
-    /// by its content.
+    /// Returns the pattern of a document in any of the formats, told apart by the ending of its
+    /// path and by its content.
     ///
     /// # Errors
     /// All mistakes of the text, each with its place and a remedy.
@@ -134,7 +135,8 @@ fn ending(path: &Path) -> String {
     path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
-/// Returns the document of a file that programs write, which may be larger than files that people write.
+/// Returns the document of a file that programs write, which may be larger than files that people
+/// write.
 fn document(path: &Path) -> Result<Document, Diagnostics> {
     let size = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file).map(|m| m.len());
     let Some(size) = size else {
@@ -151,7 +153,8 @@ fn document(path: &Path) -> Result<Document, Diagnostics> {
     })?;
     match String::from_utf8(bytes) {
         Ok(text) => Ok(Document::new(path, text)),
-        // Older programs write DXF in the code page of their country; only names can have such letters.
+        // Older programs write DXF in the code page of their country; only names can have such
+        // letters.
         Err(error) if ending(path) == "dxf" => {
             let text: String = error.into_bytes().into_iter().map(char::from).collect();
             Ok(Document::new(path, text))

@@ -1,6 +1,6 @@
-//! Writing of patterns: the project's own TOML (`toml_text`), and drawings in SVG at true scale for a plotter
-//! (`svg`) or on pages of paper (`pages`). `marks` says what is drawn on a panel, `number` how numbers are
-//! written.
+//! Writing of patterns: the project's own TOML (`toml_text`), and drawings in SVG at true scale for
+//! a plotter (`svg`) or on pages of paper (`pages`). `marks` says what is drawn on a panel,
+//! `number` how numbers are written.
 
 mod marks;
 mod number;

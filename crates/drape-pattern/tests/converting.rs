@@ -149,7 +149,8 @@ fn a_drawing_that_was_moved_and_changed_keeps_what_it_still_says() {
         1,
     );
     assert!(apart(&own, &read("moved.svg", &moved)) < 1e-6, "the origin moves along");
-    // A panel with another number of edges: its edges are numbered, and its seam is lost, with notes.
+    // A panel with another number of edges: its edges are numbered, and its seam is lost, with
+    // notes.
     let corner = drawing.replacen("data-edges=\"bottom|", "data-edges=\"", 1);
     let cut = read("cut.svg", &corner);
     assert!(noted(&cut, "numbered anew") && noted(&cut, "side"), "{:?}", cut.notes());
@@ -391,7 +392,8 @@ fn pieces_of_dxf_are_read_as_three_programs_write_them() {
     }
     body += &line(7, [60.0 / 25.4, 4.0], [60.0 / 25.4, 20.0]);
     let inches = file("", &block("1", &body), &text(1, "UNITS: ENGLISH"));
-    // A cut line of layer 1 round a sewing line of layer 14, unit in the header, Windows line ends, as Lectra's.
+    // A cut line of layer 1 round a sewing line of layer 14, unit in the header, Windows line ends,
+    // as Lectra's.
     let (points, corners) = front(1.0);
     let wide = [[-10.0, -10.0], [250.0, -10.0], [250.0, 610.0], [-10.0, 610.0]];
     let mut body =

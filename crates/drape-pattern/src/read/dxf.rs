@@ -1,10 +1,11 @@
 //! Reader of DXF as pattern makers' programs write it: AAMA-292 and ASTM D6673.
 //!
-//! Every piece is a block; the layer says what a line is: 1 the cut line, 14 the sewing line, 2 corners, 3 points of
-//! curves, 4 and 80 to 83 notches, 6 a fold, 7 the grain line, 8 lines inside, 11 cut-outs, 13 drill holes; texts name
-//! the piece, its size, and the unit. `pairs` splits the file, `entities` makes blocks of it, `piece` a panel of a block.
-//! The reader is the project's own: the `dxf` crate brings a tree of packages for whole drawings, and keeps no
-//! lines for the answers.
+//! Every piece is a block; the layer says what a line is: 1 the cut line, 14 the sewing line, 2
+//! corners, 3 points of curves, 4 and 80 to 83 notches, 6 a fold, 7 the grain line, 8 lines inside,
+//! 11 cut-outs, 13 drill holes; texts name the piece, its size, and the unit. `pairs` splits the
+//! file, `entities` makes blocks of it, `piece` a panel of a block. The reader is the project's
+//! own: the `dxf` crate brings a tree of packages for whole drawings, and keeps no lines for the
+//! answers.
 
 mod entities;
 mod pairs;

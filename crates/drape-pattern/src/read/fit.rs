@@ -1,20 +1,23 @@
-//! Curves through points: Bézier curves of degree three for the polylines that programs write for them.
+//! Curves through points: Bézier curves of degree three for the polylines that programs write for
+//! them.
 //!
-//! Between its ends `$p_0$`, `$p_3$` the curve `$(1-t)^3 p_0 + 3t(1-t)^2 p_1 + 3t^2(1-t) p_2 + t^3 p_3$` has the control
-//! points of the least squares of its distances from the points; their parameters begin as fractions of the
-//! length of the chords and are moved to the nearest points of the curve \[Sch90\]. A run that one curve does not fit
-//! is halved.
+//! Between its ends `$p_0$`, `$p_3$` the curve `$(1-t)^3 p_0 + 3t(1-t)^2 p_1 + 3t^2(1-t) p_2 + t^3
+//! p_3$` has the control points of the least squares of its distances from the points; their
+//! parameters begin as fractions of the length of the chords and are moved to the nearest points of
+//! the curve \[Sch90\]. A run that one curve does not fit is halved.
 
 use crate::edge::{Curve, Edge, difference, distance};
 
 /// Largest distance of a point from the curve, in m.
 pub(crate) const TOLERANCE: f64 = 5e-5;
 
-/// Largest number of times that the parameters are moved; the gain of a round below which they are not.
+/// Largest number of times that the parameters are moved; the gain of a round below which they are
+/// not.
 const ROUNDS: usize = 100;
 const GAIN: f64 = 0.99;
 
-/// Returns edges from the first to the last of some points that pass all of them within the tolerance.
+/// Returns edges from the first to the last of some points that pass all of them within the
+/// tolerance.
 pub(crate) fn fitted(points: &[[f64; 2]]) -> Vec<Edge> {
     let mut edges = Vec::new();
     let mut left = vec![points];

@@ -1,7 +1,8 @@
 //! Reader of drafts of FreeSewing, in JSON: parts with paths and named points, in mm, with y down.
 //!
-//! The outline of a part is its path `seam`, or else its largest closed path; a part without one is left out. Its edges are named by the points at their ends; of several
-//! points at one position the first by the alphabet counts. A part that is cut on the fold is unfolded.
+//! The outline of a part is its path `seam`, or else its largest closed path; a part without one is
+//! left out. Its edges are named by the points at their ends; of several points at one position the
+//! first by the alphabet counts. A part that is cut on the fold is unfolded.
 
 use std::collections::BTreeMap;
 
@@ -183,8 +184,8 @@ impl Reader<'_> {
         panel.with_grain(grain.unwrap_or_default()).ok()
     }
 
-    /// Returns the path that is the outline of a part: the one of the usual name, or else the closed path
-    /// round the largest area; a note if there is none.
+    /// Returns the path that is the outline of a part: the one of the usual name, or else the
+    /// closed path round the largest area; a note if there is none.
     fn outline<'p>(&mut self, name: &str, part: &'p Part) -> Option<(&'p str, &'p Path)> {
         if let Some((key, path)) = part.paths.get_key_value("seam") {
             return Some((key, path));
@@ -243,7 +244,8 @@ fn notches(edges: &mut [Edge], part: &Part) {
     }
 }
 
-/// Returns the edges of a path, or the number of the first operation that cannot belong to an outline.
+/// Returns the edges of a path, or the number of the first operation that cannot belong to an
+/// outline.
 fn edges(path: &Path, points: &Points) -> Result<Vec<Edge>, usize> {
     let mut edges: Vec<Edge> = Vec::new();
     let mut ends: Option<([f64; 2], [f64; 2])> = None;

@@ -9,8 +9,8 @@ const ON_LINE: f64 = 5e-5;
 /// Distance from the outline below which a mark is a notch of it, in m.
 const NOTCH: f64 = 2e-3;
 
-/// Returns the grain, in rad, of a line along the warp. The line has no sense: the warp is taken within a right
-/// angle of the y axis.
+/// Returns the grain, in rad, of a line along the warp. The line has no sense: the warp is taken
+/// within a right angle of the y axis.
 pub(crate) fn grain_of([from, to]: [[f64; 2]; 2]) -> f64 {
     let along = difference(to, from);
     let up = if along[1] < 0.0 { -1.0 } else { 1.0 };
@@ -34,8 +34,8 @@ pub(crate) fn add_notch(edges: &mut [Edge], at: [f64; 2]) -> bool {
     true
 }
 
-/// Reflects an outline in its edge that lies on a line, and returns the name of that edge; `None` if no
-/// edge does.
+/// Reflects an outline in its edge that lies on a line, and returns the name of that edge; `None`
+/// if no edge does.
 pub(crate) fn unfold(edges: &mut Vec<Edge>, [from, to]: [[f64; 2]; 2]) -> Option<String> {
     let length = distance(from, to);
     let along = difference(to, from).map(|x| x / length);
@@ -77,8 +77,8 @@ const MARK: f64 = 0.02;
 /// Share of the area of an outline from which on another one in it is its sewing line.
 const SEWING: f64 = 0.6;
 
-/// Returns those outlines that are panels, each under a name of its own. Small ones are marks; one that lies in
-/// another is its sewing line if it is nearly as large, and else a mark or a hole.
+/// Returns those outlines that are panels, each under a name of its own. Small ones are marks; one
+/// that lies in another is its sewing line if it is nearly as large, and else a mark or a hole.
 pub(crate) fn outlines(all: Vec<Outline>, notes: &mut Vec<Note>) -> Vec<Outline> {
     struct Measured {
         number: usize,

@@ -103,8 +103,8 @@ pub(crate) fn seams(
     if mistakes.is_empty() { Ok(seams) } else { Err(mistakes) }
 }
 
-/// Returns the edge that a word such as `front.side` names, `None` if its panel has mistakes; or what is
-/// wrong with the word, and the remedy.
+/// Returns the edge that a word such as `front.side` names, `None` if its panel has mistakes; or
+/// what is wrong with the word, and the remedy.
 fn edge(word: &str, known: &Known<'_>) -> Result<Option<EdgeId>, (String, String)> {
     // Names of panels and edges may have dots: the longest panel counts that the word begins with.
     let rest = |name: &str| word.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
@@ -132,7 +132,8 @@ fn edge(word: &str, known: &Known<'_>) -> Result<Option<EdgeId>, (String, String
     }
 }
 
-/// Returns the seams of a pattern with those of a file added, or in place of those of the same name.
+/// Returns the seams of a pattern with those of a file added, or in place of those of the same
+/// name.
 pub(crate) fn merged(mut own: Vec<Seam>, added: Vec<Seam>) -> Vec<Seam> {
     for seam in added {
         match own.iter_mut().find(|other| other.name == seam.name) {
@@ -173,8 +174,8 @@ pub(crate) fn answer(
 }
 
 impl Pattern {
-    /// Returns the pattern with the seams that a table of a file states; one with the name of a seam of the
-    /// pattern takes its place.
+    /// Returns the pattern with the seams that a table of a file states; one with the name of a
+    /// seam of the pattern takes its place.
     ///
     /// # Errors
     /// All mistakes of the seams, each with its place and a remedy.

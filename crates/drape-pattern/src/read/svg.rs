@@ -1,11 +1,12 @@
 //! Reader of drawings in SVG: closed shapes are panels.
 //!
-//! `shapes` collects what is drawn, in the drawing's unit, with transforms applied; `scale` says how long that
-//! unit is; then outlines are told from marks by size, by what lies in what, and by name. A drawing that this
-//! project wrote has names, origins and seams in it; of others the edges are numbered and nothing is sewn.
+//! `shapes` collects what is drawn, in the drawing's unit, with transforms applied; `scale` says
+//! how long that unit is; then outlines are told from marks by size, by what lies in what, and by
+//! name. A drawing that this project wrote has names, origins and seams in it; of others the edges
+//! are numbered and nothing is sewn.
 //!
-//! The tree is `roxmltree`'s and paths, lengths and transforms are read by `svgtypes`: unlike `usvg`, which
-//! renders, they keep names and double precision.
+//! The tree is `roxmltree`'s and paths, lengths and transforms are read by `svgtypes`: unlike
+//! `usvg`, which renders, they keep names and double precision.
 
 mod scale;
 mod shapes;

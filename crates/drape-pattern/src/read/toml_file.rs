@@ -17,9 +17,9 @@
 //! sides = [["front.side"], ["back.side"]]
 //! ```
 //!
-//! With `from`, the file adds to a pattern of another format: its panels change those of the same name, its
-//! seams are added or take the place of those of the same name. `keys` mirrors the file, `panels` makes
-//! the panels, [`seams`](super::seams) the seams.
+//! With `from`, the file adds to a pattern of another format: its panels change those of the same
+//! name, its seams are added or take the place of those of the same name. `keys` mirrors the file,
+//! `panels` makes the panels, [`seams`](super::seams) the seams.
 
 pub(crate) mod keys;
 mod panels;
@@ -37,7 +37,8 @@ use crate::note::Note;
 use crate::panel::Panel;
 use crate::pattern::{EdgeId, Pattern, Seam};
 
-/// Pattern of a document in the project's own format that names another file, which is still to be read.
+/// Pattern of a document in the project's own format that names another file, which is still to be
+/// read.
 pub(crate) struct File<'a> {
     document: &'a Document,
     keys: PatternKeys,
@@ -74,8 +75,8 @@ impl File<'_> {
         Ok(Some(Request { path, unit, size: from.size.clone() }))
     }
 
-    /// Removes what does not fit a pattern, whose drawing was changed: panels and edges that it has no more, and
-    /// seams of them, whose names are returned.
+    /// Removes what does not fit a pattern, whose drawing was changed: panels and edges that it has
+    /// no more, and seams of them, whose names are returned.
     pub(crate) fn fit(&mut self, pattern: &Pattern) -> Vec<String> {
         let panels = pattern.panels();
         self.keys.panel.retain(|name, keys| {

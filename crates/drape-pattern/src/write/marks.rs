@@ -85,7 +85,8 @@ impl<F: Fn([f64; 2]) -> [f64; 2]> Drawn<'_, F> {
         }
     }
 
-    /// Writes the name of an edge, with the letter of the seam that it is sewn in, inside its middle.
+    /// Writes the name of an edge, with the letter of the seam that it is sewn in, inside its
+    /// middle.
     fn label(&self, edge: &Edge, svg: &mut String) {
         let sewn = |id: &EdgeId| {
             self.pattern.panels()[id.panel].name() == self.panel.name()
@@ -110,8 +111,8 @@ impl<F: Fn([f64; 2]) -> [f64; 2]> Drawn<'_, F> {
         text(svg, &words, &Text { at, size, anchor });
     }
 
-    /// Draws a dot at the first stitch of a side of a seam, and ticks at its middle and where edges of the
-    /// other side end.
+    /// Draws a dot at the first stitch of a side of a seam, and ticks at its middle and where edges
+    /// of the other side end.
     fn seam(&self, seam: &Seam, side: usize, svg: &mut String) {
         let against = side == 1 && !seam.reversed;
         let lengths =
@@ -163,7 +164,8 @@ impl<F: Fn([f64; 2]) -> [f64; 2]> Drawn<'_, F> {
         let near = |f: f64| (self.on_sheet)(edge.at(f.clamp(0.0, 1.0)));
         let along = difference(near(fraction + 1e-3), near(fraction - 1e-3));
         let size = along[0].hypot(along[1]).max(f64::MIN_POSITIVE);
-        // The outline runs anticlockwise: inside is to its left, which is its right where y is down.
+        // The outline runs anticlockwise: inside is to its left, which is its right where y is
+        // down.
         Rim { at: near(fraction), inward: [along[1] / size, -along[0] / size] }
     }
 }
@@ -217,7 +219,8 @@ fn clearance(polygon: &[[f64; 2]], p: [f64; 2]) -> f64 {
     sides(polygon).map(of).fold(f64::MAX, f64::min)
 }
 
-/// Returns the distance from a point in a direction to the first side of a polygon; 0 if none is there.
+/// Returns the distance from a point in a direction to the first side of a polygon; 0 if none is
+/// there.
 fn ray(polygon: &[[f64; 2]], p: [f64; 2], along: [f64; 2]) -> f64 {
     let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
     let met = sides(polygon).filter_map(|(a, b)| {

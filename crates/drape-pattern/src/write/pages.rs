@@ -20,7 +20,8 @@ pub struct Paper {
 }
 
 impl Paper {
-    /// Returns the paper of a name: a4, a3, a2, a1, a0, letter, legal, tabloid, or a size such as 210x297 in mm.
+    /// Returns the paper of a name: a4, a3, a2, a1, a0, letter, legal, tabloid, or a size such as
+    /// 210x297 in mm.
     #[must_use]
     pub fn parse(word: &str) -> Option<Self> {
         let size = match word.to_ascii_lowercase().as_str() {
@@ -52,10 +53,12 @@ pub struct Page {
 }
 
 impl Pattern {
-    /// Returns a drawing of the pattern on pages of paper, by rows; pages with nothing on them are left out.
+    /// Returns a drawing of the pattern on pages of paper, by rows; pages with nothing on them are
+    /// left out.
     ///
-    /// Neighbouring pages show the same in a strip of 15 mm, with crosses that come to lie on each other. Each
-    /// page says where it belongs, and has a line of 50 mm by which the scale of the print is checked.
+    /// Neighbouring pages show the same in a strip of 15 mm, with crosses that come to lie on each
+    /// other. Each page says where it belongs, and has a line of 50 mm by which the scale of the
+    /// print is checked.
     #[must_use]
     pub fn to_pages(&self, paper: Paper) -> Vec<Page> {
         let room = paper.size.map(|x| x - 2.0 * MARGIN);

@@ -1,9 +1,10 @@
 //! Drawing of a pattern in SVG, at true scale in mm.
 //!
-//! Every panel is a group with its outline as one path, grain line, name, notches, folds, and a letter with the
-//! name at each edge that is sewn: the sides of a seam have the same letter, a dot at its first stitch, and
-//! ticks that meet. What a drawing cannot show, places in space and numbers of seams, is in its `metadata`
-//! in the project's own format, so that the drawing can be read again.
+//! Every panel is a group with its outline as one path, grain line, name, notches, folds, and a
+//! letter with the name at each edge that is sewn: the sides of a seam have the same letter, a dot
+//! at its first stitch, and ticks that meet. What a drawing cannot show, places in space and
+//! numbers of seams, is in its `metadata` in the project's own format, so that the drawing can be
+//! read again.
 
 use std::fmt::Write;
 
@@ -66,7 +67,8 @@ fn extent(panel: &Panel) -> Extent {
 }
 
 impl Pattern {
-    /// Returns a drawing of the pattern in SVG, at true scale in mm: for a plotter, or a program that draws.
+    /// Returns a drawing of the pattern in SVG, at true scale in mm: for a plotter, or a program
+    /// that draws.
     ///
     /// The sheet is no wider than the width, in mm, where every panel is narrower.
     #[must_use]

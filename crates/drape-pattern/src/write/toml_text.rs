@@ -12,7 +12,8 @@ use crate::panel::Panel;
 use crate::pattern::{EdgeId, Pattern, Seam};
 
 impl Pattern {
-    /// Returns the pattern in the project's own format, in mm, with a heading and its notes as comments.
+    /// Returns the pattern in the project's own format, in mm, with a heading and its notes as
+    /// comments.
     ///
     /// ```
     /// use drape_input::Document;
@@ -145,7 +146,8 @@ fn edge_text(edge: &Edge) -> String {
             write!(text, ", cubic = [{}, {}]", point(&first), point(&second))
         }
         Curve::Arc { sweep } => {
-            // Of the rounded ends, in full: near a half circle little in the radius is much in the arc.
+            // Of the rounded ends, in full: near a half circle little in the radius is much in the
+            // arc.
             let rounded = |p: [f64; 2]| p.map(|x| (1e7 * x).round() / 1e7);
             let half = 0.5e3 * distance(rounded(edge.start), rounded(edge.end));
             let radius = half / (0.5 * sweep).sin();

@@ -97,8 +97,8 @@ pub(crate) fn scale(
     Err(ambiguous(document, shapes))
 }
 
-/// Returns the size that an attribute states; its unit is none where it is in pixels or without one, which
-/// may be anything.
+/// Returns the size that an attribute states; its unit is none where it is in pixels or without
+/// one, which may be anything.
 fn size(text: &str) -> Option<Size> {
     let length = Length::from_str(text).ok()?;
     let unit = match length.unit {

@@ -1,4 +1,5 @@
-//! Shapes of a drawing in its own unit, with y down: paths, polygons, rectangles, circles, ellipses, lines.
+//! Shapes of a drawing in its own unit, with y down: paths, polygons, rectangles, circles,
+//! ellipses, lines.
 
 use std::str::FromStr;
 
@@ -150,8 +151,8 @@ fn shown(node: Node<'_, '_>) -> bool {
     })
 }
 
-/// Returns the name of an element: a label, an identifier or a title, its own or else that of a group round
-/// it.
+/// Returns the name of an element: a label, an identifier or a title, its own or else that of a
+/// group round it.
 fn name(node: Node<'_, '_>) -> String {
     if let Some(panel) = own_group(node).and_then(|group| group.attribute("data-panel")) {
         return panel.into();
@@ -256,7 +257,8 @@ fn data(node: Node<'_, '_>) -> Option<String> {
     }
 }
 
-/// Returns the transform of an element and of all that it lies in. Nested drawings shift by x and y.
+/// Returns the transform of an element and of all that it lies in. Nested drawings shift by x and
+/// y.
 fn transform(node: Node<'_, '_>) -> Affine {
     let mut all = Affine::IDENTITY;
     for n in node.ancestors().take(DEPTH).filter(Node::is_element) {
@@ -269,8 +271,8 @@ fn transform(node: Node<'_, '_>) -> Affine {
     all
 }
 
-/// Returns an edge after a transform. A circular arc stays one under a similarity, and becomes Bézier curves
-/// under another transform.
+/// Returns an edge after a transform. A circular arc stays one under a similarity, and becomes
+/// Bézier curves under another transform.
 fn moved(edge: &Edge, transform: Affine) -> Vec<Edge> {
     let map = |[x, y]: [f64; 2]| {
         let p = transform * Point::new(x, y);

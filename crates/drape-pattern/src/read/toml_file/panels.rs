@@ -1,4 +1,5 @@
-//! Panels of a pattern in the project's own format: a shape of their own, or changes of another panel.
+//! Panels of a pattern in the project's own format: a shape of their own, or changes of another
+//! panel.
 
 use drape_input::{Diagnostic, Document, closest, toml_key};
 
