@@ -2,10 +2,14 @@
 //! a plotter (`svg`) or on pages of paper (`pages`). `marks` says what is drawn on a panel,
 //! `number` how numbers are written.
 
+mod figure;
+mod layout;
 mod marks;
 mod number;
 mod pages;
 mod svg;
 mod toml_text;
+mod xml;
 
+pub use figure::figure;
 pub use pages::{Page, Paper};

@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use drape_input::{Diagnostic, Diagnostics, Document, closest};
 
-use self::entities::{Block, Contents, Form, contents};
+use self::entities::{Block, Contents, Form, contents, field, layer};
 use self::pairs::pairs;
 use self::piece::Reader;
 use super::request::Request;
@@ -36,7 +36,8 @@ pub(crate) fn read(document: &Document, request: &Request) -> Result<Pattern, Di
     }
     let (unit, taken) = unit(document, &contents, request, &pieces)?;
     let mut notes = vec![taken];
-    let pieces = of_size(document, &contents, request, pieces, &mut notes)?;
+    let (pieces, taken) = of_size(document, &contents, request, pieces)?;
+    notes.extend(taken);
     let mut reader = Reader { document, unit, mistakes: Vec::new(), notes };
     let mut panels = Vec::new();
     for piece in pieces {
@@ -61,12 +62,6 @@ fn is_piece(block: &Block) -> bool {
     })
 }
 
-/// Returns the number of a layer.
-fn layer(name: &str) -> Option<u32> {
-    let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
-    digits.parse().ok()
-}
-
 /// Returns the mistake of a file without pieces.
 fn no_piece(document: &Document, contents: &Contents) -> Diagnostics {
     let all = contents.blocks.iter().chain([&contents.loose]).flat_map(|block| &block.entities);
@@ -81,20 +76,6 @@ fn no_piece(document: &Document, contents: &Contents) -> Diagnostics {
     };
     let help = "export the pattern as DXF-AAMA or DXF-ASTM, or put outlines on layer 1";
     Diagnostic::new(document.path(), message).help(help).into()
-}
-
-/// Returns the value of a text such as `Piece Name: FRONT` among the entities of a block.
-fn field(block: &Block, key: &str) -> Option<String> {
-    let texts = block.entities.iter().filter_map(|entity| match &entity.form {
-        Form::Text(text) => Some(text),
-        _ => None,
-    });
-    let mut values = texts.filter_map(|text| {
-        let (name, value) = text.split_once(':')?;
-        let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
-        name.eq_ignore_ascii_case(key).then(|| value.trim().to_owned())
-    });
-    values.find(|value| !value.is_empty())
 }
 
 /// Returns the value of a text anywhere in a file.
@@ -167,14 +148,14 @@ fn extent(block: &Block) -> f64 {
     if numbers.is_empty() { 0.0 } else { side(0).max(side(1)) }
 }
 
-/// Returns the pieces of one size: the one that is asked for, or the sample size, or the only one.
+/// Returns the pieces of one size: the one that is asked for, or the sample size, or the only one;
+/// with a note on a choice.
 fn of_size<'a>(
     document: &Document,
     contents: &Contents,
     request: &Request,
     pieces: Vec<&'a Block>,
-    notes: &mut Vec<Note>,
-) -> Result<Vec<&'a Block>, Diagnostics> {
+) -> Result<(Vec<&'a Block>, Option<Note>), Diagnostics> {
     let size = |block: &Block| field(block, "size");
     let sizes: BTreeSet<String> = pieces.iter().filter_map(|block| size(block)).collect();
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
@@ -184,6 +165,7 @@ fn of_size<'a>(
     let graded = sizes.len() > 1 && counts.values().any(|count| *count > 1);
     let sample = field_of_file(contents, "sample size");
     let list = sizes.iter().cloned().collect::<Vec<_>>().join(", ");
+    let mut note = None;
     let wanted = match (&request.size, sample) {
         (Some(wanted), _) => {
             if !sizes.contains(wanted) {
@@ -197,10 +179,10 @@ fn of_size<'a>(
             }
             wanted.clone()
         }
-        (None, _) if !graded => return Ok(pieces),
+        (None, _) if !graded => return Ok((pieces, None)),
         (None, Some(sample)) if sizes.contains(&sample) => {
             let taken = format!("the size is {sample} of {list}");
-            notes.push(Note::Taken { taken, reason: "it is the sample size".into() });
+            note = Some(Note::Taken { taken, reason: "it is the sample size".into() });
             sample
         }
         (None, _) => {
@@ -213,5 +195,6 @@ fn of_size<'a>(
             return Err(Diagnostic::new(document.path(), message).help(help).into());
         }
     };
-    Ok(pieces.into_iter().filter(|block| size(block).is_none_or(|size| size == wanted)).collect())
+    let fits = |block: &&Block| size(block).is_none_or(|size| size == wanted);
+    Ok((pieces.into_iter().filter(fits).collect(), note))
 }

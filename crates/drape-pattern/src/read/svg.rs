@@ -53,14 +53,20 @@ pub(crate) fn read(document: &Document, request: &Request) -> Result<Pattern, Di
     }
     let collected = collect(&tree);
     let (scale, taken) = scale(document, &tree, request, &collected.shapes)?;
+    let largest = scale * collected.shapes.iter().map(Shape::extent).fold(0.0, f64::max);
+    let why = taken.to_string();
     let mut notes = collected.notes;
     notes.push(taken);
     let mut reader = Reader { document, scale, mistakes: Vec::new(), notes };
     let panels = reader.panels(collected.shapes);
     if panels.is_empty() && reader.mistakes.is_empty() {
-        let message = "the drawing has no closed shape of 20 mm or more";
-        let help = "close the outlines of the panels, and convert texts and clones to paths";
-        return Err(fail(message, help));
+        let message = format!(
+            "the drawing has no closed shape of 20 mm or more; its largest shape is {:.1} mm: {why}",
+            1e3 * largest
+        );
+        let help = "close the outlines of the panels, and convert clones to paths; if the unit is \
+                    wrong, say it: drape convert … --unit mm (cm, m, in, pt, px)";
+        return Err(fail(&message, help));
     }
     reader.pattern(panels, &tree)
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::number::decimal;
-use super::svg::escape;
+use super::xml::escape;
 use crate::edge::{Edge, difference, distance};
 use crate::panel::Panel;
 use crate::pattern::{EdgeId, Pattern, Seam};

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::number::decimal;
-use super::svg::{STYLE, Sheet, escape};
+use super::svg::{STYLE, Sheet};
+use super::xml::escape;
 use crate::pattern::Pattern;
 
 /// Border of a page that printers leave white, in mm.

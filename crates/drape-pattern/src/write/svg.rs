@@ -10,11 +10,13 @@ use std::fmt::Write;
 
 use drape_input::{toml_key, toml_string};
 
+use super::layout::{Extent, Rows};
 use super::marks::Drawn;
 use super::number::{decimal, millimetres};
 use super::toml_text::{degrees, placement};
+use super::xml::escape;
 use crate::edge::{Curve, Edge, distance};
-use crate::layout::{Extent, Rows};
+
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 
@@ -169,24 +171,4 @@ fn metadata(pattern: &Pattern) -> String {
 /// Returns a name as an entry of a list that bars divide.
 pub(crate) fn listed(name: &str) -> String {
     name.replace('%', "%25").replace('|', "%7C")
-}
-
-/// Returns a text as the content of an element or an attribute.
-pub(crate) fn escape(text: &str) -> String {
-    let mut clean = String::new();
-    for letter in text.chars() {
-        match letter {
-            '&' => clean.push_str("&amp;"),
-            '<' => clean.push_str("&lt;"),
-            '>' => clean.push_str("&gt;"),
-            '"' => clean.push_str("&quot;"),
-            '\n' => clean.push('\n'),
-            // Characters that XML does not allow.
-            letter if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => {
-                clean.push(' ');
-            }
-            letter => clean.push(letter),
-        }
-    }
-    clean
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use drape::input::{Diagnostic, Diagnostics};
 use drape::pattern::{Error, Paper, Pattern, Request, Unit};
 
-use super::ConvertArguments;
+use super::arguments::ConvertArguments;
 use crate::failure::Failure;
 use crate::file;
 use crate::say::say;

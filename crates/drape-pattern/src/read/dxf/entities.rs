@@ -199,3 +199,23 @@ fn chain(corners: &[Corner], closed: bool) -> Form {
     }
     Form::Chain(edges)
 }
+
+/// Returns the number of a layer.
+pub(crate) fn layer(name: &str) -> Option<u32> {
+    let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
+    digits.parse().ok()
+}
+
+/// Returns the value of a text such as `Piece Name: FRONT` among the entities of a block.
+pub(crate) fn field(block: &Block, key: &str) -> Option<String> {
+    let texts = block.entities.iter().filter_map(|entity| match &entity.form {
+        Form::Text(text) => Some(text),
+        _ => None,
+    });
+    let mut values = texts.filter_map(|text| {
+        let (name, value) = text.split_once(':')?;
+        let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
+        name.eq_ignore_ascii_case(key).then(|| value.trim().to_owned())
+    });
+    values.find(|value| !value.is_empty())
+}

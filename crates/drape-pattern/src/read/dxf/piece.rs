@@ -2,8 +2,7 @@
 
 use drape_input::{Diagnostic, Document};
 
-use super::entities::{Block, Form};
-use super::{field, layer};
+use super::entities::{Block, Form, field, layer};
 use crate::edge::{Curve, Edge, difference, distance};
 use crate::note::Note;
 use crate::panel::Panel;

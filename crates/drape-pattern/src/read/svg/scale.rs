@@ -6,7 +6,6 @@ use drape_input::{Diagnostic, Diagnostics, Document};
 use svgtypes::{Length, LengthUnit, ViewBox};
 
 use super::shapes::Shape;
-use crate::edge::Edge;
 use crate::note::Note;
 use crate::read::request::Request;
 use crate::read::unit::Unit;
@@ -148,17 +147,8 @@ fn by_program(
 
 /// Returns the question for the unit, with what the drawing would be in each.
 fn ambiguous(document: &Document, shapes: &[Shape]) -> Diagnostics {
-    let extent = |shape: &Shape| {
-        let edges = shape.parts.iter().flat_map(|part| &part.edges);
-        let numbers: Vec<f64> = edges.flat_map(Edge::coordinates).collect();
-        let side = |axis: usize| {
-            let all = numbers.iter().skip(axis).step_by(2);
-            all.clone().copied().fold(f64::MIN, f64::max) - all.copied().fold(f64::MAX, f64::min)
-        };
-        if numbers.is_empty() { 0.0 } else { side(0).max(side(1)) }
-    };
     let largest = shapes.iter().filter(|s| s.parts.iter().any(|p| p.edges.len() > 1));
-    let largest = largest.map(|shape| (extent(shape), &shape.name));
+    let largest = largest.map(|shape| (shape.extent(), &shape.name));
     let (size, name) = match largest.max_by(|a, b| a.0.total_cmp(&b.0)) {
         Some((size, name)) => (size, name.as_str()),
         None => (0.0, "?"),

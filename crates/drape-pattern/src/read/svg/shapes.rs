@@ -45,6 +45,19 @@ pub(crate) struct Shape {
     pub(crate) own: Option<Own>,
 }
 
+impl Shape {
+    /// Larger side of its bounding box, with control points.
+    pub(crate) fn extent(&self) -> f64 {
+        let edges = self.parts.iter().flat_map(|part| &part.edges);
+        let numbers: Vec<f64> = edges.flat_map(Edge::coordinates).collect();
+        let side = |axis: usize| {
+            let all = numbers.iter().skip(axis).step_by(2).copied();
+            all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+        };
+        if numbers.is_empty() { 0.0 } else { side(0).max(side(1)) }
+    }
+}
+
 /// Shapes of a drawing, with notes on what is none.
 pub(crate) struct Collected {
     pub(crate) shapes: Vec<Shape>,

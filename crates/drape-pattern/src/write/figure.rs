@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use super::layout::Rows;
 use crate::cut::{Cut, CutPattern};
 use crate::edge::difference;
-use crate::layout::Rows;
 use crate::panel::{Fold, Panel};
 use crate::pattern::Pattern;
 
