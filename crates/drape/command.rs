@@ -5,6 +5,7 @@ use clap::Parser;
 
 use crate::commands::bench::{self, BenchArguments};
 use crate::commands::check::{self, CheckArguments};
+use crate::commands::convert::{self, ConvertArguments};
 use crate::commands::fabric::{self, FabricCommand};
 use crate::commands::fit::{self, FitArguments};
 use crate::commands::run::{self, RunArguments};
@@ -31,6 +32,9 @@ pub(crate) enum Command {
     /// Checks scenes, fabrics, sheets and patterns without simulating, and the frames of a run for
     /// intersections.
     Check(CheckArguments),
+    /// Converts patterns: GarmentCode, FreeSewing, SVG and DXF to TOML, and patterns to SVG at true
+    /// scale, for a plotter or on pages of paper.
+    Convert(ConvertArguments),
     /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
     Bench(BenchArguments),
 }
@@ -63,6 +67,7 @@ impl Command {
             Self::Validate(arguments) => validate::validate(arguments),
             Self::Test(arguments) => test::test(arguments),
             Self::Check(arguments) => check::check(arguments),
+            Self::Convert(arguments) => convert::convert(arguments),
             Self::Bench(arguments) => bench::bench(arguments),
         }
     }

@@ -47,6 +47,8 @@ pub struct Edge {
     pub curve: Curve,
     /// Width of the hem along the edge, in m; 0 without a hem.
     pub hem: f64,
+    /// Distances of its notches from its start, along the edge, in m.
+    pub notches: Vec<f64>,
 }
 
 /// Circle of an arc.
@@ -60,7 +62,7 @@ impl Edge {
     /// Returns a straight edge.
     #[must_use]
     pub fn line(name: impl Into<String>, start: [f64; 2], end: [f64; 2]) -> Self {
-        Self { name: name.into(), start, end, curve: Curve::Line, hem: 0.0 }
+        Self { name: name.into(), start, end, curve: Curve::Line, hem: 0.0, notches: Vec::new() }
     }
 
     /// Returns the edge with another curve.
@@ -117,7 +119,10 @@ impl Edge {
             Curve::Arc { sweep } => Curve::Arc { sweep: -sweep },
             curve => curve,
         };
-        Self { name: self.name.clone(), start: self.end, end: self.start, curve, hem: self.hem }
+        let length = if self.notches.is_empty() { 0.0 } else { self.length() };
+        let notches = self.notches.iter().rev().map(|at| length - at).collect();
+        let (start, end) = (self.end, self.start);
+        Self { name: self.name.clone(), start, end, curve, hem: self.hem, notches }
     }
 
     /// Returns the edge with its points mapped by an isometry, which is a reflection if `reflects`.
@@ -129,7 +134,71 @@ impl Edge {
             Curve::Arc { sweep } => Curve::Arc { sweep: if reflects { -sweep } else { sweep } },
         };
         let (start, end) = (map(self.start), map(self.end));
-        Self { name: self.name.clone(), start, end, curve, hem: self.hem }
+        let (name, notches) = (self.name.clone(), self.notches.clone());
+        Self { name, start, end, curve, hem: self.hem, notches }
+    }
+
+    /// Returns the parts of the edge between distances from its start, in m, each numbered after
+    /// its name.
+    ///
+    /// Distances must lie within the edge, in ascending order.
+    pub(crate) fn split(&self, distances: &[f64]) -> Vec<Self> {
+        let length = self.length();
+        let accuracy = ACCURACY * self.size();
+        let parameter = |distance: f64| match self.curve {
+            Curve::Line | Curve::Arc { .. } => distance / length,
+            _ => self.segment().inv_arclen(distance, accuracy),
+        };
+        let ends: Vec<f64> =
+            [0.0].into_iter().chain(distances.iter().copied()).chain([length]).collect();
+        let part = |(number, pair): (usize, &[f64])| {
+            let (from, to) =
+                (parameter(pair[0]), if pair[1] < length { parameter(pair[1]) } else { 1.0 });
+            let pair_of = |p: Point| [p.x, p.y];
+            let curve = match self.segment().subsegment(from..to) {
+                _ if matches!(self.curve, Curve::Arc { .. }) => match self.curve {
+                    Curve::Arc { sweep } => Curve::Arc { sweep: (to - from) * sweep },
+                    curve => curve,
+                },
+                PathSeg::Line(_) => Curve::Line,
+                PathSeg::Quad(quad) => Curve::Quadratic(pair_of(quad.p1)),
+                PathSeg::Cubic(cubic) => Curve::Cubic([pair_of(cubic.p1), pair_of(cubic.p2)]),
+            };
+            let within = self.notches.iter().filter(|at| pair[0] < **at && **at <= pair[1]);
+            Self {
+                name: format!("{} {}", self.name, number + 1),
+                start: self.at_parameter(from),
+                end: self.at_parameter(to),
+                curve,
+                hem: self.hem,
+                notches: within.map(|at| at - pair[0]).collect(),
+            }
+        };
+        ends.windows(2).enumerate().map(part).collect()
+    }
+
+    /// Returns the distance along the edge of its point nearest to another, and the distance
+    /// between them, in m, as exact as chords of a thousandth of the edge are.
+    pub(crate) fn nearest(&self, point: [f64; 2]) -> [f64; 2] {
+        let length = self.length();
+        let count = 1000;
+        let at = |k: usize| k as f64 / f64::from(count);
+        let points: Vec<[f64; 2]> =
+            (0..=count as usize).map(|k| self.at_parameter(at(k))).collect();
+        let (mut along, mut best) = (0.0, [0.0, f64::INFINITY]);
+        for pair in points.windows(2) {
+            let chord = difference(pair[1], pair[0]);
+            let size = distance(pair[0], pair[1]).max(f64::MIN_POSITIVE);
+            let arm = difference(point, pair[0]);
+            let t = ((arm[0] * chord[0] + arm[1] * chord[1]) / (size * size)).clamp(0.0, 1.0);
+            let foot = [pair[0][0] + t * chord[0], pair[0][1] + t * chord[1]];
+            let off = distance(foot, point);
+            if off < best[1] {
+                best = [along + t * size, off];
+            }
+            along += size;
+        }
+        [best[0].min(length), best[1]]
     }
 
     fn circle(&self, sweep: f64) -> Circle {

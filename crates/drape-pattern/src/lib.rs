@@ -31,16 +31,17 @@ mod note;
 mod cut;
 mod read;
 
-// Pictures of cuts.
-mod figure;
+// Patterns and cuts to files.
+mod write;
 
 pub use cut::{Cut, CutPattern, Cutter, NodeId, Quality, SeamNodes, Tie};
 pub use ease::MAX_EASE;
 pub use edge::{Curve, Edge};
 pub use error::Error;
-pub use figure::figure;
 pub use mistake::{Mistake, Subject};
 pub use note::Note;
 pub use panel::{Fold, Panel};
 pub use pattern::{EdgeId, Pattern, Seam};
 pub use placement::Placement;
+pub use read::{Place, Request, SeamKeys, Unit};
+pub use write::{Page, Paper, figure};

@@ -28,6 +28,37 @@ pub enum Note {
         /// The panels.
         panels: Vec<String>,
     },
+    /// The format has no seams.
+    #[error(
+        "no seams: {format} does not say which edges are sewn; add [seam.NAME] with sides = \
+         [[\"PANEL.EDGE\"], [\"PANEL.EDGE\"]]"
+    )]
+    NoSeams {
+        /// The format.
+        format: &'static str,
+    },
+    /// A part of the file is no panel.
+    #[error("left out, {part}: {reason}")]
+    LeftOut {
+        /// The part.
+        part: String,
+        /// Why it is no panel.
+        reason: String,
+    },
+    /// Seams of the file name edges that the pattern has no more.
+    #[error("seams of edges that are left out or split are left out too: {}", seams.join(", "))]
+    SeamsLeftOut {
+        /// The seams.
+        seams: Vec<String>,
+    },
+    /// Something was taken that the file does not say outright, and why.
+    #[error("{taken}: {reason}")]
+    Taken {
+        /// What was taken.
+        taken: String,
+        /// Why.
+        reason: String,
+    },
     /// A panel is half of a symmetric one, and the file says so.
     #[error("panel {panel} is cut on the fold: it was unfolded along edge {edge}")]
     Unfolded {

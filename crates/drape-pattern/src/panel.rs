@@ -43,6 +43,7 @@ pub struct Panel {
     placement: Option<Placement>,
     clockwise: bool,
     folds: Vec<Fold>,
+    fabric: Option<String>,
 }
 
 /// Straight line along which a panel is folded at rest.
@@ -83,7 +84,8 @@ impl Panel {
         if clockwise {
             outline = outline.iter().rev().map(Edge::reversed).collect();
         }
-        Ok(Self { name, outline, grain: 0.0, placement: None, clockwise, folds: Vec::new() })
+        let (grain, placement, folds, fabric) = (0.0, None, Vec::new(), None);
+        Ok(Self { name, outline, grain, placement, clockwise, folds, fabric })
     }
 
     /// Returns the panel with its warp at an angle to its y axis, anticlockwise, in rad.
@@ -96,6 +98,13 @@ impl Panel {
         }
         self.grain = angle;
         Ok(self)
+    }
+
+    /// Returns the panel of a fabric that the scene gives a name.
+    #[must_use]
+    pub fn with_fabric(mut self, fabric: impl Into<String>) -> Self {
+        self.fabric = Some(fabric.into());
+        self
     }
 
     /// Returns the panel with folds.
@@ -147,6 +156,46 @@ impl Panel {
         self
     }
 
+    /// Returns the panel under another name.
+    #[must_use]
+    pub(crate) fn renamed(mut self, name: &str) -> Self {
+        self.name = name.into();
+        self
+    }
+
+    /// Returns the mirror image of the panel, as the left one of a right one: reflected in its y
+    /// axis, at the place that is reflected in the plane x = 0 of space. Its right side stays its
+    /// right side.
+    #[must_use]
+    pub(crate) fn mirrored(mut self) -> Self {
+        let mirror = |[x, y]: [f64; 2]| [-x, y];
+        self.outline =
+            self.outline.iter().rev().map(|edge| edge.reversed().mapped(true, mirror)).collect();
+        self.grain = 0.0 - self.grain;
+        self.placement = self.placement.map(Placement::mirrored);
+        self.folds.iter_mut().for_each(|fold| fold.ends = fold.ends.map(mirror));
+        self
+    }
+
+    /// Returns the panel with its outline and folds shifted in its frame, in m; `None` if that is
+    /// too far.
+    #[must_use]
+    pub(crate) fn shifted(&self, by: [f64; 2]) -> Option<Self> {
+        let near = |p: [f64; 2]| p.iter().all(|x| x.abs() <= FARTHEST);
+        let moved = |p: [f64; 2]| [p[0] + by[0], p[1] + by[1]];
+        let mut panel = self.clone();
+        panel.outline = self.outline.iter().map(|edge| edge.mapped(false, moved)).collect();
+        panel.folds.iter_mut().for_each(|fold| fold.ends = fold.ends.map(moved));
+        panel.outline.iter().all(|edge| near(edge.start)).then_some(panel)
+    }
+
+    /// Returns the panel with its edges changed by a function that keeps the outline where it is.
+    #[must_use]
+    pub(crate) fn with_edges(mut self, change: impl Fn(&Edge) -> Vec<Edge>) -> Self {
+        self.outline = self.outline.iter().flat_map(change).collect();
+        self
+    }
+
     /// Name of the panel.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -169,6 +218,13 @@ impl Panel {
     #[must_use]
     pub fn folds(&self) -> &[Fold] {
         &self.folds
+    }
+
+    /// Fabric that the panel is cut from, by the name that the scene gives it; `None` for the
+    /// garment's.
+    #[must_use]
+    pub fn fabric(&self) -> Option<&str> {
+        self.fabric.as_deref()
     }
 
     /// Place in space, if the pattern gives one.

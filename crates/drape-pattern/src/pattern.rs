@@ -76,10 +76,34 @@ impl Pattern {
         if mistakes.is_empty() { Ok(pattern) } else { Err(mistakes) }
     }
 
+    /// Returns the notes of its reader.
+    pub(crate) fn reader_notes(&self) -> Vec<Note> {
+        let of_reader = |note: &&Note| !matches!(note, Note::Twisted { .. });
+        self.notes.iter().filter(of_reader).cloned().collect()
+    }
+
+    /// Returns the pattern with the grain of a panel, by its number, in rad.
+    ///
+    /// # Errors
+    /// The angle is not finite.
+    pub fn with_grain(mut self, panel: usize, grain: f64) -> Result<Self, Mistake> {
+        let name = self.panels[panel].name().to_owned();
+        self.panels[panel] = self.panels[panel].clone().with_grain(grain)?;
+        for note in &mut self.notes {
+            if let Note::NoGrain { panels } = note {
+                panels.retain(|other| *other != name);
+            }
+        }
+        self.notes.retain(|note| !matches!(note, Note::NoGrain { panels } if panels.is_empty()));
+        Ok(self)
+    }
+
     /// Returns the pattern with the notes of its reader, and notes on seams that seem twisted.
     pub(crate) fn with_notes(mut self, notes: Vec<Note>) -> Self {
         let twisted = (0..self.seams.len()).filter_map(|k| self.twisted(k));
-        self.notes = notes.into_iter().chain(twisted).collect();
+        let sewn = !self.seams.is_empty();
+        let notes = notes.into_iter().filter(|n| !(sewn && matches!(n, Note::NoSeams { .. })));
+        self.notes = notes.chain(twisted).collect();
         self
     }
 

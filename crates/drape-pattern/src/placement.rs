@@ -60,6 +60,33 @@ impl Placement {
         self
     }
 
+    /// Returns the place of a mirror image in the plane x = 0 of space.
+    pub(crate) fn mirrored(mut self) -> Self {
+        for (row, of_x) in self.rotation.iter_mut().zip([true, false, false]) {
+            for (column, number) in row.iter_mut().enumerate() {
+                // Both the frame and space are reflected in x.
+                if of_x != (column == 0) {
+                    *number = -*number;
+                }
+            }
+        }
+        self.translation[0] = -self.translation[0];
+        self
+    }
+
+    /// Returns the rotations about x, then y, then z that [`Placement::new`] takes, in rad.
+    #[must_use]
+    pub fn angles(&self) -> [f64; 3] {
+        let r = &self.rotation;
+        let cosine = r[0][0].hypot(r[1][0]);
+        let y = (-r[2][0]).atan2(cosine);
+        if cosine < 1e-9 {
+            // Rotations about x and z are one: all of it is taken as about x.
+            return [(-r[1][2]).atan2(r[1][1]), y, 0.0];
+        }
+        [r[2][1].atan2(r[2][2]), y, r[1][0].atan2(r[0][0])]
+    }
+
     pub(crate) fn is_finite(&self) -> bool {
         let numbers = self.rotation.iter().flatten().chain(&self.translation).chain(&self.wrap);
         numbers.copied().all(f64::is_finite)
@@ -103,6 +130,28 @@ mod tests {
         let axis = Placement { wrap: None, ..placement };
         let behind = [0, 1, 2].map(|k| axis.point([0.0, y])[k] - 0.15 * axis.rotation[k][2]);
         assert!((apart(here, behind) - 0.15).abs() < 1e-12);
+    }
+
+    #[test]
+    fn angles_give_the_rotation_again() {
+        for angles in
+            [[0.3, -1.1, 2.0], [-3.0, 0.2, -0.4], [0.4, FRAC_PI_2, 0.9], [0.4, -FRAC_PI_2, 0.9]]
+        {
+            let placement = Placement::new(angles, [0.1, 0.2, 0.3]);
+            let again = Placement::new(placement.angles(), [0.1, 0.2, 0.3]);
+            for point in [[0.3, 0.1], [-0.2, 0.7]] {
+                let off = apart(placement.point(point), again.point(point));
+                assert!(off < 1e-8, "{angles:?}: {off}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_mirrored_point_lies_across_the_plane() {
+        let placement = Placement::new([0.3, -1.1, 2.0], [1.0, 2.0, 3.0]).with_wrap(Some(0.15));
+        let [x, y, z] = placement.point([0.21, -0.4]);
+        let across = placement.mirrored().point([-0.21, -0.4]);
+        assert!(apart([-x, y, z], across) < 1e-15, "{across:?}");
     }
 
     #[test]

@@ -2,17 +2,26 @@
 //!
 //! [`Pattern::read`] tells the format by the ending of the path and by the content: the project's
 //! own TOML (`toml_file`), JSON of GarmentCode and its predecessor (`garmentcode`), JSON of
-//! FreeSewing (`freesewing`); `svg_path` reads the path data of SVG, which is also a key of the
-//! TOML. Each reader mirrors its file with serde, converts lengths to m and angles to rad, makes
-//! [`Panel`](crate::Panel)s and seams of it, and collects all mistakes with their places and
-//! remedies. Checks of outlines and seams are in `panel` and `pattern`; the chapter hands on a
-//! checked [`Pattern`] to `cut`.
+//! FreeSewing (`freesewing`), drawings in SVG (`svg`), and DXF of pattern makers' programs (`dxf`,
+//! ASTM D6673); `svg_path` reads the path data of SVG, which is also a key of the TOML. Each reader
+//! converts lengths to m and angles to rad, makes [`Panel`](crate::Panel)s and seams of the file,
+//! and collects all mistakes with their places and remedies. What a file may not say itself, such
+//! as the unit of a drawing, is in a [`Request`]. Checks of outlines and seams are in `panel` and
+//! `pattern`; the chapter hands on a checked [`Pattern`] to `cut`.
 
+mod chains;
 mod diagnostic;
+mod dxf;
+mod fit;
 mod freesewing;
 mod garmentcode;
+mod marks;
+mod request;
+mod seams;
+mod svg;
 mod svg_path;
 mod toml_file;
+mod unit;
 
 use std::path::Path;
 
@@ -23,22 +32,36 @@ use crate::error::Error;
 use crate::pattern::Pattern;
 use diagnostic::syntax;
 
-/// Largest JSON file that is read, in bytes; drafts with all their drawings have some hundred
-/// kilobytes.
+pub use request::Request;
+pub use seams::{Place, SeamKeys};
+pub use unit::Unit;
+
+/// Largest file that is read, in bytes; drafts with all their drawings have some hundred kilobytes.
 const LARGEST: u64 = 1 << 24;
 
+/// Endings of the files that hold patterns.
+const ENDINGS: [&str; 4] = ["toml", "json", "svg", "dxf"];
+
 impl Pattern {
-    /// Reads a pattern: the project's own format in TOML, GarmentCode's or FreeSewing's in JSON.
+    /// Reads a pattern: the project's own format in TOML, GarmentCode's or FreeSewing's in JSON, a
+    /// drawing in SVG or DXF.
     ///
     /// # Errors
     /// All mistakes of the file, each with its place and a remedy.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
-        let path = path.as_ref();
-        let document = match read_json(path) {
-            Some(text) => Document::new(path, text),
-            None => Document::read(path)?,
+        Self::read_as(&Request::new(path.as_ref()))
+    }
+
+    /// Reads a pattern with what its file may not say itself.
+    ///
+    /// # Errors
+    /// All mistakes of the file, each with its place and a remedy.
+    pub fn read_as(request: &Request) -> Result<Self, Error> {
+        let document = match ending(&request.path).as_str() {
+            "json" | "svg" | "dxf" => document(&request.path)?,
+            _ => Document::read(&request.path)?,
         };
-        Ok(Self::parse(&document)?)
+        Ok(parse(&document, request)?)
     }
 
     /// Returns the pattern of a document in any of the formats, told apart by the ending of its
@@ -47,38 +70,98 @@ impl Pattern {
     /// # Errors
     /// All mistakes of the text, each with its place and a remedy.
     pub fn parse(document: &Document) -> Result<Self, Diagnostics> {
-        let ending = document.path().extension().and_then(|e| e.to_str()).unwrap_or_default();
-        if ending.eq_ignore_ascii_case("toml") {
-            return toml_file::read(document);
-        }
-        if !is_json(document.path()) {
-            let help = "patterns are *.toml, or *.json of GarmentCode or FreeSewing";
-            let message = format!("files *.{ending} hold no pattern");
-            return Err(Diagnostic::new(document.path(), message).help(help).into());
-        }
-        let value: Value = serde_json::from_str(document.text())
-            .map_err(|error| syntax(document, &error).help("correct the JSON"))?;
-        match (value.get("pattern"), value.get("parts")) {
-            (Some(_), _) => garmentcode::read(document),
-            (None, Some(_)) => freesewing::read(document),
-            (None, None) => {
-                let help =
-                    "GarmentCode's specifications have \"pattern\", FreeSewing's drafts \"parts\"";
-                let message = "this JSON holds no pattern";
-                Err(Diagnostic::new(document.path(), message).help(help).into())
-            }
-        }
+        parse(document, &Request::new(document.path()))
+    }
+
+    /// Returns whether a path has the ending of a file that holds nothing but patterns.
+    #[must_use]
+    pub fn is_drawing(path: &Path) -> bool {
+        matches!(ending(path).as_str(), "json" | "svg" | "dxf")
     }
 }
 
-/// Returns whether a path has the ending of a JSON file.
-fn is_json(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
+/// Returns the pattern of a document.
+fn parse(document: &Document, request: &Request) -> Result<Pattern, Diagnostics> {
+    let ending = ending(document.path());
+    if !ENDINGS.contains(&ending.as_str()) {
+        let help = "patterns are *.toml, *.json of GarmentCode or FreeSewing, *.svg and *.dxf";
+        let message = format!("files *.{ending} hold no pattern");
+        return Err(Diagnostic::new(document.path(), message).help(help).into());
+    }
+    if request.unit.is_some() && matches!(ending.as_str(), "toml" | "json") {
+        let message = "the unit is asked for, and the format states it itself";
+        let help = "leave the unit out; it is for *.svg and *.dxf";
+        return Err(Diagnostic::new(document.path(), message).help(help).into());
+    }
+    if request.size.is_some() && ending != "dxf" {
+        let message = "a size is asked for, and the format has none";
+        let help = "leave the size out; it is for graded *.dxf";
+        return Err(Diagnostic::new(document.path(), message).help(help).into());
+    }
+    match ending.as_str() {
+        "toml" => {
+            let file = toml_file::decode(document)?;
+            let base = match file.from()? {
+                Some(from) => Some(parse(&self::document(&from.path)?, &from)?),
+                None => None,
+            };
+            file.pattern(base)
+        }
+        "svg" => svg::read(document, request),
+        "dxf" => dxf::read(document, request),
+        _ => json(document),
+    }
 }
 
-/// Returns the text of a JSON file, which may be larger than files that people write; `None` if it
-/// cannot be read.
-fn read_json(path: &Path) -> Option<String> {
-    let small = std::fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() <= LARGEST);
-    (is_json(path) && small).then(|| std::fs::read_to_string(path).ok()).flatten()
+/// Returns the pattern of a document in JSON.
+fn json(document: &Document) -> Result<Pattern, Diagnostics> {
+    let value: Value = serde_json::from_str(document.text())
+        .map_err(|error| syntax(document, &error).help("correct the JSON"))?;
+    let has = |key: &str| value.get(key).is_some();
+    if has("pattern") {
+        garmentcode::read(document)
+    } else if has("parts") || has("stacks") {
+        freesewing::read(document)
+    } else {
+        let help = "GarmentCode's specifications have \"pattern\", FreeSewing's drafts \"parts\" or \
+                    \"stacks\"";
+        let message = "this JSON holds no pattern";
+        Err(Diagnostic::new(document.path(), message).help(help).into())
+    }
+}
+
+/// Returns the ending of a path, in small letters.
+fn ending(path: &Path) -> String {
+    path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase()
+}
+
+/// Returns the document of a file that programs write, which may be larger than files that people
+/// write.
+fn document(path: &Path) -> Result<Document, Diagnostics> {
+    let size = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file).map(|m| m.len());
+    let Some(size) = size else {
+        // The reader of other files says what is missing.
+        return Document::read(path);
+    };
+    if size > LARGEST {
+        let message = format!("the file has {size} bytes, more than {LARGEST}");
+        let help = "a pattern has some hundred kilobytes: is this the right file?";
+        return Err(Diagnostic::new(path, message).help(help).into());
+    }
+    let bytes = std::fs::read(path).map_err(|error| {
+        Diagnostic::new(path, format!("cannot read the file: {error}")).help("make it readable")
+    })?;
+    match String::from_utf8(bytes) {
+        Ok(text) => Ok(Document::new(path, text)),
+        // Older programs write DXF in the code page of their country; only names can have such
+        // letters.
+        Err(error) if ending(path) == "dxf" => {
+            let text: String = error.into_bytes().into_iter().map(char::from).collect();
+            Ok(Document::new(path, text))
+        }
+        Err(_) => {
+            let message = "the file is not UTF-8";
+            Err(Diagnostic::new(path, message).help("save it as UTF-8").into())
+        }
+    }
 }

@@ -363,7 +363,7 @@ fn mistakes_of_garmentcode_are_named_together() {
     garment(&[("/pattern/panels/Lback/vertices", "3")], &["t.json:1:", "invalid type"]);
     says("t.json", "{\"pattern\": 1", &["t.json:1:13", "EOF"]);
     says("t.json", "[]", &["holds no pattern", "parts"]);
-    says("t.dxf", "", &["files *.dxf hold no pattern"]);
+    says("t.pdf", "", &["files *.pdf hold no pattern"]);
     let missing = Pattern::read("patterns/shrt.json").expect_err("there is none").to_string();
     assert!(missing.contains("did you mean patterns/shirt.json?"), "{missing}");
 }
@@ -404,8 +404,14 @@ fn freesewing_drafts_are_unfolded_and_named_by_their_points() {
     assert!(pattern.panels().iter().all(|p| p.grain().abs() < 1e-12 && !p.was_clockwise()));
     assert!(matches!(&pattern.notes()[0], Note::Unfolded { edge, .. } if edge == "cbNeck-cbHem"));
 
-    let wrong = shipped("teagan.json").replacen("\"seam\":", "\"saem\":", 1);
-    says("teagan.json", &wrong, &["has no \"seam\"", "saem"]);
+    let other = shipped("teagan.json").replacen("\"seam\":", "\"contour\":", 1);
+    let pattern = Pattern::parse(&Document::new("t.json", other)).expect("a closed path is enough");
+    let said = pattern.notes().iter().any(|note| note.to_string().contains("the path \"contour\""));
+    assert!(said && pattern.panels().len() == 3, "{:?}", pattern.notes());
+    let empty = shipped("teagan.json").replacen("\"paths\":{", "\"paths\":{},\"other\":{", 1);
+    let pattern = Pattern::parse(&Document::new("t.json", empty)).expect("two parts are enough");
+    let said = pattern.notes().iter().any(|note| note.to_string().contains("the part is empty"));
+    assert!(said && pattern.panels().len() == 2, "{:?}", pattern.notes());
     let wrong = shipped("teagan.json").replacen("{\"t\":\"L\"", "{\"t\":\"X\"", 20);
     says("teagan.json", &wrong, &["parts.teagan.front.paths.seam.ops[1] is no part"]);
     says("d.json", "{\"parts\": {}}", &["no part of the draft is shown"]);

@@ -1,8 +1,8 @@
 //! Reader of drafts of FreeSewing, in JSON: parts with paths and named points, in mm, with y down.
 //!
-//! The outline of a part is its path `seam`. Its edges are named by the points at their ends; of
-//! several points at one position the first by the alphabet counts. A part that is cut on the fold
-//! is unfolded.
+//! The outline of a part is its path `seam`, or else its largest closed path; a part without one is
+//! left out. Its edges are named by the points at their ends; of several points at one position the
+//! first by the alphabet counts. A part that is cut on the fold is unfolded.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,8 @@ use drape_input::{Diagnostic, Diagnostics, Document};
 use serde::Deserialize;
 
 use super::diagnostic::{diagnostic, syntax, wrong_unit};
-use crate::edge::{Curve, Edge, difference, distance};
+use super::marks::{add_notch, grain_of, unfold};
+use crate::edge::{Curve, Edge, distance};
 use crate::note::Note;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
@@ -23,7 +24,17 @@ const SAME: f64 = 1e-6;
 
 #[derive(Deserialize)]
 struct Draft {
+    /// Parts by name, as scripts write them.
+    #[serde(default)]
     parts: BTreeMap<String, Part>,
+    /// What FreeSewing itself hands to programs that draw: stacks of parts.
+    #[serde(default)]
+    stacks: BTreeMap<String, Stack>,
+}
+
+#[derive(Deserialize)]
+struct Stack {
+    parts: Vec<Part>,
 }
 
 #[derive(Deserialize)]
@@ -33,7 +44,9 @@ struct Part {
     #[serde(default)]
     paths: BTreeMap<String, Path>,
     #[serde(default)]
-    points: BTreeMap<String, [f64; 2]>,
+    points: BTreeMap<String, Point>,
+    #[serde(default)]
+    snippets: BTreeMap<String, Snippet>,
 }
 
 #[derive(Deserialize)]
@@ -43,11 +56,41 @@ struct Path {
 
 #[derive(Deserialize)]
 struct Operation {
+    #[serde(alias = "type")]
     t: String,
-    p: Option<[f64; 2]>,
-    cp1: Option<[f64; 2]>,
-    cp2: Option<[f64; 2]>,
+    #[serde(alias = "to")]
+    p: Option<Point>,
+    cp1: Option<Point>,
+    cp2: Option<Point>,
 }
+
+#[derive(Deserialize)]
+struct Snippet {
+    #[serde(default)]
+    def: String,
+    anchor: Option<Point>,
+}
+
+#[derive(Deserialize, Clone, Copy)]
+#[serde(untagged)]
+enum Point {
+    Pair([f64; 2]),
+    Named { x: f64, y: f64 },
+}
+
+impl Point {
+    /// Returns the point in the panel's frame, in m, with y up.
+    fn flipped(self) -> [f64; 2] {
+        let [x, y] = match self {
+            Self::Pair(pair) => pair,
+            Self::Named { x, y } => [x, y],
+        };
+        [UNIT * x, -UNIT * y]
+    }
+}
+
+/// Points of a part by name, in m, with y up.
+type Points = BTreeMap<String, [f64; 2]>;
 
 /// Reader of one document with the mistakes and notes so far.
 struct Reader<'a> {
@@ -64,15 +107,29 @@ pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
     })?;
     let mut reader =
         Reader { document, mistakes: Vec::new(), notes: Vec::new(), grainless: Vec::new() };
-    let shown = draft.parts.iter().filter(|(_, part)| !part.hidden);
+    let mut parts: Vec<(String, &Part)> =
+        draft.parts.iter().map(|(name, part)| (name.clone(), part)).collect();
+    for (name, stack) in &draft.stacks {
+        parts.extend(stack.parts.iter().enumerate().map(|(number, part)| match number {
+            0 => (name.clone(), part),
+            _ => (format!("{name} {}", number + 1), part),
+        }));
+    }
+    let shown = parts.iter().filter(|(_, part)| !part.hidden);
     let panels: Vec<Panel> = shown.filter_map(|(name, part)| reader.panel(name, part)).collect();
     if panels.is_empty() && reader.mistakes.is_empty() {
-        let message = "no part of the draft is shown";
-        reader.mistakes.push(Diagnostic::new(document.path(), message).help("draft it again"));
+        let left: Vec<String> = reader.notes.iter().map(ToString::to_string).collect();
+        let message = match left.is_empty() {
+            true => "no part of the draft is shown".to_owned(),
+            false => format!("no part of the draft is a panel: {}", left.join("; ")),
+        };
+        let help = "draft it again, with parts whose outline is the path \"seam\"";
+        reader.mistakes.push(Diagnostic::new(document.path(), message).help(help));
     }
     if !reader.grainless.is_empty() {
         reader.notes.push(Note::NoGrain { panels: reader.grainless });
     }
+    reader.notes.push(Note::NoSeams { format: "a FreeSewing draft" });
     if reader.mistakes.is_empty() {
         match Pattern::new(panels, Vec::new()) {
             Ok(pattern) => return Ok(pattern.with_notes(reader.notes)),
@@ -82,26 +139,17 @@ pub(crate) fn read(document: &Document) -> Result<Pattern, Diagnostics> {
     Err(Diagnostics(reader.mistakes))
 }
 
-/// Returns a point of the draft in the panel's frame, in m, with y up.
-fn flipped([x, y]: [f64; 2]) -> [f64; 2] {
-    [UNIT * x, -UNIT * y]
-}
-
 impl Reader<'_> {
-    /// Returns the panel of a part.
+    /// Returns the panel of a part, or a note on why it is none.
     fn panel(&mut self, name: &str, part: &Part) -> Option<Panel> {
-        let place = format!("parts.{name}.paths");
-        let Some(path) = part.paths.get("seam") else {
-            let known: Vec<&str> = part.paths.keys().map(String::as_str).collect();
-            let help = format!("an outline is the path \"seam\"; there are: {}", known.join(", "));
-            let message = format!("{place} has no \"seam\"");
-            self.mistakes.push(Diagnostic::new(self.document.path(), message).help(help));
-            return None;
-        };
-        let mut edges = match edges(path, &part.points) {
+        let points: Points =
+            part.points.iter().map(|(name, point)| (name.clone(), point.flipped())).collect();
+        let (key, path) = self.outline(name, part)?;
+        let mut edges = match edges(path, &points) {
             Ok(edges) => edges,
             Err(index) => {
-                let message = format!("{place}.seam.ops[{index}] is no part of an outline");
+                let message =
+                    format!("parts.{name}.paths.{key}.ops[{index}] is no part of an outline");
                 let help = "ops are M with p first, L with p, C with cp1, cp2 and p, Z last";
                 self.mistakes.push(Diagnostic::new(self.document.path(), message).help(help));
                 return None;
@@ -110,22 +158,15 @@ impl Reader<'_> {
         let line = |word: &str| {
             let mut all = part.paths.iter().filter(|(key, _)| key.starts_with(word));
             let ops = &all.find(|(key, _)| key.ends_with("_line"))?.1.ops;
-            Some([flipped(ops.first()?.p?), flipped(ops.last()?.p?)])
+            Some([ops.first()?.p?.flipped(), ops.last()?.p?.flipped()])
         };
+        notches(&mut edges, part);
         let fold = line("__macro_cutonfold");
         if let Some(edge) = fold.and_then(|fold| unfold(&mut edges, fold)) {
             self.notes.push(Note::Unfolded { panel: name.into(), edge });
         }
         // The fold lies along the grain where a draft shows no grainline.
-        let grain = line("__macro_grainline").or(fold).map(|[from, to]| {
-            let along = difference(to, from);
-            // The line has no sense: the warp is taken within a right angle of the y axis.
-            let up = if along[1] < 0.0 { -1.0 } else { 1.0 };
-            (-up * along[0]).atan2(up * along[1])
-        });
-        if grain.is_none() {
-            self.grainless.push(name.into());
-        }
+        let grain = line("__macro_grainline").or(fold).map(grain_of);
         let panel = match Panel::new(name, edges) {
             Ok(panel) => panel,
             Err(all) => {
@@ -133,17 +174,79 @@ impl Reader<'_> {
                 return None;
             }
         };
+        if grain.is_none() {
+            self.grainless.push(name.into());
+        }
         self.mistakes.extend(wrong_unit(&panel).map(|m| diagnostic(self.document, &m)));
         if panel.was_clockwise() {
             self.notes.push(Note::Reversed { panel: name.into() });
         }
         panel.with_grain(grain.unwrap_or_default()).ok()
     }
+
+    /// Returns the path that is the outline of a part: the one of the usual name, or else the
+    /// closed path round the largest area; a note if there is none.
+    fn outline<'p>(&mut self, name: &str, part: &'p Part) -> Option<(&'p str, &'p Path)> {
+        if let Some((key, path)) = part.paths.get_key_value("seam") {
+            return Some((key, path));
+        }
+        let closed = part.paths.iter().filter(|(key, path)| {
+            let last = path.ops.last().is_some_and(|op| kind(op) == "Z");
+            last && !key.starts_with("__") && !is_allowance(key)
+        });
+        let areas = closed.filter_map(|(key, path)| {
+            let edges = edges(path, &Points::new()).ok()?;
+            let area: f64 = edges.iter().map(Edge::area).sum();
+            Some((area.abs(), key, path))
+        });
+        let (_, key, path) = match areas.max_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some(largest) if largest.0 > 0.0 => largest,
+            _ => {
+                let known: Vec<&str> = part.paths.keys().map(String::as_str).collect();
+                let reason = match known.is_empty() {
+                    true => "the part is empty".to_owned(),
+                    false => format!("no closed path among {}", known.join(", ")),
+                };
+                self.notes.push(Note::LeftOut { part: format!("part {name}"), reason });
+                return None;
+            }
+        };
+        self.notes.push(Note::Taken {
+            taken: format!("panel {name}: its outline is the path \"{key}\""),
+            reason: "there is no \"seam\", and it is the closed path round the largest area".into(),
+        });
+        Some((key, path))
+    }
+}
+
+/// Returns whether a path is named as one of a seam allowance.
+fn is_allowance(key: &str) -> bool {
+    key == "sa" || key.starts_with("saBase") || key.ends_with("SA") || key.ends_with("Sa")
+}
+
+/// Returns the letter of an operation in SVG, however it is written.
+fn kind(operation: &Operation) -> &str {
+    match operation.t.as_str() {
+        "move" => "M",
+        "line" => "L",
+        "curve" => "C",
+        "close" => "Z",
+        "noop" => "",
+        other => other,
+    }
+}
+
+/// Puts the notches of a part on its edges.
+fn notches(edges: &mut [Edge], part: &Part) {
+    let all = part.snippets.values().filter(|snippet| snippet.def.ends_with("notch"));
+    for at in all.filter_map(|snippet| Some(snippet.anchor?.flipped())) {
+        add_notch(edges, at);
+    }
 }
 
 /// Returns the edges of a path, or the number of the first operation that cannot belong to an
 /// outline.
-fn edges(path: &Path, points: &BTreeMap<String, [f64; 2]>) -> Result<Vec<Edge>, usize> {
+fn edges(path: &Path, points: &Points) -> Result<Vec<Edge>, usize> {
     let mut edges: Vec<Edge> = Vec::new();
     let mut ends: Option<([f64; 2], [f64; 2])> = None;
     let mut closed = false;
@@ -160,9 +263,10 @@ fn edges(path: &Path, points: &BTreeMap<String, [f64; 2]>) -> Result<Vec<Edge>, 
         }
     };
     for (index, operation) in path.ops.iter().enumerate() {
-        let Operation { t, p, cp1, cp2 } = operation;
-        let end = p.map(flipped);
-        match (t.as_str(), ends, end) {
+        let Operation { p, cp1, cp2, .. } = operation;
+        let end = p.map(Point::flipped);
+        match (kind(operation), ends, end) {
+            ("", ..) => {}
             _ if closed => return Err(index),
             ("M", None, Some(end)) => ends = Some((end, end)),
             ("L", Some((start, at)), Some(end)) => {
@@ -170,7 +274,7 @@ fn edges(path: &Path, points: &BTreeMap<String, [f64; 2]>) -> Result<Vec<Edge>, 
                 ends = Some((start, end));
             }
             ("C", Some((start, at)), Some(end)) => {
-                let controls = [cp1.ok_or(index)?, cp2.ok_or(index)?].map(flipped);
+                let controls = [cp1.ok_or(index)?, cp2.ok_or(index)?].map(Point::flipped);
                 push(at, end, Curve::Cubic(controls));
                 ends = Some((start, end));
             }
@@ -185,8 +289,8 @@ fn edges(path: &Path, points: &BTreeMap<String, [f64; 2]>) -> Result<Vec<Edge>, 
 }
 
 /// Returns the name of the point at a position: the first by the alphabet that a designer gave.
-fn point_name(points: &BTreeMap<String, [f64; 2]>, at: [f64; 2]) -> String {
-    let here = |p: &[f64; 2]| distance(flipped(*p), at) < SAME;
+fn point_name(points: &Points, at: [f64; 2]) -> String {
+    let here = |p: &[f64; 2]| distance(*p, at) < SAME;
     let mut names: Vec<&String> =
         points.iter().filter(|(_, p)| here(p)).map(|(name, _)| name).collect();
     // Points that FreeSewing adds itself come last.
@@ -195,27 +299,4 @@ fn point_name(points: &BTreeMap<String, [f64; 2]>, at: [f64; 2]) -> String {
         Some(name) => (*name).clone(),
         None => format!("({:.0},{:.0})", at[0] / UNIT, -at[1] / UNIT),
     }
-}
-
-/// Reflects an outline in its edge that lies on a line, and returns the name of that edge; `None`
-/// if no edge does.
-fn unfold(edges: &mut Vec<Edge>, [from, to]: [[f64; 2]; 2]) -> Option<String> {
-    let length = distance(from, to);
-    let along = difference(to, from).map(|x| x / length);
-    let off = |p: [f64; 2]| {
-        let arm = difference(p, from);
-        along[0] * arm[1] - along[1] * arm[0]
-    };
-    let on_line =
-        |e: &Edge| e.curve == Curve::Line && off(e.start).abs() < SAME && off(e.end).abs() < SAME;
-    let fold = edges.iter().position(on_line)?;
-    let mirror = |p: [f64; 2]| {
-        let twice = 2.0 * off(p);
-        [p[0] + twice * along[1], p[1] - twice * along[0]]
-    };
-    edges.rotate_left(fold);
-    let name = edges.remove(0).name;
-    let other: Vec<Edge> = edges.iter().rev().map(|e| e.reversed().mapped(true, mirror)).collect();
-    edges.extend(other.into_iter().map(|e| Edge { name: format!("{} mirrored", e.name), ..e }));
-    Some(name)
 }

@@ -27,6 +27,8 @@ impl Panel {
 #[derive(Default)]
 struct Pen {
     edges: Vec<Edge>,
+    /// Number of edges of the part that are drawn already.
+    number: usize,
     start: [f64; 2],
     at: [f64; 2],
     /// Last control point of a curve of degree two, and of degree three.
@@ -38,7 +40,7 @@ impl Pen {
     fn to(&mut self, end: [f64; 2], curve: Curve) {
         // SVG drops arcs without length; drawing programs also write lines without length.
         if end != self.at {
-            let name = (self.edges.len() + 1).to_string();
+            let name = (self.number + self.edges.len() + 1).to_string();
             self.edges.push(Edge::line(name, self.at, end).curved(curve));
         }
         self.at = end;
@@ -78,17 +80,57 @@ impl Pen {
     }
 }
 
+/// Part of a path: a chain of edges, in the path's unit with y down.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Subpath {
+    pub(crate) edges: Vec<Edge>,
+    /// Whether it ends with Z.
+    pub(crate) closed: bool,
+    /// Number of its first command, from 1.
+    command: usize,
+}
+
 /// Returns the edges of a path, in m, with y up.
 pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mistake> {
+    let parts =
+        subpaths(data).map_err(|command| Mistake::PathSyntax { panel: panel.into(), command })?;
+    if let [_, Subpath { command, .. }, ..] = parts[..] {
+        return Err(Mistake::PathParts { panel: panel.into(), command });
+    }
+    let edges = parts.into_iter().next().map_or(Vec::new(), |mut part| {
+        part.edges =
+            part.edges.iter().map(|e| e.mapped(true, |[x, y]| [unit * x, -unit * y])).collect();
+        part.settled()
+    });
+    Ok(edges)
+}
+
+impl Subpath {
+    /// Returns its edges, in m, without a closing edge that is the rounding of the digits.
+    pub(crate) fn settled(mut self) -> Vec<Edge> {
+        let shut =
+            |edge: &Edge| edge.curve == Curve::Line && distance(edge.start, edge.end) <= 1e-5;
+        if self.closed && self.edges.len() > 1 && self.edges.last().is_some_and(shut) {
+            self.edges.pop();
+        }
+        self.edges
+    }
+}
+
+/// Returns the parts of a path, or the number of the first command that cannot be read.
+pub(crate) fn subpaths(data: &str) -> Result<Vec<Subpath>, usize> {
     let mut pen = Pen::default();
-    let mut closed = false;
+    let mut parts: Vec<Subpath> = Vec::new();
+    let mut open = false;
     for (index, segment) in PathParser::from(data).enumerate() {
         let command = index + 1;
-        let syntax = || Mistake::PathSyntax { panel: panel.into(), command };
-        let segment = segment.map_err(|_| syntax())?;
+        let segment = segment.map_err(|_| command)?;
         let begins = matches!(segment, PathSegment::MoveTo { .. });
-        if begins != (index == 0) || closed {
-            return Err(Mistake::PathParts { panel: panel.into(), command });
+        if begins || !open {
+            // After Z a path goes on from the start of the part that it closed.
+            (pen.edges, pen.number) = (Vec::new(), 0);
+            parts.push(Subpath { edges: Vec::new(), closed: false, command });
+            open = true;
         }
         let origin = if segment.is_abs() { [0.0; 2] } else { pen.at };
         let point = |x: f64, y: f64| [origin[0] + x, origin[1] + y];
@@ -139,21 +181,23 @@ pub(crate) fn edges(panel: &str, data: &str, unit: f64) -> Result<Vec<Edge>, Mis
                 };
                 let finite = [rx, ry, x_axis_rotation].into_iter().chain(end).all(f64::is_finite);
                 if !finite {
-                    return Err(syntax());
+                    return Err(command);
                 }
                 pen.arc(end, &arc);
             }
             PathSegment::ClosePath { .. } => {
-                // The rounding of the digits is no edge.
-                if distance(pen.at, pen.start) * unit > 1e-5 {
-                    pen.to(pen.start, Curve::Line);
-                }
-                closed = true;
+                pen.to(pen.start, Curve::Line);
+                open = false;
             }
         }
         pen.control = control;
+        if let Some(part) = parts.last_mut() {
+            part.closed = !open;
+            part.edges.append(&mut pen.edges);
+            pen.number = part.edges.len();
+        }
     }
-    Ok(pen.edges.iter().map(|e| e.mapped(true, |[x, y]| [unit * x, -unit * y])).collect())
+    Ok(parts)
 }
 
 #[cfg(test)]

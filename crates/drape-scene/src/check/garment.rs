@@ -12,8 +12,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use drape_cloth::Tie;
-use drape_input::{Diagnostic, Diagnostics};
-use drape_pattern::{CutPattern, Cutter, Error, NodeId, Pattern};
+use drape_input::{Diagnostic, Diagnostics, toml_key};
+use drape_pattern::{CutPattern, Cutter, Error, NodeId, Pattern, Place};
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::check::fabrics::check_thickness;
@@ -58,6 +58,7 @@ pub(crate) fn garments(
         let key = format!("garment[{index}]");
         let path = checker.folder.join(&entry.pattern);
         let Some(pattern) = pattern(checker, &key, &path) else { continue };
+        let Some(pattern) = changed(checker, &key, entry, pattern) else { continue };
         let Some(garment) = cut(checker, &key, entry, Numbered { pattern: &pattern, first }) else {
             continue;
         };
@@ -93,6 +94,37 @@ fn pattern(checker: &mut Checker<'_>, key: &str, path: &Path) -> Option<Pattern>
         }
         Err(error) => {
             checker.extend(Diagnostics::from(Diagnostic::new(path, error.to_string())));
+            None
+        }
+    }
+}
+
+/// Returns a pattern with the grain and the seams that a scene gives it.
+fn changed(
+    checker: &mut Checker<'_>,
+    key: &str,
+    entry: &GarmentFile,
+    pattern: Pattern,
+) -> Option<Pattern> {
+    let mut pattern = pattern;
+    for number in 0..pattern.panels().len() {
+        let name = pattern.panels()[number].name().to_owned();
+        let Some(grain) = entry.panel.get(&name).and_then(|own| own.grain) else { continue };
+        let key = format!("{key}.panel.{}.grain", toml_key(&name));
+        let help = "degrees from the panel's y axis to its warp, anticlockwise";
+        if checker.within(&key, grain, -180.0..=180.0, help) {
+            pattern = pattern.with_grain(number, grain.to_radians()).ok()?;
+        }
+    }
+    if entry.seam.is_empty() {
+        return Some(pattern);
+    }
+    let prefix = format!("{key}.");
+    let place = Place { document: checker.document(), prefix: &prefix, unit: checker.unit };
+    match pattern.with_seams(&entry.seam, &place) {
+        Ok(pattern) => Some(pattern),
+        Err(mistakes) => {
+            checker.extend(mistakes);
             None
         }
     }

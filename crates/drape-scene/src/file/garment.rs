@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use drape_pattern::SeamKeys;
 use serde::Deserialize;
 
 use crate::file::panel::NoiseFile;
@@ -27,12 +28,18 @@ pub(crate) struct GarmentFile {
     /// Keys of single panels.
     #[serde(default)]
     pub(crate) panel: BTreeMap<String, GarmentPanelFile>,
+    /// Seams that the pattern has not, or that take the place of its own of the same name.
+    #[serde(default)]
+    pub(crate) seam: BTreeMap<String, SeamKeys>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentPanelFile {
     pub(crate) fabric: Option<String>,
+    /// Angle from the panel's y axis to its warp, anticlockwise, in degrees; that of the pattern if
+    /// missing.
+    pub(crate) grain: Option<f64>,
     /// Origin of the panel's frame, and its rotations about x, y and z in degrees; those of the
     /// pattern if both are missing.
     pub(crate) center: Option<[f64; 3]>,

@@ -15,14 +15,14 @@ pub(crate) fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics>
     if file.is_dir() {
         return sheet(file);
     }
-    if file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json")) {
+    if drape::pattern::Pattern::is_drawing(file) {
         return Ok(CutOut::read(file, spacing)?.describe());
     }
     let document = Document::read(file)?;
     let table: toml::Table = document.decode()?;
     let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
     // The panels of a pattern have names, those of a scene are in a row.
-    if matches!(table.get("panel"), Some(toml::Value::Table(_))) {
+    if matches!(table.get("panel"), Some(toml::Value::Table(_))) || has(&["from"]) {
         return Ok(CutOut::read(file, spacing)?.describe());
     }
     if has(&["panel", "garment", "time", "collider"]) {

@@ -1,5 +1,6 @@
 //! Panels of a cut pattern at their places.
 
+use drape_input::toml_key;
 use drape_pattern::{CutPattern, Pattern, Placement};
 
 use crate::check::checker::Checker;
@@ -51,14 +52,30 @@ pub(crate) fn placed_panel(
     let allowances = allowances(pattern, cut, index);
     let cut = &cut.panels[index];
     let placement = placement(checker, piece);
-    let layer_key = format!("{key}.panel.{}.layer", panel.name());
+    let layer_key = format!("{key}.panel.{}.layer", toml_key(panel.name()));
     let layer = layer(checker, &layer_key, own.and_then(|own| own.layer));
     let layer = layer.unwrap_or(layer_of_garment);
     let (fabric_key, fabric) = match own.and_then(|own| own.fabric.as_ref()) {
-        Some(fabric) => (format!("{key}.panel.{}.fabric", panel.name()), fabric),
+        Some(fabric) => (format!("{key}.panel.{}.fabric", toml_key(panel.name())), fabric),
         None => (format!("{key}.fabric"), &entry.fabric),
     };
-    let material = material_index(checker, &fabric_key, fabric);
+    // A panel may have a fabric of its own in the pattern, by the name that the scene gives it.
+    let given = panel.fabric().filter(|_| own.is_none_or(|own| own.fabric.is_none()));
+    let material = match given {
+        Some(name) if !checker.file.fabric.contains_key(name) => {
+            let message =
+                format!("panel \"{}\" of the pattern is of fabric \"{name}\"", panel.name());
+            let help = format!(
+                "add [fabric.{}], or panel.{}.fabric to the garment",
+                toml_key(name),
+                toml_key(panel.name())
+            );
+            checker.fail(&format!("{key}.pattern"), message, &help);
+            None
+        }
+        Some(name) => material_index(checker, &fabric_key, name),
+        None => material_index(checker, &fabric_key, fabric),
+    };
     let lattice = lattice(cut, numbers, panel.grain(), &allowances).map_err(|error| {
         let message = format!("panel \"{}\": {error}", panel.name());
         let help = "choose another spacing, and report the pattern";
@@ -106,7 +123,8 @@ fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> 
         (None, None) => {
             let name = piece.panel().name();
             let help = format!(
-                "add center = [x, y, z] and turn = [x, y, z] to [garment.panel.{name}], or origin and turn to the pattern"
+                "add center = [x, y, z] and turn = [x, y, z] to [garment.panel.{}], or origin and turn to the pattern",
+                toml_key(name)
             );
             checker.fail(key, format!("panel \"{name}\" has no place in space"), &help);
             return None;

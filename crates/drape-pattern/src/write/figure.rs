@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use super::layout::Rows;
 use crate::cut::{Cut, CutPattern};
 use crate::edge::difference;
 use crate::panel::{Fold, Panel};
@@ -73,24 +74,8 @@ impl Sheet {
         let row = (SHAPE * area).sqrt();
         let letter = 0.012 * row;
         let gap = 3.0 * letter;
-        // Tall panels first, so that rows are full.
-        let height = |k: usize| extents[k][1][1] - extents[k][0][1];
-        let mut order: Vec<usize> = (0..extents.len()).collect();
-        order.sort_by(|&a, &b| height(b).total_cmp(&height(a)).then(a.cmp(&b)));
-        let (mut x, mut y, mut tallest, mut width) = (gap, gap, 0.0_f64, 0.0_f64);
-        let mut origins = vec![[0.0; 2]; extents.len()];
-        for k in order {
-            let [low, high] = extents[k];
-            let across = high[0] - low[0];
-            if x > gap && x + across > 1.15 * row {
-                (x, y, tallest) = (gap, y + tallest + gap, 0.0);
-            }
-            origins[k] = [x - low[0], y + high[1]];
-            x += across + gap;
-            tallest = tallest.max(height(k));
-            width = width.max(x);
-        }
-        Self { size: [width, y + tallest + gap], origins, letter }
+        let Rows { size, origins } = Rows::new(&extents, gap, 1.15 * row);
+        Self { size, origins, letter }
     }
 }
 

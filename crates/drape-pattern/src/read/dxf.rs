@@ -1,0 +1,200 @@
+//! Reader of DXF as pattern makers' programs write it: AAMA-292 and ASTM D6673.
+//!
+//! Every piece is a block; the layer says what a line is: 1 the cut line, 14 the sewing line, 2
+//! corners, 3 points of curves, 4 and 80 to 83 notches, 6 a fold, 7 the grain line, 8 lines inside,
+//! 11 cut-outs, 13 drill holes; texts name the piece, its size, and the unit. `pairs` splits the
+//! file, `entities` makes blocks of it, `piece` a panel of a block. The reader is the project's
+//! own: the `dxf` crate brings a tree of packages for whole drawings, and keeps no lines for the
+//! answers.
+
+mod entities;
+mod pairs;
+mod piece;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use drape_input::{Diagnostic, Diagnostics, Document, closest};
+
+use self::entities::{Block, Contents, Form, contents, field, layer};
+use self::pairs::pairs;
+use self::piece::Reader;
+use super::request::Request;
+use super::unit::Unit;
+use crate::edge::Edge;
+use crate::note::Note;
+use crate::pattern::Pattern;
+
+/// Returns the pattern of a file.
+pub(crate) fn read(document: &Document, request: &Request) -> Result<Pattern, Diagnostics> {
+    let contents = contents(document, &pairs(document)?)?;
+    let mut pieces: Vec<&Block> = contents.blocks.iter().filter(|block| is_piece(block)).collect();
+    if pieces.is_empty() && is_piece(&contents.loose) {
+        pieces.push(&contents.loose);
+    }
+    if pieces.is_empty() {
+        return Err(no_piece(document, &contents));
+    }
+    let (unit, taken) = unit(document, &contents, request, &pieces)?;
+    let mut notes = vec![taken];
+    let (pieces, taken) = of_size(document, &contents, request, pieces)?;
+    notes.extend(taken);
+    let mut reader = Reader { document, unit, mistakes: Vec::new(), notes };
+    let mut panels = Vec::new();
+    for piece in pieces {
+        panels.extend(reader.panel(piece));
+    }
+    let Reader { mistakes, mut notes, .. } = reader;
+    Diagnostics::check(mistakes)?;
+    notes.push(Note::NoSeams { format: "DXF" });
+    match Pattern::new(panels, Vec::new()) {
+        Ok(pattern) => Ok(pattern.with_notes(notes)),
+        Err(all) => Err(Diagnostics(
+            all.iter().map(|m| super::diagnostic::diagnostic(document, m)).collect(),
+        )),
+    }
+}
+
+/// Returns whether a block has an outline of a piece.
+fn is_piece(block: &Block) -> bool {
+    block.entities.iter().any(|entity| {
+        matches!(layer(&entity.layer), Some(1 | 14))
+            && matches!(&entity.form, Form::Chain(edges) if !edges.is_empty())
+    })
+}
+
+/// Returns the mistake of a file without pieces.
+fn no_piece(document: &Document, contents: &Contents) -> Diagnostics {
+    let all = contents.blocks.iter().chain([&contents.loose]).flat_map(|block| &block.entities);
+    let layers: BTreeSet<&str> = all.map(|entity| entity.layer.as_str()).collect();
+    let layers: Vec<&str> = layers.into_iter().take(20).collect();
+    let message = match layers.is_empty() {
+        true => "the file has no lines".to_owned(),
+        false => format!(
+            "no line is on layer 1 (cut line) or 14 (sewing line); the layers are: {}",
+            layers.join(", ")
+        ),
+    };
+    let help = "export the pattern as DXF-AAMA or DXF-ASTM, or put outlines on layer 1";
+    Diagnostic::new(document.path(), message).help(help).into()
+}
+
+/// Returns the value of a text anywhere in a file.
+fn field_of_file(contents: &Contents, key: &str) -> Option<String> {
+    let blocks = [&contents.loose].into_iter().chain(&contents.blocks);
+    blocks.into_iter().find_map(|block| field(block, key))
+}
+
+/// Returns the unit of a file, with a note on why.
+fn unit(
+    document: &Document,
+    contents: &Contents,
+    request: &Request,
+    pieces: &[&Block],
+) -> Result<(Unit, Note), Diagnostics> {
+    let taken = |unit: Unit, reason: String| {
+        (unit, Note::Taken { taken: format!("lengths are in {}", unit.word()), reason })
+    };
+    if let Some(unit) = request.unit {
+        return Ok(taken(unit, "it is asked for".into()));
+    }
+    let text = field_of_file(contents, "units");
+    let word = text.clone().unwrap_or_default().to_ascii_uppercase();
+    let by_text = match word.as_str() {
+        "METRIC" | "MM" | "MILLIMETERS" => Some(Unit::MM),
+        "ENGLISH" | "IMPERIAL" | "INCH" | "INCHES" => Some(Unit::INCH),
+        "CM" | "CENTIMETERS" => Unit::parse("cm"),
+        _ => None,
+    };
+    if let Some(unit) = by_text {
+        return Ok(taken(unit, format!("its text says \"Units: {}\"", text.unwrap_or_default())));
+    }
+    let by_header = match contents.insunits {
+        Some(1) => Some(Unit::INCH),
+        Some(4) => Some(Unit::MM),
+        Some(5) => Unit::parse("cm"),
+        Some(6) => Unit::parse("m"),
+        _ => None,
+    };
+    if let (Some(unit), Some(number)) = (by_header, contents.insunits) {
+        return Ok(taken(unit, format!("its header says $INSUNITS {number}")));
+    }
+    let largest = pieces.iter().map(|block| (extent(block), block.name.as_str()));
+    let (size, name) = largest.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, ""));
+    let message = format!(
+        "the file does not say its unit: its largest piece, \"{name}\", is {size:.1} units, which are {:.0} mm if a \
+         unit is 1 mm, {:.0} mm if it is 1 cm, {:.0} mm if it is 1 inch",
+        size,
+        10.0 * size,
+        25.4 * size
+    );
+    let help = format!(
+        "say it: drape convert {} --unit mm (or cm, in), or unit = \"mm\" in the [from] of a pattern",
+        document.path().display()
+    );
+    Err(Diagnostic::new(document.path(), message).help(help).into())
+}
+
+/// Larger side of the bounding box of a piece, in the unit of the file.
+fn extent(block: &Block) -> f64 {
+    let chains = block.entities.iter().filter_map(|entity| match &entity.form {
+        Form::Chain(edges) => Some(edges),
+        _ => None,
+    });
+    let numbers: Vec<f64> = chains.flatten().flat_map(Edge::coordinates).collect();
+    let side = |axis: usize| {
+        let all = numbers.iter().skip(axis).step_by(2).copied();
+        all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+    };
+    if numbers.is_empty() { 0.0 } else { side(0).max(side(1)) }
+}
+
+/// Returns the pieces of one size: the one that is asked for, or the sample size, or the only one;
+/// with a note on a choice.
+fn of_size<'a>(
+    document: &Document,
+    contents: &Contents,
+    request: &Request,
+    pieces: Vec<&'a Block>,
+) -> Result<(Vec<&'a Block>, Option<Note>), Diagnostics> {
+    let size = |block: &Block| field(block, "size");
+    let sizes: BTreeSet<String> = pieces.iter().filter_map(|block| size(block)).collect();
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for piece in &pieces {
+        *counts.entry(piece::name(piece)).or_default() += 1;
+    }
+    let graded = sizes.len() > 1 && counts.values().any(|count| *count > 1);
+    let sample = field_of_file(contents, "sample size");
+    let list = sizes.iter().cloned().collect::<Vec<_>>().join(", ");
+    let mut note = None;
+    let wanted = match (&request.size, sample) {
+        (Some(wanted), _) => {
+            if !sizes.contains(wanted) {
+                let message = format!("there is no size \"{wanted}\"");
+                let help = match closest(wanted, sizes.iter().map(String::as_str)) {
+                    Some(similar) => format!("did you mean \"{similar}\"?"),
+                    None if sizes.is_empty() => "the file has one size: leave it out".into(),
+                    None => format!("the sizes are: {list}"),
+                };
+                return Err(Diagnostic::new(document.path(), message).help(help).into());
+            }
+            wanted.clone()
+        }
+        (None, _) if !graded => return Ok((pieces, None)),
+        (None, Some(sample)) if sizes.contains(&sample) => {
+            let taken = format!("the size is {sample} of {list}");
+            note = Some(Note::Taken { taken, reason: "it is the sample size".into() });
+            sample
+        }
+        (None, _) => {
+            let message = format!("the pieces are in several sizes: {list}");
+            let help = format!(
+                "choose one: drape convert {} --size {}",
+                document.path().display(),
+                sizes.first().map_or("", String::as_str)
+            );
+            return Err(Diagnostic::new(document.path(), message).help(help).into());
+        }
+    };
+    let fits = |block: &&Block| size(block).is_none_or(|size| size == wanted);
+    Ok((pieces.into_iter().filter(fits).collect(), note))
+}

@@ -1,0 +1,202 @@
+//! Seams as files and scenes state them: edges by name, added to a pattern or in place of its own.
+
+use std::collections::BTreeMap;
+
+use drape_input::{Diagnostic, Diagnostics, Document, closest, toml_key};
+use serde::Deserialize;
+
+use crate::ease::DEFAULT_EASE;
+use crate::mistake::{Mistake, Subject};
+use crate::pattern::{EdgeId, Pattern, Seam};
+
+/// Largest angle of a fold or a seam, in degrees; beyond it the bending of yarns is not exact.
+const ANGLE_MAX: f64 = 140.0;
+
+/// Widest allowance or hem, in m; beyond it a length in the wrong unit is far more likely.
+const WIDTH_MAX: f64 = 0.3;
+
+/// Seam as a file states it, with edges by their names.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SeamKeys {
+    /// Edges of both sides, as `panel.edge`, in the order in which the seam runs.
+    pub sides: [Vec<String>; 2],
+    /// Whether the seam joins a right side to a wrong side.
+    #[serde(default)]
+    pub reversed: bool,
+    /// Largest ratio of the lengths of the sides that is meant; 1.1 if missing.
+    pub max_ease: Option<f64>,
+    /// Angle between the sides of the sewn seam, towards their right sides, in degrees.
+    #[serde(default)]
+    pub angle: f64,
+    /// Width of the seam allowance on each side, in the unit of the file.
+    #[serde(default)]
+    pub allowance: f64,
+}
+
+/// Place of a table with seams and panels in a file.
+#[derive(Debug, Clone, Copy)]
+pub struct Place<'a> {
+    /// File that states them.
+    pub document: &'a Document,
+    /// Key of the table, with a dot at its end; empty at the top of the file.
+    pub prefix: &'a str,
+    /// Unit of its lengths, in m.
+    pub unit: f64,
+}
+
+impl Place<'_> {
+    /// Returns a mistake at a key of the table.
+    pub(crate) fn at(&self, key: &str, message: impl Into<String>, help: &str) -> Diagnostic {
+        self.document.at(&format!("{}{key}", self.prefix), message).help(help)
+    }
+
+    /// Returns the mistake of an angle of a fold or a seam, in degrees.
+    pub(crate) fn angle(&self, key: &str, angle: f64) -> Option<Diagnostic> {
+        let help = "degrees towards the right side of the cloth, from -140 to 140; 0 is flat";
+        (!(angle.abs() <= ANGLE_MAX)).then(|| self.at(key, format!("is {angle}"), help))
+    }
+
+    /// Returns the mistake of the width of an allowance or a hem.
+    pub(crate) fn width(&self, key: &str, width: f64) -> Option<Diagnostic> {
+        let right = (0.0..=WIDTH_MAX).contains(&(width * self.unit));
+        let help = "a length from 0 to 300 mm; 0 is none";
+        (!right).then(|| self.at(key, format!("is {width}"), help))
+    }
+}
+
+/// Panels that seams can name, with the names of their edges; `None` for those with mistakes.
+pub(crate) type Known<'a> = Vec<(&'a str, Option<Vec<String>>)>;
+
+/// Returns the seams that a file states, or all mistakes of their keys.
+pub(crate) fn seams(
+    place: &Place<'_>,
+    keys: &BTreeMap<String, SeamKeys>,
+    known: &Known<'_>,
+) -> Result<Vec<Seam>, Vec<Diagnostic>> {
+    let mut mistakes = Vec::new();
+    let mut seams = Vec::new();
+    for (name, seam) in keys {
+        let key = format!("seam.{}", toml_key(name));
+        let sides = [0, 1].map(|side| {
+            let key = format!("{key}.sides[{side}]");
+            let mut ids = Vec::new();
+            for word in &seam.sides[side] {
+                match edge(word, known) {
+                    Ok(id) => ids.extend(id),
+                    Err((message, help)) => mistakes.push(place.at(&key, message, &help)),
+                }
+            }
+            ids
+        });
+        mistakes.extend(place.angle(&format!("{key}.angle"), seam.angle));
+        mistakes.extend(place.width(&format!("{key}.allowance"), seam.allowance));
+        seams.push(Seam {
+            name: name.clone(),
+            sides,
+            reversed: seam.reversed,
+            max_ease: seam.max_ease.unwrap_or(DEFAULT_EASE),
+            angle: seam.angle.to_radians(),
+            allowance: seam.allowance * place.unit,
+        });
+    }
+    if mistakes.is_empty() { Ok(seams) } else { Err(mistakes) }
+}
+
+/// Returns the edge that a word such as `front.side` names, `None` if its panel has mistakes; or
+/// what is wrong with the word, and the remedy.
+fn edge(word: &str, known: &Known<'_>) -> Result<Option<EdgeId>, (String, String)> {
+    // Names of panels and edges may have dots: the longest panel counts that the word begins with.
+    let rest = |name: &str| word.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
+    let panels =
+        known.iter().enumerate().filter_map(|(k, (name, _))| Some((k, *name, rest(name)?)));
+    let Some((panel, name, edge)) = panels.max_by_key(|(_, name, _)| name.len()) else {
+        let (panel, edge) = word.rsplit_once('.').unwrap_or((word, ""));
+        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+        let help = match closest(panel, names.iter().copied()) {
+            Some(similar) if similar != panel => format!("did you mean \"{similar}.{edge}\"?"),
+            _ => format!("write panel.edge; the panels are: {}", names.join(", ")),
+        };
+        return Err((format!("\"{word}\": there is no panel \"{panel}\""), help));
+    };
+    let Some(edges) = &known[panel].1 else { return Ok(None) };
+    match edges.iter().position(|known| *known == edge) {
+        Some(edge) => Ok(Some(EdgeId { panel, edge })),
+        None => {
+            let help = match closest(edge, edges.iter().map(String::as_str)) {
+                Some(similar) => format!("did you mean \"{name}.{similar}\"?"),
+                None => format!("its edges are: {}", edges.join(", ")),
+            };
+            Err((format!("panel {name} has no edge \"{edge}\""), help))
+        }
+    }
+}
+
+/// Returns the seams of a pattern with those of a file added, or in place of those of the same
+/// name.
+pub(crate) fn merged(mut own: Vec<Seam>, added: Vec<Seam>) -> Vec<Seam> {
+    for seam in added {
+        match own.iter_mut().find(|other| other.name == seam.name) {
+            Some(other) => *other = seam,
+            None => own.push(seam),
+        }
+    }
+    own
+}
+
+/// Returns the answer to a mistake of a pattern whose seams or panels a file states.
+pub(crate) fn located(place: &Place<'_>, mistake: &Mistake) -> Diagnostic {
+    let key = match mistake.subject() {
+        Subject::Panel(panel) => format!("panel.{}.outline", toml_key(panel)),
+        Subject::Seam(seam) => format!("seam.{}.sides", toml_key(seam)),
+        Subject::Spacing => String::new(),
+    };
+    place.at(&key, mistake.to_string(), &mistake.help())
+}
+
+/// Returns the answer to a mistake of a pattern to which a file adds seams.
+pub(crate) fn answer(
+    place: &Place<'_>,
+    mistake: &Mistake,
+    seams: &BTreeMap<String, SeamKeys>,
+) -> Diagnostic {
+    let located = located(place, mistake);
+    match mistake {
+        Mistake::SewnTwice { first, .. } if !seams.contains_key(first) => {
+            let key = toml_key(first);
+            located.help(format!(
+                "the pattern sews it in seam {first}: name yours [seam.{key}] to take its place, or sew \
+                 other edges"
+            ))
+        }
+        _ => located,
+    }
+}
+
+impl Pattern {
+    /// Returns the pattern with the seams that a table of a file states; one with the name of a
+    /// seam of the pattern takes its place.
+    ///
+    /// # Errors
+    /// All mistakes of the seams, each with its place and a remedy.
+    pub fn with_seams(
+        self,
+        seams: &BTreeMap<String, SeamKeys>,
+        place: &Place<'_>,
+    ) -> Result<Self, Diagnostics> {
+        let known = self.panels().iter().map(|panel| {
+            let edges = panel.outline().iter().map(|edge| edge.name.clone());
+            (panel.name(), Some(edges.collect()))
+        });
+        let added = self::seams(place, seams, &known.collect()).map_err(Diagnostics)?;
+        let all = merged(self.seams().to_vec(), added);
+        let notes = self.reader_notes();
+        match Self::new(self.panels().to_vec(), all) {
+            Ok(pattern) => Ok(pattern.with_notes(notes)),
+            Err(mistakes) => {
+                let mistakes = mistakes.iter().map(|mistake| answer(place, mistake, seams));
+                Err(Diagnostics(mistakes.collect()))
+            }
+        }
+    }
+}

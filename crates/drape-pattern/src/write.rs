@@ -1,0 +1,15 @@
+//! Writing of patterns: the project's own TOML (`toml_text`), and drawings in SVG at true scale for
+//! a plotter (`svg`) or on pages of paper (`pages`). `marks` says what is drawn on a panel,
+//! `number` how numbers are written.
+
+mod figure;
+mod layout;
+mod marks;
+mod number;
+mod pages;
+mod svg;
+mod toml_text;
+mod xml;
+
+pub use figure::figure;
+pub use pages::{Page, Paper};

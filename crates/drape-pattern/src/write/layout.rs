@@ -1,0 +1,36 @@
+//! Layout of panels in rows on a sheet.
+
+/// Corners of the bounding box of a panel, low and high, with y up.
+pub(crate) type Extent = [[f64; 2]; 2];
+
+/// Panels in rows, the tall ones first so that rows are full.
+pub(crate) struct Rows {
+    /// Width and height of the sheet.
+    pub(crate) size: [f64; 2],
+    /// Place of the origin of each panel's frame, with y down.
+    pub(crate) origins: Vec<[f64; 2]>,
+}
+
+impl Rows {
+    /// Returns the layout of panels with a gap between them and round them. A row ends before it is
+    /// wider than a limit, if it has a panel.
+    pub(crate) fn new(extents: &[Extent], gap: f64, limit: f64) -> Self {
+        let height = |k: usize| extents[k][1][1] - extents[k][0][1];
+        let mut order: Vec<usize> = (0..extents.len()).collect();
+        order.sort_by(|&a, &b| height(b).total_cmp(&height(a)).then(a.cmp(&b)));
+        let (mut x, mut y, mut tallest, mut width) = (gap, gap, 0.0_f64, 0.0_f64);
+        let mut origins = vec![[0.0; 2]; extents.len()];
+        for k in order {
+            let [low, high] = extents[k];
+            let across = high[0] - low[0];
+            if x > gap && x + across > limit {
+                (x, y, tallest) = (gap, y + tallest + gap, 0.0);
+            }
+            origins[k] = [x - low[0], y + high[1]];
+            x += across + gap;
+            tallest = tallest.max(height(k));
+            width = width.max(x);
+        }
+        Self { size: [width, y + tallest + gap], origins }
+    }
+}

@@ -1,0 +1,174 @@
+//! Drawing of a pattern in SVG, at true scale in mm.
+//!
+//! Every panel is a group with its outline as one path, grain line, name, notches, folds, and a
+//! letter with the name at each edge that is sewn: the sides of a seam have the same letter, a dot
+//! at its first stitch, and ticks that meet. What a drawing cannot show, places in space and
+//! numbers of seams, is in its `metadata` in the project's own format, so that the drawing can be
+//! read again.
+
+use std::fmt::Write;
+
+use drape_input::{toml_key, toml_string};
+
+use super::layout::{Extent, Rows};
+use super::marks::Drawn;
+use super::number::{decimal, millimetres};
+use super::toml_text::{degrees, placement};
+use super::xml::escape;
+use crate::edge::{Curve, Edge, distance};
+
+use crate::panel::Panel;
+use crate::pattern::Pattern;
+
+/// Namespace of the metadata.
+pub(crate) const NAMESPACE: &str = "urn:drape:pattern";
+
+/// Gap between panels, in mm.
+const GAP: f64 = 15.0;
+
+/// Ratio of the width of a sheet to its height that is aimed at where no width is given.
+const SHAPE: f64 = 1.5;
+
+/// Panels drawn on one sheet.
+pub(crate) struct Sheet {
+    /// Width and height, in mm.
+    pub(crate) size: [f64; 2],
+    /// Group of each panel with its bounding box on the sheet, in mm with y down.
+    pub(crate) groups: Vec<(Extent, String)>,
+}
+
+impl Sheet {
+    /// Returns the panels of a pattern on a sheet no wider than a width in mm, if they fit it.
+    pub(crate) fn new(pattern: &Pattern, width: Option<f64>) -> Self {
+        let extents: Vec<Extent> = pattern.panels().iter().map(extent).collect();
+        let across = |[low, high]: &Extent| high[0] - low[0];
+        let area: f64 = extents.iter().map(|e| across(e) * (e[1][1] - e[0][1])).sum();
+        let limit = width.map(|w| w - GAP).unwrap_or((SHAPE * area).sqrt());
+        let Rows { size, origins } = Rows::new(&extents, GAP, limit);
+        let groups = pattern.panels().iter().zip(extents.iter().zip(&origins));
+        let groups = groups.map(|(panel, ([low, high], origin))| {
+            let origin = origin.map(|x| x.ceil());
+            let place = [
+                [origin[0] + low[0], origin[1] - high[1]],
+                [origin[0] + high[0], origin[1] - low[1]],
+            ];
+            (place, group(pattern, panel, origin))
+        });
+        Self { size: size.map(|x| x.ceil() + 1.0), groups: groups.collect() }
+    }
+}
+
+/// Returns the bounding box of a panel, in mm with y up.
+fn extent(panel: &Panel) -> Extent {
+    let points = panel.outline().iter().flat_map(Edge::polyline);
+    let start = [[f64::MAX; 2], [f64::MIN; 2]];
+    points.fold(start, |[low, high], p| {
+        let p = p.map(|x| 1e3 * x);
+        [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]]
+    })
+}
+
+impl Pattern {
+    /// Returns a drawing of the pattern in SVG, at true scale in mm: for a plotter, or a program
+    /// that draws.
+    ///
+    /// The sheet is no wider than the width, in mm, where every panel is narrower.
+    #[must_use]
+    pub fn to_svg(&self, width: Option<f64>) -> String {
+        let sheet = Sheet::new(self, width);
+        let [width, height] = sheet.size;
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
+             viewBox=\"0 0 {width} {height}\" {STYLE}>\n<metadata><pattern xmlns=\"{NAMESPACE}\">{}\
+             </pattern></metadata>\n",
+            escape(&metadata(self))
+        );
+        sheet.groups.iter().for_each(|(_, group)| svg.push_str(group));
+        svg.push_str("</svg>\n");
+        svg
+    }
+}
+
+/// Attributes of all drawings.
+pub(crate) const STYLE: &str = "font-family=\"sans-serif\" font-size=\"5\" fill=\"none\" \
+                                stroke=\"#000000\" stroke-width=\"0.3\" stroke-linejoin=\"round\"";
+
+/// Returns the group of a panel whose frame has its origin at a point of the sheet, in mm.
+fn group(pattern: &Pattern, panel: &Panel, origin: [f64; 2]) -> String {
+    let on_sheet = |[x, y]: [f64; 2]| [origin[0] + 1e3 * x, origin[1] - 1e3 * y];
+    let names: Vec<String> = panel.outline().iter().map(|edge| listed(&edge.name)).collect();
+    let mut svg = format!(
+        "<g class=\"panel\" data-panel=\"{}\" data-origin=\"{} {}\">\n\
+         <path class=\"outline\" data-edges=\"{}\" stroke-width=\"0.5\" d=\"{}\"/>\n",
+        escape(panel.name()),
+        origin[0],
+        origin[1],
+        escape(&names.join("|")),
+        outline(panel, &on_sheet)
+    );
+    let drawn = Drawn { pattern, panel, on_sheet: &on_sheet };
+    drawn.write(&mut svg);
+    svg.push_str("</g>\n");
+    svg
+}
+
+/// Returns the outline of a panel as path data.
+fn outline(panel: &Panel, on_sheet: &impl Fn([f64; 2]) -> [f64; 2]) -> String {
+    let pair = |p: [f64; 2]| {
+        let [x, y] = on_sheet(p).map(|x| decimal(x, 1e4));
+        format!("{x} {y}")
+    };
+    let mut data = format!("M{}", pair(panel.outline()[0].start));
+    for edge in panel.outline() {
+        let end = pair(edge.end);
+        let _ = match edge.curve {
+            Curve::Line => write!(data, "L{end}"),
+            Curve::Quadratic(control) => write!(data, "Q{} {end}", pair(control)),
+            Curve::Cubic([first, second]) => {
+                write!(data, "C{} {} {end}", pair(first), pair(second))
+            }
+            Curve::Arc { sweep } => {
+                let rounded = |p| on_sheet(p).map(|x| (1e4 * x).round() / 1e4);
+                let half = 0.5 * distance(rounded(edge.start), rounded(edge.end));
+                let radius = half / (0.5 * sweep.abs()).sin();
+                let large = u8::from(sweep.abs() > std::f64::consts::PI);
+                // On the sheet, where y is down, a positive angle turns right.
+                let right = u8::from(sweep < 0.0);
+                write!(data, "A{radius} {radius} 0 {large} {right} {end}")
+            }
+        };
+    }
+    data + "Z"
+}
+
+/// Returns what the drawing does not show, in the project's own format.
+fn metadata(pattern: &Pattern) -> String {
+    let mut text = String::from("length = \"mm\"\n");
+    for panel in pattern.panels() {
+        let key = toml_key(panel.name());
+        let _ = writeln!(text, "\n[panel.{key}]\ngrain = {}", degrees(panel.grain()));
+        if let Some(fabric) = panel.fabric() {
+            let _ = writeln!(text, "fabric = {}", toml_string(fabric));
+        }
+        placement(panel, &mut text);
+        let hems = panel.outline().iter().filter(|edge| edge.hem != 0.0);
+        let hem = |edge: &Edge| format!("{} = {}", toml_key(&edge.name), millimetres(edge.hem));
+        let hems: Vec<String> = hems.map(hem).collect();
+        if !hems.is_empty() {
+            let _ = writeln!(text, "hems = {{ {} }}", hems.join(", "));
+        }
+        for fold in panel.folds() {
+            let [from, to] = fold.ends.map(|end| super::number::point(&end));
+            let angle = degrees(fold.angle);
+            let _ =
+                writeln!(text, "[[panel.{key}.fold]]\nfrom = {from}\nto = {to}\nangle = {angle}");
+        }
+    }
+    pattern.seams().iter().for_each(|seam| pattern.seam(seam, &mut text));
+    text
+}
+
+/// Returns a name as an entry of a list that bars divide.
+pub(crate) fn listed(name: &str) -> String {
+    name.replace('%', "%25").replace('|', "%7C")
+}

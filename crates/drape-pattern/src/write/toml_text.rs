@@ -1,0 +1,186 @@
+//! Pattern as text in the project's own format.
+
+use std::fmt::Write;
+
+use drape_input::{toml_key, toml_string};
+
+use super::number::{decimal, millimetres, point};
+use crate::ease::{DEFAULT_EASE, MAX_EASE};
+use crate::edge::{Curve, Edge, distance};
+use crate::note::Note;
+use crate::panel::Panel;
+use crate::pattern::{EdgeId, Pattern, Seam};
+
+impl Pattern {
+    /// Returns the pattern in the project's own format, in mm, with a heading and its notes as
+    /// comments.
+    ///
+    /// ```
+    /// use drape_input::Document;
+    /// use drape_pattern::Pattern;
+    ///
+    /// let text = "length = \"cm\"\n[panel.a]\ngrain = 0\nrectangle = [20, 30]\n";
+    /// let pattern = Pattern::parse(&Document::new("strip.toml", text))?;
+    /// let again = Pattern::parse(&Document::new("again.toml", pattern.to_toml("A strip.")))?;
+    /// assert_eq!(again.panels()[0].outline()[1].end, [0.2, 0.3]);
+    /// # Ok::<(), drape_input::Diagnostics>(())
+    /// ```
+    #[must_use]
+    pub fn to_toml(&self, heading: &str) -> String {
+        let mut text = String::new();
+        heading.lines().for_each(|line| comment(&mut text, line));
+        if !self.notes().is_empty() {
+            text += "#\n# Notes:\n";
+            self.notes().iter().for_each(|note| comment(&mut text, &format!("- {note}")));
+        }
+        text += "length = \"mm\"\n";
+        for panel in self.panels() {
+            self.panel(panel, &mut text);
+        }
+        for seam in self.seams() {
+            self.seam(seam, &mut text);
+        }
+        if self.seams().is_empty() {
+            text += "\n# [seam.side]\n# sides = [[\"PANEL.EDGE\"], [\"PANEL.EDGE\"]]\n";
+        }
+        text
+    }
+
+    fn panel(&self, panel: &Panel, text: &mut String) {
+        let key = toml_key(panel.name());
+        let _ = writeln!(text, "\n[panel.{key}]");
+        let assumed = self.notes().iter().any(|note| match note {
+            Note::NoGrain { panels } => panels.iter().any(|name| name == panel.name()),
+            _ => false,
+        });
+        let remark = if assumed { "    # assumed" } else { "" };
+        let _ = writeln!(text, "grain = {}{remark}", degrees(panel.grain()));
+        if let Some(fabric) = panel.fabric() {
+            let _ = writeln!(text, "fabric = {}", toml_string(fabric));
+        }
+        let outline = panel.outline();
+        let _ = writeln!(text, "start = {}", point(&outline[0].start));
+        text.push_str("outline = [\n");
+        for edge in outline {
+            let remark = match self.seam_of(panel, edge) {
+                Some(seam) => format!(", seam {}", plain(&seam.name)),
+                None => String::new(),
+            };
+            let length = decimal(1e3 * edge.length(), 10.0);
+            let _ = writeln!(text, "    {},    # {length} mm{remark}", edge_text(edge));
+        }
+        text.push_str("]\n");
+        placement(panel, text);
+        for fold in panel.folds() {
+            let [from, to] = fold.ends.map(|end| point(&end));
+            let angle = degrees(fold.angle);
+            let _ =
+                writeln!(text, "\n[[panel.{key}.fold]]\nfrom = {from}\nto = {to}\nangle = {angle}");
+        }
+    }
+
+    /// Returns the seam that an edge is sewn in.
+    fn seam_of(&self, panel: &Panel, edge: &Edge) -> Option<&Seam> {
+        let own = |id: &&EdgeId| {
+            self.panels()[id.panel].name() == panel.name() && self.edge(**id).name == edge.name
+        };
+        self.seams().iter().find(|seam| seam.sides.iter().flatten().any(|id| own(&id)))
+    }
+
+    /// Writes a seam.
+    pub(crate) fn seam(&self, seam: &Seam, text: &mut String) {
+        let side = |side: &[EdgeId]| {
+            let word = |id: &EdgeId| {
+                let panel = self.panels()[id.panel].name();
+                toml_string(&format!("{panel}.{}", self.edge(*id).name))
+            };
+            side.iter().map(word).collect::<Vec<_>>().join(", ")
+        };
+        let [first, second] = &seam.sides;
+        let lengths = [first, second].map(|s| decimal(1e3 * self.side_length(s), 10.0));
+        let _ = writeln!(
+            text,
+            "\n[seam.{}]\nsides = [[{}], [{}]]    # {} mm on {} mm",
+            toml_key(&seam.name),
+            side(first),
+            side(second),
+            lengths[0],
+            lengths[1]
+        );
+        if seam.reversed {
+            text.push_str("reversed = true\n");
+        }
+        if seam.max_ease != DEFAULT_EASE {
+            let remark = match seam.max_ease == MAX_EASE {
+                true => "    # the most that can be cut",
+                false => "",
+            };
+            let _ = writeln!(text, "max_ease = {}{remark}", seam.max_ease);
+        }
+        if seam.angle != 0.0 {
+            let _ = writeln!(text, "angle = {}", degrees(seam.angle));
+        }
+        if seam.allowance != 0.0 {
+            let _ = writeln!(text, "allowance = {}", millimetres(seam.allowance));
+        }
+    }
+}
+
+/// Writes the place of a panel in space.
+pub(crate) fn placement(panel: &Panel, text: &mut String) {
+    let Some(placement) = panel.placement() else { return };
+    let turn = placement.angles().map(degrees).join(", ");
+    let _ = writeln!(text, "origin = {}\nturn = [{turn}]", point(&placement.translation));
+    if let Some(wrap) = placement.wrap {
+        let _ = writeln!(text, "wrap = {}", millimetres(wrap));
+    }
+}
+
+/// Returns an edge as an inline table.
+fn edge_text(edge: &Edge) -> String {
+    let mut text = format!("{{ name = {}, to = {}", toml_string(&edge.name), point(&edge.end));
+    let _ = match edge.curve {
+        Curve::Line => Ok(()),
+        Curve::Quadratic(control) => write!(text, ", quadratic = {}", point(&control)),
+        Curve::Cubic([first, second]) => {
+            write!(text, ", cubic = [{}, {}]", point(&first), point(&second))
+        }
+        Curve::Arc { sweep } => {
+            // Of the rounded ends, in full: near a half circle little in the radius is much in the
+            // arc.
+            let rounded = |p: [f64; 2]| p.map(|x| (1e7 * x).round() / 1e7);
+            let half = 0.5e3 * distance(rounded(edge.start), rounded(edge.end));
+            let radius = half / (0.5 * sweep).sin();
+            let large = if sweep.abs() > std::f64::consts::PI { ", large = true" } else { "" };
+            // The sine of half a negative angle is negative: the arc turns right.
+            write!(text, ", radius = {radius}{large}")
+        }
+    };
+    if edge.hem != 0.0 {
+        let _ = write!(text, ", hem = {}", millimetres(edge.hem));
+    }
+    if !edge.notches.is_empty() {
+        // A notch at the very end stays within the edge.
+        let inside = |at: &f64| millimetres((*at - 1e-7).max(0.0));
+        let all: Vec<String> = edge.notches.iter().map(inside).collect();
+        let _ = write!(text, ", notches = [{}]", all.join(", "));
+    }
+    text + " }"
+}
+
+/// Returns an angle in rad as a number of degrees.
+pub(crate) fn degrees(angle: f64) -> String {
+    decimal(angle.to_degrees(), 1e6)
+}
+
+/// Returns a name without the letters that would end a comment.
+fn plain(name: &str) -> String {
+    name.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
+}
+
+/// Writes a line of a comment.
+fn comment(text: &mut String, line: &str) {
+    text.push_str("# ");
+    text.push_str(&plain(line));
+    text.push('\n');
+}

@@ -1,0 +1,194 @@
+//! Drawings in SVG, and pages.
+
+use drape_input::Document;
+use drape_pattern::{Edge, Paper, Pattern, Request, Unit};
+
+use crate::{OWN, apart, noted, read, refused, shipped};
+
+#[test]
+fn a_drawing_that_was_moved_and_changed_keeps_what_it_still_says() {
+    let own = read("own.toml", OWN);
+    let drawing = own.to_svg(None);
+    let moved = drawing.replacen(
+        "<g class=\"panel\"",
+        "<g transform=\"translate(40 -7)\" class=\"panel\"",
+        1,
+    );
+    assert!(apart(&own, &read("moved.svg", &moved)) < 1e-6, "the origin moves along");
+    // A panel with another number of edges: its edges are numbered, and its seam is lost, with
+    // notes.
+    let corner = drawing.replacen("data-edges=\"bottom|", "data-edges=\"", 1);
+    let cut = read("cut.svg", &corner);
+    assert!(noted(&cut, "numbered anew") && noted(&cut, "side"), "{:?}", cut.notes());
+    assert!(cut.seams().is_empty());
+    // Without the panel, its seam goes too.
+    let (before, rest) = drawing.split_once("<g class=\"panel\"").expect("it has a panel");
+    let (_, after) = rest.split_once("</g>").expect("the group ends");
+    let one = read("one.svg", &format!("{before}{after}"));
+    assert!(one.panels().len() == 1 && one.seams().is_empty() && noted(&one, "left out too: side"));
+}
+
+#[test]
+fn pages_show_all_of_the_pattern_at_true_scale() {
+    let shirt = read("shirt.json", &shipped("shirt.json"));
+    for (word, size) in
+        [("a4", [210.0, 297.0]), ("letter", [215.9, 279.4]), ("500x400", [500.0, 400.0])]
+    {
+        let paper = Paper::parse(word).expect("a paper");
+        assert_eq!(paper.size, size);
+        let pages = shirt.to_pages(paper);
+        let area: f64 = shirt.panels().iter().map(|p| p.area()).sum::<f64>() * 1e6;
+        assert!(pages.len() as f64 * size[0] * size[1] > area, "{} pages", pages.len());
+        for page in &pages {
+            let head =
+                format!("width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {0} {1}\"", size[0], size[1]);
+            assert!(page.svg.contains(&head), "{}", &page.svg[..200]);
+            let words = [format!("data-page=\"{}\"", page.name), "50 mm long".into()];
+            assert!(
+                words.iter().all(|w| page.svg.contains(w))
+                    && page.svg.matches("\"cross\"").count() == 4
+            );
+            roxmltree::Document::parse(&page.svg).expect("it is XML");
+        }
+        let named = |panel: &str| pages.iter().any(|p| p.svg.contains(&format!("\"{panel}\"")));
+        assert!(shirt.panels().iter().all(|panel| named(panel.name())));
+        refused("page.svg", &pages[0].svg, &["page A1 of a print", "read the *.toml"]);
+    }
+    assert!(["a9", "10x10", "x", "1e9x5", "nanxnan"].iter().all(|w| Paper::parse(w).is_none()));
+}
+
+/// A drawing with a panel of 300 by 400 units, a grain line, a notch and a mark.
+fn drawing(size: &str) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" {size}>\n<g id=\"bodice\"><path id=\"path12\" d=\"M10 10 h300 v400 \
+         h-300 z\"/>\n<line class=\"grain\" x1=\"100\" y1=\"300\" x2=\"200\" y2=\"100\"/>\n<path id=\"notch1\" d=\"M310 \
+         110 h-5\"/><circle cx=\"60\" cy=\"60\" r=\"5\"/><rect x=\"50\" y=\"200\" width=\"60\" height=\"60\"/></g>\n</svg>"
+    )
+}
+
+#[test]
+fn the_unit_of_a_drawing_is_detected_or_asked_for() {
+    for (size, side) in [
+        ("width=\"600mm\" height=\"500mm\" viewBox=\"0 0 600 500\"", 0.3),
+        ("width=\"60cm\" viewBox=\"0 0 600 500\"", 0.3),
+        ("width=\"6in\" height=\"5in\" viewBox=\"0 0 600 500\"", 0.00254 * 30.0),
+        ("width=\"600pt\" height=\"500pt\" viewBox=\"0 0 600 500\"", 300.0 * 0.0254 / 72.0),
+        ("width=\"100cm\"", 300.0 * 0.0254 / 96.0),
+        (
+            "xmlns:i=\"http://www.inkscape.org/namespaces/inkscape\" i:version=\"1.3\" viewBox=\"0 0 9 9\"",
+            300.0 * 0.0254 / 96.0,
+        ),
+    ] {
+        let pattern = read("d.svg", &drawing(size));
+        let [panel] = pattern.panels() else { panic!("{size}: one panel") };
+        assert_eq!(panel.name(), "bodice");
+        let width = panel.outline().iter().map(Edge::length).fold(f64::MAX, f64::min);
+        assert!((width - side).abs() < 1e-9, "{size}: {width} m");
+        // Drawn from (100, 300) to (200, 100): to the right and up.
+        assert!((panel.grain() + 0.5_f64.atan()).abs() < 1e-9, "{}", panel.grain());
+        let notched: Vec<&Edge> =
+            panel.outline().iter().filter(|e| !e.notches.is_empty()).collect();
+        assert_eq!(notched.len(), 1, "{size}");
+        assert!(noted(&pattern, "a unit of the drawing is"));
+        let inner = ["it lies in panel bodice", "2 closed shapes under 20 mm"];
+        assert!(inner.iter().any(|words| noted(&pattern, words)), "{:?}", pattern.notes());
+    }
+    for size in [
+        "viewBox=\"0 0 600 500\"",
+        "width=\"600\" height=\"500\"",
+        "width=\"100%\"",
+        "width=\"600px\"",
+    ] {
+        let text = drawing(size);
+        refused(
+            "d.svg",
+            &text,
+            &[
+                "does not say how long",
+                "\"bodice\"",
+                "400.0 units",
+                "400 mm",
+                "141 mm",
+                "106 mm",
+                "--unit mm",
+            ],
+        );
+        // The remedy.
+        let folder = std::env::temp_dir().join(format!("drape-unit-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        std::fs::write(folder.join("d.svg"), &text).expect("it is written");
+        let asked = Request { unit: Unit::parse("mm"), ..Request::new(folder.join("d.svg")) };
+        let pattern = Pattern::read_as(&asked).expect("the unit is known");
+        assert!((pattern.panels()[0].area() - 0.12).abs() < 1e-9);
+        let added = "length = \"mm\"\n[from]\nfile = \"d.svg\"\nunit = \"mm\"\n[panel.bodice]\ngrain = 90\n";
+        let pattern =
+            Pattern::parse(&Document::new(folder.join("d.toml"), added)).expect("as well");
+        assert!((pattern.panels()[0].grain().to_degrees() - 90.0).abs() < 1e-9);
+        std::fs::remove_dir_all(&folder).expect("it is removed");
+    }
+    refused(
+        "d.svg",
+        &drawing("width=\"600m\" height=\"-5mm\" viewBox=\"0 0 600 500\""),
+        &["height is \"-5mm\""],
+    );
+    refused(
+        "d.svg",
+        &drawing("width=\"6mm\" viewBox=\"0 0 600 500\""),
+        &["no closed shape of 20 mm", "largest shape is 4.0 mm", "6mm for 600 units", "--unit"],
+    );
+    refused("d.svg", &drawing("viewBox=\"0 0 b\""), &["viewBox is", "0 0 210 297"]);
+}
+
+#[test]
+fn transforms_shapes_and_lines_drawn_apart_make_outlines() {
+    let svg = |body: &str| {
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"600mm\" viewBox=\"0 0 600 600\">{body}</svg>"
+        )
+    };
+    let area = |body: &str| 1e6 * read("d.svg", &svg(body)).panels()[0].area();
+    assert!((area("<circle cx=\"300\" cy=\"200\" r=\"100\"/>") - 31415.93).abs() < 0.01);
+    assert!(
+        (area("<g transform=\"rotate(30) scale(2)\"><circle r=\"50\"/></g>") - 31415.93).abs()
+            < 0.01
+    );
+    let skewed = area("<g transform=\"scale(2 1)\"><circle r=\"50\"/></g>");
+    assert!((skewed - 15707.96).abs() < 0.1, "{skewed}");
+    let mirrored = area(
+        "<g transform=\"matrix(-1 0 0 1 300 0)\"><path d=\"M0 0H100V50A50 50 0 0 1 50 100H0Z\"/></g>",
+    );
+    assert!(
+        (mirrored - (10000.0 - 2500.0 + 625.0 * std::f64::consts::PI)).abs() < 0.01,
+        "{mirrored}"
+    );
+    let round = area("<rect width=\"100\" height=\"80\" rx=\"10\"/>");
+    assert!((round - (8000.0 - 100.0 * (4.0 - std::f64::consts::PI))).abs() < 0.01, "{round}");
+    let lines = "<g id=\"p\"><path d=\"M0 0L100 0M100 100L100 0M0 100L0 0M100 100C80 90 20 90 0 100\"/></g>";
+    let pattern = read("d.svg", &svg(lines));
+    assert_eq!(pattern.panels()[0].outline().len(), 4);
+    // A cut line round a sewing line.
+    let both =
+        "<path id=\"cut\" d=\"M0 0H220V320H0Z\"/><path id=\"sew\" d=\"M10 10H210V310H10Z\"/>";
+    let pattern = read("d.svg", &svg(both));
+    assert!(pattern.panels()[0].name() == "sew" && noted(&pattern, "the sewing line"));
+    // What is not shown, and names that two shapes have.
+    let two = "<defs><rect width=\"90\" height=\"90\"/></defs><rect style=\"display: none\" width=\"95\" height=\"90\"/>\
+               <g id=\"a\"><rect width=\"50\" height=\"90\"/><rect x=\"60\" width=\"50\" height=\"90\"/></g><use href=\"#a\"/>";
+    let pattern = read("d.svg", &svg(two));
+    let names: Vec<&str> = pattern.panels().iter().map(|p| p.name()).collect();
+    assert!(names == ["a", "a 2"] && noted(&pattern, "unlink"), "{names:?}");
+    refused(
+        "d.svg",
+        &svg("<path id=\"f\" d=\"M0 0H100V100H0V3\"/>"),
+        &["outline \"f\" is open: 3.0 mm", "join the ends"],
+    );
+    read("d.svg", &svg("<path id=\"f\" d=\"M0 0H100V100H0V0\"/>"));
+    refused(
+        "d.svg",
+        &svg("<path id=\"f\" d=\"M0 0L100 100H0L100 0Z\"/>"),
+        &["d.svg:1", "cross or touch"],
+    );
+    refused("d.svg", &svg("<path d=\"M0 0H5V5Z\"/>"), &["no closed shape of 20 mm"]);
+    refused("d.svg", "<svg><g></svg>", &["d.svg:1:", "plain SVG"]);
+    refused("d.svg", "<html/>", &["no <svg>"]);
+}

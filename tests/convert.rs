@@ -1,0 +1,77 @@
+//! `drape convert`: patterns of others to TOML, and to drawings; what is asked for, and what is
+//! refused.
+
+use std::path::Path;
+use std::process::Output;
+
+use assert_cmd::Command;
+
+fn drape(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("drape").expect("the binary is built");
+    command.current_dir(folder).args(arguments).output().expect("it runs")
+}
+
+fn shipped(name: &str) -> String {
+    format!("{}/crates/drape-pattern/patterns/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn a_pattern_goes_to_toml_to_a_drawing_to_pages_and_back() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let run = |arguments: &[&str]| {
+        let output = drape(folder, arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+        output
+    };
+    let notes = run(&["convert", &shipped("teagan.json"), "-o", "teagan.toml"]);
+    assert!(text(&notes.stderr).contains("note: no seams"), "{}", text(&notes.stderr));
+    let written = std::fs::read_to_string(folder.join("teagan.toml")).expect("it is written");
+    assert!(written.contains("# - no seams") && written.contains("[panel.\"teagan.front\"]"));
+    run(&["convert", "teagan.toml", "-o", "teagan.svg"]);
+    let back = run(&["convert", "teagan.svg"]);
+    assert!(text(&back.stdout).contains("[panel.\"teagan.front\"]"), "{}", text(&back.stdout));
+    run(&["check", "teagan.svg", "--spacing", "20"]);
+    let pages = run(&["convert", "teagan.toml", "-o", "print.svg", "--paper", "a4"]);
+    let pages = text(&pages.stdout);
+    assert!(pages.contains("print-A1.svg") && pages.lines().count() > 8, "{pages}");
+    let again = drape(folder, &["convert", "teagan.json", "-o", "teagan.toml"]);
+    assert_eq!(again.status.code(), Some(3), "there is no teagan.json here");
+    let exists = drape(folder, &["convert", "teagan.svg", "-o", "teagan.toml"]);
+    assert_eq!(exists.status.code(), Some(2));
+    assert!(text(&exists.stderr).contains("--force"), "{}", text(&exists.stderr));
+    run(&["convert", "teagan.svg", "-o", "teagan.toml", "--force"]);
+}
+
+#[test]
+fn what_does_not_fit_is_refused_with_a_remedy() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let drawing = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 500 500\">\
+                   <path id=\"front\" d=\"M0 0H300V400H0Z\"/></svg>";
+    std::fs::write(folder.join("d.svg"), drawing).expect("it is written");
+    let shirt = shipped("shirt.json");
+    for (arguments, code, words) in [
+        (vec!["convert", "d.svg"], 3, "--unit mm"),
+        (vec!["convert", "d.svg", "--unit", "ell"], 2, "mm, cm, m, in, pt or px"),
+        (vec!["convert", &shirt, "--unit", "mm"], 3, "leave the unit out"),
+        (vec!["convert", &shirt, "--size", "M"], 3, "leave the size out"),
+        (vec!["convert", &shirt, "--paper", "a4"], 2, "-o NAME.svg"),
+        (vec!["convert", &shirt, "-o", "a.svg", "--paper", "b9"], 2, "210x297"),
+        (vec!["convert", &shirt, "-o", "a.svg", "--width", "5"], 2, "such as 900"),
+        (vec!["convert", &shirt, "-o", "a.obj"], 2, "*.toml or *.svg"),
+        (vec!["convert", "."], 2, "name a *.json"),
+        (vec!["convert", &shirt, "d.svg"], 2, "one pattern at a time"),
+    ] {
+        let output = drape(folder, &arguments);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+        assert!(said.contains(words), "{words:?} is not in: {said}");
+    }
+    let asked = drape(folder, &["convert", "d.svg", "--unit", "mm"]);
+    assert!(text(&asked.stdout).contains("to = [300, 0]"), "{}", text(&asked.stdout));
+}
