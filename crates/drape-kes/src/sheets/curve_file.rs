@@ -13,7 +13,7 @@ use crate::sheets::section::{Choice, ColumnOrLength, Section};
 use crate::sheets::suspect::{AsWritten, AxesAsWritten, Keys, examine};
 use crate::sheets::table::{Column, Table};
 use crate::test::{Direction, Test};
-use crate::unit::{Quantity, Unit, parse_unit};
+use drape_input::{Quantity, Unit, parse_unit};
 
 const CURVE_KEYS: [&str; 7] = ["name", "test", "direction", "file", "deformation", "load", "slack"];
 const DEFORMATION_KEYS: [&str; 3] = ["column", "unit", "gauge"];

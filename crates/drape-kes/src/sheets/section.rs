@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::sheets::findings::Findings;
 use crate::sheets::table::Column;
-use crate::unit::{Quantity, Written, parse_quantity};
+use drape_input::{Quantity, Written, parse_quantity};
 
 /// Table of the file, with its key path.
 #[derive(Clone)]
