@@ -4,6 +4,7 @@
 use std::ops::RangeInclusive;
 
 use drape_hysteresis::BlimanSorine;
+use drape_input::figure;
 
 use crate::fabric::Fabric;
 use crate::laws::bending::{BendingBackbone, BendingLaw};
@@ -59,13 +60,17 @@ impl Check {
     fn within(&mut self, key: &str, value: f64, range: RangeInclusive<f64>, help: &str) {
         let (low, high) = (range.start(), range.end());
         if !(value >= *low && value <= *high) {
-            self.fail(key, format!("{value} is not between {low} and {high}"), help);
+            self.fail(
+                key,
+                format!("{} is not between {} and {}", figure(value), figure(*low), figure(*high)),
+                help,
+            );
         }
     }
 
     fn positive(&mut self, key: &str, value: f64, help: &str) {
         if !(value > 0.0 && value.is_finite()) {
-            self.fail(key, format!("{value} is not greater than 0"), help);
+            self.fail(key, format!("{} is not greater than 0", figure(value)), help);
         }
     }
 
@@ -173,12 +178,13 @@ impl Check {
         let help = "not negative; the first element is the fast one of a second-order model";
         self.within(&format!("{key}[0].plateau"), first.plateau, 0.0..=1e9, help);
         if !(second.plateau >= -first.plateau) {
-            let message = format!("{} outweighs the first element", second.plateau);
+            let message = format!("{} outweighs the first element", figure(second.plateau));
             let help = "a negative second plateau must be smaller than the first one";
             self.fail(&format!("{key}[1].plateau"), message, help);
         }
         if second.plateau < 0.0 && !(second.length > first.length) {
-            let message = format!("{} is not longer than the first element's", second.length);
+            let message =
+                format!("{} is not longer than the first element's", figure(second.length));
             let help = "the negative element of a second-order model is the slow, long one";
             self.fail(&format!("{key}[1].length"), message, help);
         }
