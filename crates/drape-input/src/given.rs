@@ -7,7 +7,7 @@
 
 use std::fmt;
 use std::marker::PhantomData;
-use std::ops::{Mul, Neg};
+use std::ops::Mul;
 
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -132,20 +132,22 @@ impl<D: Dimension> Given<D> {
     }
 }
 
-impl Mul<f64> for Given<Length> {
+impl<D> Mul<f64> for Given<D> {
     type Output = f64;
 
-    /// Returns the length in m, given the unit of the file in m.
+    /// Returns the value in SI, given the unit of bare numbers in SI: of lengths the unit of the
+    /// file, in m.
     fn mul(self, unit: f64) -> f64 {
         self.number * self.factor.unwrap_or(unit)
     }
 }
 
-impl<D> Neg for Given<D> {
-    type Output = Self;
+impl<D> Mul<Given<D>> for f64 {
+    type Output = Given<D>;
 
-    fn neg(self) -> Self {
-        Self { number: -self.number, ..self }
+    /// Returns a multiple.
+    fn mul(self, given: Given<D>) -> Given<D> {
+        Given { number: self * given.number, ..given }
     }
 }
 

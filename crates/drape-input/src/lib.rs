@@ -10,7 +10,7 @@
 //!   error type of this crate: all mistakes of an input.
 //! * `spelling`: [`closest`], the known word nearest to a misspelt one.
 //! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML.
-//! * `figure`: [`figure`](fn@figure), [`figures`] and [`excerpt`], numbers and texts in messages.
+//! * `figure`: [`figure`](fn@figure), [`excerpt`] and others, numbers and texts in messages.
 
 mod decode;
 mod diagnostic;
@@ -25,7 +25,7 @@ mod unit;
 pub use decode::Faults;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::Document;
-pub use figure::{excerpt, figure, figures};
+pub use figure::{excerpt, figure, figure_below, figures, tidy};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
     ForcePerWidth, Given, Length, MassPerArea, MomentPerWidth, PressurePerDistance, Ratio,

@@ -14,6 +14,7 @@ pub(crate) mod run;
 
 use std::collections::BTreeMap;
 
+use drape_input::{Acceleration, Density, Given, Length};
 use serde::Deserialize;
 
 use self::body::ColliderFile;
@@ -32,9 +33,9 @@ pub(crate) struct SceneFile {
     /// Unit of all lengths of the file: `m`, `cm` or `mm`.
     pub(crate) length: Option<String>,
     /// Distance between particles.
-    pub(crate) spacing: Option<f64>,
+    pub(crate) spacing: Option<Given<Length>>,
     /// Acceleration of gravity, in m/s².
-    pub(crate) gravity: Option<[f64; 3]>,
+    pub(crate) gravity: Option<[Given<Acceleration>; 3]>,
     pub(crate) air: Option<AirFile>,
     #[serde(default)]
     pub(crate) fabric: BTreeMap<String, FabricFile>,
@@ -63,7 +64,7 @@ pub(crate) struct SceneFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct AirFile {
     /// Density, in kg/m³.
-    pub(crate) density: Option<f64>,
+    pub(crate) density: Option<Given<Density>>,
     pub(crate) drag: Option<f64>,
 }
 

@@ -3,6 +3,7 @@
 mod shape_files;
 
 use drape_collide::{Body, Mesh, Pose, Shape};
+use drape_input::Given;
 
 use crate::check::checker::Checker;
 use crate::check::motion::rigid_motion;
@@ -91,7 +92,7 @@ fn rigid_body(checker: &mut Checker<'_>, entry: &Entry<'_>, shape: Shape) -> Che
 /// Makes a rigid body of a mesh.
 fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> Option<CheckedBody> {
     let path = checker.folder.join(&file.file);
-    match Mesh::load(path, file.scale.unwrap_or(checker.unit)) {
+    match Mesh::load(path, scale(checker, file)) {
         Ok(mesh) => {
             check_size(checker, index, &mesh);
             let entry = Entry { kind: "mesh", index, common: file.common() };
@@ -102,6 +103,11 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
             None
         }
     }
+}
+
+/// Returns the unit of the coordinates of a mesh, in m: that of the scene if it has none of its own.
+fn scale(checker: &Checker<'_>, file: &MeshBodyFile) -> f64 {
+    file.scale.map_or(checker.unit, Given::value)
 }
 
 /// Checks the size of a mesh: one that is no size for cloth has another unit than the scene says.
@@ -122,8 +128,8 @@ fn check_size(checker: &mut Checker<'_>, index: usize, mesh: &Mesh) {
 
 /// Refuses keys of frames in a mesh that has none.
 fn check_no_frames(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) {
-    for (key, given) in [("rate", file.rate), ("start", file.start)] {
-        if given.is_some() {
+    for (key, given) in [("rate", file.rate.is_some()), ("start", file.start.is_some())] {
+        if given {
             let help = "it belongs to motion = \"….pc2\" or frames = \"…_*.obj\"";
             let key = format!("collider.mesh[{index}].{key}");
             checker.fail(&key, "the body has no frames", help);
@@ -146,7 +152,7 @@ fn changing_mesh(
     };
     let help = "frames per second; 24 is usual";
     let sound = checker.within(&format!("collider.mesh[{index}].rate"), rate, 1e-3..=1e5, help);
-    let start = file.start.unwrap_or(0.0);
+    let start = file.start.map_or(0.0, Given::value);
     let help = "when the first frame is left, in s";
     let key_of_start = format!("collider.mesh[{index}].start");
     if !checker.within(&key_of_start, start, 0.0..=1e6, help) || !sound {
@@ -158,7 +164,7 @@ fn changing_mesh(
         return None;
     }
     let common = file.common();
-    let (unit, scale) = (checker.unit, file.scale.unwrap_or(checker.unit));
+    let (unit, scale) = (checker.unit, scale(checker, file));
     let place = |point: [f64; 3]| {
         let arm = rotate(point.map(|x| scale * x), common.turn);
         [0, 1, 2].map(|axis| common.center[axis] * unit + arm[axis])

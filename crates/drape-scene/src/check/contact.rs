@@ -1,6 +1,7 @@
 //! Settings of the contact of cloth and bodies.
 
 use drape_collide::{ParticleSettings, PinchPolicy, SurfaceSettings};
+use drape_input::Given;
 
 use crate::check::checker::Checker;
 use crate::scene::contact::{ContactSettings, DistanceGrowth, Inflation};
@@ -33,7 +34,7 @@ pub(crate) fn contact(checker: &mut Checker<'_>, bounds: ContactBounds) -> Conta
     ContactSettings {
         surfaces: checker.file.keeps_surfaces_apart(),
         particles,
-        stiffness: file.stiffness,
+        stiffness: file.stiffness.map(Given::value),
         sticking_displacement,
         pinch: pinch(checker),
         inflation: inflation(checker, bounds),
@@ -50,11 +51,11 @@ fn particles(checker: &mut Checker<'_>) -> ParticleSettings {
         let help = "the distance at which contact begins; 1 mm is usual";
         checker.within("contact.offset", settings.activation_distance, 1e-5..=0.1, help);
     }
-    if let Some(stiffness) = file.stiffness {
+    if let Some(stiffness) = file.stiffness.map(Given::value) {
         settings.stiffness = stiffness;
         checker.within("contact.stiffness", stiffness, 1.0..=1e12, "in N/m³");
     }
-    if let Some(speed) = file.slip_speed {
+    if let Some(speed) = file.slip_speed.map(Given::value) {
         settings.slip_speed = speed;
         checker.within("contact.slip_speed", speed, 1e-9..=1.0, "in m/s; 0.001 is usual");
     }
@@ -80,7 +81,7 @@ fn inflation(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<Inflati
     let inflate = checker.file.contact.inflate.as_ref()?;
     check_surfaces(checker, "contact.inflate");
     let depth = inflate.depth * checker.unit;
-    let seconds = inflate.seconds.unwrap_or(INFLATION_SECONDS);
+    let seconds = inflate.seconds.map_or(INFLATION_SECONDS, Given::value);
     let help = "how far inside of where it belongs the surface of a body starts; 10 mm is usual";
     checker.within("contact.inflate.depth", depth, 1e-6..=0.1, help);
     let help = "in s; cloth follows a body by a spacing in a step at most";
@@ -91,7 +92,7 @@ fn inflation(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<Inflati
 
 /// Checks the growth of the distances that surfaces keep, if there is one.
 fn growth(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<DistanceGrowth> {
-    let seconds = checker.file.contact.grow?;
+    let seconds = checker.file.contact.grow?.value();
     check_surfaces(checker, "contact.grow");
     let help = "in s, from a step to the whole run; 0.2 is usual";
     checker.within("contact.grow", seconds, bounds.step..=bounds.end, help);

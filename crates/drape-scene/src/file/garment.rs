@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use drape_input::{Angle, Given, Length, Time};
 use serde::Deserialize;
 
 use crate::file::panel::NoiseFile;
@@ -16,10 +17,10 @@ pub(crate) struct GarmentFile {
     pub(crate) pattern: String,
     /// Fabric of the panels that name none.
     pub(crate) fabric: String,
-    pub(crate) spacing: Option<f64>,
+    pub(crate) spacing: Option<Given<Length>>,
     /// Shift of all panels.
     #[serde(default)]
-    pub(crate) center: [f64; 3],
+    pub(crate) center: [Given<Length>; 3],
     /// Layer in which it is worn; 0 if missing, which is next to the body.
     pub(crate) layer: Option<i64>,
     /// Random heights over the panels.
@@ -35,10 +36,10 @@ pub(crate) struct GarmentPanelFile {
     pub(crate) fabric: Option<String>,
     /// Origin of the panel's frame, and its rotations about x, y and z in degrees; those of the
     /// pattern if both are missing.
-    pub(crate) center: Option<[f64; 3]>,
-    pub(crate) turn: Option<[f64; 3]>,
+    pub(crate) center: Option<[Given<Length>; 3]>,
+    pub(crate) turn: Option<[Given<Angle>; 3]>,
     /// Radius of the cylinder that it is bent to; that of the pattern if missing.
-    pub(crate) wrap: Option<f64>,
+    pub(crate) wrap: Option<Given<Length>>,
     /// Layer in which it is worn; that of its garment if missing.
     pub(crate) layer: Option<i64>,
 }
@@ -47,7 +48,7 @@ pub(crate) struct GarmentPanelFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct SewFile {
     /// Time until the seams are to be closed.
-    pub(crate) seconds: Option<f64>,
+    pub(crate) seconds: Option<Given<Time>>,
     /// Bending stiffness of a seam over that of the fabric.
     pub(crate) stiffness: Option<f64>,
 }

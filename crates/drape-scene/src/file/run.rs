@@ -1,30 +1,31 @@
 //! TOML form of the run: its times, its solver, its results.
 
+use drape_input::{Angle, Given, Length, Speed, Time};
 use serde::Deserialize;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TimeFile {
     /// Length of a step, in s, like all times.
-    pub(crate) step: f64,
-    pub(crate) step_min: Option<f64>,
-    pub(crate) step_max: Option<f64>,
+    pub(crate) step: Given<Time>,
+    pub(crate) step_min: Option<Given<Time>>,
+    pub(crate) step_max: Option<Given<Time>>,
     /// Error of the positions that a step may make.
-    pub(crate) error: Option<f64>,
-    pub(crate) end: f64,
+    pub(crate) error: Option<Given<Length>>,
+    pub(crate) end: Given<Time>,
     /// Time over which gravity grows to its value.
-    pub(crate) ramp: Option<f64>,
+    pub(crate) ramp: Option<Given<Time>>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SettleFile {
     /// Largest speed at rest, in m/s.
-    pub(crate) speed: Option<f64>,
+    pub(crate) speed: Option<Given<Speed>>,
     /// Largest acceleration at rest, over g.
     pub(crate) residual: Option<f64>,
     /// Largest displacement of a particle in one step.
-    pub(crate) stride: Option<f64>,
+    pub(crate) stride: Option<Given<Length>>,
     pub(crate) inertia: Option<bool>,
 }
 
@@ -33,7 +34,7 @@ pub(crate) struct SettleFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct MotionPhaseFile {
     /// Time for which bodies and pins then move, from the times 0 of their motions.
-    pub(crate) seconds: f64,
+    pub(crate) seconds: Given<Time>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -53,10 +54,10 @@ pub(crate) struct SolverFile {
 pub(crate) struct OutputFile {
     pub(crate) folder: Option<String>,
     /// Seconds between frames.
-    pub(crate) every: Option<f64>,
+    pub(crate) every: Option<Given<Time>>,
     /// Whether the balance of the energy is kept.
     pub(crate) energy: Option<bool>,
     /// Direction from which the picture is taken, in degrees.
-    pub(crate) azimuth: Option<f64>,
-    pub(crate) elevation: Option<f64>,
+    pub(crate) azimuth: Option<Given<Angle>>,
+    pub(crate) elevation: Option<Given<Angle>>,
 }
