@@ -20,7 +20,7 @@ pub(crate) enum Failure {
     /// Exit code 3: some sheets of a batch failed; each was reported.
     Batch,
     /// Exit code 4: surfaces intersect.
-    Certificate(String),
+    Intersecting(String),
     /// Exit code 5: the solver failed, or the cloth did not settle.
     Solver(String),
     /// Exit code 7: a figure is beyond its limit.
@@ -36,7 +36,7 @@ impl Failure {
         ExitCode::from(match self {
             Self::Usage(_) => 2,
             Self::Input(_) | Self::Fit(_) | Self::Frames(_) | Self::Batch => 3,
-            Self::Certificate(_) => 4,
+            Self::Intersecting(_) => 4,
             Self::Solver(_) => 5,
             Self::Output(_) => 6,
             Self::Limit(_) => 7,
@@ -74,7 +74,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Usage(message)
-            | Self::Certificate(message)
+            | Self::Intersecting(message)
             | Self::Solver(message)
             | Self::Output(message)
             | Self::Limit(message) => f.write_str(message),

@@ -30,8 +30,9 @@ impl State {
         &self.normals
     }
 
-    /// All memories, for hashing and comparing, in a fixed order; those of rims come last. Where there is
-    /// no connector, as at the end of a row, the memory is that of a connector never deformed.
+    /// All memories, for hashing and comparing, in a fixed order; those of rims come last. Where
+    /// there is no connector, as at the end of a row, the memory is that of a connector never
+    /// deformed.
     pub fn memories(&self) -> impl Iterator<Item = Memory> {
         let Self { grid, rim, .. } = self;
         let sets = grid.traction.iter().chain(&grid.shear).chain(&grid.bending);

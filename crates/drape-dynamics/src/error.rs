@@ -1,3 +1,5 @@
+//! Errors of this crate, each with its remedy.
+
 use std::path::PathBuf;
 
 /// Why a scene cannot be run or its results written.

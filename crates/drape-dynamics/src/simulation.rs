@@ -37,11 +37,19 @@ const GRAVITY: f64 = 9.81;
 ///     density = 0.12
 ///     thickness = 0.0003
 ///     shear.stiffness = 35
+///     [warp.traction.primed]
+///     stiffness = 5000
+///     toe_ratio = 0.7
+///     toe_strain = 0.01
+///     toe_strain_after = 0.015
 ///     [warp]
-///     traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
 ///     bending.rigidity = 1.2e-5
+///     [weft.traction.primed]
+///     stiffness = 4000
+///     toe_ratio = 0.7
+///     toe_strain = 0.02
+///     toe_strain_after = 0.03
 ///     [weft]
-///     traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
 ///     bending.rigidity = 0.8e-5
 /// "#);
 /// let scene = Document::new("towel.toml", r#"
@@ -486,7 +494,7 @@ impl Simulation {
     fn fail(&mut self, error: &drape_implicit::Error) {
         let status = match error {
             drape_implicit::Error::NotConverged { stop: Stop::Intersection, .. } => {
-                Status::CertificateFailed
+                Status::Intersecting
             }
             _ => Status::SolverFailed,
         };

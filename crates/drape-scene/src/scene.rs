@@ -42,11 +42,19 @@ use self::solver::SolverSettings;
 ///     density = 0.12
 ///     thickness = 0.0003
 ///     shear.stiffness = 35
+///     [warp.traction.primed]
+///     stiffness = 5000
+///     toe_ratio = 0.7
+///     toe_strain = 0.01
+///     toe_strain_after = 0.015
 ///     [warp]
-///     traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
 ///     bending.rigidity = 1.2e-5
+///     [weft.traction.primed]
+///     stiffness = 4000
+///     toe_ratio = 0.7
+///     toe_strain = 0.02
+///     toe_strain_after = 0.03
 ///     [weft]
-///     traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
 ///     bending.rigidity = 0.8e-5
 /// "#);
 /// let text = r#"

@@ -131,8 +131,8 @@ fn hang(fullness: u32) {
     let weight = 2.0 * 0.06 * 0.06 * 0.15 * 9.81;
     let [load] = simulation.pin_loads()[..] else { panic!("one pin") };
     assert!((load.force[1] / -weight - 1.0).abs() < 1e-3, "{load:?} and {weight}");
-    let remainder = summary.energy.map(|energy| energy.residual);
-    assert!(remainder.is_some_and(|r| r.abs() < 1e-9), "{remainder:?}");
+    let residual = summary.energy.map(|energy| energy.residual);
+    assert!(residual.is_some_and(|r| r.abs() < 1e-9), "{residual:?}");
 }
 
 #[test]

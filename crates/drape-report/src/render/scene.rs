@@ -32,8 +32,8 @@ pub struct Surface<'a> {
     pub positions: &'a [f64],
     /// Triangles: three vertex numbers each, anticlockwise seen from the front.
     pub triangles: &'a [[u32; 3]],
-    /// Material coordinates: two per vertex, along the weft and along the warp, in m. With them warp and
-    /// weft lines are drawn.
+    /// Material coordinates: two per vertex, along the weft and along the warp, in m. With them
+    /// warp and weft lines are drawn.
     pub coordinates: Option<&'a [f64]>,
     /// Distance of the warp lines and of the weft lines, in m.
     pub line_spacing: f64,

@@ -1,9 +1,10 @@
 //! Light of a uniform sky: ambient occlusion.
 //!
-//! The irradiance at a corner with the normal `$n$` is `$\frac1\pi\int V(\omega)\,(n\cdot\omega)\,
-//! \mathrm{d}\omega$` over the upper half sphere, with the visibility `$V$` of the sky in the direction
-//! `$\omega$`; it is 1 where an upward normal sees all of the sky. The integral is a sum over evenly
-//! distributed directions, each with a shadow map. `shade` interpolates the result over the facets.
+//! The irradiance at a corner with the normal `$n$` is
+//! `$\frac1\pi\int V(\omega)\,(n\cdot\omega)\, \mathrm{d}\omega$` over the upper half sphere, with
+//! the visibility `$V$` of the sky in the direction `$\omega$`; it is 1 where an upward normal sees
+//! all of the sky. The integral is a sum over evenly distributed directions, each with a shadow
+//! map. `shade` interpolates the result over the facets.
 
 use rayon::prelude::*;
 
@@ -16,8 +17,8 @@ const DIRECTIONS: usize = 64;
 
 /// Texels along the side of the shadow map of one direction.
 ///
-/// A texel is 0.3 % of the width of the scene: smaller ones would only sharpen single directions of a light
-/// that is soft.
+/// A texel is 0.3 % of the width of the scene: smaller ones would only sharpen single directions of
+/// a light that is soft.
 const TEXELS: usize = 320;
 
 /// Angle from one direction of the sky to the next, in rad, which distributes them evenly.
@@ -26,7 +27,8 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// Irradiance at the corners of a facet, on its front and on its back.
 pub(crate) type FacetLight = [[f64; 3]; 2];
 
-/// Returns for each facet the irradiance of a uniform sky at its corners, on its front and on its back.
+/// Returns for each facet the irradiance of a uniform sky at its corners, on its front and on its
+/// back.
 pub(crate) fn sky_light(scene: &Tessellation) -> Vec<FacetLight> {
     let directions = (0..DIRECTIONS).into_par_iter();
     let parts: Vec<Vec<FacetLight>> = directions

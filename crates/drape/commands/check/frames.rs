@@ -50,7 +50,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
     }
     match broken.first() {
         None => Ok(()),
-        Some(first) => Err(Failure::Certificate(format!(
+        Some(first) => Err(Failure::Intersecting(format!(
             "surfaces intersect or are too close in {} frames, first in {}",
             broken.len(),
             first.display()
