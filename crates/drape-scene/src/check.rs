@@ -90,7 +90,16 @@ pub(crate) fn check(
     if file.keeps_surfaces_apart() && checker.is_sound("time.step") {
         body::check_speeds(checker, &bodies, clock.step, spacing);
     }
-    let bounds = ContactBounds { spacing, step: clock.step, end: clock.end };
+    let fabrics = || materials.iter().flatten().map(|material| &material.fabric);
+    let density = fabrics().map(|fabric| fabric.density).fold(0.0, f64::max);
+    let pull = environment.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
+    let bounds = ContactBounds {
+        spacing,
+        step: clock.step,
+        end: clock.end,
+        weight: density * pull,
+        thickness: fabrics().map(|fabric| fabric.thickness).fold(f64::INFINITY, f64::min),
+    };
     let contact = contact::contact(checker, bounds);
     let pins = pins::pins(checker, &placed);
     let sewing = sewing_settings(checker, seams.is_empty());

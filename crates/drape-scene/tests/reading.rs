@@ -260,7 +260,7 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
         ("", "[contact]\nsurfaces = false\npinch = \"thin\"", "kept apart", 11),
         ("", "[output]\nevery = 0", "0", 10),
         ("", "[[pin]]\npanel = \"towl\"\nedge = \"top\"", "towl", 10),
-        ("", "[[pin]]\npanel = \"towel\"\npoints = [[1, 1]]", "[1.0, 1.0]", 11),
+        ("", "[[pin]]\npanel = \"towel\"\npoints = [[1, 1]]", "[1, 1]", 11),
         ("", "[[pin]]\npanel = \"towel\"\nedge = \"top\"\nrelease = -1", "-1", 12),
         ("", "[[collider.sphere]]\nradius = 1", "inside", 2),
         ("fabric = \"plain\"", "fabric = \"plane\"", "plane", 4),

@@ -1,13 +1,19 @@
 //! Settings of the contact of cloth and bodies.
 
 use drape_collide::{ParticleSettings, PinchPolicy, SurfaceSettings};
-use drape_input::Given;
+use drape_input::{Given, figure};
 
 use crate::check::checker::Checker;
 use crate::scene::contact::{ContactSettings, DistanceGrowth, Inflation};
 
 /// Time over which bodies grow when the scene does not say, in s.
 const INFLATION_SECONDS: f64 = 0.5;
+
+/// Number of layers of the heaviest fabric that contact carries at least.
+const LAYERS: f64 = 10.0;
+
+/// Fraction of the distance of surfaces that is left under this load.
+const NEAR: f64 = 0.01;
 
 /// Remedy where settings of surfaces have nothing to act on.
 const SURFACES: &str = "it needs contact.surfaces = true";
@@ -21,12 +27,17 @@ pub(crate) struct ContactBounds {
     pub(crate) step: f64,
     /// Time of the end, in s.
     pub(crate) end: f64,
+    /// Largest weight of a fabric per area, in Pa.
+    pub(crate) weight: f64,
+    /// Thickness of the thinnest fabric, in m.
+    pub(crate) thickness: f64,
 }
 
 /// Checks the settings of contact.
 pub(crate) fn contact(checker: &mut Checker<'_>, bounds: ContactBounds) -> ContactSettings {
     let (file, unit) = (&checker.file.contact, checker.unit);
     let particles = particles(checker);
+    check_stiffness(checker, &particles, bounds);
     let stick = SurfaceSettings::STICKING_DISPLACEMENT;
     let sticking_displacement = file.stick.map_or(stick, |stick| stick * unit);
     let help = "some micrometres are usual";
@@ -60,6 +71,27 @@ fn particles(checker: &mut Checker<'_>) -> ParticleSettings {
         checker.within("contact.slip_speed", speed, 1e-9..=1.0, "in m/s; 0.001 is usual");
     }
     settings
+}
+
+/// Checks that contact carries the cloth, some layers of it, at a distance that is left.
+fn check_stiffness(checker: &mut Checker<'_>, settings: &ParticleSettings, bounds: ContactBounds) {
+    let Some(stiffness) = checker.file.contact.stiffness.map(Given::value) else { return };
+    let ContactBounds { weight, thickness, .. } = bounds;
+    // The pressure of a stiffness of one: of particles that touch their body, of surfaces that have
+    // a hundredth of their distance left.
+    let unit = match checker.file.keeps_surfaces_apart() {
+        false => ParticleSettings { stiffness: 1.0, ..*settings }.pressure(0.0),
+        true => 0.25 * thickness / NEAR,
+    };
+    let least = LAYERS * weight / unit;
+    if checker.is_sound("contact.stiffness") && least.is_finite() && stiffness < least {
+        let message = format!(
+            "{} N/m³ does not carry the cloth, which weighs {weight:.2} Pa",
+            figure(stiffness)
+        );
+        let help = format!("write {least:.0e} or more, or leave it out", least = 1.6 * least);
+        checker.fail("contact.stiffness", message, &help);
+    }
 }
 
 /// Checks the treatment of cloth that bodies close on.

@@ -77,12 +77,7 @@ pub(crate) fn panels(
             check_thickness(checker, &key, &lattice, material);
         }
         let particles = lattice.coordinates.len();
-        let copies = copies(checker, &key, entry, particles);
-        // Nothing is made of panels of a scene that is not simulated.
-        if !checker.is_sound(&key) {
-            continue;
-        }
-        for copy in 0..copies {
+        for copy in 0..copies(checker, &key, entry, particles) {
             let name = match copy {
                 0 => entry.name.clone(),
                 _ => format!("{} {}", entry.name, copy + 1),

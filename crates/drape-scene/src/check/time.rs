@@ -54,6 +54,13 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
     if let Some(error) = error {
         let help = "an error of positions; 0.1 mm is usual";
         checker.within("time.error", error, 1e-9..=0.1, help);
+        let quasi_static = file.settle.as_ref().is_some_and(|own| !own.inertia.unwrap_or(false));
+        if quasi_static && file.motion.is_none() {
+            let message = "steps on the way to rest have no error in time";
+            let help =
+                "leave it out: settle.stride sets their length; or add inertia = true to [settle]";
+            checker.fail("time.error", message, help);
+        }
     }
     let varies = error.is_some() || file.settle.is_some();
     for (key, length, range) in
@@ -72,9 +79,11 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
         (None, Some(_)) => HALVINGS,
         (None, None) => 0,
     };
+    let inertia = file.settle.as_ref().is_some_and(|own| own.inertia.unwrap_or(false));
     let growth = match (error, &file.settle) {
-        (Some(_), _) => GROWTH,
-        (None, Some(_)) => RELAXATION_GROWTH,
+        (Some(_), None) => GROWTH,
+        (Some(_), Some(_)) if inertia => GROWTH,
+        (_, Some(_)) => RELAXATION_GROWTH,
         (None, None) => 1.0,
     };
     let ticks_per_step = 1_usize << halvings;

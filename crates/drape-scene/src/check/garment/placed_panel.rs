@@ -1,5 +1,6 @@
 //! Panels of a cut pattern at their places.
 
+use drape_input::toml_key;
 use drape_pattern::{CutPattern, Pattern, Placement};
 
 use crate::check::checker::Checker;
@@ -51,11 +52,11 @@ pub(crate) fn placed_panel(
     let allowances = allowances(pattern, cut, index);
     let cut = &cut.panels[index];
     let placement = placement(checker, piece);
-    let layer_key = format!("{key}.panel.{}.layer", panel.name());
+    let layer_key = format!("{key}.panel.{}.layer", toml_key(panel.name()));
     let layer = layer(checker, &layer_key, own.and_then(|own| own.layer));
     let layer = layer.unwrap_or(layer_of_garment);
     let (fabric_key, fabric) = match own.and_then(|own| own.fabric.as_ref()) {
-        Some(fabric) => (format!("{key}.panel.{}.fabric", panel.name()), fabric),
+        Some(fabric) => (format!("{key}.panel.{}.fabric", toml_key(panel.name())), fabric),
         None => (format!("{key}.fabric"), &entry.fabric),
     };
     let material = material_index(checker, &fabric_key, fabric);
@@ -109,7 +110,8 @@ fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> 
         (None, None) => {
             let name = piece.panel().name();
             let help = format!(
-                "add center = [x, y, z] and turn = [x, y, z] to [garment.panel.{name}], or origin and turn to the pattern"
+                "add center = [x, y, z] and turn = [x, y, z] to [garment.panel.{}], or origin and turn to the pattern",
+                toml_key(name)
             );
             checker.fail(key, format!("panel \"{name}\" has no place in space"), &help);
             return None;
