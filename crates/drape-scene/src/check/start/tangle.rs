@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use drape_collide::{PairDistance, PairKind, Surface, SurfaceContact};
 
 use crate::check::checker::Checker;
+use crate::check::start::place_key::place_key;
 use crate::scene::Scene;
 use crate::scene::contact::DistanceGrowth;
 use crate::surfaces::StartSurfaces;
@@ -79,7 +80,11 @@ pub(crate) fn check_tangle(
         more => format!("; and {more} more pairs of triangles"),
     };
     let fault = format!("{fault}: {}{more}", told.join("; "));
-    let mistake = checker.fail("panel", fault, help);
+    let parts = overlaps.first.iter().flat_map(|overlap| &overlap.parts);
+    let panel = |name: &String| scene.panels.iter().find(|panel| panel.name == *name);
+    let panel = parts.filter_map(panel).next();
+    let key = panel.map_or("panel".into(), |panel| place_key(checker, scene, panel));
+    let mistake = checker.fail(&key, fault, help);
     Some(Tangled { overlaps, mistake })
 }
 
