@@ -13,7 +13,7 @@ use crate::quoting::toml_key;
 use crate::spelling::closest;
 use crate::unit::{Quantity, Written, parse_quantity};
 
-use super::stand_in::{Kind, StandIn, unknown_kind};
+use super::stand_in::{Kind, StandIn};
 use super::stop::Stop;
 use super::{Fault, State};
 
@@ -194,7 +194,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
             Value::Integer(number) => visitor.visit_i64(*number),
             Value::Float(number) => visitor.visit_f64(*number),
             Value::Flag(flag) => visitor.visit_bool(*flag),
-            Value::Date => Err(unknown_kind()),
+            Value::Date => visitor.visit_str(""),
             Value::List(_) => self.deserialize_seq(visitor),
             Value::Table(_) => self.deserialize_map(visitor),
         }

@@ -3,9 +3,7 @@
 use std::cell::Cell;
 
 use serde::de::value::StrDeserializer;
-use serde::de::{
-    DeserializeSeed, Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor,
-};
+use serde::de::{DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use serde::forward_to_deserialize_any;
 
 use crate::given;
@@ -182,9 +180,4 @@ impl<'de> MapAccess<'de> for Fields<'_> {
     fn next_value_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<T::Value, Stop> {
         seed.deserialize(StandIn { asked: self.asked })
     }
-}
-
-/// Returns the error of a kind of value that no file has.
-pub(super) fn unknown_kind() -> Stop {
-    Stop::custom("the program asks for a kind of value that TOML does not have")
 }
