@@ -36,6 +36,8 @@ pub struct FrictionEnergy {
     pub potential: f64,
     /// Part of the potential that is lost if the step ends here, in J.
     pub dissipated: f64,
+    /// Part of the dissipated energy that cloth loses on cloth, in J.
+    pub dissipated_on_cloth: f64,
 }
 
 /// What is left of a pair's stretch between two steps, in m.
@@ -93,6 +95,7 @@ impl Slip {
         FrictionEnergy {
             potential: 0.5 * self.limit * held * held / stick + lost,
             dissipated: lost,
+            dissipated_on_cloth: 0.0,
         }
     }
 

@@ -282,11 +282,15 @@ impl SurfaceContact {
     /// in J.
     pub fn friction_energy(&self) -> FrictionEnergy {
         let stick = self.settings.sticking_displacement;
+        let free = self.surface.free_count();
         self.slips.iter().fold(FrictionEnergy::default(), |sum, slip| {
-            let FrictionEnergy { potential, dissipated } = slip.energy(&self.places, stick);
+            let FrictionEnergy { potential, dissipated, .. } = slip.energy(&self.places, stick);
+            let is_free = |vertex: &u32| (*vertex as usize) < free;
+            let on_cloth = if slip.vertices.iter().all(is_free) { dissipated } else { 0.0 };
             FrictionEnergy {
                 potential: sum.potential + potential,
                 dissipated: sum.dissipated + dissipated,
+                dissipated_on_cloth: sum.dissipated_on_cloth + on_cloth,
             }
         })
     }

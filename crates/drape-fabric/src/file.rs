@@ -18,6 +18,7 @@ use crate::laws::shear::{Locking, ShearBackbone, ShearLaw};
 use crate::laws::traction::{Buckling, Polynomial, Primed, TractionBackbone, TractionLaw};
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct FabricFile {
     name: String,
@@ -41,6 +42,7 @@ fn surface_friction() -> f64 {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct YarnFile {
     traction: TractionFile,
@@ -48,6 +50,7 @@ struct YarnFile {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct TractionFile {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -61,6 +64,7 @@ struct TractionFile {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct PrimedFile {
     stiffness: Given<ForcePerWidth>,
@@ -70,6 +74,7 @@ struct PrimedFile {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct PolynomialFile {
     quadratic: Given<ForcePerWidth>,
@@ -77,6 +82,7 @@ struct PolynomialFile {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct BucklingFile {
     strain: Given<Ratio>,
@@ -85,6 +91,7 @@ struct BucklingFile {
 
 /// Friction element: a load, and a deformation.
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(bound = ""))]
 #[serde(deny_unknown_fields, bound = "")]
 struct ElementFile<L: Dimension, D: Dimension> {
     plateau: Given<L>,
@@ -93,6 +100,7 @@ struct ElementFile<L: Dimension, D: Dimension> {
 
 /// Curve of two pieces: the slope of loads over deformations, a load, and a deformation.
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(bound = ""))]
 #[serde(deny_unknown_fields, bound = "")]
 struct PiecewiseFile<S: Dimension, L: Dimension, D: Dimension> {
     slope: Given<S>,
@@ -107,6 +115,7 @@ type BendingCurveFile = PiecewiseFile<BendingRigidity, MomentPerWidth, Curvature
 type ShearCurveFile = PiecewiseFile<ShearStiffness, ForcePerWidth, Ratio>;
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct BendingFile {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -120,6 +129,7 @@ struct BendingFile {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct ShearFile {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -135,10 +145,18 @@ struct ShearFile {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct LockingFile {
     onset: f64,
     limit: f64,
+}
+
+/// Returns the JSON Schema of fabrics.
+#[cfg(feature = "schema")]
+#[must_use]
+pub fn fabric_schema() -> serde_json::Value {
+    drape_input::schema_of::<FabricFile>("Fabric of drape")
 }
 
 impl Fabric {

@@ -10,6 +10,7 @@
 //!   error type of this crate: all mistakes of an input.
 //! * `spelling`: [`closest`], the known word nearest to a misspelt one.
 //! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML.
+//! * `schema`: JSON Schema of such numbers, with the feature of that name.
 //! * `figure`: [`figure`](fn@figure), [`excerpt`] and others, numbers and texts in messages.
 
 mod decode;
@@ -19,6 +20,8 @@ mod figure;
 mod given;
 mod node;
 mod quoting;
+#[cfg(feature = "schema")]
+mod schema;
 mod spelling;
 mod unit;
 
@@ -32,5 +35,7 @@ pub use given::{
     ShearStiffness, Speed, TextOr, Time,
 };
 pub use quoting::{toml_key, toml_string};
+#[cfg(feature = "schema")]
+pub use schema::schema_of;
 pub use spelling::closest;
 pub use unit::{Quantity, Unit, UnitError, Written, parse_quantity, parse_unit};

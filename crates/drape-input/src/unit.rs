@@ -179,6 +179,11 @@ impl Quantity {
         Unit { quantity: self, spelling, factor }
     }
 
+    /// Returns the spellings of the units.
+    pub fn spellings(self) -> impl Iterator<Item = &'static str> {
+        self.units().iter().map(|(spelling, _)| *spelling)
+    }
+
     /// Returns the spellings of the units, for messages.
     pub(crate) fn list(self) -> String {
         let spellings: Vec<&str> = self.units().iter().map(|unit| unit.0).collect();

@@ -25,12 +25,15 @@ use self::pin::PinFile;
 use self::run::{MotionPhaseFile, OutputFile, SettleFile, SolverFile, TimeFile};
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneFile {
     pub(crate) name: Option<String>,
     /// `kes` or `breen-1994`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["kes", "breen-1994"])))]
     pub(crate) model: Option<String>,
     /// Unit of all lengths of the file: `m`, `cm` or `mm`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["m", "cm", "mm"])))]
     pub(crate) length: Option<String>,
     /// Distance between particles.
     pub(crate) spacing: Option<Given<Length>>,
@@ -61,6 +64,7 @@ pub(crate) struct SceneFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AirFile {
     /// Density, in kg/m³.
@@ -69,9 +73,17 @@ pub(crate) struct AirFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FabricFile {
     pub(crate) file: String,
+}
+
+/// Returns the JSON Schema of scenes.
+#[cfg(feature = "schema")]
+#[must_use]
+pub fn scene_schema() -> serde_json::Value {
+    drape_input::schema_of::<SceneFile>("Scene of drape")
 }
 
 impl SceneFile {

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use crate::file::motion::MotionFile;
 
 #[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ColliderFile {
     #[serde(default)]
@@ -32,6 +33,7 @@ pub(crate) struct CommonFile<'a> {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SphereFile {
     name: Option<String>,
@@ -43,6 +45,7 @@ pub(crate) struct SphereFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BoxFile {
     name: Option<String>,
@@ -59,6 +62,7 @@ pub(crate) struct BoxFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CylinderFile {
     name: Option<String>,
@@ -75,6 +79,7 @@ pub(crate) struct CylinderFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaneFile {
     name: Option<String>,
@@ -87,6 +92,7 @@ pub(crate) struct PlaneFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MeshBodyFile {
     name: Option<String>,

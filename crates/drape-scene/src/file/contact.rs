@@ -4,6 +4,7 @@ use drape_input::{Given, Length, PressurePerDistance, Speed, Time};
 use serde::Deserialize;
 
 #[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactFile {
     /// Activation distance.
@@ -18,6 +19,7 @@ pub(crate) struct ContactFile {
     /// Displacement of surfaces that stick, before they slide.
     pub(crate) stick: Option<Given<Length>>,
     /// `error`, `thin` or `release`: treatment of cloth that bodies close on.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["error", "thin", "release"])))]
     pub(crate) pinch: Option<String>,
     /// Room for cloth that starts in a body.
     pub(crate) inflate: Option<InflateFile>,
@@ -26,6 +28,7 @@ pub(crate) struct ContactFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InflateFile {
     /// Depth by which bodies start smaller, along their normals.

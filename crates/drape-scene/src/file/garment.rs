@@ -9,6 +9,7 @@ use crate::file::panel::NoiseFile;
 
 /// Pattern that is cut, placed and sewn.
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentFile {
     /// Name, which its panels have before theirs: `NAME.PANEL`; they keep the names of the pattern
@@ -31,6 +32,7 @@ pub(crate) struct GarmentFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentPanelFile {
     pub(crate) fabric: Option<String>,
@@ -45,6 +47,7 @@ pub(crate) struct GarmentPanelFile {
 }
 
 #[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SewFile {
     /// Time until the seams are to be closed.

@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 /// Rigid motion along keys.
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MotionFile {
     /// Times, in s, rising.

@@ -4,6 +4,7 @@ use drape_input::{Angle, AngularSpeed, Given, Length, Speed};
 use serde::Deserialize;
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PanelFile {
     pub(crate) name: String,
@@ -42,6 +43,7 @@ pub(crate) struct PanelFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FoldFile {
     /// Its ends, positions on the panel as for a pin.
@@ -52,6 +54,7 @@ pub(crate) struct FoldFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StackFile {
     /// Number of panels in all; they are called NAME 2, NAME 3 and so on.
@@ -64,6 +67,7 @@ pub(crate) struct StackFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RippleFile {
     pub(crate) amplitude: Given<Length>,
@@ -71,6 +75,7 @@ pub(crate) struct RippleFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NoiseFile {
     pub(crate) amplitude: Given<Length>,

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use crate::file::motion::MotionFile;
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PinFile {
     pub(crate) panel: String,
@@ -23,6 +24,7 @@ pub(crate) struct PinFile {
     /// `x`, `y` and `z`: the directions in which it holds; all of them if missing.
     pub(crate) axes: Option<Vec<String>>,
     /// `sewn`: it lets go when the garment is sewn; `rest`: when the cloth has come to rest.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["end", "sewn", "rest"])))]
     pub(crate) until: Option<String>,
     /// Motion of its particles; they stay where they are if missing.
     pub(crate) motion: Option<MotionFile>,

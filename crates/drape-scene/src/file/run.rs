@@ -4,6 +4,7 @@ use drape_input::{Angle, Given, Length, Speed, Time};
 use serde::Deserialize;
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TimeFile {
     /// Length of a step, in s, like all times.
@@ -18,6 +19,7 @@ pub(crate) struct TimeFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SettleFile {
     /// Largest speed at rest, in m/s.
@@ -31,6 +33,7 @@ pub(crate) struct SettleFile {
 
 /// Phase that follows when the cloth has come to rest.
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MotionPhaseFile {
     /// Time for which bodies and pins then move, from the times 0 of their motions.
@@ -38,18 +41,23 @@ pub(crate) struct MotionPhaseFile {
 }
 
 #[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SolverFile {
     /// `bdf2`, `backward-euler` or `explicit`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["bdf2", "backward-euler", "explicit"])))]
     pub(crate) integrator: Option<String>,
     /// `broyden`, `newton`, `textbook-mass` or `textbook-diagonal`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["broyden", "newton", "textbook-mass", "textbook-diagonal"])))]
     pub(crate) method: Option<String>,
     /// `conjugate-gradient` or `cholesky`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["conjugate-gradient", "cholesky"])))]
     pub(crate) linear: Option<String>,
     pub(crate) tolerance: Option<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OutputFile {
     pub(crate) folder: Option<String>,
