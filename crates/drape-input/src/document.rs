@@ -58,7 +58,7 @@ impl Document {
         let path = path.as_ref();
         let fail = |message: String| Diagnostic::new(path, message);
         let metadata = std::fs::metadata(path)
-            .map_err(|e| fail(format!("cannot open the file: {e}")).help(suggestion(path)))?;
+            .map_err(|e| fail(format!("cannot open the file: {e}")).help(nearest_file(path)))?;
         if !metadata.is_file() {
             return Err(fail("this is not a file".into()).help("name a TOML file").into());
         }
@@ -254,8 +254,9 @@ fn index(text: &str) -> Option<usize> {
     text.trim_matches(['[', ']']).parse().ok()
 }
 
-/// Suggests the file that was meant by a path that does not exist.
-fn suggestion(path: &Path) -> String {
+/// Returns advice on a path that does not exist: the file beside it that was probably meant.
+#[must_use]
+pub fn nearest_file(path: &Path) -> String {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = std::fs::read_dir(folder) else {
         return format!("there is no folder {}", folder.display());

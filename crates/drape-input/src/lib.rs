@@ -27,7 +27,7 @@ mod unit;
 
 pub use decode::Faults;
 pub use diagnostic::{Diagnostic, Diagnostics};
-pub use document::Document;
+pub use document::{Document, nearest_file};
 pub use figure::{excerpt, figure, figure_below, figures, tidy};
 pub use given::{
     Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,

@@ -86,7 +86,13 @@ impl<'a> Reader<'a> {
         let wanted = kind.words();
         let short = wanted.split_once(", such as").map_or(wanted.as_str(), |(short, _)| short);
         let message = format!("is {} where {short} is needed", self.node.kind());
-        self.fault(message, format!("write {wanted}"));
+        let help = match (&self.node.value, self.path.step) {
+            (Value::Table(_), Step::Key(key, _)) if kind == Kind::List(None) => {
+                format!("write [[{}]], with two brackets: there may be several", toml_key(key))
+            }
+            _ => format!("write {wanted}"),
+        };
+        self.fault(message, help);
     }
 
     /// Writes down a mistake in the value.

@@ -2,7 +2,7 @@
 
 use drape_cloth::Lattice;
 use drape_fabric::Fabric;
-use drape_input::{excerpt, figure, toml_key};
+use drape_input::{excerpt, figure, nearest_file, toml_key};
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::scene::material::{FabricReader, FabricRequest, Material};
@@ -29,8 +29,8 @@ pub(crate) fn materials(
             (file, fabric)
         } else {
             let message = format!("there is no file {}", path.display());
-            let help = "the path is relative to the scene's folder";
-            checker.fail(&format!("fabric.{}.file", toml_key(name)), message, help);
+            let help = nearest_file(&path);
+            checker.fail(&format!("fabric.{}.file", toml_key(name)), message, &help);
             return None;
         };
         let fabric = fabric.map_err(|mistakes| checker.extend(mistakes)).ok()?;

@@ -12,7 +12,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use drape_cloth::Tie;
-use drape_input::{Diagnostic, Diagnostics, excerpt, toml_key};
+use drape_input::{Diagnostic, Diagnostics, excerpt, nearest_file, toml_key};
 use drape_pattern::{CutPattern, Cutter, Error, NodeId, Pattern};
 
 use crate::check::checker::{Checker, UnknownName};
@@ -77,8 +77,8 @@ fn pattern(checker: &mut Checker<'_>, key: &str, path: &Path) -> Option<Pattern>
     let given = checker.given(path);
     if given.is_none() && !path.exists() {
         let message = format!("there is no file {}", path.display());
-        let help = "the path is relative to the scene's folder";
-        checker.fail(&format!("{key}.pattern"), message, help);
+        let help = nearest_file(path);
+        checker.fail(&format!("{key}.pattern"), message, &help);
         return None;
     }
     let read = match given {
