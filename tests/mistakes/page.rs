@@ -40,12 +40,12 @@ impl Files {
         self.0.iter()
     }
 
-    /// Returns the files with a change.
+    /// Returns the files with a change, in the last place where the old lines are.
     pub fn with(&self, change: &Change) -> Self {
         let mut files = self.clone();
         let text = files.0.get_mut(&change.file).expect("the page has the file");
-        assert_eq!(text.matches(&change.old).count(), 1, "once: {:?}", change.old);
-        *text = text.replace(&change.old, &change.new);
+        let at = text.rfind(&change.old).expect(&change.old);
+        text.replace_range(at..at + change.old.len(), &change.new);
         files
     }
 }
@@ -73,7 +73,7 @@ impl Page {
         let (files, mistakes) = text.split_once("\n## Mistakes\n").expect("two chapters");
         let blocks: Vec<&str> = files.split("```").collect();
         for pair in blocks.chunks_exact(2) {
-            let name = pair[0].split('`').nth(1).expect("a name before the text");
+            let name = pair[0].rsplit('`').nth(1).expect("a name before the text");
             page.files.0.insert(name.to_owned(), pair[1].trim_start().to_owned());
         }
         for part in mistakes.split("\n### ").skip(1) {

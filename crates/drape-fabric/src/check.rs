@@ -32,9 +32,14 @@ impl Fabric {
             "density",
             self.density,
             0.005..=5.0,
-            "mass per area in kg/m²; a fabric of 120 g/m² has 0.12",
+            "mass per area in kg/m²: 0.12, or \"120 g/m2\" with its unit",
         );
-        check.within("thickness", self.thickness, 1e-6..=0.02, "in m; 0.3 mm is 0.0003");
+        check.within(
+            "thickness",
+            self.thickness,
+            1e-6..=0.02,
+            "in m: 0.0003, or \"0.3 mm\" with its unit",
+        );
         if let Some(pressed) = self.pressed_thickness {
             let help = "in m, under 4.9 kPa: no more than the thickness";
             check.within("pressed_thickness", pressed, 1e-6..=self.thickness, help);
@@ -123,7 +128,7 @@ impl Check {
                 key,
                 value,
                 1e-7..=1e-3,
-                "moment per width and curvature in N·m; KES B in gf·cm²/cm times 9.80665e-5",
+                "in N·m: 1.2e-5, or KES B with its unit, \"0.12 gf.cm2/cm\"",
             );
         };
         match &law.backbone {
@@ -143,7 +148,7 @@ impl Check {
     fn shear(&mut self, law: &ShearLaw) {
         match &law.backbone {
             ShearBackbone::Linear { stiffness } => {
-                let help = "in N/m; KES G in gf/(cm·deg) times 56.19";
+                let help = "in N/m: 35, or KES G with its unit, \"0.6 gf/(cm.deg)\"";
                 self.within("shear.stiffness", *stiffness, 0.01..=1e5, help);
             }
             ShearBackbone::Piecewise(piecewise) => {

@@ -12,6 +12,7 @@ use toml::de::DeTable;
 use crate::decode::{Decoded, Fault, Faults, decode};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::figure::cut;
+use crate::grammar::{GrammarMistake, grammar_mistakes};
 use crate::node::{Node, Value};
 use crate::spelling::closest;
 
@@ -105,11 +106,10 @@ impl Document {
     pub fn decode_with_faults<T: DeserializeOwned>(&self) -> Result<(T, Faults), Diagnostics> {
         let content = self.content();
         if !content.mistakes.is_empty() {
-            let syntax = |(span, message): &(Option<Range<usize>>, String)| {
-                let mistake = self.locate(span.clone(), message.clone());
-                mistake.help("correct the TOML: a line is key = value, text is in quotes")
+            let told = |GrammarMistake { span, message, help }: &GrammarMistake| {
+                self.locate(span.clone(), message.clone()).help(help.clone())
             };
-            return Err(sorted(content.mistakes.iter().map(syntax).collect()));
+            return Err(sorted(content.mistakes.iter().map(told).collect()));
         }
         let Decoded { value, faults, keys } = decode(&content.root);
         let mistake = |fault: Fault| {
@@ -160,10 +160,10 @@ impl Document {
     fn content(&self) -> &Content {
         self.content.get_or_init(|| {
             let (table, errors) = DeTable::parse_recoverable(&self.text);
-            let mistake = |error: toml::de::Error| (error.span(), error.message().to_owned());
+            let right = errors.is_empty();
             Content {
                 root: Node::root(table.get_ref()),
-                mistakes: errors.into_iter().map(mistake).collect(),
+                mistakes: if right { Vec::new() } else { grammar_mistakes(&self.text) },
             }
         })
     }
@@ -189,11 +189,11 @@ impl Document {
     }
 }
 
-/// Values of a text, and its mistakes of grammar with their places.
+/// Values of a text, and its mistakes of grammar.
 #[derive(Debug, Clone)]
 struct Content {
     root: Node,
-    mistakes: Vec<(Option<Range<usize>>, String)>,
+    mistakes: Vec<GrammarMistake>,
 }
 
 /// Lines of a text.

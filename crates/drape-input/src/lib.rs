@@ -5,6 +5,7 @@
 //! * `document`: [`Document`], the text of a TOML file with its path; it decodes the text into a
 //!   structure and locates a key for a message.
 //! * `decode`: what decodes it, with all mistakes at once, and [`Faults`], which say what was left out.
+//! * `grammar`: mistakes of the text itself.
 //! * `given`: [`Given`], a number of a structure that may stand with a unit; `unit`: the units.
 //! * `diagnostic`: [`Diagnostic`], one mistake with its place and remedy, and [`Diagnostics`], the
 //!   error type of this crate: all mistakes of an input.
@@ -18,6 +19,7 @@ mod diagnostic;
 mod document;
 mod figure;
 mod given;
+mod grammar;
 mod node;
 mod quoting;
 #[cfg(feature = "schema")]

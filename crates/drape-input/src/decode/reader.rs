@@ -84,7 +84,7 @@ impl<'a> Reader<'a> {
     /// Writes down that the value is not of the kind that is asked for.
     fn wrong(&self, kind: Kind) {
         let wanted = kind.words();
-        let short = wanted.split_once(", such as").map_or(wanted.as_str(), |(short, _)| short);
+        let short = wanted.split_once(" such as").map_or(wanted.as_str(), |(short, _)| short);
         let message = format!("is {} where {short} is needed", self.node.kind());
         let help = match (&self.node.value, self.path.step) {
             (Value::Table(_), Step::Key(key, _)) if kind == Kind::List(None) => {
@@ -174,9 +174,11 @@ impl<'a> Reader<'a> {
                 visitor.visit_seq(SeqDeserializer::new([number, unit.factor].into_iter()))
             }
             Ok(_) => {
-                let [bare, unit] = examples;
-                let message = format!("\"{}\" has no unit", excerpt(text));
-                self.fault(message, format!("write {bare} without quotes, or \"{unit}\""));
+                let number = excerpt(text.trim());
+                let message = format!("\"{number}\" has no unit");
+                let help =
+                    format!("write {number} without quotes, or a unit, as in \"{}\"", examples[1]);
+                self.fault(message, help);
                 visitor.visit_f64(1.0)
             }
             Err(error) => {
@@ -288,7 +290,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
             Value::List(nodes) => {
                 let number = nodes.len();
                 let message = format!("is a list of {number} where {count} values are needed");
-                self.fault(message, format!("write a list of {count} values"));
+                self.fault(message, format!("write {}", Kind::List(Some(count)).words()));
                 StandIn { asked: &Cell::new(Kind::Anything) }.deserialize_tuple(count, v)
             }
             _ => self.stand_in(Kind::List(Some(count)), |by| by.deserialize_tuple(count, v)),

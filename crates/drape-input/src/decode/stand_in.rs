@@ -33,12 +33,14 @@ impl Kind {
             Self::Number => "a number".into(),
             Self::Whole => "a whole number, 0 or more".into(),
             Self::Flag => "true or false".into(),
+            Self::List(Some(2)) => "a list such as [1, 2]".into(),
+            Self::List(Some(3)) => "a list such as [0, 1, 0]".into(),
             Self::List(Some(count)) => format!("a list of {count} values"),
             Self::List(None) => "a list".into(),
             Self::Table => "a table".into(),
             Self::Quantity(name, [bare, unit]) => {
                 let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-                format!("{article} {name}, such as {bare} or \"{unit}\"")
+                format!("{article} {name} such as {bare} or \"{unit}\"")
             }
             Self::Anything => "a value".into(),
         }

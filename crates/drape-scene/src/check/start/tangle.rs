@@ -70,8 +70,13 @@ pub(crate) fn check_tangle(
     if overlaps.first.iter().any(|overlap| is_of_two_garments(scene, overlap)) {
         help = "give the garment that is worn outside a higher layer, or move or turn panels apart";
     }
-    let told = overlaps.first.iter().take(OVERLAPS_TOLD).map(|overlap| {
-        let ([a, b], [x, y, z]) = (&overlap.parts, overlap.place);
+    // One place of each two parts.
+    let mut parts = BTreeSet::new();
+    let first = overlaps.first.iter().filter(|overlap| parts.insert(&overlap.parts));
+    let told = first.take(OVERLAPS_TOLD).map(|overlap| {
+        let [a, b] = &overlap.parts;
+        // Adding 0 takes the sign of a rounded zero.
+        let [x, y, z] = overlap.place.map(|x| (1e4 * x).round() / 1e4 + 0.0);
         format!("\"{a}\" and \"{b}\" near ({x:.4}, {y:.4}, {z:.4}) m")
     });
     let told: Vec<String> = told.collect();
