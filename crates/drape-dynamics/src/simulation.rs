@@ -285,7 +285,7 @@ impl Simulation {
         if let Some(balance) = &mut self.world.balance {
             balance.add_report(&report);
         }
-        self.statistics.add_step(&report, &self.world);
+        self.statistics.add_step(&report, &mut self.world);
         let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
         let squares = self.world.state.velocities.chunks_exact(3).map(square);
         let speed_max = squares.fold(0.0, f64::max).sqrt();
