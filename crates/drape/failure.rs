@@ -47,7 +47,10 @@ impl Failure {
     #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
     pub(crate) fn print(&self) {
         match self {
-            Self::Input(mistakes) => mistakes.0.iter().for_each(|m| eprintln!("{}", render(m))),
+            Self::Input(mistakes) => {
+                mistakes.shown().iter().for_each(|mistake| eprintln!("{}", render(mistake)));
+                mistakes.rest().iter().for_each(|rest| eprintln!("error: {rest}"));
+            }
             Self::Batch => {}
             other => eprintln!("error: {other}"),
         }

@@ -153,7 +153,7 @@ impl Stepping {
         loop {
             let ticks = self.control.next(self.ticks);
             let dt = ticks as f64 * self.clock.tick();
-            if self.clock.error.is_none() {
+            if self.control.error().is_none() {
                 let report = self.integrate(world, dt)?;
                 self.ticks += ticks;
                 return Ok(MadeStep { ticks, report });

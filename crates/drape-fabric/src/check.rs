@@ -4,6 +4,7 @@
 use std::ops::RangeInclusive;
 
 use drape_hysteresis::BlimanSorine;
+use drape_input::figure;
 
 use crate::fabric::Fabric;
 use crate::laws::bending::{BendingBackbone, BendingLaw};
@@ -31,9 +32,14 @@ impl Fabric {
             "density",
             self.density,
             0.005..=5.0,
-            "mass per area in kg/m²; a fabric of 120 g/m² has 0.12",
+            "mass per area in kg/m²: 0.12, or \"120 g/m2\" with its unit",
         );
-        check.within("thickness", self.thickness, 1e-6..=0.02, "in m; 0.3 mm is 0.0003");
+        check.within(
+            "thickness",
+            self.thickness,
+            1e-6..=0.02,
+            "in m: 0.0003, or \"0.3 mm\" with its unit",
+        );
         if let Some(pressed) = self.pressed_thickness {
             let help = "in m, under 4.9 kPa: no more than the thickness";
             check.within("pressed_thickness", pressed, 1e-6..=self.thickness, help);
@@ -63,13 +69,17 @@ impl Check {
     fn within(&mut self, key: &str, value: f64, range: RangeInclusive<f64>, help: &str) {
         let (low, high) = (range.start(), range.end());
         if !(value >= *low && value <= *high) {
-            self.fail(key, format!("{value} is not between {low} and {high}"), help);
+            self.fail(
+                key,
+                format!("{} is not between {} and {}", figure(value), figure(*low), figure(*high)),
+                help,
+            );
         }
     }
 
     fn positive(&mut self, key: &str, value: f64, help: &str) {
         if !(value > 0.0 && value.is_finite()) {
-            self.fail(key, format!("{value} is not greater than 0"), help);
+            self.fail(key, format!("{} is not greater than 0", figure(value)), help);
         }
     }
 
@@ -122,7 +132,7 @@ impl Check {
                 key,
                 value,
                 1e-7..=1e-3,
-                "moment per width and curvature in N·m; KES B in gf·cm²/cm times 9.80665e-5",
+                "in N·m: 1.2e-5, or KES B with its unit, \"0.12 gf.cm2/cm\"",
             );
         };
         match &law.backbone {
@@ -142,7 +152,7 @@ impl Check {
     fn shear(&mut self, law: &ShearLaw) {
         match &law.backbone {
             ShearBackbone::Linear { stiffness } => {
-                let help = "in N/m; KES G in gf/(cm·deg) times 56.19";
+                let help = "in N/m: 35, or KES G with its unit, \"0.6 gf/(cm.deg)\"";
                 self.within("shear.stiffness", *stiffness, 0.01..=1e5, help);
             }
             ShearBackbone::Piecewise(piecewise) => {
@@ -177,12 +187,13 @@ impl Check {
         let help = "not negative; the first element is the fast one of a second-order model";
         self.within(&format!("{key}[0].plateau"), first.plateau, 0.0..=1e9, help);
         if !(second.plateau >= -first.plateau) {
-            let message = format!("{} outweighs the first element", second.plateau);
+            let message = format!("{} outweighs the first element", figure(second.plateau));
             let help = "a negative second plateau must be smaller than the first one";
             self.fail(&format!("{key}[1].plateau"), message, help);
         }
         if second.plateau < 0.0 && !(second.length > first.length) {
-            let message = format!("{} is not longer than the first element's", second.length);
+            let message =
+                format!("{} is not longer than the first element's", figure(second.length));
             let help = "the negative element of a second-order model is the slow, long one";
             self.fail(&format!("{key}[1].length"), message, help);
         }

@@ -75,6 +75,7 @@ pub struct YarnLaws {
 
 /// Provenance of fitted numbers.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// Sheet whose curves and values were fitted.

@@ -4,7 +4,10 @@
 use std::path::Path;
 
 use drape_hysteresis::{BlimanSorine, Dahl};
-use drape_input::{Diagnostic, Diagnostics, Document};
+use drape_input::{
+    BendingRigidity, Curvature, Diagnostic, Diagnostics, Dimension, Document, ForcePerWidth, Given,
+    Length, MassPerArea, MomentPerWidth, Ratio, ShearStiffness,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::check::Problem;
@@ -15,15 +18,16 @@ use crate::laws::shear::{Locking, ShearBackbone, ShearLaw};
 use crate::laws::traction::{Buckling, Polynomial, Primed, TractionBackbone, TractionLaw};
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct FabricFile {
     name: String,
     #[serde(default)]
     source: String,
-    density: f64,
-    thickness: f64,
+    density: Given<MassPerArea>,
+    thickness: Given<Length>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pressed_thickness: Option<f64>,
+    pressed_thickness: Option<Given<Length>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     compression_linearity: Option<f64>,
     #[serde(default = "surface_friction")]
@@ -40,6 +44,7 @@ fn surface_friction() -> f64 {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct YarnFile {
     traction: TractionFile,
@@ -47,10 +52,11 @@ struct YarnFile {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct TractionFile {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    friction: Vec<ElementFile>,
+    friction: Vec<ElementFile<ForcePerWidth, Ratio>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     primed: Option<PrimedFile>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -60,76 +66,99 @@ struct TractionFile {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct PrimedFile {
-    stiffness: f64,
+    stiffness: Given<ForcePerWidth>,
     toe_ratio: f64,
-    toe_strain: f64,
-    toe_strain_after: f64,
+    toe_strain: Given<Ratio>,
+    toe_strain_after: Given<Ratio>,
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct PolynomialFile {
-    quadratic: f64,
-    quartic: f64,
+    quadratic: Given<ForcePerWidth>,
+    quartic: Given<ForcePerWidth>,
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct BucklingFile {
-    strain: f64,
-    stiffness: f64,
+    strain: Given<Ratio>,
+    stiffness: Given<ForcePerWidth>,
 }
 
+/// Friction element: a load, and a deformation.
 #[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ElementFile {
-    plateau: f64,
-    length: f64,
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(bound = ""))]
+#[serde(deny_unknown_fields, bound = "")]
+struct ElementFile<L: Dimension, D: Dimension> {
+    plateau: Given<L>,
+    length: Given<D>,
 }
 
+/// Curve of two pieces: the slope of loads over deformations, a load, and a deformation.
 #[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PiecewiseFile {
-    slope: f64,
-    intercept: f64,
-    knot: f64,
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(bound = ""))]
+#[serde(deny_unknown_fields, bound = "")]
+struct PiecewiseFile<S: Dimension, L: Dimension, D: Dimension> {
+    slope: Given<S>,
+    intercept: Given<L>,
+    knot: Given<D>,
 }
 
+/// Curve of the moment over the curvature.
+type BendingCurveFile = PiecewiseFile<BendingRigidity, MomentPerWidth, Curvature>;
+
+/// Curve of the shear force over the sine of the angle.
+type ShearCurveFile = PiecewiseFile<ShearStiffness, ForcePerWidth, Ratio>;
+
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct BendingFile {
     #[serde(skip_serializing_if = "Option::is_none")]
-    rigidity: Option<f64>,
+    rigidity: Option<Given<BendingRigidity>>,
     #[serde(default)]
-    rest_curvature: f64,
+    rest_curvature: Given<Curvature>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    friction: Vec<ElementFile>,
+    friction: Vec<ElementFile<MomentPerWidth, Curvature>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    piecewise: Option<PiecewiseFile>,
+    piecewise: Option<BendingCurveFile>,
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct ShearFile {
     #[serde(skip_serializing_if = "Option::is_none")]
-    stiffness: Option<f64>,
+    stiffness: Option<Given<ShearStiffness>>,
     #[serde(default)]
     growth: f64,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    friction: Vec<ElementFile>,
+    friction: Vec<ElementFile<ForcePerWidth, Ratio>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    piecewise: Option<PiecewiseFile>,
+    piecewise: Option<ShearCurveFile>,
     #[serde(skip_serializing_if = "Option::is_none")]
     locking: Option<LockingFile>,
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct LockingFile {
     onset: f64,
     limit: f64,
+}
+
+/// Returns the JSON Schema of fabrics.
+#[cfg(feature = "schema")]
+#[must_use]
+pub fn fabric_schema() -> serde_json::Value {
+    drape_input::schema_of::<FabricFile>("Fabric of drape")
 }
 
 impl Fabric {
@@ -146,14 +175,18 @@ impl Fabric {
     /// # Errors
     /// Every mistake of the document, each with its line and a remedy.
     pub fn from_document(document: &Document) -> Result<Self, Diagnostics> {
-        let file: FabricFile = document.decode()?;
+        let (file, faults) = document.decode_with_faults::<FabricFile>()?;
         let mut mistakes = Vec::new();
         let fabric = file.fabric(&mut |key, message, help| {
-            mistakes.push(document.at(key, message).help(help));
+            if !faults.cover(key) {
+                mistakes.push(document.at(key, message).help(help));
+            }
         });
         let problems = fabric.problems();
+        let problems = problems.iter().filter(|problem| !faults.cover(&problem.key));
         let located = |p: &Problem| document.at(&p.key, p.message.clone()).help(&p.help);
-        mistakes.extend(problems.iter().map(located).collect::<Vec<Diagnostic>>());
+        mistakes.extend(problems.map(located).collect::<Vec<Diagnostic>>());
+        mistakes.extend(faults.into_mistakes());
         Diagnostics::check(mistakes)?;
         Ok(fabric)
     }
@@ -176,9 +209,9 @@ impl FabricFile {
         Fabric {
             name: self.name,
             source: self.source,
-            density: self.density,
-            thickness: self.thickness,
-            pressed_thickness: self.pressed_thickness,
+            density: self.density.value(),
+            thickness: self.thickness.value(),
+            pressed_thickness: self.pressed_thickness.map(Given::value),
             compression_linearity: self.compression_linearity,
             surface_friction: self.surface_friction,
             warp,
@@ -194,14 +227,14 @@ impl YarnFile {
         let traction_key = format!("{key}.traction");
         let backbone = match (self.traction.primed, self.traction.polynomial) {
             (Some(p), None) => TractionBackbone::Primed(Primed {
-                stiffness: p.stiffness,
+                stiffness: p.stiffness.value(),
                 toe_ratio: p.toe_ratio,
-                toe_strain: p.toe_strain,
-                toe_strain_after: p.toe_strain_after,
+                toe_strain: p.toe_strain.value(),
+                toe_strain_after: p.toe_strain_after.value(),
             }),
             (None, Some(p)) => TractionBackbone::Polynomial(Polynomial {
-                quadratic: p.quadratic,
-                quartic: p.quartic,
+                quadratic: p.quadratic.value(),
+                quartic: p.quartic.value(),
             }),
             _ => {
                 report(
@@ -212,16 +245,16 @@ impl YarnFile {
                 TractionBackbone::Polynomial(Polynomial { quadratic: 1.0, quartic: 0.0 })
             }
         };
-        let buckling = self
-            .traction
-            .buckling
-            .map_or(Buckling::default(), |b| Buckling { strain: b.strain, stiffness: b.stiffness });
+        let buckling = self.traction.buckling.map_or(Buckling::default(), |b| Buckling {
+            strain: b.strain.value(),
+            stiffness: b.stiffness.value(),
+        });
         let friction = friction(&self.traction.friction, &traction_key, report);
         let traction = TractionLaw { backbone, friction, buckling };
 
         let bending_key = format!("{key}.bending");
         let backbone = match (self.bending.rigidity, self.bending.piecewise) {
-            (Some(rigidity), None) => BendingBackbone::Linear { rigidity },
+            (Some(rigidity), None) => BendingBackbone::Linear { rigidity: rigidity.value() },
             (None, Some(p)) => BendingBackbone::Piecewise(p.into()),
             _ => {
                 report(
@@ -232,7 +265,7 @@ impl YarnFile {
                 BendingBackbone::Linear { rigidity: 1e-5 }
             }
         };
-        let rest_curvature = self.bending.rest_curvature;
+        let rest_curvature = self.bending.rest_curvature.value();
         let friction = self::friction(&self.bending.friction, &bending_key, report);
         YarnLaws { traction, bending: BendingLaw { backbone, rest_curvature, friction } }
     }
@@ -241,7 +274,7 @@ impl YarnFile {
 impl ShearFile {
     fn law(self, report: &mut Report<'_>) -> ShearLaw {
         let backbone = match (self.stiffness, self.piecewise) {
-            (Some(stiffness), None) => ShearBackbone::Linear { stiffness },
+            (Some(stiffness), None) => ShearBackbone::Linear { stiffness: stiffness.value() },
             (None, Some(p)) => ShearBackbone::Piecewise(p.into()),
             _ => {
                 report(
@@ -261,7 +294,11 @@ impl ShearFile {
     }
 }
 
-fn friction(elements: &[ElementFile], key: &str, report: &mut Report<'_>) -> BlimanSorine {
+fn friction<L: Dimension, D: Dimension>(
+    elements: &[ElementFile<L, D>],
+    key: &str,
+    report: &mut Report<'_>,
+) -> BlimanSorine {
     if elements.len() > 2 {
         report(
             &format!("{key}.friction[2]"),
@@ -269,29 +306,39 @@ fn friction(elements: &[ElementFile], key: &str, report: &mut Report<'_>) -> Bli
             "the model has one (first order) or two (second order, or nested loops)",
         );
     }
-    let element =
-        |index: usize| elements.get(index).map_or(Dahl::NONE, |e| Dahl::new(e.plateau, e.length));
+    let element = |index: usize| {
+        let element = elements.get(index);
+        element.map_or(Dahl::NONE, |e| Dahl::new(e.plateau.value(), e.length.value()))
+    };
     BlimanSorine::parallel(element(0), element(1))
 }
 
-impl From<PiecewiseFile> for Piecewise {
-    fn from(file: PiecewiseFile) -> Self {
-        Self { slope: file.slope, intercept: file.intercept, knot: file.knot }
+impl<S: Dimension, L: Dimension, D: Dimension> From<PiecewiseFile<S, L, D>> for Piecewise {
+    fn from(file: PiecewiseFile<S, L, D>) -> Self {
+        Self {
+            slope: file.slope.value(),
+            intercept: file.intercept.value(),
+            knot: file.knot.value(),
+        }
     }
 }
 
-impl From<&Piecewise> for PiecewiseFile {
+impl<S: Dimension, L: Dimension, D: Dimension> From<&Piecewise> for PiecewiseFile<S, L, D> {
     fn from(law: &Piecewise) -> Self {
-        Self { slope: law.slope, intercept: law.intercept, knot: law.knot }
+        Self {
+            slope: Given::bare(law.slope),
+            intercept: Given::bare(law.intercept),
+            knot: Given::bare(law.knot),
+        }
     }
 }
 
-fn elements(friction: &BlimanSorine) -> Vec<ElementFile> {
+fn elements<L: Dimension, D: Dimension>(friction: &BlimanSorine) -> Vec<ElementFile<L, D>> {
     friction
         .elements
         .iter()
         .filter(|e| e.plateau != 0.0)
-        .map(|e| ElementFile { plateau: e.plateau, length: e.length })
+        .map(|e| ElementFile { plateau: Given::bare(e.plateau), length: Given::bare(e.length) })
         .collect()
 }
 
@@ -300,9 +347,9 @@ impl From<&Fabric> for FabricFile {
         Self {
             name: fabric.name.clone(),
             source: fabric.source.clone(),
-            density: fabric.density,
-            thickness: fabric.thickness,
-            pressed_thickness: fabric.pressed_thickness,
+            density: Given::bare(fabric.density),
+            thickness: Given::bare(fabric.thickness),
+            pressed_thickness: fabric.pressed_thickness.map(Given::bare),
             compression_linearity: fabric.compression_linearity,
             surface_friction: fabric.surface_friction,
             warp: (&fabric.warp).into(),
@@ -320,20 +367,23 @@ impl From<&YarnLaws> for YarnFile {
         match &traction.backbone {
             TractionBackbone::Primed(p) => {
                 primed = Some(PrimedFile {
-                    stiffness: p.stiffness,
+                    stiffness: Given::bare(p.stiffness),
                     toe_ratio: p.toe_ratio,
-                    toe_strain: p.toe_strain,
-                    toe_strain_after: p.toe_strain_after,
+                    toe_strain: Given::bare(p.toe_strain),
+                    toe_strain_after: Given::bare(p.toe_strain_after),
                 });
             }
             TractionBackbone::Polynomial(p) => {
-                polynomial = Some(PolynomialFile { quadratic: p.quadratic, quartic: p.quartic });
+                polynomial = Some(PolynomialFile {
+                    quadratic: Given::bare(p.quadratic),
+                    quartic: Given::bare(p.quartic),
+                });
             }
         }
         let Buckling { strain, stiffness } = traction.buckling;
         let (mut rigidity, mut piecewise) = (None, None);
         match &bending.backbone {
-            BendingBackbone::Linear { rigidity: value } => rigidity = Some(*value),
+            BendingBackbone::Linear { rigidity: value } => rigidity = Some(Given::bare(*value)),
             BendingBackbone::Piecewise(p) => piecewise = Some(p.into()),
         }
         Self {
@@ -341,11 +391,14 @@ impl From<&YarnLaws> for YarnFile {
                 friction: elements(&traction.friction),
                 primed,
                 polynomial,
-                buckling: Some(BucklingFile { strain, stiffness }),
+                buckling: Some(BucklingFile {
+                    strain: Given::bare(strain),
+                    stiffness: Given::bare(stiffness),
+                }),
             },
             bending: BendingFile {
                 rigidity,
-                rest_curvature: bending.rest_curvature,
+                rest_curvature: Given::bare(bending.rest_curvature),
                 friction: elements(&bending.friction),
                 piecewise,
             },
@@ -357,7 +410,7 @@ impl From<&ShearLaw> for ShearFile {
     fn from(law: &ShearLaw) -> Self {
         let (mut stiffness, mut piecewise) = (None, None);
         match &law.backbone {
-            ShearBackbone::Linear { stiffness: value } => stiffness = Some(*value),
+            ShearBackbone::Linear { stiffness: value } => stiffness = Some(Given::bare(*value)),
             ShearBackbone::Piecewise(p) => piecewise = Some(p.into()),
         }
         Self {

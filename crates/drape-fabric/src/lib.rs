@@ -34,6 +34,8 @@ pub use breen::{BreenWork, Work, breen_curvature};
 pub use check::Problem;
 pub use drape_hysteresis::{BlimanSorine, Dahl, Loads, PassedKnot, PreparedDahl, Response, Stroke};
 pub use fabric::{Fabric, Provenance, SURFACE_FRICTION, YarnLaws};
+#[cfg(feature = "schema")]
+pub use file::fabric_schema;
 pub use laws::bending::{BendingBackbone, BendingLaw};
 pub use laws::law::{Law, Memory, drive};
 pub use laws::piecewise::Piecewise;

@@ -7,6 +7,14 @@ use std::fmt;
 use std::ops::Range;
 use std::path::PathBuf;
 
+use crate::figure::cut;
+
+/// Largest number of letters of a message or a remedy.
+const LETTERS_MAX: usize = 1000;
+
+/// Largest number of mistakes of an input that are shown.
+const SHOWN_MAX: usize = 20;
+
 /// One mistake of an input, with its place and its remedy.
 ///
 /// ```
@@ -40,7 +48,7 @@ impl Diagnostic {
             line: None,
             column: None,
             span: None,
-            message: message.into(),
+            message: shorten(message.into()),
             help: None,
         }
     }
@@ -48,7 +56,7 @@ impl Diagnostic {
     /// Adds the remedy.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(shorten(help.into()));
         self
     }
 
@@ -79,6 +87,11 @@ impl fmt::Display for Diagnostic {
 
 impl std::error::Error for Diagnostic {}
 
+/// Returns a text that can be read at once, whatever it repeats of an input.
+fn shorten(text: String) -> String {
+    if text.len() <= LETTERS_MAX { text } else { cut(&text, LETTERS_MAX) }
+}
+
 /// All mistakes of an input, in the order of the text: the error type of this crate.
 ///
 /// ```
@@ -106,6 +119,22 @@ impl Diagnostics {
         mistakes.dedup();
         Err(Self(mistakes))
     }
+
+    /// Returns the mistakes that are shown, the first twenty.
+    #[must_use]
+    pub fn shown(&self) -> &[Diagnostic] {
+        &self.0[..self.0.len().min(SHOWN_MAX)]
+    }
+
+    /// Returns the number of the other mistakes in words, if there are some.
+    #[must_use]
+    pub fn rest(&self) -> Option<String> {
+        match self.0.len() - self.shown().len() {
+            0 => None,
+            1 => Some("and 1 more mistake".into()),
+            more => Some(format!("and {more} more mistakes")),
+        }
+    }
 }
 
 impl From<Diagnostic> for Diagnostics {
@@ -116,13 +145,16 @@ impl From<Diagnostic> for Diagnostics {
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, diagnostic) in self.0.iter().enumerate() {
+        for (index, diagnostic) in self.shown().iter().enumerate() {
             if index > 0 {
                 writeln!(f)?;
             }
             write!(f, "{diagnostic}")?;
         }
-        Ok(())
+        match self.rest() {
+            Some(rest) => write!(f, "\n{rest}"),
+            None => Ok(()),
+        }
     }
 }
 

@@ -4,12 +4,16 @@
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use serde::de::DeserializeOwned;
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
+use crate::decode::{Decoded, Fault, Faults, decode};
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::figure::cut;
+use crate::grammar::{GrammarMistake, grammar_mistakes};
+use crate::node::{Node, Value};
 use crate::spelling::closest;
 
 /// Largest TOML file that is read, in bytes.
@@ -17,6 +21,9 @@ use crate::spelling::closest;
 /// Sheets, fabrics and scenes have a few kilobytes; the limit keeps a wrong path from filling the
 /// memory.
 const LARGEST: u64 = 1 << 20;
+
+/// Largest number of letters of a key path in a message.
+const KEY_MAX: usize = 120;
 
 /// Text of a TOML file with its path.
 ///
@@ -31,6 +38,8 @@ const LARGEST: u64 = 1 << 20;
 pub struct Document {
     path: PathBuf,
     text: String,
+    content: OnceLock<Content>,
+    lines: OnceLock<Lines>,
 }
 
 impl Document {
@@ -39,7 +48,7 @@ impl Document {
     pub fn new(path: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         let text: String = text.into();
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-        Self { path: path.into(), text }
+        Self { path: path.into(), text, content: OnceLock::new(), lines: OnceLock::new() }
     }
 
     /// Reads a file.
@@ -50,7 +59,7 @@ impl Document {
         let path = path.as_ref();
         let fail = |message: String| Diagnostic::new(path, message);
         let metadata = std::fs::metadata(path)
-            .map_err(|e| fail(format!("cannot open the file: {e}")).help(suggestion(path)))?;
+            .map_err(|e| fail(format!("cannot open the file: {e}")).help(nearest_file(path)))?;
         if !metadata.is_file() {
             return Err(fail("this is not a file".into()).help("name a TOML file").into());
         }
@@ -82,30 +91,42 @@ impl Document {
     /// Decodes the text into a structure.
     ///
     /// # Errors
-    /// The first mistake of grammar, spelling or type, with its place.
+    /// All mistakes of grammar, spelling or type, with their places.
     pub fn decode<T: DeserializeOwned>(&self) -> Result<T, Diagnostics> {
-        toml::from_str(&self.text).map_err(|error| {
-            let message = error.message();
-            let headline = message.split(", expected").next().unwrap_or(message);
-            let mut diagnostic = self.locate(error.span(), headline);
-            let words: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-            if message.starts_with("unknown field") {
-                let known = words.iter().skip(1).copied();
-                diagnostic = match closest(words.first().unwrap_or(&""), known) {
-                    Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
-                    None if words.len() > 1 => {
-                        diagnostic.help(format!("known here: {}", words[1..].join(", ")))
-                    }
-                    None => diagnostic.help("remove it"),
-                };
-            } else if message.starts_with("missing field") {
-                diagnostic = diagnostic.help("add it");
-            } else if message != headline {
-                let expected = message[headline.len()..].trim_start_matches(", ");
-                diagnostic = diagnostic.help(expected.to_owned());
-            }
-            diagnostic.into()
-        })
+        let (value, faults) = self.decode_with_faults()?;
+        Diagnostics::check(faults.into_mistakes())?;
+        Ok(value)
+    }
+
+    /// Decodes the text into a structure in spite of mistakes of spelling and type: what is wrong is
+    /// left out, so that the rest can be checked.
+    ///
+    /// # Errors
+    /// The mistakes, if they are of grammar, or no structure can be made.
+    pub fn decode_with_faults<T: DeserializeOwned>(&self) -> Result<(T, Faults), Diagnostics> {
+        let content = self.content();
+        if !content.mistakes.is_empty() {
+            let told = |GrammarMistake { span, message, help }: &GrammarMistake| {
+                self.locate(span.clone(), message.clone()).help(help.clone())
+            };
+            return Err(sorted(content.mistakes.iter().map(told).collect()));
+        }
+        let Decoded { value, faults, keys } = decode(&content.root);
+        let mistake = |fault: Fault| {
+            let mistake = self.locate(fault.span, fault.message);
+            if fault.help.is_empty() { mistake } else { mistake.help(fault.help) }
+        };
+        let mistakes: Vec<Diagnostic> = faults.into_iter().map(mistake).collect();
+        value.map_or_else(
+            || Err(sorted(mistakes.clone())),
+            |value| Ok((value, Faults::new(mistakes.clone(), keys))),
+        )
+    }
+
+    /// Returns whether the text has a value at a key path.
+    #[must_use]
+    pub fn has(&self, key: &str) -> bool {
+        self.find(key).is_some_and(|place| place.is_whole)
     }
 
     /// Returns a mistake in the value at a key path such as `warp.traction.stiffness` or
@@ -115,48 +136,94 @@ impl Document {
     /// the text, the innermost table that is gives the place.
     #[must_use]
     pub fn at(&self, key: &str, message: impl Into<String>) -> Diagnostic {
-        let message = format!("{key}: {}", message.into());
-        self.locate(self.find(key), message)
+        let message = format!("{}: {}", cut(key, KEY_MAX), message.into());
+        self.locate(self.find(key).map(|place| place.span), message)
     }
 
     /// Returns a mistake with the place of a span.
     fn locate(&self, span: Option<Range<usize>>, message: impl Into<String>) -> Diagnostic {
         let mut diagnostic = Diagnostic::new(&self.path, message);
         if let Some(span) = span {
-            let before = self.text.get(..span.start).unwrap_or(&self.text);
-            diagnostic.line = Some(before.matches('\n').count() + 1);
-            let start_of_line = before.rfind('\n').map_or(0, |end| end + 1);
-            diagnostic.column = Some(before[start_of_line..].chars().count() + 1);
+            let lines = self.lines.get_or_init(|| Lines::of(&self.text));
+            let line = lines.starts.partition_point(|&start| start <= span.start).max(1);
+            let start = lines.starts[line - 1];
+            let before = self.text.get(start..span.start).unwrap_or_default();
+            let letters = if lines.is_ascii { before.len() } else { before.chars().count() };
+            diagnostic.line = Some(line);
+            diagnostic.column = Some(letters + 1);
             diagnostic.span = Some(span);
         }
         diagnostic
     }
 
-    /// Returns the span of the value at a key path.
-    fn find(&self, key: &str) -> Option<Range<usize>> {
-        let table = DeTable::parse(&self.text).ok()?;
-        let mut place = None;
-        let mut value: Option<&Spanned<DeValue<'_>>> = None;
+    /// Returns the values of the text, which is parsed once.
+    fn content(&self) -> &Content {
+        self.content.get_or_init(|| {
+            let (table, errors) = DeTable::parse_recoverable(&self.text);
+            let right = errors.is_empty();
+            Content {
+                root: Node::root(table.get_ref()),
+                mistakes: if right { Vec::new() } else { grammar_mistakes(&self.text) },
+            }
+        })
+    }
+
+    /// Returns the place of the value at a key path, or of the innermost table on the way to it.
+    fn find(&self, key: &str) -> Option<Place> {
+        let mut place: Option<Place> = None;
+        let mut node = &self.content().root;
+        let innermost =
+            |place: Option<Place>| place.map(|place| Place { is_whole: false, ..place });
         for Part { name, index } in parts(key) {
-            let table = match value {
-                None => table.get_ref(),
-                Some(value) => value.get_ref().as_table()?,
-            };
-            let Some((found_key, found)) = table.iter().find(|(k, _)| k.get_ref() == name) else {
-                return place;
-            };
-            value = Some(found);
-            // A table is shown by its name, any other value by itself.
-            place = Some(if found.get_ref().is_table() { found_key.span() } else { found.span() });
+            let Some(entry) = node.entry(name) else { return innermost(place) };
+            node = &entry.node;
+            place = Some(Place { span: node.span.clone(), is_whole: true });
             if let Some(index) = index {
-                let Some(element) = found.get_ref().as_array().and_then(|a| a.get(index)) else {
-                    return place;
-                };
-                value = Some(element);
-                place = Some(element.span());
+                let Value::List(elements) = &node.value else { return innermost(place) };
+                let Some(element) = elements.get(index) else { return innermost(place) };
+                node = element;
+                place = Some(Place { span: node.span.clone(), is_whole: true });
             }
         }
         place
+    }
+}
+
+/// Values of a text, and its mistakes of grammar.
+#[derive(Debug, Clone)]
+struct Content {
+    root: Node,
+    mistakes: Vec<GrammarMistake>,
+}
+
+/// Lines of a text.
+#[derive(Debug, Clone)]
+struct Lines {
+    /// First byte of each.
+    starts: Vec<usize>,
+    /// Whether each letter of the text is a byte.
+    is_ascii: bool,
+}
+
+impl Lines {
+    fn of(text: &str) -> Self {
+        let ends = text.match_indices('\n').map(|(end, _)| end + 1);
+        Self { starts: std::iter::once(0).chain(ends).collect(), is_ascii: text.is_ascii() }
+    }
+}
+
+/// Place of a value, or of a table that it should be in.
+struct Place {
+    span: Range<usize>,
+    /// Whether it is the value itself.
+    is_whole: bool,
+}
+
+/// Returns mistakes in the order of the text.
+fn sorted(mistakes: Vec<Diagnostic>) -> Diagnostics {
+    match Diagnostics::check(mistakes) {
+        Err(mistakes) => mistakes,
+        Ok(()) => Diagnostics(Vec::new()),
     }
 }
 
@@ -187,8 +254,9 @@ fn index(text: &str) -> Option<usize> {
     text.trim_matches(['[', ']']).parse().ok()
 }
 
-/// Suggests the file that was meant by a path that does not exist.
-fn suggestion(path: &Path) -> String {
+/// Returns advice on a path that does not exist: the file beside it that was probably meant.
+#[must_use]
+pub fn nearest_file(path: &Path) -> String {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = std::fs::read_dir(folder) else {
         return format!("there is no folder {}", folder.display());
@@ -237,7 +305,7 @@ mod tests {
         let grammar = mistake("dt = 1\nx = = 2");
         assert_eq!(grammar.line, Some(2), "{grammar}");
         let missing = mistake("dt = 1\n[[curve]]\n");
-        assert!(missing.message.contains("missing field `file`"), "{missing}");
+        assert_eq!(missing.message, "curve[0].file: is missing");
         assert_eq!(missing.line, Some(2), "{missing}");
     }
 

@@ -4,17 +4,40 @@
 //!
 //! * `document`: [`Document`], the text of a TOML file with its path; it decodes the text into a
 //!   structure and locates a key for a message.
+//! * `decode`: what decodes it, with all mistakes at once, and [`Faults`], which say what was left out.
+//! * `grammar`: mistakes of the text itself.
+//! * `given`: [`Given`], a number of a structure that may stand with a unit; `unit`: the units.
 //! * `diagnostic`: [`Diagnostic`], one mistake with its place and remedy, and [`Diagnostics`], the
 //!   error type of this crate: all mistakes of an input.
 //! * `spelling`: [`closest`], the known word nearest to a misspelt one.
 //! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML.
+//! * `schema`: JSON Schema of such numbers, with the feature of that name.
+//! * `figure`: [`figure`](fn@figure), [`excerpt`] and others, numbers and texts in messages.
 
+mod decode;
 mod diagnostic;
 mod document;
+mod figure;
+mod given;
+mod grammar;
+mod node;
 mod quoting;
+#[cfg(feature = "schema")]
+mod schema;
 mod spelling;
+mod unit;
 
+pub use decode::Faults;
 pub use diagnostic::{Diagnostic, Diagnostics};
-pub use document::Document;
+pub use document::{Document, nearest_file};
+pub use figure::{excerpt, figure, figure_below, figures, tidy};
+pub use given::{
+    Acceleration, Angle, AngularSpeed, BendingRigidity, Curvature, Density, Dimension,
+    ForcePerWidth, Given, Length, MassPerArea, MomentPerWidth, PressurePerDistance, Ratio,
+    ShearStiffness, Speed, TextOr, Time,
+};
 pub use quoting::{toml_key, toml_string};
+#[cfg(feature = "schema")]
+pub use schema::schema_of;
 pub use spelling::closest;
+pub use unit::{Quantity, Unit, UnitError, Written, is_unit, parse_quantity, parse_unit};

@@ -5,7 +5,6 @@
 //! [`Sheet::read`] reads a laboratory's sheet with its [`Curve`]s and [`Values`];
 //! [`Curve::values`] computes KES values from a curve.
 //!
-//! * `unit`: quantities, their units and factors to SI, in one table.
 //! * `test`, `symbol`, `values`: the KES values of one direction, in laboratory units and in
 //!   SI.
 //! * `curves`: [`Curve`], its branches, and the KES values read off it at [`EvaluationPoints`].
@@ -13,7 +12,6 @@
 //! * `sheets`: [`Sheet`], its TOML and table files, and the checks of what they say.
 
 mod error;
-mod unit;
 // Tests, and the values that they give.
 mod symbol;
 mod test;

@@ -1,7 +1,7 @@
 //! Symbols of the KES values, with their units and tests \[Kaw80\].
 
 use crate::test::Test;
-use crate::unit::Quantity;
+use drape_input::Quantity;
 
 /// Symbol of a KES value of one direction.
 ///

@@ -1,7 +1,7 @@
 //! KES values of one direction: symbols in laboratory units, words in SI.
 
 use crate::symbol::Symbol;
-use crate::unit::Quantity;
+use drape_input::Quantity;
 
 /// KES values of one direction, in the laboratory's units; each may be missing.
 ///

@@ -3,7 +3,7 @@
 //! A [`Checker`](self::checker::Checker) has the file and collects its mistakes; every part of a
 //! scene has a function that takes the checker and returns the checked value. Values are checked
 //! where they enter, once, and mistakes are collected, so that one reading names all that can be
-//! found. Panels, times, bodies and contact come first; seams, pins and the start need sound panels
+//! found. Panels, times, bodies, contact and pins come first; seams and the start need sound panels
 //! and follow only without mistakes. Files are read here, but for fabrics, which the caller's
 //! function reads.
 
@@ -20,8 +20,10 @@ mod solver;
 mod start;
 mod time;
 
+use std::collections::BTreeSet;
+
 use drape_cloth::{Breen, Cloth};
-use drape_input::{Diagnostics, Document};
+use drape_input::{Diagnostics, Document, Faults, Given, excerpt, figures};
 
 use crate::error::Error;
 use crate::file::SceneFile;
@@ -36,7 +38,7 @@ use self::checker::Checker;
 use self::contact::ContactBounds;
 use self::garment::cost::cost;
 use self::garment::distance::check_distance;
-use self::garment::sewing::{frictionless_cloth, sewing};
+use self::garment::sewing::{frictionless_cloth, sewing_settings};
 use self::hash::Content;
 use self::panel::PlacedPanel;
 
@@ -55,9 +57,13 @@ pub(crate) struct Documents<'a> {
 }
 
 /// Checks the content of a scene's file.
-pub(crate) fn check(documents: &Documents<'_>, file: SceneFile) -> Result<Scene, Error> {
+pub(crate) fn check(
+    documents: &Documents<'_>,
+    file: &SceneFile,
+    faults: Faults,
+) -> Result<Scene, Error> {
     let document = documents.scene;
-    let checker = &mut Checker::new(document, &file, documents.others);
+    let checker = &mut Checker::new(documents, file, faults);
     let model = solver::model(checker);
     let materials = fabrics::materials(checker, documents.fabrics, model);
     let mut placed = panel::panels(checker, &materials);
@@ -81,12 +87,23 @@ pub(crate) fn check(documents: &Documents<'_>, file: SceneFile) -> Result<Scene,
     let environment = environment(checker);
     let bodies = body::bodies(checker);
     check_distance(checker, &placed[plain..], &bodies);
-    if file.keeps_surfaces_apart() {
+    if file.keeps_surfaces_apart() && checker.is_sound("time.step") {
         body::check_speeds(checker, &bodies, clock.step, spacing);
     }
-    let bounds = ContactBounds { spacing, step: clock.step, end: clock.end };
+    let fabrics = || materials.iter().flatten().map(|material| &material.fabric);
+    let density = fabrics().map(|fabric| fabric.density).fold(0.0, f64::max);
+    let pull = environment.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
+    let bounds = ContactBounds {
+        spacing,
+        step: clock.step,
+        end: clock.end,
+        weight: density * pull,
+        thickness: fabrics().map(|fabric| fabric.thickness).fold(f64::INFINITY, f64::min),
+    };
     let contact = contact::contact(checker, bounds);
-    // Seams, pins and the start need sound panels.
+    let pins = pins::pins(checker, &placed);
+    let sewing = sewing_settings(checker, seams.is_empty());
+    // Seams and the start need sound panels.
     checker.finish()?;
 
     let pairs: Vec<_> = placed
@@ -96,7 +113,7 @@ pub(crate) fn check(documents: &Documents<'_>, file: SceneFile) -> Result<Scene,
             (&panel.lattice, &material.expect("mistakes were reported").fabric)
         })
         .collect();
-    let sewing = sewing(checker, seams, &pairs);
+    let sewing = sewing.and_then(|settings| settings.sewing(checker, seams, &pairs));
     let breen = (model == Model::Breen1994).then(|| Breen::new(&pairs)).transpose();
     let breen =
         breen.map_err(|error| Diagnostics::from(document.at("model", error.to_string())))?;
@@ -109,7 +126,6 @@ pub(crate) fn check(documents: &Documents<'_>, file: SceneFile) -> Result<Scene,
     let positions: Vec<f64> = placed.iter().flat_map(|own| &own.positions).copied().collect();
     let velocities = placed.iter().flat_map(|own| &own.velocities).copied().collect();
     let panels: Vec<Panel> = placed.into_iter().map(|own| own.panel).collect();
-    let pins = pins::pins(checker, &panels, &positions);
     let bodies = with_friction(bodies, &materials);
     let content = Content {
         document,
@@ -137,7 +153,10 @@ pub(crate) fn check(documents: &Documents<'_>, file: SceneFile) -> Result<Scene,
         solver,
         output: Output {
             folder: file.output.folder.as_ref().map(|folder| checker.folder.join(folder)),
-            view: View { azimuth: file.output.azimuth, elevation: file.output.elevation },
+            view: View {
+                azimuth: file.output.azimuth.map(Given::value),
+                elevation: file.output.elevation.map(Given::value),
+            },
         },
         name: file.name.clone().unwrap_or_else(|| "unnamed".into()),
     };
@@ -153,11 +172,14 @@ pub(crate) fn check(documents: &Documents<'_>, file: SceneFile) -> Result<Scene,
 /// been reported.
 fn check_names(checker: &mut Checker<'_>, placed: &[PlacedPanel]) {
     let file = checker.file;
-    let twice = |name: &str| file.panel.iter().filter(|panel| panel.name == name).count() > 1;
-    let placed: Vec<_> = placed.iter().filter(|own| !twice(&own.panel.name)).collect();
-    for (index, PlacedPanel { panel, .. }) in placed.iter().enumerate() {
-        if placed[..index].iter().any(|other| other.panel.name == panel.name) {
-            let message = format!("there are two panels \"{}\"", panel.name);
+    let mut known = BTreeSet::new();
+    let names = file.panel.iter().map(|panel| panel.name.as_str());
+    let twice: BTreeSet<&str> = names.filter(|name| !known.insert(*name)).collect();
+    let mut known = BTreeSet::new();
+    for PlacedPanel { panel, .. } in placed {
+        let name = panel.name.as_str();
+        if !twice.contains(name) && !known.insert(name) {
+            let message = format!("there are two panels \"{}\"", excerpt(&panel.name));
             let help =
                 "give each its own name; the panels of a garment with a name are called NAME.PANEL";
             checker.fail_file(message, help);
@@ -169,13 +191,17 @@ fn check_names(checker: &mut Checker<'_>, placed: &[PlacedPanel]) {
 fn environment(checker: &mut Checker<'_>) -> Environment {
     let file = checker.file;
     let air = file.air.as_ref();
-    let density = air.and_then(|a| a.density).unwrap_or(AIR_DENSITY);
+    let density = air.and_then(|a| a.density).map_or(AIR_DENSITY, Given::value);
     let drag = air.and_then(|a| a.drag).unwrap_or(AIR_DRAG);
     checker.within("air.density", density, 0.0..=100.0, "in kg/m³; 1.2 is usual, 0 a vacuum");
     checker.within("air.drag", drag, 0.0..=10.0, "1.28 for a plate");
-    let gravity = file.gravity.unwrap_or([0.0, -9.81, 0.0]);
+    let gravity = file.gravity.map_or([0.0, -9.81, 0.0], |gravity| gravity.map(Given::value));
     if gravity.iter().any(|g| !g.is_finite()) {
-        checker.fail("gravity", format!("{gravity:?} is not finite"), "in m/s², [0, -9.81, 0]");
+        checker.fail(
+            "gravity",
+            format!("{} is not finite", figures(&gravity)),
+            "in m/s², [0, -9.81, 0]",
+        );
     }
     Environment { gravity, air: 0.5 * density * drag }
 }

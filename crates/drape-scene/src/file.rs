@@ -14,6 +14,7 @@ pub(crate) mod run;
 
 use std::collections::BTreeMap;
 
+use drape_input::{Acceleration, Density, Given, Length};
 use serde::Deserialize;
 
 use self::body::ColliderFile;
@@ -24,17 +25,20 @@ use self::pin::PinFile;
 use self::run::{MotionPhaseFile, OutputFile, SettleFile, SolverFile, TimeFile};
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneFile {
     pub(crate) name: Option<String>,
     /// `kes` or `breen-1994`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["kes", "breen-1994"])))]
     pub(crate) model: Option<String>,
     /// Unit of all lengths of the file: `m`, `cm` or `mm`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["m", "cm", "mm"])))]
     pub(crate) length: Option<String>,
     /// Distance between particles.
-    pub(crate) spacing: Option<f64>,
+    pub(crate) spacing: Option<Given<Length>>,
     /// Acceleration of gravity, in m/s².
-    pub(crate) gravity: Option<[f64; 3]>,
+    pub(crate) gravity: Option<[Given<Acceleration>; 3]>,
     pub(crate) air: Option<AirFile>,
     #[serde(default)]
     pub(crate) fabric: BTreeMap<String, FabricFile>,
@@ -60,17 +64,26 @@ pub(crate) struct SceneFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AirFile {
     /// Density, in kg/m³.
-    pub(crate) density: Option<f64>,
+    pub(crate) density: Option<Given<Density>>,
     pub(crate) drag: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FabricFile {
     pub(crate) file: String,
+}
+
+/// Returns the JSON Schema of scenes.
+#[cfg(feature = "schema")]
+#[must_use]
+pub fn scene_schema() -> serde_json::Value {
+    drape_input::schema_of::<SceneFile>("Scene of drape")
 }
 
 impl SceneFile {

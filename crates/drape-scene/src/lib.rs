@@ -12,6 +12,8 @@ mod file;
 mod read;
 
 pub use error::Error;
+#[cfg(feature = "schema")]
+pub use file::scene_schema;
 pub use scene::clock::Clock;
 pub use scene::contact::{ContactSettings, DistanceGrowth, Inflation};
 pub use scene::garment::{Garment, Sewing};

@@ -27,8 +27,8 @@ impl Scene {
     /// As for [`Scene::read`].
     pub fn read_with(path: impl AsRef<Path>, fabrics: FabricReader<'_>) -> Result<Self, Error> {
         let scene = &Document::read(path)?;
-        let file: SceneFile = scene.decode()?;
-        check(&Documents { scene, others: &[], fabrics }, file)
+        let (file, faults) = scene.decode_with_faults::<SceneFile>()?;
+        check(&Documents { scene, others: &[], fabrics }, &file, faults)
     }
 
     /// Makes a scene of a document in memory. A fabric or a pattern whose path, seen from the
@@ -37,7 +37,7 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::read`].
     pub fn from_documents(scene: &Document, others: &[Document]) -> Result<Self, Error> {
-        let file: SceneFile = scene.decode()?;
-        check(&Documents { scene, others, fabrics: &read_fabric }, file)
+        let (file, faults) = scene.decode_with_faults::<SceneFile>()?;
+        check(&Documents { scene, others, fabrics: &read_fabric }, &file, faults)
     }
 }

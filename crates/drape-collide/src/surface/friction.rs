@@ -62,6 +62,8 @@ pub struct FrictionEnergy {
     pub potential: f64,
     /// Dissipated part of the potential if the step ends here, in J.
     pub dissipated: f64,
+    /// Dissipated part in the friction of cloth on cloth, in J.
+    pub dissipated_on_cloth: f64,
 }
 
 /// Elastic stretch of a pair between two steps.
@@ -112,14 +114,18 @@ impl SurfaceFriction {
         self.stretches.extend(pairs.map(|pair| pair.elastic_stretch(positions, sticking)));
     }
 
-    /// Returns the energies if the step ends at some positions, in J.
-    pub(crate) fn energy(&self, positions: &[f64]) -> FrictionEnergy {
+    /// Returns the energies if the step ends at some positions, in J; the first vertices, so many,
+    /// are those of cloth.
+    pub(crate) fn energy(&self, positions: &[f64], free: usize) -> FrictionEnergy {
         self.pairs.iter().fold(FrictionEnergy::default(), |sum, pair| {
-            let FrictionEnergy { potential, dissipated } =
+            let FrictionEnergy { potential, dissipated, .. } =
                 pair.energy(positions, self.sticking_displacement);
+            let is_cloth = pair.vertices.iter().all(|vertex| (*vertex as usize) < free);
+            let on_cloth = if is_cloth { dissipated } else { 0.0 };
             FrictionEnergy {
                 potential: sum.potential + potential,
                 dissipated: sum.dissipated + dissipated,
+                dissipated_on_cloth: sum.dissipated_on_cloth + on_cloth,
             }
         })
     }
@@ -197,6 +203,7 @@ impl PairFriction {
         FrictionEnergy {
             potential: 0.5 * self.limit * held * held / sticking + lost,
             dissipated: lost,
+            dissipated_on_cloth: 0.0,
         }
     }
 

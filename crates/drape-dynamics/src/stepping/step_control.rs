@@ -22,12 +22,20 @@ pub(crate) struct StepControl {
     order: f64,
     /// Ticks of the next step, if neither a frame nor the end cuts it short.
     wanted: usize,
+    /// Ticks that the error of the last step would allow the next one.
+    exact: usize,
 }
 
 impl StepControl {
     /// Control that begins with the first step of the clock.
     pub(crate) fn new(clock: Clock, relaxation: Option<Relaxation>, order: f64) -> Self {
-        Self { clock, relaxation, order, wanted: clock.ticks_per_step }
+        Self { clock, relaxation, order, wanted: clock.ticks_per_step, exact: usize::MAX }
+    }
+
+    /// Error that a step may make, in m, if steps have one: those of quasi-static relaxation do not
+    /// follow the motion in time.
+    pub(crate) fn error(&self) -> Option<f64> {
+        self.clock.error.filter(|_| self.relaxation.is_none_or(|own| own.inertia))
     }
 
     /// Ticks of the next step, which does not go past a frame or the end.
@@ -49,7 +57,7 @@ impl StepControl {
         let change = relaxation.stride / moved;
         let change = if relaxation.inertia { change } else { change.sqrt() };
         let wanted = ticks as f64 * change.clamp(1.0 / CHANGE, CHANGE);
-        self.wanted = (wanted as usize).clamp(1, self.clock.ticks_max);
+        self.wanted = (wanted as usize).min(self.exact).clamp(1, self.clock.ticks_max);
     }
 
     /// Adapts to the error of a step of so many ticks from a time, in m, and returns whether the
@@ -58,7 +66,7 @@ impl StepControl {
     /// Lengths are ticks times powers of two, each begun at a multiple of itself, so that they
     /// rarely change: the formula of second order is at its best with even steps.
     pub(crate) fn adapt_to_error(&mut self, now: usize, ticks: usize, error: f64) -> bool {
-        let Some(limit) = self.clock.error else { return true };
+        let Some(limit) = self.error() else { return true };
         let fitting = CAUTION * (limit / error).powf(1.0 / (self.order + 1.0));
         if error > limit && ticks > 1 {
             let floor = ticks.div_ceil(SHORTEST_CUT);
@@ -66,6 +74,7 @@ impl StepControl {
             self.wanted = power_of_two(wanted.clamp(floor, ticks - 1));
             return false;
         }
+        self.exact = (ticks as f64 * fitting) as usize;
         let next = now + ticks;
         let longer = 2 * self.wanted;
         // A step that was cut short for a frame tells nothing of longer ones.
@@ -130,6 +139,25 @@ mod tests {
             assert_eq!(ticks, 4);
             now += ticks;
         }
+    }
+
+    #[test]
+    fn steps_to_rest_with_inertia_keep_to_strides_and_errors() {
+        let relaxation = Relaxation { speed: 1e-3, residual: 1e-3, stride: 1.0, inertia: true };
+        let mut control = StepControl::new(clock(Some(0.075)), Some(relaxation), 2.0);
+        let mut ticks = control.next(0);
+        for _ in 0..10 {
+            // An error of 0.1 at 4 ticks, and no displacement that counts.
+            let error = 0.1 * (ticks as f64 / 4.0).powi(3);
+            if control.adapt_to_error(0, ticks, error) {
+                assert!(error <= 0.075, "an error of {error} stood");
+                control.adapt_to_displacement(ticks, 1e-9);
+            }
+            ticks = control.next(0);
+        }
+        assert_eq!(ticks, 3, "3 ticks have an error of 0.042, and 4 one of 0.1");
+        let calm = Relaxation { inertia: false, ..relaxation };
+        assert_eq!(StepControl::new(clock(Some(0.075)), Some(calm), 2.0).error(), None);
     }
 
     #[test]

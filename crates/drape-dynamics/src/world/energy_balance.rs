@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::contact::ContactEnergy;
 
 /// Balance of the energy since the start, in J: the energy put in is stored, or lost to friction in
-/// the fabric, to friction with bodies, to the air, to the integrator, or to the rotation of the
+/// the fabric, to friction with bodies and of cloth on cloth, to the air, to the integrator, or to the rotation of the
 /// cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Energy {
@@ -27,6 +27,8 @@ pub struct Energy {
     pub friction_dissipated: f64,
     /// Energy lost in the friction with bodies.
     pub body_dissipated: f64,
+    /// Energy lost in the friction of cloth on cloth.
+    pub cloth_dissipated: f64,
     /// Energy lost to the air.
     pub air_dissipated: f64,
     /// Energy lost by the formula of the integrator, and by the residual that the solver leaves.
@@ -82,8 +84,10 @@ pub(crate) struct StepEnergy {
     pub(crate) body_work: f64,
     /// Work of the friction of bodies that move.
     pub(crate) body_friction_work: f64,
-    /// Work against the friction with bodies, with its force at the end of the step.
+    /// Work against the friction of surfaces, with its force at the end of the step.
     pub(crate) body_friction_loss: f64,
+    /// Part of this loss that is of cloth on cloth.
+    pub(crate) cloth_friction_loss: f64,
     /// Growth of the potential of that friction, of which the solution of the step is the minimum.
     pub(crate) body_friction_potential: f64,
     /// Work against the air, with its force at the end of the step; its potential is half of that.
@@ -131,7 +135,8 @@ impl EnergyBalance {
         sums.work_in += step.body_work + step.body_friction_work + step.spring_work;
         sums.elastic += step.stored - self.stored;
         sums.friction_dissipated += step.internal_friction;
-        sums.body_dissipated += step.body_friction_loss;
+        sums.body_dissipated += step.body_friction_loss - step.cloth_friction_loss;
+        sums.cloth_dissipated += step.cloth_friction_loss;
         sums.air_dissipated += step.air;
         // The integrator takes potentials for the work of all forces. For forces that grow along
         // the step, as friction and drag with the speed, that falls short of the work at its end.
@@ -154,10 +159,12 @@ impl EnergyBalance {
     /// Balance so far, with the kinetic energy now, in J.
     pub(crate) fn energy(&self, kinetic: f64) -> Energy {
         let Energy { elastic, gravity, contact, .. } = self.sums;
-        let Energy { friction_dissipated, body_dissipated, air_dissipated, .. } = self.sums;
+        let Energy { friction_dissipated, air_dissipated, .. } = self.sums;
+        let Energy { body_dissipated, cloth_dissipated, .. } = self.sums;
         let held = kinetic - self.kinetic_at_start + elastic + gravity + contact;
         let rotation = self.sums.rotation_dissipated;
-        let lost = friction_dissipated + body_dissipated + air_dissipated + rotation;
+        let surfaces = body_dissipated + cloth_dissipated;
+        let lost = friction_dissipated + surfaces + air_dissipated + rotation;
         let residual = self.sums.work_in - held - lost - self.sums.numerical_dissipated;
         Energy { kinetic, residual, ..self.sums }
     }

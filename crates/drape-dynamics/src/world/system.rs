@@ -155,11 +155,13 @@ impl World {
             Contact::Surfaces(surfaces) => {
                 let contact = &mut surfaces.contact;
                 let potential = contact.potential(positions);
-                let lost = contact.friction_energy().dissipated;
+                let friction = contact.friction_energy();
+                let lost = friction.dissipated;
                 StepEnergy {
                     contact: potential - lost - before.contact + before.body_work,
                     body_friction_work: contact.body_work(positions),
                     body_friction_loss: lost,
+                    cloth_friction_loss: friction.dissipated_on_cloth,
                     body_friction_potential: lost,
                     ..energy
                 }

@@ -8,7 +8,8 @@ use crate::sheet::{CORNERS, FLAT, Sheet};
 fn exchanged(before: &Energy, after: &Energy) -> f64 {
     let entries = |e: &Energy| {
         let held = [e.kinetic, e.elastic, e.gravity, e.contact, e.work_in];
-        let lost = [e.friction_dissipated, e.body_dissipated, e.air_dissipated];
+        let surfaces = [e.body_dissipated, e.cloth_dissipated];
+        let lost = [e.friction_dissipated, surfaces[0], surfaces[1], e.air_dissipated];
         (held, lost, e.numerical_dissipated)
     };
     let ((h0, l0, n0), (h1, l1, n1)) = (entries(before), entries(after));

@@ -6,7 +6,7 @@ use crate::tables::columns::AxisQuery;
 use crate::tables::heading::Kind;
 use crate::tables::layout::Column;
 use crate::test::Test;
-use crate::unit::{Quantity, Unit, parse_unit};
+use drape_input::{Quantity, Unit, parse_unit};
 
 const DEFORMATION_KEYS: [&str; 5] = ["column", "unit", "gauge", "zero", "reversed"];
 const LOAD_KEYS: [&str; 4] = ["column", "unit", "width", "reversed"];

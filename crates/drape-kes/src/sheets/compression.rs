@@ -11,7 +11,7 @@
 use crate::sheets::findings::Findings;
 use crate::sheets::section::Section;
 use crate::sheets::sheet::Sheet;
-use crate::unit::Quantity;
+use drape_input::Quantity;
 
 /// Pressure at which TM is measured, in gf/cm².
 const LARGEST_PRESSURE: f64 = 50.0;

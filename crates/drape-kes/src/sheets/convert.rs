@@ -20,7 +20,7 @@ use crate::tables::heading::{self, Kind};
 use crate::tables::series::Series;
 use crate::tables::stated::{GAUGE, WIDTH, stated};
 use crate::test::Test;
-use crate::unit::{Quantity, Unit, parse_unit};
+use drape_input::{Quantity, Unit, parse_unit};
 
 /// Largest first length, over the gauge, of an extension: a slack strip may begin below zero.
 const FIRST_EXTENSION: f64 = 0.3;

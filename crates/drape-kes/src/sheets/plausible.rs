@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use crate::sheets::findings::Findings;
 use crate::sheets::section::Measured;
 use crate::test::Direction;
-use crate::unit::Quantity;
+use drape_input::Quantity;
 
 /// Bending rigidities that a fabric can have, in N·m.
 ///

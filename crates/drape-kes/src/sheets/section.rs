@@ -10,7 +10,7 @@ use crate::sheets::findings::Findings;
 use crate::sheets::spelling;
 use crate::tables::layout::{Column, Take};
 use crate::test::Direction;
-use crate::unit::{Quantity, Written, parse_quantity};
+use drape_input::{Quantity, Written, parse_quantity};
 
 /// Table of the file, with its key path.
 #[derive(Clone)]

@@ -14,7 +14,7 @@ use crate::sheets::value_keys::{DirectedValues, WholeValues};
 use crate::sheets::{curve_file, plausible};
 use crate::symbol::Symbol;
 use crate::test::{Direction, Test};
-use crate::unit::Quantity;
+use drape_input::Quantity;
 use crate::values::Values;
 
 /// Name of the sheet in a folder.

@@ -10,7 +10,7 @@ use crate::curves::curve::{Curve, Extent, Point};
 use crate::sheets::axis::Zero;
 use crate::sheets::findings::Findings;
 use crate::test::Test;
-use crate::unit::{Quantity, Unit, parse_unit};
+use drape_input::{Quantity, Unit, parse_unit};
 
 /// Part of the load range by which unloading may lie above loading on average.
 ///

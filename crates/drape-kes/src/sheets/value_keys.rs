@@ -4,7 +4,7 @@ use crate::sheets::findings::Findings;
 use crate::sheets::plausible;
 use crate::sheets::section::{Measured, Section};
 use crate::test::Direction;
-use crate::unit::Quantity;
+use drape_input::Quantity;
 use crate::values::Values;
 
 /// Values of a sheet that have no direction, as they were measured.

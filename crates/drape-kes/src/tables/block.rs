@@ -2,7 +2,7 @@
 
 use crate::tables::grid::{Cell, Grid, Row, Separator};
 use crate::tables::heading::{self, Heading};
-use crate::unit::is_unit;
+use drape_input::is_unit;
 
 /// Lines of a file that a sheet declares.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,7 +4,7 @@
 use crate::tables::block::Block;
 use crate::tables::heading::{self, Kind};
 use crate::tables::layout::Column;
-use crate::unit::{Quantity, Unit, parse_unit};
+use drape_input::{Quantity, Unit, parse_unit};
 
 /// Axis of a curve, as it is looked for in a block.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! Headings of columns: name and unit, and the words that tell what a column holds.
 
 use crate::test::{Direction, Test};
-use crate::unit::is_unit;
+use drape_input::is_unit;
 
 /// Heading of a column, such as `curvature (1/cm)`.
 #[derive(Clone, Debug, Default, PartialEq)]

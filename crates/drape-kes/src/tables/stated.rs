@@ -3,7 +3,7 @@
 use crate::tables::grid::{Cell, Row};
 use crate::tables::heading::{Heading, normal};
 use crate::tables::number::{Decimal, parse};
-use crate::unit::{Quantity, parse_unit};
+use drape_input::{Quantity, parse_unit};
 
 /// Words of the free length of the specimen.
 pub(crate) const GAUGE: [&str; 14] = [

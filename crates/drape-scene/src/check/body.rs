@@ -3,6 +3,7 @@
 mod shape_files;
 
 use drape_collide::{Body, Mesh, Pose, Shape};
+use drape_input::{Given, excerpt, figure, figure_below};
 
 use crate::check::checker::Checker;
 use crate::check::motion::rigid_motion;
@@ -15,6 +16,13 @@ use self::shape_files::{Sampling, ShapeError, read_shapes};
 /// 1.7 mm, 170 m or 1.7 km long.
 const SIZE_MIN: f64 = 2e-3;
 const SIZE_MAX: f64 = 100.0;
+
+/// Shortest and longest side of other bodies, in m.
+const LENGTH_MIN: f64 = 1e-4;
+const LENGTH_MAX: f64 = 1e4;
+
+/// Largest coordinate of the middle of a body, in m.
+const FAR: f64 = 1e4;
 
 /// Body, with its friction where the file gives it.
 pub(crate) struct CheckedBody {
@@ -39,22 +47,48 @@ pub(crate) fn bodies(checker: &mut Checker<'_>) -> Vec<CheckedBody> {
     let (colliders, unit) = (&checker.file.collider, checker.unit);
     let mut bodies = Vec::new();
     for (index, sphere) in colliders.sphere.iter().enumerate() {
-        let shape = Shape::Sphere { radius: sphere.radius * unit };
+        let radius = sphere.radius * unit;
+        let key = format!("collider.sphere[{index}]");
+        check_lengths(checker, &key, &[("radius", radius, LENGTH_MAX)]);
+        let shape = Shape::Sphere { radius };
         let entry = Entry { kind: "sphere", index, common: sphere.common() };
         bodies.push(rigid_body(checker, &entry, shape));
     }
     for (index, cuboid) in colliders.boxes.iter().enumerate() {
         let half_extents = cuboid.size.map(|side| 0.5 * side * unit);
-        let shape = Shape::Box { half_extents, edge_radius: cuboid.edge_radius * unit };
+        let edge_radius = cuboid.edge_radius * unit;
+        let key = format!("collider.box[{index}]");
+        let shortest = half_extents.iter().copied().fold(f64::INFINITY, f64::min);
+        let [x, y, z] = half_extents.map(|half| 2.0 * half);
+        check_lengths(
+            checker,
+            &key,
+            &[
+                ("size[0]", x, LENGTH_MAX),
+                ("size[1]", y, LENGTH_MAX),
+                ("size[2]", z, LENGTH_MAX),
+                ("edge_radius", edge_radius, shortest.max(0.0)),
+            ],
+        );
+        let shape = Shape::Box { half_extents, edge_radius };
         let entry = Entry { kind: "box", index, common: cuboid.common() };
         bodies.push(rigid_body(checker, &entry, shape));
     }
     for (index, cylinder) in colliders.cylinder.iter().enumerate() {
-        let shape = Shape::Cylinder {
-            radius: cylinder.radius * unit,
-            half_height: 0.5 * cylinder.height * unit,
-            edge_radius: cylinder.edge_radius * unit,
-        };
+        let [radius, edge_radius] =
+            [cylinder.radius, cylinder.edge_radius].map(|radius| radius * unit);
+        let half_height = 0.5 * cylinder.height * unit;
+        let key = format!("collider.cylinder[{index}]");
+        check_lengths(
+            checker,
+            &key,
+            &[
+                ("radius", radius, LENGTH_MAX),
+                ("height", 2.0 * half_height, LENGTH_MAX),
+                ("edge_radius", edge_radius, radius.min(half_height).max(0.0)),
+            ],
+        );
+        let shape = Shape::Cylinder { radius, half_height, edge_radius };
         let entry = Entry { kind: "cylinder", index, common: cylinder.common() };
         bodies.push(rigid_body(checker, &entry, shape));
     }
@@ -77,9 +111,43 @@ pub(crate) fn bodies(checker: &mut Checker<'_>) -> Vec<CheckedBody> {
     bodies
 }
 
+/// Checks the lengths of a body, each with its key and its range, in m.
+fn check_lengths(checker: &mut Checker<'_>, key: &str, lengths: &[(&str, f64, f64)]) {
+    for &(name, length, most) in lengths {
+        let rounded = name == "edge_radius";
+        let least = if rounded { 0.0 } else { LENGTH_MIN };
+        if !(least..=most).contains(&length) {
+            let [least, most] = [least, most].map(figure);
+            let message = format!("{} m is not between {least} and {most} m", figure(length));
+            let help = match rounded {
+                true => "up to half of the shortest side, or the radius",
+                false => "is the unit right? write it with one, such as \"30 cm\"",
+            };
+            checker.fail(&format!("{key}.{name}"), message, help);
+        }
+    }
+}
+
+/// Checks the keys that all bodies have in common.
+fn check_common(checker: &mut Checker<'_>, key: &str, common: &CommonFile<'_>) {
+    if let Some(friction) = common.friction {
+        let help = "a coefficient of friction, such as 0.3";
+        checker.within(&format!("{key}.friction"), friction, 0.0..=10.0, help);
+    }
+    let far = |x: &f64| !(x.abs() <= FAR);
+    if let Some(x) = common.center.map(|x| x * checker.unit).iter().find(|x| far(x)) {
+        let message = format!("{} m is too far out", figure(*x));
+        checker.fail(&format!("{key}.center"), message, "up to 10 km: is the unit right?");
+    }
+    if common.turn.iter().any(|x| !x.is_finite()) {
+        checker.fail(&format!("{key}.turn"), "is not finite", "degrees about x, y and z");
+    }
+}
+
 /// Makes a rigid body of a shape.
 fn rigid_body(checker: &mut Checker<'_>, entry: &Entry<'_>, shape: Shape) -> CheckedBody {
     let Entry { kind, index, common } = entry;
+    check_common(checker, &format!("collider.{kind}[{index}]"), common);
     let name = common.name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned);
     let center = common.center.map(|x| x * checker.unit);
     let key = format!("collider.{kind}[{index}].motion");
@@ -90,8 +158,11 @@ fn rigid_body(checker: &mut Checker<'_>, entry: &Entry<'_>, shape: Shape) -> Che
 
 /// Makes a rigid body of a mesh.
 fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> Option<CheckedBody> {
+    if !check_scale(checker, index, file) {
+        return None;
+    }
     let path = checker.folder.join(&file.file);
-    match Mesh::load(path, file.scale.unwrap_or(checker.unit)) {
+    match Mesh::load(path, scale(checker, file)) {
         Ok(mesh) => {
             check_size(checker, index, &mesh);
             let entry = Entry { kind: "mesh", index, common: file.common() };
@@ -102,6 +173,18 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
             None
         }
     }
+}
+
+/// Returns the unit of the coordinates of a mesh, in m: that of the scene if it has none of its own.
+fn scale(checker: &Checker<'_>, file: &MeshBodyFile) -> f64 {
+    file.scale.map_or(checker.unit, Given::value)
+}
+
+/// Checks the unit of the coordinates of a mesh.
+fn check_scale(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> bool {
+    let help = "the metres that a unit of the file stands for: \"1 mm\", \"1 cm\" or 1";
+    let key = format!("collider.mesh[{index}].scale");
+    checker.within(&key, scale(checker, file), 1e-6..=1e3, help)
 }
 
 /// Checks the size of a mesh: one that is no size for cloth has another unit than the scene says.
@@ -122,8 +205,8 @@ fn check_size(checker: &mut Checker<'_>, index: usize, mesh: &Mesh) {
 
 /// Refuses keys of frames in a mesh that has none.
 fn check_no_frames(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) {
-    for (key, given) in [("rate", file.rate), ("start", file.start)] {
-        if given.is_some() {
+    for (key, given) in [("rate", file.rate.is_some()), ("start", file.start.is_some())] {
+        if given {
             let help = "it belongs to motion = \"….pc2\" or frames = \"…_*.obj\"";
             let key = format!("collider.mesh[{index}].{key}");
             checker.fail(&key, "the body has no frames", help);
@@ -146,7 +229,7 @@ fn changing_mesh(
     };
     let help = "frames per second; 24 is usual";
     let sound = checker.within(&format!("collider.mesh[{index}].rate"), rate, 1e-3..=1e5, help);
-    let start = file.start.unwrap_or(0.0);
+    let start = file.start.map_or(0.0, Given::value);
     let help = "when the first frame is left, in s";
     let key_of_start = format!("collider.mesh[{index}].start");
     if !checker.within(&key_of_start, start, 0.0..=1e6, help) || !sound {
@@ -158,7 +241,11 @@ fn changing_mesh(
         return None;
     }
     let common = file.common();
-    let (unit, scale) = (checker.unit, file.scale.unwrap_or(checker.unit));
+    check_common(checker, &format!("collider.mesh[{index}]"), &common);
+    if !check_scale(checker, index, file) {
+        return None;
+    }
+    let (unit, scale) = (checker.unit, scale(checker, file));
     let place = |point: [f64; 3]| {
         let arm = rotate(point.map(|x| scale * x), common.turn);
         [0, 1, 2].map(|axis| common.center[axis] * unit + arm[axis])
@@ -201,14 +288,15 @@ pub(crate) fn check_speeds(
         if !(speed * step <= spacing) {
             let message = format!(
                 "the body \"{}\" moves at {speed:.3} m/s, {:.2} mm in a step, and particles are {:.2} mm apart",
-                body.name,
+                excerpt(&body.name),
                 1e3 * speed * step,
                 1e3 * spacing
             );
             let longest = spacing / speed;
             let help = format!(
-                "cloth follows a body by a spacing in a step at most: give time.step = {longest:.1e} or less, slow the \
-                 body, or let only particles meet it with contact.surfaces = false"
+                "cloth follows a body by a spacing in a step at most: write time.step = {}, or slow the body, or let \
+                 only particles meet it with contact.surfaces = false",
+                figure_below(longest)
             );
             checker.fail("time.step", message, &help);
         }

@@ -1,10 +1,12 @@
 //! Checker: the file of a scene and the mistakes that have been found in it.
 
+use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use drape_input::{Diagnostic, Diagnostics, Document, closest};
+use drape_input::{Diagnostic, Diagnostics, Document, Faults, closest, excerpt, figure, tidy};
 
+use crate::check::Documents;
 use crate::file::SceneFile;
 
 /// File of a scene that is being checked, with the mistakes found so far.
@@ -18,7 +20,11 @@ pub(crate) struct Checker<'a> {
     /// Unit of the lengths of the file, in m.
     pub(crate) unit: f64,
     document: &'a Document,
+    /// Mistakes of spelling and type, and what they leave unknown.
+    faults: Faults,
     mistakes: Vec<Diagnostic>,
+    /// Keys of the mistakes.
+    keys: BTreeSet<String>,
 }
 
 /// Name that is not among those that there are.
@@ -31,15 +37,19 @@ pub(crate) struct UnknownName<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Begins to check a file, whose unit is looked up at once.
-    pub(crate) fn new(
-        document: &'a Document,
-        file: &'a SceneFile,
-        documents: &'a [Document],
-    ) -> Self {
-        let folder = document.path().parent().unwrap_or(Path::new(""));
-        let mistakes = Vec::new();
-        let mut checker = Self { file, folder, documents, unit: 1.0, document, mistakes };
+    /// Begins to check a file with faults, whose unit is looked up at once.
+    pub(crate) fn new(documents: &Documents<'a>, file: &'a SceneFile, faults: Faults) -> Self {
+        let document = documents.scene;
+        let mut checker = Self {
+            file,
+            folder: document.path().parent().unwrap_or(Path::new("")),
+            documents: documents.others,
+            unit: 1.0,
+            document,
+            faults,
+            mistakes: Vec::new(),
+            keys: BTreeSet::new(),
+        };
         let units = [("m", 1.0), ("cm", 0.01), ("mm", 0.001)];
         checker.unit = checker.choice("length", file.length.as_deref(), &units);
         checker
@@ -55,15 +65,29 @@ impl<'a> Checker<'a> {
         self.documents.iter().find(|given| given.path() == path)
     }
 
-    /// Adds a mistake at a key, with a remedy, and returns its index.
+    /// Adds a mistake at a key, with a remedy, and returns its index. Of a value that could not be
+    /// read nothing more is said.
     pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: &str) -> usize {
-        self.mistakes.push(self.document.at(key, message.into()).help(help));
-        self.mistakes.len() - 1
+        let index = self.mistakes.len();
+        self.add(key, message.into(), |mistake| mistake.help(help));
+        index
     }
 
     /// Adds a mistake at a key whose message says the remedy.
     pub(crate) fn fail_with(&mut self, key: &str, error: &impl ToString) {
-        self.mistakes.push(self.document.at(key, error.to_string()));
+        self.add(key, tidy(&error.to_string()), |mistake| mistake);
+    }
+
+    fn add(&mut self, key: &str, message: String, finish: impl FnOnce(Diagnostic) -> Diagnostic) {
+        self.keys.insert(key.to_owned());
+        if !self.faults.cover(key) {
+            self.mistakes.push(finish(self.document.at(key, message)));
+        }
+    }
+
+    /// Returns whether the value of a key, or its default, can be used.
+    pub(crate) fn is_sound(&self, key: &str) -> bool {
+        !self.keys.contains(key) && !self.faults.cover(key)
     }
 
     /// Adds a mistake of the whole file, with a remedy.
@@ -79,6 +103,8 @@ impl<'a> Checker<'a> {
 
     /// Returns the mistakes that have been found, if there are some.
     pub(crate) fn finish(&mut self) -> Result<(), Diagnostics> {
+        let faults = std::mem::take(&mut self.faults).into_mistakes();
+        self.mistakes.extend(faults);
         Diagnostics::check(std::mem::take(&mut self.mistakes))
     }
 
@@ -108,7 +134,11 @@ impl<'a> Checker<'a> {
         let sound = range.contains(&value);
         if !sound {
             let (low, high) = range.into_inner();
-            self.fail(key, format!("{value} is not between {low} and {high}"), help);
+            self.fail(
+                key,
+                format!("{} is not between {} and {}", figure(value), figure(low), figure(high)),
+                help,
+            );
         }
         sound
     }
@@ -123,8 +153,12 @@ impl<'a> Checker<'a> {
         let found = choices.iter().find(|(name, _)| word.is_none_or(|word| word == *name));
         if let (None, Some(word)) = (found, word) {
             let names: Vec<&str> = choices.iter().map(|c| c.0).collect();
-            let help = format!("one of {}", names.join(", "));
-            self.fail(key, format!("there is no \"{word}\""), &help);
+            let quoted = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
+            let help = match closest(word, names.iter().copied()) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!("one of {}", quoted.join(", ")),
+            };
+            self.fail(key, format!("there is no \"{}\"", excerpt(word)), &help);
         }
         found.unwrap_or(&choices[0]).1
     }

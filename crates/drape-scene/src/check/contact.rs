@@ -1,12 +1,19 @@
 //! Settings of the contact of cloth and bodies.
 
 use drape_collide::{ParticleSettings, PinchPolicy, SurfaceSettings};
+use drape_input::{Given, figure};
 
 use crate::check::checker::Checker;
 use crate::scene::contact::{ContactSettings, DistanceGrowth, Inflation};
 
 /// Time over which bodies grow when the scene does not say, in s.
 const INFLATION_SECONDS: f64 = 0.5;
+
+/// Number of layers of the heaviest fabric that contact carries at least.
+const LAYERS: f64 = 10.0;
+
+/// Fraction of the distance of surfaces that is left under this load.
+const NEAR: f64 = 0.01;
 
 /// Remedy where settings of surfaces have nothing to act on.
 const SURFACES: &str = "it needs contact.surfaces = true";
@@ -20,12 +27,17 @@ pub(crate) struct ContactBounds {
     pub(crate) step: f64,
     /// Time of the end, in s.
     pub(crate) end: f64,
+    /// Largest weight of a fabric per area, in Pa.
+    pub(crate) weight: f64,
+    /// Thickness of the thinnest fabric, in m.
+    pub(crate) thickness: f64,
 }
 
 /// Checks the settings of contact.
 pub(crate) fn contact(checker: &mut Checker<'_>, bounds: ContactBounds) -> ContactSettings {
     let (file, unit) = (&checker.file.contact, checker.unit);
     let particles = particles(checker);
+    check_stiffness(checker, &particles, bounds);
     let stick = SurfaceSettings::STICKING_DISPLACEMENT;
     let sticking_displacement = file.stick.map_or(stick, |stick| stick * unit);
     let help = "some micrometres are usual";
@@ -33,7 +45,7 @@ pub(crate) fn contact(checker: &mut Checker<'_>, bounds: ContactBounds) -> Conta
     ContactSettings {
         surfaces: checker.file.keeps_surfaces_apart(),
         particles,
-        stiffness: file.stiffness,
+        stiffness: file.stiffness.map(Given::value),
         sticking_displacement,
         pinch: pinch(checker),
         inflation: inflation(checker, bounds),
@@ -50,15 +62,36 @@ fn particles(checker: &mut Checker<'_>) -> ParticleSettings {
         let help = "the distance at which contact begins; 1 mm is usual";
         checker.within("contact.offset", settings.activation_distance, 1e-5..=0.1, help);
     }
-    if let Some(stiffness) = file.stiffness {
+    if let Some(stiffness) = file.stiffness.map(Given::value) {
         settings.stiffness = stiffness;
         checker.within("contact.stiffness", stiffness, 1.0..=1e12, "in N/m³");
     }
-    if let Some(speed) = file.slip_speed {
+    if let Some(speed) = file.slip_speed.map(Given::value) {
         settings.slip_speed = speed;
         checker.within("contact.slip_speed", speed, 1e-9..=1.0, "in m/s; 0.001 is usual");
     }
     settings
+}
+
+/// Checks that contact carries the cloth, some layers of it, at a distance that is left.
+fn check_stiffness(checker: &mut Checker<'_>, settings: &ParticleSettings, bounds: ContactBounds) {
+    let Some(stiffness) = checker.file.contact.stiffness.map(Given::value) else { return };
+    let ContactBounds { weight, thickness, .. } = bounds;
+    // The pressure of a stiffness of one: of particles that touch their body, of surfaces that have
+    // a hundredth of their distance left.
+    let unit = match checker.file.keeps_surfaces_apart() {
+        false => ParticleSettings { stiffness: 1.0, ..*settings }.pressure(0.0),
+        true => 0.25 * thickness / NEAR,
+    };
+    let least = LAYERS * weight / unit;
+    if checker.is_sound("contact.stiffness") && least.is_finite() && stiffness < least {
+        let message = format!(
+            "{} N/m³ does not carry the cloth, which weighs {weight:.2} Pa",
+            figure(stiffness)
+        );
+        let help = format!("write {least:.0e} or more, or leave it out", least = 1.6 * least);
+        checker.fail("contact.stiffness", message, &help);
+    }
 }
 
 /// Checks the treatment of cloth that bodies close on.
@@ -80,7 +113,7 @@ fn inflation(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<Inflati
     let inflate = checker.file.contact.inflate.as_ref()?;
     check_surfaces(checker, "contact.inflate");
     let depth = inflate.depth * checker.unit;
-    let seconds = inflate.seconds.unwrap_or(INFLATION_SECONDS);
+    let seconds = inflate.seconds.map_or(INFLATION_SECONDS, Given::value);
     let help = "how far inside of where it belongs the surface of a body starts; 10 mm is usual";
     checker.within("contact.inflate.depth", depth, 1e-6..=0.1, help);
     let help = "in s; cloth follows a body by a spacing in a step at most";
@@ -91,7 +124,7 @@ fn inflation(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<Inflati
 
 /// Checks the growth of the distances that surfaces keep, if there is one.
 fn growth(checker: &mut Checker<'_>, bounds: ContactBounds) -> Option<DistanceGrowth> {
-    let seconds = checker.file.contact.grow?;
+    let seconds = checker.file.contact.grow?.value();
     check_surfaces(checker, "contact.grow");
     let help = "in s, from a step to the whole run; 0.2 is usual";
     checker.within("contact.grow", seconds, bounds.step..=bounds.end, help);

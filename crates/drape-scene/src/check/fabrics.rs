@@ -2,6 +2,7 @@
 
 use drape_cloth::Lattice;
 use drape_fabric::Fabric;
+use drape_input::{excerpt, figure, nearest_file, toml_key};
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::scene::material::{FabricReader, FabricRequest, Material};
@@ -28,8 +29,8 @@ pub(crate) fn materials(
             (file, fabric)
         } else {
             let message = format!("there is no file {}", path.display());
-            let help = "the path is relative to the scene's folder";
-            checker.fail(&format!("fabric.{name}.file"), message, help);
+            let help = nearest_file(&path);
+            checker.fail(&format!("fabric.{}.file", toml_key(name)), message, &help);
             return None;
         };
         let fabric = fabric.map_err(|mistakes| checker.extend(mistakes)).ok()?;
@@ -43,7 +44,7 @@ pub(crate) fn material_index(checker: &mut Checker<'_>, key: &str, name: &str) -
     let known: Vec<&str> = checker.file.fabric.keys().map(String::as_str).collect();
     let material = known.iter().position(|own| *own == name);
     if material.is_none() {
-        let message = format!("there is no fabric \"{name}\"");
+        let message = format!("there is no fabric \"{}\"", excerpt(name));
         let unknown = UnknownName { name, known: &known, kind: "fabrics of this scene" };
         checker.unknown(key, message, unknown);
     }
@@ -61,8 +62,10 @@ pub(crate) fn check_thickness(
     let thickness = material.fabric.thickness;
     if spacing < thickness {
         let message = format!(
-            "the spacing of {spacing} m is less than the thickness {thickness} m of fabric \"{}\"",
-            material.name
+            "the spacing of {} m is less than the thickness {} m of fabric \"{}\"",
+            figure(spacing),
+            figure(thickness),
+            excerpt(&material.name)
         );
         checker.fail(&format!("{key}.spacing"), message, "use a larger spacing");
     }

@@ -12,13 +12,13 @@ use std::ops::Range;
 use std::path::Path;
 
 use drape_cloth::Tie;
-use drape_input::{Diagnostic, Diagnostics, toml_key};
+use drape_input::{Diagnostic, Diagnostics, excerpt, nearest_file, toml_key};
 use drape_pattern::{CutPattern, Cutter, Error, NodeId, Pattern, Place};
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::check::fabrics::check_thickness;
 use crate::check::panel::noise::noise;
-use crate::check::panel::{PlacedPanel, SPACING};
+use crate::check::panel::{PlacedPanel, SPACING, check_spacing};
 use crate::file::garment::GarmentFile;
 use crate::scene::material::Material;
 use crate::scene::seam::{Seam, SeamPairs};
@@ -78,8 +78,8 @@ fn pattern(checker: &mut Checker<'_>, key: &str, path: &Path) -> Option<Pattern>
     let given = checker.given(path);
     if given.is_none() && !path.exists() {
         let message = format!("there is no file {}", path.display());
-        let help = "the path is relative to the scene's folder";
-        checker.fail(&format!("{key}.pattern"), message, help);
+        let help = nearest_file(path);
+        checker.fail(&format!("{key}.pattern"), message, &help);
         return None;
     }
     let read = match given {
@@ -147,9 +147,13 @@ fn cut(
     let unit = checker.unit;
     let known: Vec<&str> = pattern.panels().iter().map(drape_pattern::Panel::name).collect();
     for name in entry.panel.keys().filter(|name| !known.contains(&name.as_str())) {
-        let message = format!("the pattern has no panel \"{name}\"");
+        let message = format!("the pattern has no panel \"{}\"", excerpt(name));
         let unknown = UnknownName { name, known: &known, kind: "panels of the pattern" };
-        checker.unknown(&format!("{key}.panel.{name}"), message, unknown);
+        checker.unknown(&format!("{key}.panel.{}", toml_key(name)), message, unknown);
+    }
+    let sound = check_spacing(checker, &format!("{key}.spacing"), entry.spacing);
+    if !sound || !checker.is_sound("spacing") {
+        return None;
     }
     let spacing = entry.spacing.or(checker.file.spacing).map_or(SPACING, |s| s * unit);
     let cut = pieces(checker, key, Cutter::new(spacing).cut(pattern))?;

@@ -4,7 +4,11 @@ pub(crate) mod folds;
 pub(crate) mod noise;
 mod placement;
 
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
+
 use drape_cloth::{Grain, Lattice};
+use drape_input::{Given, Length, excerpt, figure, figure_below, tidy};
 
 use crate::check::checker::Checker;
 use crate::check::fabrics::{check_thickness, material_index};
@@ -21,6 +25,16 @@ pub(crate) const SPACING: f64 = 0.01;
 
 /// Largest number of particles of a stack of panels.
 const PARTICLES_MAX: usize = 4_000_000;
+
+/// Shortest and longest sides of panels, in m: others have the wrong unit.
+const SIZES: RangeInclusive<f64> = 1e-4..=1e3;
+
+/// Smallest and largest spacings, in m.
+const SPACINGS: RangeInclusive<f64> = 1e-6..=1e2;
+
+/// Largest speed of cloth at the start, in m/s: a tenth of that of a bullet. Steps are no smaller
+/// for it.
+const SPEED_MAX: f64 = 100.0;
 
 /// Panel at its place.
 pub(crate) struct PlacedPanel {
@@ -42,16 +56,19 @@ pub(crate) fn panels(
             "add [[panel]] with name, fabric and rectangle or disc, or [[garment]] with a pattern";
         checker.fail_file("the scene has no panel", help);
     }
+    check_spacing(checker, "spacing", file.spacing);
     let mut panels: Vec<PlacedPanel> = Vec::new();
     let mut first = 0;
+    let names: Vec<&str> = file.panel.iter().map(|panel| panel.name.as_str()).collect();
+    let mut known = BTreeSet::new();
     for (index, entry) in file.panel.iter().enumerate() {
         let key = format!("panel[{index}]");
-        if file.panel[..index].iter().any(|p| p.name == entry.name) {
-            let message = format!("there are two panels \"{}\"", entry.name);
+        if !known.insert(names[index]) {
+            let message = format!("there are two panels \"{}\"", excerpt(&entry.name));
             checker.fail(&format!("{key}.name"), message, "give each its own name");
         }
         let material = material_index(checker, &format!("{key}.fabric"), &entry.fabric);
-        let lattice = lattice(checker, &key, entry);
+        let lattice = lattice(checker, &key, entry, first);
         let lattice = lattice.and_then(|lattice| fold(checker, &key, entry, lattice));
         let noise = noise(checker, &format!("{key}.noise"), entry.noise.as_ref());
         let placement = Placement::check(checker, &key, entry, noise);
@@ -69,6 +86,9 @@ pub(crate) fn panels(
             let placement = placement.copied(copy, entry.stack.as_ref(), checker.unit);
             let positions = placement.positions(&lattice);
             let velocities = placement.velocities(&positions);
+            if copy == 0 {
+                check_speed(checker, &key, entry, &velocities);
+            }
             let edges = Vec::new();
             let panel = Panel { name, material, lattice, first, edges, layer: 0 };
             panels.push(PlacedPanel { panel, positions, velocities });
@@ -88,7 +108,7 @@ fn fold(
     let unit = checker.unit;
     let lines = entry.fold.iter().map(|fold: &FoldFile| FoldLine {
         ends: [fold.from, fold.to].map(|end| end.map(|x| x * unit)),
-        angle: fold.angle.to_radians(),
+        angle: fold.angle.value().to_radians(),
     });
     folded(checker, &format!("{key}.fold"), &entry.name, UnfoldedPanel { lattice, lines })
 }
@@ -96,7 +116,8 @@ fn fold(
 /// Checks the number of panels that an entry stands for.
 fn copies(checker: &mut Checker<'_>, key: &str, entry: &PanelFile, particles: usize) -> usize {
     let Some(stack) = &entry.stack else { return 1 };
-    if stack.step.iter().chain(&stack.turn).any(|x| !x.is_finite()) {
+    let numbers = stack.step.map(Given::number).into_iter();
+    if numbers.chain(stack.turn.map(Given::value)).any(|x| !x.is_finite()) {
         let help = "step is in the file's unit";
         checker.fail(&format!("{key}.stack"), "is not finite", help);
     }
@@ -110,14 +131,93 @@ fn copies(checker: &mut Checker<'_>, key: &str, entry: &PanelFile, particles: us
     1
 }
 
-/// Makes the particles of a panel before it is deformed.
-fn lattice(checker: &mut Checker<'_>, key: &str, entry: &PanelFile) -> Option<Lattice> {
+/// Returns whether a spacing of a key, if one is given, can be one.
+pub(crate) fn check_spacing(
+    checker: &mut Checker<'_>,
+    key: &str,
+    spacing: Option<Given<Length>>,
+) -> bool {
+    let Some(spacing) = spacing else { return true };
+    let help = "the distance between particles, with its unit: \"10 mm\" is usual";
+    let metres = spacing * checker.unit;
+    let sound = SPACINGS.contains(&metres);
+    if !sound {
+        let [low, high] = [SPACINGS.start(), SPACINGS.end()].map(|x| figure(*x));
+        let message = format!("{} m is not between {low} and {high} m", figure(metres));
+        checker.fail(key, message, help);
+    }
+    sound
+}
+
+/// Checks that the sides of a panel are those of one, and returns the particles that it has about.
+fn check_size(checker: &mut Checker<'_>, key: &str, sides: &[f64], spacing: f64) -> Option<f64> {
+    let wrong = sides.iter().find(|side| !SIZES.contains(side));
+    if let Some(side) = wrong {
+        let message = format!("{} m is no size of a panel", figure(*side));
+        let help =
+            "from 0.1 mm to 1000 m: is the unit right? write \"30 cm\", or set length = \"cm\"";
+        checker.fail(key, message, help);
+        return None;
+    }
+    Some(sides.iter().map(|side| side / spacing + 1.0).product())
+}
+
+/// Checks that no particle of a panel begins faster than cloth moves.
+fn check_speed(checker: &mut Checker<'_>, key: &str, entry: &PanelFile, velocities: &[f64]) {
+    let (velocities, _) = velocities.as_chunks::<3>();
+    let square = velocities.iter().map(|v| v.iter().map(|x| x * x).sum::<f64>());
+    let speed = square.fold(0.0, f64::max).sqrt();
+    if speed > SPEED_MAX {
+        let spins = entry.velocity.iter().all(|v| v.number() == 0.0);
+        let key = format!("{key}.{}", if spins { "spin" } else { "velocity" });
+        let message = format!("the panel begins with up to {} m/s", figure(speed.round()));
+        let help = "cloth moves at up to 100 m/s; spin is in degrees per second";
+        checker.fail(&key, message, help);
+    }
+}
+
+/// Makes the particles of a panel before it is deformed, which come after so many others.
+fn lattice(
+    checker: &mut Checker<'_>,
+    key: &str,
+    entry: &PanelFile,
+    before: usize,
+) -> Option<Lattice> {
     let unit = checker.unit;
     let own = entry.spacing.is_some();
+    let spacing_key = if own { format!("{key}.spacing") } else { "spacing".into() };
+    let sound = check_spacing(checker, &format!("{key}.spacing"), entry.spacing);
+    if !sound || !checker.is_sound("spacing") {
+        return None;
+    }
     let spacing = entry.spacing.or(checker.file.spacing).map_or(SPACING, |s| s * unit);
+    let (shape, sides) = match (entry.rectangle, entry.disc) {
+        (Some(size), _) => ("rectangle", size.map(|side| side * unit)),
+        (None, Some(disc)) => ("disc", [disc * unit; 2]),
+        (None, None) => ("rectangle", [1.0; 2]),
+    };
+    let count = check_size(checker, &format!("{key}.{shape}"), &sides, spacing)?;
+    if before as f64 + count > PARTICLES_MAX as f64 {
+        let message = format!(
+            "a spacing of {} m makes {:.1e} particles with panel \"{}\", more than {:.0e}",
+            figure(spacing),
+            before as f64 + count,
+            excerpt(&entry.name),
+            PARTICLES_MAX as f64
+        );
+        let least = (sides[0] * sides[1] / (0.9 * (PARTICLES_MAX as f64 - before as f64))).sqrt();
+        let help = match least.is_finite() {
+            true => {
+                format!("write spacing = \"{:.2} mm\" or more; is the unit right?", 1e3 * least)
+            }
+            false => "give the panels before it a larger spacing".into(),
+        };
+        checker.fail(&spacing_key, message, &help);
+        return None;
+    }
     let grid = entry.grid.unwrap_or_default().map(|place| place * unit);
     let grain = grain(checker, key, entry)?;
-    let radius = |diameter: f64| 0.5 * diameter * unit;
+    let radius = |diameter: Given<Length>| 0.5 * diameter * unit;
     let lattice = match (entry.rectangle, entry.disc, entry.hole) {
         (Some(size), None, None) => {
             Lattice::rectangle_at(grain, grid, size.map(|side| side * unit), spacing)
@@ -141,19 +241,25 @@ fn lattice(checker: &mut Checker<'_>, key: &str, entry: &PanelFile) -> Option<La
         }
     };
     let place = match &lattice {
-        Err(drape_cloth::Error::Spacing { .. } | drape_cloth::Error::TooMany { .. }) if own => {
-            format!("{key}.spacing")
-        }
-        Err(drape_cloth::Error::Spacing { .. } | drape_cloth::Error::TooMany { .. }) => {
-            "spacing".into()
-        }
-        _ if entry.hole.is_some_and(|hole| !(hole > 0.0)) => format!("{key}.hole"),
+        Err(drape_cloth::Error::Spacing { .. } | drape_cloth::Error::TooMany { .. }) => spacing_key,
+        _ if entry.hole.is_some_and(|hole| !(hole.number() > 0.0)) => format!("{key}.hole"),
         _ if entry.disc.is_some() => format!("{key}.disc"),
         _ => format!("{key}.rectangle"),
     };
     let report = |error: drape_cloth::Error| {
-        let help = "lengths are in the file's unit, set by length = \"m\", \"cm\" or \"mm\"";
-        checker.fail(&place, format!("panel \"{}\": {error}", entry.name), help);
+        let unit = "lengths are in the file's unit, set by length = \"m\", \"cm\" or \"mm\"";
+        let (error, help) = match error {
+            drape_cloth::Error::Spacing { spacing, size } => (
+                format!(
+                    "a spacing of {} m leaves fewer than 3 particles across {} m",
+                    figure(spacing),
+                    figure(size)
+                ),
+                format!("write spacing = \"{} mm\" or less; {unit}", figure_below(500.0 * size)),
+            ),
+            error => (tidy(&error.to_string()), unit.to_owned()),
+        };
+        checker.fail(&place, format!("panel \"{}\": {error}", excerpt(&entry.name)), &help);
     };
     lattice.map_err(report).ok()
 }
@@ -161,10 +267,10 @@ fn lattice(checker: &mut Checker<'_>, key: &str, entry: &PanelFile) -> Option<La
 /// Checks the direction of the yarns in a panel; a grid whose place has no meaning is refused.
 fn grain(checker: &mut Checker<'_>, key: &str, entry: &PanelFile) -> Option<Grain> {
     let help = "degrees from the panel's height to its warp, anticlockwise; 45 is the bias";
-    if !checker.within(&format!("{key}.grain"), entry.grain, -180.0..=180.0, help) {
+    if !checker.within(&format!("{key}.grain"), entry.grain.value(), -180.0..=180.0, help) {
         return None;
     }
-    if entry.grid.is_some() && entry.rectangle.is_some() && entry.grain % 90.0 == 0.0 {
+    if entry.grid.is_some() && entry.rectangle.is_some() && entry.grain.value() % 90.0 == 0.0 {
         let message = format!("the yarns of panel \"{}\" follow its sides", entry.name);
         checker.fail(
             &format!("{key}.grid"),
@@ -172,5 +278,5 @@ fn grain(checker: &mut Checker<'_>, key: &str, entry: &PanelFile) -> Option<Grai
             "its grid begins at a corner; leave grid out",
         );
     }
-    Some(Grain::from_degrees(entry.grain))
+    Some(Grain::from_degrees(entry.grain.value()))
 }

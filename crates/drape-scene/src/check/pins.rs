@@ -1,19 +1,22 @@
 //! Pins of a scene.
 
-use drape_input::closest;
+use drape_input::{Given, closest, excerpt, figures};
 
-use crate::check::checker::Checker;
+use crate::check::checker::{Checker, UnknownName};
 use crate::check::motion::rigid_motion;
+use crate::check::panel::PlacedPanel;
+use crate::file::panel::PanelFile;
 use crate::file::pin::PinFile;
 use crate::scene::panel::Panel;
 use crate::scene::pin::{HoldUntil, Pin};
 
-/// Checks the pins of panels whose particles start at some positions, in m.
-pub(crate) fn pins(checker: &mut Checker<'_>, panels: &[Panel], positions: &[f64]) -> Vec<Pin> {
+/// Checks the pins of placed panels. A pin of a panel that is known and was not placed, for it has
+/// mistakes, is not checked further.
+pub(crate) fn pins(checker: &mut Checker<'_>, panels: &[PlacedPanel]) -> Vec<Pin> {
     let file = checker.file;
     let mut pins = Vec::new();
     for (index, entry) in file.pin.iter().enumerate() {
-        pins.extend(pin(checker, index, entry, Placed { panels, positions }));
+        pins.extend(pin(checker, index, entry, panels));
     }
     for (index, entry) in file.pin.iter().enumerate() {
         // A pin that holds until the cloth has come to rest lets go only where something follows.
@@ -25,23 +28,25 @@ pub(crate) fn pins(checker: &mut Checker<'_>, panels: &[Panel], positions: &[f64
     pins
 }
 
-/// Panels, and the positions of their particles, in m.
-struct Placed<'a> {
-    panels: &'a [Panel],
-    positions: &'a [f64],
-}
-
 /// Checks a pin.
-fn pin(checker: &mut Checker<'_>, index: usize, pin: &PinFile, placed: Placed<'_>) -> Option<Pin> {
-    let Placed { panels, positions } = placed;
+fn pin(
+    checker: &mut Checker<'_>,
+    index: usize,
+    pin: &PinFile,
+    panels: &[PlacedPanel],
+) -> Option<Pin> {
     let key = format!("pin[{index}]");
-    let names: Vec<&str> = panels.iter().map(|p| p.name.as_str()).collect();
-    let Some(panel) = panels.iter().find(|p| p.name == pin.panel) else {
-        let help = format!("the panels of this scene are: {}", names.join(", "));
-        let message = format!("there is no panel \"{}\"", pin.panel);
-        checker.fail(&format!("{key}.panel"), message, &help);
+    let Some(placed) = panels.iter().find(|placed| placed.panel.name == pin.panel) else {
+        if !is_left_out(checker, &pin.panel, panels) {
+            let names: Vec<&str> = panels.iter().map(|p| p.panel.name.as_str()).collect();
+            let message = format!("there is no panel \"{}\"", excerpt(&pin.panel));
+            let kind = "panels of this scene";
+            let unknown = UnknownName { name: &pin.panel, known: &names, kind };
+            checker.unknown(&format!("{key}.panel"), message, unknown);
+        }
         return None;
     };
+    let (panel, positions) = (&placed.panel, &placed.positions);
     let mut particles = points(checker, &key, pin, panel);
     if let Some(edge) = pin.edge.as_deref() {
         if panel.edges.is_empty() {
@@ -61,7 +66,9 @@ fn pin(checker: &mut Checker<'_>, index: usize, pin: &PinFile, placed: Placed<'_
     }
     particles.sort_unstable();
     particles.dedup();
-    let place = |&particle: &usize| std::array::from_fn(|axis| positions[3 * particle + axis]);
+    let place = |&particle: &usize| {
+        std::array::from_fn(|axis| positions[3 * (particle - panel.first) + axis])
+    };
     let start: Vec<[f64; 3]> = particles.iter().map(place).collect();
     let middle = std::array::from_fn(|axis| {
         start.iter().map(|place| place[axis]).sum::<f64>() / start.len() as f64
@@ -70,7 +77,7 @@ fn pin(checker: &mut Checker<'_>, index: usize, pin: &PinFile, placed: Placed<'_
         Some(motion) => Some(rigid_motion(checker, &format!("{key}.motion"), motion, middle)?),
         None => None,
     };
-    let release = pin.release.unwrap_or(f64::INFINITY);
+    let release = pin.release.map_or(f64::INFINITY, Given::value);
     if pin.release.is_some() {
         checker.within(&format!("{key}.release"), release, 0.0..=1e5, "when it lets go, in s");
     }
@@ -78,6 +85,16 @@ fn pin(checker: &mut Checker<'_>, index: usize, pin: &PinFile, placed: Placed<'_
     let until = checker.choice(&format!("{key}.until"), pin.until.as_deref(), &choices);
     let axes = axes(checker, &key, pin);
     Some(Pin { particles, start, motion, release, until, axes })
+}
+
+/// Returns whether a panel of a name may be one that has mistakes.
+fn is_left_out(checker: &Checker<'_>, name: &str, placed: &[PlacedPanel]) -> bool {
+    let file = checker.file;
+    let plain = |panel: &PanelFile| {
+        name == panel.name || panel.stack.is_some() && name.starts_with(&panel.name)
+    };
+    let cut = placed.iter().filter(|placed| !placed.panel.edges.is_empty()).count();
+    file.panel.iter().any(plain) || !file.garment.is_empty() && cut == 0
 }
 
 /// Checks whether a pin holds along x, y and z.
@@ -136,7 +153,8 @@ fn points(checker: &mut Checker<'_>, key: &str, pin: &PinFile, panel: &Panel) ->
                 particles.push(panel.first + nearest);
             }
             _ => {
-                let message = format!("{point:?} is not on panel \"{}\"", panel.name);
+                let place = figures(&point.map(Given::number));
+                let message = format!("{place} is not on panel \"{}\"", panel.name);
                 let help = "places are width × height from the lower left corner of a rectangle, \
                             from the middle of a disc";
                 checker.fail(&format!("{key}.points[{number}]"), message, help);

@@ -45,6 +45,18 @@ pub(crate) fn solver(checker: &mut Checker<'_>) -> SolverSettings {
         let help = "leave out [settle] and time.error, or take \"bdf2\"";
         checker.fail("solver.integrator", "explicit steps are of one length", help);
     }
+    if file.keeps_surfaces_apart() {
+        let textbook = matches!(method, Method::TextbookMass | Method::TextbookDiagonal);
+        let whole = "its steps cannot be limited so that surfaces stay apart";
+        if integrator == Integrator::Explicit {
+            let help = "leave contact.surfaces out, or take integrator = \"bdf2\"";
+            checker.fail("contact.surfaces", format!("with explicit steps: {whole}"), help);
+        } else if textbook {
+            let help = "add surfaces = false to [contact], or take method = \"broyden\"";
+            let word = solver.method.as_deref().unwrap_or_default();
+            checker.fail("solver.method", format!("\"{word}\": {whole}"), help);
+        }
+    }
     let energy_balance = file.output.energy.unwrap_or(true);
     SolverSettings { integrator, method, linear_solver, tolerance, energy_balance }
 }

@@ -2,18 +2,21 @@
 //! order.
 
 mod layers;
+mod place_key;
 mod tangle;
 
 use drape_collide::{ParticleContact, SurfaceContact};
-use drape_input::Diagnostics;
+use drape_input::{Diagnostics, tidy};
 
 use crate::check::checker::Checker;
 use crate::error::Error;
 use crate::scene::Scene;
+use crate::scene::panel::Panel;
 use crate::surfaces::StartSurfaces;
 use crate::tangle::Tangle;
 
 use self::layers::check_layers;
+use self::place_key::place_key;
 use self::tangle::{Tangled, check_tangle};
 
 /// Checks the start of a scene that has no other mistakes, and returns the scene with notes on its
@@ -47,20 +50,24 @@ pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result
 
 /// Mistake of a scene of which no contact can be made.
 fn mistake(checker: &Checker<'_>, key: &str, error: &drape_collide::Error) -> Diagnostics {
-    checker.document().at(key, error.to_string()).into()
+    checker.document().at(key, tidy(&error.to_string())).into()
 }
 
 /// Checks that no particle starts inside a body.
 fn check_particles_outside(checker: &mut Checker<'_>, contact: &ParticleContact, scene: &Scene) {
     let summary = contact.summary(&scene.start.positions);
     if summary.inside > 0 {
+        let particle = summary.nearest.map_or(0, |nearest| nearest.particle);
+        let of = |panel: &&Panel| panel.particles().contains(&particle);
+        let panel = scene.panels.iter().find(of);
+        let key = panel.map_or("panel".into(), |panel| place_key(checker, scene, panel));
         let body = summary.nearest.map_or("", |nearest| &contact.bodies()[nearest.body].name);
         let message = format!(
             "{} particles start inside a body (deepest {:.4} m, in {body})",
             summary.inside, -summary.min_distance
         );
         let help = "move or turn the panel so that it starts outside, or let bodies grow with contact.inflate";
-        checker.fail("panel", message, help);
+        checker.fail(&key, message, help);
     }
 }
 
@@ -70,7 +77,8 @@ fn check_panels_outside(checker: &mut Checker<'_>, contact: &SurfaceContact, sce
         if contact.is_inside_body(panel.first, &scene.start.positions) {
             let message = format!("all of \"{}\" starts inside a body", panel.name);
             let help = "move or turn the panel so that it starts outside";
-            checker.fail("panel", message, help);
+            let key = place_key(checker, scene, panel);
+            checker.fail(&key, message, help);
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Times of a simulation: steps, relaxation, motion.
 
+use drape_input::Given;
+
 use crate::check::checker::Checker;
 use crate::scene::clock::Clock;
 use crate::scene::relaxation::Relaxation;
@@ -38,24 +40,32 @@ const STRIDE: f64 = 0.25;
 pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
     let (file, unit) = (checker.file, checker.unit);
     let time = &file.time;
-    let sound = checker.within("time.step", time.step, 1e-7..=0.1, "in s; 0.005 is usual");
+    let [first, end] = [time.step, time.end].map(Given::value);
+    let [step_min, step_max] = [time.step_min, time.step_max].map(|step| step.map(Given::value));
+    let sound = checker.within("time.step", first, 1e-7..=0.1, "in s; 0.005 is usual");
     // A wrong step would make the other times wrong too.
-    let step = if sound { time.step } else { 0.0 };
-    checker.within("time.end", time.end, step..=1e5, "in s, at least one step");
-    let interval = file.output.every.unwrap_or(FRAME_INTERVAL.max(step));
+    let step = if sound { first } else { 0.0 };
+    checker.within("time.end", end, step..=1e5, "in s, at least one step");
+    let interval = file.output.every.map_or(FRAME_INTERVAL.max(step), Given::value);
     checker.within("output.every", interval, step..=1e5, "in s, at least one step");
-    let ramp = time.ramp.unwrap_or(0.0);
+    let ramp = time.ramp.map_or(0.0, Given::value);
     checker.within("time.ramp", ramp, 0.0..=1e5, "in s; 0 for full gravity at once");
     let error = time.error.map(|error| error * unit);
     if let Some(error) = error {
         let help = "an error of positions; 0.1 mm is usual";
         checker.within("time.error", error, 1e-9..=0.1, help);
+        let quasi_static = file.settle.as_ref().is_some_and(|own| !own.inertia.unwrap_or(false));
+        if quasi_static && file.motion.is_none() {
+            let message = "steps on the way to rest have no error in time";
+            let help =
+                "leave it out: settle.stride sets their length; or add inertia = true to [settle]";
+            checker.fail("time.error", message, help);
+        }
     }
     let varies = error.is_some() || file.settle.is_some();
-    for (key, length, range) in [
-        ("time.step_min", time.step_min, 1e-9..=step),
-        ("time.step_max", time.step_max, step..=100.0),
-    ] {
+    for (key, length, range) in
+        [("time.step_min", step_min, 1e-9..=step), ("time.step_max", step_max, step..=100.0)]
+    {
         let Some(length) = length else { continue };
         if !varies {
             let help = "steps vary with time.error, or on the way to rest with [settle]";
@@ -64,24 +74,26 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
             checker.within(key, length, range, "in s, on its side of time.step");
         }
     }
-    let halvings = match (time.step_min, error) {
-        (Some(shortest), _) => (time.step / shortest).log2().floor().clamp(0.0, 30.0) as u32,
+    let halvings = match (step_min, error) {
+        (Some(shortest), _) => (first / shortest).log2().floor().clamp(0.0, 30.0) as u32,
         (None, Some(_)) => HALVINGS,
         (None, None) => 0,
     };
+    let inertia = file.settle.as_ref().is_some_and(|own| own.inertia.unwrap_or(false));
     let growth = match (error, &file.settle) {
-        (Some(_), _) => GROWTH,
-        (None, Some(_)) => RELAXATION_GROWTH,
+        (Some(_), None) => GROWTH,
+        (Some(_), Some(_)) if inertia => GROWTH,
+        (_, Some(_)) => RELAXATION_GROWTH,
         (None, None) => 1.0,
     };
     let ticks_per_step = 1_usize << halvings;
-    let ticks = |seconds: f64| seconds / time.step * ticks_per_step as f64;
+    let ticks = |seconds: f64| seconds / first * ticks_per_step as f64;
     Clock {
-        step: time.step,
+        step: first,
         ticks_per_step,
-        ticks_max: ticks(time.step_max.unwrap_or(growth * time.step)) as usize,
+        ticks_max: ticks(step_max.unwrap_or(growth * first)) as usize,
         error,
-        end: time.end,
+        end,
         ramp,
         ticks_per_frame: ticks(interval).round().max(1.0) as usize,
     }
@@ -91,7 +103,7 @@ pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
 pub(crate) fn relaxation(checker: &mut Checker<'_>, spacing: f64) -> Option<Relaxation> {
     let unit = checker.unit;
     let settle = checker.file.settle.as_ref()?;
-    let speed = settle.speed.unwrap_or(REST_SPEED);
+    let speed = settle.speed.map_or(REST_SPEED, Given::value);
     checker.within("settle.speed", speed, 1e-6..=10.0, "in m/s; 0.002 is usual");
     let residual = settle.residual.unwrap_or(REST_RESIDUAL);
     checker.within("settle.residual", residual, 1e-8..=1.0, "over g; 0.001 is usual");
@@ -106,8 +118,13 @@ pub(crate) fn relaxation(checker: &mut Checker<'_>, spacing: f64) -> Option<Rela
 /// so then.
 pub(crate) fn motion_seconds(checker: &mut Checker<'_>) -> Option<f64> {
     let file = checker.file;
-    let seconds = file.motion.as_ref()?.seconds;
-    checker.within("motion.seconds", seconds, file.time.step..=1e5, "in s, at least one step");
+    let seconds = file.motion.as_ref()?.seconds.value();
+    checker.within(
+        "motion.seconds",
+        seconds,
+        file.time.step.value()..=1e5,
+        "in s, at least one step",
+    );
     if file.settle.is_none() {
         let help = "add [settle], or leave [motion] out: bodies then move from the start";
         checker.fail("motion", "the cloth is not asked to come to rest", help);

@@ -3,11 +3,13 @@
 //! Each kind lists the keys that all kinds have in common again: a part that `serde` flattens into
 //! another one costs the refusal of unknown keys, and the lines of mistakes.
 
+use drape_input::{Angle, Given, Length, TextOr, Time};
 use serde::Deserialize;
 
-use crate::file::motion::{MeshMotionFile, MotionFile};
+use crate::file::motion::MotionFile;
 
 #[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ColliderFile {
     #[serde(default)]
@@ -26,86 +28,92 @@ pub(crate) struct ColliderFile {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CommonFile<'a> {
     pub(crate) name: Option<&'a str>,
-    pub(crate) center: [f64; 3],
+    pub(crate) center: [Given<Length>; 3],
+    /// Rotations about x, y and z, in degrees.
     pub(crate) turn: [f64; 3],
     pub(crate) friction: Option<f64>,
     pub(crate) motion: Option<&'a MotionFile>,
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SphereFile {
     name: Option<String>,
-    pub(crate) radius: f64,
+    pub(crate) radius: Given<Length>,
     #[serde(default)]
-    center: [f64; 3],
+    center: [Given<Length>; 3],
     friction: Option<f64>,
     motion: Option<MotionFile>,
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BoxFile {
     name: Option<String>,
     /// Lengths of the sides.
-    pub(crate) size: [f64; 3],
+    pub(crate) size: [Given<Length>; 3],
     #[serde(default)]
-    pub(crate) edge_radius: f64,
+    pub(crate) edge_radius: Given<Length>,
     #[serde(default)]
-    center: [f64; 3],
+    center: [Given<Length>; 3],
     #[serde(default)]
-    turn: [f64; 3],
+    turn: [Given<Angle>; 3],
     friction: Option<f64>,
     motion: Option<MotionFile>,
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CylinderFile {
     name: Option<String>,
-    pub(crate) radius: f64,
-    pub(crate) height: f64,
+    pub(crate) radius: Given<Length>,
+    pub(crate) height: Given<Length>,
     #[serde(default)]
-    pub(crate) edge_radius: f64,
+    pub(crate) edge_radius: Given<Length>,
     #[serde(default)]
-    center: [f64; 3],
+    center: [Given<Length>; 3],
     #[serde(default)]
-    turn: [f64; 3],
+    turn: [Given<Angle>; 3],
     friction: Option<f64>,
     motion: Option<MotionFile>,
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaneFile {
     name: Option<String>,
     #[serde(default)]
-    center: [f64; 3],
+    center: [Given<Length>; 3],
     #[serde(default)]
-    turn: [f64; 3],
+    turn: [Given<Angle>; 3],
     friction: Option<f64>,
     motion: Option<MotionFile>,
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MeshBodyFile {
     name: Option<String>,
     pub(crate) file: String,
     /// Unit of the file's coordinates, in m.
-    pub(crate) scale: Option<f64>,
+    pub(crate) scale: Option<Given<Length>>,
     #[serde(default)]
-    center: [f64; 3],
+    center: [Given<Length>; 3],
     #[serde(default)]
-    turn: [f64; 3],
+    turn: [Given<Angle>; 3],
     friction: Option<f64>,
-    motion: Option<MeshMotionFile>,
+    motion: Option<TextOr<MotionFile>>,
     /// Mesh files, with a * for the number of the frame.
     pub(crate) frames: Option<String>,
     /// Frames per second.
     pub(crate) rate: Option<f64>,
     /// Time at which the first frame is left, in s.
-    pub(crate) start: Option<f64>,
+    pub(crate) start: Option<Given<Time>>,
 }
 
 impl SphereFile {
@@ -127,7 +135,7 @@ impl BoxFile {
         CommonFile {
             name: name.as_deref(),
             center: *center,
-            turn: *turn,
+            turn: turn.map(Given::value),
             friction: *friction,
             motion: motion.as_ref(),
         }
@@ -140,7 +148,7 @@ impl CylinderFile {
         CommonFile {
             name: name.as_deref(),
             center: *center,
-            turn: *turn,
+            turn: turn.map(Given::value),
             friction: *friction,
             motion: motion.as_ref(),
         }
@@ -153,7 +161,7 @@ impl PlaneFile {
         CommonFile {
             name: name.as_deref(),
             center: *center,
-            turn: *turn,
+            turn: turn.map(Given::value),
             friction: *friction,
             motion: motion.as_ref(),
         }
@@ -164,13 +172,13 @@ impl MeshBodyFile {
     pub(crate) fn common(&self) -> CommonFile<'_> {
         let Self { name, center, turn, friction, motion, .. } = self;
         let motion = match motion {
-            Some(MeshMotionFile::Keys(motion)) => Some(motion),
+            Some(TextOr::Other(motion)) => Some(motion),
             _ => None,
         };
         CommonFile {
             name: name.as_deref(),
             center: *center,
-            turn: *turn,
+            turn: turn.map(Given::value),
             friction: *friction,
             motion,
         }
@@ -179,7 +187,7 @@ impl MeshBodyFile {
     /// Point cache that it moves by, if it does.
     pub(crate) fn point_cache(&self) -> Option<&str> {
         match &self.motion {
-            Some(MeshMotionFile::PointCache(file)) => Some(file),
+            Some(TextOr::Text(file)) => Some(file),
             _ => None,
         }
     }

@@ -1,34 +1,38 @@
 //! TOML form of contact.
 
+use drape_input::{Given, Length, PressurePerDistance, Speed, Time};
 use serde::Deserialize;
 
 #[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactFile {
     /// Activation distance.
-    pub(crate) offset: Option<f64>,
+    pub(crate) offset: Option<Given<Length>>,
     /// Stiffness, in N/m³.
-    pub(crate) stiffness: Option<f64>,
+    pub(crate) stiffness: Option<Given<PressurePerDistance>>,
     /// Speed below which particles stick, in m/s.
-    pub(crate) slip_speed: Option<f64>,
+    pub(crate) slip_speed: Option<Given<Speed>>,
     /// Whether surfaces are kept apart, and not particles out of bodies only; wherever that can be
     /// if missing.
     pub(crate) surfaces: Option<bool>,
     /// Displacement of surfaces that stick, before they slide.
-    pub(crate) stick: Option<f64>,
+    pub(crate) stick: Option<Given<Length>>,
     /// `error`, `thin` or `release`: treatment of cloth that bodies close on.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["error", "thin", "release"])))]
     pub(crate) pinch: Option<String>,
     /// Room for cloth that starts in a body.
     pub(crate) inflate: Option<InflateFile>,
     /// Time over which the distances that surfaces keep grow, in s, for cloth that starts nearer.
-    pub(crate) grow: Option<f64>,
+    pub(crate) grow: Option<Given<Time>>,
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InflateFile {
     /// Depth by which bodies start smaller, along their normals.
-    pub(crate) depth: f64,
+    pub(crate) depth: Given<Length>,
     /// Time until they have their size, in s.
-    pub(crate) seconds: Option<f64>,
+    pub(crate) seconds: Option<Given<Time>>,
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use drape_input::{Angle, Given, Length, Time};
 use drape_pattern::SeamKeys;
 use serde::Deserialize;
 
@@ -9,6 +10,7 @@ use crate::file::panel::NoiseFile;
 
 /// Pattern that is cut, placed and sewn.
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentFile {
     /// Name, which its panels have before theirs: `NAME.PANEL`; they keep the names of the pattern
@@ -17,10 +19,10 @@ pub(crate) struct GarmentFile {
     pub(crate) pattern: String,
     /// Fabric of the panels that name none.
     pub(crate) fabric: String,
-    pub(crate) spacing: Option<f64>,
+    pub(crate) spacing: Option<Given<Length>>,
     /// Shift of all panels.
     #[serde(default)]
-    pub(crate) center: [f64; 3],
+    pub(crate) center: [Given<Length>; 3],
     /// Layer in which it is worn; 0 if missing, which is next to the body.
     pub(crate) layer: Option<i64>,
     /// Random heights over the panels.
@@ -34,6 +36,7 @@ pub(crate) struct GarmentFile {
 }
 
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentPanelFile {
     pub(crate) fabric: Option<String>,
@@ -42,19 +45,20 @@ pub(crate) struct GarmentPanelFile {
     pub(crate) grain: Option<f64>,
     /// Origin of the panel's frame, and its rotations about x, y and z in degrees; those of the
     /// pattern if both are missing.
-    pub(crate) center: Option<[f64; 3]>,
-    pub(crate) turn: Option<[f64; 3]>,
+    pub(crate) center: Option<[Given<Length>; 3]>,
+    pub(crate) turn: Option<[Given<Angle>; 3]>,
     /// Radius of the cylinder that it is bent to; that of the pattern if missing.
-    pub(crate) wrap: Option<f64>,
+    pub(crate) wrap: Option<Given<Length>>,
     /// Layer in which it is worn; that of its garment if missing.
     pub(crate) layer: Option<i64>,
 }
 
 #[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SewFile {
     /// Time until the seams are to be closed.
-    pub(crate) seconds: Option<f64>,
+    pub(crate) seconds: Option<Given<Time>>,
     /// Bending stiffness of a seam over that of the fabric.
     pub(crate) stiffness: Option<f64>,
 }

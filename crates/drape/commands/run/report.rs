@@ -70,13 +70,14 @@ fn grown(contact: &Contacts) -> String {
 fn balance(energy: &Energy) -> String {
     format!(
         "\nenergy: gravity gave {:.4} J; elastic {:+.4} J, kinetic {:.1e} J; lost in the fabric \
-         {:.4} J, on bodies {:.4} J, to the air {:.4} J, in the integration {:.4} J; unaccounted \
+         {:.4} J, on bodies {:.4} J, of cloth on cloth {:.4} J, to the air {:.4} J, in the integration {:.4} J; unaccounted \
          for {:.0e} J",
         -energy.gravity,
         energy.elastic + energy.contact,
         energy.kinetic,
         energy.friction_dissipated,
         energy.body_dissipated,
+        energy.cloth_dissipated,
         energy.air_dissipated,
         energy.numerical_dissipated + energy.rotation_dissipated,
         energy.residual,

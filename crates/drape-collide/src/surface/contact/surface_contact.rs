@@ -226,7 +226,7 @@ impl SurfaceContact {
     /// is dissipated if the step ends there, in J.
     #[must_use]
     pub fn friction_energy(&self) -> FrictionEnergy {
-        self.friction.energy(&self.active.positions)
+        self.friction.energy(&self.active.positions, self.surface.free_count())
     }
 
     /// Calls `add` with the blocks of the second derivative of the potential by two free vertices,

@@ -5,6 +5,7 @@ use drape_collide::Shape;
 use crate::check::body::CheckedBody;
 use crate::check::checker::Checker;
 use crate::check::panel::PlacedPanel;
+use crate::file::body::MeshBodyFile;
 
 /// Largest distance of a garment from every body at the start, in m: a pattern that was made for
 /// another figure, or in another frame, is metres off.
@@ -16,6 +17,7 @@ const FIGURES: [f64; 2] = [0.1, 5.0];
 /// Checks the sizes of bodies: a figure from a file in another unit is a hundred times too large,
 /// or as much too small.
 fn check_sizes(checker: &mut Checker<'_>, bodies: &[CheckedBody]) {
+    let file = checker.file;
     for CheckedBody { body, .. } in bodies {
         let Shape::Mesh(mesh) = &body.shape else { continue };
         let vertices = mesh.vertices();
@@ -32,7 +34,12 @@ fn check_sizes(checker: &mut Checker<'_>, bodies: &[CheckedBody]) {
             );
             let help =
                 "set scale to the metres that a unit of its file stands for: 0.01 for centimetres";
-            checker.fail("collider.mesh", message, help);
+            let named = |(index, own): (usize, &MeshBodyFile)| {
+                let name = own.common().name.map_or(format!("mesh {}", index + 1), str::to_owned);
+                name == body.name
+            };
+            let index = file.collider.mesh.iter().enumerate().position(named).unwrap_or(0);
+            checker.fail(&format!("collider.mesh[{index}].scale"), message, help);
         }
     }
 }
@@ -67,7 +74,7 @@ pub(crate) fn check_distance(
             "no panel is within {FAR} m of a body: they start {distance:.2} m away ({x:+.2}, {y:+.2}, {z:+.2}) m"
         );
         let help = "was the pattern made for another body? shift it with center = [x, y, z]";
-        checker.fail("garment", message, help);
+        checker.fail("garment[0]", message, help);
     }
 }
 

@@ -117,7 +117,10 @@ fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> 
     let mut placement = match (written, piece.panel().placement()) {
         (Some(own), _) => {
             let center = own.center.unwrap_or_default().map(|x| x * unit);
-            Placement::new(own.turn.unwrap_or_default().map(f64::to_radians), center)
+            Placement::new(
+                own.turn.unwrap_or_default().map(|angle| angle.value().to_radians()),
+                center,
+            )
         }
         (None, Some(given)) => *given,
         (None, None) => {
@@ -135,9 +138,10 @@ fn placement(checker: &mut Checker<'_>, piece: &Piece<'_>) -> Option<Placement> 
     }
     let numbers =
         placement.rotation.iter().flatten().chain(&placement.translation).chain(&placement.wrap);
-    if numbers.chain(&entry.center).any(|x| !x.is_finite()) {
+    let shift = entry.center.map(|x| x * unit);
+    if numbers.chain(&shift).any(|x| !x.is_finite()) {
         checker.fail(&format!("{key}.center"), "is not finite", "in the file's unit");
     }
-    (0..3).for_each(|axis| placement.translation[axis] += entry.center[axis] * unit);
+    (0..3).for_each(|axis| placement.translation[axis] += shift[axis]);
     Some(placement)
 }

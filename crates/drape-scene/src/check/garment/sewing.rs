@@ -2,6 +2,7 @@
 
 use drape_cloth::{Cloth, Lattice, SeamBending};
 use drape_fabric::Fabric;
+use drape_input::Given;
 
 use crate::check::checker::Checker;
 use crate::scene::garment::Sewing;
@@ -10,17 +11,24 @@ use crate::scene::seam::{Seam, SeamPairs};
 /// Time until the seams are to be closed when the scene does not say, in s.
 const SECONDS: f64 = 1.0;
 
-/// Checks the sewing of seams between panels, if there are seams.
-pub(crate) fn sewing(
-    checker: &mut Checker<'_>,
-    seams: Vec<Seam>,
-    panels: &[(&Lattice, &Fabric)],
-) -> Option<Sewing> {
+/// Settings of the sewing of a scene.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SewingSettings {
+    /// Time until the seams are to be closed, in s.
+    seconds: f64,
+    /// Bending stiffness of a seam over that of the fabric.
+    stiffness: f64,
+}
+
+/// Checks the settings of the sewing, if there are seams.
+pub(crate) fn sewing_settings(checker: &mut Checker<'_>, is_plain: bool) -> Option<SewingSettings> {
     let file = checker.file;
-    let seconds = file.sew.seconds.unwrap_or(SECONDS);
+    let seconds = file.sew.seconds.map_or(SECONDS, Given::value);
     checker.within("sew.seconds", seconds, 1e-3..=1e3, "in s; 1 is usual");
-    if seams.is_empty() {
-        if file.sew.seconds.is_some() || file.sew.stiffness.is_some() {
+    if is_plain {
+        let is_set = file.sew.seconds.is_some() || file.sew.stiffness.is_some();
+        // A garment with mistakes may have seams.
+        if is_set && file.garment.is_empty() {
             let help = "seams are in the pattern of a [[garment]]";
             checker.fail("sew", "nothing is sewn", help);
         }
@@ -39,23 +47,36 @@ pub(crate) fn sewing(
     let stiffness = file.sew.stiffness.unwrap_or(drape_cloth::Seam::STIFFNESS);
     let help = "how many times as stiff as the fabric a seam is; 3 is usual";
     checker.within("sew.stiffness", stiffness, 0.0..=1e3, help);
-    let bending = |seam: &Seam| drape_cloth::Seam {
-        stiffness,
-        rest_angle: seam.rest_angle,
-        ties: seam.pairs.ties.clone(),
-        ..drape_cloth::Seam::new(seam.pairs.pairs.clone())
-    };
-    let bending: Vec<drape_cloth::Seam> = seams.iter().map(bending).collect();
-    let bending = SeamBending::new(panels, &bending).map_err(|error| {
-        let help = "choose another spacing, and report the pattern";
-        checker.fail("garment", error.to_string(), help);
-    });
-    // At the tip of a dart a pair is one particle already.
-    let pairs = seams.iter().flat_map(|seam| &seam.pairs.pairs).filter(|[a, b]| a != b);
-    let ties = seams.iter().flat_map(|seam| &seam.pairs.ties);
-    let pairs = SeamPairs { pairs: pairs.copied().collect(), ties: ties.copied().collect() };
-    let cloth = frictionless_cloth(panels);
-    Some(Sewing { seams, pairs, cloth, seconds, bending: bending.ok()? })
+    Some(SewingSettings { seconds, stiffness })
+}
+
+impl SewingSettings {
+    /// Makes the sewing of seams between panels.
+    pub(crate) fn sewing(
+        self,
+        checker: &mut Checker<'_>,
+        seams: Vec<Seam>,
+        panels: &[(&Lattice, &Fabric)],
+    ) -> Option<Sewing> {
+        let Self { seconds, stiffness } = self;
+        let bending = |seam: &Seam| drape_cloth::Seam {
+            stiffness,
+            rest_angle: seam.rest_angle,
+            ties: seam.pairs.ties.clone(),
+            ..drape_cloth::Seam::new(seam.pairs.pairs.clone())
+        };
+        let bending: Vec<drape_cloth::Seam> = seams.iter().map(bending).collect();
+        let bending = SeamBending::new(panels, &bending).map_err(|error| {
+            let help = "choose another spacing, and report the pattern";
+            checker.fail("garment", error.to_string(), help);
+        });
+        // At the tip of a dart a pair is one particle already.
+        let pairs = seams.iter().flat_map(|seam| &seam.pairs.pairs).filter(|[a, b]| a != b);
+        let ties = seams.iter().flat_map(|seam| &seam.pairs.ties);
+        let pairs = SeamPairs { pairs: pairs.copied().collect(), ties: ties.copied().collect() };
+        let cloth = frictionless_cloth(panels);
+        Some(Sewing { seams, pairs, cloth, seconds, bending: bending.ok()? })
+    }
 }
 
 /// Makes a cloth whose laws have no friction: it keeps the account of its strains and of nothing

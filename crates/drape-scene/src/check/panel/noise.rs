@@ -1,5 +1,7 @@
 //! Noise: random heights at which cloth begins, so that it need not stay symmetric.
 
+use drape_input::{Given, figure};
+
 use crate::check::checker::Checker;
 use crate::file::panel::NoiseFile;
 
@@ -21,13 +23,14 @@ pub(crate) fn noise(
     file: Option<&NoiseFile>,
 ) -> Option<Noise> {
     let file = file?;
-    if !file.amplitude.is_finite() {
+    if !file.amplitude.number().is_finite() {
         let help = "the greatest height, in the file's unit";
         checker.fail(&format!("{key}.amplitude"), "is not finite", help);
     }
-    if let Some(length) = file.length.filter(|length| !(*length > 0.0 && length.is_finite())) {
+    let length = file.length.map(Given::number);
+    if let Some(length) = length.filter(|length| !(*length > 0.0 && length.is_finite())) {
         let help = "the distance over which heights change, in the file's unit; or leave it out";
-        checker.fail(&format!("{key}.length"), format!("{length} is no length"), help);
+        checker.fail(&format!("{key}.length"), format!("{} is no length", figure(length)), help);
     }
     Some(Noise::new(file, checker.unit))
 }
@@ -100,7 +103,10 @@ mod tests {
     use super::*;
 
     fn noise(length: Option<f64>, seed: u64) -> Noise {
-        Noise::new(&NoiseFile { amplitude: 0.2, length, seed }, 1e-3)
+        Noise::new(
+            &NoiseFile { amplitude: Given::bare(0.2), length: length.map(Given::bare), seed },
+            1e-3,
+        )
     }
 
     #[test]

@@ -1,11 +1,15 @@
 //! Placement of a panel at the start.
 
 use drape_cloth::Lattice;
+use drape_input::{Given, figure};
 
 use crate::check::checker::Checker;
 use crate::check::panel::noise::Noise;
 use crate::file::panel::{PanelFile, StackFile};
 use crate::scene::motion::rotate;
+
+/// Largest coordinate of the middle of a panel, in m.
+const FAR: f64 = 1e4;
 
 /// Place and velocity of a panel at the start.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,18 +44,37 @@ impl Placement {
         noise: Option<Noise>,
     ) -> Self {
         let unit = checker.unit;
-        if panel.velocity.iter().chain(&panel.spin).any(|x| !x.is_finite()) {
-            let help = "velocity in the file's unit per second, spin in degrees per second";
-            checker.fail(&format!("{key}.velocity"), "is not finite", help);
+        for (name, numbers, help) in [
+            ("velocity", panel.velocity.map(Given::value), "in the file's unit per second"),
+            ("spin", panel.spin.map(Given::value), "in degrees per second"),
+            ("turn", panel.turn.map(Given::value), "degrees about x, y and z"),
+        ] {
+            if numbers.iter().any(|x| !x.is_finite()) {
+                checker.fail(&format!("{key}.{name}"), "is not finite", help);
+            }
         }
-        if panel.center.iter().chain(&panel.turn).any(|x| !x.is_finite()) {
-            checker.fail(&format!("{key}.center"), "is not finite", "in the file's unit");
+        let far = |x: &f64| !(x.abs() <= FAR);
+        if let Some(x) = panel.center.map(|x| x * unit).iter().find(|x| far(x)) {
+            let message = format!("{} m is too far out", figure(*x));
+            checker.fail(&format!("{key}.center"), message, "up to 10 km: is the unit right?");
+        }
+        if let Some(ripple) = &panel.ripple {
+            let wavelength = ripple.wavelength.number();
+            if !(wavelength > 0.0 && wavelength.is_finite()) {
+                let message = format!("{} is no length", figure(wavelength));
+                let help = "the distance from crest to crest, in the file's unit";
+                checker.fail(&format!("{key}.ripple.wavelength"), message, help);
+            }
+            if !ripple.amplitude.number().is_finite() {
+                let help = "the greatest height, in the file's unit";
+                checker.fail(&format!("{key}.ripple.amplitude"), "is not finite", help);
+            }
         }
         Self {
             center: panel.center.map(|x| x * unit),
-            turn: panel.turn,
+            turn: panel.turn.map(Given::value),
             velocity: panel.velocity.map(|v| v * unit),
-            spin: panel.spin.map(f64::to_radians),
+            spin: panel.spin.map(|spin| spin.value().to_radians()),
             ripple: panel.ripple.as_ref().map(|ripple| Ripple {
                 amplitude: ripple.amplitude * unit,
                 wavelength: ripple.wavelength * unit,
@@ -64,12 +87,13 @@ impl Placement {
     /// noise has another seed.
     pub(crate) fn copied(&self, copy: usize, stack: Option<&StackFile>, unit: f64) -> Self {
         let Some(stack) = stack else { return self.clone() };
-        let along = |from: [f64; 3], step: [f64; 3], unit: f64| {
-            std::array::from_fn(|axis| from[axis] + copy as f64 * step[axis] * unit)
-        };
+        let nth = |axis: usize| copy as f64 * stack.step[axis] * unit;
+        let center = std::array::from_fn(|axis| self.center[axis] + nth(axis));
+        let angle = |axis: usize| copy as f64 * stack.turn[axis].value();
+        let turn = std::array::from_fn(|axis| self.turn[axis] + angle(axis));
         Self {
-            center: along(self.center, stack.step, unit),
-            turn: along(self.turn, stack.turn, 1.0),
+            center,
+            turn,
             noise: self.noise.as_ref().map(|noise| noise.copied(copy as u64)),
             ..self.clone()
         }

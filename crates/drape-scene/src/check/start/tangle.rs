@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use drape_collide::{PairDistance, PairKind, Surface, SurfaceContact};
 
 use crate::check::checker::Checker;
+use crate::check::start::place_key::place_key;
 use crate::scene::Scene;
 use crate::scene::contact::DistanceGrowth;
 use crate::surfaces::StartSurfaces;
@@ -69,8 +70,13 @@ pub(crate) fn check_tangle(
     if overlaps.first.iter().any(|overlap| is_of_two_garments(scene, overlap)) {
         help = "give the garment that is worn outside a higher layer, or move or turn panels apart";
     }
-    let told = overlaps.first.iter().take(OVERLAPS_TOLD).map(|overlap| {
-        let ([a, b], [x, y, z]) = (&overlap.parts, overlap.place);
+    // One place of each two parts.
+    let mut parts = BTreeSet::new();
+    let first = overlaps.first.iter().filter(|overlap| parts.insert(&overlap.parts));
+    let told = first.take(OVERLAPS_TOLD).map(|overlap| {
+        let [a, b] = &overlap.parts;
+        // Adding 0 takes the sign of a rounded zero.
+        let [x, y, z] = overlap.place.map(|x| (1e4 * x).round() / 1e4 + 0.0);
         format!("\"{a}\" and \"{b}\" near ({x:.4}, {y:.4}, {z:.4}) m")
     });
     let told: Vec<String> = told.collect();
@@ -79,7 +85,11 @@ pub(crate) fn check_tangle(
         more => format!("; and {more} more pairs of triangles"),
     };
     let fault = format!("{fault}: {}{more}", told.join("; "));
-    let mistake = checker.fail("panel", fault, help);
+    let parts = overlaps.first.iter().flat_map(|overlap| &overlap.parts);
+    let panel = |name: &String| scene.panels.iter().find(|panel| panel.name == *name);
+    let panel = parts.filter_map(panel).next();
+    let key = panel.map_or("panel".into(), |panel| place_key(checker, scene, panel));
+    let mistake = checker.fail(&key, fault, help);
     Some(Tangled { overlaps, mistake })
 }
 

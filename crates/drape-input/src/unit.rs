@@ -1,13 +1,19 @@
-//! Units of measurement as laboratories write them, and their factors to SI.
+//! Units of measurement as people write them, and their factors to SI.
 //!
-//! The only table of units; `sheets` parses with it, `values` and `curves` convert with it.
+//! The only table of units: `given` reads the quantities of scenes, fabrics and patterns with it,
+//! `drape-kes` those of sheets and curves.
 
-use drape_input::closest;
+use crate::figure::excerpt;
+use crate::spelling::closest;
 
 /// Standard gram-force, in newtons.
 ///
 /// The reading of a balance depends on the place; the unit is defined as 980.665 dyn.
-pub(crate) const GRAM_FORCE: f64 = 9.806_65e-3;
+const GRAM_FORCE: f64 = 9.806_65e-3;
+
+/// Largest number of letters of a number that is read, more than any number with all its digits
+/// needs.
+const NUMBER_MAX: usize = 64;
 
 /// Inch, in metres.
 const INCH: f64 = 0.0254;
@@ -20,7 +26,7 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// Kind of quantity, which fixes the admissible units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Quantity {
+pub enum Quantity {
     /// Ratio: strain, linearity, resilience.
     Ratio,
     /// Angle, in radians.
@@ -47,11 +53,23 @@ pub(crate) enum Quantity {
     MassPerArea,
     /// Height of a surface, in metres.
     Roughness,
+    /// Time, in s.
+    Time,
+    /// Speed, in m/s.
+    Speed,
+    /// Angular speed, in rad/s.
+    AngularSpeed,
+    /// Acceleration, in m/s².
+    Acceleration,
+    /// Density, in kg/m³.
+    Density,
+    /// Pressure per distance, in N/m³.
+    PressurePerDistance,
 }
 
 impl Quantity {
     /// Returns the name used in messages.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Ratio => "ratio",
             Self::Angle => "angle",
@@ -66,6 +84,12 @@ impl Quantity {
             Self::WorkPerArea => "work per area",
             Self::MassPerArea => "mass per area",
             Self::Roughness => "roughness",
+            Self::Time => "time",
+            Self::Speed => "speed",
+            Self::AngularSpeed => "angular speed",
+            Self::Acceleration => "acceleration",
+            Self::Density => "density",
+            Self::PressurePerDistance => "pressure per distance",
         }
     }
 
@@ -177,17 +201,28 @@ impl Quantity {
             Self::MassPerArea => {
                 &[("mg/cm2", 1e-2), ("kg/m2", 1.0), ("g/m2", 1e-3), ("g/cm2", 10.0), ("gsm", 1e-3)]
             }
+            Self::Time => &[("s", 1.0), ("ms", 1e-3), ("min", 60.0)],
+            Self::Speed => &[("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)],
+            Self::AngularSpeed => &[("deg/s", DEGREE), ("rad/s", 1.0), ("1/min", 6.0 * DEGREE)],
+            Self::Acceleration => &[("m/s2", 1.0), ("cm/s2", 1e-2), ("mm/s2", 1e-3)],
+            Self::Density => &[("kg/m3", 1.0), ("g/cm3", 1e3), ("g/m3", 1e-3)],
+            Self::PressurePerDistance => &[("N/m3", 1.0), ("Pa/m", 1.0), ("kPa/mm", 1e6)],
         }
     }
 
     /// Returns the unit of a bare number in a sheet.
-    pub(crate) fn laboratory(self) -> Unit {
+    pub fn laboratory(self) -> Unit {
         let (spelling, factor) = self.units()[0];
         Unit { quantity: self, spelling, factor }
     }
 
+    /// Returns the spellings of the units.
+    pub fn spellings(self) -> impl Iterator<Item = &'static str> {
+        self.units().iter().map(|(spelling, _)| *spelling)
+    }
+
     /// Returns the spellings of the units, for messages.
-    fn list(self) -> String {
+    pub(crate) fn list(self) -> String {
         let spellings: Vec<&str> = self.units().iter().map(|unit| unit.0).collect();
         spellings.join(", ")
     }
@@ -195,21 +230,26 @@ impl Quantity {
 
 /// Unit with its quantity and its factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Unit {
-    pub(crate) quantity: Quantity,
-    pub(crate) spelling: &'static str,
-    pub(crate) factor: f64,
+pub struct Unit {
+    /// Its quantity.
+    pub quantity: Quantity,
+    /// Its normal form.
+    pub spelling: &'static str,
+    /// Its value in SI.
+    pub factor: f64,
 }
 
 /// Reason why a unit was not accepted, with the remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct UnitError {
-    pub(crate) message: String,
-    pub(crate) help: String,
+pub struct UnitError {
+    /// The reason, with the text.
+    pub message: String,
+    /// The remedy.
+    pub help: String,
 }
 
 /// Parses a unit of one of the given quantities, which are tried in order.
-pub(crate) fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, UnitError> {
+pub fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, UnitError> {
     let wanted = normal_form(text);
     for &quantity in accepted {
         if let Some(&(spelling, factor)) = quantity.units().iter().find(|u| u.0 == wanted) {
@@ -223,13 +263,14 @@ pub(crate) fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, Unit
         .map(|close| format!("did you mean `{close}`? "))
         .unwrap_or_default();
     Err(UnitError {
-        message: format!("\"{text}\" is not a unit of {}", names.join(" or ")),
+        message: format!("\"{}\" is not a unit of {}", excerpt(text), names.join(" or ")),
         help: format!("{hint}units accepted here: {}", lists.join("; ")),
     })
 }
 
 /// Returns whether a text is a unit of measurement of a curve.
-pub(crate) fn is_unit(text: &str) -> bool {
+#[must_use]
+pub fn is_unit(text: &str) -> bool {
     const OF_CURVES: [Quantity; 8] = [
         Quantity::Ratio,
         Quantity::Angle,
@@ -251,24 +292,25 @@ pub(crate) fn is_unit(text: &str) -> bool {
 
 /// Number with its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Written {
+pub struct Written {
     /// Number as written, whatever its unit.
-    pub(crate) number: f64,
-    pub(crate) unit: Unit,
+    pub number: f64,
+    /// Unit that it is written in.
+    pub unit: Unit,
 }
 
 /// Parses a number with its unit, `"1.2e-5 N.m"`, or `"0.118"` in the laboratory's unit.
-pub(crate) fn parse_quantity(text: &str, quantity: Quantity) -> Result<Written, UnitError> {
+pub fn parse_quantity(text: &str, quantity: Quantity) -> Result<Written, UnitError> {
     let text = text.trim();
     // The longest leading part that is a number; the rest is the unit.
-    let split = (1..=text.len())
+    let split = (1..=text.len().min(NUMBER_MAX))
         .rev()
         .filter(|&end| text.is_char_boundary(end))
         .find_map(|end| text[..end].trim_end().parse::<f64>().ok().map(|number| (number, end)));
     let Some((number, end)) = split else {
         let unit = quantity.laboratory().spelling;
         return Err(UnitError {
-            message: format!("\"{text}\" does not begin with a number"),
+            message: format!("\"{}\" does not begin with a number", excerpt(text)),
             help: format!("write the number and its unit, such as \"1.5 {unit}\""),
         });
     };

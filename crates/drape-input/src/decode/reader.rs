@@ -1,0 +1,452 @@
+//! Reader of the values of a text for `serde`, which goes on where a value is wrong.
+
+use std::cell::{Cell, RefCell};
+
+use serde::de::value::{SeqDeserializer, StrDeserializer};
+use serde::de::{DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor};
+use serde::forward_to_deserialize_any;
+
+use crate::figure::excerpt;
+use crate::given;
+use crate::node::{Entry, Node, Value};
+use crate::quoting::toml_key;
+use crate::spelling::closest;
+use crate::unit::{Quantity, Written, parse_quantity};
+
+use super::stand_in::{Kind, StandIn};
+use super::stop::Stop;
+use super::{Fault, State};
+
+/// Place of a value: the keys and numbers that lead to it.
+pub(super) struct Path<'a> {
+    outer: Option<&'a Path<'a>>,
+    step: Step<'a>,
+}
+
+#[derive(Clone, Copy)]
+enum Step<'a> {
+    Root,
+    /// Key, and the address of its value.
+    Key(&'a str, usize),
+    Index(usize),
+}
+
+impl Path<'_> {
+    pub(super) fn root() -> Self {
+        Self { outer: None, step: Step::Root }
+    }
+
+    /// Returns the path in the form of messages, such as `panel[1].disc`.
+    fn text(&self) -> String {
+        let mut text = self.outer.map_or(String::new(), Path::text);
+        match self.step {
+            Step::Root => {}
+            Step::Key(key, _) => {
+                if !text.is_empty() {
+                    text.push('.');
+                }
+                text.push_str(&toml_key(&excerpt(key)));
+            }
+            Step::Index(index) => text.push_str(&format!("[{index}]")),
+        }
+        text
+    }
+
+    /// Returns the path of the innermost value that has a key, and its address.
+    fn keyed(&self) -> Option<(&Self, usize)> {
+        match self.step {
+            Step::Key(_, address) => Some((self, address)),
+            _ => self.outer?.keyed(),
+        }
+    }
+
+    /// Returns the path of a key in here.
+    fn key(&self, key: &str) -> String {
+        let text = self.text();
+        let key = toml_key(&excerpt(key));
+        if text.is_empty() { key } else { format!("{text}.{key}") }
+    }
+}
+
+/// Returns the address of a value, which tells it from all others.
+fn address(node: &Node) -> usize {
+    std::ptr::from_ref(node) as usize
+}
+
+/// Reader of a value.
+pub(super) struct Reader<'a> {
+    pub(super) node: &'a Node,
+    pub(super) path: &'a Path<'a>,
+    pub(super) state: &'a RefCell<State>,
+}
+
+impl<'a> Reader<'a> {
+    /// Writes down that the value is not of the kind that is asked for.
+    fn wrong(&self, kind: Kind) {
+        let wanted = kind.words();
+        let short = wanted.split_once(" such as").map_or(wanted.as_str(), |(short, _)| short);
+        let message = format!("is {} where {short} is needed", self.node.kind());
+        let help = match (&self.node.value, self.path.step) {
+            (Value::Table(_), Step::Key(key, _)) if kind == Kind::List(None) => {
+                format!("write [[{}]], with two brackets: there may be several", toml_key(key))
+            }
+            _ => format!("write {wanted}"),
+        };
+        self.fault(message, help);
+    }
+
+    /// Writes down a mistake in the value.
+    fn fault(&self, message: String, help: String) {
+        let mut state = self.state.borrow_mut();
+        if let Some((path, address)) = self.path.keyed() {
+            state.wrong.insert(address);
+            state.keys.insert(path.text());
+        }
+        if state.is_last {
+            return;
+        }
+        let place = self.path.text();
+        let message = if place.is_empty() { message } else { format!("{place}: {message}") };
+        let span = Some(self.node.span.clone());
+        state.faults.push(Fault { span, message, help });
+    }
+
+    fn stand_in<V>(&self, kind: Kind, visit: impl FnOnce(StandIn<'_>) -> V) -> V {
+        self.wrong(kind);
+        visit(StandIn { asked: &Cell::new(kind) })
+    }
+
+    fn number<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        match self.node.value {
+            Value::Integer(number) => visitor.visit_f64(number as f64),
+            Value::Float(number) => visitor.visit_f64(number),
+            _ => self.stand_in(Kind::Number, |by| by.deserialize_f64(visitor)),
+        }
+    }
+
+    fn whole<'de, V: Visitor<'de>>(
+        self,
+        least: i64,
+        most: i64,
+        visitor: V,
+    ) -> Result<V::Value, Stop> {
+        match self.node.value {
+            Value::Integer(number) if (least..=most).contains(&number) => visitor.visit_i64(number),
+            Value::Integer(number) => {
+                let message = format!("{number} is not between {least} and {most}");
+                self.fault(message, "write a whole number in this range".into());
+                visitor.visit_i64(1)
+            }
+            Value::Float(number) => {
+                let message = format!("{number} is not a whole number");
+                self.fault(message, "write a whole number, without a point".into());
+                visitor.visit_i64(1)
+            }
+            _ => self.stand_in(Kind::Whole, |by| by.deserialize_i64(visitor)),
+        }
+    }
+
+    fn text<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        match &self.node.value {
+            Value::Text(text) => visitor.visit_str(text),
+            _ => self.stand_in(Kind::Text, |by| by.deserialize_str(visitor)),
+        }
+    }
+
+    /// Reads a quantity: a bare number, or text with a unit.
+    fn quantity<'de, V: Visitor<'de>>(
+        self,
+        quantity: Quantity,
+        examples: [&'static str; 2],
+        visitor: V,
+    ) -> Result<V::Value, Stop> {
+        let text = match &self.node.value {
+            Value::Integer(_) | Value::Float(_) => return self.number(visitor),
+            Value::Text(text) => text,
+            _ => {
+                self.wrong(Kind::Quantity(quantity.name(), examples));
+                return visitor.visit_f64(1.0);
+            }
+        };
+        let has_unit = text.trim().parse::<f64>().is_err();
+        match parse_quantity(text, quantity) {
+            Ok(Written { number, unit }) if has_unit => {
+                visitor.visit_seq(SeqDeserializer::new([number, unit.factor].into_iter()))
+            }
+            Ok(_) => {
+                let number = excerpt(text.trim());
+                let message = format!("\"{number}\" has no unit");
+                let help =
+                    format!("write {number} without quotes, or a unit, as in \"{}\"", examples[1]);
+                self.fault(message, help);
+                visitor.visit_f64(1.0)
+            }
+            Err(error) => {
+                let help = match error.message.contains("is not a unit") {
+                    true => error.help,
+                    false => format!("write {} or \"{}\"", examples[0], examples[1]),
+                };
+                self.fault(error.message, help);
+                visitor.visit_f64(1.0)
+            }
+        }
+    }
+}
+
+impl<'de> Deserializer<'de> for Reader<'_> {
+    type Error = Stop;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        match &self.node.value {
+            Value::Text(text) => visitor.visit_str(text),
+            Value::Integer(number) => visitor.visit_i64(*number),
+            Value::Float(number) => visitor.visit_f64(*number),
+            Value::Flag(flag) => visitor.visit_bool(*flag),
+            Value::Date => visitor.visit_str(""),
+            Value::List(_) => self.deserialize_seq(visitor),
+            Value::Table(_) => self.deserialize_map(visitor),
+        }
+    }
+
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        self.number(visitor)
+    }
+
+    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        self.number(visitor)
+    }
+
+    fn deserialize_u8<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        self.whole(0, u8::MAX.into(), visitor)
+    }
+
+    fn deserialize_u16<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        self.whole(0, u16::MAX.into(), visitor)
+    }
+
+    fn deserialize_u32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        self.whole(0, u32::MAX.into(), visitor)
+    }
+
+    fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        self.whole(0, i64::MAX, visitor)
+    }
+
+    fn deserialize_i64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        self.whole(i64::MIN, i64::MAX, visitor)
+    }
+
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        match self.node.value {
+            Value::Flag(flag) => visitor.visit_bool(flag),
+            _ => self.stand_in(Kind::Flag, |by| by.deserialize_bool(visitor)),
+        }
+    }
+
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        self.text(visitor)
+    }
+
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        self.text(visitor)
+    }
+
+    fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        self.text(visitor)
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        visitor.visit_some(self)
+    }
+
+    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        visitor.visit_unit()
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Stop> {
+        match (given::of_token(name), &self.node.value) {
+            (Some((quantity, examples)), _) => self.quantity(quantity, examples, visitor),
+            (None, Value::Text(text)) if name == given::TEXT_OR => visitor.visit_str(text),
+            _ => visitor.visit_newtype_struct(self),
+        }
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        match &self.node.value {
+            Value::List(nodes) => visitor.visit_seq(Elements { nodes, index: 0, reader: self }),
+            _ => self.stand_in(Kind::List(None), |by| by.deserialize_seq(visitor)),
+        }
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(self, count: usize, v: V) -> Result<V::Value, Stop> {
+        match &self.node.value {
+            Value::List(nodes) if nodes.len() == count => {
+                v.visit_seq(Elements { nodes, index: 0, reader: self })
+            }
+            Value::List(nodes) => {
+                let number = nodes.len();
+                let message = format!("is a list of {number} where {count} values are needed");
+                self.fault(message, format!("write {}", Kind::List(Some(count)).words()));
+                StandIn { asked: &Cell::new(Kind::Anything) }.deserialize_tuple(count, v)
+            }
+            _ => self.stand_in(Kind::List(Some(count)), |by| by.deserialize_tuple(count, v)),
+        }
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        match &self.node.value {
+            Value::Table(entries) => {
+                let entries = entries.iter().filter(|entry| !self.leaves_out(entry));
+                let entries = entries.map(|entry| (entry.key.as_str(), Some(entry))).collect();
+                visitor.visit_map(Entries { entries, next: 0, reader: self })
+            }
+            _ => self.stand_in(Kind::Table, |by| by.deserialize_map(visitor)),
+        }
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        keys: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Stop> {
+        let Value::Table(entries) = &self.node.value else {
+            return self.stand_in(Kind::Table, |by| by.deserialize_struct(name, keys, visitor));
+        };
+        let entries = self.entries_of(name, keys, entries);
+        match visitor.visit_map(Entries { entries, next: 0, reader: self }) {
+            Err(Stop::Missing(key)) => Err(Stop::Needs { structure: name, key }),
+            other => other,
+        }
+    }
+
+    forward_to_deserialize_any! {
+        i8 i16 i32 i128 u128 char bytes byte_buf unit unit_struct tuple_struct enum
+    }
+}
+
+impl<'a> Reader<'a> {
+    /// Returns the entries of a structure with some keys. Unknown keys are written down; one that is
+    /// a slip of the pen counts as the key that is meant. Keys that are needed and missing have no
+    /// entry.
+    fn entries_of(
+        &self,
+        name: &'static str,
+        keys: &'static [&'static str],
+        entries: &'a [Entry],
+    ) -> Vec<(&'a str, Option<&'a Entry>)> {
+        let mut found: Vec<(&str, Option<&Entry>)> = Vec::with_capacity(entries.len());
+        let mut unknown = Vec::new();
+        for entry in entries {
+            match keys.contains(&entry.key.as_str()) {
+                true => found.push((&entry.key, Some(entry))),
+                false => unknown.push(entry),
+            }
+        }
+        for entry in unknown {
+            let near = closest(&entry.key, keys.iter().copied());
+            let help = match near {
+                Some(near) => format!("did you mean `{near}`?"),
+                None if keys.is_empty() => "remove it".into(),
+                None => format!("known here: {}", keys.join(", ")),
+            };
+            let mut state = self.state.borrow_mut();
+            if !state.is_last {
+                let message = format!("{}: there is no such key", self.path.key(&entry.key));
+                state.faults.push(Fault { span: Some(entry.span.clone()), message, help });
+            }
+            if let Some(near) = near.filter(|near| found.iter().all(|(key, _)| key != near)) {
+                found.push((near, Some(entry)));
+            }
+        }
+        found.retain(|(_, entry)| entry.is_none_or(|entry| !self.leaves_out(entry)));
+        let state = self.state.borrow();
+        for &key in keys {
+            if state.needed.contains(&(name, key)) && found.iter().all(|(own, _)| *own != key) {
+                found.push((key, None));
+            }
+        }
+        found
+    }
+
+    /// Returns whether the last reading leaves an entry out, since its value is wrong.
+    fn leaves_out(&self, entry: &Entry) -> bool {
+        let state = self.state.borrow();
+        state.is_last && state.wrong.contains(&address(&entry.node))
+    }
+
+    /// Hands over a stand-in for a key that is missing, and writes that down.
+    fn missing<'de, T: DeserializeSeed<'de>>(&self, key: &str, seed: T) -> Result<T::Value, Stop> {
+        let asked = Cell::new(Kind::Anything);
+        let value = seed.deserialize(StandIn { asked: &asked })?;
+        let path = self.path.key(key);
+        let mut state = self.state.borrow_mut();
+        if !state.is_last {
+            let span = (!matches!(self.path.step, Step::Root)).then(|| self.node.span.clone());
+            let help = format!("add {key} = …, {}", asked.get().words());
+            state.faults.push(Fault { span, message: format!("{path}: is missing"), help });
+        }
+        state.keys.insert(path);
+        Ok(value)
+    }
+}
+
+/// Elements of a list.
+struct Elements<'a> {
+    nodes: &'a [Node],
+    index: usize,
+    reader: Reader<'a>,
+}
+
+impl<'de> SeqAccess<'de> for Elements<'_> {
+    type Error = Stop;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(
+        &mut self,
+        seed: T,
+    ) -> Result<Option<T::Value>, Stop> {
+        let Some(node) = self.nodes.get(self.index) else { return Ok(None) };
+        let path = Path { outer: Some(self.reader.path), step: Step::Index(self.index) };
+        self.index += 1;
+        seed.deserialize(Reader { node, path: &path, state: self.reader.state }).map(Some)
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        Some(self.nodes.len() - self.index)
+    }
+}
+
+/// Entries of a table, under the keys that are meant.
+struct Entries<'a> {
+    entries: Vec<(&'a str, Option<&'a Entry>)>,
+    /// Number of the entry whose key comes next.
+    next: usize,
+    reader: Reader<'a>,
+}
+
+impl<'de> MapAccess<'de> for Entries<'_> {
+    type Error = Stop;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, Stop> {
+        let Some((key, _)) = self.entries.get(self.next) else { return Ok(None) };
+        self.next += 1;
+        let key: StrDeserializer<'_, Stop> = (*key).into_deserializer();
+        seed.deserialize(key).map(Some)
+    }
+
+    fn next_value_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<T::Value, Stop> {
+        let (key, entry) = self.entries[self.next - 1];
+        let Some(entry) = entry else { return self.reader.missing(key, seed) };
+        let step = Step::Key(key, address(&entry.node));
+        let path = Path { outer: Some(self.reader.path), step };
+        let state = self.reader.state;
+        seed.deserialize(Reader { node: &entry.node, path: &path, state })
+    }
+}

@@ -1,0 +1,35 @@
+//! Reasons for which a reading of a text ends.
+
+use std::fmt;
+
+/// Reason for which a reading ends before the end of the text.
+#[derive(Debug)]
+pub(super) enum Stop {
+    /// A structure has no value for a key.
+    Missing(&'static str),
+    /// The same, with the name of the structure.
+    Needs { structure: &'static str, key: &'static str },
+    /// Any other.
+    Other(String),
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing(key) | Self::Needs { key, .. } => write!(f, "{key} is missing"),
+            Self::Other(message) => f.write_str(message),
+        }
+    }
+}
+
+impl std::error::Error for Stop {}
+
+impl serde::de::Error for Stop {
+    fn custom<T: fmt::Display>(message: T) -> Self {
+        Self::Other(message.to_string())
+    }
+
+    fn missing_field(key: &'static str) -> Self {
+        Self::Missing(key)
+    }
+}

@@ -1,0 +1,269 @@
+//! Numbers as a file gives them: bare, in the unit that its key has, or as text with a unit of its
+//! own.
+//!
+//! A mirror of a file has a [`Given`] of a [`Dimension`] where a quantity stands;
+//! [`Document`](crate::Document) reads it from `0.01` and from `"10 mm"`, and the check converts it
+//! to SI.
+
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Mul;
+
+use serde::de::{Error, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::unit::Quantity;
+
+/// Number of a file with a dimension: bare, or with the unit that stands with it.
+///
+/// ```
+/// use drape_input::{Document, Given, Length};
+///
+/// #[derive(serde::Deserialize)]
+/// struct Panel { width: Given<Length>, height: Given<Length> }
+///
+/// let panel: Panel = Document::new("a.toml", "width = 0.2\nheight = \"30 cm\"").decode()?;
+/// // The bare number is in the unit of the file, here the metre.
+/// assert_eq!([panel.width, panel.height].map(|length| length * 1.0), [0.2, 0.3]);
+/// # Ok::<(), drape_input::Diagnostics>(())
+/// ```
+pub struct Given<D> {
+    number: f64,
+    /// Value of its unit in SI, if one stands with it.
+    factor: Option<f64>,
+    dimension: PhantomData<D>,
+}
+
+/// Dimension of a number, with the unit of bare ones.
+pub trait Dimension {
+    /// Kind of quantity, which tells the admissible units.
+    const QUANTITY: Quantity;
+    /// Unit of a bare number in SI; of a length in the unit of the file, 1.
+    const BARE: f64 = 1.0;
+    /// Token by which [`Document`](crate::Document) knows the dimension.
+    const TOKEN: &'static str;
+    /// Values as they may be written: bare, and with a unit.
+    const EXAMPLES: [&'static str; 2];
+}
+
+/// One degree, in radians.
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+macro_rules! dimensions {
+    ($($(#[$doc:meta])* $name:ident, $quantity:ident, $bare:expr, $examples:expr;)*) => {
+        $(
+            $(#[$doc])*
+            #[derive(Debug, Clone, Copy, PartialEq)]
+            pub struct $name;
+
+            impl Dimension for $name {
+                const QUANTITY: Quantity = Quantity::$quantity;
+                const BARE: f64 = $bare;
+                const TOKEN: &'static str = concat!("$drape-input:", stringify!($name));
+                const EXAMPLES: [&'static str; 2] = $examples;
+            }
+        )*
+
+        /// Returns the quantity and the examples of a token of a dimension.
+        pub(crate) fn of_token(token: &str) -> Option<(Quantity, [&'static str; 2])> {
+            match token {
+                $($name::TOKEN => Some((Quantity::$quantity, $name::EXAMPLES)),)*
+                _ => None,
+            }
+        }
+    };
+}
+
+dimensions! {
+    /// Length; bare in the unit of the file.
+    Length, Length, 1.0, ["0.01", "10 mm"];
+    /// Angle; bare in degrees.
+    Angle, Angle, DEGREE, ["45", "45 deg"];
+    /// Angular speed; bare in degrees per second.
+    AngularSpeed, AngularSpeed, DEGREE, ["90", "90 deg/s"];
+    /// Curvature; bare in 1/m.
+    Curvature, Curvature, 1.0, ["20", "0.2 1/cm"];
+    /// Time; bare in s.
+    Time, Time, 1.0, ["0.5", "500 ms"];
+    /// Speed; bare in m/s.
+    Speed, Speed, 1.0, ["0.002", "2 mm/s"];
+    /// Acceleration; bare in m/s².
+    Acceleration, Acceleration, 1.0, ["9.81", "9.81 m/s2"];
+    /// Mass per area; bare in kg/m².
+    MassPerArea, MassPerArea, 1.0, ["0.15", "150 g/m2"];
+    /// Density; bare in kg/m³.
+    Density, Density, 1.0, ["1.2", "1.2 kg/m3"];
+    /// Force per width, stiffness of a strip per width; bare in N/m.
+    ForcePerWidth, ForcePerWidth, 1.0, ["5000", "50 N/cm"];
+    /// Moment per width; bare in N.
+    MomentPerWidth, MomentPerWidth, 1.0, ["0.0005", "0.05 gf.cm/cm"];
+    /// Bending rigidity per width; bare in N·m.
+    BendingRigidity, BendingRigidity, 1.0, ["1.2e-5", "0.12 gf.cm2/cm"];
+    /// Shear stiffness; bare in N/m, for a rad.
+    ShearStiffness, ShearStiffness, 1.0, ["35", "0.6 gf/(cm.deg)"];
+    /// Pressure per distance; bare in N/m³.
+    PressurePerDistance, PressurePerDistance, 1.0, ["1e7", "10 kPa/mm"];
+    /// Ratio, such as a strain; bare as it is.
+    Ratio, Ratio, 1.0, ["0.01", "1 %"];
+}
+
+impl<D: Dimension> Given<D> {
+    /// Creates a bare number.
+    #[must_use]
+    pub const fn bare(number: f64) -> Self {
+        Self { number, factor: None, dimension: PhantomData }
+    }
+
+    /// Returns the value in the unit that bare numbers have: degrees of an angle, SI of all others
+    /// but lengths, which are multiplied by the unit of the file.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        match self.factor {
+            None => self.number,
+            Some(factor) if factor == D::BARE => self.number,
+            Some(factor) => self.number * factor / D::BARE,
+        }
+    }
+
+    /// Returns the number as it is written, whatever its unit.
+    #[must_use]
+    pub fn number(self) -> f64 {
+        self.number
+    }
+}
+
+impl<D> Mul<f64> for Given<D> {
+    type Output = f64;
+
+    /// Returns the value in SI, given the unit of bare numbers in SI: of lengths the unit of the
+    /// file, in m.
+    fn mul(self, unit: f64) -> f64 {
+        self.number * self.factor.unwrap_or(unit)
+    }
+}
+
+impl<D> Mul<Given<D>> for f64 {
+    type Output = Given<D>;
+
+    /// Returns a multiple.
+    fn mul(self, given: Given<D>) -> Given<D> {
+        Given { number: self * given.number, ..given }
+    }
+}
+
+impl<D> Clone for Given<D> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<D> Copy for Given<D> {}
+
+impl<D> Default for Given<D> {
+    fn default() -> Self {
+        Self { number: 0.0, factor: None, dimension: PhantomData }
+    }
+}
+
+impl<D> PartialEq for Given<D> {
+    fn eq(&self, other: &Self) -> bool {
+        self.number == other.number && self.factor == other.factor
+    }
+}
+
+impl<D> fmt::Debug for Given<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.factor {
+            None => write!(f, "{:?}", self.number),
+            Some(factor) => write!(f, "{:?} × {factor:?}", self.number),
+        }
+    }
+}
+
+impl<D: Dimension> Serialize for Given<D> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(self.value())
+    }
+}
+
+impl<'de, D: Dimension> Deserialize<'de> for Given<D> {
+    fn deserialize<S: Deserializer<'de>>(deserializer: S) -> Result<Self, S::Error> {
+        deserializer.deserialize_newtype_struct(D::TOKEN, GivenVisitor(PhantomData))
+    }
+}
+
+/// Visitor of a number: a bare one, or a pair of a number and its unit.
+struct GivenVisitor<D>(PhantomData<D>);
+
+impl<'de, D: Dimension> Visitor<'de> for GivenVisitor<D> {
+    type Value = Given<D>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a number, or text with a number and a unit of {}", D::QUANTITY.name())
+    }
+
+    fn visit_f64<E>(self, number: f64) -> Result<Self::Value, E> {
+        Ok(Given::bare(number))
+    }
+
+    fn visit_newtype_struct<S: Deserializer<'de>>(self, from: S) -> Result<Self::Value, S::Error> {
+        f64::deserialize(from).map(Given::bare)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut pair: A) -> Result<Self::Value, A::Error> {
+        let mut next = || pair.next_element()?.ok_or_else(|| A::Error::custom("no number"));
+        let (number, factor) = (next()?, next()?);
+        Ok(Given { number, factor: Some(factor), dimension: PhantomData })
+    }
+}
+
+/// Text, or something else: for keys that take a name as well as a table.
+///
+/// ```
+/// use drape_input::{Document, TextOr};
+///
+/// #[derive(serde::Deserialize)]
+/// struct Body { motion: TextOr<Vec<f64>> }
+///
+/// let body: Body = Document::new("a.toml", "motion = \"walk.pc2\"").decode()?;
+/// assert_eq!(body.motion, TextOr::Text("walk.pc2".into()));
+/// # Ok::<(), drape_input::Diagnostics>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub enum TextOr<T> {
+    /// Text.
+    Text(String),
+    /// Something else.
+    Other(T),
+}
+
+/// Token of [`TextOr`].
+pub(crate) const TEXT_OR: &str = "$drape-input:TextOr";
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for TextOr<T> {
+    fn deserialize<S: Deserializer<'de>>(deserializer: S) -> Result<Self, S::Error> {
+        deserializer.deserialize_newtype_struct(TEXT_OR, TextOrVisitor(PhantomData))
+    }
+}
+
+struct TextOrVisitor<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for TextOrVisitor<T> {
+    type Value = TextOr<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("text, or a table")
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Self::Value, E> {
+        Ok(TextOr::Text(text.to_owned()))
+    }
+
+    fn visit_newtype_struct<S: Deserializer<'de>>(self, from: S) -> Result<Self::Value, S::Error> {
+        T::deserialize(from).map(TextOr::Other)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+        T::deserialize(serde::de::value::MapAccessDeserializer::new(map)).map(TextOr::Other)
+    }
+}

@@ -1,0 +1,94 @@
+//! Values of a TOML text with their places: what `document` searches and `decode` reads.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// Value with its place in the text.
+#[derive(Debug, Clone)]
+pub(crate) struct Node {
+    /// Bytes that a message points to: a table's name or header, any other value itself.
+    pub(crate) span: Range<usize>,
+    pub(crate) value: Value,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Value {
+    Text(String),
+    Integer(i64),
+    Float(f64),
+    Flag(bool),
+    Date,
+    List(Vec<Node>),
+    /// Entries in the order of their keys.
+    Table(Vec<Entry>),
+}
+
+/// Key of a table with its value.
+#[derive(Debug, Clone)]
+pub(crate) struct Entry {
+    pub(crate) key: String,
+    pub(crate) span: Range<usize>,
+    pub(crate) node: Node,
+}
+
+impl Node {
+    /// Returns the content of a text.
+    pub(crate) fn root(table: &DeTable<'_>) -> Self {
+        Self { span: 0..0, value: Value::Table(entries(table)) }
+    }
+
+    fn new(value: &Spanned<DeValue<'_>>) -> Self {
+        let span = value.span();
+        let value = match value.get_ref() {
+            DeValue::String(text) => Value::Text(text.to_string()),
+            DeValue::Integer(number) => {
+                match i64::from_str_radix(number.as_str(), number.radix()) {
+                    Ok(integer) => Value::Integer(integer),
+                    Err(_) => Value::Float(number.as_str().parse().unwrap_or(f64::INFINITY)),
+                }
+            }
+            DeValue::Float(number) => Value::Float(number.as_str().parse().unwrap_or(f64::NAN)),
+            DeValue::Boolean(flag) => Value::Flag(*flag),
+            DeValue::Datetime(_) => Value::Date,
+            DeValue::Array(list) => Value::List(list.iter().map(Self::new).collect()),
+            DeValue::Table(table) => Value::Table(entries(table)),
+        };
+        Self { span, value }
+    }
+
+    /// Returns the entry of a key, if this is a table that has it.
+    pub(crate) fn entry(&self, key: &str) -> Option<&Entry> {
+        let Value::Table(entries) = &self.value else { return None };
+        let index = entries.binary_search_by(|entry| entry.key.as_str().cmp(key)).ok()?;
+        entries.get(index)
+    }
+
+    /// Returns the kind of the value, in words.
+    pub(crate) fn kind(&self) -> &'static str {
+        match &self.value {
+            Value::Text(_) => "text",
+            Value::Integer(_) | Value::Float(_) => "a number",
+            Value::Flag(_) => "true or false",
+            Value::Date => "a date",
+            Value::List(_) => "a list",
+            Value::Table(_) => "a table",
+        }
+    }
+}
+
+/// Returns the entries of a table.
+fn entries(table: &DeTable<'_>) -> Vec<Entry> {
+    let entry = |(key, value): (&Spanned<_>, &Spanned<DeValue<'_>>)| {
+        let key: &Spanned<std::borrow::Cow<'_, str>> = key;
+        let mut node = Node::new(value);
+        if matches!(node.value, Value::Table(_)) {
+            node.span = key.span();
+        }
+        Entry { key: key.get_ref().to_string(), span: key.span(), node }
+    };
+    let mut entries: Vec<Entry> = table.iter().map(entry).collect();
+    entries.sort_by(|a, b| a.key.cmp(&b.key));
+    entries
+}

@@ -1,0 +1,69 @@
+//! The mistakes that a newcomer makes most: `mistakes/page.md` has them with their messages, word
+//! for word, and the remedies that these advise. Here each is made, read and remedied.
+
+#[path = "mistakes/page.rs"]
+mod page;
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use drape::fabric::Fabric;
+use drape::input::Diagnostics;
+use drape::kes::Sheet;
+use page::{Files, Page};
+
+/// Longest time that an answer may take here; on an idle machine none takes a tenth of it.
+const LONGEST: Duration = Duration::from_secs(2);
+
+/// Reads a file as the program does, and returns its mistakes.
+fn read(path: &Path) -> Result<(), Diagnostics> {
+    let name = path.file_name().and_then(|name| name.to_str()).expect("it has a name");
+    match name {
+        "plain.toml" => Fabric::read(path).map(|_| ()),
+        "sheet.toml" => Sheet::read(path).map(|_| ()).map_err(|error| match error {
+            drape::kes::Error::Input(mistakes) => mistakes,
+            other => panic!("{other}"),
+        }),
+        _ => drape::read_scene(path).map(|_| ()).map_err(|error| match error {
+            drape::scene::Error::Input(mistakes) => mistakes,
+            drape::scene::Error::Tangled(tangle) => tangle.mistakes,
+            other => panic!("{other}"),
+        }),
+    }
+}
+
+/// Reads a file among others in a folder, and returns its mistakes as they are told.
+fn answer(files: &Files, checked: &str) -> Option<String> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, text) in files.iter() {
+        std::fs::write(folder.path().join(name), text).expect("writes");
+    }
+    let mistakes = read(&folder.path().join(checked)).err()?;
+    let prefix = format!("{}/", folder.path().display());
+    Some(mistakes.to_string().replace(&prefix, ""))
+}
+
+#[test]
+fn every_mistake_has_its_answer_and_every_remedy_works() {
+    let page = Page::parse(include_str!("mistakes/page.md"));
+    for checked in ["scene.toml", "plain.toml", "garment.toml", "sheet.toml"] {
+        assert_eq!(answer(&page.files, checked), None, "{checked} is right as it is");
+    }
+    assert!(page.mistakes.len() >= 40, "{} mistakes", page.mistakes.len());
+    let (mut wrong, mut longest) = (Vec::new(), Duration::ZERO);
+    for mistake in &page.mistakes {
+        let files = page.files.with(&mistake.change);
+        let start = Instant::now();
+        let told = answer(&files, &mistake.checked).unwrap_or_default();
+        longest = longest.max(start.elapsed());
+        if told != mistake.message {
+            wrong.push(format!("{}\nis answered by\n{told}", mistake.title));
+        }
+        if let Some(still) = answer(&files.with(&mistake.remedy), &mistake.checked) {
+            wrong.push(format!("{}\nremedied is answered by\n{still}", mistake.title));
+        }
+    }
+    println!("{} mistakes, the longest answer took {longest:?}", page.mistakes.len());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    assert!(longest < LONGEST, "{longest:?}");
+}
