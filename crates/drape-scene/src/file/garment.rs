@@ -50,4 +50,7 @@ pub(crate) struct SewFile {
     pub(crate) seconds: Option<f64>,
     /// Bending stiffness of a seam over that of the fabric.
     pub(crate) stiffness: Option<f64>,
+    /// Names of seams that are twisted or reversed on purpose.
+    #[serde(default)]
+    pub(crate) twisted: Vec<String>,
 }
