@@ -1,7 +1,10 @@
 //! Start of a scene: whether its cloth is outside of its bodies, its surfaces apart, its layers in
 //! order.
 
+mod girth;
 mod layers;
+pub(crate) mod placing;
+mod rings;
 mod tangle;
 
 use drape_collide::{ParticleContact, SurfaceContact};
@@ -13,7 +16,9 @@ use crate::scene::Scene;
 use crate::surfaces::StartSurfaces;
 use crate::tangle::Tangle;
 
+use self::girth::check_girths;
 use self::layers::check_layers;
+use self::placing::check_places;
 use self::tangle::{Tangled, check_tangle};
 
 /// Checks the start of a scene that has no other mistakes, and returns the scene with notes on its
@@ -28,6 +33,8 @@ pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result
         (Some(surfaces), Some(_)) => check_panels_outside(checker, &surfaces.contact, &scene),
         _ => check_particles_outside(checker, &particles, &scene),
     }
+    let notes = [check_places(checker, &scene), check_girths(checker, &scene)].concat();
+    scene.source.notes.extend(notes);
     if tangle.is_none() {
         let notes = check_layers(checker, &scene);
         scene.source.notes.extend(notes);
