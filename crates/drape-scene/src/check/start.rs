@@ -33,8 +33,12 @@ pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result
         (Some(surfaces), Some(_)) => check_panels_outside(checker, &surfaces.contact, &scene),
         _ => check_particles_outside(checker, &particles, &scene),
     }
-    let notes = [check_places(checker, &scene), check_girths(checker, &scene)].concat();
+    let notes = check_places(checker, &scene);
     scene.source.notes.extend(notes);
+    if tangle.is_none() {
+        let notes = check_girths(checker, &scene);
+        scene.source.notes.extend(notes);
+    }
     if tangle.is_none() {
         let notes = check_layers(checker, &scene);
         scene.source.notes.extend(notes);

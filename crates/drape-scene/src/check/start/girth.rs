@@ -24,6 +24,9 @@ use super::rings::{Ring, RingFinder, openings};
 /// close against it do not.
 const PULL_MAX: f64 = 490.3325;
 
+/// Stretch from which on it is told.
+const STRETCH_MIN: f64 = 0.01;
+
 /// Distance of the heights at which garments are measured, in m, at least.
 const STEP_MIN: f64 = 0.01;
 
@@ -104,7 +107,7 @@ fn tight<'a>(scene: &Scene, bodies: &[Triangulation], ring: &'a Ring) -> Option<
     let [across, along] = scene.panels[ring.panel].lattice.spacing;
     let arcs = (ring.girth / across.max(along)).round().max(3.0);
     let needed = with_offset * arcs / PI * (PI / arcs).tan();
-    (needed > ring.girth).then_some(TightRing { ring, hull, with_offset, needed })
+    (needed > (1.0 + STRETCH_MIN) * ring.girth).then_some(TightRing { ring, hull, with_offset, needed })
 }
 
 /// Returns the pull of the fabric of a ring that is stretched to what it needs, in N/m: along the

@@ -3,6 +3,10 @@
 //! A ring is an opening, which is a closed row of free edges such as a waist or a hem, or a
 //! horizontal cut through panels that are sewn to each other all round. Its girth is its length
 //! before deformation.
+//!
+//! A horizontal cut is a girth only where panels stand upright, as gores do and sleeves on stretched
+//! arms do not. A panel stands upright if the mean of the gradient of the height over its cloth has
+//! a length near 1: on a cylinder whose axis is tilted by `$\theta$` it is `$\cos\theta$`.
 
 use std::collections::BTreeMap;
 
@@ -10,6 +14,10 @@ use drape_collide::equivalence_classes;
 
 use crate::scene::Scene;
 use crate::section::{SectionPlane, between};
+
+/// Mean gradient of the height from which on a panel stands upright: with an axis within 30 degrees
+/// of the vertical.
+const UPRIGHT: f64 = 0.86;
 
 /// Closed line of cloth.
 pub(crate) struct Ring {
@@ -31,6 +39,8 @@ pub(crate) struct RingFinder<'a> {
     seams: Vec<Vec<usize>>,
     /// Triangles of each panel.
     triangles: Vec<Vec<[u32; 3]>>,
+    /// Whether each panel stands upright.
+    upright: Vec<bool>,
 }
 
 /// Side of a triangle, by its ends in rising order.
@@ -61,7 +71,8 @@ impl<'a> RingFinder<'a> {
             let panel = scene.panels.partition_point(|own| own.first <= triangle[0] as usize);
             triangles[panel.saturating_sub(1)].push(*triangle);
         }
-        Self { scene, seams, triangles }
+        let upright = triangles.iter().map(|own| stands_upright(scene, own)).collect();
+        Self { scene, seams, triangles, upright }
     }
 
     /// Returns the rings at a height, in m, of the panels of a garment.
@@ -88,7 +99,8 @@ impl<'a> RingFinder<'a> {
         let class = equivalence_classes(cuts.len(), &pairs);
         let mut rings: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         class.iter().enumerate().for_each(|(cut, &class)| rings.entry(class).or_default().push(cut));
-        let closed = rings.into_values().filter(|ring| ring.iter().all(|&cut| !is_open[cut]));
+        let is_girth = |cut: usize| !is_open[cut] && self.upright[cuts[cut].panel];
+        let closed = rings.into_values().filter(|ring| ring.iter().all(|&cut| is_girth(cut)));
         let ring = |ring: Vec<usize>| Ring {
             parts: ring.iter().map(|&cut| self.scene.panels[cuts[cut].panel].name.clone()).collect(),
             panel: cuts[ring[0]].panel,
@@ -150,6 +162,22 @@ impl<'a> RingFinder<'a> {
         }
         cuts.into_values().collect()
     }
+}
+
+/// Returns whether a panel of some triangles stands upright.
+fn stands_upright(scene: &Scene, triangles: &[[u32; 3]]) -> bool {
+    let coordinates = scene.cloth.coordinates();
+    let (mut sum, mut areas) = ([0.0; 2], 0.0);
+    for triangle in triangles {
+        let [[a, b], [c, d], [e, f]] = triangle.map(|corner| coordinates[corner as usize]);
+        let [p, q, r] = triangle.map(|corner| scene.start.positions[3 * corner as usize + 1]);
+        let twice_area = (c - a) * (f - b) - (e - a) * (d - b);
+        // Gradient times twice the area.
+        sum[0] += twice_area.signum() * ((q - p) * (f - b) - (r - p) * (d - b));
+        sum[1] += twice_area.signum() * ((r - p) * (c - a) - (q - p) * (e - a));
+        areas += twice_area.abs();
+    }
+    sum[0].hypot(sum[1]) > UPRIGHT * areas
 }
 
 /// Free edge of a panel.
