@@ -163,7 +163,7 @@ fn encloses(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     crossed.count() % 2 == 1
 }
 
-/// The corners of the convex hull of points, in their order [Andrew 1979].
+/// Corners of the convex hull of points, in their order \[And79\].
 fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let chain = |points: &mut dyn Iterator<Item = &[f64; 2]>| {
