@@ -2,8 +2,8 @@
 //! there.
 //!
 //! A garment is about a body where its horizontal outline goes round a part of it. The shift is the
-//! one at which the mean distance of its particles from the bodies is smallest without particles
-//! inside of them.
+//! one at which its particles are nearest to the bodies on average, without being inside of them.
+//! Those at its top count for more: a garment hangs from there.
 
 use drape_collide::{Body, Shape, Triangulation};
 
@@ -30,13 +30,17 @@ const FEET: f64 = 0.3;
 const TALL: f64 = 0.25;
 
 /// Fraction of its particles that may start inside a body before another place is looked for.
-const INSIDE_MAX: f64 = 0.02;
+const INSIDE_MAX: f64 = 0.002;
 
 /// Number of particles by which places are compared.
 const SAMPLES: usize = 250;
 
 /// Weight of a depth inside a body against a distance outside of it.
 const DEPTH_WEIGHT: f64 = 50.0;
+
+/// Fraction of a garment's height that is its top, and the weight of a distance there.
+const TOP: f64 = 0.1;
+const TOP_WEIGHT: f64 = 10.0;
 
 /// Step of the heights that are tried, in m, and the last step of the search around the best.
 const STEP: f64 = 0.02;
@@ -109,7 +113,7 @@ impl<'a> Solids<'a> {
             return Place::About;
         }
         let around = self.fraction_around(points);
-        let inside = self.fraction_inside(&samples(points));
+        let inside = self.fraction_inside(points);
         let is_figure = figure > (self.high[0] - self.low[0]).max(self.high[2] - self.low[2]);
         match () {
             () if around < AROUND_MIN => Place::Beside { fraction: around },
@@ -127,10 +131,15 @@ impl<'a> Solids<'a> {
         let points = samples(points);
         let [low, high] = extent(points.iter());
         let middle = [0, 1, 2].map(|k| 0.5 * (self.low[k] + self.high[k] - low[k] - high[k]));
+        let top = high[1] - TOP * (high[1] - low[1]);
         let cost = |shift: [f64; 3]| {
             let costs = points.iter().map(|point| {
                 let distance = self.distance([0, 1, 2].map(|k| point[k] + shift[k]));
-                if distance < 0.0 { -DEPTH_WEIGHT * distance } else { distance }
+                match distance < 0.0 {
+                    true => -DEPTH_WEIGHT * distance,
+                    false if point[1] > top => TOP_WEIGHT * distance,
+                    false => distance,
+                }
             });
             costs.sum::<f64>() / points.len() as f64
         };
