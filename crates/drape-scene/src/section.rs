@@ -38,6 +38,12 @@ impl SectionPlane {
         Some(Self { middle, normal, axes: [first, cross(normal, first)] })
     }
 
+    /// Returns the plane moved along its normal by a distance, in m.
+    pub(crate) fn moved(&self, distance: f64) -> Self {
+        let middle = [0, 1, 2].map(|k| self.middle[k] + distance * self.normal[k]);
+        Self { middle, ..*self }
+    }
+
     /// Returns the height of its middle, in m.
     pub(crate) fn height(&self) -> f64 {
         self.middle[1]

@@ -16,7 +16,7 @@ use drape_collide::{Shape, Triangulation};
 
 use crate::check::checker::Checker;
 use crate::scene::Scene;
-use crate::section::{convex_hull, encloses, perimeter};
+use crate::section::{SectionPlane, convex_hull, encloses, perimeter};
 
 use super::rings::{Ring, RingFinder, openings};
 
@@ -26,6 +26,10 @@ const PULL_MAX: f64 = 490.3325;
 
 /// Stretch from which on it is told.
 const STRETCH_MIN: f64 = 0.01;
+
+/// Distance by which a ring may lie away from where it starts, in m: an opening that is too narrow
+/// there goes to where its body is narrower.
+const SLACK: f64 = 0.05;
 
 /// Distance of the heights at which garments are measured, in m, at least.
 const STEP_MIN: f64 = 0.01;
@@ -91,23 +95,39 @@ fn heights(scene: &Scene, panels: &[usize]) -> impl Iterator<Item = f64> {
     (0..count).map(move |k| low + (k as f64 + 0.5) * step)
 }
 
-/// Returns the girths of a ring that is shorter than what it goes round.
+/// Returns the girths of a ring that is shorter than what it goes round, wherever near its place it
+/// lies.
 fn tight<'a>(scene: &Scene, bodies: &[Triangulation], ring: &'a Ring) -> Option<TightRing<'a>> {
     let outline = convex_hull(ring.points.iter().map(|&point| ring.plane.flat(point)).collect());
-    let cuts = bodies.iter().flat_map(|body| {
-        let corners = |t: &[u32; 3]| t.map(|corner| body.vertices[corner as usize]);
-        body.triangles.iter().flat_map(move |triangle| ring.plane.cuts(corners(triangle)))
-    });
-    let inside: Vec<[f64; 2]> = cuts.filter(|&point| encloses(&outline, point)).collect();
-    if inside.len() < 3 {
-        return None;
+    let mut hull = f64::INFINITY;
+    for part in [0.0, -1.0, -0.5, 0.5, 1.0] {
+        let own = hull_inside(bodies, &outline, &ring.plane.moved(part * SLACK))?;
+        hull = hull.min(own);
     }
-    let hull = perimeter(&convex_hull(inside));
     let with_offset = hull + TAU * scene.contact.particles.activation_distance;
     let [across, along] = scene.panels[ring.panel].lattice.spacing;
     let arcs = (ring.girth / across.max(along)).round().max(3.0);
     let needed = with_offset * arcs / PI * (PI / arcs).tan();
-    (needed > (1.0 + STRETCH_MIN) * ring.girth).then_some(TightRing { ring, hull, with_offset, needed })
+    (needed > (1.0 + STRETCH_MIN) * ring.girth).then_some(TightRing {
+        ring,
+        hull,
+        with_offset,
+        needed,
+    })
+}
+
+/// Returns the perimeter of the hull of what a plane cuts of bodies inside an outline, in m.
+fn hull_inside(
+    bodies: &[Triangulation],
+    outline: &[[f64; 2]],
+    plane: &SectionPlane,
+) -> Option<f64> {
+    let cuts = bodies.iter().flat_map(|body| {
+        let corners = |t: &[u32; 3]| t.map(|corner| body.vertices[corner as usize]);
+        body.triangles.iter().flat_map(move |triangle| plane.cuts(corners(triangle)))
+    });
+    let inside: Vec<[f64; 2]> = cuts.filter(|&point| encloses(outline, point)).collect();
+    (inside.len() > 2).then(|| perimeter(&convex_hull(inside)))
 }
 
 /// Returns the pull of the fabric of a ring that is stretched to what it needs, in N/m: along the
