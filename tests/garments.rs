@@ -221,6 +221,7 @@ fn a_garment_that_nothing_holds_is_not_let_fall_for_ever() {
     write("coat.toml", COAT);
     let scene = "spacing = 0.01\nfabric.plain.file = \"plain.toml\"\n\
                  [[garment]]\npattern = \"coat.toml\"\nfabric = \"plain\"\ncenter = [0.3, 0, 0]\n\
+                 [[pin]]\npanel = \"left\"\nedge = \"top\"\nuntil = \"sewn\"\n\
                  [[collider.sphere]]\nradius = 0.05\ncenter = [0, -0.1, 0]\n\
                  [time]\nstep = 0.005\nend = 60\n[settle]\n";
     write("scene.toml", scene);
@@ -231,6 +232,7 @@ fn a_garment_that_nothing_holds_is_not_let_fall_for_ever() {
     let said = String::from_utf8_lossy(&result.stderr);
     assert_eq!(result.status.code(), Some(5), "{said}");
     assert!(said.contains("\"coat\" fell off") && said.contains("friction"), "{said}");
+    assert!(said.contains("warning: the garment \"coat\" left its place on the body at"), "{said}");
     let text = std::fs::read_to_string(output.join("summary.json")).expect("a summary");
     let summary: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(summary["status"], "fell off");

@@ -29,6 +29,12 @@ impl<'a> Screen<'a> {
         Self { bar, recorder, last: None }
     }
 
+    /// Prints a warning beside the bar.
+    #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
+    fn tell(&self, event: &str) {
+        self.bar.suspend(|| eprintln!("warning: {event}"));
+    }
+
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
@@ -43,6 +49,7 @@ impl Progress for Screen<'_> {
             step.report.iterations
         ));
         self.bar.set_position(ticks as u64);
+        step.events.iter().for_each(|event| self.tell(event));
     }
 
     fn frame(&mut self, frame: &Frame) -> Result<(), Error> {

@@ -19,7 +19,7 @@ use crate::world::World;
 use self::garment_parts::GarmentParts;
 use self::vector::distance;
 
-pub(crate) use self::fall::fallen;
+pub(crate) use self::fall::{fallen, note_slides};
 
 /// Measures of the garments of a world, if it has seams.
 pub(crate) fn measures(parts: &GarmentParts, world: &mut World) -> Map<String, Value> {

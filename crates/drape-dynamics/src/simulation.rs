@@ -9,7 +9,7 @@ use drape_scene::{Relaxation, Scene};
 
 use crate::error::Error;
 use crate::measure::garment_parts::GarmentParts;
-use crate::measure::{fallen, measures, warnings};
+use crate::measure::{fallen, measures, note_slides, warnings};
 use crate::record::frame::Frame;
 use crate::record::snapshot::Snapshot;
 use crate::record::state_hash::state_hash;
@@ -19,6 +19,7 @@ use crate::record::summary::{Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
 use crate::sewing::closing_springs::SeamState;
 use crate::sewing::node_map::merge;
+use crate::sewing::open_seam::{OpenSeam, STRETCHED_MAX};
 use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
 use crate::world::{Energy, PinLoad, World};
 
@@ -108,8 +109,12 @@ struct Outcome {
     status: Status,
     /// Reason why the run ended early.
     reason: Option<String>,
+    /// Warnings at the time when something happened.
+    events: Vec<String>,
     warnings: Vec<String>,
     measures: serde_json::Map<String, serde_json::Value>,
+    /// Place of the reason, in m.
+    place: Option<[f64; 3]>,
 }
 
 /// Step of a simulation.
@@ -125,6 +130,8 @@ pub struct Step {
     pub imbalance: f64,
     /// Report of the solver.
     pub report: Report,
+    /// Warnings about what happened in it: a seam that was sewn stretched, a garment that slid.
+    pub events: Vec<String>,
     /// Whether the simulation is over.
     pub finished: bool,
 }
@@ -185,8 +192,10 @@ impl Simulation {
             outcome: Outcome {
                 status: Status::Ok,
                 reason: None,
+                events: Vec::new(),
                 warnings: Vec::new(),
                 measures: serde_json::Map::new(),
+                place: None,
             },
             frame: 0,
             spacing,
@@ -279,6 +288,7 @@ impl Simulation {
     /// # Errors
     /// When the step cannot be solved even in parts; the state is then the last good one.
     pub fn step(&mut self) -> Result<Step, drape_implicit::Error> {
+        let told = self.outcome.events.len();
         let MadeStep { ticks, report } =
             self.stepping.advance(&mut self.world, &mut self.statistics)?;
         let dt = ticks as f64 * self.stepping.clock().tick();
@@ -310,6 +320,7 @@ impl Simulation {
             speed_max,
             imbalance,
             report,
+            events: self.outcome.events[told..].to_vec(),
             finished: self.is_at_rest() || self.outcome.status != Status::Ok || over,
         })
     }
@@ -340,12 +351,14 @@ impl Simulation {
             if step.finished {
                 if self.outcome.status == Status::Ok && self.settles() && !self.has_settled() {
                     self.outcome.status = Status::DidNotSettle;
+                    self.outcome.reason = self.parts.first_slide();
                 }
                 break;
             }
         }
         self.outcome.measures = measures(&self.parts, &mut self.world);
-        self.outcome.warnings = warnings(&self.parts, &self.world);
+        self.outcome.warnings = self.outcome.events.clone();
+        self.outcome.warnings.extend(warnings(&self.parts, &self.world));
         self.outcome.warnings.extend(self.unfinished_growth());
         Ok(self.summary())
     }
@@ -383,6 +396,7 @@ impl Simulation {
             state_hash: self.state_hash(),
             warnings: self.outcome.warnings.clone(),
             measures: self.outcome.measures.clone(),
+            place: self.outcome.place,
         }
     }
 
@@ -400,13 +414,14 @@ impl Simulation {
             SeamState::Open => {}
             SeamState::Closed => self.finish_sewing()?,
             SeamState::Failed(gap) => {
-                let first = 3 * gap.ends[0] as usize;
-                let [x, y, z] = [0, 1, 2].map(|axis| positions[first + axis]);
-                let [one, other] = gap.ends.map(|end| self.parts.panel_of(end as usize));
-                let reason = format!(
-                    "the seam between \"{one}\" and \"{other}\" is still open by {:.2} mm near ({x:.4}, {y:.4}, {z:.4}) m",
-                    1e3 * gap.width
-                );
+                let seam = OpenSeam::new(&self.parts, gap, positions);
+                if gap.width <= STRETCHED_MAX * self.spacing {
+                    let warning = seam.warn(springs.largest_force(positions));
+                    self.outcome.events.push(warning);
+                    return self.finish_sewing();
+                }
+                self.outcome.place = Some(seam.place);
+                let reason = seam.describe();
                 self.end_early(Status::SeamsOpen, reason);
             }
         }
@@ -457,8 +472,14 @@ impl Simulation {
         Ok(())
     }
 
-    /// Ends a run in which a garment fell off.
+    /// Notes garments that slide, and ends a run in which a garment fell off.
     fn check_fall(&mut self) {
+        if !self.settles() {
+            return;
+        }
+        let time = self.time();
+        let slid = note_slides(&mut self.parts, &self.world.state.positions, time);
+        self.outcome.events.extend(slid);
         if self.settles()
             && let Some(reason) = fallen(&self.parts, &self.world.state.positions)
         {
@@ -498,7 +519,21 @@ impl Simulation {
             }
             _ => Status::SolverFailed,
         };
-        self.end_early(status, format!("{error}{}", self.closest_place()));
+        let sewing = self.open_seam();
+        self.end_early(status, format!("{error}{}{sewing}", self.closest_place()));
+    }
+
+    /// Seam that is open the widest while a garment is sewn, and what to try, for the end of a
+    /// message.
+    fn open_seam(&mut self) -> String {
+        let positions = &self.world.state.positions;
+        let Some(springs) = self.world.closing_springs() else { return String::new() };
+        let seam = OpenSeam::new(&self.parts, springs.widest_gap(positions), positions);
+        self.outcome.place = Some(seam.place);
+        format!(
+            "; {}; start its panels nearer to where they are worn, sew more slowly (sew.seconds), or choose another spacing",
+            seam.describe()
+        )
     }
 
     fn end_early(&mut self, status: Status, reason: String) {

@@ -2,6 +2,7 @@
 
 // Values
 mod scene;
+mod section;
 mod surfaces;
 mod tangle;
 

@@ -72,6 +72,11 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         };
         let stored = picture.save(output.path("picture.png"));
         stored.map_err(|error| Failure::Output(error.to_string()))?;
+        if let Some(place) = summary.place {
+            let picture = picture::draw(&picture::near(&shown, place), view, picture::SIZE)?;
+            let stored = picture.save(output.path("place.png"));
+            stored.map_err(|error| Failure::Output(error.to_string()))?;
+        }
         if garment {
             file::write(&output.path("strain.svg"), draw_strains(&shown)?)?;
         }

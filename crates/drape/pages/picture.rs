@@ -23,6 +23,33 @@ const UPRIGHT: [u32; 2] = [600, 1000];
 /// Pixels of a picture that stands alone.
 pub(crate) const SIZE: [u32; 2] = [1200, 900];
 
+/// Radius of what a picture of a place shows, in m.
+const NEAR: f64 = 0.12;
+
+/// Returns what of a snapshot is near a place, in m.
+pub(crate) fn near(snapshot: &Snapshot, place: [f64; 3]) -> Snapshot {
+    let mut near = snapshot.clone();
+    keep_near(&mut near.positions, &mut near.triangles, place);
+    for body in &mut near.bodies {
+        keep_near(&mut body.positions, &mut body.triangles, place);
+    }
+    near
+}
+
+/// Keeps the triangles near a place; corners of others are moved there, so that the picture shows
+/// nothing else.
+fn keep_near(positions: &mut [f64], triangles: &mut Vec<[u32; 3]>, place: [f64; 3]) {
+    let is_near = |corner: &u32| {
+        let square = |axis: usize| (positions[3 * *corner as usize + axis] - place[axis]).powi(2);
+        (0..3).map(square).sum::<f64>() < NEAR * NEAR
+    };
+    triangles.retain(|triangle| triangle.iter().any(is_near));
+    let mut is_used = vec![false; positions.len() / 3];
+    triangles.iter().flatten().for_each(|&corner| is_used[corner as usize] = true);
+    let corners = positions.chunks_exact_mut(3).zip(is_used);
+    corners.filter(|(_, is_used)| !is_used).for_each(|(corner, _)| corner.copy_from_slice(&place));
+}
+
 /// Draws a garment from the front, the side and the back.
 pub(crate) fn draw_round(snapshot: &Snapshot) -> Result<Picture, Failure> {
     draw_from(snapshot, &SIDES, None)

@@ -6,15 +6,42 @@ use crate::measure::garment_parts::{GarmentParts, HungGarment, VerticalExtent};
 /// body.
 const SUNK: f64 = 0.25;
 
+/// Height of a garment, in m, from which on sinking by a fraction of it is sliding: a flat one falls
+/// on its body.
+const SLIDE_MIN: f64 = 0.3;
+
 /// Reason why a run is of no use any more: a garment is below all bodies, and nothing can hold it.
 pub(crate) fn fallen(parts: &GarmentParts, positions: &[f64]) -> Option<String> {
     let ground = parts.ground?;
     let below = |garment: &&HungGarment| garment.extent(positions).high < ground;
-    let HungGarment { name, hung, .. } = parts.garments.iter().find(below)?;
+    let HungGarment { name, hung, slid, .. } = parts.garments.iter().find(below)?;
     let top = hung.high;
+    let left = slid.map_or(String::new(), |time| format!(", left its place on the body at {time:.1} s"));
     Some(format!(
-        "the garment \"{name}\" fell off: it was up at {top:.2} m, and is below {ground:.2} m, where the bodies end"
+        "the garment \"{name}\" fell off: it was up at {top:.2} m{left}, and is below {ground:.2} m, where the bodies end"
     ))
+}
+
+/// Notes the time, in s, of garments that have just sunk farther than cloth settles; returns
+/// warnings about them. Without a body nothing slides.
+pub(crate) fn note_slides(parts: &mut GarmentParts, positions: &[f64], time: f64) -> Vec<String> {
+    if !parts.has_bodies {
+        return Vec::new();
+    }
+    let slides = parts.garments.iter_mut().filter_map(|garment| {
+        let VerticalExtent { low, high: top } = garment.hung;
+        let now = garment.extent(positions).high;
+        let slides = garment.slid.is_none() && top - now > SUNK * (top - low).max(SLIDE_MIN);
+        slides.then(|| {
+            garment.slid = Some(time);
+            format!(
+                "the garment \"{}\" left its place on the body at {time:.1} s: its top was up at {top:.2} m, and is at \
+                 {now:.2} m and sinks",
+                garment.name
+            )
+        })
+    });
+    slides.collect()
 }
 
 /// Warnings about garments that rest, but not where they were put.

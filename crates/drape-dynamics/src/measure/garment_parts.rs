@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use drape_collide::{Body, Shape};
-use drape_scene::{Garment, Material, Panel, Scene, SeamPairs};
+use drape_scene::{Garment, Material, Panel, Scene, Seam, SeamPairs};
 
 /// Parts of the cloth of a scene.
 #[derive(Debug)]
@@ -15,8 +15,12 @@ pub(crate) struct GarmentParts {
     pub(crate) garments: Vec<HungGarment>,
     /// Lowest point of the bodies, in m, if a garment that is below it falls for ever.
     pub(crate) ground: Option<f64>,
+    /// Whether there is a body but the ground.
+    pub(crate) has_bodies: bool,
     /// Particles of the seams.
     pub(crate) seams: SeamPairs,
+    /// The seams one by one.
+    pub(crate) named_seams: Vec<Seam>,
     /// Edges of panels that are not sewn.
     pub(crate) free_edges: Vec<FreeEdge>,
     /// Largest deformation to which each law of each fabric was measured, by the names of fabrics
@@ -40,6 +44,8 @@ pub(crate) struct HungGarment {
     particles: Range<usize>,
     /// Its extent when it began to hang.
     pub(crate) hung: VerticalExtent,
+    /// Time at which it left its place, in s, if it did.
+    pub(crate) slid: Option<f64>,
 }
 
 /// Lowest and highest point, in m.
@@ -72,12 +78,30 @@ impl GarmentParts {
         let seams = scene.sewing.as_ref().map(|sewing| sewing.pairs.clone());
         Self {
             panels: scene.panels.iter().map(span).collect(),
-            ground: if garments.is_empty() { None } else { lowest(bodies) },
+            ground: if garments.is_empty() { None } else { lowest(bodies.clone()) },
             garments,
+            has_bodies: bodies.clone().any(|body| !matches!(body.shape, Shape::Plane)),
             seams: seams.unwrap_or_default(),
+            named_seams: scene.sewing.as_ref().map_or_else(Vec::new, |own| own.seams.clone()),
             free_edges: free_edges(scene),
             measured_ranges: measured_ranges(&scene.materials),
         }
+    }
+
+    /// Garment that left its place first, in words.
+    pub(crate) fn first_slide(&self) -> Option<String> {
+        let slid = self.garments.iter().filter_map(|own| Some((own.slid?, &own.name)));
+        let (time, name) = slid.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(format!("the garment \"{name}\" left its place on the body at {time:.1} s"))
+    }
+
+    /// Name of the seam that sews two particles to each other.
+    pub(crate) fn seam_of(&self, ends: [u32; 2]) -> &str {
+        let sews = |seam: &&Seam| {
+            let tie = |particle| seam.pairs.ties.iter().any(|tie| tie.particle == particle);
+            seam.pairs.pairs.iter().any(|pair| *pair == ends) || tie(ends[0])
+        };
+        self.named_seams.iter().find(sews).map_or("", |seam| &seam.name)
     }
 
     /// Name of the panel of a particle.
@@ -91,7 +115,7 @@ impl HungGarment {
     fn new(garment: &Garment, positions: &[f64]) -> Self {
         let Garment { name, particles } = garment.clone();
         let hung = VerticalExtent { low: 0.0, high: 0.0 };
-        let mut own = Self { name, particles, hung };
+        let mut own = Self { name, particles, hung, slid: None };
         own.hang(positions);
         own
     }

@@ -53,6 +53,9 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Measures of garments.
     pub measures: serde_json::Map<String, serde_json::Value>,
+    /// Place of the seam that was open when the run ended early, in m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub place: Option<[f64; 3]>,
 }
 
 /// Phase of a run.

@@ -155,6 +155,33 @@ fn seams_that_are_held_apart_end_the_run() {
 }
 
 #[test]
+fn a_seam_that_misses_by_little_is_sewn_stretched() {
+    let mut scene = scene(1);
+    // Both sides of the seam are held, and miss each other by a twentieth of the spacing.
+    for (upper, lower) in (0..7).zip(49 + 42..49 + 49) {
+        let place: [f64; 3] = std::array::from_fn(|k| scene.start.positions[3 * upper + k]);
+        let place = [place[0], place[1] - 5e-4, place[2]];
+        scene.start.positions[3 * lower..][..3].copy_from_slice(&place);
+    }
+    let pin = scene.pins[0].clone();
+    let particles: Vec<usize> = (0..7).chain(49 + 42..49 + 49).collect();
+    let place = |&p: &usize| std::array::from_fn(|axis| scene.start.positions[3 * p + axis]);
+    let start = particles.iter().map(place).collect();
+    scene.pins.push(Pin { particles, start, ..pin });
+    let mut simulation = Simulation::new(scene).expect("it starts");
+    let summary = simulation.run(&mut ()).expect("it runs");
+    let told = summary.warnings.join("; ");
+    assert!(
+        told.contains("the seam \"seam\" between \"upper\" and \"lower\" is sewn stretched: 0.")
+            && told.contains(" N at a stitch"),
+        "{:?} {:?} {told}",
+        summary.status,
+        summary.reason
+    );
+    assert_ne!(summary.status, Status::SeamsOpen);
+}
+
+#[test]
 fn values_of_merged_particles_are_those_of_their_independent_ones() {
     let world = World::new(scene(1)).expect("contact");
     let one = SeamPairs { pairs: vec![[3, 60]], ties: Vec::new() };

@@ -95,13 +95,19 @@ impl ClosingSprings {
     }
 
     /// Widest gap at some positions.
-    fn widest_gap(&self, positions: &[f64]) -> WidestGap {
+    pub(crate) fn widest_gap(&self, positions: &[f64]) -> WidestGap {
         let start = WidestGap { width: 0.0, ends: [0; 2] };
         let gaps = self.seams.iter().map(|seam| WidestGap {
             width: seam.width(positions),
             ends: [0, 1].map(|k| seam.weights[k].particle),
         });
         gaps.fold(start, |widest, gap| if gap.width > widest.width { gap } else { widest })
+    }
+
+    /// Largest force of a spring at some positions, in N.
+    pub(crate) fn largest_force(&self, positions: &[f64]) -> f64 {
+        let squares = self.excess(positions).map(|e| e.iter().map(|x| x * x).sum::<f64>());
+        STIFFNESS * squares.fold(0.0, f64::max).sqrt()
     }
 
     pub(crate) fn add_forces(&self, positions: &[f64], forces: &mut [f64]) {

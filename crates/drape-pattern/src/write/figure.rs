@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::layout::Rows;
-use crate::cut::{Cut, CutPattern};
+use crate::cut::{Cut, CutPattern, NodeId, SeamNodes};
 use crate::edge::difference;
 use crate::panel::{Fold, Panel};
 use crate::pattern::Pattern;
@@ -19,8 +19,9 @@ const HUE_STEP: f64 = 137.508;
 /// Returns a drawing of the panels of a cut, side by side, as SVG in mm.
 ///
 /// Cells and rim are drawn in grey and brown, the outline in black; both sides of a seam have the
-/// same colour. An arrow along the warp shows the grain, and small letters name the edges. Dashed
-/// lines are folds, with their angles in degrees.
+/// same colour, with a dot at the first stitch and an arrowhead in the direction of the seam. An
+/// arrow along the warp shows the grain, and small letters name the edges. Dashed lines are folds,
+/// with their angles in degrees.
 #[must_use]
 pub fn figure(pattern: &Pattern, cut: &CutPattern) -> String {
     let sheet = Sheet::new(cut);
@@ -186,8 +187,9 @@ impl Drawing<'_> {
         let sides: BTreeSet<[u32; 2]> =
             outline.iter().zip(next).flat_map(|(&a, &b)| [[a, b], [b, a]]).collect();
         for (number, seam) in cut.seams.iter().enumerate() {
-            let mut path = String::new();
+            let (mut path, mut marks) = (String::new(), String::new());
             for side in 0..2 {
+                self.direction(seam, side, &mut marks);
                 let here = seam.side(side).filter(|id| id.panel == self.number);
                 let mut last = None;
                 for node in here.map(|id| id.node) {
@@ -202,10 +204,52 @@ impl Drawing<'_> {
                 let (colour, width) = (colour(number), 0.35 * self.sheet.letter);
                 let _ = writeln!(
                     svg,
-                    "<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width:.2}\"/>"
+                    "<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width:.2}\"/>\n\
+                     <path d=\"{marks}\" fill=\"{colour}\"/>"
                 );
             }
         }
+    }
+
+    /// Adds the marks of a side of a seam to a path: a dot at its first stitch, if that is here, and
+    /// an arrowhead in the middle of what of it lies in this panel, in the direction of the seam.
+    fn direction(&self, seam: &SeamNodes, side: usize, marks: &mut String) {
+        let letter = self.sheet.letter;
+        let all: Vec<NodeId> = seam.side(side).collect();
+        if let Some(first) = all.first().filter(|id| id.panel == self.number) {
+            let [x, y] = self.node(first.node);
+            let radius = 0.5 * letter;
+            let _ = write!(
+                marks,
+                "M{:.1} {y:.1}a{radius:.1} {radius:.1} 0 1 0 {:.1} 0a{radius:.1} {radius:.1} 0 1 0 {:.1} 0Z",
+                x - radius,
+                2.0 * radius,
+                -2.0 * radius
+            );
+        }
+        let here: Vec<u32> =
+            all.iter().filter(|id| id.panel == self.number).map(|id| id.node).collect();
+        let half = here.len() / 2;
+        if half == 0 {
+            return;
+        }
+        let (from, to) = (self.node(here[half - 1]), self.node(here[half]));
+        let along = difference(to, from);
+        let length = along[0].hypot(along[1]);
+        if length == 0.0 {
+            return;
+        }
+        let [x, y] = along.map(|part| letter * part / length);
+        let _ = write!(
+            marks,
+            "M{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}Z",
+            to[0],
+            to[1],
+            to[0] - x + 0.5 * y,
+            to[1] - y - 0.5 * x,
+            to[0] - x - 0.5 * y,
+            to[1] - y + 0.5 * x,
+        );
     }
 
     /// Draws the parts of fold lines inside the outline, each line with its angle beside its

@@ -6,14 +6,15 @@ pub(crate) mod distance;
 mod lattice;
 mod layer;
 mod placed_panel;
+mod seam_order;
 pub(crate) mod sewing;
 
 use std::ops::Range;
 use std::path::Path;
 
 use drape_cloth::Tie;
-use drape_input::{Diagnostic, Diagnostics, excerpt, nearest_file, toml_key};
-use drape_pattern::{CutPattern, Cutter, Error, NodeId, Pattern, Place};
+use drape_input::{Diagnostic, Diagnostics, Document, excerpt, nearest_file, toml_key};
+use drape_pattern::{CutPattern, Cutter, EdgeId, Error, NodeId, Pattern, Place};
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::check::fabrics::check_thickness;
@@ -26,6 +27,7 @@ use crate::scene::seam::{Seam, SeamPairs};
 use self::lattice::node_numbers;
 use self::layer::layer;
 use self::placed_panel::{Piece, placed_panel};
+use self::seam_order::PlacedSeam;
 
 /// Garment as its panels and its seams.
 pub(crate) struct CutGarment {
@@ -167,6 +169,17 @@ fn cut(
         pieces.push((next, numbers));
         next += own.positions.len();
     }
+    if panels.len() == known.len() {
+        check_seam_order(checker, entry, pattern, |EdgeId { panel, edge }| {
+            let (_, numbers) = &pieces[panel];
+            let nodes = cut.panels[panel].edges[edge].iter();
+            let place = |&node: &u32| {
+                let first = 3 * numbers[node as usize] as usize;
+                [0, 1, 2].map(|axis| panels[panel].positions[first + axis])
+            };
+            nodes.map(place).collect()
+        });
+    }
     let node = |id: NodeId| {
         let (first, numbers) = &pieces[id.panel];
         *first as u32 + numbers[id.node as usize]
@@ -191,6 +204,27 @@ fn cut(
     };
     let whole = panels.len() == known.len();
     whole.then(|| CutGarment { name, panels, seams: seams.collect(), notes })
+}
+
+/// Checks the order and the sense of the seams of a garment, whose edges have their places from a
+/// function.
+fn check_seam_order(
+    checker: &mut Checker<'_>,
+    entry: &GarmentFile,
+    pattern: &Pattern,
+    places: impl Fn(EdgeId) -> Vec<[f64; 3]>,
+) {
+    let path = checker.folder.join(&entry.pattern);
+    let meant = &checker.file.sew.twisted;
+    let twisted = pattern.seams().iter().filter(|seam| !meant.contains(&seam.name));
+    let file = match checker.given(&path) {
+        Some(document) => document.clone(),
+        None => Document::read(&path).unwrap_or_else(|_| Document::new(&path, "")),
+    };
+    let mistakes: Vec<Diagnostic> = twisted
+        .filter_map(|seam| PlacedSeam::new(pattern, seam, &places).mistake(&file))
+        .collect();
+    checker.extend(Diagnostics(mistakes));
 }
 
 /// Takes the cut of a pattern, or its mistakes.

@@ -1,8 +1,11 @@
 //! Start of a scene: whether its cloth is outside of its bodies, its surfaces apart, its layers in
 //! order.
 
+mod girth;
 mod layers;
 mod place_key;
+pub(crate) mod placing;
+mod rings;
 mod tangle;
 
 use drape_collide::{ParticleContact, SurfaceContact};
@@ -15,8 +18,10 @@ use crate::scene::panel::Panel;
 use crate::surfaces::StartSurfaces;
 use crate::tangle::Tangle;
 
+use self::girth::check_girths;
 use self::layers::check_layers;
 use self::place_key::place_key;
+use self::placing::check_places;
 use self::tangle::{Tangled, check_tangle};
 
 /// Checks the start of a scene that has no other mistakes, and returns the scene with notes on its
@@ -30,6 +35,12 @@ pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result
     match (&surfaces, scene.contact.inflation) {
         (Some(surfaces), Some(_)) => check_panels_outside(checker, &surfaces.contact, &scene),
         _ => check_particles_outside(checker, &particles, &scene),
+    }
+    let notes = check_places(checker, &scene);
+    scene.source.notes.extend(notes);
+    if tangle.is_none() {
+        let notes = check_girths(checker, &scene);
+        scene.source.notes.extend(notes);
     }
     if tangle.is_none() {
         let notes = check_layers(checker, &scene);

@@ -61,4 +61,7 @@ pub(crate) struct SewFile {
     pub(crate) seconds: Option<Given<Time>>,
     /// Bending stiffness of a seam over that of the fabric.
     pub(crate) stiffness: Option<f64>,
+    /// Names of seams that are twisted or reversed on purpose.
+    #[serde(default)]
+    pub(crate) twisted: Vec<String>,
 }

@@ -88,6 +88,12 @@ fn balance(energy: &Energy) -> String {
 pub(crate) fn outcome(summary: Summary) -> Result<(), Failure> {
     match summary.status {
         Status::Ok => Ok(()),
+        Status::DidNotSettle if summary.reason.is_some() => Err(Failure::Solver(format!(
+            "the cloth did not come to rest in {} s: {}, and nothing holds it there; pin it, take it in, or raise the \
+             friction of the body",
+            summary.simulated_seconds,
+            summary.reason.unwrap_or_default()
+        ))),
         Status::DidNotSettle => Err(Failure::Solver(format!(
             "the cloth did not come to rest in {} s: its fastest particle moves at {:.1} mm/s, and \
              its forces are {:.1e} g out of balance; give it more time (time.end), or accept more \

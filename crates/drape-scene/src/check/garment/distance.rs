@@ -6,6 +6,7 @@ use crate::check::body::CheckedBody;
 use crate::check::checker::Checker;
 use crate::check::panel::PlacedPanel;
 use crate::file::body::MeshBodyFile;
+use crate::check::start::placing::{Solids, remedy};
 
 /// Largest distance of a garment from every body at the start, in m: a pattern that was made for
 /// another figure, or in another frame, is metres off.
@@ -73,7 +74,10 @@ pub(crate) fn check_distance(
         let message = format!(
             "no panel is within {FAR} m of a body: they start {distance:.2} m away ({x:+.2}, {y:+.2}, {z:+.2}) m"
         );
-        let help = "was the pattern made for another body? shift it with center = [x, y, z]";
+        let solids = Solids::new(bodies.iter().map(|own| &own.body));
+        let places: Vec<[f64; 3]> = places.copied().collect();
+        let shift = solids.and_then(|solids| solids.shift(&places));
+        let help = format!("was the pattern made for another body? {}", remedy(checker, 0, shift));
         checker.fail("garment[0]", message, help);
     }
 }

@@ -4,7 +4,7 @@ use drape_cloth::{Cloth, Lattice, SeamBending};
 use drape_fabric::Fabric;
 use drape_input::Given;
 
-use crate::check::checker::Checker;
+use crate::check::checker::{Checker, UnknownName};
 use crate::scene::garment::Sewing;
 use crate::scene::seam::{Seam, SeamPairs};
 
@@ -33,6 +33,11 @@ pub(crate) fn sewing_settings(checker: &mut Checker<'_>, is_plain: bool) -> Opti
             checker.fail("sew", "nothing is sewn", help);
         }
         return None;
+    }
+    let known: Vec<&str> = seams.iter().map(|seam| seam.name.as_str()).collect();
+    for name in file.sew.twisted.iter().filter(|name| !known.contains(&name.as_str())) {
+        let unknown = UnknownName { name, known: &known, kind: "seams" };
+        checker.unknown("sew.twisted", format!("there is no seam \"{name}\""), unknown);
     }
     let explicit = file.solver.integrator.as_deref() == Some("explicit");
     for (wrong, key, word) in [

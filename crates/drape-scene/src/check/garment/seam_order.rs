@@ -1,0 +1,248 @@
+//! Order and sense of seams: whether their sides, as listed, fit each other at the start.
+//!
+//! A seam that is reversed, or whose edges are listed in another order, draws its stitches across
+//! the whole garment and twists it. With `$\overline{g^2}$` the mean square of the gaps of the
+//! stitches at the start and `$L$` the length of the seam, another order or sense fits better by
+//!
+//! ```math
+//! \frac{\overline{g^2} - \overline{g_\text{best}^2}}{L^2 / 3}
+//! ```
+//!
+//! which is 1 for two parallel sides of which one runs the wrong way, at any distance of theirs.
+//! Called on each garment when its panels are at their places.
+
+use drape_input::{Diagnostic, Document, toml_key, toml_string};
+use drape_pattern::{EdgeId, Pattern, Seam};
+
+/// Advantage of another order above which the listed one is a mistake. Sides in the right order
+/// have 0, a reversed one about 1, two equal edges that are swapped three quarters. The shipped
+/// garments have 0.
+const ADVANTAGE: f64 = 0.25;
+
+/// Number of stitches by which orders are compared.
+const STITCHES: usize = 48;
+
+/// Largest number of edges of a side of which all orders are compared; of more edges, the order as
+/// listed and the opposite one.
+const EDGES_MAX: usize = 4;
+
+/// Edge on a side of a seam.
+#[derive(Debug, Clone)]
+pub(crate) struct SideEdge {
+    /// PANEL.EDGE.
+    pub(crate) name: String,
+    /// Its nodes at the start, along its outline, in m.
+    pub(crate) places: Vec<[f64; 3]>,
+}
+
+/// Order in which the edges of a seam are sewn.
+#[derive(Debug, Clone, PartialEq)]
+struct Order {
+    /// Numbers of the edges of each side.
+    edges: [Vec<usize>; 2],
+    /// Whether the second side runs along its outlines.
+    reversed: bool,
+}
+
+/// Order that fits better than the listed one, with the mean gaps of its stitches, in m.
+#[derive(Debug, Clone, PartialEq)]
+struct Better {
+    order: Order,
+    listed_gap: f64,
+    gap: f64,
+}
+
+/// Gaps of the stitches of an order.
+struct Gaps {
+    /// Mean, in m.
+    mean: f64,
+    /// Mean square, in m².
+    mean_square: f64,
+}
+
+/// Seam whose edges are at their places.
+pub(crate) struct PlacedSeam<'a> {
+    pub(crate) seam: &'a Seam,
+    pub(crate) sides: [Vec<SideEdge>; 2],
+}
+
+impl<'a> PlacedSeam<'a> {
+    /// Returns a seam whose edges have their places from a function.
+    pub(crate) fn new(
+        pattern: &Pattern,
+        seam: &'a Seam,
+        places: impl Fn(EdgeId) -> Vec<[f64; 3]>,
+    ) -> Self {
+        let edge = |&id: &EdgeId| {
+            let panel = &pattern.panels()[id.panel];
+            let name = format!("{}.{}", panel.name(), panel.outline()[id.edge].name);
+            SideEdge { name, places: places(id) }
+        };
+        Self { seam, sides: seam.sides.each_ref().map(|side| side.iter().map(edge).collect()) }
+    }
+
+    /// Returns the mistake of a seam that another order fits better, at its place in the file of
+    /// the pattern, if that is TOML.
+    pub(crate) fn mistake(&self, file: &Document) -> Option<Diagnostic> {
+        let Better { order, listed_gap, gap } = self.better()?;
+        let name = &self.seam.name;
+        let as_listed = self.listed();
+        let (fault, change) = match order.edges == as_listed.edges {
+            true => ("reversed", "if the second side ran the other way"),
+            false => ("twisted", "if its edges were in the order that fits"),
+        };
+        let message = format!(
+            "the seam is {fault}: its stitches are {:.0} mm long on average at the start, and would be {:.0} mm {change}",
+            1e3 * listed_gap,
+            1e3 * gap
+        );
+        let help = format!(
+            "write under [seam.{}]: {}; or list \"{name}\" in the scene's sew.twisted if the twist is meant",
+            toml_key(name),
+            self.line(&order)
+        );
+        Some(file.at(&format!("seam.{name}"), message).help(help))
+    }
+
+    /// Returns the order as it is listed.
+    fn listed(&self) -> Order {
+        let edges = self.sides.each_ref().map(|side| (0..side.len()).collect());
+        Order { edges, reversed: self.seam.reversed }
+    }
+
+    /// Returns the order that fits better than the listed one, if there is one.
+    fn better(&self) -> Option<Better> {
+        let listed = self.listed();
+        let own = self.gaps(&listed);
+        let lengths = self.sides.each_ref().map(|side| side.iter().map(SideEdge::length).sum());
+        let [one, other]: [f64; 2] = lengths;
+        let scale = one * other / 3.0;
+        let mut best: Option<(Order, Gaps)> = None;
+        for order in self.orders() {
+            let gaps = self.gaps(&order);
+            if best.as_ref().is_none_or(|(_, best)| gaps.mean_square < best.mean_square) {
+                best = Some((order, gaps));
+            }
+        }
+        let (order, gaps) = best?;
+        let better = own.mean_square - gaps.mean_square > ADVANTAGE * scale;
+        better.then_some(Better { order, listed_gap: own.mean, gap: gaps.mean })
+    }
+
+    /// Returns the orders to compare, those with the listed sense first.
+    fn orders(&self) -> Vec<Order> {
+        let [one, other] = self.sides.each_ref().map(|side| orders_of(side.len()));
+        let senses = [self.seam.reversed, !self.seam.reversed].into_iter();
+        let both = senses.flat_map(|reversed| {
+            let other = &other;
+            one.iter().flat_map(move |one| {
+                let pair = move |other: &Vec<usize>| [one.clone(), other.clone()];
+                other.iter().map(move |other| Order { edges: pair(other), reversed })
+            })
+        });
+        both.collect()
+    }
+
+    /// Returns the gaps of the stitches of an order.
+    fn gaps(&self, order: &Order) -> Gaps {
+        let along = [true, order.reversed];
+        let [one, other] = [0, 1].map(|side| {
+            let edges: Vec<&SideEdge> =
+                order.edges[side].iter().map(|&edge| &self.sides[side][edge]).collect();
+            stitches(&edges, along[side])
+        });
+        let squares: Vec<f64> = one
+            .iter()
+            .zip(&other)
+            .map(|(a, b)| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum())
+            .collect();
+        let count = squares.len().max(1) as f64;
+        let mean = squares.iter().map(|square| square.sqrt()).sum::<f64>() / count;
+        Gaps { mean, mean_square: squares.iter().sum::<f64>() / count }
+    }
+
+    /// Returns the lines of TOML that give a seam an order.
+    fn line(&self, order: &Order) -> String {
+        let side = |side: usize| {
+            let names = order.edges[side].iter().map(|&edge| &self.sides[side][edge].name);
+            names.map(|name| toml_string(name)).collect::<Vec<_>>().join(", ")
+        };
+        let sides = format!("sides = [[{}], [{}]]", side(0), side(1));
+        match (order.reversed, self.seam.reversed) {
+            (true, _) => format!("{sides} and reversed = true"),
+            (false, true) => format!("{sides}, without reversed = true"),
+            (false, false) => sides,
+        }
+    }
+}
+
+impl SideEdge {
+    /// Returns its length, in m.
+    fn length(&self) -> f64 {
+        self.places.windows(2).map(|pair| distance(pair[0], pair[1])).sum()
+    }
+
+    /// Returns the point at a distance from its start, in m.
+    fn at(&self, along: f64) -> Option<[f64; 3]> {
+        let mut left = along;
+        for pair in self.places.windows(2) {
+            let length = distance(pair[0], pair[1]);
+            if left <= length && length > 0.0 {
+                let part = left / length;
+                return Some([0, 1, 2].map(|k| pair[0][k] + part * (pair[1][k] - pair[0][k])));
+            }
+            left -= length;
+        }
+        self.places.last().copied()
+    }
+}
+
+/// Returns places at equal fractions of a side whose edges are sewn one after the other, along
+/// their outlines or against them.
+fn stitches(edges: &[&SideEdge], along: bool) -> Vec<[f64; 3]> {
+    let lengths: Vec<f64> = edges.iter().map(|edge| edge.length()).collect();
+    let whole: f64 = lengths.iter().sum();
+    let place = |stitch: usize| {
+        let mut left = whole * (stitch as f64 + 0.5) / STITCHES as f64;
+        for (edge, &length) in edges.iter().zip(&lengths) {
+            if left <= length {
+                return edge.at(if along { left } else { length - left });
+            }
+            left -= length;
+        }
+        None
+    };
+    (0..STITCHES).filter_map(place).collect()
+}
+
+/// Returns the orders of so many edges that are compared.
+fn orders_of(count: usize) -> Vec<Vec<usize>> {
+    if count > EDGES_MAX {
+        return vec![(0..count).collect(), (0..count).rev().collect()];
+    }
+    let mut orders = vec![Vec::new()];
+    for _ in 0..count {
+        let longer = |order: Vec<usize>| -> Vec<Vec<usize>> {
+            let left = (0..count).filter(|edge| !order.contains(edge));
+            left.map(|edge| [order.as_slice(), &[edge]].concat()).collect()
+        };
+        orders = orders.into_iter().flat_map(longer).collect();
+    }
+    orders
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_edges_are_compared_in_every_order() {
+        assert_eq!(orders_of(3).len(), 6);
+        assert_eq!(orders_of(3)[0], [0, 1, 2], "the listed one comes first");
+        assert_eq!(orders_of(6).len(), 2);
+    }
+}

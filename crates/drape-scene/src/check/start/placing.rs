@@ -1,0 +1,265 @@
+//! Places of garments: whether a garment starts about its body, and the shift that would bring it
+//! there.
+//!
+//! A garment is about a body where its horizontal outline goes round a part of it. The shift is the
+//! one at which its particles are nearest to the bodies on average, without being inside of them.
+//! Those at its top count for more: a garment hangs from there.
+
+use drape_collide::{Body, Shape, Triangulation};
+
+use crate::check::checker::Checker;
+use crate::scene::Scene;
+use crate::scene::garment::Garment;
+use crate::section::{SectionPlane, convex_hull, encloses};
+
+/// Number of heights at which a garment is looked at.
+const HEIGHTS: usize = 24;
+
+/// Fraction of its heights at which a garment goes round a body, at least. The shipped garments do
+/// so at 9 of 10.
+const AROUND_MIN: f64 = 0.25;
+
+/// Fraction of its width that a garment is high, at least, for it to go round a body: lower ones
+/// lie flat and fall on it.
+const FLAT: f64 = 0.1;
+
+/// Fraction of a figure's height below which a garment is about its feet.
+const FEET: f64 = 0.3;
+
+/// Fraction of a figure's height from which on a garment is more than a shoe or a sock.
+const TALL: f64 = 0.25;
+
+/// Fraction of its particles that may start inside a body before another place is looked for.
+const INSIDE_MAX: f64 = 0.002;
+
+/// Number of particles by which places are compared.
+const SAMPLES: usize = 250;
+
+/// Weight of a depth inside a body against a distance outside of it.
+const DEPTH_WEIGHT: f64 = 50.0;
+
+/// Fraction of a garment's height that is its top, and the weight of a distance there.
+const TOP: f64 = 0.1;
+const TOP_WEIGHT: f64 = 10.0;
+
+/// Step of the heights that are tried, in m, and the last step of the search around the best.
+const STEP: f64 = 0.02;
+const STEP_LAST: f64 = 0.004;
+
+/// Bodies without floors.
+pub(crate) struct Solids<'a> {
+    bodies: Vec<&'a Body>,
+    outlines: Vec<Triangulation>,
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+/// Place of a garment against its bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Place {
+    About,
+    Feet,
+    Inside { fraction: f64 },
+    Beside { fraction: f64 },
+}
+
+impl<'a> Solids<'a> {
+    /// Returns the solid ones of some bodies, if there are some.
+    pub(crate) fn new(bodies: impl Iterator<Item = &'a Body>) -> Option<Self> {
+        let solid = bodies.filter(|body| !matches!(body.shape, Shape::Plane));
+        let both = solid.filter_map(|body| Some((body, body.triangulate().ok()?)));
+        let (bodies, outlines): (Vec<_>, Vec<_>) = both.unzip();
+        let vertices = || outlines.iter().flat_map(|outline: &Triangulation| &outline.vertices);
+        let [low, high] = extent(vertices());
+        (!bodies.is_empty()).then_some(Self { bodies, outlines, low, high })
+    }
+
+    /// Returns the signed distance of a point from the nearest body, in m.
+    fn distance(&self, point: [f64; 3]) -> f64 {
+        let distances = self.bodies.iter().filter_map(|body| body.signed_distance(point).ok());
+        distances.map(|near| near.distance).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the fraction of the heights of points at which their outline goes round a body.
+    fn fraction_around(&self, points: &[[f64; 3]]) -> f64 {
+        let [low, high] = extent(points.iter());
+        let band = (high[1] - low[1]) / HEIGHTS as f64;
+        let is_round = |k: &usize| {
+            let height = low[1] + (*k as f64 + 0.5) * band;
+            let plane = SectionPlane::horizontal(height);
+            let near = points.iter().filter(|point| (point[1] - height).abs() <= band);
+            let outline = convex_hull(near.map(|&point| plane.flat(point)).collect());
+            self.outlines.iter().any(|body| {
+                let corners = |t: &[u32; 3]| t.map(|corner| body.vertices[corner as usize]);
+                let mut cuts = body.triangles.iter().flat_map(|t| plane.cuts(corners(t)));
+                cuts.any(|point| encloses(&outline, point))
+            })
+        };
+        (0..HEIGHTS).filter(is_round).count() as f64 / HEIGHTS as f64
+    }
+
+    /// Returns the fraction of points that are inside a body.
+    fn fraction_inside(&self, points: &[[f64; 3]]) -> f64 {
+        let inside = points.iter().filter(|&&point| self.distance(point) < 0.0).count();
+        inside as f64 / points.len().max(1) as f64
+    }
+
+    /// Returns the place of a garment with particles at some points.
+    fn place(&self, points: &[[f64; 3]]) -> Place {
+        let [low, high] = extent(points.iter());
+        let width = (high[0] - low[0]).max(high[2] - low[2]);
+        let [figure, own] = [self.high[1] - self.low[1], high[1] - low[1]];
+        if own < FLAT * width {
+            return Place::About;
+        }
+        let around = self.fraction_around(points);
+        let inside = self.fraction_inside(points);
+        let is_figure = figure > (self.high[0] - self.low[0]).max(self.high[2] - self.low[2]);
+        match () {
+            () if around < AROUND_MIN => Place::Beside { fraction: around },
+            () if inside > INSIDE_MAX => Place::Inside { fraction: inside },
+            () if is_figure && own > TALL * figure && high[1] < self.low[1] + FEET * figure => {
+                Place::Feet
+            }
+            () => Place::About,
+        }
+    }
+
+    /// Returns the shift, in m, that brings a garment with particles at some points about a body,
+    /// if there is one.
+    pub(crate) fn shift(&self, points: &[[f64; 3]]) -> Option<[f64; 3]> {
+        let points = samples(points);
+        let [low, high] = extent(points.iter());
+        let middle = [0, 1, 2].map(|k| 0.5 * (self.low[k] + self.high[k] - low[k] - high[k]));
+        let top = high[1] - TOP * (high[1] - low[1]);
+        let cost = |shift: [f64; 3]| {
+            let costs = points.iter().map(|point| {
+                let distance = self.distance([0, 1, 2].map(|k| point[k] + shift[k]));
+                match distance < 0.0 {
+                    true => -DEPTH_WEIGHT * distance,
+                    false if point[1] > top => TOP_WEIGHT * distance,
+                    false => distance,
+                }
+            });
+            costs.sum::<f64>() / points.len() as f64
+        };
+        // From the foot of the bodies to their top.
+        let [first, last] = [self.low[1] - low[1], self.high[1] - high[1]];
+        let count = ((last - first) / STEP).clamp(0.0, 1000.0) as usize;
+        let heights = (0..=count).map(|k| first + k as f64 * STEP);
+        let starts = heights.map(|height| [middle[0], height, middle[2]]);
+        let starts = starts.map(|shift| (shift, cost(shift)));
+        let (mut best, mut least) = starts.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let mut step = 2.0 * STEP;
+        while step > STEP_LAST {
+            let mut moved = false;
+            for (axis, sign) in [0, 1, 2].into_iter().flat_map(|k| [(k, -1.0), (k, 1.0)]) {
+                let mut shift = best;
+                shift[axis] += sign * step;
+                let own = cost(shift);
+                if own < least {
+                    (best, least, moved) = (shift, own, true);
+                }
+            }
+            if !moved {
+                step *= 0.5;
+            }
+        }
+        let rounded = best.map(|x| (1e3 * x).round() / 1e3);
+        let moved: Vec<[f64; 3]> =
+            points.iter().map(|point| [0, 1, 2].map(|k| point[k] + rounded[k])).collect();
+        (self.fraction_around(&moved) >= AROUND_MIN).then_some(rounded)
+    }
+}
+
+/// Checks the places of the garments of a scene; returns notes on those about the feet.
+pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> Vec<String> {
+    let mut notes = Vec::new();
+    let Some(solids) = Solids::new(scene.bodies.iter().map(|moving| &moving.body)) else {
+        return notes;
+    };
+    for (number, garment) in scene.garments.iter().enumerate() {
+        // What is held needs no body.
+        let held = |particle: &usize| garment.particles.contains(particle);
+        if scene.pins.iter().any(|pin| pin.particles.iter().any(held)) {
+            continue;
+        }
+        let points = points(scene, garment);
+        let place = solids.place(&points);
+        if place == Place::About || (matches!(place, Place::Inside { .. }) && grows(scene)) {
+            continue;
+        }
+        let fault = describe(&garment.name, place, &points, &solids);
+        let help = remedy(checker, number, solids.shift(&points));
+        match place {
+            Place::Feet => notes.push(format!("{fault}; {help}")),
+            _ => {
+                checker.fail(&format!("garment[{number}].pattern"), fault, &help);
+            }
+        }
+    }
+    notes
+}
+
+/// Returns whether bodies grow at the start.
+fn grows(scene: &Scene) -> bool {
+    scene.contact.inflation.is_some()
+}
+
+fn points(scene: &Scene, garment: &Garment) -> Vec<[f64; 3]> {
+    let place = |particle| [0, 1, 2].map(|axis| scene.start.positions[3 * particle + axis]);
+    garment.particles.clone().map(place).collect()
+}
+
+/// Describes where a garment starts.
+fn describe(garment: &str, place: Place, points: &[[f64; 3]], solids: &Solids<'_>) -> String {
+    let [low, high] = extent(points.iter());
+    let [bottom, top] = [solids.low[1], solids.high[1]];
+    let heights = format!(
+        "between {:.2} and {:.2} m, and the body is between {bottom:.2} and {top:.2} m",
+        low[1], high[1]
+    );
+    match place {
+        Place::Feet | Place::About => {
+            format!("\"{garment}\" starts about the feet of the body: it is {heights}")
+        }
+        Place::Inside { fraction } => {
+            let percent = 100.0 * fraction;
+            format!("{percent:.0} % of \"{garment}\" starts inside the body: it is {heights}")
+        }
+        Place::Beside { fraction } => {
+            let side = match () {
+                () if high[1] < bottom + FEET * (top - bottom) => "at the feet of",
+                () if low[1] > top => "above",
+                () => "beside",
+            };
+            format!(
+                "\"{garment}\" starts {side} the body, not about it: it goes round it at {:.0} % of its heights; it is \
+                 {heights}",
+                100.0 * fraction
+            )
+        }
+    }
+}
+
+/// Returns the remedy: the centre that a garment with a number is to have, if one was found.
+pub(crate) fn remedy(checker: &Checker<'_>, garment: usize, shift: Option<[f64; 3]>) -> String {
+    let (Some(shift), Some(entry)) = (shift, checker.file.garment.get(garment)) else {
+        return "no place about the body was found: does the pattern fit it? turn or move its panels".into();
+    };
+    let [x, y, z] = [0, 1, 2].map(|k| entry.center[k] + shift[k] / checker.unit);
+    let digits = if checker.unit == 1.0 { 3 } else { 0 };
+    format!("write center = [{x:.digits$}, {y:.digits$}, {z:.digits$}] in its [[garment]]; there it is about the body")
+}
+
+/// Returns some of many points, evenly.
+fn samples(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    points.iter().step_by((points.len() / SAMPLES).max(1)).copied().collect()
+}
+
+/// Returns the low and the high corner of the bounding box of points.
+fn extent<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
+    points.fold([[f64::MAX; 3], [f64::MIN; 3]], |[low, high], point| {
+        [[0, 1, 2].map(|k| low[k].min(point[k])), [0, 1, 2].map(|k| high[k].max(point[k]))]
+    })
+}

@@ -1,0 +1,264 @@
+//! Rings of cloth: what of a garment goes round its body at the start.
+//!
+//! A ring is an opening, which is a closed row of free edges such as a waist or a hem, or a
+//! horizontal cut through panels that are sewn to each other all round. Its girth is its length
+//! before deformation.
+//!
+//! A horizontal cut is a girth only where panels stand upright, as gores do and sleeves on stretched
+//! arms do not. A panel stands upright if the mean of the gradient of the height over its cloth has
+//! a length near 1: on a cylinder whose axis is tilted by `$\theta$` it is `$\cos\theta$`.
+
+use std::collections::BTreeMap;
+
+use drape_collide::equivalence_classes;
+
+use crate::scene::Scene;
+use crate::section::{SectionPlane, between};
+
+/// Mean gradient of the height from which on a panel stands upright: with an axis within 30 degrees
+/// of the vertical.
+const UPRIGHT: f64 = 0.86;
+
+/// Closed line of cloth.
+pub(crate) struct Ring {
+    /// Edges of an opening, or panels of a cut.
+    pub(crate) parts: Vec<String>,
+    /// Index of a panel that it goes through.
+    pub(crate) panel: usize,
+    /// Length before deformation, in m.
+    pub(crate) girth: f64,
+    /// Its points at the start, in m.
+    pub(crate) points: Vec<[f64; 3]>,
+    pub(crate) plane: SectionPlane,
+}
+
+/// Cloth of a scene, prepared to be cut.
+pub(crate) struct RingFinder<'a> {
+    scene: &'a Scene,
+    /// Numbers of the seams of each particle.
+    seams: Vec<Vec<usize>>,
+    /// Triangles of each panel.
+    triangles: Vec<Vec<[u32; 3]>>,
+    /// Whether each panel stands upright.
+    upright: Vec<bool>,
+}
+
+/// Side of a triangle, by its ends in rising order.
+type Side = [u32; 2];
+
+/// Connected cut through a panel.
+struct Cut {
+    panel: usize,
+    length: f64,
+    points: Vec<[f64; 3]>,
+    /// Sides of triangles at its ends.
+    ends: Vec<Side>,
+}
+
+impl<'a> RingFinder<'a> {
+    /// Prepares the cloth of a scene.
+    pub(crate) fn new(scene: &'a Scene) -> Self {
+        let mut seams = vec![Vec::new(); scene.cloth.particles()];
+        let all = scene.sewing.iter().flat_map(|sewing| &sewing.seams);
+        for (number, seam) in all.enumerate() {
+            let sewn = seam.pairs.pairs.iter().flatten();
+            for &particle in sewn.chain(seam.pairs.ties.iter().map(|tie| &tie.particle)) {
+                seams[particle as usize].push(number);
+            }
+        }
+        let mut triangles = vec![Vec::new(); scene.panels.len()];
+        for triangle in scene.cloth.triangles() {
+            let panel = scene.panels.partition_point(|own| own.first <= triangle[0] as usize);
+            triangles[panel.saturating_sub(1)].push(*triangle);
+        }
+        let upright = triangles.iter().map(|own| stands_upright(scene, own)).collect();
+        Self { scene, seams, triangles, upright }
+    }
+
+    /// Returns the rings at a height, in m, of the panels of a garment.
+    pub(crate) fn at_height(&self, panels: &[usize], height: f64) -> Vec<Ring> {
+        let cuts: Vec<Cut> = panels.iter().flat_map(|&panel| self.cuts(panel, height)).collect();
+        // Cuts that end at each seam.
+        let mut joints: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        let mut is_open = vec![false; cuts.len()];
+        for (number, cut) in cuts.iter().enumerate() {
+            for &end in &cut.ends {
+                match self.seam_of(end) {
+                    Some(seam) => joints.entry(seam).or_default().push(number),
+                    None => is_open[number] = true,
+                }
+            }
+        }
+        let mut pairs = Vec::new();
+        for joint in joints.values() {
+            match joint[..] {
+                [one, other] => pairs.push([one as u32, other as u32]),
+                _ => joint.iter().for_each(|&cut| is_open[cut] = true),
+            }
+        }
+        let class = equivalence_classes(cuts.len(), &pairs);
+        let mut rings: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        class.iter().enumerate().for_each(|(cut, &class)| rings.entry(class).or_default().push(cut));
+        let is_girth = |cut: usize| !is_open[cut] && self.upright[cuts[cut].panel];
+        let closed = rings.into_values().filter(|ring| ring.iter().all(|&cut| is_girth(cut)));
+        let ring = |ring: Vec<usize>| Ring {
+            parts: ring.iter().map(|&cut| self.scene.panels[cuts[cut].panel].name.clone()).collect(),
+            panel: cuts[ring[0]].panel,
+            girth: ring.iter().map(|&cut| cuts[cut].length).sum(),
+            points: ring.iter().flat_map(|&cut| cuts[cut].points.iter().copied()).collect(),
+            plane: SectionPlane::horizontal(height),
+        };
+        closed.map(ring).collect()
+    }
+
+    /// Returns the seam of a side of a triangle.
+    fn seam_of(&self, [a, b]: Side) -> Option<usize> {
+        let [a, b] = [a, b].map(|particle| &self.seams[particle as usize]);
+        a.iter().find(|seam| b.contains(seam)).copied()
+    }
+
+    fn place(&self, particle: u32) -> [f64; 3] {
+        [0, 1, 2].map(|axis| self.scene.start.positions[3 * particle as usize + axis])
+    }
+
+    /// Returns the connected cuts through a panel at a height.
+    fn cuts(&self, panel: usize, height: f64) -> Vec<Cut> {
+        let coordinates = self.scene.cloth.coordinates();
+        let depth = |particle: u32| self.place(particle)[1] - height;
+        // Each cut of a triangle as the two sides that it is between.
+        let mut segments: Vec<[Side; 2]> = Vec::new();
+        for triangle in &self.triangles[panel] {
+            let sides = [0, 1, 2].map(|k| [triangle[k], triangle[(k + 1) % 3]]);
+            let cut = |[a, b]: &Side| (depth(*a) < 0.0) != (depth(*b) < 0.0);
+            let found: Vec<Side> =
+                sides.into_iter().filter(cut).map(|[a, b]| [a.min(b), a.max(b)]).collect();
+            if let [one, other] = found[..] {
+                segments.push([one, other]);
+            }
+        }
+        let mut at_side: BTreeMap<Side, Vec<u32>> = BTreeMap::new();
+        for (number, side) in segments.iter().flatten().enumerate() {
+            at_side.entry(*side).or_default().push(number as u32 / 2);
+        }
+        let joined = at_side.values().filter_map(|own| <[u32; 2]>::try_from(&own[..]).ok());
+        let class = equivalence_classes(segments.len(), &joined.collect::<Vec<_>>());
+        let part = |[a, b]: Side| depth(a) / (depth(a) - depth(b));
+        let on_cloth = |side: Side| {
+            let [a, b] = side.map(|particle| coordinates[particle as usize]);
+            between(a, b, part(side))
+        };
+        let in_space = |side: Side| {
+            let [a, b] = side.map(|particle| self.place(particle));
+            between(a, b, part(side))
+        };
+        let mut cuts: BTreeMap<u32, Cut> = BTreeMap::new();
+        for (segment, class) in segments.iter().zip(class) {
+            let empty = || Cut { panel, length: 0.0, points: Vec::new(), ends: Vec::new() };
+            let cut = cuts.entry(class).or_insert_with(empty);
+            let [[a, b], [c, d]] = segment.map(on_cloth);
+            cut.length += (c - a).hypot(d - b);
+            cut.points.extend(segment.map(in_space));
+            cut.ends.extend(segment.iter().filter(|side| at_side[*side].len() == 1));
+        }
+        cuts.into_values().collect()
+    }
+}
+
+/// Returns whether a panel of some triangles stands upright.
+fn stands_upright(scene: &Scene, triangles: &[[u32; 3]]) -> bool {
+    let coordinates = scene.cloth.coordinates();
+    let (mut sum, mut areas) = ([0.0; 2], 0.0);
+    for triangle in triangles {
+        let [[a, b], [c, d], [e, f]] = triangle.map(|corner| coordinates[corner as usize]);
+        let [p, q, r] = triangle.map(|corner| scene.start.positions[3 * corner as usize + 1]);
+        let twice_area = (c - a) * (f - b) - (e - a) * (d - b);
+        // Gradient times twice the area.
+        sum[0] += twice_area.signum() * ((q - p) * (f - b) - (r - p) * (d - b));
+        sum[1] += twice_area.signum() * ((r - p) * (c - a) - (q - p) * (e - a));
+        areas += twice_area.abs();
+    }
+    sum[0].hypot(sum[1]) > UPRIGHT * areas
+}
+
+/// Free edge of a panel.
+struct FreeEdge {
+    name: String,
+    panel: usize,
+    particles: Vec<u32>,
+}
+
+/// Returns the openings of the garments of a scene.
+pub(crate) fn openings(scene: &Scene) -> Vec<Ring> {
+    let none = Vec::new();
+    let pairs = scene.sewing.as_ref().map_or(&none, |sewing| &sewing.pairs.pairs);
+    let class = equivalence_classes(scene.cloth.particles(), pairs);
+    let ends = |edge: &FreeEdge| {
+        [edge.particles[0], edge.particles[edge.particles.len() - 1]].map(|p| class[p as usize])
+    };
+    let mut left = free_edges(scene);
+    let mut rings = Vec::new();
+    while !left.is_empty() {
+        let first = left.remove(0);
+        let [start, mut end] = ends(&first);
+        let mut row = vec![first];
+        while end != start
+            && let Some(next) = left.iter().position(|edge| ends(edge).contains(&end))
+        {
+            let mut edge = left.remove(next);
+            let [one, other] = ends(&edge);
+            if one == end {
+                end = other;
+            } else {
+                end = one;
+                edge.particles.reverse();
+            }
+            row.push(edge);
+        }
+        if end == start {
+            rings.extend(opening(scene, &row));
+        }
+    }
+    rings
+}
+
+/// Returns the ring of a closed row of edges.
+fn opening(scene: &Scene, row: &[FreeEdge]) -> Option<Ring> {
+    let coordinates = scene.cloth.coordinates();
+    let length = |pair: &[u32]| {
+        let [[a, b], [c, d]] = [pair[0], pair[1]].map(|particle| coordinates[particle as usize]);
+        (c - a).hypot(d - b)
+    };
+    let place = |&particle: &u32| {
+        [0, 1, 2].map(|axis| scene.start.positions[3 * particle as usize + axis])
+    };
+    let points: Vec<[f64; 3]> =
+        row.iter().flat_map(|edge| edge.particles.iter().map(place)).collect();
+    Some(Ring {
+        parts: row.iter().map(|edge| edge.name.clone()).collect(),
+        panel: row.first()?.panel,
+        girth: row.iter().flat_map(|edge| edge.particles.windows(2).map(length)).sum(),
+        plane: SectionPlane::through(&points)?,
+        points,
+    })
+}
+
+/// Returns the edges of panels whose particles between the ends are not sewn.
+fn free_edges(scene: &Scene) -> Vec<FreeEdge> {
+    let mut sewn = vec![false; scene.cloth.particles()];
+    if let Some(sewing) = &scene.sewing {
+        sewing.pairs.pairs.iter().flatten().for_each(|&particle| sewn[particle as usize] = true);
+        sewing.pairs.ties.iter().for_each(|tie| sewn[tie.particle as usize] = true);
+    }
+    let edges = scene.panels.iter().enumerate().flat_map(|(number, panel)| {
+        panel.edges.iter().map(move |edge| FreeEdge {
+            name: format!("{}.{}", panel.name, edge.name),
+            panel: number,
+            particles: edge.nodes.iter().map(|node| panel.first as u32 + node).collect(),
+        })
+    });
+    let is_free = |edge: &FreeEdge| {
+        let count = edge.particles.len();
+        count > 2 && edge.particles[1..count - 1].iter().all(|&particle| !sewn[particle as usize])
+    };
+    edges.filter(is_free).collect()
+}

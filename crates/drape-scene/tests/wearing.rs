@@ -1,0 +1,148 @@
+//! What a garment does not say rightly is answered, and the remedy of each answer works.
+#![allow(clippy::unwrap_used)]
+
+use drape_input::Document;
+use drape_scene::Scene;
+
+const FABRIC: &str = r#"name = "plain"
+density = 0.12
+thickness = 0.0003
+shear = { stiffness = 35.0 }
+[warp]
+traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
+bending.rigidity = 1.2e-5
+[weft]
+traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
+bending.rigidity = 0.8e-5
+"#;
+
+/// A skirt round a column of 200 mm across: a front, two halves of a back, and a band.
+const SKIRT: &str = r#"length = "mm"
+[panel.front]
+grain = 0
+start = [-HALF, 0]
+outline = [
+    { name = "hem", to = [HALF, 0] },
+    { name = "left", to = [HALF, 250] },
+    { name = "top", to = [-HALF, 250] },
+    { name = "right", to = [-HALF, 0] },
+]
+origin = [0, 600, 125]
+wrap = 125
+[panel.back]
+grain = 0
+start = [-HALF, 0]
+outline = [
+    { name = "hem", to = [HALF, 0] },
+    { name = "right", to = [HALF, 250] },
+    { name = "top_right", to = [100, 250] },
+    { name = "top_left", to = [-HALF, 250] },
+    { name = "left", to = [-HALF, 0] },
+]
+origin = [0, 600, -125]
+turn = [0, 180, 0]
+wrap = 125
+[panel.band]
+grain = 90
+start = [-HALF, 0]
+outline = [
+    { name = "bottom", to = [HALF, 0] },
+    { name = "right", to = [HALF, 60] },
+    { name = "top", to = [-HALF, 60] },
+    { name = "left", to = [-HALF, 0] },
+]
+origin = [0, 865, -125]
+turn = [0, 180, 0]
+wrap = 125
+[seam.side_left]
+sides = [["front.left"], ["back.left"]]
+[seam.side_right]
+sides = [["back.right"], ["front.right"]]
+[seam.waist]
+sides = [["back.top_right", "back.top_left"], ["band.bottom"]]
+reversed = false
+"#;
+
+fn pattern(half: f64) -> String {
+    SKIRT.replace("HALF", &half.to_string())
+}
+
+/// Reads the skirt at a centre, or returns what is said about it.
+fn read(pattern: &str, more: &str) -> Result<Scene, String> {
+    let documents = [Document::new("plain.toml", FABRIC), Document::new("skirt.toml", pattern)];
+    let text = format!(
+        "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\n[[garment]]\npattern = \"skirt.toml\"\n\
+         fabric = \"plain\"\n{more}\n[[collider.cylinder]]\nradius = 0.1\nheight = 1.5\n\
+         center = [0, 0.75, 0]\n[contact]\noffset = 0.003\n[time]\nstep = 0.005\nend = 1\n[settle]\n"
+    );
+    let scene = Scene::from_documents(&Document::new("scene.toml", text), &documents);
+    scene.map_err(|error| error.to_string())
+}
+
+/// Returns what stands between two texts.
+fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
+    let rest = text.split(before).nth(1).unwrap_or_else(|| panic!("no {before} in {text}"));
+    rest.split(after).next().unwrap()
+}
+
+#[test]
+fn a_garment_that_fits_is_not_remarked_on() {
+    let scene = read(&pattern(170.0), "").unwrap();
+    assert!(scene.source.notes.is_empty(), "{:?}", scene.source.notes);
+}
+
+#[test]
+fn a_reversed_seam_is_answered_with_the_sense_that_fits() {
+    let good = "sides = [[\"front.left\"], [\"back.left\"]]";
+    let wrong = pattern(170.0).replace(good, &format!("{good}\nreversed = true"));
+    let said = read(&wrong, "").unwrap_err();
+    assert!(said.contains("seam.side_left: the seam is reversed: its stitches are"), "{said}");
+    assert_eq!(between(&said, "[seam.side_left]: ", "; or"), format!("{good}, without reversed = true"));
+    // The twist may be meant.
+    assert!(read(&wrong, "[sew]\ntwisted = [\"side_left\"]").is_ok());
+    let said = read(&wrong, "[sew]\ntwisted = [\"side_lef\"]").unwrap_err();
+    assert!(said.contains("did you mean \"side_left\"?"), "{said}");
+}
+
+#[test]
+fn a_twisted_seam_is_answered_with_the_order_that_fits() {
+    let good = "sides = [[\"back.top_right\", \"back.top_left\"], [\"band.bottom\"]]\nreversed = false";
+    let swapped = "sides = [[\"back.top_left\", \"back.top_right\"], [\"band.bottom\"]]\nreversed = false";
+    let wrong = pattern(170.0).replace(good, swapped).replace("[100, 250]", "[0, 250]");
+    let said = read(&wrong, "").unwrap_err();
+    assert!(said.contains("seam.waist: the seam is twisted: its stitches are"), "{said}");
+    let line = between(&said, "[seam.waist]: ", "; or").to_owned();
+    let mended = wrong.replace(swapped, &line);
+    assert!(read(&mended, "").is_ok(), "{said}");
+}
+
+#[test]
+fn a_garment_beside_its_body_gets_the_centre_at_which_it_is_about_it() {
+    for (center, words) in [
+        ("[0, -0.95, 0]", "\"skirt\" starts at the feet of the body, not about it"),
+        ("[0.4, 0, 0.1]", "\"skirt\" starts beside the body, not about it"),
+        ("[0, 1.0, 0]", "\"skirt\" starts above the body, not about it"),
+        ("[0.05, 0, 0]", "of \"skirt\" starts inside the body"),
+    ] {
+        let said = read(&pattern(170.0), &format!("center = {center}")).unwrap_err();
+        assert!(said.contains(words), "{said}");
+        let center = between(&said, "write ", " in its [[garment]]").to_owned();
+        let scene = read(&pattern(170.0), &center);
+        let scene = scene.unwrap_or_else(|said| panic!("{center}: {said}"));
+        assert!(scene.source.notes.is_empty(), "{:?}", scene.source.notes);
+    }
+}
+
+#[test]
+fn a_skirt_that_is_too_narrow_is_answered_with_what_is_missing() {
+    let said = read(&pattern(130.0), "").unwrap_err();
+    assert!(said.contains("\"skirt\" is too narrow at a height of"), "{said}");
+    assert!(said.contains("measure 520 mm round, and the body's hull 62"), "{said}");
+    let missing: f64 = between(&said, "widen it there by ", " mm").parse().unwrap();
+    // There are two panels, each with two sides.
+    assert!(read(&pattern(130.0 + 0.25 * missing), "").is_ok(), "{missing} mm more");
+    // Little of it stretches, and that is only said.
+    let scene = read(&pattern(158.0), "").unwrap();
+    let notes = scene.source.notes.join("\n");
+    assert!(notes.contains("\"skirt\" is too narrow") && notes.contains("would stretch by"), "{notes}");
+}
