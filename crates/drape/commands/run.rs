@@ -15,7 +15,7 @@ use drape::scene::{Error, Scene};
 use self::report::{describe, outcome};
 use crate::failure::Failure;
 use crate::file;
-use crate::pages::picture;
+use crate::pages::picture::{self, Pictures};
 use crate::pages::strain_map::draw_strains;
 use crate::progress::Screen;
 use crate::say::say;
@@ -66,14 +66,15 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     output.summary(&summary)?;
     if let Some(frame) = &screen.last {
         let shown = Snapshot { positions: frame.positions.clone(), ..simulation.snapshot() };
+        let pictures = Pictures::new(&shown)?;
         let picture = match (garment, view) {
-            (true, [None, None]) => picture::draw_round(&shown)?,
-            _ => picture::draw(&shown, view, picture::SIZE)?,
+            (true, [None, None]) => pictures.draw_round()?,
+            _ => pictures.draw(view, picture::SIZE)?,
         };
         let stored = picture.save(output.path("picture.png"));
         stored.map_err(|error| Failure::Output(error.to_string()))?;
         if garment {
-            file::write(&output.path("strain.svg"), draw_strains(&shown)?)?;
+            file::write(&output.path("strain.svg"), draw_strains(&shown, &pictures)?)?;
         }
     }
     if arguments.json {

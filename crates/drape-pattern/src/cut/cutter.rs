@@ -96,8 +96,7 @@ impl Cutter {
         let spacing = self.spacing;
         let name = || panel.name().to_owned();
         let grain = GrainFrame::new(panel.grain());
-        let mut polygon: Vec<[f64; 2]> =
-            outline.nodes.iter().map(|&p| grain.to_grain(p)).collect();
+        let mut polygon: Vec<[f64; 2]> = outline.nodes.iter().map(|&p| grain.to_grain(p)).collect();
         let low = [0, 1].map(|k| polygon.iter().map(|p| p[k]).fold(f64::MAX, f64::min));
         for node in &mut polygon {
             *node = difference(*node, low).map(|x| x / spacing);

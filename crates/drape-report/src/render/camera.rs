@@ -37,24 +37,12 @@ pub struct View {
     pub width: u32,
     /// Height of the picture, in pixels.
     pub height: u32,
-    /// Depth bias of bodies: distance by which they are moved back behind cloth in depth tests, in m.
-    ///
-    /// The chord between two particles on either side of a convex edge dips below the edge. With a bias of
-    /// that depth the edge does not show through the cloth.
-    pub body_depth_bias: f64,
 }
 
 impl Default for View {
     /// Returns a view from the front right and above, 1200 × 900 pixels.
     fn default() -> View {
-        View {
-            azimuth_deg: 30.0,
-            elevation_deg: 28.0,
-            field_deg: 24.0,
-            width: 1200,
-            height: 900,
-            body_depth_bias: 0.0,
-        }
+        View { azimuth_deg: 30.0, elevation_deg: 28.0, field_deg: 24.0, width: 1200, height: 900 }
     }
 }
 
@@ -79,8 +67,7 @@ impl View {
         within("the elevation (°)", self.elevation_deg, "from -90 to 90", -90.0, 90.0)?;
         within("the field of view (°)", self.field_deg, "from 1 to 120", 1.0, 120.0)?;
         within("the width (pixels)", self.width.into(), size, 16.0, 16384.0)?;
-        within("the height (pixels)", self.height.into(), size, 16.0, 16384.0)?;
-        within("the depth bias of bodies (m)", self.body_depth_bias, "from 0 to 1", 0.0, 1.0)
+        within("the height (pixels)", self.height.into(), size, 16.0, 16384.0)
     }
 }
 
