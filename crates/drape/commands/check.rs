@@ -15,9 +15,9 @@ use drape::input::Diagnostics;
 
 use self::describe::describe;
 use self::pattern::CutOut;
+use crate::console::say;
 use crate::failure::Failure;
 use crate::file;
-use crate::say::say;
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {

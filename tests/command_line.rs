@@ -1,0 +1,177 @@
+//! The command line: files to start from, results that are there already, several scenes, signals,
+//! completions and manual pages.
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_drape"));
+    command.current_dir(folder).args(arguments);
+    command
+}
+
+fn drape(folder: &Path, arguments: &[&str]) -> Output {
+    command(folder, arguments).output().expect("it runs")
+}
+
+/// Runs a command that must succeed and returns what it prints.
+fn succeeds(folder: &Path, arguments: &[&str]) -> String {
+    let output = drape(folder, arguments);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{arguments:?} said: {message}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// Runs a command that must end with a code and returns its message.
+fn fails(folder: &Path, arguments: &[&str], code: i32) -> String {
+    let output = drape(folder, arguments);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?} said: {message}");
+    message
+}
+
+fn summary(folder: &Path) -> Value {
+    let text = std::fs::read_to_string(folder.join("summary.json")).expect("a summary");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// Returns a folder with the files that `drape new` writes, and with `moving.toml`, the scene
+/// without rest.
+fn started() -> TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    succeeds(folder.path(), &["new", "scene"]);
+    succeeds(folder.path(), &["new", "pattern"]);
+    let text = std::fs::read_to_string(folder.path().join("scene.toml")).expect("a scene");
+    assert!(text.contains("\n[settle]\n"));
+    let moving = text.replace("\n[settle]\n", "\n");
+    std::fs::write(folder.path().join("moving.toml"), moving).expect("writes");
+    folder
+}
+
+#[test]
+fn files_to_start_from_run_as_they_are() {
+    let folder = started();
+    let folder = folder.path();
+    succeeds(folder, &["check", "scene.toml", "sheet.toml", "pattern.toml"]);
+    succeeds(folder, &["fit", "sheet.toml"]);
+    succeeds(folder, &["run", "scene.toml"]);
+    assert_eq!(summary(&folder.join("out/scene"))["settled"], true);
+    let printed = succeeds(folder, &["new", "sheet", "-o", "-"]);
+    let written = std::fs::read_to_string(folder.join("sheet.toml")).expect("a sheet");
+    assert_eq!(printed, written);
+}
+
+#[test]
+fn results_that_are_there_are_replaced_with_force_only() {
+    let folder = started();
+    let folder = folder.path();
+    let run = ["run", "moving.toml", "--until", "0.01", "--no-picture"];
+    let (fit, new) = (["fit", "sheet.toml", "-o", "f.toml"], ["new", "sheet"]);
+    for arguments in [&run[..], &fit, &new] {
+        if arguments != new {
+            succeeds(folder, arguments);
+        }
+        let message = fails(folder, arguments, 2);
+        assert!(message.contains("--force"), "{message}");
+        succeeds(folder, &[arguments, &["--force"]].concat());
+    }
+    assert!(!folder.join("out/moving/picture.png").exists());
+}
+
+#[test]
+fn of_several_scenes_one_that_fails_does_not_stop_the_rest() {
+    let folder = started();
+    let folder = folder.path();
+    std::fs::copy(folder.join("moving.toml"), folder.join("again.toml")).expect("copies");
+    let scenes = ["run", "moving.toml", "missing.toml", "again.toml", "-o", "all"];
+    let message = fails(folder, &[&scenes[..], &["--until", "0.01", "--no-picture"]].concat(), 3);
+    assert!(message.contains("missing.toml"), "{message}");
+    let hashes = ["moving", "again"].map(|name| summary(&folder.join("all").join(name)));
+    assert_eq!(hashes[0]["state_hash"], hashes[1]["state_hash"]);
+}
+
+#[test]
+fn the_summary_has_the_time_of_every_frame() {
+    let folder = started();
+    succeeds(folder.path(), &["run", "moving.toml", "--until", "0.25", "--no-picture"]);
+    let summary = summary(&folder.path().join("out/moving"));
+    let times = summary["frame_times"].as_array().expect("times");
+    assert_eq!(summary["frames"], times.len());
+    assert_eq!((&times[0], times.last()), (&0.0.into(), Some(&summary["simulated_seconds"])));
+}
+
+#[test]
+fn progress_for_programs_is_one_json_object_a_line() {
+    let folder = started();
+    let arguments = ["run", "scene.toml", "--until", "0.05", "--progress", "json", "-q"];
+    let output = drape(folder.path(), &arguments);
+    let lines = String::from_utf8(output.stderr).expect("text");
+    let steps: Vec<Value> =
+        lines.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    assert_eq!(steps.len(), summary(&folder.path().join("out/scene"))["steps"]);
+    assert!(steps.iter().all(|step| step["phase"] == "relax" && step["time"].is_f64()));
+}
+
+#[test]
+fn a_terminal_gets_no_control_characters_from_the_input() {
+    let folder = started();
+    let path = folder.path().join("scene.toml");
+    let text = std::fs::read_to_string(&path).expect("a scene");
+    let bad = text.replace("name = \"cloth\"", "name = \"\\u001b[31mcloth\"\nmesh = \"\\u001b\"");
+    std::fs::write(&path, bad).expect("writes");
+    let message = fails(folder.path(), &["check", "scene.toml"], 3);
+    assert!(!message.contains('\u{1b}'), "{message:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_a_summary_the_last_frame_and_a_picture() {
+    let folder = started();
+    let out = folder.path().join("out/scene");
+    let mut running = command(folder.path(), &["run", "scene.toml", "--threads", "1"]);
+    let running = running.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it runs");
+    let deadline = Instant::now() + Duration::from_secs(60);
+    while !out.join("frame-00001.obj").exists() {
+        assert!(Instant::now() < deadline, "no frame after a minute");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let id = running.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().expect("kill").success());
+    let output = running.wait_with_output().expect("it ends");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(130), "{message}");
+    let summary = summary(&out);
+    assert_eq!(summary["status"], "interrupted");
+    let last = summary["frames"].as_u64().expect("a count") - 1;
+    assert!(out.join(format!("frame-{last:05}.obj")).exists());
+    assert!(out.join("picture.png").exists());
+}
+
+#[test]
+fn shells_and_man_know_every_command() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    succeeds(folder.path(), &["man", "-o", "man"]);
+    for name in ["new", "fit", "fabric", "run", "validate", "test", "check", "bench"] {
+        let page = std::fs::read_to_string(folder.path().join(format!("man/drape-{name}.1")));
+        assert!(page.expect("a page").contains(".SH"), "drape-{name}.1");
+        for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+            let script = succeeds(folder.path(), &["completions", shell]);
+            assert!(script.contains(name), "{shell}: {name}");
+        }
+    }
+    let help = succeeds(folder.path(), &["--help"]);
+    for code in ["0 ", "2 ", "3 ", "4 ", "5 ", "6 ", "7 ", "130"] {
+        assert!(help.contains(&format!("\n  {code}")), "exit code {code}");
+    }
+}
+
+#[test]
+fn a_list_of_nowhere_fails() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let message = fails(folder.path(), &["fabric", "list", "nowhere"], 3);
+    assert!(message.contains("nowhere"), "{message}");
+}
