@@ -170,6 +170,23 @@ fn shells_and_man_know_every_command() {
 }
 
 #[test]
+fn checks_and_lists_have_a_form_for_programs() {
+    let folder = started();
+    std::fs::write(folder.path().join("wrong.toml"), "spacing = -1\n[time]\n").expect("writes");
+    let output = drape(folder.path(), &["check", "scene.toml", "wrong.toml", "--json"]);
+    assert_eq!(output.status.code(), Some(3));
+    let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!((&found[0]["holds"], &found[1]["holds"]), (&true.into(), &false.into()));
+    assert_eq!(found[0]["mistakes"], Value::Array(Vec::new()));
+    assert!(found[1]["mistakes"][0]["line"].is_u64(), "{found}");
+    for arguments in [&["list", "."][..], &["show", "sheet.toml"], &["compare", ".", "."]] {
+        let printed = succeeds(folder.path(), &[&["fabric"], arguments, &["--json"]].concat());
+        let value: Value = serde_json::from_str(&printed).expect("JSON");
+        assert!(printed.contains("my fabric"), "{value}");
+    }
+}
+
+#[test]
 fn a_list_of_nowhere_fails() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let message = fails(folder.path(), &["fabric", "list", "nowhere"], 3);

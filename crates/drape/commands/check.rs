@@ -11,7 +11,8 @@ mod pattern;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use drape::input::Diagnostics;
+use drape::input::{Diagnostic, Diagnostics};
+use serde_json::{Value, json};
 
 use self::describe::describe;
 use self::pattern::CutOut;
@@ -30,7 +31,7 @@ pub(crate) struct CheckArguments {
     /// Distance between the particles of a cut pattern, in mm.
     #[arg(long, value_name = "MM", default_value_t = 10.0)]
     pub(crate) spacing: f64,
-    /// Prints the results for folders of runs as JSON.
+    /// Prints what was found as JSON: of each file its mistakes, of each run its frames.
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -40,34 +41,66 @@ pub(crate) struct CheckArguments {
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let (runs, files): (Vec<&PathBuf>, Vec<&PathBuf>) =
         arguments.files.iter().partition(|file| frames::is_run(file));
-    if let (true, Some(file)) = (arguments.json, files.first()) {
-        let message = format!("--json is for folders of runs, and {} is none", file.display());
-        return Err(Failure::Usage(message));
-    }
     let spacing = 1e-3 * arguments.spacing;
-    let mut mistakes = Vec::new();
-    let mut told = |file: &Path, found: Result<String, Diagnostics>| match found {
-        Ok(text) => say(format_args!("{}: {}", file.display(), text.trim_end())),
-        Err(found) => {
-            mistakes.extend(found.0);
-            Ok(())
-        }
-    };
+    let mut checked = Checked { json: arguments.json, ..Checked::default() };
     match (&arguments.figure, &files[..]) {
         (Some(figure), [pattern]) => {
             let cut = CutOut::read(pattern, spacing)?;
             file::write(figure, cut.figure())?;
-            told(pattern, Ok(cut.describe()))?;
+            checked.add(pattern, Ok(cut.describe()))?;
         }
         (Some(_), _) => {
             return Err(Failure::Usage("--figure is for one pattern at a time".into()));
         }
         (None, files) => {
             for file in files {
-                told(file, describe(file, spacing))?;
+                checked.add(file, describe(file, spacing))?;
             }
         }
     }
-    Diagnostics::check(mistakes)?;
-    frames::verify(&runs, arguments.json)
+    if !arguments.json {
+        Diagnostics::check(checked.mistakes)?;
+        return frames::verify(&runs, false)?.outcome();
+    }
+    let verified = frames::verify(&runs, true)?;
+    checked.found.extend(verified.found.iter().cloned());
+    let found = serde_json::to_string_pretty(&checked.found);
+    say(found.expect("verdicts always have a JSON form"))?;
+    Diagnostics::check(checked.mistakes)?;
+    verified.outcome()
+}
+
+/// Files that were checked.
+#[derive(Default)]
+struct Checked {
+    json: bool,
+    /// What was found, as JSON.
+    found: Vec<Value>,
+    mistakes: Vec<Diagnostic>,
+}
+
+impl Checked {
+    /// Adds what was found in a file, and says it.
+    fn add(&mut self, file: &Path, found: Result<String, Diagnostics>) -> Result<(), Failure> {
+        let (text, mistakes) = match found {
+            Ok(text) => (Some(text), Vec::new()),
+            Err(mistakes) => (None, mistakes.0),
+        };
+        if self.json {
+            let mistakes: Vec<Value> = mistakes.iter().map(as_json).collect();
+            let holds = text.is_some();
+            self.found
+                .push(json!({ "file": file, "holds": holds, "text": text, "mistakes": mistakes }));
+        } else if let Some(text) = text {
+            say(format_args!("{}: {}", file.display(), text.trim_end()))?;
+        }
+        self.mistakes.extend(mistakes);
+        Ok(())
+    }
+}
+
+/// Returns a mistake as JSON.
+fn as_json(mistake: &Diagnostic) -> Value {
+    let Diagnostic { file, line, column, message, help, .. } = mistake;
+    json!({ "file": file, "line": line, "column": column, "message": message, "help": help })
 }
