@@ -7,6 +7,9 @@ use crate::rim::memories::RimMemories;
 
 /// State of a cloth: positions, velocities and the memories of its connectors.
 ///
+/// It owns the accepted positions; a [`Trial`](crate::Trial) borrows it beside other positions, at
+/// which forces and stiffness are evaluated.
+///
 /// Vectors are flat: particle `i` has the numbers `3i`, `3i + 1`, `3i + 2`. Only
 /// [`Cloth::commit`](crate::Cloth::commit) writes the memories.
 #[derive(Debug, Clone, PartialEq)]

@@ -88,7 +88,7 @@ pub struct Scene {
     pub garments: Vec<Garment>,
     /// All panels as one cloth.
     pub cloth: Cloth,
-    /// The same in the model of Breen, if the scene asks for it: then the laws of the cloth have no
+    /// Cloth in the model of Breen, if the scene asks for it: then the laws of `cloth` have no
     /// friction.
     pub breen: Option<Breen>,
     /// Sewing of the garments, if there are seams.

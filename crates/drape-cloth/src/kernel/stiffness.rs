@@ -20,7 +20,7 @@ use crate::layout::grid::{BLOCKS, CornerAtEdge, CornerEdges, NO_BLOCK};
 use crate::measure::half::{HALF, IN_HALF, TRANSPOSED};
 use crate::measure::vector::dot;
 
-/// Which stiffness of which direction or corner of a strip is computed.
+/// Stiffness that is computed: its direction or corner, and whether it is definite.
 #[derive(Clone, Copy)]
 struct Kind {
     /// Direction of a yarn, or corner of a cell.

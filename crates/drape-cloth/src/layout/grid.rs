@@ -84,7 +84,7 @@ pub(crate) struct Yarns {
     pub(crate) triples: Vec<usize>,
 }
 
-/// Where a panel begins: its first particle, and its columns in those of the cloth.
+/// Begin of a panel: its first particle, and its columns in those of the cloth.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PanelStart {
     pub(crate) particle: u32,

@@ -13,7 +13,7 @@ use crate::simulation::Simulation;
 use crate::world::World;
 use crate::world::check::FABRIC;
 
-/// How the edges of both sheets are sewn: the lower one has so many arcs for each of the upper one.
+/// Seam of the edges of both sheets: the lower one has so many arcs for each of the upper one.
 fn seam_pairs(fullness: u32) -> SeamPairs {
     // The top row of the lower sheet, which is 6 arcs of the upper one high as well.
     let along = 6 * fullness + 1;

@@ -40,7 +40,7 @@ const KEY_AZIMUTH: f64 = 0.95;
 const KEY_TEXELS: usize = 1400;
 const KEY_FILTER: i64 = 2;
 
-/// The same for the shadow on the floor: larger texels make it softer.
+/// Texels and filter of the shadow map of the floor: larger texels make its shadow softer.
 const FLOOR_TEXELS: usize = 200;
 const FLOOR_FILTER: i64 = 2;
 
