@@ -1,10 +1,13 @@
 //! Rules of the architecture: the map in `crates/README.md` is true, the modules of a crate do not
-//! use each other in a circle, folders and files stay small, and every module has a description.
+//! use each other in a circle, folders and files stay small, every module has a description, and the
+//! glossary and the bibliography are true.
 
 #[path = "architecture/arguments.rs"]
 mod arguments;
 #[path = "architecture/modules.rs"]
 mod modules;
+#[path = "architecture/pages.rs"]
+mod pages;
 #[path = "architecture/tokens.rs"]
 mod tokens;
 
@@ -17,15 +20,7 @@ use modules::Modules;
 use serde_json::Value;
 
 /// Crates that do not keep all of these rules yet.
-const LEFT: &[&str] = &[
-    "drape-cloth",
-    "drape-collide",
-    "drape-dynamics",
-    "drape-pattern",
-    "drape-report",
-    "drape-scene",
-    "drape-validate",
-];
+const LEFT: &[&str] = &[];
 
 /// Largest number of files of a folder.
 const FILES_MAX: usize = 14;
@@ -199,4 +194,66 @@ fn no_function_takes_too_many_arguments() {
         long.extend(found.into_iter().map(|name| format!("{} in {}", name, short(&file))));
     }
     assert!(long.is_empty(), "more than {ARGUMENTS_MAX} arguments are a struct: {long:#?}");
+}
+
+/// Returns the tags of sources in the comments and the pages of all crates.
+fn tags_used() -> BTreeSet<String> {
+    let mut used = BTreeSet::new();
+    let mut open = vec![root().join("crates")];
+    while let Some(folder) = open.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder can be read") {
+            let path = entry.expect("an entry can be read").path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let is_code = name.ends_with(".rs");
+            if path.is_dir() {
+                open.push(path);
+            } else if is_code || name == "README.md" {
+                let text = std::fs::read_to_string(&path).expect("a file can be read");
+                used.extend(pages::tags(&text, is_code));
+            }
+        }
+    }
+    used
+}
+
+#[test]
+fn the_bibliography_has_every_source_and_no_other() {
+    let rows = pages::rows(include_str!("../crates/BIBLIOGRAPHY.md"));
+    let listed: BTreeSet<String> = rows.iter().map(|row| row[0].to_owned()).collect();
+    assert_eq!(listed.len(), rows.len(), "a tag is listed twice");
+    let used = tags_used();
+    assert!(used.len() > 20, "{} tags were found", used.len());
+    let missing: Vec<_> = used.difference(&listed).collect();
+    assert!(missing.is_empty(), "not in crates/BIBLIOGRAPHY.md: {missing:?}");
+    let idle: Vec<_> = listed.difference(&used).collect();
+    assert!(idle.is_empty(), "in crates/BIBLIOGRAPHY.md, and used nowhere: {idle:?}");
+}
+
+#[test]
+fn the_glossary_has_each_term_once_with_sources_that_are_listed() {
+    let sources = pages::rows(include_str!("../crates/BIBLIOGRAPHY.md"));
+    let sources: BTreeSet<&str> = sources.iter().map(|row| row[0]).collect();
+    let mut terms = BTreeSet::new();
+    for row in pages::rows(include_str!("../crates/GLOSSARY.md")) {
+        assert_eq!(row.len(), 6, "{row:?} has not six cells");
+        assert!(terms.insert(row[0]), "{} is there twice", row[0]);
+        for tag in row[4].split(", ").filter(|tag| !tag.is_empty()) {
+            assert!(sources.contains(tag), "{tag} of {} is not in the bibliography", row[0]);
+        }
+    }
+}
+
+#[test]
+fn the_paths_that_glossary_and_map_name_exist() {
+    let texts = [
+        ("crates/GLOSSARY.md", include_str!("../crates/GLOSSARY.md")),
+        ("crates/README.md", include_str!("../crates/README.md")),
+    ];
+    for (page, text) in texts {
+        let paths = pages::paths(text);
+        assert!(paths.len() > 20, "{page} names {} paths", paths.len());
+        for path in paths {
+            assert!(root().join("crates").join(path).exists(), "{page} names {path}");
+        }
+    }
 }

@@ -6,7 +6,7 @@
 //! [`Failure`](crate::failure::Failure) into an exit code.
 //!
 //! [`sheets`] is shared by the commands that read sheets. Of the commands, [`test`] reads its
-//! fabric by way of [`fabric`], which stores its page by way of [`fit`]; no other knows another.
+//! fabric through [`fabric`], which stores its page through [`fit`]; no other knows another.
 
 pub(crate) mod bench;
 pub(crate) mod check;

@@ -22,7 +22,7 @@ pub(crate) enum Failure {
     /// Exit code 3: some sheets of a batch failed; each was reported.
     Batch,
     /// Exit code 4: surfaces intersect.
-    Certificate(String),
+    Intersecting(String),
     /// Exit code 5: the solver failed, or the cloth did not settle.
     Solver(String),
     /// Exit code 7: a figure is beyond its limit.
@@ -47,7 +47,7 @@ impl Failure {
         match self {
             Self::Usage(_) => 2,
             Self::Input(_) | Self::Fit(_) | Self::Frames(_) | Self::Batch => 3,
-            Self::Certificate(_) => 4,
+            Self::Intersecting(_) => 4,
             Self::Solver(_) => 5,
             Self::Output(_) => 6,
             Self::Limit(_) => 7,
@@ -86,7 +86,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Usage(message)
-            | Self::Certificate(message)
+            | Self::Intersecting(message)
             | Self::Solver(message)
             | Self::Output(message)
             | Self::Limit(message)

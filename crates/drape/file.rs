@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::failure::Failure;
 
-/// Writes a file, by way of a temporary one so that no reader sees half of it; creates its folder.
+/// Writes a file, through a temporary one so that no reader sees half of it; creates its folder.
 pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     let temporary = path.with_extension("part");
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());

@@ -51,7 +51,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let state =
         cloth.state(lattice.coordinates.iter().flat_map(|&[u, v]| [u, v, 0.0]).collect())?;
 
-    // Particles on the cylinder, with chords of the rest length between them: the yarns do not stretch.
+    // Particles on the cylinder, with chords of the rest length between them: the yarns do not
+    // stretch.
     let spacing = lattice.spacing[0];
     let angle = 2.0 * (0.5 * spacing / radius).asin();
     let bent: Vec<f64> = lattice

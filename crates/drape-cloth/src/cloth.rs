@@ -17,15 +17,17 @@ use crate::state::State;
 
 /// Cloth: particles joined by traction, shear and bending connectors. Constant in time.
 ///
-/// A connector is a measure `$s$` (a strain of a few particles) × a law `$T$` of the fabric × the area
-/// `$W$` of cloth that it stands for. Its forces are the negative derivatives of area times work density,
+/// A connector is a measure `$s$` (a strain of a few particles) × a law `$T$` of the fabric × the
+/// area `$W$` of cloth that it stands for. Its forces are the negative derivatives of area times
+/// work density,
 ///
 /// ```math
 /// f_i = -W\,T(s)\,\frac{\partial s}{\partial x_i}
 /// ```
 ///
-/// which conserves momentum exactly and does not depend on the spacing of the particles. The forces of
-/// \[NB04, eqs. 4–5\] agree with it to first order if their lever arm is the length of a yarn segment.
+/// which conserves momentum exactly and does not depend on the spacing of the particles. The forces
+/// of \[NB04, eqs. 4–5\] agree with it to first order if their lever arm is the length of a yarn
+/// segment.
 ///
 /// ```
 /// use drape_cloth::{Cloth, Lattice};
@@ -141,8 +143,8 @@ impl Cloth {
         self.areas.extend(areas);
     }
 
-    /// Returns the cloth with the masses of tied particles moved to the two particles that each lies
-    /// between; their sum and their centre stay.
+    /// Returns the cloth with the masses of tied particles moved to the two particles that each
+    /// lies between; their sum and their centre stay.
     #[must_use]
     pub fn with_ties<'a>(mut self, ties: impl IntoIterator<Item = &'a Tie>) -> Self {
         for &Tie { particle, ends, fraction } in ties {
@@ -252,8 +254,8 @@ impl Cloth {
         }
     }
 
-    /// Returns the strains of the triangles of the surface, in their order, at positions of the particles
-    /// (three numbers each, in m).
+    /// Returns the strains of the triangles of the surface, in their order, at positions of the
+    /// particles (three numbers each, in m).
     ///
     /// # Panics
     /// If positions of some particles are missing.

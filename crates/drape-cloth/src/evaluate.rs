@@ -13,9 +13,9 @@
 //! E = \sum_{\text{strips}} E_s + \sum_{\text{rims}} E_r
 //! ```
 //!
-//! so the numbers depend neither on the threads nor on the vector instructions. `workspace` holds the
-//! buffers and is what a solver calls; `one_off` is the same for a single call. Only here threads and
-//! instructions are known; after a workspace is made nothing allocates.
+//! so the numbers depend neither on the threads nor on the vector instructions. `workspace` holds
+//! the buffers and is what a solver calls; `one_off` is the same for a single call. Only here
+//! threads and instructions are known; after a workspace is made nothing allocates.
 
 pub(crate) mod dispatch;
 pub(crate) mod one_off;

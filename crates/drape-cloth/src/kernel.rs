@@ -10,12 +10,14 @@
 //!          └──────────────▶ weft u
 //! ```
 //!
-//! **Stencil.** All energy but that of bending is a function of the edges `$e$` as vectors, and bending
-//! is one of their differences. With the edge gradient `$P_e = \partial E/\partial e$` and the moment
-//! `$M_c$` over `$h^2$` at the middle `$c$` of a triple, the force on a particle `$i$` is
+//! **Stencil.** All energy but that of bending is a function of the edges `$e$` as vectors, and
+//! bending is one of their differences. With the edge gradient `$P_e = \partial E/\partial e$` and
+//! the moment `$M_c$` over `$h^2$` at the middle `$c$` of a triple, the force on a particle `$i$`
+//! is
 //!
 //! ```math
-//! f_i = \sum_{\text{directions}} P_{i \to i+1} - P_{i-1 \to i} - \left(M_{i-1} - 2M_i + M_{i+1}\right)
+//! f_i = \sum_{\text{directions}} P_{i \to i+1} - P_{i-1 \to i}
+//!   - \left(M_{i-1} - 2M_i + M_{i+1}\right)
 //! ```
 //!
 //! so it reads two points to each side along its yarns, and the cells around it:
@@ -29,18 +31,19 @@
 //! ```
 //!
 //! **Strip and margin.** A strip is a run of rows that fits in the cache
-//! ([`Strip`](crate::layout::strip::Strip)). Its buffers hold two more rows at each side, the margin,
-//! whose edges and loads are computed again, so strips are independent: any number of threads writes
-//! the same bits. All loops run over batches of 32 connectors (one SIMD idiom with `drape_fabric`'s
-//! batch laws), inlined into `evaluate::dispatch`, which selects the vector instructions.
+//! ([`Strip`](crate::layout::strip::Strip)). Its buffers hold two more rows at each side, the
+//! margin, whose edges and loads are computed again, so strips are independent: any number of
+//! threads writes the same bits. All loops run over batches of 32 connectors (one SIMD idiom with
+//! `drape_fabric`'s batch laws), inlined into `evaluate::dispatch`, which selects the vector
+//! instructions.
 //!
-//! **Reference.** [`Reference`](crate::Reference) is the same cloth connector by connector, through the
-//! scalar laws. `tests/connectors/reference.rs` and `consistency.rs` hold the kernels to it, and
-//! `consistency.rs` holds both to finite differences.
+//! **Reference.** [`Reference`](crate::Reference) is the same cloth connector by connector, through
+//! the scalar laws. `tests/connectors/reference.rs` and `consistency.rs` hold the kernels to it,
+//! and `consistency.rs` holds both to finite differences.
 //!
-//! `buffers` measures the edges of a strip, `bending` and `crease` the triples; `forces`, `energy` and
-//! `stiffness` sum up; `memories` is what a commit writes. A kernel reads `layout` and a trial, and
-//! writes its own part of the output; only `energy::commit` and `energy::start` write memories.
+//! `buffers` measures the edges of a strip, `bending` and `crease` the triples; `forces`, `energy`
+//! and `stiffness` sum up; `memories` is what a commit writes. A kernel reads `layout` and a trial,
+//! and writes its own part of the output; only `energy::commit` and `energy::start` write memories.
 
 pub(crate) mod bending;
 pub(crate) mod buffers;

@@ -3,8 +3,10 @@
 //! # Modules
 //!
 //! ```text
-//!   panel ──▶ layout ──▶ kernel, rim ──▶ evaluate          seam, breen: beside the panels' connectors
-//!  (Lattice)  (arrays)   (one strip)    (Cloth, Workspace)  reference: what the kernels are held to
+//!   panel ──▶ layout ──▶ kernel, rim ──▶ evaluate
+//!  (Lattice)  (arrays)   (one strip)    (Cloth, Workspace)
+//!
+//!   seam, breen: beside the panels' connectors;  reference: what the kernels are held to
 //! ```
 //!
 //! [`Cloth::new`] goes from left to right once; a solver calls [`Workspace`] at every trial and

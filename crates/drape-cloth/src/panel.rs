@@ -1,16 +1,17 @@
 //! Panels before deformation: a grid of particles along the yarns, cut to an outline.
 //!
-//! Material coordinates are `u` along the weft and `v` along the warp. A panel's particles are the nodes
-//! of a grid along its yarns; every cell has the exact area of the panel within it,
+//! Material coordinates are `u` along the weft and `v` along the warp. A panel's particles are the
+//! nodes of a grid along its yarns; every cell has the exact area of the panel within it,
 //!
 //! ```math
 //! A = \sum_{\text{cells}}\sum_{k=1}^{4} A_k + \sum_{\text{rim}} A_t
 //! ```
 //!
-//! from which masses and connector areas follow. `lattice` is the panel, `cut` makes rectangles, discs
-//! and rings, `mesh` takes panels that were cut elsewhere (`drape-pattern`), with a rim of triangles.
-//! `grain` relates the yarns to the panel's own frame; `fold` and `folded` bend a panel at rest along
-//! lines; `allowance` adds mass along an outline; `clip` and `triangle` are plane geometry.
+//! from which masses and connector areas follow. `lattice` is the panel, `cut` makes rectangles,
+//! discs and rings, `mesh` takes panels that were cut elsewhere (`drape-pattern`), with a rim of
+//! triangles. `grain` relates the yarns to the panel's own frame; `fold` and `folded` bend a panel
+//! at rest along lines; `allowance` adds mass along an outline; `clip` and `triangle` are plane
+//! geometry.
 //!
 //! Called by the readers of scenes; handed on to `Cloth::new`. Nothing here moves or knows a law.
 

@@ -7,6 +7,9 @@ use crate::rim::memories::RimMemories;
 
 /// State of a cloth: positions, velocities and the memories of its connectors.
 ///
+/// It owns the accepted positions; a [`Trial`](crate::Trial) borrows it beside other positions, at
+/// which forces and stiffness are evaluated.
+///
 /// Vectors are flat: particle `i` has the numbers `3i`, `3i + 1`, `3i + 2`. Only
 /// [`Cloth::commit`](crate::Cloth::commit) writes the memories.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,8 +33,9 @@ impl State {
         &self.normals
     }
 
-    /// All memories, for hashing and comparing, in a fixed order; those of rims come last. Where there is
-    /// no connector, as at the end of a row, the memory is that of a connector never deformed.
+    /// All memories, for hashing and comparing, in a fixed order; those of rims come last. Where
+    /// there is no connector, as at the end of a row, the memory is that of a connector never
+    /// deformed.
     pub fn memories(&self) -> impl Iterator<Item = Memory> {
         let Self { grid, rim, .. } = self;
         let sets = grid.traction.iter().chain(&grid.shear).chain(&grid.bending);

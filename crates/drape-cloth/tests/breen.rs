@@ -40,7 +40,8 @@ fn random(count: usize) -> Vec<f64> {
     (0..count).map(|_| next()).collect()
 }
 
-/// A sheet that is sheared, wavy, stretched here and compressed there, and folded back onto itself at one end.
+/// A sheet that is sheared, wavy, stretched here and compressed there, and folded back onto itself
+/// at one end.
 fn crumpled(lattice: &Lattice) -> Vec<f64> {
     let width = 0.12;
     let mut positions = placed(lattice, |u, v| {
@@ -61,8 +62,8 @@ fn crumpled(lattice: &Lattice) -> Vec<f64> {
     positions
 }
 
-/// A sheared sheet rolled on a cylinder, shaken by a two-thousandth of the spacing: yarns hardly change their lengths, and
-/// angles hold nearly all of the energy.
+/// A sheared sheet rolled on a cylinder, shaken by a two-thousandth of the spacing: yarns hardly
+/// change their lengths, and angles hold nearly all of the energy.
 fn rolled(lattice: &Lattice) -> Vec<f64> {
     let (shear, radius) = (0.3_f64, 0.04);
     let mut positions = placed(lattice, |u, v| {
@@ -121,7 +122,8 @@ fn forces_are_the_fall_of_the_energy() {
                 breen.energy(&moved)
             };
             let slope = (8.0 * (at(h) - at(-h)) - at(2.0 * h) + at(-2.0 * h)) / (12.0 * h);
-            // The energy is rounded to 1e-16 of itself, and the forces are it over a tenth of the spacing or so.
+            // The energy is rounded to 1e-16 of itself, and the forces are it over a tenth of the
+            // spacing or so.
             let message = format!("{k}: {force} N, but {} by differences", -slope);
             assert!((slope + force).abs() < 1e-7 * largest, "{message}");
         }
@@ -247,7 +249,8 @@ fn a_cylinder_has_the_work_of_its_curvature() {
             let angle = turn * along / spacing;
             [angle.sin() / curvature, across, (1.0 - angle.cos()) / curvature]
         });
-        // Eq. 5.5 takes for the curvature of the circle through the particles a chord's: cos(θ/2) for the half turn.
+        // Eq. 5.5 takes for the curvature of the circle through the particles a chord's: cos(θ/2)
+        // for the half turn.
         let exact = lattice.area() * work.bending(spacing, std::f64::consts::PI - turn);
         let found = breen.energy(&bent);
         // Trellising is nought, and the repulsion of the diagonals too.

@@ -1,56 +1,64 @@
-/// Share of the gap below which the barrier goes on as a parabola.
+//! Two-stage barrier: the energy that keeps surfaces and particles apart.
+//!
+//! The chapters [`particle`](crate::particle) and [`surface`](crate::surface) evaluate it for each
+//! contact: [`Barrier::new`] with a parabola at small gaps for particles, [`Barrier::strict`] for
+//! surfaces, which never close their gap.
+
+/// Fraction of the activation distance below which the barrier is a parabola.
 ///
-/// The logarithm alone is infinite at the surface, so one trial of the solver beyond it would have
+/// The logarithm alone is infinite at the surface, so a trial of the solver beyond it would have
 /// no energy to compare. With a tenth, the stiffest contact is 25 times the softest, which costs
 /// the linear solver little, and a particle at rest carries up to five times the pressure
-/// `$k_A r$` before it sinks in. Smaller carries more and conditions worse.
+/// `$k_A \hat g$` before it sinks in. A smaller value carries more and conditions worse.
 const EXTENDED: f64 = 0.1;
 
-/// The two-stage barrier `$b(g)$` of a distance `$g$` within a range `$r$`.
+/// Two-stage barrier `$b(g)$` of a gap `$g$` below an activation gap `$\hat g$` ([Che25]).
 ///
 /// ```math
-/// b = \tfrac12 (r - g)^2                       \quad (r/2 \le g < r), \qquad
-/// b = -\tfrac14 r^2 (\ln(2g/r) - \tfrac12)     \quad (g_0 \le g < r/2)
+/// b = \tfrac12 (\hat g - g)^2                         \quad (\hat g/2 \le g < \hat g), \qquad
+/// b = -\tfrac14 \hat g^2 (\ln(2g/\hat g) - \tfrac12)  \quad (g_0 \le g < \hat g/2)
 /// ```
 ///
-/// Zero from `$r$` on; below `$g_0$` its Taylor parabola at `$g_0$`, so energy and force are finite
-/// and grow with any penetration. Value and slope are continuous everywhere, the second derivative
-/// everywhere but at `$r$`, where it jumps from 1 to 0.
+/// It is zero from `$\hat g$` on; below `$g_0$` it is its Taylor parabola at `$g_0$`, so energy and
+/// force are finite and grow with penetration. Value and slope are continuous everywhere, the second
+/// derivative everywhere but at `$\hat g$`, where it jumps from 1 to 0.
 ///
 /// A [`strict`](Barrier::strict) barrier has no such parabola: it is infinite from 0 down.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Barrier {
-    range: f64,
-    /// The gap `$g_0$` below which the barrier goes on as a parabola, in m.
+    /// Activation gap `$\hat g$`, in m.
+    activation: f64,
+    /// Gap `$g_0$` below which the barrier is a parabola, in m.
     end: f64,
 }
 
 impl Barrier {
-    pub(crate) fn new(range: f64) -> Barrier {
-        Barrier { range, end: EXTENDED * range }
+    /// Barrier of an activation gap, in m, with a parabola at small gaps.
+    pub(crate) fn new(activation: f64) -> Barrier {
+        Barrier { activation, end: EXTENDED * activation }
     }
 
-    /// A barrier that no gap above zero gets through.
-    pub(crate) fn strict(range: f64) -> Barrier {
-        Barrier { range, end: 0.0 }
+    /// Barrier of an activation gap, in m, that is infinite where the gap closes.
+    pub(crate) fn strict(activation: f64) -> Barrier {
+        Barrier { activation, end: 0.0 }
     }
 
-    /// The gap from which on the barrier is zero, in m.
-    pub(crate) fn range(&self) -> f64 {
-        self.range
+    /// Gap from which on the barrier is zero, in m.
+    pub(crate) fn activation(&self) -> f64 {
+        self.activation
     }
 
-    /// `$b$`, in m².
+    /// Returns `$b$`, in m².
     pub(crate) fn energy(&self, gap: f64) -> f64 {
-        let range = self.range;
-        if gap >= range {
+        let activation = self.activation;
+        if gap >= activation {
             0.0
-        } else if gap >= 0.5 * range {
-            0.5 * (range - gap).powi(2)
+        } else if gap >= 0.5 * activation {
+            0.5 * (activation - gap).powi(2)
         } else if gap > self.end {
-            -0.25 * range * range * ((2.0 * gap / range).ln() - 0.5)
+            -0.25 * activation * activation * ((2.0 * gap / activation).ln() - 0.5)
         } else if self.end == 0.0 {
-            // Not the sum below, which would take infinities from each other.
+            // The sum below would subtract infinities.
             f64::INFINITY
         } else {
             let over = gap - self.end;
@@ -59,15 +67,15 @@ impl Barrier {
         }
     }
 
-    /// `$b'$`, in m; never positive.
+    /// Returns `$b'$`, in m; never positive.
     pub(crate) fn slope(&self, gap: f64) -> f64 {
-        let range = self.range;
-        if gap >= range {
+        let activation = self.activation;
+        if gap >= activation {
             0.0
-        } else if gap >= 0.5 * range {
-            gap - range
+        } else if gap >= 0.5 * activation {
+            gap - activation
         } else if gap > self.end {
-            -0.25 * range * range / gap
+            -0.25 * activation * activation / gap
         } else if self.end == 0.0 {
             f64::NEG_INFINITY
         } else {
@@ -75,21 +83,24 @@ impl Barrier {
         }
     }
 
-    /// Value and slope at the upper end of the parabola.
+    /// Returns value and slope at the upper end of the parabola.
     fn at_end(&self) -> [f64; 2] {
-        let (range, end) = (self.range, self.end);
-        [-0.25 * range * range * ((2.0 * end / range).ln() - 0.5), -0.25 * range * range / end]
+        let (activation, end) = (self.activation, self.end);
+        [
+            -0.25 * activation * activation * ((2.0 * end / activation).ln() - 0.5),
+            -0.25 * activation * activation / end,
+        ]
     }
 
-    /// `$b''$`, without unit; never negative.
+    /// Returns `$b''$`, without unit; never negative.
     pub(crate) fn curvature(&self, gap: f64) -> f64 {
-        let range = self.range;
-        if gap >= range {
+        let activation = self.activation;
+        if gap >= activation {
             0.0
-        } else if gap >= 0.5 * range {
+        } else if gap >= 0.5 * activation {
             1.0
         } else {
-            (0.5 * range / gap.max(self.end)).powi(2)
+            (0.5 * activation / gap.max(self.end)).powi(2)
         }
     }
 }
@@ -133,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn deeper_is_always_dearer_and_harder() {
+    fn energy_and_force_grow_as_the_gap_closes() {
         let barrier = Barrier::new(RANGE);
         let gaps = (0..4000).map(|k| RANGE * (1.0 - f64::from(k) * 0.01));
         let mut last = (0.0, 0.0);

@@ -1,8 +1,10 @@
+//! Errors of the crate, and the checks that raise them.
+
 use std::path::PathBuf;
 
-/// What keeps a body, a mesh or a contact from being built.
+/// Error of a body, a mesh, a file or a contact.
 ///
-/// Every variant names one remedy and carries the values that led to it.
+/// Every variant has one remedy and carries the values that led to it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -77,7 +79,7 @@ pub enum Error {
     MalformedFile {
         /// The file.
         path: PathBuf,
-        /// What the parser says.
+        /// Message of the parser.
         reason: String,
     },
 
@@ -170,7 +172,7 @@ pub enum Error {
     /// A list does not have as many entries as the surface asks for.
     #[error("there are {found} {what}, but the surface needs {needed}")]
     WrongLength {
-        /// What the list holds.
+        /// Content of the list.
         what: &'static str,
         /// Its length.
         found: usize,
@@ -178,7 +180,7 @@ pub enum Error {
         needed: usize,
     },
 
-    /// A vertex is of a group that has no skin.
+    /// A vertex has a group without distances.
     #[error(
         "vertex {vertex} is of group {group}, but there are distances of {groups} groups (numbered from 0)"
     )]
@@ -191,7 +193,7 @@ pub enum Error {
         groups: usize,
     },
 
-    /// Two sewn vertices include one that does not exist.
+    /// A seam refers to a vertex that does not exist.
     #[error("vertex {index} is sewn, but the surface has {vertices} vertices (numbered from 0)")]
     MissingSeamVertex {
         /// The vertex that is named.
@@ -221,7 +223,7 @@ pub enum Error {
         corners: [u32; 3],
     },
 
-    /// Two parts of a panel or a body that share no vertex touch at rest.
+    /// Two primitives of a panel or a body that share no vertex touch at rest.
     #[error(
         "the vertices {vertices:?} of one group are {distance:e} m apart at rest and share no \
          triangle; contact needs at least {least:e} m"
@@ -235,32 +237,32 @@ pub enum Error {
         least: f64,
     },
 
-    /// More pairs are close to each other than the list may hold.
+    /// More candidate pairs were found than the list may hold.
     #[error(
         "more than {capacity} pairs of primitives are near each other; is the cloth crushed, or \
          the activation distance far larger than the triangles?"
     )]
     TooManyPairs {
-        /// How many the list may hold.
+        /// Capacity of the list.
         capacity: usize,
     },
 
-    /// A vertex has moved on from where pairs were last detected, by more than they allow.
+    /// A vertex has drifted since detection by more than the candidate pairs allow.
     #[error(
         "vertex {vertex} is {moved:e} m from where its pairs were detected, but they hold for \
-         {budget:e} m only; detect again before so long a way"
+         {budget:e} m only; detect again before so large a displacement"
     )]
     DriftBudgetExceeded {
         /// The vertex, from 0.
         vertex: usize,
-        /// The way from the place of detection, in m.
+        /// Drift since detection, in m.
         moved: f64,
-        /// The longest way that the pairs allow, in m.
+        /// Largest drift that the pairs allow, in m.
         budget: f64,
     },
 }
 
-/// Checks one number against its range.
+/// Checks a number against its range.
 pub(crate) fn check(
     what: impl Into<String>,
     value: f64,
@@ -276,11 +278,11 @@ pub(crate) fn check(
 /// Largest coordinate that a body may have, in m.
 ///
 /// At this size neighbouring numbers are 1e-10 m apart, a millionth of a usual contact gap; larger
-/// coordinates are a mistake of unit, and those near overflow would defeat the tree of boxes.
+/// coordinates are a mistake of unit, and boxes of a tree would overflow.
 const MAX_COORDINATE: f64 = 1e6;
 
-/// Checks a position: finite and not absurdly far.
-pub(crate) fn check_place(what: impl FnOnce() -> String, place: [f64; 3]) -> Result<(), Error> {
+/// Checks that a position is finite and within [`MAX_COORDINATE`].
+pub(crate) fn check_position(what: impl FnOnce() -> String, place: [f64; 3]) -> Result<(), Error> {
     // Written so that NaN fails.
     if place.iter().all(|value| value.abs() <= MAX_COORDINATE) {
         return Ok(());
@@ -288,10 +290,10 @@ pub(crate) fn check_place(what: impl FnOnce() -> String, place: [f64; 3]) -> Res
     Err(Error::InvalidPosition { what: what(), place, limit: MAX_COORDINATE })
 }
 
-/// Checks flat positions, three numbers each.
-pub(crate) fn check_places(what: &str, positions: &[f64]) -> Result<(), Error> {
+/// Checks flat positions of three numbers each.
+pub(crate) fn check_positions(what: &str, positions: &[f64]) -> Result<(), Error> {
     for (k, place) in positions.chunks_exact(3).enumerate() {
-        check_place(|| format!("{what} {k}"), [place[0], place[1], place[2]])?;
+        check_position(|| format!("{what} {k}"), [place[0], place[1], place[2]])?;
     }
     Ok(())
 }

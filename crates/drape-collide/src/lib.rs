@@ -1,76 +1,29 @@
 #![doc = include_str!("../README.md")]
 
-mod barrier;
-mod body;
-mod closest;
-mod contact;
-mod course;
-mod crossing;
-mod detect;
-mod detector;
+// Numbers and errors.
 mod error;
-mod filter;
-mod friction;
-mod gap;
-mod growth;
-mod guards;
-mod margin;
-mod mesh;
-mod mesh_file;
-mod mollifier;
-mod nearness;
-mod obj;
-mod order;
-mod pair;
-mod pairs;
-mod pinch;
-mod plane;
-mod ply;
-mod point_cache;
-mod pose;
-mod predicate;
-mod primitive;
-mod proximity;
-mod sewn;
-mod slip;
-mod stl;
-mod surface;
-mod surface_contact;
-mod surface_settings;
-mod survey;
-mod topology;
-mod tree;
-mod triangulate;
-mod truncate;
 mod vector;
-mod way;
-mod winding;
 
-pub use body::{Body, Shape};
-pub use contact::{ParticleContact, ParticleSettings};
-pub use course::Sweep;
-pub use crossing::{Intersection, intersections};
-pub use detector::Detector;
+// Bodies, and the files of their meshes.
+mod body;
+mod mesh_io;
+mod mesh_repair;
+
+// Contact: the barrier, of particles with bodies, and of surfaces with each other and with bodies.
+mod barrier;
+mod particle;
+mod surface;
+
+pub use body::{Body, Mesh, Pose, Shape, SignedDistance};
 pub use error::Error;
-pub use filter::{CcdFilter, StepFraction, StepLimit};
-pub use gap::{Gap, GaussNewton, Gradient, Hessian};
-#[doc(hidden)]
-pub use guards::Guards;
-pub use mesh::Mesh;
-pub use mesh_file::read_mesh;
-pub use nearness::{PairDistance, SurfaceSummary};
-pub use pair::{Pair, PairKind};
-pub use pairs::CandidatePairs;
-pub use pinch::{PinchPolicy, PinchedVertices};
-pub use point_cache::PointCache;
-pub use pose::Pose;
-pub use proximity::SignedDistance;
-pub use slip::FrictionEnergy;
-pub use surface::{ContactDistances, Surface, SurfaceParts};
-pub use surface_contact::{SurfaceContact, SurfaceMemory};
-pub use surface_settings::SurfaceSettings;
-pub use survey::{NearestParticle, ParticleSummary};
-pub use topology::equivalence_classes;
-pub use triangulate::Triangulation;
-pub use truncate::Truncation;
-pub use way::SurfaceStep;
+pub use mesh_io::{PointCache, Triangulation, read_mesh};
+pub use mesh_repair::{
+    EdgeLengths, Hole, MeshInspection, Places, RepairNote, RepairSettings, Repaired, repair,
+};
+pub use particle::{NearestParticle, ParticleContact, ParticleSettings, ParticleSummary};
+pub use surface::{
+    CandidatePairs, CcdFilter, ContactDistances, Detector, FrictionEnergy, Gap, GaussNewton,
+    Gradient, Hessian, Intersection, Pair, PairDistance, PairKind, PinchPolicy, PinchedVertices,
+    StepFraction, StepLimit, Surface, SurfaceContact, SurfaceMemory, SurfaceParts, SurfaceSettings,
+    SurfaceStep, SurfaceSummary, Sweep, Truncation, equivalence_classes, intersections,
+};

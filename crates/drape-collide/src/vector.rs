@@ -1,10 +1,14 @@
-//! Arithmetic of three numbers and of 3×3 blocks stored row by row.
+//! Arithmetic of vectors in space and of 3×3 matrices.
 
+/// Vector in space.
 pub(crate) type Vector = [f64; 3];
-pub(crate) type Block = [f64; 9];
 
-pub(crate) const IDENTITY: Block = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+/// 3×3 matrix, row by row.
+pub(crate) type Matrix = [f64; 9];
 
+const IDENTITY: Matrix = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
+/// Returns the vector of a vertex in a flat list of coordinates.
 pub(crate) fn at(flat: &[f64], index: usize) -> Vector {
     [flat[3 * index], flat[3 * index + 1], flat[3 * index + 2]]
 }
@@ -33,43 +37,45 @@ pub(crate) fn norm(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-pub(crate) fn outer(a: Vector) -> Block {
-    let mut block = [0.0; 9];
+/// Returns the outer product `$a a^T$`.
+pub(crate) fn outer(a: Vector) -> Matrix {
+    let mut product = [0.0; 9];
     for row in 0..3 {
         for column in 0..3 {
-            block[3 * row + column] = a[row] * a[column];
+            product[3 * row + column] = a[row] * a[column];
         }
     }
-    block
+    product
 }
 
-/// Projection onto the plane across a unit vector, `$I - n n^T$`.
-pub(crate) fn across(normal: Vector) -> Block {
+/// Returns the projection onto the plane with a unit normal, `$I - n n^T$`.
+pub(crate) fn projection(normal: Vector) -> Matrix {
     combine(&IDENTITY, 1.0, &outer(normal), -1.0)
 }
 
-pub(crate) fn combine(a: &Block, factor_a: f64, b: &Block, factor_b: f64) -> Block {
+/// Returns a linear combination of two matrices.
+pub(crate) fn combine(a: &Matrix, factor_a: f64, b: &Matrix, factor_b: f64) -> Matrix {
     std::array::from_fn(|k| a[k] * factor_a + b[k] * factor_b)
 }
 
-pub(crate) fn times(block: &Block, a: Vector) -> Vector {
-    std::array::from_fn(|row| dot(at(block, row), a))
+pub(crate) fn times(matrix: &Matrix, a: Vector) -> Vector {
+    std::array::from_fn(|row| dot(at(matrix, row), a))
 }
 
-/// `$B^T a$`: for a rotation, the way back.
-pub(crate) fn transposed_times(block: &Block, a: Vector) -> Vector {
+/// Returns `$B^T a$`, for a rotation its inverse applied.
+pub(crate) fn transposed_times(matrix: &Matrix, a: Vector) -> Vector {
     std::array::from_fn(|column| {
-        block[column] * a[0] + block[3 + column] * a[1] + block[6 + column] * a[2]
+        matrix[column] * a[0] + matrix[3 + column] * a[1] + matrix[6 + column] * a[2]
     })
 }
 
-/// `$R B R^T$`: a symmetric block seen from the frame that `R` turns into.
-pub(crate) fn turned(rotation: &Block, block: &Block) -> Block {
+/// Returns `$R B R^T$`, the matrix of the same map in axes rotated by `$R$`.
+pub(crate) fn rotated(rotation: &Matrix, matrix: &Matrix) -> Matrix {
     let mut half = [0.0; 9];
     for row in 0..3 {
         for column in 0..3 {
             half[3 * row + column] =
-                (0..3).map(|k| rotation[3 * row + k] * block[3 * k + column]).sum();
+                (0..3).map(|k| rotation[3 * row + k] * matrix[3 * k + column]).sum();
         }
     }
     let mut result = [0.0; 9];

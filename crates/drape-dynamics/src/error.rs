@@ -1,6 +1,8 @@
+//! Errors of this crate, each with its remedy.
+
 use std::path::PathBuf;
 
-/// Why a scene cannot be run or its results written.
+/// Reason why a scene cannot be run or its results written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -21,7 +23,7 @@ pub enum Error {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Message of the system.
         reason: std::io::Error,
     },
 }

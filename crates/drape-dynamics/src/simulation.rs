@@ -17,7 +17,7 @@ use crate::record::statistics::Statistics;
 use crate::record::stopwatch::Stopwatch;
 use crate::record::summary::{Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
-use crate::sewing::closing_springs::Closing;
+use crate::sewing::closing_springs::SeamState;
 use crate::sewing::node_map::merge;
 use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
 use crate::world::{Energy, PinLoad, World};
@@ -37,11 +37,19 @@ const GRAVITY: f64 = 9.81;
 ///     density = 0.12
 ///     thickness = 0.0003
 ///     shear.stiffness = 35
+///     [warp.traction.primed]
+///     stiffness = 5000
+///     toe_ratio = 0.7
+///     toe_strain = 0.01
+///     toe_strain_after = 0.015
 ///     [warp]
-///     traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
 ///     bending.rigidity = 1.2e-5
+///     [weft.traction.primed]
+///     stiffness = 4000
+///     toe_ratio = 0.7
+///     toe_strain = 0.02
+///     toe_strain_after = 0.03
 ///     [weft]
-///     traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
 ///     bending.rigidity = 0.8e-5
 /// "#);
 /// let scene = Document::new("towel.toml", r#"
@@ -290,7 +298,7 @@ impl Simulation {
         if let Some(balance) = &mut self.world.balance {
             balance.add_report(&report);
         }
-        self.statistics.add_step(&report, &self.world);
+        self.statistics.add_step(&report, &mut self.world);
         let square = |v: &[f64]| v.iter().map(|c| c * c).sum::<f64>();
         let squares = self.world.state.velocities.chunks_exact(3).map(square);
         let speed_max = squares.fold(0.0, f64::max).sqrt();
@@ -419,10 +427,10 @@ impl Simulation {
     fn check_seams(&mut self) -> Result<(), drape_implicit::Error> {
         let Some(springs) = self.world.closing_springs() else { return Ok(()) };
         let positions = &self.world.state.positions;
-        match springs.closing(positions, self.stepping.time(), self.last.imbalance) {
-            Closing::Closing => {}
-            Closing::Closed => self.finish_sewing()?,
-            Closing::Failed(gap) => {
+        match springs.state(positions, self.stepping.time(), self.last.imbalance) {
+            SeamState::Open => {}
+            SeamState::Closed => self.finish_sewing()?,
+            SeamState::Failed(gap) => {
                 let first = 3 * gap.ends[0] as usize;
                 let [x, y, z] = [0, 1, 2].map(|axis| positions[first + axis]);
                 let [one, other] = gap.ends.map(|end| self.parts.panel_of(end as usize));
@@ -517,7 +525,7 @@ impl Simulation {
     fn fail(&mut self, error: &drape_implicit::Error) {
         let status = match error {
             drape_implicit::Error::NotConverged { stop: Stop::Intersection, .. } => {
-                Status::CertificateFailed
+                Status::Intersecting
             }
             _ => Status::SolverFailed,
         };

@@ -7,8 +7,10 @@
 //! (`accuracy.rs`). Time is counted in ticks, each the first step divided by a power of two, so
 //! that sums do not drift.
 //!
-//! Positions and velocities of all particles are those of the world's state, which every accepted
-//! step writes; the state of the integrator has those of the degrees of freedom, with their past.
+//! The state of the world owns the positions and velocities of the particles: every accepted step
+//! writes them, and contact, measures and the recorder borrow them. The integrator keeps a second
+//! copy for a numerical reason: its unknowns are the degrees of freedom, fewer than the particles
+//! once a garment is sewn, and its formula needs those of the step before.
 //! Phases of a run are the business of [`Simulation`](crate::simulation::Simulation).
 
 mod accuracy;
@@ -299,7 +301,7 @@ impl Stepping {
         world.balance = start.balance;
         world.internal.restore_seams(start.seams);
         if let (Some(surfaces), Some(memory)) = (world.contact.surfaces_mut(), start.surfaces) {
-            surfaces.contact.restore(memory);
+            surfaces.contact.restore(&memory);
         }
     }
 }

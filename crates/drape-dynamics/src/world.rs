@@ -150,7 +150,7 @@ impl World {
         self.set_relaxing(false);
     }
 
-    /// Which particles are held in all directions in this step.
+    /// Whether each particle is held in all directions in this step.
     pub(crate) fn held(&self) -> &[bool] {
         &self.pins.held
     }

@@ -45,8 +45,8 @@ impl BlimanSorine {
         Self::parallel(Dahl::NONE, Dahl::NONE)
     }
 
-    /// Returns one element with the given plateau (unit of the load) and pre-sliding length (unit of
-    /// the deformation).
+    /// Returns one element with the given plateau (unit of the load) and friction length (unit of the
+    /// deformation).
     #[must_use]
     pub fn first_order(plateau: f64, length: f64) -> Self {
         Self::parallel(Dahl::new(plateau, length), Dahl::NONE)

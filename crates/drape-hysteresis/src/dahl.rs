@@ -6,7 +6,7 @@ use crate::slip::Slip;
 /// Dahl friction element: the load rises like that of a spring and saturates at a plateau.
 ///
 /// Along a path of length `$u = \int|\mathrm{d}q|$` in the direction `$\sigma = \pm 1$`, with the
-/// plateau `$F_c$`, the pre-sliding length `$x_f$` and the weight `$w$` of the plateau,
+/// plateau `$F_c$`, the friction length `$x_f$` and the weight `$w$` of the plateau,
 ///
 /// ```math
 /// \frac{\mathrm{d}F}{\mathrm{d}u} = \frac{\sigma F_c\,w(u) - F}{x_f}
@@ -39,7 +39,8 @@ pub struct Dahl {
     /// Coulomb plateau `$F_c$`, in the unit of the load. Zero switches the element off; it is
     /// negative only in the slow element of a second-order model.
     pub plateau: f64,
-    /// Pre-sliding length `$x_f$`, in the unit of the deformation, greater than 0.
+    /// Friction length `$x_f$`, in the unit of the deformation, greater than 0: up to it the surfaces
+    /// hardly slide (pre-sliding).
     pub length: f64,
 }
 
@@ -53,8 +54,8 @@ impl Dahl {
     /// Element without friction.
     pub const NONE: Self = Self { plateau: 0.0, length: 1.0 };
 
-    /// Returns an element with the given plateau (unit of the load) and pre-sliding length (unit of
-    /// the deformation).
+    /// Returns an element with the given plateau (unit of the load) and friction length (unit of the
+    /// deformation).
     #[must_use]
     pub fn new(plateau: f64, length: f64) -> Self {
         Self { plateau, length }

@@ -1,7 +1,7 @@
 //! Step filter: continuous collision detection as a protocol on top of [`System`] \[Li20\].
 //!
-//! The solver asks the filter before every straight move of the particles, and for a certificate of
-//! every solution. The answers decide how far an iteration moves, never in which direction.
+//! The solver asks the filter before every straight step of the particles, and whether a solution is
+//! free of intersections. The answers decide how far an iteration moves, never in which direction.
 
 use crate::system::System;
 
@@ -39,7 +39,7 @@ impl StepLimit {
     }
 }
 
-/// System that limits steps so that nothing intersects on them, and certifies solutions.
+/// System that limits steps so that nothing intersects on them, and tests solutions.
 ///
 /// [`Stepper::advance_filtered`](crate::Stepper::advance_filtered) starts each (sub)step from the
 /// positions at its start, moves the particles only as far as [`limit_step`](Self::limit_step)

@@ -216,8 +216,8 @@ fn relative(difference: f64, scale: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / scale }
 }
 
-/// Entries between −1 and 1, the same on every machine (Weyl sequence and the mixing function of
-/// SplitMix64).
+/// Entries between −1 and 1, the same on every machine (the generator SplitMix64
+/// \[SLF14\]).
 fn direction(length: usize, seed: u64) -> Vec<f64> {
     let mut state = seed.wrapping_mul(0xD134_2543_DE82_EF95);
     let mut next = || {

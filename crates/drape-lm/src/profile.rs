@@ -215,7 +215,8 @@ impl<P: Problem> Profile<'_, P> {
         }
     }
 
-    /// Finds the value at the level from one on either side, by the Illinois method.
+    /// Finds the value at the level from one on either side, by the Illinois method
+    /// \[DJ71\].
     fn between(&self, j: usize, mut inside: Point, mut outside: Point) -> End {
         let (mut inner, mut outer) = (inside.excess, outside.excess);
         for _ in 0..BRACKET_TRIALS {

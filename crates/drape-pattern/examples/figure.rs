@@ -1,8 +1,8 @@
 //! Cuts a pattern and draws its panels.
 //!
-//! `cargo run --release -p drape-pattern --example figure -- shirt.json 15 shirt.svg` reads a pattern, cuts
-//! it at a spacing in mm and writes the drawing; without arguments it takes the shirt that ships with the
-//! crate, 15 mm and a file in the temporary folder.
+//! `cargo run --release -p drape-pattern --example figure -- shirt.json 15 shirt.svg` reads a
+//! pattern, cuts it at a spacing in mm and writes the drawing; without arguments it takes the shirt
+//! that ships with the crate, 15 mm and a file in the temporary folder.
 
 #![allow(clippy::print_stdout)]
 

@@ -1,15 +1,19 @@
 //! Cutting of a checked pattern into particles at a spacing.
 //!
-//! 1. `breakpoint` finds the points of the outlines that become nodes: ends of edges, and notches opposite
-//!    to them across seams. `simplify` removes those between pieces shorter than half a spacing.
-//! 2. `sampling` divides each piece of outline into equal arcs: `$n = \mathrm{round}(L/h)$` of them for a
-//!    length `$L$` and a spacing `$h$`, the same number on both sides of a seam, in a gather a multiple.
-//!    It places the nodes and pairs them (`seam_nodes`, with `partition` for nodes that count as one).
-//! 3. `cutter` cuts each panel: `rectangle` where the outline is the border of a grid along the grain,
-//!    else a `lattice` inside the outline and a `rim` of triangles between them; both give a `panel_cut`.
+//! 1. `breakpoint` finds the points of the outlines that become nodes: ends of edges, and notches
+//!    opposite to them across seams. `simplify` removes those between pieces shorter than half a
+//!    spacing.
+//! 2. `sampling` divides each piece of outline into equal arcs: `$n = \mathrm{round}(L/h)$` of them
+//!    for a length `$L$` and a spacing `$h$`, the same number on both sides of a seam, in a gather
+//!    a multiple. It places the nodes and pairs them (`seam_nodes`, with `partition` for nodes that
+//!    count as one).
+//! 3. `cutter` cuts each panel: `rectangle` where the outline is the border of a grid along the
+//!    grain, else a `lattice` inside the outline and a `rim` of triangles between them; both give a
+//!    `panel_cut`.
 //! 4. `quality` measures a cut; `cut_pattern` holds the cuts of all panels.
 //!
-//! The chapter uses only the model (`pattern`, `panel`, `edge`) and hands a [`CutPattern`] to the scene.
+//! The chapter uses only the model (`pattern`, `panel`, `edge`) and hands a [`CutPattern`] to the
+//! scene.
 
 mod breakpoint;
 mod cut_pattern;

@@ -79,8 +79,8 @@ impl Edge {
 
     /// Returns the angle of the arc of a radius, in m, between the ends of the edge, in rad.
     ///
-    /// `large` chooses the longer arc, `left` the one that runs anticlockwise. A radius under half the
-    /// distance of the ends is taken as half of it, as in SVG.
+    /// `large` chooses the longer arc, `left` the one that runs anticlockwise. A radius under half
+    /// the distance of the ends is taken as half of it, as in SVG.
     #[must_use]
     pub fn arc_sweep(&self, radius: f64, large: bool, left: bool) -> f64 {
         let half = (0.5 * distance(self.start, self.end) / radius.abs()).min(1.0).asin();
@@ -241,7 +241,8 @@ impl Edge {
         [start, end.map(|x| -x)]
     }
 
-    /// Returns the signed area between the edge and the origin, positive if it runs anticlockwise, in m².
+    /// Returns the signed area between the edge and the origin, positive if it runs anticlockwise,
+    /// in m².
     pub(crate) fn area(&self) -> f64 {
         let bulge = match self.curve {
             Curve::Arc { sweep } if sweep != 0.0 => {
@@ -329,7 +330,8 @@ mod tests {
 
     #[test]
     fn equal_fractions_are_equal_lengths() {
-        // Its radius of curvature is nowhere under 0.1, so a chord is 1e-5 shorter than its arc at most.
+        // Its radius of curvature is nowhere under 0.1, so a chord is 1e-5 shorter than its arc at
+        // most.
         let cubic = edge(Curve::Cubic([[1.4, 0.6], [0.6, 1.4]]));
         let points: Vec<_> = (0..=1000).map(|k| cubic.at(f64::from(k) / 1000.0)).collect();
         let chords: Vec<f64> = points.windows(2).map(|p| distance(p[0], p[1])).collect();

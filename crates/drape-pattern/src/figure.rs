@@ -11,14 +11,15 @@ use crate::pattern::Pattern;
 /// Approximate ratio of the width of the drawing to its height.
 const SHAPE: f64 = 2.2;
 
-/// Hue between the colours of successive seams, in degrees: the golden angle, so that few are alike.
+/// Hue between the colours of successive seams, in degrees: the golden angle, so that few are
+/// alike.
 const HUE_STEP: f64 = 137.508;
 
 /// Returns a drawing of the panels of a cut, side by side, as SVG in mm.
 ///
-/// Cells and rim are drawn in grey and brown, the outline in black; both sides of a seam have the same
-/// colour. An arrow along the warp shows the grain, and small letters name the edges. Dashed lines are
-/// folds, with their angles in degrees.
+/// Cells and rim are drawn in grey and brown, the outline in black; both sides of a seam have the
+/// same colour. An arrow along the warp shows the grain, and small letters name the edges. Dashed
+/// lines are folds, with their angles in degrees.
 #[must_use]
 pub fn figure(pattern: &Pattern, cut: &CutPattern) -> String {
     let sheet = Sheet::new(cut);
@@ -222,7 +223,8 @@ impl Drawing<'_> {
         }
     }
 
-    /// Draws the parts of fold lines inside the outline, each line with its angle beside its longest part.
+    /// Draws the parts of fold lines inside the outline, each line with its angle beside its
+    /// longest part.
     fn folds(&self, panel: &Panel, svg: &mut String) {
         let outline: Vec<[f64; 2]> =
             self.cut.outline.iter().map(|&n| self.cut.positions[n as usize]).collect();
@@ -310,7 +312,8 @@ impl Drawing<'_> {
         Label { text, anchor, at, size: 0.75 * letter }.draw(svg);
     }
 
-    /// Returns the centre of the cell that is farthest from the outline; without cells, of the bounding box.
+    /// Returns the centre of the cell that is farthest from the outline; without cells, of the
+    /// bounding box.
     fn middle(&self) -> [f64; 2] {
         let centre = |quad: &[u32; 4]| {
             let (a, c) = (self.node(quad[0]), self.node(quad[2]));

@@ -2,14 +2,14 @@
 //!
 //! # Tour
 //!
-//! [`Pattern::read`] makes a checked [`Pattern`] of a file: [`Panel`]s, whose outlines are chains of
-//! [`Edge`]s, and [`Seam`]s between them. [`Cutter::cut`] makes a [`CutPattern`] of it: a [`Cut`] of each
-//! panel and the [`SeamNodes`] of each seam. [`Quality`] measures a cut, [`figure`] draws it. What is wrong
-//! is a [`Mistake`] with a remedy, in an [`Error`] or in diagnostics of the file; what only should be known
-//! is a [`Note`].
+//! [`Pattern::read`] makes a checked [`Pattern`] of a file: [`Panel`]s, whose outlines are chains
+//! of [`Edge`]s, and [`Seam`]s between them. [`Cutter::cut`] makes a [`CutPattern`] of it: a
+//! [`Cut`] of each panel and the [`SeamNodes`] of each seam. [`Quality`] measures a cut, [`figure`]
+//! draws it. What is wrong is a [`Mistake`] with a remedy, in an [`Error`] or in diagnostics of the
+//! file; what only should be known is a [`Note`].
 //!
-//! Layers, lowest first: `length`, `ease`, `edge`, `polygon`; `mistake`, `note`, `error`; `placement`,
-//! `panel`, `pattern`; the chapters `read` and `cut`; `figure`.
+//! Layers, lowest first: `length`, `ease`, `edge`, `polygon`; `mistake`, `note`, `error`;
+//! `placement`, `panel`, `pattern`; the chapters `read` and `cut`; `figure`.
 
 // Geometry of outlines.
 mod edge;

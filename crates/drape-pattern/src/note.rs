@@ -2,7 +2,8 @@
 
 use crate::length::Millimetres;
 
-/// Note on a pattern or its cut that its user should know, and that prevents nothing. Lengths are in m.
+/// Note on a pattern or its cut that its user should know, and that prevents nothing. Lengths are
+/// in m.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Note {

@@ -15,7 +15,8 @@ const FARTHEST: f64 = 1000.0;
 /// Largest gap between edges that is closed, in m: the rounding of the digits of a file.
 const GAP: f64 = 1e-5;
 
-/// Length of the shortest edge of an outline, and side of the smallest square that is a panel, in m.
+/// Length of the shortest edge of an outline, and side of the smallest square that is a panel, in
+/// m.
 const SHORTEST: f64 = 1e-6;
 
 /// Piece of cloth with a checked outline: closed, simple, anticlockwise.
@@ -30,7 +31,8 @@ const SHORTEST: f64 = 1e-6;
 ///
 /// let crossed = [0, 2, 1, 3].map(|k| corners[k]);
 /// let edge = |k: usize| Edge::line(k.to_string(), crossed[k], crossed[(k + 1) % 4]);
-/// let mistakes = Panel::new("bow tie", (0..4).map(edge).collect()).expect_err("it crosses itself");
+/// let mistakes = Panel::new("bow tie", (0..4).map(edge).collect());
+/// let mistakes = mistakes.expect_err("it crosses itself");
 /// assert!(mistakes[0].to_string().contains("cross or touch"));
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -130,8 +132,8 @@ impl Panel {
         Ok(self)
     }
 
-    /// Returns the panel turned over, at the same position: reflected in its y axis, with its edges in the
-    /// order that they had before a clockwise outline was reversed.
+    /// Returns the panel turned over, at the same position: reflected in its y axis, with its edges
+    /// in the order that they had before a clockwise outline was reversed.
     #[must_use]
     pub(crate) fn turned_over(mut self) -> Self {
         let mirror = |edge: &Edge| edge.reversed().mapped(true, |[x, y]| [-x, y]);

@@ -20,15 +20,17 @@ pub struct EdgeId {
 pub struct Seam {
     /// Name, or number where the file gives no name.
     pub name: String,
-    /// Edges of both sides, each in the order in which the seam runs. The seam runs along the outlines of
-    /// the first side's panels and against those of the second side's: right side on right side.
+    /// Edges of both sides, each in the order in which the seam runs. The seam runs along the
+    /// outlines of the first side's panels and against those of the second side's: right side on
+    /// right side.
     pub sides: [Vec<EdgeId>; 2],
-    /// Whether it runs along the outlines of the second side's panels too: right side on wrong side.
+    /// Whether it runs along the outlines of the second side's panels too: right side on wrong
+    /// side.
     pub reversed: bool,
     /// Largest ratio of the lengths of the sides that is intended, from 1 to [`MAX_EASE`].
     pub max_ease: f64,
-    /// Angle between the sides of the sewn seam, towards their right sides, in rad: 0 if it is pressed
-    /// open.
+    /// Angle between the sides of the sewn seam, towards their right sides, in rad: 0 if it is
+    /// pressed open.
     pub angle: f64,
     /// Width of the seam allowance: of the cloth beyond the seam on each side, in m.
     pub allowance: f64,
@@ -179,7 +181,8 @@ impl Pattern {
         })
     }
 
-    /// Returns a note if the ends of a seam lie much closer to each other in space when it is reversed.
+    /// Returns a note if the ends of a seam lie much closer to each other in space when it is
+    /// reversed.
     fn twisted(&self, index: usize) -> Option<Note> {
         let seam = &self.seams[index];
         let [first, second] = &seam.sides;

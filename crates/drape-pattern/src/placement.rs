@@ -3,20 +3,22 @@
 /// Place of a panel in space: bent to a cylinder or flat, then rotated and translated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
-    /// Rows of the rotation matrix from the panel's frame, whose z axis points to its right side, to space.
+    /// Rows of the rotation matrix from the panel's frame, whose z axis points to its right side,
+    /// to space.
     pub rotation: [[f64; 3]; 3],
     /// Position of the origin of the panel's frame, in m.
     pub translation: [f64; 3],
-    /// Radius of the cylinder to which the panel is bent before it is rotated, in m; `None` if it is flat.
+    /// Radius of the cylinder to which the panel is bent before it is rotated, in m; `None` if it
+    /// is flat.
     ///
-    /// The axis runs along the panel's y axis, at this distance behind the right side of the origin; in
-    /// front of it if negative.
+    /// The axis runs along the panel's y axis, at this distance behind the right side of the
+    /// origin; in front of it if negative.
     pub wrap: Option<f64>,
 }
 
 impl Placement {
-    /// Returns the place of a flat panel: rotated about x, then y, then z by angles in rad, and translated,
-    /// in m.
+    /// Returns the place of a flat panel: rotated about x, then y, then z by angles in rad, and
+    /// translated, in m.
     #[must_use]
     pub fn new(angles: [f64; 3], translation: [f64; 3]) -> Self {
         let [(sx, cx), (sy, cy), (sz, cz)] = angles.map(f64::sin_cos);

@@ -27,11 +27,11 @@ fn meet(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> bool {
         || (b1 == 0.0 && within(a[0], a[1], b[1]))
 }
 
-/// Returns two sides of a closed polygon that intersect, by the numbers of their first corners; `None` if
-/// the polygon is simple.
+/// Returns two sides of a closed polygon that intersect, by the numbers of their first corners;
+/// `None` if the polygon is simple.
 ///
-/// Two sides intersect if they meet elsewhere than at a common corner, or if one runs back over the side
-/// before it. The test is exact; all coordinates must be finite.
+/// Two sides intersect if they meet elsewhere than at a common corner, or if one runs back over the
+/// side before it. The test is exact; all coordinates must be finite.
 pub(crate) fn self_intersection(polygon: &[[f64; 2]]) -> Option<[usize; 2]> {
     let n = polygon.len();
     let side = |k: usize| [polygon[k], polygon[(k + 1) % n]];

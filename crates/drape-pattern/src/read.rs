@@ -1,11 +1,12 @@
 //! Reading of patterns from files.
 //!
-//! [`Pattern::read`] tells the format by the ending of the path and by the content: the project's own
-//! TOML (`toml_file`), JSON of GarmentCode and its predecessor (`garmentcode`), JSON of FreeSewing
-//! (`freesewing`); `svg_path` reads the path data of SVG, which is also a key of the TOML. Each reader
-//! mirrors its file with serde, converts lengths to m and angles to rad, makes [`Panel`](crate::Panel)s
-//! and seams of it, and collects all mistakes with their places and remedies. Checks of outlines and
-//! seams are in `panel` and `pattern`; the chapter hands on a checked [`Pattern`] to `cut`.
+//! [`Pattern::read`] tells the format by the ending of the path and by the content: the project's
+//! own TOML (`toml_file`), JSON of GarmentCode and its predecessor (`garmentcode`), JSON of
+//! FreeSewing (`freesewing`); `svg_path` reads the path data of SVG, which is also a key of the
+//! TOML. Each reader mirrors its file with serde, converts lengths to m and angles to rad, makes
+//! [`Panel`](crate::Panel)s and seams of it, and collects all mistakes with their places and
+//! remedies. Checks of outlines and seams are in `panel` and `pattern`; the chapter hands on a
+//! checked [`Pattern`] to `cut`.
 
 mod diagnostic;
 mod freesewing;
@@ -22,7 +23,8 @@ use crate::error::Error;
 use crate::pattern::Pattern;
 use diagnostic::syntax;
 
-/// Largest JSON file that is read, in bytes; drafts with all their drawings have some hundred kilobytes.
+/// Largest JSON file that is read, in bytes; drafts with all their drawings have some hundred
+/// kilobytes.
 const LARGEST: u64 = 1 << 24;
 
 impl Pattern {
@@ -39,8 +41,8 @@ impl Pattern {
         Ok(Self::parse(&document)?)
     }
 
-    /// Returns the pattern of a document in any of the formats, told apart by the ending of its path and
-    /// by its content.
+    /// Returns the pattern of a document in any of the formats, told apart by the ending of its
+    /// path and by its content.
     ///
     /// # Errors
     /// All mistakes of the text, each with its place and a remedy.
@@ -74,8 +76,8 @@ fn is_json(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
 }
 
-/// Returns the text of a JSON file, which may be larger than files that people write; `None` if it cannot
-/// be read.
+/// Returns the text of a JSON file, which may be larger than files that people write; `None` if it
+/// cannot be read.
 fn read_json(path: &Path) -> Option<String> {
     let small = std::fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() <= LARGEST);
     (is_json(path) && small).then(|| std::fs::read_to_string(path).ok()).flatten()

@@ -14,7 +14,8 @@ fn the_picture_shows_every_panel_seam_and_name() {
         assert!(texts.contains(&panel.name()));
         assert!(panel.outline().iter().all(|e| texts.contains(&e.name.as_str())));
     }
-    // Side seams are drawn in two panels, the waist's in three, each dart and the end of the band in one.
+    // Side seams are drawn in two panels, the waist's in three, each dart and the end of the band
+    // in one.
     let colours: Vec<&str> = document.descendants().filter_map(|n| n.attribute("stroke")).collect();
     let mut own: Vec<&str> = colours
         .iter()
@@ -30,7 +31,8 @@ fn the_picture_shows_every_panel_seam_and_name() {
 
 #[test]
 fn folds_are_dashed_within_their_panel_and_have_their_angle() {
-    // A panel with an arm on either side; one line leaves it between the arms, one ends inside, one lies outside.
+    // A panel with an arm on either side; one line leaves it between the arms, one ends inside, one
+    // lies outside.
     let text = "length = \"cm\"\n[panel.u]\ngrain = 0\nstart = [0, 0]\noutline = [\n\
                 { to = [30, 0] }, { to = [30, 40] }, { to = [20, 40] }, { to = [20, 20] },\n\
                 { to = [10, 20] }, { to = [10, 40] }, { to = [0, 40] }, { to = [0, 0] },\n]\n\

@@ -2,12 +2,13 @@
 //!
 //! # Tour
 //!
-//! [`render`] draws a [`Scene`] of [`Surface`]s for a [`View`] and returns a [`Picture`]. The functions of
-//! [`plot`] draw SVG figures of measured and fitted curves. [`FitPage`], [`ComparePage`] and
-//! [`ValidationPage`] are reports that become HTML pages and text; a [`Parameter`] is a number with its
-//! [`Units`] and its [`Interval`].
+//! [`render`] draws a [`Scene`] of [`Surface`]s for a [`View`] and returns a [`Picture`]. The
+//! functions of [`plot`] draw SVG figures of measured and fitted curves. [`FitPage`],
+//! [`ComparePage`] and [`ValidationPage`] are reports that become HTML pages and text; a
+//! [`Parameter`] is a number with its [`Units`] and its [`Interval`].
 //!
-//! Layers, lowest first: `error`, `check`, `text`, `parameter`; the chapters `render` and `plot`; `page`.
+//! Layers, lowest first: `error`, `check`, `text`, `parameter`; the chapters `render` and `plot`;
+//! `page`.
 
 // Checks and texts.
 mod check;

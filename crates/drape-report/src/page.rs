@@ -1,10 +1,10 @@
 //! Pages: the reports of a fit, of a comparison and of a validation.
 //!
 //! A report is plain data in SI: [`FitPage`] with a [`LawReport`] for each law, [`ComparePage`],
-//! [`ValidationPage`]. It checks its numbers and texts, and becomes one self-contained HTML page or a text
-//! for the terminal; serialised, it is the report for programs. `shown` rounds quantities and writes them in
-//! both units, `assets` holds the style and the script, the templates are in `templates/page`. The chapter
-//! takes figures from `plot` and pictures from `render`.
+//! [`ValidationPage`]. It checks its numbers and texts, and becomes one self-contained HTML page or
+//! a text for the terminal; serialised, it is the report for programs. `shown` rounds quantities
+//! and writes them in both units, `assets` holds the style and the script, the templates are in
+//! `templates/page`. The chapter takes figures from `plot` and pictures from `render`.
 
 mod assets;
 mod compare_page;

@@ -120,14 +120,14 @@ pub struct Parameter {
     pub standard_error: Option<f64>,
     /// Interval with 95 % confidence.
     pub interval: Interval,
-    /// Whether it belongs to the test and not to the fabric, as a zero or a drift does: then an error
-    /// larger than the value does not count against the law.
+    /// Whether it belongs to the test and not to the fabric, as a zero or a drift does: then an
+    /// error larger than the value does not count against the law.
     pub incidental: bool,
 }
 
 impl Parameter {
-    /// Returns the standard error over the magnitude of the value, a ratio; `None` where one is missing or
-    /// zero.
+    /// Returns the standard error over the magnitude of the value, a ratio; `None` where one is
+    /// missing or zero.
     #[must_use]
     pub fn relative_error(&self) -> Option<f64> {
         let size = self.value.abs();
@@ -141,7 +141,8 @@ impl Parameter {
         !fixed && self.interval.reason().is_some()
     }
 
-    /// Refuses numbers that are not finite, a negative standard error, an interval with exchanged ends.
+    /// Refuses numbers that are not finite, a negative standard error, an interval with exchanged
+    /// ends.
     ///
     /// # Errors
     /// The first fault.

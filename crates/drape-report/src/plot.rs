@@ -1,13 +1,14 @@
 //! Plots as SVG: self-contained, sharp in print.
 //!
-//! Each `…_svg` function takes plain data in SI, checks it, and returns the text of one SVG file, dark on
-//! white. The pages hold the same figures, where they follow the light or dark colours of the page.
+//! Each `…_svg` function takes plain data in SI, checks it, and returns the text of one SVG file,
+//! dark on white. The pages hold the same figures, where they follow the light or dark colours of
+//! the page.
 //!
-//! `axis` and `scale` map values to pixels, `legend` and `chart` are the parts that all plots over two axes
-//! share; `loop_plot`, `graph` and `overlay` are these plots. `correlation`, `uncertainty` and `strain_map`
-//! have layouts of their own. `svg` writes path data, `style` holds the style sheet. The templates are in
-//! `templates/plot`: pixel coordinates fill them, since plots need fractions of a pixel in print and classes
-//! that follow the colours of the page.
+//! `axis` and `scale` map values to pixels, `margin`, `legend` and `chart` are the parts that all
+//! plots over two axes share; `loop_plot`, `graph` and `overlay` are these plots. `correlation`,
+//! `uncertainty` and `strain_map` have layouts of their own. `svg` writes path data, `style` holds
+//! the style sheet. The templates are in `templates/plot`: pixel coordinates fill them, since plots
+//! need fractions of a pixel in print and classes that follow the colours of the page.
 
 mod axis;
 mod chart;
@@ -15,6 +16,7 @@ mod correlation;
 mod graph;
 mod legend;
 mod loop_plot;
+mod margin;
 mod overlay;
 mod scale;
 mod strain_map;

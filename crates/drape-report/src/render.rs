@@ -1,15 +1,16 @@
 //! Pictures of cloth: a software rasterizer with soft shadows.
 //!
 //! [`render`] draws a [`Scene`] for a [`View`]:
-//! 1. `camera` frames the scene; `tessellation` subdivides its surfaces into facets with smooth normals.
-//! 2. `shade` prepares the lights: ambient occlusion of a uniform sky (`sky`) and a key light, both with
-//!    shadow maps (`shadow_map`).
-//! 3. `screen` projects the facets; `raster` resolves visibility with a depth buffer of 4 × 4 samples a
-//!    pixel, band by band in parallel, and shades each visible facet once per pixel.
+//! 1. `camera` frames the scene; `tessellation` subdivides its surfaces into facets with smooth
+//!    normals.
+//! 2. `shade` prepares the lights: ambient occlusion of a uniform sky (`sky`) and a key light, both
+//!    with shadow maps (`shadow_map`).
+//! 3. `screen` projects the facets; `raster` resolves visibility with a depth buffer of 4 × 4
+//!    samples a pixel, band by band in parallel, and shades each visible facet once per pixel.
 //! 4. `picture` holds the pixels and writes PNG.
 //!
-//! `triangle`, `vector` and `colour` are the arithmetic below. The chapter knows nothing of plots or pages.
-//! Its result does not depend on the number of threads.
+//! `triangle`, `vector` and `colour` are the arithmetic below. The chapter knows nothing of plots
+//! or pages. Its result does not depend on the number of threads.
 
 mod camera;
 mod colour;
@@ -40,11 +41,12 @@ use tessellation::Tessellation;
 
 /// Draws a scene.
 ///
-/// Cloth is lit on both sides by a uniform sky and one key light with soft shadows. Front, back, warp lines
-/// (blue), weft lines (red) and hem differ in colour. The same input gives the same bytes, with any number
-/// of threads.
+/// Cloth is lit on both sides by a uniform sky and one key light with soft shadows. Front, back,
+/// warp lines (blue), weft lines (red) and hem differ in colour. The same input gives the same
+/// bytes, with any number of threads.
 ///
-/// The rasterizer is part of this crate: no maintained one that works without a graphics card was found.
+/// The rasterizer is part of this crate: no maintained one that works without a graphics card was
+/// found.
 ///
 /// # Errors
 /// A scene without triangles, bad lists or coordinates, a number of the view out of range.

@@ -19,7 +19,8 @@ fn pixels(data: &str) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Value at pixel zero and per pixel, for both axes, from the attributes of the `nth` frame of a plot.
+/// Value at pixel zero and per pixel, for both axes, from the attributes of the `nth` frame of a
+/// plot.
 fn inverse(svg: &roxmltree::Document<'_>, nth: usize) -> Vec<f64> {
     let frames = svg.descendants().filter(|n| n.attribute("data-map").is_some());
     let map = frames.clone().nth(nth).unwrap().attribute("data-map").unwrap();

@@ -19,7 +19,7 @@ pub use scene::material::{FabricReader, FabricRequest, Material, is_fabric, read
 pub use scene::model::Model;
 pub use scene::motion::{BodyMotion, MotionKey, RigidMotion, ShapeMotion};
 pub use scene::panel::{Panel, PanelEdge};
-pub use scene::pin::{HoldUntil, Pin};
+pub use scene::pin::{HeldParticle, HoldUntil, Pin};
 pub use scene::relaxation::Relaxation;
 pub use scene::seam::{Seam, SeamConstraint, SeamPairs, SeamWeight};
 pub use scene::solver::{Integrator, LinearSolver, Method, SolverSettings};

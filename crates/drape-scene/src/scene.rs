@@ -42,11 +42,19 @@ use self::solver::SolverSettings;
 ///     density = 0.12
 ///     thickness = 0.0003
 ///     shear.stiffness = 35
+///     [warp.traction.primed]
+///     stiffness = 5000
+///     toe_ratio = 0.7
+///     toe_strain = 0.01
+///     toe_strain_after = 0.015
 ///     [warp]
-///     traction.primed = { stiffness = 5000, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 }
 ///     bending.rigidity = 1.2e-5
+///     [weft.traction.primed]
+///     stiffness = 4000
+///     toe_ratio = 0.7
+///     toe_strain = 0.02
+///     toe_strain_after = 0.03
 ///     [weft]
-///     traction.primed = { stiffness = 4000, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 }
 ///     bending.rigidity = 0.8e-5
 /// "#);
 /// let text = r#"
@@ -80,7 +88,7 @@ pub struct Scene {
     pub garments: Vec<Garment>,
     /// All panels as one cloth.
     pub cloth: Cloth,
-    /// The same in the model of Breen, if the scene asks for it: then the laws of the cloth have no
+    /// Cloth in the model of Breen, if the scene asks for it: then the laws of `cloth` have no
     /// friction.
     pub breen: Option<Breen>,
     /// Sewing of the garments, if there are seams.

@@ -1,6 +1,8 @@
+//! Error of a case that cannot be run to its end. All modules return it; the suite tells it.
+
 use drape_input::Diagnostics;
 
-/// Why a case could not be run.
+/// Reason why a case cannot be run.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ValidationError {

@@ -1,8 +1,18 @@
+//! Findings: what a case returns, as plain data.
+//!
+//! A case compares figures of a simulation with a reference ([`Check`]), and adds what a person
+//! looks at: plots ([`Graph`]) and pictures ([`Still`]). `drape validate` prints the checks and
+//! draws the rest; this crate draws nothing.
+
+mod check;
+mod graph;
+
 use drape_dynamics::Snapshot;
 
-use crate::{Check, Graph};
+pub use check::{Check, Kind};
+pub use graph::{Axis, Graph, Layout, Series, Source};
 
-/// What a case came to: figures beside their references, and what there is to look at.
+/// Findings of a case: checks, plots and pictures.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Findings {
     /// The figures.
@@ -13,16 +23,16 @@ pub struct Findings {
     pub stills: Vec<Still>,
 }
 
-/// Cloths to be drawn side by side.
+/// Still: pictures of cloths side by side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Still {
-    /// What is shown, in the order of the pictures.
+    /// Title, in the order of the pictures.
     pub title: String,
     /// The cloths, row by row.
     pub snapshots: Vec<Snapshot>,
-    /// How many stand in a row.
+    /// Number of cloths in a row.
     pub columns: usize,
-    /// From where they are seen, azimuth and elevation in degrees.
+    /// Direction of view: azimuth and elevation, in degrees.
     pub view: [f64; 2],
 }
 

@@ -1,173 +1,25 @@
-//! The cycles of the KES instruments, and what the laws of a fabric answer to them.
+//! Instruments: the KES tests, answered by the laws alone and by simulated specimens.
+//!
+//! `cycle` has the deformations of each test. `ideal` and `bias` answer with the laws of the
+//! fabric, as if it deformed evenly. `specimen` is a panel in two clamps with its true size;
+//! `measurement` drives it and reads the load of the moving clamp as the instrument does, and
+//! `comparison` holds the two curves against each other. `drape test` and the cases of loops call
+//! this chapter.
 
-use std::f64::consts::FRAC_1_SQRT_2;
+mod bias;
+mod comparison;
+mod cycle;
+mod ideal;
+mod measurement;
+mod placement;
+mod specimen;
 
-use drape_fabric::{Fabric, Law, TractionLaw, YarnLaws, drive};
-use drape_kes::{Curve, Direction, Test};
-
-/// Load of the standard tensile test: 500 gf/cm in N/m.
-pub const LARGEST_TENSION: f64 = 490.3325;
-/// Tension of a specimen in the shear test: 10 gf/cm in N/m.
-pub const SHEAR_TENSION: f64 = 9.80665;
-/// Largest angle of the shear test, in degrees.
-const LARGEST_ANGLE: f64 = 8.0;
-/// Largest curvature of the bending test, 2.5 1/cm in 1/m.
-pub(crate) const LARGEST_CURVATURE: f64 = 250.0;
-/// Strain at which a tensile test is given up.
-const LARGEST_STRAIN: f64 = 0.5;
-
-/// The deformations that an instrument goes through, in steps of one branch's given part; in the units of a [`Curve`].
-pub fn cycle(fabric: &Fabric, test: Test, direction: Direction, points: usize) -> Vec<f64> {
-    let turns: &[f64] = match test {
-        Test::Tensile => &[0.0, extension(&laws(fabric, direction).traction, LARGEST_TENSION), 0.0],
-        Test::Bending | Test::LoopBending => &there_and_back(LARGEST_CURVATURE),
-        Test::Shear => &there_and_back(LARGEST_ANGLE.to_radians()),
-    };
-    path(turns, points)
-}
-
-/// Where a test to both sides turns round.
-fn there_and_back(largest: f64) -> [f64; 4] {
-    [0.0, largest, -largest, largest]
-}
-
-/// Steps of one branch's given part from turn to turn.
-fn path(turns: &[f64], points: usize) -> Vec<f64> {
-    let branch = |ends: &[f64]| {
-        let [from, to] = [ends[0], ends[1]];
-        (1..=points).map(move |i| from + (to - from) * i as f64 / points as f64).collect::<Vec<_>>()
-    };
-    std::iter::once(turns[0]).chain(turns.windows(2).flat_map(branch)).collect()
-}
-
-/// The curve of an instrument that deforms the fabric evenly: the laws alone.
-///
-/// # Panics
-/// If the loads are not finite, which those of a checked fabric are.
-pub fn ideal(fabric: &Fabric, test: Test, direction: Direction, points: usize) -> Curve {
-    let path = cycle(fabric, test, direction, points);
-    let laws = laws(fabric, direction);
-    let load = match test {
-        Test::Tensile => drive(&laws.traction, laws.traction.virgin(), &path),
-        Test::Bending | Test::LoopBending => drive(&laws.bending, laws.bending.virgin(), &path),
-        Test::Shear => {
-            let sines: Vec<f64> = path.iter().map(|angle| angle.sin()).collect();
-            drive(&fabric.shear, fabric.shear.virgin(), &sines)
-        }
-    };
-    curve(test, direction, path, load).expect("a checked fabric has finite loads")
-}
-
-/// The curve of a specimen cut at 45° to the yarns that is bent to both sides up to a curvature, in 1/m: the laws alone.
-///
-/// Bent to a cylinder of the curvature `$\kappa$` about an axis at an angle `$\vartheta$` to a yarn system, the yarns are
-/// helices, geodesics of the cylinder, with the curvature `$\kappa\sin^2\vartheta$`. So yarns at 45° to the axis bend by
-/// `$\kappa/2$`, the energy per area is `$U_1(\kappa/2) + U_2(\kappa/2)$`, and the moment per width its derivative,
-///
-/// ```math
-/// M(\kappa) = \tfrac12\left(M_1(\kappa/2) + M_2(\kappa/2)\right)
-/// ```
-///
-/// friction included, since the friction of each system does its work on the curvature of that system. With linear laws
-/// it is `$B = \tfrac14(B_1 + B_2)$`. An orthotropic plate, `$B_1 c^4 + B_2 s^4 + 2Hc^2s^2$`, has `$\tfrac12 H$` more:
-/// here yarns twist freely, `$H = 0$`.
-///
-/// # Panics
-/// As [`ideal`].
-pub fn on_the_bias(fabric: &Fabric, largest: f64, points: usize) -> Curve {
-    let path = path(&there_and_back(largest), points);
-    let halves: Vec<f64> = path.iter().map(|curvature| 0.5 * curvature).collect();
-    let [warp, weft] = bent(fabric, &halves);
-    let load = warp.into_iter().zip(weft).map(|(warp, weft)| 0.5 * (warp + weft)).collect();
-    curve(Test::Bending, Direction::Warp, path, load).expect("a checked fabric has finite loads")
-}
-
-/// The same of a sheet of square cells, `spacing` in m along the yarns, which it can only bend by folding them along
-/// their diagonals.
-///
-/// Rows of particles are `$d = h/\sqrt2$` apart and turn by `$\alpha = \kappa d$`. The yarns turn by
-/// `$2\arcsin(\sin\frac\alpha2/\sqrt2)$`, which is `$\kappa h/2$` to the third order; but in the two corners of a cell at
-/// the ends of its fold the yarns meet at an angle whose sine is `$\frac12(1 - \cos\alpha)$`, where a sheet has a right
-/// angle. So cells resist with the shear law besides: with linear laws the moment is larger by
-///
-/// ```math
-/// \frac{\Delta M}{M} = \frac{G\kappa^2h^4}{16(B_1 + B_2)}
-/// ```
-///
-/// a fifth at 2.5 cm⁻¹ and 2.4 mm, and of the fourth order in the spacing.
-///
-/// # Panics
-/// As [`ideal`].
-pub fn on_the_bias_in_cells(fabric: &Fabric, spacing: f64, largest: f64, points: usize) -> Curve {
-    let path = path(&there_and_back(largest), points);
-    let row = spacing * FRAC_1_SQRT_2;
-    let half_sines: Vec<f64> = path.iter().map(|curvature| (0.5 * curvature * row).sin()).collect();
-    let turns: Vec<f64> =
-        half_sines.iter().map(|sin| 2.0 / spacing * (FRAC_1_SQRT_2 * sin).asin()).collect();
-    let sines: Vec<f64> = half_sines.iter().map(|sin| sin * sin).collect();
-    let [warp, weft] = bent(fabric, &turns);
-    let shear = drive(&fabric.shear, fabric.shear.virgin(), &sines);
-    let load = half_sines.iter().zip(warp.iter().zip(weft)).zip(shear);
-    let load = load.map(|((sin, (warp, weft)), shear)| {
-        let cos = (1.0 - sin * sin).sqrt();
-        // Derivatives of the yarns' curvature and of the sine in half of the corners.
-        let (turning, leaning) = (0.5 * cos / (1.0 - 0.5 * sin * sin).sqrt(), row * sin * cos);
-        (warp + weft) * turning + 0.5 * shear * leaning
-    });
-    let load = load.collect();
-    curve(Test::Bending, Direction::Warp, path, load).expect("a checked fabric has finite loads")
-}
-
-/// Moments per width, in N, of a specimen cut at 45° to the yarns along curvatures that it comes to from rest, as
-/// [`on_the_bias`].
-pub(crate) fn on_the_bias_along(fabric: &Fabric, curvatures: &[f64]) -> Vec<f64> {
-    let halves = curvatures.iter().map(|curvature| 0.5 * curvature);
-    let halves: Vec<f64> = std::iter::once(0.0).chain(halves).collect();
-    let [warp, weft] = bent(fabric, &halves);
-    warp[1..].iter().zip(&weft[1..]).map(|(warp, weft)| 0.5 * (warp + weft)).collect()
-}
-
-/// Moments per width of warp and weft along a path of curvatures.
-fn bent(fabric: &Fabric, path: &[f64]) -> [Vec<f64>; 2] {
-    [fabric.warp.bending, fabric.weft.bending].map(|law| drive(&law, law.virgin(), path))
-}
-
-/// A curve, of a tensile test up to where the fabric is slack on the way back.
-pub(crate) fn curve(
-    test: Test,
-    direction: Direction,
-    mut path: Vec<f64>,
-    mut load: Vec<f64>,
-) -> Result<Curve, drape_kes::Error> {
-    if test == Test::Tensile {
-        let points = path.len() / 2;
-        let slack = load.iter().skip(points).position(|load| *load <= 0.0);
-        let end = slack.map_or(path.len(), |slack| points + slack + 1);
-        path.truncate(end);
-        load.truncate(end);
-    }
-    Curve::new(test, direction, path, load)
-}
-
-/// The laws of a direction.
-pub(crate) fn laws(fabric: &Fabric, direction: Direction) -> &YarnLaws {
-    match direction {
-        Direction::Warp => &fabric.warp,
-        Direction::Weft => &fabric.weft,
-    }
-}
-
-/// The strain at which a first pull reaches a tension, in N/m.
-pub(crate) fn extension(law: &TractionLaw, tension: f64) -> f64 {
-    let virgin = law.virgin();
-    let (mut low, mut high) = (0.0, LARGEST_STRAIN);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if law.respond(&virgin, middle).load < tension {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high
-}
+pub(crate) use bias::on_the_bias_along;
+pub use bias::{on_the_bias, on_the_bias_in_cells};
+pub use comparison::Comparison;
+pub(crate) use cycle::LARGEST_CURVATURE;
+pub use cycle::{LARGEST_TENSION, SHEAR_TENSION, cycle};
+pub use ideal::ideal;
+pub(crate) use ideal::laws;
+pub use measurement::{Resolution, bend_on_the_bias, bias_spacing, measure};
+pub(crate) use placement::{Rows, arm, bent, moment};

@@ -1,37 +1,34 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! `setup` turns strips and shipped fabrics into scenes in memory. [`instrument`] and
+//! [`drapemeter`] simulate the tests of a laboratory; `outline` reads closed curves from draped
+//! cloth. [`mod@reference`] has the exact solutions. Each of `cases` runs one experiment, compares
+//! it and returns [`Findings`]; [`CASES`] lists them for the command line.
+//!
+//! Modules use each other in this order only: `error`, `progress`, `bisection`, `findings`,
+//! `setup`, `instrument`, `outline`, `drapemeter`, `reference`, `cases`, `suite`.
 
-mod bias;
-mod bias_rim;
-mod breen;
-mod check;
-mod crease;
-mod cube;
-mod decrement;
-pub mod drapemeter;
-mod drapes;
-pub mod dynamics;
+// What a case returns.
 mod error;
 mod findings;
-mod fold;
-mod graph;
-pub mod instrument;
-mod loops;
-pub mod prior;
-pub mod reference;
-mod section;
-pub mod sensitivity;
-mod shadow;
-mod shipped;
-mod stage;
-pub mod statics;
-mod strip;
-mod suite;
-pub mod tester;
-mod vacuum;
+mod progress;
 
-pub use check::{Check, Kind};
+// What is simulated, and how it is read.
+mod bisection;
+pub mod drapemeter;
+pub mod instrument;
+mod outline;
+mod setup;
+
+// What it is held against, and the comparisons.
+mod cases;
+pub mod reference;
+mod suite;
+
 pub use error::ValidationError;
-pub use findings::{Findings, Still};
-pub use graph::{Axis, Graph, Layout, Series, Source};
-pub use strip::{GRAVITY, Hold, Strip, finish};
-pub use suite::{CASES, Case, Outcome, Told};
+pub use findings::{Axis, Check, Findings, Graph, Kind, Layout, Series, Source, Still};
+pub use progress::Progress;
+pub use setup::{Friction, GRAVITY, Hold, LinePoint, Strip, finish};
+pub use suite::{CASES, Case, Outcome};

@@ -1,48 +1,51 @@
+//! Suite: the cases of `drape validate` with their names and titles.
+//!
+//! The command line asks for a case by its name, runs it, and shows its [`Outcome`]. A long case
+//! takes many minutes and is left out unless it is asked for.
+
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    Check, Findings, Graph, Still, ValidationError, bias, bias_rim, breen, crease, decrement,
-    drapes, dynamics, fold, loops, statics, vacuum,
-};
+use crate::cases::{drapes, dynamics, loops, recovery, statics};
+use crate::error::ValidationError;
+use crate::findings::{Check, Findings, Graph, Still};
+use crate::progress::Progress;
 
-/// A case of the suite.
+/// Case of the suite.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
-    /// The name by which it is asked for.
+    /// Name by which it is asked for.
     pub name: &'static str,
-    /// What it shows, and where the reference is from.
+    /// Title, with the source of the reference.
     pub title: &'static str,
     run: Run,
 }
 
-/// Hears of each simulation of a long case when it is done, and of how many there are.
-pub type Told<'a> = dyn Fn(u64) + Sync + 'a;
-
 #[derive(Debug, Clone, Copy)]
 enum Run {
     Short(fn() -> Result<Findings, ValidationError>),
-    Long(fn(&Told<'_>) -> Result<Findings, ValidationError>),
+    Long(fn(&Progress<'_>) -> Result<Findings, ValidationError>),
 }
 
 impl Case {
-    /// Whether it takes many minutes, and is left out unless asked for.
+    /// Returns whether it takes many minutes.
+    #[must_use]
     pub fn is_long(&self) -> bool {
         matches!(self.run, Run::Long(_))
     }
 
-    /// Simulates and compares.
+    /// Simulates, compares and returns the findings.
     ///
     /// # Errors
     /// A simulation that cannot be run to its end.
-    pub fn run(&self, told: &Told<'_>) -> Result<Findings, ValidationError> {
+    pub fn run(&self, progress: &Progress<'_>) -> Result<Findings, ValidationError> {
         match self.run {
             Run::Short(run) => run(),
-            Run::Long(run) => run(told),
+            Run::Long(run) => run(progress),
         }
     }
 }
 
-/// Every case, in the order of the report.
+/// Cases, in the order of the report.
 pub const CASES: &[Case] = &[
     Case {
         name: "instruments",
@@ -57,32 +60,32 @@ pub const CASES: &[Case] = &[
     Case {
         name: "bias-rim",
         title: "Bending specimens cut on the bias, with a rim of triangles (closed form)",
-        run: Run::Short(bias_rim::bias_rim),
+        run: Run::Short(loops::bias_rim),
     },
     Case {
         name: "hysteresis",
         title: "A specimen that was bent loses energy and keeps a curvature (Dahl friction, closed forms)",
-        run: Run::Short(loops::bending_hysteresis),
+        run: Run::Short(loops::hysteresis),
     },
     Case {
         name: "decrement",
         title: "A strip with friction swings less and less (Dahl friction, area of the loop)",
-        run: Run::Short(decrement::decrement),
+        run: Run::Short(dynamics::decrement),
     },
     Case {
         name: "permanent-set",
         title: "A strip that was bent in clamps and let go stays curved (Dahl friction, closed form)",
-        run: Run::Short(crease::permanent_set),
+        run: Run::Short(recovery::permanent_set),
     },
     Case {
         name: "crease",
         title: "A strip that was folded and let go recovers (Dahl friction, closed form)",
-        run: Run::Short(crease::recovery),
+        run: Run::Short(recovery::crease),
     },
     Case {
         name: "fold",
         title: "A strip that is folded at rest comes to the angle of its fold",
-        run: Run::Short(fold::fold),
+        run: Run::Short(recovery::fold),
     },
     Case {
         name: "heavy-cantilever",
@@ -112,7 +115,7 @@ pub const CASES: &[Case] = &[
     Case {
         name: "bias-strip",
         title: "Strips cut at an angle to the grain stretch (Kilby 1963)",
-        run: Run::Short(bias::bias_strip),
+        run: Run::Short(statics::bias_strip),
     },
     Case {
         name: "column",
@@ -147,17 +150,17 @@ pub const CASES: &[Case] = &[
     Case {
         name: "vacuum",
         title: "A strip in a vacuum swings, and is thrown over (Tagawa, Hayashi & Kijima 2003)",
-        run: Run::Short(vacuum::tagawa),
+        run: Run::Short(dynamics::vacuum),
     },
     Case {
         name: "cube",
         title: "A stiff cloth on a cube, in the laws of its fabric and in Breen's particles; a coarse grid",
-        run: Run::Short(breen::coarse),
+        run: Run::Short(drapes::coarse_cube),
     },
     Case {
         name: "breen",
         title: "Cloths on a cube, in the laws of their fabrics and in Breen's particles (Breen, House & Wozny 1994)",
-        run: Run::Long(breen::cloths),
+        run: Run::Long(drapes::cubes),
     },
     Case {
         name: "drapemeter-cotton",
@@ -191,32 +194,33 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// What came of a case.
+/// Outcome of a case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
-    /// The case's name.
+    /// Name of the case.
     pub name: String,
-    /// Its title.
+    /// Title of the case.
     pub title: String,
-    /// Its figures; none where it could not be run.
+    /// Checks; none where it could not be run.
     pub checks: Vec<Check>,
-    /// Its plots.
+    /// Plots.
     #[serde(skip)]
     pub graphs: Vec<Graph>,
-    /// Its pictures.
+    /// Pictures.
     #[serde(skip)]
     pub stills: Vec<Still>,
-    /// Why it could not be run.
+    /// Reason why it could not be run.
     pub failure: Option<String>,
-    /// How long it took, in s.
+    /// Time that it took, in s.
     pub seconds: f64,
 }
 
 impl Outcome {
-    /// Runs a case.
-    pub fn of(case: &Case, told: &Told<'_>) -> Self {
+    /// Runs a case and returns its outcome.
+    #[must_use]
+    pub fn of(case: &Case, progress: &Progress<'_>) -> Self {
         let start = std::time::Instant::now();
-        let (findings, failure) = match case.run(told) {
+        let (findings, failure) = match case.run(progress) {
             Ok(findings) => (findings, None),
             Err(error) => (Findings::default(), Some(error.to_string())),
         };
@@ -232,7 +236,8 @@ impl Outcome {
         }
     }
 
-    /// Whether it could be run, and every figure is within its limit.
+    /// Returns whether it could be run and every figure is within its limit.
+    #[must_use]
     pub fn passes(&self) -> bool {
         self.failure.is_none() && self.checks.iter().all(Check::passes)
     }

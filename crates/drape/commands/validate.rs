@@ -167,7 +167,7 @@ fn line(check: &Check) -> String {
         }
         Kind::AtLeast => format!("≥ {reference:.5}"),
         Kind::AtMost => format!("≤ {}", figure(*reference)),
-        Kind::Told => String::new(),
+        Kind::Reported => String::new(),
     };
     let measured = match kind {
         Kind::AtMost => figure(*measured),

@@ -1,6 +1,6 @@
 //! From a measured fabric to hanging cloth: fits the cupro, hangs a small curtain of it by two
-//! corners that are nearer to each other than the curtain is wide, and prints how it drapes. `cargo
-//! run --release --example curtain`
+//! corners that are nearer to each other than the curtain is wide, and prints how it drapes:
+//! `cargo run --release --example curtain`.
 
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 

@@ -5,7 +5,7 @@ use drape::fabric::Fabric;
 use drape::kes::{Curve, Direction, Test};
 use drape::report::plot::{OverlayPlot, Trace};
 use drape::report::{ComparePage, FabricName};
-use drape::validate::tester::Comparison;
+use drape::validate::instrument::Comparison;
 
 use super::loop_plot::trace;
 pub(crate) use super::quantity::DIRECTIONS;

@@ -89,7 +89,9 @@ fn row(check: &Check) -> ValidationRow {
         Kind::AtMost => {
             [figure(*measured), String::new(), String::new(), format!("≤ {}", figure(*reference))]
         }
-        Kind::Told => [format!("{measured:.3}"), String::new(), String::new(), "none".to_owned()],
+        Kind::Reported => {
+            [format!("{measured:.3}"), String::new(), String::new(), "none".to_owned()]
+        }
     };
     let (what, passes) = (what.clone(), check.verdict());
     ValidationRow { what, measured, reference, error, limit, passes }

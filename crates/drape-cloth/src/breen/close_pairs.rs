@@ -1,19 +1,21 @@
-//! Particles that are close in space, wherever they are in the cloth: a list kept while they move little.
+//! Particles that are close in space, wherever they are in the cloth: a list kept while they move
+//! little.
 
 use crate::breen::well::Well;
 use crate::measure::vector::{length, subtract, vector_at};
 
-/// Distance beyond the spacing up to which pairs are listed, in spacings, so that the list stays valid
-/// while particles move.
+/// Distance beyond the spacing up to which pairs are listed, in spacings, so that the list stays
+/// valid while particles move.
 ///
-/// Larger values make the list longer, smaller ones make it anew more often; a settling cloth moves by at
-/// most a quarter of the spacing in a step.
+/// Larger values make the list longer, smaller ones make it anew more often; a settling cloth moves
+/// by at most a quarter of the spacing in a step.
 const MARGIN: f64 = 0.5;
 
 /// Cell of space, by its indices along the axes.
 type Cell = [i64; 3];
 
-/// Pairs of particles that are close in space, found by sorting the particles into the cells of a grid.
+/// Pairs of particles that are close in space, found by sorting the particles into the cells of a
+/// grid.
 #[derive(Debug, Clone)]
 pub(crate) struct ClosePairs {
     /// Distance up to which pairs are listed, and side of a cell, in m.
@@ -60,8 +62,8 @@ impl ClosePairs {
 
     /// Returns all pairs nearer than the spacing, and some that are farther, in rising order.
     ///
-    /// The order, and with it every sum over the pairs, does not depend on when the list was made: pairs
-    /// beyond the spacing contribute nothing.
+    /// The order, and with it every sum over the pairs, does not depend on when the list was made:
+    /// pairs beyond the spacing contribute nothing.
     pub(crate) fn find(&mut self, positions: &[f64]) -> &[[u32; 2]] {
         let moved =
             self.listed.chunks_exact(3).zip(positions.chunks_exact(3)).any(|(then, now)| {

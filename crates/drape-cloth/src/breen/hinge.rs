@@ -39,7 +39,8 @@ pub(crate) enum Measure {
     Cosine,
 }
 
-/// Directions and lengths of the segments, the difference of the directions, and its squared length.
+/// Directions and lengths of the segments, the difference of the directions, and its squared
+/// length.
 struct Pose {
     units: [Vector; 2],
     lengths: [f64; 2],
@@ -87,8 +88,8 @@ impl Hinge {
         Pose { units, lengths, chord, square: dot(chord, chord) }
     }
 
-    /// Returns the energy and its derivatives with respect to the cosine `$1 - \frac12|d|^2$` of the angle,
-    /// with the difference `$d$` of the directions.
+    /// Returns the energy and its derivatives with respect to the cosine `$1 - \frac12|d|^2$` of
+    /// the angle, with the difference `$d$` of the directions.
     fn work(&self, works: &[BreenWork], pose: &Pose) -> Work {
         let work = &works[self.size.work as usize];
         let found = match self.measure {
@@ -175,7 +176,8 @@ impl Hinge {
     }
 }
 
-/// Chord below which a yarn counts as straight: the angle is then lost in the rounding of the directions.
+/// Chord below which a yarn counts as straight: the angle is then lost in the rounding of the
+/// directions.
 const STRAIGHT: f64 = 1e-9;
 
 /// Returns the first derivative over the chord; of a straight yarn the limit.
@@ -189,9 +191,9 @@ impl Pose {
         1.0 - 0.5 * self.square
     }
 
-    /// Returns the derivatives of the cosine with respect to the two segments, times their lengths: each
-    /// direction less its component along the other. For nearly straight segments they are small, and
-    /// computed without cancellation.
+    /// Returns the derivatives of the cosine with respect to the two segments, times their lengths:
+    /// each direction less its component along the other. For nearly straight segments they are
+    /// small, and computed without cancellation.
     fn across(&self) -> [Vector; 2] {
         let half = 0.5 * self.square;
         [
@@ -206,8 +208,8 @@ impl Pose {
         [0, 1].map(|k| scale(across[k], 1.0 / self.lengths[k]))
     }
 
-    /// Returns the second derivatives of a function of the cosine with respect to the first segment, the
-    /// second, and both.
+    /// Returns the second derivatives of a function of the cosine with respect to the first
+    /// segment, the second, and both.
     fn of_cosine(&self, work: &Work) -> [Block; 3] {
         let gradient = self.gradient();
         let cosine = self.cosine();
@@ -234,8 +236,8 @@ impl Pose {
         [own(0), own(1), mixed]
     }
 
-    /// Returns the positive part of the second derivatives of a work of the chord, without the rotation of
-    /// the chord's gradient.
+    /// Returns the positive part of the second derivatives of a work of the chord, without the
+    /// rotation of the chord's gradient.
     fn of_chord(&self, work: &Work, area: f64) -> [Block; 3] {
         let chord = self.square.sqrt();
         let secant = secant(work, chord);

@@ -14,23 +14,25 @@ use crate::panel::lattice::Lattice;
 /// Interacting particles of Breen, House & Wozny \[BHW94\]: no friction, no memory.
 ///
 /// Four energies act \[BHW94, eq. 3.1\]. **Stretching** holds neighbours along a yarn together, and
-/// **repulsion** keeps any two particles apart that come nearer than the spacing, wherever they are in
-/// the cloth; both rise with the fifth power \[eqs. 3.2–3.5\], so that a cloth under its own weight hardly
-/// stretches and does not intersect itself. **Bending** depends on the angle of three particles along a
-/// yarn \[eqs. 5.4, 5.5\], **trellising** on the angle between the two lines through the neighbours of a
-/// particle \[eq. 5.7\]; their curves are the first branches of the fabric's
-/// ([`BreenWork::from_laws`]).
+/// **repulsion** keeps any two particles apart that come nearer than the spacing, wherever they are
+/// in the cloth; both rise with the fifth power \[eqs. 3.2–3.5\], so that a cloth under its own
+/// weight hardly stretches and does not intersect itself. **Bending** depends on the angle of three
+/// particles along a yarn \[eqs. 5.4, 5.5\], **trellising** on the angle between the two lines
+/// through the neighbours of a particle \[eq. 5.7\]; their curves are the first branches of the
+/// fabric's ([`BreenWork::from_laws`]).
 ///
 /// Differences from the printed paper, besides those of [`BreenWork`]:
 /// * Eqs. 3.2 and 3.3 have one factor for energies of different units. With lengths in units of the
-///   spacing both are energies, and they form one well, even about the spacing up to the fifth order.
+///   spacing both are energies, and they form one well, even about the spacing up to the fifth
+///   order.
 /// * The factor is not published. Here the weight of a metre of the cloth stretches it by
 ///   [`Breen::WELL_STRAIN`], whatever the spacing.
-/// * In the paper every particle stands for a square of the spacing, at the hem too. Here it stands for
-///   its own area, and the line through the neighbours of a particle at the hem ends at the particle.
+/// * In the paper every particle stands for a square of the spacing, at the hem too. Here it stands
+///   for its own area, and the line through the neighbours of a particle at the hem ends at the
+///   particle.
 ///
-/// The minimiser of the paper is stochastic and perturbs the grid. Here the start is perturbed, by the
-/// heights that a scene may give its particles.
+/// The minimiser of the paper is stochastic and perturbs the grid. Here the start is perturbed, by
+/// the heights that a scene may give its particles.
 #[derive(Debug, Clone)]
 pub struct Breen {
     edges: Vec<Edge>,
@@ -53,11 +55,12 @@ impl Breen {
     /// Strain of the cloth under the weight of a metre of it, a ratio: "threads do not stretch
     /// significantly" \[BHW94, §3\].
     ///
-    /// Smaller values make the wells steeper and the steps harder to solve. On a cube the wells stretch
-    /// the yarns at the corners by 2 % at most.
+    /// Smaller values make the wells steeper and the steps harder to solve. On a cube the wells
+    /// stretch the yarns at the corners by 2 % at most.
     pub const WELL_STRAIN: f64 = 0.01;
 
-    /// Returns the particles of a [`Cloth`](crate::Cloth) of the same panels, with the same numbers.
+    /// Returns the particles of a [`Cloth`](crate::Cloth) of the same panels, with the same
+    /// numbers.
     ///
     /// # Errors
     /// When a panel has a rim of triangles, or folds.
@@ -113,8 +116,8 @@ impl Breen {
         Ok(Self { edges, hinges, works, wells, close_pairs })
     }
 
-    /// Returns the pairs of particles that are close in space and no neighbours on a yarn, the first less
-    /// than the second: all that are nearer than the spacing, and some that may soon be.
+    /// Returns the pairs of particles that are close in space and no neighbours on a yarn, the
+    /// first less than the second: all that are nearer than the spacing, and some that may soon be.
     pub fn close_pairs(&mut self, positions: &[f64]) -> &[[u32; 2]] {
         self.close_pairs.find(positions)
     }
@@ -158,11 +161,12 @@ impl Breen {
         }
     }
 
-    /// Passes the second derivatives of the energy to `put`, block by block, each with its two particles,
-    /// the first less than or equal to the second. A pair may occur several times; its blocks add up.
+    /// Passes the second derivatives of the energy to `put`, block by block, each with its two
+    /// particles, the first less than or equal to the second. A pair may occur several times; its
+    /// blocks add up.
     ///
-    /// With `definite`, parts that make the matrix indefinite are left out: compression across a pair, and
-    /// the rotation of the gradients of angles.
+    /// With `definite`, parts that make the matrix indefinite are left out: compression across a
+    /// pair, and the rotation of the gradients of angles.
     pub fn add_stiffness(
         &mut self,
         positions: &[f64],

@@ -6,8 +6,8 @@ use crate::measure::vector::{Vector, length};
 /// Standard gravity, in m/s².
 const GRAVITY: f64 = 9.806_65;
 
-/// Energy well of two particles \[BHW94, eqs. 3.2 and 3.3\]: with the distance `$\rho$` in units of the
-/// spacing
+/// Energy well of two particles \[BHW94, eqs. 3.2 and 3.3\]: with the distance `$\rho$` in units of
+/// the spacing
 ///
 /// ```math
 /// U = C_0\,(\rho - 1)^5\;(\rho > 1), \qquad U = C_0\,\frac{(1 - \rho)^5}{\rho}\;(\rho \le 1)
@@ -29,8 +29,8 @@ pub(crate) struct WellResponse {
 }
 
 impl Well {
-    /// Returns the factor per area, in J/m², for which the weight of a metre of cloth has the given strain:
-    /// the tension per width is `$5C_0\varepsilon^4$`.
+    /// Returns the factor per area, in J/m², for which the weight of a metre of cloth has the given
+    /// strain: the tension per width is `$5C_0\varepsilon^4$`.
     pub(crate) fn depth(density: f64, strain: f64) -> f64 {
         density * GRAVITY / (5.0 * strain.powi(4))
     }

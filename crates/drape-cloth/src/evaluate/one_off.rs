@@ -1,4 +1,5 @@
-//! Evaluation of a cloth by a single call, and its first state. A solver uses a `Workspace` instead.
+//! Evaluation of a cloth by a single call, and its first state. A solver uses a `Workspace`
+//! instead.
 
 use crate::cloth::Cloth;
 use crate::error::Error;
@@ -8,7 +9,8 @@ use crate::rim::memories::RimMemories;
 use crate::state::State;
 
 impl Cloth {
-    /// Returns the state of the cloth at rest at the given positions, with no friction in any connector.
+    /// Returns the state of the cloth at rest at the given positions, with no friction in any
+    /// connector.
     ///
     /// # Errors
     /// When there are not three numbers for every particle.
@@ -41,23 +43,25 @@ impl Cloth {
         Workspace::new(self)
     }
 
-    /// Adds the forces of all connectors at trial positions, in N. A [`Workspace`] does it many times.
+    /// Adds the forces of all connectors at trial positions, in N. A [`Workspace`] does it many
+    /// times.
     pub fn add_forces(&self, state: &State, trial: &[f64], forces: &mut [f64]) {
         self.workspace().add_forces(self.trial(state, trial), forces);
     }
 
-    /// Returns the potential of the connectors within a step, in J: its negative derivative with respect
-    /// to the trial positions is [`Cloth::add_forces`]. Only differences at one state are meaningful.
+    /// Returns the potential of the connectors within a step, in J: its negative derivative with
+    /// respect to the trial positions is [`Cloth::add_forces`]. Only differences at one state are
+    /// meaningful.
     #[must_use]
     pub fn potential(&self, state: &State, trial: &[f64]) -> f64 {
         self.workspace().potential(self.trial(state, trial))
     }
 
-    /// Adds the derivative of the forces with respect to the trial positions, negated, in N/m, to the
-    /// blocks of [`Cloth::sparsity`].
+    /// Adds the derivative of the forces with respect to the trial positions, negated, in N/m, to
+    /// the blocks of [`Cloth::sparsity`].
     ///
-    /// With `definite`, parts that make the matrix indefinite are left out: compression across a segment,
-    /// negative tangents, and the second derivatives of the sine of shear.
+    /// With `definite`, parts that make the matrix indefinite are left out: compression across a
+    /// segment, negative tangents, and the second derivatives of the sine of shear.
     pub fn add_stiffness(&self, state: &State, trial: &[f64], definite: bool, values: &mut [f64]) {
         self.workspace().add_stiffness(self.trial(state, trial), definite, values);
     }

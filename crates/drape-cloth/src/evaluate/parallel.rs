@@ -19,14 +19,14 @@ impl BufferPool {
         self.0[0].get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns buffers for the calling thread. Nothing is read from buffers that was not written before
-    /// for the same strip, so a panic in the middle of one leaves nothing wrong in them.
+    /// Returns buffers for the calling thread. Nothing is read from buffers that was not written
+    /// before for the same strip, so a panic in the middle of one leaves nothing wrong in them.
     fn own(&self) -> MutexGuard<'_, StripBuffers> {
         self.free().unwrap_or_else(|| self.0[0].lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Returns buffers that are not in use, the same for the same thread if possible: a pool may have
-    /// more threads than there are buffers, and the number of a thread is then only a hint.
+    /// Returns buffers that are not in use, the same for the same thread if possible: a pool may
+    /// have more threads than there are buffers, and the number of a thread is then only a hint.
     fn free(&self) -> Option<MutexGuard<'_, StripBuffers>> {
         let thread = rayon::current_thread_index().unwrap_or(0) % self.0.len();
         let (before, after) = self.0.split_at(thread);
@@ -50,12 +50,12 @@ pub(crate) struct Parts<'a, P> {
     pub(crate) pool: &'a BufferPool,
 }
 
-/// Works on strips or rims, on as many threads as there are buffers, each on its own part of the output:
-/// `split` splits the output of consecutive parts, of which the first is given, before another one. A
-/// thread that has finished takes over parts from others.
+/// Works on strips or rims, on as many threads as there are buffers, each on its own part of the
+/// output: `split` splits the output of consecutive parts, of which the first is given, before
+/// another one. A thread that has finished takes over parts from others.
 ///
-/// What a part writes depends on nothing but the part, so neither the number of threads nor their speed
-/// changes a number.
+/// What a part writes depends on nothing but the part, so neither the number of threads nor their
+/// speed changes a number.
 pub(crate) fn for_each<P: Sync, O: Send>(
     parts: Parts<'_, P>,
     mut output: O,

@@ -10,6 +10,7 @@ use crate::evaluate::dispatch::{
 use crate::evaluate::parallel::{BufferPool, Parts, for_each};
 use crate::kernel::buffers::{StripBuffers, StripTrial};
 use crate::kernel::energy::{self, StripCommit, StripShape};
+use crate::kernel::memories::GridTail;
 use crate::layout::strip::Strip;
 use crate::rim;
 use crate::rim::connectors::{Rim, RimShape};
@@ -18,10 +19,10 @@ use crate::state::State;
 
 /// Buffers for evaluating one cloth many times: after it has been made, nothing allocates.
 ///
-/// The methods are those of [`Cloth`]. They use the threads of the pool in which the workspace was made
-/// and the widest vector instructions of the machine. The numbers depend on neither, because the cloth is
-/// cut into the same strips for any number of threads, and the sums of the strips are added in their
-/// order.
+/// The methods are those of [`Cloth`]. They use the threads of the pool in which the workspace was
+/// made and the widest vector instructions of the machine. The numbers depend on neither, because
+/// the cloth is cut into the same strips for any number of threads, and the sums of the strips are
+/// added in their order.
 #[derive(Debug, Clone)]
 pub struct Workspace {
     pool: BufferPool,
@@ -162,14 +163,14 @@ impl Workspace {
         cloth.update_normals(state);
         let State { normals: flat_normals, grid, rim: rim_memories, .. } = state;
         let first = |strip: &Strip| strip.offset + cloth.panels[strip.panel].margin;
-        let (memories, normals) = grid.tail_mut(first(&cloth.strips[0]));
+        let GridTail { memories, normals } = grid.tail_mut(first(&cloth.strips[0]));
         let (arch, pool) = (self.arch, &self.pool);
         let (sums, rim_sums) = self.sums.split_at_mut(cloth.strips.len());
         for_each(
             Parts { parts: &cloth.strips, pool },
             (memories, sums),
             &|(memories, sums), from, to| {
-                let (memories, others) = memories.split(first(to) - first(from));
+                let [memories, others] = memories.split(first(to) - first(from));
                 let (sums, more) = sums.split_at_mut(to.index - from.index);
                 ((memories, sums), (others, more))
             },
@@ -184,7 +185,7 @@ impl Workspace {
             Parts { parts: &cloth.rims, pool },
             (rim_memories.all_mut(), rim_sums),
             &|(memories, sums), from, to| {
-                let (memories, others) = memories.split(from, to);
+                let [memories, others] = memories.split(from, to);
                 let (sums, more) = sums.split_at_mut(to.index - from.index);
                 ((memories, sums), (others, more))
             },

@@ -21,8 +21,8 @@ use crate::measure::half::HALF;
 use crate::measure::turning_angle::TurningAngle;
 use crate::measure::vector::{add, dot, scale, subtract};
 
-/// Curvatures of a batch about the normals, in 1/m, and their derivatives with respect to the component
-/// of the second difference along the normal.
+/// Curvatures of a batch about the normals, in 1/m, and their derivatives with respect to the
+/// component of the second difference along the normal.
 #[derive(Default)]
 pub(crate) struct Curvatures {
     pub(crate) value: Lanes,
@@ -43,8 +43,8 @@ pub(crate) struct BendingLanes<'a> {
     pub(crate) folds: Option<&'a Lanes>,
 }
 
-/// Secant stiffness of a backbone at a curvature, and the excess of the tangent over it divided by the
-/// squared curvature.
+/// Secant stiffness of a backbone at a curvature, and the excess of the tangent over it divided by
+/// the squared curvature.
 #[derive(Clone, Copy)]
 struct Stiffness {
     secant: f64,
@@ -79,7 +79,8 @@ impl BendingLanes<'_> {
         })
     }
 
-    /// Returns the derivatives of the potential with respect to the second differences, times a factor.
+    /// Returns the derivatives of the potential with respect to the second differences, times a
+    /// factor.
     #[inline(always)]
     pub(crate) fn moments(&self, memory: &MemoryBatch<'_>, factor: f64) -> VectorLanes {
         match self.yarns.bending.law().backbone {
@@ -121,8 +122,9 @@ impl BendingLanes<'_> {
         moments
     }
 
-    /// Returns the second derivatives of the potential with respect to the second differences, times a
-    /// factor squared; with `definite`, without the part of the friction that makes them indefinite.
+    /// Returns the second derivatives of the potential with respect to the second differences,
+    /// times a factor squared; with `definite`, without the part of the friction that makes them
+    /// indefinite.
     #[inline(always)]
     pub(crate) fn blocks(
         &self,

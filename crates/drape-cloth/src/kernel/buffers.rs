@@ -15,8 +15,8 @@ use crate::layout::grid::{CornerEdges, GridPanel, Yarns};
 use crate::layout::strip::{BatchIndex, Strip};
 use crate::measure::vector::{add, dot, scale, subtract};
 
-/// Length that shorter edges are taken to have, in m: they have no direction; their forces are huge but
-/// finite, and so are the derivatives.
+/// Length that shorter edges are taken to have, in m: they have no direction; their forces are huge
+/// but finite, and so are the derivatives.
 pub(crate) const EDGE_MIN: f64 = 1e-100;
 
 /// Intermediate columns of a strip: one number per point of the strip and of the margin around it.
@@ -39,11 +39,11 @@ pub(crate) struct StripBuffers {
     pub(crate) corner_tangents: [Vec<f64>; 4],
     /// Second derivatives of the potential with respect to the warp and the weft edge of a corner.
     pub(crate) shear_blocks: [Columns<9>; 4],
-    /// Second derivatives with respect to the second difference at a point, over the fourth power of the
-    /// segments' length.
+    /// Second derivatives with respect to the second difference at a point, over the fourth power
+    /// of the segments' length.
     pub(crate) bending_blocks: [Columns<6>; 2],
-    /// Blocks of each point with the next along the warp, along the weft, with the opposite point of its
-    /// cell, and of the two other points of its cell.
+    /// Blocks of each point with the next along the warp, along the weft, with the opposite point
+    /// of its cell, and of the two other points of its cell.
     pub(crate) pair_blocks: [Columns<9>; 4],
 }
 
@@ -178,8 +178,8 @@ impl StripBuffers {
         }
     }
 
-    /// Returns the sines of the shear angle at one of the four corners of a batch of cells; of cells that
-    /// do not exist, zero.
+    /// Returns the sines of the shear angle at one of the four corners of a batch of cells; of
+    /// cells that do not exist, zero.
     ///
     /// The edges point along rising `u` and `v` at all four corners, so the sines have one sign.
     #[inline(always)]

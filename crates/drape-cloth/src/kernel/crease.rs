@@ -55,8 +55,8 @@ impl Crease {
         backbone.energy(self.excess) + backbone.energy(self.size)
     }
 
-    /// Returns the derivative of the energy with respect to the second difference, with the load of the
-    /// friction, in N.
+    /// Returns the derivative of the energy with respect to the second difference, with the load of
+    /// the friction, in N.
     pub(crate) fn moment(&self, backbone: &BendingBackbone, friction: f64) -> Vector {
         let load = (backbone.respond(self.excess).load + friction) * self.slopes.first;
         let secant = self.within_surface(backbone).secant;
@@ -70,8 +70,8 @@ impl Crease {
     }
 
     /// Returns the upper half of the second derivative of the energy with respect to the second
-    /// difference, with the response of the friction; with `definite`, without the part that makes it
-    /// indefinite.
+    /// difference, with the response of the friction; with `definite`, without the part that makes
+    /// it indefinite.
     pub(crate) fn block(
         &self,
         backbone: &BendingBackbone,

@@ -1,5 +1,5 @@
-//! Potential, commit and stored energy of a strip. Each connector of the strip's own points is counted
-//! once: `$E = \sum_c W_c\,w_c(s_c)$` with the work per area `$w$` of its law.
+//! Potential, commit and stored energy of a strip. Each connector of the strip's own points is
+//! counted once: `$E = \sum_c W_c\,w_c(s_c)$` with the work per area `$w$` of its law.
 #![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
 use drape_fabric::{BatchLaw, LANES, Lanes};

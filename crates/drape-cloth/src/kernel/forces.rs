@@ -1,7 +1,7 @@
 //! Forces of a strip.
 //!
 //! ```text
-//!   loads of segments, corners, triples  →  edge gradients P, moments M  →  forces (a sum per point)
+//!   loads of segments, corners, triples  →  edge gradients P, moments M  →  forces of points
 //! ```
 #![allow(clippy::needless_range_loop, reason = "a lane indexes several arrays")]
 
@@ -14,8 +14,8 @@ use crate::measure::vector::{add, dot, scale, subtract};
 
 /// Adds the forces on the particles of a strip, three numbers for each, in N.
 ///
-/// All energy but that of bending is a function of the edges as vectors, and that of bending is one of
-/// their differences: the derivative `$P_e$` with respect to an edge acts on both of its ends.
+/// All energy but that of bending is a function of the edges as vectors, and that of bending is one
+/// of their differences: the derivative `$P_e$` with respect to an edge acts on both of its ends.
 #[inline(always)]
 pub(crate) fn add_forces(buffers: &mut StripBuffers, trial: &StripTrial<'_>, forces: &mut [f64]) {
     buffers.load(trial.panel, trial.strip, trial.positions);
@@ -90,8 +90,8 @@ fn compute_moments(buffers: &mut StripBuffers, trial: &StripTrial<'_>, direction
     }
 }
 
-/// Derivatives of the potential with respect to the edges, from their tension and from the corners that
-/// they belong to.
+/// Derivatives of the potential with respect to the edges, from their tension and from the corners
+/// that they belong to.
 #[inline(always)]
 fn compute_edge_gradients(buffers: &mut StripBuffers, trial: &StripTrial<'_>, direction: usize) {
     let StripTrial { panel, strip, .. } = *trial;
@@ -116,8 +116,8 @@ fn compute_edge_gradients(buffers: &mut StripBuffers, trial: &StripTrial<'_>, di
     }
 }
 
-/// Returns `$P_e = T\hat e + (1 - \hat e\hat e^T)\,q/|e|$` with the tension `$T$` and the sum `$q$` of the
-/// corner loads times the directions of their other edges.
+/// Returns `$P_e = T\hat e + (1 - \hat e\hat e^T)\,q/|e|$` with the tension `$T$` and the sum `$q$`
+/// of the corner loads times the directions of their other edges.
 #[inline(always)]
 fn edge_gradients(
     edges: &Edges,

@@ -1,12 +1,13 @@
-//! Memories of the connectors on the grids of a cloth, and the normals that bending is measured about.
+//! Memories of the connectors on the grids of a cloth, and the normals that bending is measured
+//! about.
 
 use drape_fabric::{BatchLaw, Memories, MemoriesMut};
 
 use crate::layout::columns::VectorColumns;
 use crate::layout::grid::GridPanel;
 
-/// Memories of the connectors, and the normals at the last commit, in columns: panel after panel, each
-/// with its margins.
+/// Memories of the connectors, and the normals at the last commit, in columns: panel after panel,
+/// each with its margins.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct GridMemories {
     /// Of the segments along warp and weft.
@@ -24,6 +25,12 @@ pub(crate) struct GridMemoriesMut<'a> {
     pub(crate) traction: [MemoriesMut<'a>; 2],
     pub(crate) shear: [MemoriesMut<'a>; 4],
     pub(crate) bending: [MemoriesMut<'a>; 2],
+}
+
+/// Memories from an index on, to write, and all normals.
+pub(crate) struct GridTail<'a> {
+    pub(crate) memories: GridMemoriesMut<'a>,
+    pub(crate) normals: &'a VectorColumns,
 }
 
 impl GridMemories {
@@ -48,24 +55,24 @@ impl GridMemories {
         memories
     }
 
-    /// Splits into all memories from an index on, to write, and the normals.
-    pub(crate) fn tail_mut(&mut self, start: usize) -> (GridMemoriesMut<'_>, &VectorColumns) {
+    /// Returns all memories from an index on, to write, and the normals.
+    pub(crate) fn tail_mut(&mut self, start: usize) -> GridTail<'_> {
         let memories = GridMemoriesMut {
             traction: self.traction.each_mut().map(|m| m.tail_mut(start)),
             shear: self.shear.each_mut().map(|m| m.tail_mut(start)),
             bending: self.bending.each_mut().map(|m| m.tail_mut(start)),
         };
-        (memories, &self.normals)
+        GridTail { memories, normals: &self.normals }
     }
 }
 
 impl GridMemoriesMut<'_> {
     /// Splits into the first `count` memories of each kind and the others.
-    pub(crate) fn split(self, count: usize) -> (Self, Self) {
+    pub(crate) fn split(self, count: usize) -> [Self; 2] {
         let ([a, b], [c, d, e, f], [g, h]) = (self.traction, self.shear, self.bending);
         let [a, b, c, d, e, f, g, h] = [a, b, c, d, e, f, g, h].map(|m| m.split(count));
         let head = Self { traction: [a.0, b.0], shear: [c.0, d.0, e.0, f.0], bending: [g.0, h.0] };
         let tail = Self { traction: [a.1, b.1], shear: [c.1, d.1, e.1, f.1], bending: [g.1, h.1] };
-        (head, tail)
+        [head, tail]
     }
 }

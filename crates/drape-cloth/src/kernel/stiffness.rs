@@ -1,8 +1,9 @@
 //! Stiffness of a strip: the blocks of the second derivatives of its potential.
 //!
 //! ```text
-//!   shear blocks of corners, bending blocks of triples  →  blocks of neighbours along the yarns and
-//!   across the cells  →  a row of the matrix per point, its own block from the others' sum
+//!   shear blocks of corners, bending blocks of triples
+//!     →  blocks of neighbours along the yarns and across the cells
+//!     →  a row of the matrix per point, its own block from the others' sum
 //!
 //!   pair_blocks of a point A                       bending_blocks at c couple a, c and b:
 //!      D ── C     0: A–D (warp)   2: A–C             a ── c ── b    1, −2, 1
@@ -19,7 +20,7 @@ use crate::layout::grid::{BLOCKS, CornerAtEdge, CornerEdges, NO_BLOCK};
 use crate::measure::half::{HALF, IN_HALF, TRANSPOSED};
 use crate::measure::vector::dot;
 
-/// Which stiffness of which direction or corner of a strip is computed.
+/// Stiffness that is computed: its direction or corner, and whether it is definite.
 #[derive(Clone, Copy)]
 struct Kind {
     /// Direction of a yarn, or corner of a cell.
@@ -28,12 +29,12 @@ struct Kind {
     definite: bool,
 }
 
-/// Adds the derivatives of the forces on a strip's particles, negated, to the blocks of their rows, in
-/// N/m.
+/// Adds the derivatives of the forces on a strip's particles, negated, to the blocks of their rows,
+/// in N/m.
 ///
-/// The potential is a function of the edges as vectors, so its second derivatives belong to an edge,
-/// to the two edges of a corner, or to a triple; each is computed once and then added to the blocks of
-/// the particles at the ends.
+/// The potential is a function of the edges as vectors, so its second derivatives belong to an
+/// edge, to the two edges of a corner, or to a triple; each is computed once and then added to the
+/// blocks of the particles at the ends.
 #[inline(always)]
 pub(crate) fn add_stiffness(
     buffers: &mut StripBuffers,
@@ -55,11 +56,12 @@ pub(crate) fn add_stiffness(
     sum_rows(buffers, trial, values);
 }
 
-/// Loads and tangents of a corner of the cells, and the block of its two edges of directions `$p$`, `$q$`
-/// and lengths `$l_p$`, `$l_q$`,
+/// Loads and tangents of a corner of the cells, and the block of its two edges of directions `$p$`,
+/// `$q$` and lengths `$l_p$`, `$l_q$`,
 ///
 /// ```math
-/// \frac{1}{l_pl_q}\left[t\,qp^T - (tc+g)(pp^T+qq^T) + (tc^2+gc)\,pq^T + g\right],\qquad c = p\cdot q
+/// \frac{1}{l_pl_q}\left[t\,qp^T - (tc+g)(pp^T+qq^T) + (tc^2+gc)\,pq^T + g\right],
+/// \qquad c = p\cdot q
 /// ```
 ///
 /// with load `$g$` and tangent `$t$` times the area. Without `$g$` the stiffness is definite.
@@ -129,11 +131,12 @@ fn compute_bending_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, ki
     }
 }
 
-/// Returns the second derivatives of the potential with respect to a batch of edges: that of the tension
-/// and, with the other edges `$a$` of the corners at an edge `$e$` of length `$l$`,
+/// Returns the second derivatives of the potential with respect to a batch of edges: that of the
+/// tension and, with the other edges `$a$` of the corners at an edge `$e$` of length `$l$`,
 ///
 /// ```math
-/// \frac{1}{l^2}\sum\left[t\,aa^T - (tc+g)(ae^T+ea^T) + (tc^2+3gc)\,ee^T - gc\right],\qquad c = a\cdot e
+/// \frac{1}{l^2}\sum\left[t\,aa^T - (tc+g)(ae^T+ea^T) + (tc^2+3gc)\,ee^T - gc\right],
+/// \qquad c = a\cdot e
 /// ```
 #[inline(always)]
 fn edge_blocks(
@@ -216,8 +219,8 @@ fn compute_yarn_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind:
                 block[lane] = -edges[half][lane] - 2.0 * (here.0[half][lane] + next.0[half][lane]);
             }
         }
-        // The sign of a corner's block, and whether it is transposed, follow from which ends of its two
-        // edges meet at the corner.
+        // The sign of a corner's block, and whether it is transposed, follow from which ends of its
+        // two edges meet at the corner.
         let shear = |corner: usize, cell: usize| buffers.shear_blocks[corner].batch(cell);
         let [less, less_transposed, more, more_transposed] = if direction == 0 {
             let left = start - 1;

@@ -28,7 +28,8 @@ pub(crate) struct BendingConnectors {
     pub(crate) stencil_areas: Vec<f64>,
     /// Whether each particle is the middle of a triple.
     pub(crate) is_middle: Vec<bool>,
-    /// Rest curvature that folds add to the triple about each particle, in 1/m; empty without folds.
+    /// Rest curvature that folds add to the triple about each particle, in 1/m; empty without
+    /// folds.
     pub(crate) folds: Vec<f64>,
 }
 
@@ -56,13 +57,14 @@ pub(crate) fn segments(lattice: &Lattice, yarns: &[Vec<u32>], direction: usize) 
 }
 
 impl BendingConnectors {
-    /// Returns the bending connectors along the warp and along the weft of a panel whose particles have
-    /// the given areas.
+    /// Returns the bending connectors along the warp and along the weft of a panel whose particles
+    /// have the given areas.
     ///
     /// With `stencils`, as in a panel with a rim, a particle that is the middle of no triple has a
-    /// stencil. Without, its area goes to a triple inside, as at the ends of a yarn on a grid. Given to
-    /// a neighbour inside, the area of the outline's particles, which have neighbours on one side only,
-    /// would leave the outline too soft: the lowest frequencies of a disc of ten cells fell to a half.
+    /// stencil. Without, its area goes to a triple inside, as at the ends of a yarn on a grid.
+    /// Given to a neighbour inside, the area of the outline's particles, which have neighbours on
+    /// one side only, would leave the outline too soft: the lowest frequencies of a disc of ten
+    /// cells fell to a half.
     pub(crate) fn of(lattice: &Lattice, areas: &[f64], stencils: bool) -> [Self; 2] {
         let mut all = lattice.yarns().map(|yarns| {
             let bending = if stencils {
@@ -98,8 +100,8 @@ impl BendingConnectors {
     }
 }
 
-/// Returns the triples of the yarns of one direction. Each has the area of its middle particle and of
-/// the particles that are the middle of no triple and nearest to it.
+/// Returns the triples of the yarns of one direction. Each has the area of its middle particle and
+/// of the particles that are the middle of no triple and nearest to it.
 pub(crate) fn triples(lattice: &Lattice, yarns: &[Vec<u32>], areas: &[f64]) -> Vec<Triple> {
     let mut triples: Vec<Triple> = Vec::new();
     let mut middle_of = vec![None; areas.len()];

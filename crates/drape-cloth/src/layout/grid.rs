@@ -1,4 +1,5 @@
-//! A panel on the points of its grid: columns of areas, and the steps from a point to its neighbours.
+//! A panel on the points of its grid: columns of areas, and the steps from a point to its
+//! neighbours.
 
 use drape_fabric::{BendingBatch, Fabric, LANES, ShearBatch, TractionBatch};
 
@@ -13,11 +14,11 @@ pub(crate) const BLOCKS: usize = 7;
 /// Slot of a block that does not exist.
 pub(crate) const NO_BLOCK: u32 = u32::MAX;
 
-/// Panel on the points of its grid, row by row, so that neighbours along a yarn are a fixed step apart
-/// and connectors need no lists.
+/// Panel on the points of its grid, row by row, so that neighbours along a yarn are a fixed step
+/// apart and connectors need no lists.
 ///
-/// A column has one number per point, with a margin of two rows and one point before the first, and the
-/// same margin and a batch after the last:
+/// A column has one number per point, with a margin of two rows and one point before the first, and
+/// the same margin and a batch after the last:
 ///
 /// ```text
 ///  index  0        margin              margin + points            length
@@ -27,9 +28,10 @@ pub(crate) const NO_BLOCK: u32 = u32::MAX;
 ///  point p = row · stride + column;  next along the weft: p + 1,  along the warp: p + stride
 /// ```
 ///
-/// The margin lets a kernel read the neighbours of every point, two rows up and down, without a branch.
-/// A point without a particle has the position of the panel's first particle, and a connector that does
-/// not exist, such as a segment from the end of a row to the start of the next, has an area of zero.
+/// The margin lets a kernel read the neighbours of every point, two rows up and down, without a
+/// branch. A point without a particle has the position of the panel's first particle, and a
+/// connector that does not exist, such as a segment from the end of a row to the start of the next,
+/// has an area of zero.
 #[derive(Debug, Clone)]
 pub(crate) struct GridPanel {
     /// Number of points of the grid.
@@ -47,8 +49,8 @@ pub(crate) struct GridPanel {
     /// Connectors along the warp and along the weft.
     pub(crate) yarns: [Yarns; 2],
     pub(crate) shear: ShearBatch,
-    /// Columns of the areas of each cell's corners (0, 0), (1, 0), (1, 1), (0, 1), at the index of the
-    /// first corner, in m².
+    /// Columns of the areas of each cell's corners (0, 0), (1, 0), (1, 1), (0, 1), at the index of
+    /// the first corner, in m².
     pub(crate) corner_areas: [Vec<f64>; 4],
     /// Indices of the cells in a column.
     pub(crate) cells: Vec<usize>,
@@ -73,8 +75,8 @@ pub(crate) struct Yarns {
     pub(crate) segment_areas: Vec<f64>,
     /// Column of the areas of the triples, at their middle point, in m².
     pub(crate) triple_areas: Vec<f64>,
-    /// Column of the rest curvatures that folds add to the triples, at their middle point, in 1/m; empty
-    /// without folds.
+    /// Column of the rest curvatures that folds add to the triples, at their middle point, in 1/m;
+    /// empty without folds.
     pub(crate) folds: Vec<f64>,
     /// Indices of the segments in a column.
     pub(crate) segments: Vec<usize>,
@@ -82,14 +84,15 @@ pub(crate) struct Yarns {
     pub(crate) triples: Vec<usize>,
 }
 
-/// Where a panel begins: its first particle, and its columns in those of the cloth.
+/// Begin of a panel: its first particle, and its columns in those of the cloth.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PanelStart {
     pub(crate) particle: u32,
     pub(crate) base: usize,
 }
 
-/// Corner of a cell at an edge: which of the four, the index of its cell, and that of its other edge.
+/// Corner of a cell at an edge: which of the four, the index of its cell, and that of its other
+/// edge.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CornerAtEdge {
     pub(crate) corner: usize,
@@ -246,19 +249,18 @@ impl GridPanel {
     }
 
     /// Pairs of particles that a connector joins, the first of each less than the second.
-    pub(crate) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> {
-        let pair = |index: usize, (from, to): (usize, usize)| {
-            (self.particles[index + from], self.particles[index + to])
-        };
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {
+        let pair =
+            |index: usize, ends: [usize; 2]| ends.map(|offset| self.particles[index + offset]);
         let stride = self.stride;
         let [a, b, d, c] = [0, 1, stride, stride + 1];
-        let sides = [(a, b), (a, d), (a, c), (b, d), (b, c), (d, c)];
+        let sides = [[a, b], [a, d], [a, c], [b, d], [b, c], [d, c]];
         let cells = self.cells.iter();
         let cells = cells.flat_map(move |&index| sides.map(|side| pair(index, side)));
         let ends = self.yarns.iter().flat_map(move |yarns| {
             let starts = yarns.triples.iter().map(|index| index - yarns.step);
             // Between triangles of a rim, neighbours on a yarn share no cell.
-            let sides = [(0, yarns.step), (yarns.step, 2 * yarns.step), (0, 2 * yarns.step)];
+            let sides = [[0, yarns.step], [yarns.step, 2 * yarns.step], [0, 2 * yarns.step]];
             starts.flat_map(move |index| sides.map(|side| pair(index, side)))
         });
         cells.chain(ends)

@@ -1,10 +1,11 @@
-//! Sparsity of the stiffness matrix. The kernels write its blocks; the system of equations takes it over.
+//! Sparsity of the stiffness matrix. The kernels write its blocks; the system of equations takes it
+//! over.
 
 /// Block sparsity of the stiffness matrix of a cloth, upper triangle: one 3 × 3 block for each pair
 /// of particles that some connector joins.
 ///
-/// Row `i` has the columns `columns[offsets[i]..offsets[i + 1]]` in rising order, the first of which
-/// is `i` itself. Block `k` occupies the nine numbers `9k..9k + 9` of the values, row by row.
+/// Row `i` has the columns `columns[offsets[i]..offsets[i + 1]]` in rising order, the first of
+/// which is `i` itself. Block `k` occupies the nine numbers `9k..9k + 9` of the values, row by row.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Sparsity {
     /// Index of the first block of each row; one entry more than there are particles.
@@ -15,9 +16,9 @@ pub struct Sparsity {
 
 impl Sparsity {
     /// Returns the sparsity of the given pairs, the first of each less than the second.
-    pub(crate) fn new(particles: usize, pairs: impl Iterator<Item = (u32, u32)>) -> Self {
+    pub(crate) fn new(particles: usize, pairs: impl Iterator<Item = [u32; 2]>) -> Self {
         let mut rows: Vec<Vec<usize>> = (0..particles).map(|i| vec![i]).collect();
-        for (first, second) in pairs {
+        for [first, second] in pairs {
             rows[first as usize].push(second as usize);
         }
         let mut sparsity = Self { offsets: vec![0], columns: Vec::new() };

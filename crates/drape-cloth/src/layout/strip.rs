@@ -7,8 +7,8 @@ use drape_fabric::LANES;
 use crate::layout::grid::GridPanel;
 use crate::layout::sparsity::Sparsity;
 
-/// Number of particles of a strip, about: with fewer, more margins are evaluated twice; with more, the
-/// buffers leave the cache.
+/// Number of particles of a strip, about: with fewer, more margins are evaluated twice; with more,
+/// the buffers leave the cache.
 const STRIP_POINTS: usize = 1024;
 
 /// Least number of rows of a strip: two rows at each of its sides are computed twice.
@@ -18,7 +18,7 @@ const STRIP_ROWS: usize = 16;
 ///
 /// ```text
 ///    rows        ┌────────────────────────┐
-///     r+2, r+1   │ margin, computed twice │  read: positions;  computed: edges, loads;  not written
+///     r+2, r+1   │ margin, computed twice │  read: positions;  computed: edges, loads
 ///                ├────────────────────────┤
 ///     r          │ points of the strip    │
 ///     …          │                        │  written: forces, blocks, memories, sums
@@ -37,7 +37,8 @@ pub(crate) struct Strip {
     pub(crate) offset: usize,
     /// Points, starting at a multiple of [`LANES`].
     pub(crate) points: Range<usize>,
-    /// Particles at the points, counted over the cloth. Those of a rim's outline follow the last strip's.
+    /// Particles at the points, counted over the cloth. Those of a rim's outline follow the last
+    /// strip's.
     pub(crate) particles: Range<usize>,
     /// Blocks in the rows of the particles.
     pub(crate) blocks: Range<usize>,
@@ -57,8 +58,8 @@ pub(crate) struct BatchIndex {
 impl Strip {
     /// Cuts the points of a panel into strips of about the same length and appends them.
     ///
-    /// A panel has one strip, or an even number, which two threads share equally, each of at least three
-    /// quarters of the wanted length.
+    /// A panel has one strip, or an even number, which two threads share equally, each of at least
+    /// three quarters of the wanted length.
     pub(crate) fn append(
         strips: &mut Vec<Self>,
         panel: &GridPanel,

@@ -8,7 +8,8 @@ use crate::measure::block::{Matrix, identity, outer, sum};
 use crate::measure::turning_angle::{CurvatureSlopes, TurningAngle, second_difference_of};
 use crate::measure::vector::{Vector, add, dot, scale, subtract};
 
-/// Second difference of a connector, the normal about which it bends, and the length of its segments.
+/// Second difference of a connector, the normal about which it bends, and the length of its
+/// segments.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BendingMeasure {
     /// Second difference `$b$`, in 1/m.
@@ -37,9 +38,9 @@ impl BendingMeasure {
         TurningAngle::of(along * along, self.length).curvature(along)
     }
 
-    /// Returns the response of a law: its elastic part depends on the whole second difference less that
-    /// at rest, `$|b - b_0 n|$`, which also resists bending in the surface; its friction on the
-    /// curvature about the normal. With `definite`, without the part that makes it indefinite.
+    /// Returns the response of a law: its elastic part depends on the whole second difference less
+    /// that at rest, `$|b - b_0 n|$`, which also resists bending in the surface; its friction on
+    /// the curvature about the normal. With `definite`, without the part that makes it indefinite.
     pub(crate) fn respond(
         &self,
         law: &BendingLaw,
@@ -81,8 +82,8 @@ impl BendingMeasure {
     }
 
     /// Returns the response at a fold, which adds to the rest curvature, in 1/m: the elastic part
-    /// depends on the curvature about the normal and, separately, on the second difference within the
-    /// surface.
+    /// depends on the curvature about the normal and, separately, on the second difference within
+    /// the surface.
     pub(crate) fn respond_folded(
         &self,
         law: &BendingLaw,
@@ -120,8 +121,8 @@ impl BendingMeasure {
         }
     }
 
-    /// Returns the response about the normal alone, for connectors whose rest curvature is large: the
-    /// difference of two second differences is that of their angles only where both are small.
+    /// Returns the response about the normal alone, for connectors whose rest curvature is large:
+    /// the difference of two second differences is that of their angles only where both are small.
     pub(crate) fn respond_about_normal(
         &self,
         law: &BendingLaw,

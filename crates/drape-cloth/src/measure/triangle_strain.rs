@@ -4,9 +4,9 @@ use crate::measure::vector::{Vector, dot};
 
 /// Deformation of one triangle of the surface.
 ///
-/// Within a triangle positions are linear in the material coordinates. The strains are the lengths of
-/// the derivatives along warp and weft less one; the shear is the angle by which these two are off a
-/// right one \[VMF09, §3\].
+/// Within a triangle positions are linear in the material coordinates. The strains are the lengths
+/// of the derivatives along warp and weft less one; the shear is the angle by which these two are
+/// off a right one \[VMF09, §3\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TriangleStrain {
     /// Strain along the warp, a ratio.
@@ -20,8 +20,8 @@ pub struct TriangleStrain {
 }
 
 impl TriangleStrain {
-    /// Returns the strain of a triangle from the material coordinates of its corners, in m, and their
-    /// positions, in m.
+    /// Returns the strain of a triangle from the material coordinates of its corners, in m, and
+    /// their positions, in m.
     pub(crate) fn of(coordinates: [[f64; 2]; 3], positions: [Vector; 3]) -> Self {
         let [start, one, other] = coordinates;
         let [[u1, v1], [u2, v2]] = [one, other].map(|end| [end[0] - start[0], end[1] - start[1]]);

@@ -1,14 +1,15 @@
 //! Turning angle of three particles in a row, from their second difference.
 //!
-//! The second difference of a triple with segments of length `$h$`, `$b = (x_a - 2x_c + x_b)/h^2$`, is
-//! linear in the positions, which keeps forces and stiffness cheap. But two segments that meet at a
-//! turning angle `$\alpha$` have `$|b| = \frac{2}{h}\sin\frac{\alpha}{2}$`, while a specimen bent by that
-//! angle has the curvature `$\kappa = \alpha/h$`: 6 % more at 2.5 cm⁻¹ and 5 mm. With
+//! The second difference of a triple with segments of length `$h$`, `$b = (x_a - 2x_c + x_b)/h^2$`,
+//! is linear in the positions, which keeps forces and stiffness cheap. But two segments that meet
+//! at a turning angle `$\alpha$` have `$|b| = \frac{2}{h}\sin\frac{\alpha}{2}$`, while a specimen
+//! bent by that angle has the curvature `$\kappa = \alpha/h$`: 6 % more at 2.5 cm⁻¹ and 5 mm. With
 //! `$u = (|b|h/2)^2$` and `$v = \sin^2\frac{\alpha}{4} = \frac{1}{2}(1 - \sqrt{1 - u})$`,
 //!
 //! ```math
 //! \kappa^2 = \frac{\alpha^2}{h^2} = \frac{16}{h^2}\arcsin^2\sqrt{v}
-//!   = \frac{16}{h^2}\left(v + \frac{v^2}{3} + \frac{8v^3}{45} + \frac{4v^4}{35} + \frac{128v^5}{1575} + \ldots\right)
+//!   = \frac{16}{h^2}\left(v + \frac{v^2}{3} + \frac{8v^3}{45} + \frac{4v^4}{35}
+//!   + \frac{128v^5}{1575} + \ldots\right)
 //! ```
 //!
 //! Five terms leave an error of the angle of 0.01 % at 140° and of 0.13 % at 180°. The kernels, the
@@ -17,13 +18,13 @@
 /// Coefficients of `$v^n$` in the square of the arc sine.
 const SERIES: [f64; 5] = [1.0, 1.0 / 3.0, 8.0 / 45.0, 4.0 / 35.0, 128.0 / 1575.0];
 
-/// `$u$` up to which the angle is exact, at 147°. Beyond, where the slope of the angle grows without
-/// bound, `$v$` continues as a straight line: stretched triples may have second differences that no
-/// angle has.
+/// `$u$` up to which the angle is exact, at 147°. Beyond, where the slope of the angle grows
+/// without bound, `$v$` continues as a straight line: stretched triples may have second differences
+/// that no angle has.
 const SQUARE_MAX: f64 = 0.92;
 
-/// Squared curvature `$\kappa^2$` as a function of the squared second difference `$|b|^2$`, with the
-/// derivatives that forces and stiffness need.
+/// Squared curvature `$\kappa^2$` as a function of the squared second difference `$|b|^2$`, with
+/// the derivatives that forces and stiffness need.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TurningAngle {
     /// Ratio `$\kappa^2/|b|^2$`.
@@ -45,8 +46,8 @@ pub(crate) struct CurvatureSlopes {
 }
 
 impl TurningAngle {
-    /// Returns the turning angle of a squared second difference, in m⁻², of a triple with segments of
-    /// a length, in m.
+    /// Returns the turning angle of a squared second difference, in m⁻², of a triple with segments
+    /// of a length, in m.
     #[inline(always)]
     pub(crate) fn of(square: f64, length: f64) -> Self {
         let quarter = 0.25 * length * length;
@@ -98,7 +99,8 @@ impl TurningAngle {
     }
 }
 
-/// Returns the second difference of a triple of a curvature, in 1/m, with segments of a length, in m.
+/// Returns the second difference of a triple of a curvature, in 1/m, with segments of a length, in
+/// m.
 pub(crate) fn second_difference_of(curvature: f64, length: f64) -> f64 {
     (0.5 * curvature * length).sin() * 2.0 / length
 }

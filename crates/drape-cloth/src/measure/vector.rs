@@ -45,9 +45,17 @@ pub(crate) fn add_at(flat: &mut [f64], particle: u32, vector: Vector) {
     }
 }
 
+/// Particle with its weight in a second difference.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct WeightedNode {
+    pub(crate) node: u32,
+    /// Weight, in 1/m².
+    pub(crate) weight: f64,
+}
+
 /// Returns the weighted sum of the vectors of some particles, as of a second difference.
-pub(crate) fn weighted_sum(flat: &[f64], nodes: &[(u32, f64)]) -> Vector {
-    nodes
-        .iter()
-        .fold([0.0; 3], |sum, &(node, weight)| add(sum, scale(vector_at(flat, node), weight)))
+pub(crate) fn weighted_sum(flat: &[f64], nodes: &[WeightedNode]) -> Vector {
+    nodes.iter().fold([0.0; 3], |sum, &WeightedNode { node, weight }| {
+        add(sum, scale(vector_at(flat, node), weight))
+    })
 }

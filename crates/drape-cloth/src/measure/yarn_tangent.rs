@@ -1,4 +1,5 @@
-//! Tangents of the yarns and normals of the surface at the particles, which bending is measured about.
+//! Tangents of the yarns and normals of the surface at the particles, which bending is measured
+//! about.
 
 use crate::measure::vector::{Vector, cross, dot};
 
@@ -21,8 +22,8 @@ impl YarnTangent {
 /// Returns the tangents along warp and weft at every particle of a panel whose first particle is
 /// `first`.
 ///
-/// They are central differences, at the ends of a yarn one-sided differences of second order, so that
-/// the normals of a cylinder are right at its edges too.
+/// They are central differences, at the ends of a yarn one-sided differences of second order, so
+/// that the normals of a cylinder are right at its edges too.
 pub(crate) fn yarn_tangents(
     yarns: &[Vec<Vec<u32>>; 2],
     first: u32,

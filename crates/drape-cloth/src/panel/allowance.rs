@@ -15,9 +15,10 @@ pub struct Allowance {
 impl Lattice {
     /// Returns the panel with allowances along parts of its outline.
     ///
-    /// An allowance has the length of its line in material coordinates. Half of the mass of each segment
-    /// is added to either end; it has no connectors and no contact. Where two consecutive particles of a
-    /// line are not neighbours on the outline, as over the mouth of a dart, nothing is added.
+    /// An allowance has the length of its line in material coordinates. Half of the mass of each
+    /// segment is added to either end; it has no connectors and no contact. Where two consecutive
+    /// particles of a line are not neighbours on the outline, as over the mouth of a dart, nothing
+    /// is added.
     ///
     /// # Errors
     /// When a width is negative or not finite, or a particle does not exist.

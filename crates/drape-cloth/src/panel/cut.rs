@@ -16,9 +16,9 @@ const CELL_PART_MIN: f64 = 0.1;
 
 /// Least part of a cell's area that each of its corners gets.
 ///
-/// Where the outline cuts a quadrant off a cell, its corner would be a particle without mass, or, by
-/// rounding, of negative mass. Larger values carry more mass outwards; the cell's area is exact in any
-/// case.
+/// Where the outline cuts a quadrant off a cell, its corner would be a particle without mass, or,
+/// by rounding, of negative mass. Larger values carry more mass outwards; the cell's area is exact
+/// in any case.
 const QUADRANT_PART_MIN: f64 = 0.05;
 
 impl Lattice {
@@ -33,10 +33,11 @@ impl Lattice {
     /// Returns a rectangle of a width and a height, in m, with its yarns at an angle; its material
     /// coordinates start from its lower left corner.
     ///
-    /// Where the yarns are parallel to its sides, the spacing is stretched a little so that both sides
-    /// are multiples of it. Otherwise the cells are those of a grid with a particle at the material
-    /// coordinates `grid` from the middle of the rectangle, in m; the sides are ragged by up to one
-    /// spacing, and mass and connectors have the exact area of the rectangle in every cell.
+    /// Where the yarns are parallel to its sides, the spacing is stretched a little so that both
+    /// sides are multiples of it. Otherwise the cells are those of a grid with a particle at the
+    /// material coordinates `grid` from the middle of the rectangle, in m; the sides are ragged by
+    /// up to one spacing, and mass and connectors have the exact area of the rectangle in every
+    /// cell.
     ///
     /// # Errors
     /// When a length is not positive, or fewer than 3 particles would lie across the rectangle.
@@ -69,8 +70,8 @@ impl Lattice {
         Ok(lattice.of_size(grain, grain.exchanged(sides)))
     }
 
-    /// Returns the cells of a grid that lie, at least in part, in a rectangle with the given corners;
-    /// `grid` is the point of a particle from its middle.
+    /// Returns the cells of a grid that lie, at least in part, in a rectangle with the given
+    /// corners; `grid` is the point of a particle from its middle.
     fn ragged(outline: &[[f64; 2]; 4], grid: [f64; 2], spacing: f64) -> Result<Self, Error> {
         let middle = [0, 1].map(|axis| 0.5 * (outline[0][axis] + outline[2][axis]));
         let extent = [0, 1].map(|axis| middle[axis] - lowest(outline, axis));
@@ -97,8 +98,8 @@ impl Lattice {
         Self::disc_on([0.0; 2], radius, spacing)
     }
 
-    /// Returns a disc of the given radius, in m, cut from a grid with a particle at the point `grid` from
-    /// its centre, in m.
+    /// Returns a disc of the given radius, in m, cut from a grid with a particle at the point
+    /// `grid` from its centre, in m.
     ///
     /// The cells are those of the grid, so the outline is ragged by up to one spacing; mass and
     /// connectors have the exact area of the disc in every cell.
@@ -154,8 +155,8 @@ impl Lattice {
         Self { grain, ..self }
     }
 
-    /// Cuts a grid of cells; `quadrants` returns the areas of the four quadrants of a cell for its column
-    /// and row.
+    /// Cuts a grid of cells; `quadrants` returns the areas of the four quadrants of a cell for its
+    /// column and row.
     fn cut(
         spacing: [f64; 2],
         start: [f64; 2],
@@ -236,8 +237,8 @@ impl Lattice {
     }
 }
 
-/// Returns the areas of the quadrants of a cell with none below [`QUADRANT_PART_MIN`] of the cell, and
-/// the same sum.
+/// Returns the areas of the quadrants of a cell with none below [`QUADRANT_PART_MIN`] of the cell,
+/// and the same sum.
 fn levelled(areas: [f64; 4]) -> [f64; 4] {
     let whole: f64 = areas.iter().sum();
     let least = QUADRANT_PART_MIN * whole;
@@ -266,8 +267,8 @@ fn check(what: &'static str, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() { Ok(()) } else { Err(Error::Length { what, value }) }
 }
 
-/// Returns the signed area of the disc about the origin in the rectangle with the corners (0, 0) and
-/// (u, v).
+/// Returns the signed area of the disc about the origin in the rectangle with the corners (0, 0)
+/// and (u, v).
 fn disc_corner_area(radius: f64, u: f64, v: f64) -> f64 {
     let (a, b) = (u.abs().min(radius), v.abs().min(radius));
     // Near the circle the arc sine would lose half of the digits.

@@ -1,34 +1,35 @@
-//! Fold lines, along which a panel is bent at rest, and the rest curvature that they give a connector.
+//! Fold lines, along which a panel is bent at rest, and the rest curvature that they give a
+//! connector.
 
 /// Component of a line's normal below which the line counts as along a yarn: rounding.
 const ALONG: f64 = 1e-6;
 
 /// Distance over which a slanting fold is rounded on both sides of its line, in spacings.
 ///
-/// Without rounding a fold of 90° at 30° to the yarns came to 54° at 10 mm, with 1 spacing to 91°, with
-/// 2 to 90°; one through a rim came to 74°, 82° and 88°.
+/// Without rounding a fold of 90° at 30° to the yarns came to 54° at 10 mm, with 1 spacing to 91°,
+/// with 2 to 90°; one through a rim came to 74°, 82° and 88°.
 const ROUNDING: f64 = 2.0;
 
 /// Straight line along which a panel is folded at rest: a crease, or the edge of a pleat.
 ///
 /// A panel that is folded by an angle `$\alpha$` along a line has the rest curvature
-/// `$\alpha\,\delta(d)\,nn^T$` with the distance `$d$` from the line and its normal `$n$` in the panel. A
-/// connector has of it what it would measure on a panel so folded: the second difference of
-/// `$\max(d, 0)$`. Along each yarn that crosses the line these parts add up to all of it, wherever the
-/// nodes are. A yarn along which the normal has the component `$n_y$` turns, for a fraction `$w$` of the
-/// angle, by
+/// `$\alpha\,\delta(d)\,nn^T$` with the distance `$d$` from the line and its normal `$n$` in the
+/// panel. A connector has of it what it would measure on a panel so folded: the second difference
+/// of `$\max(d, 0)$`. Along each yarn that crosses the line these parts add up to all of it,
+/// wherever the nodes are. A yarn along which the normal has the component `$n_y$` turns, for a
+/// fraction `$w$` of the angle, by
 ///
 /// ```math
 /// \beta = 2\arcsin\left(|n_y|\sin\frac{w\alpha}{2}\right),\qquad \kappa_0 = \beta/h
 /// ```
 ///
-/// as a straight line on a folded sheet of paper does. A slanting fold is rounded over two spacings on
-/// each side. Within a spacing of an outline a part of the angle is lost, where yarns end.
+/// as a straight line on a folded sheet of paper does. A slanting fold is rounded over two spacings
+/// on each side. Within a spacing of an outline a part of the angle is lost, where yarns end.
 ///
-/// Bending along the yarns cannot tell a slanting fold from its mirror image about a yarn; twist could.
-/// Which of the two forms follows from the places of the folded connectors, since cloth hardly
-/// stretches. The crease has no stiffness of its own: along it and across it the fabric's laws hold,
-/// with friction, which keeps a cloth that starts flat from reaching the whole angle.
+/// Bending along the yarns cannot tell a slanting fold from its mirror image about a yarn; twist
+/// could. Which of the two forms follows from the places of the folded connectors, since cloth
+/// hardly stretches. The crease has no stiffness of its own: along it and across it the fabric's
+/// laws hold, with friction, which keeps a cloth that starts flat from reaching the whole angle.
 ///
 /// ```
 /// use drape_cloth::{Fold, Lattice};
@@ -40,8 +41,8 @@ const ROUNDING: f64 = 2.0;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fold {
-    /// Ends of the line in material coordinates (u along the weft, v along the warp), in m. They may lie
-    /// outside the panel.
+    /// Ends of the line in material coordinates (u along the weft, v along the warp), in m. They
+    /// may lie outside the panel.
     pub ends: [[f64; 2]; 2],
     /// Angle by which the panel is turned towards its right side, in rad.
     pub angle: f64,
@@ -95,8 +96,9 @@ impl Fold {
         self.direction()[direction].abs()
     }
 
-    /// Returns the angle by which a yarn turns that has a part of the fold: the second difference of
-    /// `$\max(d, 0)$` over the spacing. A part above one, which a fit may have, counts in proportion.
+    /// Returns the angle by which a yarn turns that has a part of the fold: the second difference
+    /// of `$\max(d, 0)$` over the spacing. A part above one, which a fit may have, counts in
+    /// proportion.
     fn turning_angle(&self, part: f64, direction: usize) -> f64 {
         let across = self.across(direction).max(ALONG);
         let half = 0.5 * self.angle * (part.abs() / across).min(1.0);
@@ -124,8 +126,8 @@ impl Fold {
         (cubic(distance + rounding) - 2.0 * cubic(distance)) / (rounding * rounding)
     }
 
-    /// Returns the rest curvature that the fold adds to a connector along a direction, in 1/m, from the
-    /// nodes of its second difference and its middle; `spacing` is that along weft and warp.
+    /// Returns the rest curvature that the fold adds to a connector along a direction, in 1/m, from
+    /// the nodes of its second difference and its middle; `spacing` is that along weft and warp.
     pub(crate) fn rest_curvature(
         &self,
         nodes: impl Iterator<Item = WeightedNode>,

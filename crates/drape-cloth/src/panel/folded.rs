@@ -1,5 +1,5 @@
-//! Folds of a panel: their check, the rest curvatures of its connectors, and the corners of its cells
-//! that stand for shear.
+//! Folds of a panel: their check, the rest curvatures of its connectors, and the corners of its
+//! cells that stand for shear.
 
 use crate::error::Error;
 use crate::panel::fold::{Fold, LineCoordinates, WeightedNode};
@@ -16,8 +16,8 @@ impl Lattice {
     ///
     /// # Errors
     /// When a fold has no length or a number that is not finite, its angle is beyond
-    /// [`Fold::ANGLE_MAX`], or the panel does not lie on both sides of it; and when the folds at a node
-    /// add up to more than that angle.
+    /// [`Fold::ANGLE_MAX`], or the panel does not lie on both sides of it; and when the folds at a
+    /// node add up to more than that angle.
     pub fn with_folds(mut self, folds: &[Fold]) -> Result<Self, Error> {
         for (fold, line) in folds.iter().enumerate() {
             let wrong = |what| Err(Error::Fold { fold, what });
@@ -81,9 +81,10 @@ impl Lattice {
 
     /// Returns the areas of the corners of each cell, for shear, in m².
     ///
-    /// Where a slanting fold passes a corner, its two yarns lie on both sides of the fold and meet at
-    /// another angle when it is folded, by up to all of the fold's, although the cloth is not sheared.
-    /// The two other corners of the cell, whose yarns lie on one side, then stand for the whole cell.
+    /// Where a slanting fold passes a corner, its two yarns lie on both sides of the fold and meet
+    /// at another angle when it is folded, by up to all of the fold's, although the cloth is not
+    /// sheared. The two other corners of the cell, whose yarns lie on one side, then stand for the
+    /// whole cell.
     pub(crate) fn shear_areas(&self) -> Vec<[f64; 4]> {
         let mut areas: Vec<[f64; 4]> = self.cells.iter().map(|cell| cell.quadrants).collect();
         for fold in &self.folds {
@@ -95,8 +96,8 @@ impl Lattice {
             for (direction, yarns) in self.yarns().iter().enumerate() {
                 self.add_fold(fold, yarns, direction, &mut bent);
             }
-            // The line rises with u from the first corner to the third, or falls from the fourth to the
-            // second.
+            // The line rises with u from the first corner to the third, or falls from the fourth to
+            // the second.
             let (clear, parted) = if u * v > 0.0 { ([1, 3], [0, 2]) } else { ([0, 2], [1, 3]) };
             for (cell, areas) in self.cells.iter().zip(&mut areas) {
                 if parted.iter().any(|&corner| bent[cell.corners[corner] as usize] != 0.0) {

@@ -47,8 +47,8 @@ impl Grain {
         [x * self.cos + y * self.sin, y * self.cos - x * self.sin]
     }
 
-    /// Returns two lengths along the sides of a panel as lengths along the yarns nearest to them, weft
-    /// and warp; its own inverse.
+    /// Returns two lengths along the sides of a panel as lengths along the yarns nearest to them,
+    /// weft and warp; its own inverse.
     pub(crate) fn exchanged(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         if self.sin.abs() > self.cos.abs() { [b, a] } else { [a, b] }
     }

@@ -8,9 +8,9 @@ use crate::panel::triangle::twice_area;
 
 /// Panel before deformation: particles on a grid along the yarns, and the cells between them.
 ///
-/// The material coordinates of a particle are `u` along the weft and `v` along the warp. Every cell has
-/// four corners and the area of the panel in each of its four quadrants, from which the masses and the
-/// areas of all connectors follow.
+/// The material coordinates of a particle are `u` along the weft and `v` along the warp. Every cell
+/// has four corners and the area of the panel in each of its four quadrants, from which the masses
+/// and the areas of all connectors follow.
 ///
 /// ```
 /// use drape_cloth::Lattice;
@@ -31,8 +31,8 @@ pub struct Lattice {
     pub coordinates: Vec<[f64; 2]>,
     /// Rotation between the panel's own frame and its yarns.
     pub grain: Grain,
-    /// Middle of the panel in its own frame, in m: [0, 0] for a disc, that of the bounding box for a
-    /// panel that was cut elsewhere.
+    /// Middle of the panel in its own frame, in m: [0, 0] for a disc, that of the bounding box for
+    /// a panel that was cut elsewhere.
     pub middle: [f64; 2],
     /// Width and height of a rectangle, in m.
     pub(crate) size: Option<[f64; 2]>,
@@ -61,17 +61,18 @@ pub struct Cell {
 }
 
 impl Lattice {
-    /// Points of the particles in the panel's own frame, in m: from the lower left corner of a rectangle,
-    /// from the middle of a disc, as given for a panel that was cut elsewhere.
+    /// Points of the particles in the panel's own frame, in m: from the lower left corner of a
+    /// rectangle, from the middle of a disc, as given for a panel that was cut elsewhere.
     #[must_use]
     pub fn panel_coordinates(&self) -> Vec<[f64; 2]> {
         self.coordinates.iter().map(|&coordinates| self.grain.to_panel(coordinates)).collect()
     }
 
-    /// Distance of each particle from a side of the panel, in spacings: 0 on it, negative beyond it.
+    /// Distance of each particle from a side of the panel, in spacings: 0 on it, negative beyond
+    /// it.
     ///
-    /// The side is that at the low (−1) or the high end (1) of an axis of the panel's own frame; panels
-    /// other than rectangles have their outermost particles there.
+    /// The side is that at the low (−1) or the high end (1) of an axis of the panel's own frame;
+    /// panels other than rectangles have their outermost particles there.
     #[must_use]
     pub fn depths(&self, axis: usize, end: f64) -> Vec<f64> {
         let points = self.panel_coordinates();
@@ -94,8 +95,8 @@ impl Lattice {
         self.cells.iter().flat_map(|cell| cell.quadrants).chain(self.rim_areas()).sum()
     }
 
-    /// Triangles for pictures and contact: every cell halved, with diagonals that alternate like the
-    /// fields of a chessboard, then the rim.
+    /// Triangles for pictures and contact: every cell halved, with diagonals that alternate like
+    /// the fields of a chessboard, then the rim.
     #[must_use]
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         let halves = |cell: &Cell| {

@@ -9,11 +9,12 @@ use crate::panel::triangle::twice_area;
 /// Tolerance of a node's distance from its grid point, in spacings: rounding.
 const ROUNDING_ERROR: f64 = 1e-6;
 
-/// Panel that was cut elsewhere: full cells of a grid along the yarns, and triangles between them and
-/// the outline.
+/// Panel that was cut elsewhere: full cells of a grid along the yarns, and triangles between them
+/// and the outline.
 ///
-/// Material coordinates are `u` along the weft and `v` along the warp. Nodes of the grid come first, row
-/// by row (a row runs along the weft, and rows follow the warp), then those of the outline.
+/// Material coordinates are `u` along the weft and `v` along the warp. Nodes of the grid come
+/// first, row by row (a row runs along the weft, and rows follow the warp), then those of the
+/// outline.
 ///
 /// ```
 /// use drape_cloth::{Grain, Lattice, Mesh};
@@ -131,14 +132,14 @@ impl Mesh {
 }
 
 impl Lattice {
-    /// Returns a panel that was cut elsewhere, with or without a rim of triangles; its own frame is that
-    /// of the grain.
+    /// Returns a panel that was cut elsewhere, with or without a rim of triangles; its own frame is
+    /// that of the grain.
     ///
     /// Two neighbouring nodes of the grid on a yarn must not have the outline between them.
     ///
     /// # Errors
-    /// When indices, areas or the order of the nodes are not as [`Mesh`] says, or a node belongs to no
-    /// cell and no triangle.
+    /// When indices, areas or the order of the nodes are not as [`Mesh`] says, or a node belongs to
+    /// no cell and no triangle.
     pub fn from_mesh(mesh: Mesh, grain: Grain) -> Result<Self, Error> {
         mesh.check()?;
         let Extent { columns, rows, low } = mesh.extent();

@@ -15,9 +15,9 @@ use crate::state::State;
 
 /// The connectors of a cloth one by one through the scalar laws.
 ///
-/// [`Cloth`](crate::Cloth) is tested and measured against it: the same numbers up to rounding, from code
-/// that shares with it which particles a connector joins, the weights of the fits at a rim, and the
-/// turning angle of a second difference.
+/// [`Cloth`](crate::Cloth) is tested and measured against it: the same numbers up to rounding, from
+/// code that shares with it which particles a connector joins, the weights of the fits at a rim,
+/// and the turning angle of a second difference.
 ///
 /// ```
 /// use drape_cloth::{Cloth, Lattice, Reference};
@@ -43,7 +43,8 @@ use crate::state::State;
 /// };
 /// let state = cloth.state(place(0.0))?;
 /// let reference = Reference::new(&panels, cloth.sparsity(), &state);
-/// let (mut fast, mut exact) = (vec![0.0; 3 * cloth.particles()], vec![0.0; 3 * cloth.particles()]);
+/// let mut fast = vec![0.0; 3 * cloth.particles()];
+/// let mut exact = fast.clone();
 /// cloth.add_forces(&state, &place(2.0), &mut fast);
 /// reference.add_forces(&place(2.0), &mut exact);
 /// assert!(fast.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-12));
@@ -62,8 +63,8 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Returns the connectors of panels at the positions of a state, with no friction in any of them. The
-    /// sparsity and the state are those of the cloth of the same panels.
+    /// Returns the connectors of panels at the positions of a state, with no friction in any of
+    /// them. The sparsity and the state are those of the cloth of the same panels.
     #[must_use]
     pub fn new(panels: &[(&Lattice, &Fabric)], sparsity: &Sparsity, state: &State) -> Self {
         let (positions, normals) = (state.positions.as_slice(), state.normals());
@@ -136,7 +137,8 @@ impl Reference {
         }
     }
 
-    /// Adds the forces at trial positions, in N, as [`Cloth::add_forces`](crate::Cloth::add_forces).
+    /// Adds the forces at trial positions, in N, as
+    /// [`Cloth::add_forces`](crate::Cloth::add_forces).
     pub fn add_forces(&self, trial: &[f64], forces: &mut [f64]) {
         for segment in &self.segments {
             let [a, b] = segment.particles;
@@ -169,7 +171,8 @@ impl Reference {
         }
     }
 
-    /// Returns the potential, in J, as [`Cloth::potential`](crate::Cloth::potential) but for a constant.
+    /// Returns the potential, in J, as [`Cloth::potential`](crate::Cloth::potential) but for a
+    /// constant.
     #[must_use]
     pub fn potential(&self, trial: &[f64]) -> f64 {
         let segments = self
@@ -239,8 +242,8 @@ impl Reference {
         }
     }
 
-    /// Accepts a step, as [`Cloth::commit`](crate::Cloth::commit), with the normals of the state after it;
-    /// returns the energy dissipated, in J.
+    /// Accepts a step, as [`Cloth::commit`](crate::Cloth::commit), with the normals of the state
+    /// after it; returns the energy dissipated, in J.
     pub fn commit(&mut self, positions: &[f64], normals: &[f64]) -> f64 {
         self.normals.copy_from_slice(normals);
         let mut lost = 0.0;

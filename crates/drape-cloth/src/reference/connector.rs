@@ -121,7 +121,8 @@ impl Connector<ShearLaw, 3> {
 }
 
 impl<L, const N: usize> Connector<L, N> {
-    /// Returns a connector without memory, with a rest length or sign (`measure`) and an area of one.
+    /// Returns a connector without memory, with a rest length or sign (`measure`) and an area of
+    /// one.
     pub(crate) fn new(law: L, particles: [u32; N], measure: f64, sparsity: &Sparsity) -> Self {
         let block = |(i, j): (usize, usize)| {
             let pair = (particles.get(i)?, particles.get(j)?);

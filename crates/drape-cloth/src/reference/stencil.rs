@@ -5,7 +5,7 @@ use drape_fabric::{BendingLaw, Fabric, Memory};
 use crate::layout::connectors::BendingConnectors;
 use crate::measure::bending::{BendingMeasure, BendingResponse};
 use crate::measure::block::{Matrix, sum};
-use crate::measure::vector::{add_at, scale, vector_at, weighted_sum};
+use crate::measure::vector::{WeightedNode, add_at, scale, vector_at, weighted_sum};
 use crate::panel::lattice::Lattice;
 use crate::reference::connector::commit_memory;
 use crate::rim::fits::PanelFits;
@@ -16,8 +16,8 @@ use crate::rim::neighbourhood::Neighbourhoods;
 pub(crate) struct ReferenceStencil {
     law: BendingLaw,
     middle: u32,
-    /// Particles with their weights in the second difference, in 1/m².
-    nodes: Vec<(u32, f64)>,
+    /// Particles with their weights in the second difference.
+    nodes: Vec<WeightedNode>,
     length: f64,
     area: f64,
     /// Rest curvature that folds add, in 1/m.
@@ -38,12 +38,14 @@ impl ReferenceStencil {
         let mut all = Vec::new();
         for stencil in PanelFits::of(lattice, neighbourhoods, bending).stencils {
             for (direction, (law, length)) in sides.into_iter().enumerate() {
-                let nodes = stencil.nodes.iter();
-                let nodes = nodes.map(|node| (node.node, node.weights[direction])).collect();
+                let nodes = stencil
+                    .nodes
+                    .iter()
+                    .map(|node| WeightedNode { node: node.node, weight: node.weights[direction] });
                 all.push(Self {
                     law,
                     middle: stencil.middle,
-                    nodes,
+                    nodes: nodes.collect(),
                     length,
                     area: stencil.areas[direction],
                     fold: stencil.folds[direction],
@@ -58,7 +60,7 @@ impl ReferenceStencil {
     /// Counts the particles from `first` on.
     pub(crate) fn shifted(mut self, first: u32) -> Self {
         self.middle += first;
-        self.nodes.iter_mut().for_each(|(node, _)| *node += first);
+        self.nodes.iter_mut().for_each(|node| node.node += first);
         self
     }
 
@@ -85,7 +87,7 @@ impl ReferenceStencil {
 
     pub(crate) fn add_forces(&self, positions: &[f64], normals: &[f64], forces: &mut [f64]) {
         let moment = self.respond(positions, normals, false).gradient;
-        for &(node, weight) in &self.nodes {
+        for &WeightedNode { node, weight } in &self.nodes {
             add_at(forces, node, scale(moment, -self.area * weight));
         }
     }
@@ -102,9 +104,9 @@ impl ReferenceStencil {
         put: &mut impl FnMut([u32; 2], Matrix),
     ) {
         let hessian = self.respond(positions, normals, definite).hessian;
-        for (k, &(node, weight)) in self.nodes.iter().enumerate() {
-            for &(other, factor) in &self.nodes[k..] {
-                put([node, other], sum([(self.area * weight * factor, hessian)]));
+        for (k, &WeightedNode { node, weight }) in self.nodes.iter().enumerate() {
+            for other in &self.nodes[k..] {
+                put([node, other.node], sum([(self.area * weight * other.weight, hessian)]));
             }
         }
     }

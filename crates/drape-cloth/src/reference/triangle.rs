@@ -20,7 +20,8 @@ pub(crate) struct ReferenceTriangle {
     shear_memory: Memory,
 }
 
-/// Lengths and directions of the columns of the deformation gradient, and the sine of the shear angle.
+/// Lengths and directions of the columns of the deformation gradient, and the sine of the shear
+/// angle.
 struct Deformation {
     lengths: [f64; 2],
     units: [Vector; 2],
@@ -42,7 +43,8 @@ impl ReferenceTriangle {
                 laws: [fabric.warp.traction, fabric.weft.traction],
                 shear: fabric.shear,
                 corners: corners.map(|corner| first + corner),
-                // The gradient of a corner is the opposite side rotated by 90°, over twice the area.
+                // The gradient of a corner is the opposite side rotated by 90°, over twice the
+                // area.
                 gradients: [
                     [a, b, c].map(|side| side[0] / twice),
                     [a, b, c].map(|side| -side[1] / twice),

@@ -11,11 +11,11 @@ use crate::rim::neighbourhood::Neighbourhoods;
 use crate::rim::stencils::{Stencils, pairs};
 use crate::rim::triangles::Triangles;
 
-/// Rim of a panel: traction and shear of its triangles, and bending where no triple of the grid has its
-/// middle.
+/// Rim of a panel: traction and shear of its triangles, and bending where no triple of the grid has
+/// its middle.
 ///
-/// Indices count over the rims of the cloth, each padded to a whole number of batches with connectors of
-/// no area.
+/// Indices count over the rims of the cloth, each padded to a whole number of batches with
+/// connectors of no area.
 #[derive(Debug, Clone)]
 pub(crate) struct Rim {
     /// Index among the rims of the cloth.
@@ -82,28 +82,27 @@ impl Rim {
     /// Looks up the slots of its blocks.
     pub(crate) fn find_slots(&mut self, sparsity: &Sparsity) {
         self.blocks = sparsity.offsets[self.particles.start]..sparsity.offsets[self.particles.end];
-        let slot = |row: u32, column: u32| {
+        let slot = |[row, column]: [u32; 2]| {
             sparsity.block(row, column).map_or(NO_BLOCK, |block| block as u32)
         };
-        let three = |&[a, b, c]: &[u32; 3]| {
-            [(a, a), (a, b), (a, c), (b, b), (b, c), (c, c)].map(|(row, column)| slot(row, column))
-        };
+        let three =
+            |&[a, b, c]: &[u32; 3]| [[a, a], [a, b], [a, c], [b, b], [b, c], [c, c]].map(slot);
         self.triangles.slots = self.triangles.corners.iter().map(three).collect();
         let mut slots = Vec::new();
         self.stencils.slot_offsets = vec![0];
         for index in 0..self.stencils.count {
-            slots.extend(pairs(self.stencils.nodes(index)).map(|(row, column)| slot(row, column)));
+            slots.extend(pairs(self.stencils.nodes(index)).map(slot));
             self.stencils.slot_offsets.push(slots.len());
         }
         self.stencils.slots = slots;
     }
 
     /// Pairs of particles that a connector joins, the first of each less than the second.
-    pub(crate) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> {
-        let sides = |&[a, b, c]: &[u32; 3]| [(a, b), (a, c), (b, c)];
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {
+        let sides = |&[a, b, c]: &[u32; 3]| [[a, b], [a, c], [b, c]];
         let triangles = self.triangles.corners.iter().flat_map(sides);
         let stencils = (0..self.stencils.count).map(|index| self.stencils.nodes(index));
-        triangles.chain(stencils.flat_map(pairs)).filter(|(row, column)| row < column)
+        triangles.chain(stencils.flat_map(pairs)).filter(|[row, column]| row < column)
     }
 }
 

@@ -39,8 +39,8 @@ pub(crate) fn potential(shape: &RimShape<'_>, memories: &RimMemories) -> f64 {
     sums.iter().sum()
 }
 
-/// Advances the memories of a rim to the accepted positions and normals; returns the energy dissipated,
-/// in J.
+/// Advances the memories of a rim to the accepted positions and normals; returns the energy
+/// dissipated, in J.
 #[inline(always)]
 pub(crate) fn commit(shape: &RimShape<'_>, mut memories: RimMemoriesMut<'_>) -> f64 {
     let RimShape { rim: Rim { triangles, stencils, .. }, panel, .. } = *shape;

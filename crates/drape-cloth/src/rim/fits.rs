@@ -1,4 +1,5 @@
-//! Fits of a panel: the nodes and weights of its stencils, and of the derivatives that give its normals.
+//! Fits of a panel: the nodes and weights of its stencils, and of the derivatives that give its
+//! normals.
 
 use crate::layout::connectors::BendingConnectors;
 use crate::measure::vector::Vector;

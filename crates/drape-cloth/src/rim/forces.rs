@@ -51,8 +51,8 @@ pub(crate) fn add_forces(shape: &RimShape<'_>, memories: &RimMemories, forces: &
     }
 }
 
-/// Returns the derivatives of the potential of a batch of triangles with respect to the columns `$p$` and
-/// `$q$` of the deformation gradient, in J.
+/// Returns the derivatives of the potential of a batch of triangles with respect to the columns
+/// `$p$` and `$q$` of the deformation gradient, in J.
 #[inline(always)]
 fn gradient_derivatives(
     shape: &RimShape<'_>,

@@ -51,13 +51,13 @@ impl RimMemories {
 
 impl RimMemoriesMut<'_> {
     /// Splits into the memories of the rims from `from` up to `to` and those from `to` on.
-    pub(crate) fn split(self, from: &Rim, to: &Rim) -> (Self, Self) {
+    pub(crate) fn split(self, from: &Rim, to: &Rim) -> [Self; 2] {
         let triangles = to.triangles.base - from.triangles.base;
         let stencils = to.stencils.base - from.stencils.base;
         let ([a, b], c, [d, e]) = (self.traction, self.shear, self.bending);
         let [a, b, c] = [a, b, c].map(|memories| memories.split(triangles));
         let [d, e] = [d, e].map(|memories| memories.split(stencils));
         let head = Self { traction: [a.0, b.0], shear: c.0, bending: [d.0, e.0] };
-        (head, Self { traction: [a.1, b.1], shear: c.1, bending: [d.1, e.1] })
+        [head, Self { traction: [a.1, b.1], shear: c.1, bending: [d.1, e.1] }]
     }
 }

@@ -15,8 +15,8 @@ pub(crate) struct Neighbourhoods<'a> {
 }
 
 impl<'a> Neighbourhoods<'a> {
-    /// Returns the connections of a panel with a rim, or of one that is too narrow for triples; nothing
-    /// for other panels, which have no stencils.
+    /// Returns the connections of a panel with a rim, or of one that is too narrow for triples;
+    /// nothing for other panels, which have no stencils.
     pub(crate) fn of(lattice: &'a Lattice) -> Option<Self> {
         let narrow = || lattice.yarns().iter().any(|yarns| yarns.iter().all(|yarn| yarn.len() < 3));
         (!lattice.rim.is_empty() || narrow()).then(|| Self {
@@ -50,8 +50,8 @@ impl<'a> Neighbourhoods<'a> {
         self.sides.iter().any(crosses)
     }
 
-    /// Returns a node, its neighbours, and the nearest nodes around them: [`NODES`] at most, fewer in the
-    /// smallest panels.
+    /// Returns a node, its neighbours, and the nearest nodes around them: [`NODES`] at most, fewer
+    /// in the smallest panels.
     pub(crate) fn around(&self, node: u32) -> Vec<u32> {
         let mut found: Vec<(usize, u32)> = vec![(0, node)];
         let mut seen = vec![node];

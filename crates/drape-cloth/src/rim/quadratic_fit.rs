@@ -1,16 +1,16 @@
-//! Quadratic fitted to the neighbourhood of a node by least squares; its derivatives are the weights of
-//! a stencil.
+//! Quadratic fitted to the neighbourhood of a node by least squares; its derivatives are the
+//! weights of a stencil.
 
 /// Largest number of nodes of a fit, its own among them.
 pub(crate) const NODES: usize = 14;
 
-/// Least number of nodes of a fit, if there are as many: a quadratic has six coefficients, and three
-/// more nodes average it.
+/// Least number of nodes of a fit, if there are as many: a quadratic has six coefficients, and
+/// three more nodes average it.
 const NODES_MIN: usize = 9;
 
-/// Least ratio of the smallest to the largest eigenvalue of the normal matrix of the quadratic terms;
-/// nodes are added until it is reached. Smaller values amplify noise of the positions, larger ones need
-/// nodes farther away.
+/// Least ratio of the smallest to the largest eigenvalue of the normal matrix of the quadratic
+/// terms; nodes are added until it is reached. Smaller values amplify noise of the positions,
+/// larger ones need nodes farther away.
 const CONDITION_MIN: f64 = 0.04;
 
 /// Ratio to the largest eigenvalue below which a curvature is undetermined.
@@ -21,7 +21,8 @@ const DETERMINED_MIN: f64 = 1e-3;
 /// Number of Jacobi sweeps for the eigenvalues of a 3 × 3 matrix; each squares the error.
 const SWEEPS: usize = 8;
 
-/// Weights of the nearest nodes in the derivatives, at the first of them, of a quantity at the nodes.
+/// Weights of the nearest nodes in the derivatives, at the first of them, of a quantity at the
+/// nodes.
 ///
 /// With the vector `$d_k$` from the first node over the spacing, the quadratic `$f$` minimises
 ///
@@ -29,8 +30,8 @@ const SWEEPS: usize = 8;
 /// \sum_k w_k\,\left(f(d_k) - f_k\right)^2,\qquad w_k = \frac{1}{1 + d_k^2}
 /// ```
 ///
-/// The weights of the second derivatives are zero on linear functions, and both orders are exact for
-/// quadratics whose curvatures the nodes determine.
+/// The weights of the second derivatives are zero on linear functions, and both orders are exact
+/// for quadratics whose curvatures the nodes determine.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct QuadraticFit {
     /// Weights of the first derivatives along weft and warp, in 1/m.
@@ -39,13 +40,15 @@ pub(crate) struct QuadraticFit {
     pub(crate) second: [Vec<f64>; 2],
 }
 
-/// A fit and its conditioning: the ratio of the smallest to the largest eigenvalue of the normal matrix.
+/// A fit and its conditioning: the ratio of the smallest to the largest eigenvalue of the normal
+/// matrix.
 struct ConditionedFit {
     fit: QuadraticFit,
     condition: f64,
 }
 
-/// Inverse of a symmetric matrix on its determined eigenvectors, and the conditioning of the matrix.
+/// Inverse of a symmetric matrix on its determined eigenvectors, and the conditioning of the
+/// matrix.
 struct ConditionedInverse {
     inverse: [[f64; 3]; 3],
     condition: f64,
@@ -92,7 +95,8 @@ impl QuadraticFit {
             coefficients[k][k] = length;
             basis.push(rest.into_iter().map(|x| x / length).collect());
         }
-        // The quadratics less their linear parts; the factor of uv makes the three rotate like a tensor.
+        // The quadratics less their linear parts; the factor of uv makes the three rotate like a
+        // tensor.
         let quadratics = [
             |[u, _]: [f64; 2]| 0.5 * u * u,
             |[u, v]: [f64; 2]| std::f64::consts::FRAC_1_SQRT_2 * u * v,
@@ -130,8 +134,8 @@ impl QuadraticFit {
     }
 }
 
-/// Subtracts from a column its components along an orthonormal basis, twice because of rounding, and
-/// adds them to `parts`.
+/// Subtracts from a column its components along an orthonormal basis, twice because of rounding,
+/// and adds them to `parts`.
 fn project(column: &mut [f64], basis: &[Vec<f64>], parts: &mut [f64; 3]) {
     for _ in 0..2 {
         for (vector, part) in basis.iter().zip(parts.iter_mut()) {
@@ -142,8 +146,8 @@ fn project(column: &mut [f64], basis: &[Vec<f64>], parts: &mut [f64; 3]) {
     }
 }
 
-/// Inverts a symmetric matrix on the eigenvectors whose eigenvalues are not too small; on the others the
-/// result is zero.
+/// Inverts a symmetric matrix on the eigenvectors whose eigenvalues are not too small; on the
+/// others the result is zero.
 fn inverted(mut matrix: [[f64; 3]; 3]) -> ConditionedInverse {
     let mut vectors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     for _ in 0..SWEEPS {

@@ -19,8 +19,8 @@ pub(crate) struct Stencils {
     pub(crate) areas: [Vec<f64>; 2],
     /// Rest curvatures that folds add along warp and weft, in 1/m; empty without folds.
     pub(crate) folds: [Vec<f64>; 2],
-    /// Slots of the blocks of the nodes 00, 01, …, 11, 12, … of one stencil after the other, and the
-    /// index of the first slot of each.
+    /// Slots of the blocks of the nodes 00, 01, …, 11, 12, … of one stencil after the other, and
+    /// the index of the first slot of each.
     pub(crate) slots: Vec<u32>,
     pub(crate) slot_offsets: Vec<usize>,
     /// Number of stencils.
@@ -73,10 +73,10 @@ impl Stencils {
 }
 
 /// Pairs of the nodes of a stencil, each with itself and those after it.
-pub(crate) fn pairs(nodes: &[StencilNode]) -> impl Iterator<Item = (u32, u32)> {
+pub(crate) fn pairs(nodes: &[StencilNode]) -> impl Iterator<Item = [u32; 2]> {
     let with = |(k, node): (usize, &StencilNode)| {
         let row = node.node;
-        nodes[k..].iter().map(move |other| (row, other.node))
+        nodes[k..].iter().map(move |other| [row, other.node])
     };
     nodes.iter().enumerate().flat_map(with)
 }
@@ -90,7 +90,8 @@ pub(crate) struct StencilMeasures<'a> {
 }
 
 impl<'a> StencilMeasures<'a> {
-    /// Measures the batch of stencils that begins at `start`: `$b = \sum b_i x_i$` along both yarns.
+    /// Measures the batch of stencils that begins at `start`: `$b = \sum b_i x_i$` along both
+    /// yarns.
     #[inline(always)]
     pub(crate) fn of(
         stencils: &'a Stencils,

@@ -19,8 +19,8 @@ pub(crate) struct RimStiffness<'a> {
     pub(crate) definite: bool,
 }
 
-/// Second derivatives of the potential of a batch of triangles with respect to the columns `$p$` and
-/// `$q$` of the deformation gradient, in J.
+/// Second derivatives of the potential of a batch of triangles with respect to the columns `$p$`
+/// and `$q$` of the deformation gradient, in J.
 struct GradientHessian {
     /// Upper halves of the blocks of `$p$` with itself and `$q$` with itself.
     own: [[Lanes; 6]; 2],
@@ -75,7 +75,8 @@ pub(crate) fn add_stiffness(stiffness: &RimStiffness<'_>, values: &mut [f64]) {
 
 /// Returns the second derivatives with respect to `$p$` and `$q$`.
 ///
-/// With load `$g$` and tangent `$t$` of the shear, and `$c = \hat{p}\cdot\hat{q}$`, those of the shear are
+/// With load `$g$` and tangent `$t$` of the shear, and `$c = \hat{p}\cdot\hat{q}$`, those of the
+/// shear are
 ///
 /// ```math
 /// \frac{1}{|p|^2}\left[t\,\hat{q}\hat{q}^T - (tc+g)(\hat{q}\hat{p}^T+\hat{p}\hat{q}^T)

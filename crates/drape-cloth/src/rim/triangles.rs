@@ -57,8 +57,8 @@ impl Triangles {
 /// Measures of a batch of triangles.
 ///
 /// The deformation gradient takes the warp to `$p = \sum r_i x_i$` with the material gradient `$r$`
-/// along it, and the weft to `$q$` likewise \[VMF09\]. The strains are `$|p| - 1$` and `$|q| - 1$`, and
-/// the sine is that of the angle by which `$p$` and `$q$` are off a right one.
+/// along it, and the weft to `$q$` likewise \[VMF09\]. The strains are `$|p| - 1$` and `$|q| - 1$`,
+/// and the sine is that of the angle by which `$p$` and `$q$` are off a right one.
 pub(crate) struct TriangleMeasures {
     /// Directions of warp and weft.
     pub(crate) units: [VectorLanes; 2],

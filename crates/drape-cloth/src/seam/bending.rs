@@ -4,7 +4,7 @@ use drape_fabric::{Fabric, Law, Memory};
 
 use crate::error::Error;
 use crate::measure::bending::BendingResponse;
-use crate::measure::vector::{Vector, add_at, scale};
+use crate::measure::vector::{Vector, WeightedNode, add_at, scale};
 use crate::panel::lattice::Lattice;
 use crate::seam::builder::{SeamBuilder, SeamProblem};
 use crate::seam::connector::SeamConnector;
@@ -13,20 +13,20 @@ use crate::seam::description::Seam;
 /// Bending of seams, in addition to that of the panels, whose own connectors end at their outlines.
 ///
 /// A seam adds a strip of its own, as wide as the mean height of the triangles beside it and
-/// [`Seam::stiffness`] times as stiff as the fabric. It stands for the layers of the allowances, and
-/// keeps the panels from turning freely about the seam.
+/// [`Seam::stiffness`] times as stiff as the fabric. It stands for the layers of the allowances,
+/// and keeps the panels from turning freely about the seam.
 ///
 /// * **Across** a segment the second difference is `$(\hat{p} + \hat{q})/w$` with the directions
-///   `$\hat{p}$`, `$\hat{q}$` in which the two triangles leave the segment and the mean height `$w$`. Its
-///   length is `$\frac{2}{w}\sin\frac{\theta}{2}$` with the angle `$\theta$` between the panels, and the
-///   curvature follows as for a triple of a yarn: `$\theta/w$`.
-/// * **Along** the seam the second difference is, on each side, that of three nodes in a row, and of the
-///   next node inside where they do not lie on a line, so that a curved seam on a flat panel has none. In
-///   a gather it is that of the shorter side alone, which the longer one follows.
+///   `$\hat{p}$`, `$\hat{q}$` in which the two triangles leave the segment and the mean height
+///   `$w$`. Its length is `$\frac{2}{w}\sin\frac{\theta}{2}$` with the angle `$\theta$` between the
+///   panels, and the curvature follows as for a triple of a yarn: `$\theta/w$`.
+/// * **Along** the seam the second difference is, on each side, that of three nodes in a row, and
+///   of the next node inside where they do not lie on a line, so that a curved seam on a flat panel
+///   has none. In a gather it is that of the shorter side alone, which the longer one follows.
 ///
 /// A curvature `$\kappa$` in a direction at an angle `$\vartheta$` to a yarn bends it by
-/// `$\kappa\cos^2\vartheta$`, as on a cylinder. Each side has the laws of its own two yarns, with friction,
-/// for half of the strip.
+/// `$\kappa\cos^2\vartheta$`, as on a cylinder. Each side has the laws of its own two yarns, with
+/// friction, for half of the strip.
 ///
 /// ```
 /// use drape_cloth::{Cloth, Lattice, Seam, SeamBending};
@@ -44,7 +44,8 @@ use crate::seam::description::Seam;
 /// # "#;
 /// # let document = drape_input::Document::new("plain.toml", text);
 /// # let fabric = drape_fabric::Fabric::from_document(&document)?;
-/// // Two squares of 3 × 3 particles, the right side of the first sewn to the left side of the second.
+/// // Two squares of 3 × 3 particles: the right side of the first is sewn to the left side of the
+/// // second.
 /// let square = Lattice::rectangle(0.02, 0.02, 0.01)?;
 /// let panels = [(&square, &fabric), (&square, &fabric)];
 /// let seams = SeamBending::new(&panels, &[Seam::new(vec![[2, 9], [5, 12], [8, 15]])])?;
@@ -88,16 +89,16 @@ impl ConnectorState<'_> {
 }
 
 impl SeamBending {
-    /// Returns the seams of a [`Cloth`](crate::Cloth) of the same panels, whose particles have the same
-    /// numbers.
+    /// Returns the seams of a [`Cloth`](crate::Cloth) of the same panels, whose particles have the
+    /// same numbers.
     ///
-    /// Where two neighbours on one side are the same particle, as where a seam runs over the mouth of a
-    /// dart, nothing bends between them.
+    /// Where two neighbours on one side are the same particle, as where a seam runs over the mouth
+    /// of a dart, nothing bends between them.
     ///
     /// # Errors
-    /// When a seam has fewer than two pairs, a particle does not exist, neighbours on a side are not
-    /// neighbours on the outline, a particle is tied to others than those of the other side, or stiffness
-    /// or angle are out of range.
+    /// When a seam has fewer than two pairs, a particle does not exist, neighbours on a side are
+    /// not neighbours on the outline, a particle is tied to others than those of the other side, or
+    /// stiffness or angle are out of range.
     pub fn new(panels: &[(&Lattice, &Fabric)], seams: &[Seam]) -> Result<Self, Error> {
         let builder = SeamBuilder::of(panels);
         let mut connectors = Vec::new();
@@ -131,14 +132,14 @@ impl SeamBending {
         Ok(SeamState { memories, normals })
     }
 
-    /// Pairs of particles that seams join, the first of each less than the second; some occur more than
-    /// once.
+    /// Pairs of particles that seams join, the first of each less than the second; some occur more
+    /// than once.
     pub fn pairs(&self) -> impl Iterator<Item = [u32; 2]> {
         self.connectors.iter().flat_map(|connector| {
-            let with = |(k, &(first, _)): (usize, &(u32, f64))| {
-                connector.nodes[k + 1..].iter().map(move |&(second, _)| [first, second])
-            };
-            connector.nodes.iter().enumerate().flat_map(with)
+            let nodes = connector.nodes.iter().enumerate();
+            nodes.flat_map(|(k, first)| {
+                connector.nodes[k + 1..].iter().map(move |second| [first.node, second.node])
+            })
         })
     }
 
@@ -155,7 +156,7 @@ impl SeamBending {
     pub fn add_forces(&self, state: &SeamState, trial: &[f64], forces: &mut [f64]) {
         for one in self.each(state) {
             let moment = one.respond(trial, false).gradient;
-            for &(node, weight) in &one.connector.nodes {
+            for &WeightedNode { node, weight } in &one.connector.nodes {
                 add_at(forces, node, scale(moment, -one.connector.area * weight));
             }
         }
@@ -170,13 +171,13 @@ impl SeamBending {
         self.each(state).map(energy).sum()
     }
 
-    /// Passes the derivative of the forces with respect to the trial positions, negated, in N/m, to `put`:
-    /// blocks of nine numbers, row by row, with the particles of row and column, the row never greater
-    /// than the column.
+    /// Passes the derivative of the forces with respect to the trial positions, negated, in N/m, to
+    /// `put`: blocks of nine numbers, row by row, with the particles of row and column, the row
+    /// never greater than the column.
     ///
-    /// Every block is symmetric. A block of two different particles stands for its transpose too; where
-    /// both are sewn into one particle, it counts twice there. With `definite`, parts that make the matrix
-    /// indefinite are left out.
+    /// Every block is symmetric. A block of two different particles stands for its transpose too;
+    /// where both are sewn into one particle, it counts twice there. With `definite`, parts that
+    /// make the matrix indefinite are left out.
     pub fn add_stiffness(
         &self,
         state: &SeamState,
@@ -188,17 +189,17 @@ impl SeamBending {
             let hessian = one.respond(trial, definite).hessian;
             let hessian = hessian.as_flattened();
             let SeamConnector { nodes, area, .. } = one.connector;
-            for (k, &(row, weight)) in nodes.iter().enumerate() {
-                for &(column, factor) in &nodes[k..] {
-                    let size = area * weight * factor;
-                    put(row, column, std::array::from_fn(|k| size * hessian[k]));
+            for (k, row) in nodes.iter().enumerate() {
+                for column in &nodes[k..] {
+                    let size = area * row.weight * column.weight;
+                    put(row.node, column.node, std::array::from_fn(|k| size * hessian[k]));
                 }
             }
         }
     }
 
-    /// Accepts a step: advances all memories and normals, which nothing else writes. Returns the energy
-    /// dissipated by friction, in J.
+    /// Accepts a step: advances all memories and normals, which nothing else writes. Returns the
+    /// energy dissipated by friction, in J.
     pub fn commit(&self, state: &mut SeamState, positions: &[f64]) -> f64 {
         let mut dissipated = 0.0;
         let memories = state.memories.iter_mut().zip(&mut state.normals);
@@ -214,8 +215,8 @@ impl SeamBending {
         dissipated
     }
 
-    /// Returns the energy that the seams can return, in J; the positions are those of the last accepted
-    /// step.
+    /// Returns the energy that the seams can return, in J; the positions are those of the last
+    /// accepted step.
     #[must_use]
     pub fn stored(&self, state: &SeamState, positions: &[f64]) -> f64 {
         let energy = |one: ConnectorState<'_>| {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use drape_fabric::{BendingBackbone, BendingLaw, BlimanSorine, Dahl, Fabric, Piecewise};
 
+use crate::measure::vector::WeightedNode;
 use crate::panel::lattice::Lattice;
 use crate::panel::triangle::twice_area;
 use crate::seam::connector::{Face, SeamConnector};
@@ -58,7 +59,7 @@ struct Draft<'a> {
     /// Rest curvature, in 1/m.
     rest_curvature: f64,
     /// Particles with their weights in the second difference, in 1/m².
-    nodes: &'a [(u32, f64)],
+    nodes: &'a [WeightedNode],
     faces: &'a [Face],
     /// Length over which the angle is measured, in m.
     length: f64,
@@ -129,7 +130,8 @@ impl SeamBuilder {
                 }
                 sides[side].push(ends[1][side]);
             }
-            // Over the mouth of a dart one side has one particle at both pairs, and the other jumps.
+            // Over the mouth of a dart one side has one particle at both pairs, and the other
+            // jumps.
             let stays = [0, 1].iter().any(|&side| ends[0][side] == ends[1][side]);
             let triangles = |side: &Vec<u32>| -> Result<Vec<SideTriangle>, SeamProblem> {
                 side.windows(2).map(|two| self.side_triangle(pair, two[0], two[1])).collect()
@@ -202,8 +204,8 @@ impl SeamBuilder {
         }
     }
 
-    /// Appends the connectors of a segment between two triangles, whose sides there have the given sum of
-    /// lengths, in m.
+    /// Appends the connectors of a segment between two triangles, whose sides there have the given
+    /// sum of lengths, in m.
     fn append_between(
         &self,
         seam: &Seam,
@@ -222,11 +224,11 @@ impl SeamBuilder {
             let foot = dot / (triangle.length * triangle.length);
             let size = 1.0 / (triangle.height * width);
             for (node, weight) in triangle.corners.into_iter().zip([foot - 1.0, -foot, 1.0]) {
-                nodes.push((node, size * weight));
+                nodes.push(WeightedNode { node, weight: size * weight });
             }
         }
-        // The wrong side of the second panel is up if the seam runs anticlockwise along both outlines, or
-        // clockwise along both.
+        // The wrong side of the second panel is up if the seam runs anticlockwise along both
+        // outlines, or clockwise along both.
         let sign = if one.along == other.along { -1.0 } else { 1.0 };
         let faces = [one.face(1.0), other.face(sign)];
         for triangle in triangles {
@@ -271,14 +273,15 @@ impl SeamBuilder {
             0.5 * along * along
         };
         let scale: f64 = weights.iter().zip([a, b, c, d]).map(|(w, p)| w * square(p)).sum();
-        let nodes_and_weights: Vec<_> =
-            nodes.into_iter().zip(weights.map(|weight| weight / scale)).collect();
+        let weighted = nodes.into_iter().zip(weights);
+        let weighted = weighted.map(|(node, weight)| WeightedNode { node, weight: weight / scale });
+        let weighted: Vec<WeightedNode> = weighted.collect();
         let length = 0.5 * (one.length + next.length);
         let draft = Draft {
             node: nodes[1],
             fractions: [direction[1] * direction[1], direction[0] * direction[0]],
             rest_curvature: 0.0,
-            nodes: &nodes_and_weights,
+            nodes: &weighted,
             faces: &[higher.face(1.0)],
             length,
             area: 0.5 * length * width * seam.stiffness,
@@ -286,10 +289,11 @@ impl SeamBuilder {
         self.append_yarns(&draft, connectors);
     }
 
-    /// Appends the connectors of both yarns of a particle's panel, each with its fraction of a curvature.
+    /// Appends the connectors of both yarns of a particle's panel, each with its fraction of a
+    /// curvature.
     fn append_yarns(&self, draft: &Draft<'_>, connectors: &mut Vec<SeamConnector>) {
         let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
-        for &(node, weight) in draft.nodes {
+        for &WeightedNode { node, weight } in draft.nodes {
             *sums.entry(node).or_insert(0.0) += weight;
         }
         for (law, fraction) in self.laws[draft.node as usize].into_iter().zip(draft.fractions) {
@@ -297,7 +301,10 @@ impl SeamBuilder {
                 let law = law_of_fraction(law, fraction);
                 connectors.push(SeamConnector {
                     law: BendingLaw { rest_curvature: draft.rest_curvature, ..law },
-                    nodes: sums.iter().map(|(&node, &weight)| (node, weight)).collect(),
+                    nodes: sums
+                        .iter()
+                        .map(|(&node, &weight)| WeightedNode { node, weight })
+                        .collect(),
                     length: draft.length,
                     area: draft.area,
                     faces: draft.faces.to_vec(),
@@ -307,8 +314,8 @@ impl SeamBuilder {
     }
 }
 
-/// Returns the law of a yarn that takes a fraction `$c$` of a curvature as a law of the whole curvature:
-/// `$M'(\kappa) = c\,M(c\,\kappa)$`.
+/// Returns the law of a yarn that takes a fraction `$c$` of a curvature as a law of the whole
+/// curvature: `$M'(\kappa) = c\,M(c\,\kappa)$`.
 fn law_of_fraction(law: BendingLaw, fraction: f64) -> BendingLaw {
     let backbone = match law.backbone {
         BendingBackbone::Linear { rigidity } => {

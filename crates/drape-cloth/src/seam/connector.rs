@@ -3,14 +3,16 @@
 use drape_fabric::{BendingLaw, Memory};
 
 use crate::measure::bending::{BendingMeasure, BendingResponse};
-use crate::measure::vector::{Vector, add, cross, dot, scale, subtract, vector_at, weighted_sum};
+use crate::measure::vector::{
+    Vector, WeightedNode, add, cross, dot, scale, subtract, vector_at, weighted_sum,
+};
 
 /// Bending connector of a seam along one yarn.
 #[derive(Debug, Clone)]
 pub(crate) struct SeamConnector {
     pub(crate) law: BendingLaw,
-    /// Particles in rising order with their weights in the second difference, in 1/m².
-    pub(crate) nodes: Vec<(u32, f64)>,
+    /// Particles in rising order with their weights in the second difference.
+    pub(crate) nodes: Vec<WeightedNode>,
     /// Length over which the angle is measured, in m.
     pub(crate) length: f64,
     /// Area times relative stiffness, in m².
@@ -54,8 +56,8 @@ impl SeamConnector {
         self.measure(positions, normal).curvature()
     }
 
-    /// Returns energy per area and derivatives. With a rest angle the curvature is counted about the
-    /// normal, as the friction is.
+    /// Returns energy per area and derivatives. With a rest angle the curvature is counted about
+    /// the normal, as the friction is.
     pub(crate) fn respond(
         &self,
         memory: &Memory,

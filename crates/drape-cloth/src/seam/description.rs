@@ -3,15 +3,15 @@
 /// Seam: the nodes that are sewn to each other, and how it bends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Seam {
-    /// Pairs of particles, one of each side, in the order of the seam; both may be the same particle, as
-    /// at the tip of a dart.
+    /// Pairs of particles, one of each side, in the order of the seam; both may be the same
+    /// particle, as at the tip of a dart.
     pub pairs: Vec<[u32; 2]>,
     /// Particles of the longer side of a gather between the pairs, in the order of the seam.
     pub ties: Vec<Tie>,
     /// Stiffness of the strip along the seam that is added to the panels, over that of the fabric.
     pub stiffness: f64,
-    /// Angle by which the panels are turned towards their right sides at rest, in rad: 0 if the seam is
-    /// pressed open.
+    /// Angle by which the panels are turned towards their right sides at rest, in rad: 0 if the
+    /// seam is pressed open.
     pub rest_angle: f64,
 }
 
@@ -27,8 +27,8 @@ pub struct Tie {
 }
 
 impl Seam {
-    /// Stiffness of a seam if none is chosen: more than that of two layers that slide on each other,
-    /// twice that of one, and less than that of two that do not slide, eight times.
+    /// Stiffness of a seam if none is chosen: more than that of two layers that slide on each
+    /// other, twice that of one, and less than that of two that do not slide, eight times.
     pub const STIFFNESS: f64 = 3.0;
 
     /// Largest rest angle, in rad: up to it angles are exact.

@@ -82,7 +82,8 @@ fn a_strip_at_any_angle_is_as_stiff_as_the_laws_say() {
     assert!(worst < 1e-6, "{worst:e}");
 }
 
-/// A specimen on a cylinder, along which its nodes slide until they are at rest: their coordinates across and around, in m.
+/// A specimen on a cylinder, along which its nodes slide until they are at rest: their coordinates
+/// across and around, in m.
 struct Rolled<'a> {
     cloth: &'a Cloth,
     radius: f64,

@@ -30,8 +30,8 @@ fn internal_forces_and_torques_cancel() {
         let (force, torque) = balance(&cloth, &state, &trial);
         println!("{name}: elastic, net force {force:.1e}, net torque {torque:.1e}");
         assert!(force < 1e-12 && torque < 1e-12, "{name}: {force:e} {torque:e}");
-        // The error of the frozen normal: the friction moment times the part of the curvature across
-        // the normal. Noise of the positions and rotation within the step both raise it.
+        // The error of the frozen normal: the friction moment times the part of the curvature
+        // across the normal. Noise of the positions and rotation within the step both raise it.
         for (step, shake, radius, limit) in
             [("one of a simulation", 1e-5, 0.0602, 1e-7), ("a violent one", 1e-3, 0.07, 1e-5)]
         {
@@ -80,8 +80,8 @@ fn a_cylinder_has_the_energy_of_the_fabric_bent_to_its_curvature() {
         let cloth = Cloth::new(&[(&lattice, &fabric)]);
         let flat: Vec<f64> = lattice.coordinates.iter().flat_map(|&[u, v]| [u, 0.0, v]).collect();
         let mut state = cloth.state(flat.clone()).expect("fits");
-        // The sheet turns by its length over the radius, and its chords are kept at their rest length, so that
-        // bending alone stores energy.
+        // The sheet turns by its length over the radius, and its chords are kept at their rest
+        // length, so that bending alone stores energy.
         let turn = lattice.spacing[1] / radius;
         let corner = 0.5 * lattice.spacing[1] / (0.5 * turn).sin();
         let rolled: Vec<f64> = lattice
@@ -92,7 +92,8 @@ fn a_cylinder_has_the_energy_of_the_fabric_bent_to_its_curvature() {
                 [u, corner * (1.0 - angle.cos()), corner * angle.sin()]
             })
             .collect();
-        // After the commit the friction has slipped by the true curvature, however far the sheet rotated.
+        // After the commit the friction has slipped by the true curvature, however far the sheet
+        // rotated.
         let dissipated = cloth.commit(&mut state, &rolled, &vec![0.0; flat.len()]);
         let work = cloth.stored(&state) + dissipated;
         let bending = fabric.warp.bending;

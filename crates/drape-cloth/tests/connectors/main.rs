@@ -1,4 +1,5 @@
-//! The connectors of cloth: on grids, and on panels of garments with a rim of triangles that meets the outline.
+//! The connectors of cloth: on grids, and on panels of garments with a rim of triangles that meets
+//! the outline.
 
 mod bias;
 mod consistency;

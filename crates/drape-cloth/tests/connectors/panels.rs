@@ -128,7 +128,8 @@ pub fn rectangle([width, height]: [f64; 2], degrees: f64, spacing: f64) -> Latti
     shape(&format!("M0 0 L{w} 0 L{w} -{h} L0 -{h} Z"), degrees, spacing)
 }
 
-/// All panels of the patterns in the repository at 10 mm, as they lie and with the grain rotated by 45°.
+/// All panels of the patterns in the repository at 10 mm, as they lie and with the grain rotated by
+/// 45°.
 pub static GARMENTS: LazyLock<Vec<(String, Lattice)>> = LazyLock::new(garments);
 
 fn garments() -> Vec<(String, Lattice)> {

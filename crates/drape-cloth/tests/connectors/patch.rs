@@ -32,7 +32,8 @@ fn thin() -> Vec<(String, Lattice)> {
 #[test]
 fn a_uniform_strain_leaves_no_force_inside_and_has_the_energy_of_the_laws() {
     let fabric = fabric(LINEAR);
-    // Warp and weft stretched by 3 and 2 %, leaned by a sine of 0.08, and the whole rotated in space.
+    // Warp and weft stretched by 3 and 2 %, leaned by a sine of 0.08, and the whole rotated in
+    // space.
     let (stretch, sine) = ([1.03, 1.02], 0.08_f64);
     let warp = [stretch[0] * sine, stretch[0] * (1.0 - sine * sine).sqrt()];
     let place = |&[u, v]: &[f64; 2]| {

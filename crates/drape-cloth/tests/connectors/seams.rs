@@ -6,7 +6,8 @@ use crate::bias::{dot, outline, solve};
 use crate::panels::{LINEAR, RICH, fabric, garment, rectangle, shape};
 use crate::shaken::{Random, multiply};
 
-/// Two panels side by side, and the points of all nodes in a common plane in which the seam is closed.
+/// Two panels side by side, and the points of all nodes in a common plane in which the seam is
+/// closed.
 struct Sewn {
     panels: [Lattice; 2],
     points: Vec<[f64; 2]>,
@@ -15,8 +16,8 @@ struct Sewn {
 }
 
 impl Sewn {
-    /// Panels of which the second is shifted; nodes at one place on both outlines are sewn, upwards, and those of the
-    /// second between them are tied.
+    /// Panels of which the second is shifted; nodes at one place on both outlines are sewn,
+    /// upwards, and those of the second between them are tied.
     fn new(panels: [Lattice; 2], shift: [f64; 2]) -> Self {
         let shifts = [[0.0; 2], shift];
         let place = |(panel, shift): (&Lattice, [f64; 2])| -> Vec<[f64; 2]> {
@@ -344,8 +345,8 @@ fn a_sewn_strip_bends_nearly_as_one_that_is_not() {
             let energy = rolled(&sewn, stiffness, radius) / exact;
             println!("{name}, stiffness {stiffness}: energy over the unsewn {energy:.4}");
             assert!((energy - 1.0).abs() < limit, "{name}, {stiffness}: {energy}");
-            // On the bias a linear strip also drops by turning into a saddle, which costs nothing. What is tied has no
-            // place of its own, which is not made up here.
+            // On the bias a linear strip also drops by turning into a saddle, which costs nothing.
+            // What is tied has no place of its own, which is not made up here.
             if degrees == 0.0 && sewn.ties.is_empty() {
                 let sewn = drop((&sewn.panels, &sewn.points), Some((&sewn, stiffness)));
                 println!(

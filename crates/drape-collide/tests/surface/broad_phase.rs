@@ -169,8 +169,7 @@ fn what_comes_into_reach_on_a_course_is_found() {
         let mut detector = Detector::default();
         let together = case % 2 == 0;
         let course = if together { Sweep::Common(&ways) } else { Sweep::Individual(&ways) };
-        let pairs =
-            detector.detect_swept(&surface, (&parts.rest_positions, course), margin).unwrap();
+        let pairs = detector.detect_swept(&surface, &parts.rest_positions, course, margin).unwrap();
         let listed: BTreeSet<Key> = pairs.as_slice().iter().map(|pair| pair.key()).collect();
         found[case % 2] += listed.len();
         found[2] += vertices * surface.triangles().len();

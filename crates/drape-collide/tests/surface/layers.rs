@@ -92,9 +92,9 @@ fn sheets_never_cross_on_courses() {
             let together = k % 3 == 2;
             if turn == 0 {
                 let course = if together { Sweep::Common(&way) } else { Sweep::Individual(&way) };
-                detector.detect_swept(&surface, (&positions, course), margin).unwrap();
+                detector.detect_swept(&surface, &positions, course, margin).unwrap();
             } else {
-                detector.follow(&positions);
+                detector.follow_trajectories(&positions);
             }
             let pairs = detector.pairs();
             if together {

@@ -132,7 +132,7 @@ impl Plane {
         self.axes.map(|axis| dot(axis, subtract(point, self.middle)))
     }
 
-    /// Where the plane cuts the sides of a triangle.
+    /// Points where the plane cuts the sides of a triangle.
     fn cuts(&self, corners: [[f64; 3]; 3]) -> Vec<[f64; 2]> {
         let heights = corners.map(|corner| dot(self.normal, subtract(corner, self.middle)));
         let cut = |k: usize| {
@@ -163,7 +163,7 @@ fn encloses(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     crossed.count() % 2 == 1
 }
 
-/// The corners of the convex hull of points, in their order [Andrew 1979].
+/// Corners of the convex hull of points, in their order \[And79\].
 fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let chain = |points: &mut dyn Iterator<Item = &[f64; 2]>| {

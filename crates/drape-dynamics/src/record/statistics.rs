@@ -36,8 +36,8 @@ impl Statistics {
     }
 
     /// Adds an accepted step that led to a world's state.
-    pub(crate) fn add_step(&mut self, report: &Report, world: &World) {
-        let touching = match &world.contact {
+    pub(crate) fn add_step(&mut self, report: &Report, world: &mut World) {
+        let touching = match &mut world.contact {
             Contact::Surfaces(surfaces) => {
                 let near = surfaces.contact.summary();
                 self.min_distance = self.min_distance.min(near.min_distance);
@@ -46,7 +46,7 @@ impl Statistics {
                 self.released_max = self.released_max.max(pinched.released);
                 near.touching
             }
-            Contact::Particles(bodies) => bodies.contact.summary(&world.state.positions).touching,
+            Contact::Particles(bodies) => bodies.contact.touching_particles(&world.state.positions),
         };
         self.pairs_max = self.pairs_max.max(touching);
         self.steps += 1;

@@ -100,7 +100,7 @@ pub enum Status {
     HeldTogether,
     /// Surfaces intersected after a step, however short.
     #[serde(rename = "certificate failed")]
-    CertificateFailed,
+    Intersecting,
     /// A step could not be solved.
     #[serde(rename = "solver failed")]
     SolverFailed,

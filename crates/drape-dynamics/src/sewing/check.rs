@@ -13,7 +13,7 @@ use crate::simulation::Simulation;
 use crate::world::World;
 use crate::world::check::FABRIC;
 
-/// How the edges of both sheets are sewn: the lower one has so many arcs for each of the upper one.
+/// Seam of the edges of both sheets: the lower one has so many arcs for each of the upper one.
 fn seam_pairs(fullness: u32) -> SeamPairs {
     // The top row of the lower sheet, which is 6 arcs of the upper one high as well.
     let along = 6 * fullness + 1;
@@ -131,8 +131,8 @@ fn hang(fullness: u32) {
     let weight = 2.0 * 0.06 * 0.06 * 0.15 * 9.81;
     let [load] = simulation.pin_loads()[..] else { panic!("one pin") };
     assert!((load.force[1] / -weight - 1.0).abs() < 1e-3, "{load:?} and {weight}");
-    let remainder = summary.energy.map(|energy| energy.residual);
-    assert!(remainder.is_some_and(|r| r.abs() < 1e-9), "{remainder:?}");
+    let residual = summary.energy.map(|energy| energy.residual);
+    assert!(residual.is_some_and(|r| r.abs() < 1e-9), "{residual:?}");
 }
 
 #[test]

@@ -37,9 +37,9 @@ pub(crate) struct ClosingSprings {
 
 /// State of the seams while they are closed.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Closing {
+pub(crate) enum SeamState {
     /// The time for it is not over, or the cloth is not calm yet.
-    Closing,
+    Open,
     /// All gaps are closed, and the cloth is calm.
     Closed,
     /// A gap stays open.
@@ -81,16 +81,16 @@ impl ClosingSprings {
 
     /// State of the seams at some positions and a time, in s, after a step that left an imbalance,
     /// over g.
-    pub(crate) fn closing(&self, positions: &[f64], time: f64, imbalance: f64) -> Closing {
+    pub(crate) fn state(&self, positions: &[f64], time: f64, imbalance: f64) -> SeamState {
         if time < self.seconds {
-            return Closing::Closing;
+            return SeamState::Open;
         }
         let gap = self.widest_gap(positions);
         let late = time >= PATIENCE * self.seconds;
         match gap.width <= CLOSED && (late || imbalance <= TOLERANCE) {
-            true => Closing::Closed,
-            false if late => Closing::Failed(gap),
-            false => Closing::Closing,
+            true => SeamState::Closed,
+            false if late => SeamState::Failed(gap),
+            false => SeamState::Open,
         }
     }
 

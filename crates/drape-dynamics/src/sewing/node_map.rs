@@ -72,7 +72,7 @@ pub(super) fn coupled_pairs(row: &Row, column: &Row) -> impl Iterator<Item = Cou
     })
 }
 
-/// The same for the block of a particle with itself: each pair once.
+/// Pairs of the block of a particle with itself, each once.
 pub(super) fn coupled_pairs_of_one(row: &Row) -> impl Iterator<Item = CoupledPair> {
     coupled_pairs(row, row).filter(|pair| pair.row <= pair.column)
 }

@@ -11,7 +11,7 @@ use drape_scene::SolverSettings;
 pub enum Scheme {
     /// Implicit steps, with the settings of their solver.
     Implicit(Settings),
-    /// Many small explicit steps in each: a cross-check, not a way to get results.
+    /// Many small explicit steps in each: they check the implicit steps, and are too slow for more.
     Explicit,
 }
 

@@ -1,6 +1,6 @@
 //! Gravity, which may grow to its value over a ramp, and the energy of the cloth in its field.
 
-/// Gravity in the course of a simulation.
+/// Gravity during a simulation.
 #[derive(Debug)]
 pub(crate) struct Gravity {
     /// Acceleration at the end of the ramp, in m/s².

@@ -3,8 +3,7 @@
 /// Forces that remove the momentum with which particles enter a step, in N.
 ///
 /// A step of relaxation is to start from rest, but the velocity with which the cloth enters it
-/// makes a good first guess of its end. A constant force takes the momentum out in the course of
-/// the step.
+/// makes a good first guess of its end. A constant force takes the momentum out during the step.
 #[derive(Debug, Default)]
 pub(crate) struct MomentumRemoval {
     active: bool,

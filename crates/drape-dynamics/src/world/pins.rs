@@ -16,7 +16,7 @@ pub(crate) use self::springs::PinSprings;
 #[derive(Debug)]
 pub(crate) struct Pins {
     pins: Vec<Pin>,
-    /// Which particles are held in all directions in this step.
+    /// Whether each particle is held in all directions in this step.
     pub(crate) held: Vec<bool>,
     /// Springs of the pins that hold in some directions, in this step.
     pub(crate) springs: PinSprings,

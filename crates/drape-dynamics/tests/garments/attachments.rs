@@ -98,8 +98,8 @@ fn held_until_it_is_sewn_it_then_falls_on_the_plate() {
     assert_eq!((summary.status, summary.settled), (Status::Ok, true));
     assert!((sewn - 0.04).abs() < 1e-6, "{sewn} m");
     assert!(highest(&simulation) < -0.015, "{} m", highest(&simulation));
-    let remainder = summary.energy.unwrap().residual;
-    assert!(remainder.abs() < 1e-9, "{remainder} J");
+    let residual = summary.energy.unwrap().residual;
+    assert!(residual.abs() < 1e-9, "{residual} J");
 }
 
 /// A sheet of 100 mm × 100 mm in a vacuum that hangs by its upper edge.

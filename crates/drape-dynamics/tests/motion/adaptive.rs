@@ -1,3 +1,5 @@
+//! Steps of chosen length: their error, and the frames that they meet.
+
 use crate::sheet::{CORNERS, FLAT, Sheet, apart};
 
 fn swing(time: &str) -> Sheet {

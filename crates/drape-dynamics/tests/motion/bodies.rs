@@ -29,9 +29,9 @@ fn a_belt_carries_the_cloth_along() {
         let panel = format!("{FLAT}center = [0, 9.9902e-4, 0]\n");
         run(&Sheet { side: 0.2, scene, panel, ..Sheet::default() })
     };
-    let way = middle(&belt(0.5))[0];
+    let displacement = middle(&belt(0.5))[0];
     // It lags by half of 0.1 m/s for 20 ms, and creeps within the slip speed of 1 mm/s.
-    assert!((way - 0.049).abs() < 7e-4, "{way}");
+    assert!((displacement - 0.049).abs() < 7e-4, "{displacement}");
     let still = middle(&belt(0.0))[0];
     assert!(still.abs() < 1e-7, "{still}");
 }

@@ -1,3 +1,5 @@
+//! Balance of the energy, step by step.
+
 use drape_dynamics::{Energy, Simulation};
 
 use crate::sheet::{CORNERS, FLAT, Sheet};

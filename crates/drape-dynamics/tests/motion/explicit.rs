@@ -1,3 +1,5 @@
+//! Explicit steps against implicit ones.
+
 use drape_dynamics::Simulation;
 
 use crate::sheet::{CORNERS, FLAT, Sheet};

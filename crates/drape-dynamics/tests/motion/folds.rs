@@ -110,10 +110,10 @@ impl Folded {
         let lean = lean.fold(0.0, f64::max).to_degrees();
         let line = cross(parts[0], parts[1]);
         // The lower part is held in its plane, where x is the width.
-        let way = line[1].atan2(line[0]).to_degrees();
-        let sign = if way.abs() < 90.0 { 1.0 } else { -1.0 };
-        let way = if sign > 0.0 { way } else { way - 180.0 * way.signum() };
-        [sign * between(parts[0], parts[1]).to_degrees(), lean, way]
+        let direction = line[1].atan2(line[0]).to_degrees();
+        let sign = if direction.abs() < 90.0 { 1.0 } else { -1.0 };
+        let direction = if sign > 0.0 { direction } else { direction - 180.0 * direction.signum() };
+        [sign * between(parts[0], parts[1]).to_degrees(), lean, direction]
     }
 }
 
@@ -134,10 +134,11 @@ fn between(u: [f64; 3], v: [f64; 3]) -> f64 {
 #[test]
 fn a_strip_comes_to_the_angle_of_its_fold() {
     for (spacing, angle) in [(10.0, 90.0), (5.0, 90.0), (10.0, -40.0), (10.0, 130.0)] {
-        let [found, lean, way] = Folded { spacing, angle, ..Folded::default() }.come_to_rest();
-        println!("{spacing} mm, {angle}°: {found:.2}°, leans {lean:.2}°, runs at {way:.2}°");
+        let [found, lean, direction] =
+            Folded { spacing, angle, ..Folded::default() }.come_to_rest();
+        println!("{spacing} mm, {angle}°: {found:.2}°, leans {lean:.2}°, runs at {direction:.2}°");
         assert!((found / angle - 1.0).abs() < 0.01, "{found} for {angle} at {spacing} mm");
-        assert!(lean < 1.0 && way.abs() < 0.1, "{lean} {way}");
+        assert!(lean < 1.0 && direction.abs() < 0.1, "{lean} {direction}");
     }
 }
 
@@ -146,10 +147,12 @@ fn a_fold_may_run_at_any_angle_to_the_yarns() {
     let cases = [(0.0, 45.0, 10.0), (0.0, 10.0, 10.0), (0.0, 30.0, 5.0), (45.0, 0.0, 10.0)];
     for (grain, slant, spacing) in cases {
         let folded = Folded { grain, slant, spacing, ..Folded::default() };
-        let [found, lean, way] = folded.come_to_rest();
-        println!("{grain}°, slant {slant}°, {spacing} mm: {found:.2}°, {lean:.2}°, {way:.2}°");
+        let [found, lean, direction] = folded.come_to_rest();
+        println!(
+            "{grain}°, slant {slant}°, {spacing} mm: {found:.2}°, {lean:.2}°, {direction:.2}°"
+        );
         assert!((found / 90.0 - 1.0).abs() < 0.02, "{found} at {grain}°, {slant}°, {spacing} mm");
-        assert!((way - slant).abs() < 1.5, "{way} for {slant}");
+        assert!((direction - slant).abs() < 1.5, "{direction} for {slant}");
     }
 }
 
@@ -157,10 +160,10 @@ fn a_fold_may_run_at_any_angle_to_the_yarns() {
 fn a_fold_crosses_the_rim_of_a_cut_panel() {
     for (grain, slant, spacing) in [(0.0, 0.0, 10.0), (30.0, 0.0, 5.0), (20.0, 30.0, 10.0)] {
         let folded = Folded { grain, slant, spacing, cut: true, ..Folded::default() };
-        let [found, lean, way] = folded.come_to_rest();
-        println!("cut {grain}°, {slant}°, {spacing} mm: {found:.2}°, {lean:.2}°, {way:.2}°");
+        let [found, lean, direction] = folded.come_to_rest();
+        println!("cut {grain}°, {slant}°, {spacing} mm: {found:.2}°, {lean:.2}°, {direction:.2}°");
         assert!((found / 90.0 - 1.0).abs() < 0.04, "{found} at {grain}°, {slant}°, {spacing} mm");
-        assert!((way - slant).abs() < 2.0, "{way} for {slant}");
+        assert!((direction - slant).abs() < 2.0, "{direction} for {slant}");
     }
 }
 

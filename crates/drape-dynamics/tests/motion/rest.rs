@@ -1,3 +1,5 @@
+//! Cloth that comes to rest.
+
 use drape_dynamics::{Status, Summary};
 
 use crate::sheet::{CORNERS, FLAT, Sheet};

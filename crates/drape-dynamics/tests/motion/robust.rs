@@ -1,3 +1,5 @@
+//! Steps of any length on sheets of any stiffness: no failure, no particle inside a body.
+
 use crate::sheet::{CORNERS, FLAT, Sheet};
 
 const CUBE: &str = "[[collider.box]]\nsize = [0.5, 0.5, 0.5]\ncenter = [0, -0.255, 0]\n\

@@ -42,12 +42,12 @@ fn point_cache(samples: &[Vec<[f64; 3]>]) -> Vec<u8> {
     bytes
 }
 
-fn moved(outline: &Triangulation, way: [f64; 3]) -> Vec<[f64; 3]> {
-    outline.vertices.iter().map(|x| [0, 1, 2].map(|axis| x[axis] + way[axis])).collect()
+fn moved(outline: &Triangulation, displacement: [f64; 3]) -> Vec<[f64; 3]> {
+    outline.vertices.iter().map(|x| [0, 1, 2].map(|axis| x[axis] + displacement[axis])).collect()
 }
 
-/// A block below the middle of the sheet, whose coordinates and way are fractions of two: exact in
-/// 32 bits too.
+/// A block below the middle of the sheet, whose coordinates and displacement are fractions of two:
+/// exact in 32 bits too.
 fn block() -> (Triangulation, [f64; 3]) {
     let shape = Shape::Box { half_extents: [0.0625, 0.03125, 0.0625], edge_radius: 0.0 };
     (outline(shape, [0.0, -0.03515625, 0.0]), [0.0078125, 0.015625, 0.0])
@@ -188,7 +188,7 @@ fn motions_that_do_not_fit_are_refused_with_their_file() {
 #[test]
 fn the_hash_of_a_scene_tells_its_bodies_apart() {
     let folder = tempfile::tempdir().unwrap();
-    let (block, way) = block();
+    let (block, displacement) = block();
     let cache = folder.path().join("block.pc2");
     let motion = format!("motion = {:?}\nrate = 16\n", cache.display().to_string());
     let mut hashes = Vec::new();
@@ -196,7 +196,8 @@ fn the_hash_of_a_scene_tells_its_bodies_apart() {
         let start = [0.0, start, 0.0];
         let mesh = Triangulation { vertices: moved(&block, start), ..block.clone() };
         std::fs::write(folder.path().join("block.obj"), obj(&mesh)).unwrap();
-        let samples = [start, way.map(|x| end * x)].map(|way| moved(&block, way));
+        let samples =
+            [start, displacement.map(|x| end * x)].map(|displacement| moved(&block, displacement));
         std::fs::write(&cache, point_cache(&samples)).unwrap();
         hashes.push(sheet(scene(folder.path(), &motion)).scene().source.hash);
     }

@@ -62,15 +62,16 @@ fn a_belt_carries_a_sheet_without_creeping() {
              size = [1, 0.02, 1]\ncenter = [0, -0.01, 0]\nfriction = {friction}\n[collider.box.motion]\n\
              times = [0, 0.5]\nshift = [[0, 0, 0], [0.05, 0, 0]]\n[time]\nstep = 0.002\nend = 0.7\n"
         );
-        // A pressure of 2 Pa is borne by a quarter of the stiffness, 4 µm inside the reach.
+        // A pressure of 2 Pa is borne by a quarter of the stiffness, 4 µm inside the activation
+        // distance.
         let panel = format!("{FLAT}center = [0, 9.96e-4, 0]\n");
         run(&Sheet { side: 0.2, scene, panel, ..Sheet::default() })
     };
     let carried = belt(0.5);
     sound(&carried.summary());
     // It lags by half of 0.1 m/s for 20 ms, and at the end slides on for as long.
-    let way = middle(&carried)[0];
-    assert!((way - 0.05).abs() < 2e-4, "{way}");
+    let displacement = middle(&carried)[0];
+    assert!((displacement - 0.05).abs() < 2e-4, "{displacement}");
     // Without friction the seam of the belt's two triangles, which both push, takes it along by a
     // micrometre.
     let still = middle(&belt(0.0))[0];
@@ -112,9 +113,9 @@ fn a_fast_sheet_does_not_pass_a_thin_plate() {
 
 #[test]
 fn friction_holds_on_a_slope_and_lets_go_beyond_its_limit() {
-    let way = |friction: f64, end: f64| {
-        // What bears the sheet's weight on a slope of tan 0.5 is 0.0022 mm inside the reach of 1
-        // mm.
+    let displacement = |friction: f64, end: f64| {
+        // What bears the sheet's weight on a slope of tan 0.5 is 0.0022 mm inside the activation
+        // distance of 1 mm.
         let slope = -0.5_f64.atan().to_degrees();
         let normal = [0.5_f64.atan().sin(), 0.5_f64.atan().cos()];
         let place = |height: f64| normal.map(|n| n * height);
@@ -130,10 +131,10 @@ fn friction_holds_on_a_slope_and_lets_go_beyond_its_limit() {
         let [cx, cy, _] = middle(&simulation);
         (cx - x).hypot(cy - y)
     };
-    let held = way(0.51, 10.0);
+    let held = displacement(0.51, 10.0);
     assert!(held < 1e-4, "{held} m in 10 s");
     // g (sin − µ cos) t²/2.
-    let slid = way(0.49, 1.0);
+    let slid = displacement(0.49, 1.0);
     let free = 0.5 * 9.81 * (0.5 - 0.49) * 0.5_f64.atan().cos();
     assert!((slid / free - 1.0).abs() < 0.05, "{slid} m against {free} m");
 }

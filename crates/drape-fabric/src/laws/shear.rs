@@ -56,7 +56,7 @@ pub struct ShearLaw {
 pub enum ShearBackbone {
     /// Line `$F_e = k_s\,s$`.
     Linear {
-        /// Shear rigidity `$k_s$`, in N/m per unit of the sine.
+        /// Shear stiffness `$k_s$`, in N/m per unit of the sine.
         stiffness: f64,
     },
     /// Quadratic and line; slope and intercept are in N/m, the knot is a sine.

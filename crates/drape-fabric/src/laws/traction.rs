@@ -72,7 +72,7 @@ pub enum TractionBackbone {
 
 /// Priming zone (toe) and linear zone of a tensile curve \[NB04, eq. 3\].
 ///
-/// With the rigidity `$k_t$`, the end `$\varepsilon_c$` of the priming zone, the load `$F_1$` there and
+/// With the stiffness `$k_t$`, the end `$\varepsilon_c$` of the priming zone, the load `$F_1$` there and
 /// the toe ratio `$r = F_1/(k_t\varepsilon_c)$` the load is
 ///
 /// ```math
@@ -96,7 +96,7 @@ pub enum TractionBackbone {
 /// bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Primed {
-    /// Linear rigidity `$k_t$`, in N/m.
+    /// Stiffness `$k_t$` of the linear zone, in N/m.
     pub stiffness: f64,
     /// Toe ratio `$r$`, from 0.505 to 1; 1 is a straight line.
     pub toe_ratio: f64,

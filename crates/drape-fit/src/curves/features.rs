@@ -50,7 +50,7 @@ impl StraightLine {
 
 /// Returns the slope of the line through all points.
 ///
-/// It is the rigidity of the backbone: friction hardly changes it, because it has both signs.
+/// It is the stiffness of the backbone: friction hardly changes it, because it has both signs.
 pub(crate) fn mean_slope(curve: &Curve) -> Result<f64, Error> {
     let points = curve.deformation().iter().zip(curve.load()).map(|(q, load)| [*q, *load]);
     let slope = StraightLine::through(points).map(|line| line.slope);

@@ -108,7 +108,7 @@ impl Stepper {
     }
 
     /// Advances the state as [`Self::advance`] does, with every step limited by a filter and every
-    /// solution certified by it.
+    /// solution tested by it.
     ///
     /// # Errors
     /// Those of [`Self::advance`], and [`Error::UnfilteredMethod`] with the textbook method.

@@ -1,8 +1,8 @@
 //! Breakpoints of outlines: the points that become nodes, with the seam pieces between them.
 //!
-//! A breakpoint is an end of an edge, or a notch: the point on one side of a seam that an end of an edge
-//! on the other side is sewn to. Between two breakpoints an outline is sampled at equal arcs; `simplify`
-//! removes breakpoints, `sampling` samples the arcs.
+//! A breakpoint is an end of an edge, or a notch: the point on one side of a seam that an end of an
+//! edge on the other side is sewn to. Between two breakpoints an outline is sampled at equal arcs;
+//! `simplify` removes breakpoints, `sampling` samples the arcs.
 
 use crate::edge::Edge;
 use crate::pattern::{EdgeId, Pattern, Seam};
@@ -12,8 +12,9 @@ const SAME: f64 = 1e-9;
 
 /// Ratio of the lengths of two pieces that are sewn together above which they are a gather.
 ///
-/// With as many arcs on both sides, those of the shorter one would be under two thirds of the spacing.
-/// The small addition keeps a ratio of 1.5 in a file, which is rounded, from being a gather.
+/// With as many arcs on both sides, those of the shorter one would be under two thirds of the
+/// spacing. The small addition keeps a ratio of 1.5 in a file, which is rounded, from being a
+/// gather.
 const GATHER: f64 = 1.5 + 1e-6;
 
 /// Point of an outline that becomes a node; the arcs between two of them are sampled.
@@ -77,8 +78,8 @@ type Sides = [Vec<SideEdge>; 2];
 struct SeamPoint {
     /// Breakpoint that ends the piece before it, for both sides.
     before: [usize; 2],
-    /// Breakpoint that begins the piece after it, for both sides; another one where a chain goes on in
-    /// another panel.
+    /// Breakpoint that begins the piece after it, for both sides; another one where a chain goes on
+    /// in another panel.
     after: [usize; 2],
 }
 
@@ -149,9 +150,9 @@ impl Breakpoints {
 
     /// Returns the length from which the arcs of the piece after a breakpoint are counted, in m.
     ///
-    /// It is the length of the piece, or of the longer of two pieces that are sewn together. In a gather it
-    /// is the geometric mean of the shorter piece and of the part of the longer one that has as many arcs,
-    /// so that the arcs of both differ from the spacing by the same factor.
+    /// It is the length of the piece, or of the longer of two pieces that are sewn together. In a
+    /// gather it is the geometric mean of the shorter piece and of the part of the longer one that
+    /// has as many arcs, so that the arcs of both differ from the spacing by the same factor.
     pub fn counted_after(&self, point: usize) -> f64 {
         let Some([short, long]) = self.sewn_lengths(point) else { return self.length_after(point) };
         match fullness([short, long]) {
@@ -160,8 +161,8 @@ impl Breakpoints {
         }
     }
 
-    /// Returns the number of arcs that the longer piece of a gather has for each arc of the shorter one,
-    /// at the piece after a breakpoint; 1 outside of gathers.
+    /// Returns the number of arcs that the longer piece of a gather has for each arc of the shorter
+    /// one, at the piece after a breakpoint; 1 outside of gathers.
     pub fn fullness(&self, point: usize) -> u32 {
         self.sewn_lengths(point).map_or(1, fullness)
     }
@@ -223,8 +224,8 @@ impl Breakpoints {
 
     /// Makes the seam pieces of a seam.
     ///
-    /// Points of both sides correspond by the fraction of the length of the side; ends of edges on both
-    /// sides that lie less than half a spacing apart correspond to each other.
+    /// Points of both sides correspond by the fraction of the length of the side; ends of edges on
+    /// both sides that lie less than half a spacing apart correspond to each other.
     fn sew(&mut self, pattern: &Pattern, seam: &Seam, index: usize, spacing: f64) {
         let forward = [true, seam.reversed];
         let sides = [0, 1].map(|side| Self::side_edges(pattern, &seam.sides[side], forward[side]));
@@ -255,8 +256,8 @@ impl Breakpoints {
         }
     }
 
-    /// Adds points at the ends of edges between two points with an end on both sides, each given by the
-    /// numbers of the edges after it; the other side gets a notch.
+    /// Adds points at the ends of edges between two points with an end on both sides, each given by
+    /// the numbers of the edges after it; the other side gets a notch.
     fn notch_between(
         &mut self,
         sides: &Sides,
@@ -341,8 +342,8 @@ fn fullness([short, long]: [f64; 2]) -> u32 {
     if long > GATHER * short { (long / short).round().min(100.0) as u32 } else { 1 }
 }
 
-/// Returns pairs of ends of edges of both sides that are sewn to each other, as the numbers of the edges
-/// after them; the last pair is the end of both sides.
+/// Returns pairs of ends of edges of both sides that are sewn to each other, as the numbers of the
+/// edges after them; the last pair is the end of both sides.
 fn matched_ends(sides: &Sides, tolerance: f64) -> Vec<[usize; 2]> {
     let count = [sides[0].len(), sides[1].len()];
     let mut pairs = Vec::new();

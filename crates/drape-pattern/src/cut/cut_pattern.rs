@@ -19,8 +19,8 @@ pub struct CutPattern {
 }
 
 impl CutPattern {
-    /// Returns the number of particles when all seams are closed: the nodes of a pair are one particle, and
-    /// tied nodes are none.
+    /// Returns the number of particles when all seams are closed: the nodes of a pair are one
+    /// particle, and tied nodes are none.
     #[must_use]
     pub fn particles(&self) -> usize {
         let mut first = Vec::new();

@@ -23,9 +23,10 @@ const POINTS_MAX: f64 = 4e6;
 
 /// Cutter of patterns into particles at a spacing.
 ///
-/// Outlines are sampled at equal arcs of about the spacing between the ends of their edges, with the same
-/// number on both sides of a seam. Inside, a regular grid along the grain keeps 0.6 spacings clear of the
-/// outline, and a constrained Delaunay triangulation fills the rim between them.
+/// Outlines are sampled at equal arcs of about the spacing between the ends of their edges, with
+/// the same number on both sides of a seam. Inside, a regular grid along the grain keeps 0.6
+/// spacings clear of the outline, and a constrained Delaunay triangulation fills the rim between
+/// them.
 ///
 /// ```
 /// use drape_pattern::{Cutter, Edge, Panel, Pattern};

@@ -6,8 +6,8 @@ use crate::edge::difference;
 
 /// Smallest distance of a lattice node from the outline, in spacings.
 ///
-/// Edges at lattice nodes are at least as long. A larger distance makes the rim wide and its triangles
-/// obtuse.
+/// Edges at lattice nodes are at least as long. A larger distance makes the rim wide and its
+/// triangles obtuse.
 const CLEAR: f64 = 0.6;
 
 /// Distance from the outline within which a lattice node may be dropped for better triangles, in
@@ -26,8 +26,8 @@ pub(crate) struct Lattice {
     pub size: [usize; 2],
     /// Whether each grid point is a node, row by row.
     kept: Vec<bool>,
-    /// Distance of each grid point from the outline, row by row; exact where it is under [`LOOSE`], else
-    /// only known to be larger.
+    /// Distance of each grid point from the outline, row by row; exact where it is under [`LOOSE`],
+    /// else only known to be larger.
     clearance: Vec<f64>,
 }
 
@@ -145,8 +145,8 @@ impl Lattice {
 
     /// Returns whether the cell to the right of and above a grid point has all four nodes.
     ///
-    /// No side of the polygon intersects such a cell: every point on its border is closer to one of its
-    /// nodes than [`CLEAR`].
+    /// No side of the polygon intersects such a cell: every point on its border is closer to one of
+    /// its nodes than [`CLEAR`].
     pub fn is_full(&self, [column, row]: [usize; 2]) -> bool {
         column + 1 < self.size[0]
             && row + 1 < self.size[1]

@@ -3,7 +3,8 @@
 use super::rim::Rim;
 use super::sampling::SampledOutline;
 
-/// Panel cut into the full cells of a lattice along its grain, and triangles between them and its outline.
+/// Panel cut into the full cells of a lattice along its grain, and triangles between them and its
+/// outline.
 ///
 /// The nodes of the outline come first, anticlockwise, then those of the lattice, row by row. In a
 /// rectangle without a rim all nodes are in rows.
@@ -15,8 +16,8 @@ pub struct Cut {
     pub spacing: [f64; 2],
     /// Positions of the nodes in the panel's frame, in m.
     pub positions: Vec<[f64; 2]>,
-    /// Positions of the nodes in the frame of the grain, whose x axis is the weft and whose y axis is the
-    /// warp, in m; its origin is that of the panel's frame.
+    /// Positions of the nodes in the frame of the grain, whose x axis is the weft and whose y axis
+    /// is the warp, in m; its origin is that of the panel's frame.
     pub yarns: Vec<[f64; 2]>,
     /// Column and row of each node of the lattice; `None` for nodes of the outline beside a rim.
     pub lattice: Vec<Option<[u32; 2]>>,
@@ -24,8 +25,9 @@ pub struct Cut {
     pub quads: Vec<[u32; 4]>,
     /// Triangles of the rim by their nodes, anticlockwise.
     pub triangles: Vec<[u32; 3]>,
-    /// Nodes of each edge of the outline, in its direction, with both ends. An edge shorter than half a
-    /// spacing that was joined with a neighbour has the nodes nearest to its ends, which may be one.
+    /// Nodes of each edge of the outline, in its direction, with both ends. An edge shorter than
+    /// half a spacing that was joined with a neighbour has the nodes nearest to its ends, which may
+    /// be one.
     pub edges: Vec<Vec<u32>>,
     /// Nodes of the outline, anticlockwise.
     pub outline: Vec<u32>,

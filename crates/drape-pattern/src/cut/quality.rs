@@ -76,8 +76,9 @@ impl Cut {
         quads.chain(triangles)
     }
 
-    /// Returns a note on the narrowest part of the panel if it is thin: the shortest distance between nodes
-    /// of the outline that are far apart along it and joined by one edge, or by two through one node.
+    /// Returns a note on the narrowest part of the panel if it is thin: the shortest distance
+    /// between nodes of the outline that are far apart along it and joined by one edge, or by two
+    /// through one node.
     pub(crate) fn thin_part(&self, spacing: f64) -> Option<Note> {
         let n = self.outline.len();
         let mut along = vec![None; self.positions.len()];
@@ -123,7 +124,8 @@ fn deviation(panel: &Panel, cut: &Cut) -> f64 {
         let samples = SAMPLES * chords;
         for k in 0..=samples {
             let point = edge.at(k as f64 / samples as f64);
-            // The chord at the same fraction of the edge, and its neighbours, since the ends may be no nodes.
+            // The chord at the same fraction of the edge, and its neighbours, since the ends may be
+            // no nodes.
             let close =
                 (k * chords / samples).saturating_sub(2)..(k * chords / samples + 3).min(chords);
             let apart = close.map(|c| from_segment(point, at(first + c), at(first + c + 1)));

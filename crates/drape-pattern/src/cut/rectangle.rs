@@ -19,7 +19,8 @@ struct Border {
 }
 
 impl Border {
-    /// Returns the border that a polygon in the grain's frame, in m, is; `None` if it is no border of a grid.
+    /// Returns the border that a polygon in the grain's frame, in m, is; `None` if it is no border
+    /// of a grid.
     fn of(polygon: &[[f64; 2]], spacing: f64) -> Option<Self> {
         let extent = |k: usize| {
             let all = polygon.iter().map(|p| p[k]);
@@ -57,8 +58,8 @@ impl Border {
 }
 
 impl Cut {
-    /// Returns the cut of a sampled outline that is the border of a grid in the grain's frame; `None` if it
-    /// is none.
+    /// Returns the cut of a sampled outline that is the border of a grid in the grain's frame;
+    /// `None` if it is none.
     pub(crate) fn of_rectangle(
         sampled: &SampledOutline,
         grain: GrainFrame,

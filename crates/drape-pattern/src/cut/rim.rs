@@ -1,7 +1,7 @@
 //! Rim: the triangles between the outline and the full cells of the lattice.
 //!
-//! A constrained Delaunay triangulation fills the strip. Where it leaves sharp angles, the lattice is
-//! thinned near the outline, and other phases of the lattice are tried.
+//! A constrained Delaunay triangulation fills the strip. Where it leaves sharp angles, the lattice
+//! is thinned near the outline, and other phases of the lattice are tried.
 
 use std::collections::BTreeMap;
 
@@ -14,16 +14,16 @@ use crate::edge::difference;
 /// Angle of a triangle below which the lattice is thinned, in rad: 22 degrees.
 const SHARP: f64 = 22.0 * std::f64::consts::PI / 180.0;
 
-/// Largest number of times that the lattice is thinned at one phase. Where twelve do not help, the outline
-/// itself is sharp.
+/// Largest number of times that the lattice is thinned at one phase. Where twelve do not help, the
+/// outline itself is sharp.
 const PASSES: usize = 12;
 
 /// Lattice inside a polygon and the triangles between them. Lengths are in spacings.
 #[derive(Debug, Clone)]
 pub(crate) struct Rim {
     pub lattice: Lattice,
-    /// Corners of the triangles, anticlockwise: numbers of the polygon's corners, then of the lattice's
-    /// nodes, row by row.
+    /// Corners of the triangles, anticlockwise: numbers of the polygon's corners, then of the
+    /// lattice's nodes, row by row.
     pub triangles: Vec<[u32; 3]>,
     /// Smallest angle of the triangles that is not one of the polygon's own corners, in rad.
     smallest_angle: f64,
@@ -32,8 +32,8 @@ pub(crate) struct Rim {
 impl Rim {
     /// Returns the rim of a simple polygon that runs anticlockwise; `None` if triangulation failed.
     ///
-    /// The phases of the lattice are tried in the order of their numbers of cells until one leaves no sharp
-    /// angle; if none does, the one with the largest smallest angle is taken.
+    /// The phases of the lattice are tried in the order of their numbers of cells until one leaves
+    /// no sharp angle; if none does, the one with the largest smallest angle is taken.
     pub fn new(polygon: &[[f64; 2]]) -> Option<Self> {
         let mut best: Option<Self> = None;
         for phase in Lattice::phases(polygon) {
@@ -85,8 +85,8 @@ impl Rim {
         }
     }
 
-    /// Drops from each sharp triangle its lattice node nearest to the outline, if that is loose; returns
-    /// whether any was dropped.
+    /// Drops from each sharp triangle its lattice node nearest to the outline, if that is loose;
+    /// returns whether any was dropped.
     fn thin(&mut self, polygon: &[[f64; 2]]) -> bool {
         let nodes: Vec<[usize; 2]> = self.lattice.nodes().collect();
         let mut lost = Vec::new();
@@ -118,8 +118,8 @@ pub(crate) fn angles(corners: [[f64; 2]; 3]) -> [f64; 3] {
     })
 }
 
-/// Returns the smallest angle of a triangle, except one between two sides of the polygon, which is the
-/// polygon's own.
+/// Returns the smallest angle of a triangle, except one between two sides of the polygon, which is
+/// the polygon's own.
 fn free_angle(sides: usize, triangle: [u32; 3], corners: [[f64; 2]; 3]) -> f64 {
     let angles = angles(corners);
     let follows = |a: u32, b: u32| {

@@ -1,7 +1,7 @@
 //! Outlines sampled at the spacing, with the same number of nodes on both sides of every seam.
 //!
-//! `cutter` calls [`SampledPattern::new`], which finds the breakpoints, simplifies the outlines, counts the
-//! arcs and places the nodes; each [`SampledOutline`] becomes a cut panel.
+//! `cutter` calls [`SampledPattern::new`], which finds the breakpoints, simplifies the outlines,
+//! counts the arcs and places the nodes; each [`SampledOutline`] becomes a cut panel.
 
 use super::breakpoint::{Breakpoints, SeamPiece};
 use super::partition::Partition;
@@ -178,14 +178,16 @@ impl Counter<'_> {
         for (number, panel) in self.pattern.panels().iter().enumerate() {
             let Some([a, b, c, d]) = self.rectangle(panel, number) else { continue };
             for [one, opposite] in [[a, c], [b, d]] {
-                // The other side of a gather keeps the spacing; if that gives another number, there is a rim.
+                // The other side of a gather keeps the spacing; if that gives another number, there
+                // is a rim.
                 if [one, opposite].iter().all(|&point| self.breakpoints.fullness(point) == 1) {
                     same.unite(one, opposite);
                 }
             }
         }
         let counts = self.largest_of(&same);
-        // Through several panels a rectangle may get far more nodes than it needs: then it gets a rim.
+        // Through several panels a rectangle may get far more nodes than it needs: then it gets a
+        // rim.
         let crowded = (0..points.len()).any(|point| {
             let arc = self.breakpoints.length_after(point) / f64::from(counts[point]);
             !points[point].removed && arc < self.spacing / 3.0
@@ -193,8 +195,8 @@ impl Counter<'_> {
         if crowded { self.largest_of(&sewn) } else { counts }
     }
 
-    /// Returns for each breakpoint the largest number of arcs in its part of a partition; the longer
-    /// pieces of gathers have that of the shorter ones times their fullness.
+    /// Returns for each breakpoint the largest number of arcs in its part of a partition; the
+    /// longer pieces of gathers have that of the shorter ones times their fullness.
     fn largest_of(&self, same: &Partition) -> Vec<u32> {
         let points = &self.breakpoints.points;
         let mut most = vec![1; points.len()];
@@ -235,8 +237,8 @@ impl Counter<'_> {
 }
 
 impl SampledOutline {
-    /// Returns the nodes of an edge between two distances along the outline: from the node nearest to its
-    /// start to that nearest to its end.
+    /// Returns the nodes of an edge between two distances along the outline: from the node nearest
+    /// to its start to that nearest to its end.
     fn chain(&self, [from, to]: [f64; 2], perimeter: f64) -> Vec<u32> {
         if self.nodes.is_empty() {
             return Vec::new();

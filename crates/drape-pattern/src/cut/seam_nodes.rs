@@ -12,17 +12,19 @@ pub struct NodeId {
 /// Nodes of a seam.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SeamNodes {
-    /// Pairs of nodes that become one, in the order in which the seam runs. Both are the same node at the
-    /// tip of a dart.
+    /// Pairs of nodes that become one, in the order in which the seam runs. Both are the same node
+    /// at the tip of a dart.
     pub pairs: Vec<[NodeId; 2]>,
     /// Nodes of the longer side of a gather between the pairs, in the same order.
     pub ties: Vec<Tie>,
 }
 
-/// Node of the longer side of a gather that is tied to a point between two nodes of the shorter side.
+/// Node of the longer side of a gather that is tied to a point between two nodes of the shorter
+/// side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tie {
-    /// Number of the pair after which it comes. On the other side it lies between that pair and the next.
+    /// Number of the pair after which it comes. On the other side it lies between that pair and the
+    /// next.
     pub after: usize,
     /// Side of the seam to which it belongs, 0 or 1.
     pub side: usize,

@@ -1,5 +1,5 @@
-//! Simplification of outlines: pieces shorter than half a spacing are joined with a neighbour where the
-//! outline is smooth.
+//! Simplification of outlines: pieces shorter than half a spacing are joined with a neighbour where
+//! the outline is smooth.
 //!
 //! Called on the breakpoints of a pattern before `sampling` counts the arcs between them.
 
@@ -9,8 +9,8 @@ use crate::note::Note;
 use crate::panel::Panel;
 use crate::pattern::Pattern;
 
-/// Largest corner angle at a breakpoint that may be removed, in rad: 15 degrees. A chord across it cuts
-/// off at most a fifteenth of its length.
+/// Largest corner angle at a breakpoint that may be removed, in rad: 15 degrees. A chord across it
+/// cuts off at most a fifteenth of its length.
 const SMOOTH: f64 = std::f64::consts::PI / 12.0;
 
 /// Shortest piece of outline between nodes, in spacings.
@@ -46,7 +46,8 @@ pub(crate) struct Simplifier<'a> {
 }
 
 impl Simplifier<'_> {
-    /// Joins short pieces with neighbours, the shortest first; pieces that cannot be joined are mistakes.
+    /// Joins short pieces with neighbours, the shortest first; pieces that cannot be joined are
+    /// mistakes.
     pub fn run(mut self) -> Simplified {
         let shortest = SHORTEST * self.spacing * (1.0 - 1e-9);
         let mut notes = self.dissolve_runs(shortest);
@@ -85,7 +86,8 @@ impl Simplifier<'_> {
         }
     }
 
-    /// Removes the smooth breakpoints inside runs of short pieces, of which digitised outlines consist.
+    /// Removes the smooth breakpoints inside runs of short pieces, of which digitised outlines
+    /// consist.
     fn dissolve_runs(&mut self, shortest: f64) -> Vec<Note> {
         let points = 0..self.breakpoints.points.len();
         let short: Vec<bool> =
@@ -110,8 +112,8 @@ impl Simplifier<'_> {
         panels.map(note).collect()
     }
 
-    /// Returns for each piece of outline, or pair of pieces that are sewn together, the breakpoint after
-    /// which it lies.
+    /// Returns for each piece of outline, or pair of pieces that are sewn together, the breakpoint
+    /// after which it lies.
     fn foremost_points(&self) -> Vec<usize> {
         let Breakpoints { points, pieces, .. } = &*self.breakpoints;
         let first = |&number: &usize| {
@@ -144,14 +146,15 @@ impl Simplifier<'_> {
         })
     }
 
-    /// Returns the breakpoint to which a breakpoint is sewn by the piece before it (0) or after it (1).
+    /// Returns the breakpoint to which a breakpoint is sewn by the piece before it (0) or after it
+    /// (1).
     fn partner(&self, point: usize, beside: usize) -> Option<Partner> {
         let PieceEnd { piece, side, end } = self.end_at(point, beside)?;
         Some(Partner { piece, point: self.breakpoints.pieces[piece].ends[1 - side][end] })
     }
 
-    /// Returns whether all breakpoints of a class can be removed: the outlines are smooth there, and the
-    /// pieces before and after are sewn to the same breakpoint in the same sense.
+    /// Returns whether all breakpoints of a class can be removed: the outlines are smooth there,
+    /// and the pieces before and after are sewn to the same breakpoint in the same sense.
     fn is_removable(&self, class: usize) -> bool {
         self.sharpest(class) < SMOOTH
             && self.class(class).all(|point| {
@@ -195,8 +198,8 @@ impl Simplifier<'_> {
         }
     }
 
-    /// Makes one seam piece of two that end at a breakpoint. The longer one is extended: it keeps its seam,
-    /// its sides and its sense.
+    /// Makes one seam piece of two that end at a breakpoint. The longer one is extended: it keeps
+    /// its seam, its sides and its sense.
     fn merge(&mut self, one: PieceEnd, two: PieceEnd) {
         let two_longer = self.piece_length(two.piece) > self.piece_length(one.piece);
         let (kept, lost) = if two_longer { (two, one) } else { (one, two) };
@@ -229,7 +232,8 @@ impl Simplifier<'_> {
         (edge != with).then_some(Note::Joined { panel, edge, with, length, spacing: self.spacing })
     }
 
-    /// Returns the names of the panel and of the edge in the middle of the piece after a breakpoint.
+    /// Returns the names of the panel and of the edge in the middle of the piece after a
+    /// breakpoint.
     fn edge_after(&self, point: usize) -> EdgeName {
         let Breakpoints { points, starts, .. } = &*self.breakpoints;
         let number = points[point].panel;

@@ -1,7 +1,8 @@
 //! Reader of drafts of FreeSewing, in JSON: parts with paths and named points, in mm, with y down.
 //!
-//! The outline of a part is its path `seam`. Its edges are named by the points at their ends; of several
-//! points at one position the first by the alphabet counts. A part that is cut on the fold is unfolded.
+//! The outline of a part is its path `seam`. Its edges are named by the points at their ends; of
+//! several points at one position the first by the alphabet counts. A part that is cut on the fold
+//! is unfolded.
 
 use std::collections::BTreeMap;
 
@@ -140,7 +141,8 @@ impl Reader<'_> {
     }
 }
 
-/// Returns the edges of a path, or the number of the first operation that cannot belong to an outline.
+/// Returns the edges of a path, or the number of the first operation that cannot belong to an
+/// outline.
 fn edges(path: &Path, points: &BTreeMap<String, [f64; 2]>) -> Result<Vec<Edge>, usize> {
     let mut edges: Vec<Edge> = Vec::new();
     let mut ends: Option<([f64; 2], [f64; 2])> = None;
@@ -195,8 +197,8 @@ fn point_name(points: &BTreeMap<String, [f64; 2]>, at: [f64; 2]) -> String {
     }
 }
 
-/// Reflects an outline in its edge that lies on a line, and returns the name of that edge; `None` if no
-/// edge does.
+/// Reflects an outline in its edge that lies on a line, and returns the name of that edge; `None`
+/// if no edge does.
 fn unfold(edges: &mut Vec<Edge>, [from, to]: [[f64; 2]; 2]) -> Option<String> {
     let length = distance(from, to);
     let along = difference(to, from).map(|x| x / length);

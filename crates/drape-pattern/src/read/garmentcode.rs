@@ -1,8 +1,9 @@
-//! Reader of patterns of GarmentCode and of its predecessor, the Garment-Pattern-Generator, in JSON.
+//! Reader of patterns of GarmentCode and of its predecessor, the Garment-Pattern-Generator, in
+//! JSON.
 //!
-//! The predecessor writes a curve as one control point, GarmentCode as a type with parameters. Control
-//! points are relative to the edge: along it, and to its left, as fractions of its length. Rotations are
-//! about x, then y, then z.
+//! The predecessor writes a curve as one control point, GarmentCode as a type with parameters.
+//! Control points are relative to the edge: along it, and to its left, as fractions of its length.
+//! Rotations are about x, then y, then z.
 
 use std::collections::BTreeMap;
 

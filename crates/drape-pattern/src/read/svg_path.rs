@@ -13,8 +13,8 @@ const ELLIPSE: f64 = 1e-6;
 impl Panel {
     /// Returns a panel whose outline is the data of one closed SVG path, in a unit in m.
     ///
-    /// The y axis of the path points down, that of the panel up. All commands are read; edges are numbered
-    /// from 1. Circular arcs stay arcs, elliptical ones become Bézier curves.
+    /// The y axis of the path points down, that of the panel up. All commands are read; edges are
+    /// numbered from 1. Circular arcs stay arcs, elliptical ones become Bézier curves.
     ///
     /// # Errors
     /// The first mistake of the grammar, or all mistakes of the outline.
@@ -177,7 +177,8 @@ mod tests {
         // Three quarters of a circle, turning right on the screen, and its missing corner.
         let large = area("M50 0 A50 50 0 1 1 0 -50 L0 0 Z");
         assert!((large - 0.75 * PI * 2500.0).abs() < 1e-6, "{large}");
-        // A curve of degree two cuts off two thirds of its triangle; the smooth one goes on like it.
+        // A curve of degree two cuts off two thirds of its triangle; the smooth one goes on like
+        // it.
         let quadratic = area("M0 0 Q50 50 100 0 T200 0 V100 H0 Z");
         assert!((quadratic - 20_000.0).abs() < 1e-6, "the humps balance: {quadratic}");
         let cubic = area("M0 0 C0 50 100 50 100 0 S200 -50 200 0 V100 H0 Z");

@@ -1,3 +1,5 @@
+//! Darts of a shipped skirt.
+
 use drape_pattern::{Panel, Pattern};
 
 use crate::garments::{cut, shipped};
@@ -46,8 +48,8 @@ fn a_waistband_is_sewn_over_the_mouths_of_darts_and_over_the_side_seam() {
     let [back, band, front] = ["back", "band", "front"].map(number);
     let number = pattern.seams().iter().position(|s| s.name == "band").expect("it is there");
     let seam = &cut.seams[number];
-    // Where the chain leaves a piece of the waist, one node of the band has two partners: at the mouths of four
-    // darts and at one side seam.
+    // Where the chain leaves a piece of the waist, one node of the band has two partners: at the
+    // mouths of four darts and at one side seam.
     let twice: Vec<_> = seam.pairs.windows(2).filter(|two| two[0][0] == two[1][0]).collect();
     assert_eq!(twice.len(), 5);
     let sewn: Vec<u32> = twice.iter().map(|two| two[0][0].node).collect();

@@ -1,3 +1,5 @@
+//! Shipped garments, cut at several spacings.
+
 use drape_pattern::{CutPattern, Cutter, Error, Mistake, Note, Panel, Pattern, Quality};
 
 use crate::invariants;
@@ -9,8 +11,8 @@ pub fn shipped(name: &str) -> Pattern {
 
 const GARMENTS: [&str; 4] = ["shirt.json", "skirt.json", "trousers.json", "teagan.json"];
 
-/// Cuts a pattern, checks the invariants and the quality, and returns the number of particles with the
-/// cut.
+/// Cuts a pattern, checks the invariants and the quality, and returns the number of particles with
+/// the cut.
 pub fn cut(pattern: &Pattern, spacing: f64) -> (usize, CutPattern) {
     let cut = Cutter::new(spacing).cut(pattern).unwrap_or_else(|error| panic!("{error}"));
     invariants::check(pattern, &cut);

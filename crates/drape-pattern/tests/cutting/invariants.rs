@@ -1,3 +1,5 @@
+//! Properties of every cut of every pattern.
+
 use std::collections::BTreeMap;
 
 use drape_pattern::{Cut, CutPattern, NodeId, Pattern};

@@ -1,5 +1,5 @@
-//! Patterns are cut as they should be: shipped garments, the grain at any angle, darts, rectangles, and
-//! outlines of any shape.
+//! Patterns are cut as they should be: shipped garments, the grain at any angle, darts, rectangles,
+//! and outlines of any shape.
 
 mod darts;
 mod garments;

@@ -1,3 +1,5 @@
+//! Outlines of any shape, and what is refused.
+
 use drape_pattern::{
     Curve, Cutter, Edge, EdgeId, Error, MAX_EASE, Mistake, Note, Panel, Pattern, Quality, Seam,
 };
@@ -5,7 +7,8 @@ use proptest::prelude::*;
 
 use crate::invariants;
 
-/// An edge of an outline by its numbers: its curve, and the positions of its control points as fractions.
+/// An edge of an outline by its numbers: its curve, and the positions of its control points as
+/// fractions.
 type Shape = (u8, [f64; 4]);
 
 fn outline(corners: &[[f64; 2]], shapes: &[Shape]) -> Vec<Edge> {
@@ -163,7 +166,8 @@ proptest! {
         }
     }
 
-    /// Two panels with all edges sewn in one chain, one of other lengths: counts match on both sides.
+    /// Two panels with all edges sewn in one chain, one of other lengths: counts match on both
+    /// sides.
     #[test]
     fn chains_of_other_edges_are_sewn_node_to_node(
         radii in prop::collection::vec(0.6..1.0_f64, 3..10),
@@ -189,8 +193,8 @@ proptest! {
         cut(panels, vec![seam], 1.0 / across);
     }
 
-    /// Two discs of arcs of any lengths, sewn along two seams: all corners are smooth, and short pieces are
-    /// joined with their neighbours on both sides of the seams at once.
+    /// Two discs of arcs of any lengths, sewn along two seams: all corners are smooth, and short
+    /// pieces are joined with their neighbours on both sides of the seams at once.
     #[test]
     fn smooth_corners_of_seams_are_removed_on_both_sides_at_once(
         parts in (prop::collection::vec(0.01..1.0_f64, 4..30), prop::collection::vec(0.01..1.0_f64, 4..30)),
@@ -233,7 +237,8 @@ proptest! {
             let second = if reversed { along } else { along.into_iter().rev().collect() };
             Seam { name: name.into(), sides: [ids(0, first).collect(), second], reversed, max_ease: MAX_EASE, angle: 0.0, allowance: 0.0 }
         };
-        // Against the outline of the second disc the second seam does not go on where the first ends.
+        // Against the outline of the second disc the second seam does not go on where the first
+        // ends.
         let seams = vec![seam("first", 0..a, 0..c), seam("second", a..b, c..d)];
         if let Ok(pattern) = Pattern::new(vec![one, two], seams)
             && let Ok(cut) = Cutter::new(0.4 / across).cut(&pattern)

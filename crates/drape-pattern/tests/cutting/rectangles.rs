@@ -1,3 +1,5 @@
+//! Rectangles, along the grain and at an angle to it.
+
 use drape_pattern::{Cutter, Edge, EdgeId, MAX_EASE, NodeId, Panel, Pattern, Quality, Seam};
 
 use crate::invariants;
@@ -66,8 +68,8 @@ fn rectangles_sewn_with_fullness_stay_lattices_with_equal_counts() {
 
 #[test]
 fn the_longer_side_of_a_gather_has_a_whole_number_of_arcs_for_each_of_the_shorter() {
-    // Up to a ratio of 1.5 the longer side is counted. Then √(30 · 46/2) = 26.3, √(30 · 60/2) = 30, √(30 · 78/3) =
-    // 27.9, √(30 · 120/4) = 30.
+    // Up to a ratio of 1.5 the longer side is counted. Then √(30 · 46/2) = 26.3, √(30 · 60/2) = 30,
+    // √(30 · 78/3) = 27.9, √(30 · 120/4) = 30.
     let cases =
         [(0.42, 42, 1), (0.45, 45, 1), (0.46, 26, 2), (0.6, 30, 2), (0.78, 28, 3), (1.2, 30, 4)];
     for (long, arcs, fullness) in cases {

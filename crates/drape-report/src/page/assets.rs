@@ -3,6 +3,6 @@
 /// Style of pages.
 pub(crate) const PAGE_STYLE: &str = include_str!("../../templates/page/page.css");
 
-/// Script of pages: values under the pointer, and branches switched on and off. Pages are complete without
-/// it.
+/// Script of pages: values under the pointer, and branches switched on and off. Pages are complete
+/// without it.
 pub(crate) const PAGE_SCRIPT: &str = include_str!("../../templates/page/page.js");

@@ -47,8 +47,8 @@ pub struct ComparePage {
 
 /// Relative difference of two fabrics above which values are marked, as a ratio.
 ///
-/// With a lower limit the scatter of repeated tests would be marked, with a higher one real differences
-/// would not.
+/// With a lower limit the scatter of repeated tests would be marked, with a higher one real
+/// differences would not.
 const LIMIT: f64 = 0.25;
 
 impl Default for ComparePage {

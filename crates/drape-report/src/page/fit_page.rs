@@ -9,8 +9,8 @@ use crate::parameter::Units;
 
 /// Report of the identification of one fabric, with everything needed to judge it.
 ///
-/// All numbers are in SI; other units are given with their size. The page is drawn from this data alone, so
-/// the same data gives the same bytes. Serialised, it is the report for programs.
+/// All numbers are in SI; other units are given with their size. The page is drawn from this data
+/// alone, so the same data gives the same bytes. Serialised, it is the report for programs.
 ///
 /// ```
 /// use drape_report::{FitPage, Quantity, Units};
@@ -84,7 +84,8 @@ pub struct KesValue {
 }
 
 impl KesValue {
-    /// Returns the relative differences of the values of the curve and of the law from the reference.
+    /// Returns the relative differences of the values of the curve and of the law from the
+    /// reference.
     ///
     /// The reference is the value of the sheet; without one, the law is compared with the curve.
     #[must_use]

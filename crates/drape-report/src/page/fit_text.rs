@@ -8,8 +8,8 @@ use crate::parameter::Units;
 use crate::text::number::{percent, signed_percent, significant};
 use crate::text::table::Table;
 
-/// Width at which running text is broken, in letters: more than the usual 80 of a terminal, since tables are
-/// wider anyway.
+/// Width at which running text is broken, in letters: more than the usual 80 of a terminal, since
+/// tables are wider anyway.
 const WIDTH: usize = 96;
 
 impl FitPage {
@@ -62,7 +62,8 @@ fn heading(lines: &mut Vec<String>, title: &str) {
     lines.push(format!("[{title}]"));
 }
 
-/// Adds a text, broken at its blanks; lines after the first are indented by the width of the beginning.
+/// Adds a text, broken at its blanks; lines after the first are indented by the width of the
+/// beginning.
 fn wrap(lines: &mut Vec<String>, begin: &str, text: &str) {
     let indent = " ".repeat(begin.chars().count());
     let mut line = begin.to_owned();

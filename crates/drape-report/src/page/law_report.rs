@@ -59,7 +59,8 @@ pub struct ModelScore {
     pub parameters: usize,
     /// Root mean square residual over the range of the measured load, a ratio.
     pub misfit: f64,
-    /// Akaike's information criterion, corrected for the number of points (AICc); the smallest is best.
+    /// Akaike's information criterion, corrected for the number of points (AICc); the smallest is
+    /// best.
     pub aicc: f64,
     /// Whether the report is of this model.
     pub chosen: bool,
@@ -81,9 +82,9 @@ pub struct Limits {
 impl Default for Limits {
     /// Returns the usual limits.
     ///
-    /// A misfit of 2 % is the residual error of the law on woven fabrics \[NB04\]. Repeated KES tests of one
-    /// fabric scatter by some 5 %. An error of a quarter leaves one digit. A correlation below a half hardly
-    /// widens an interval.
+    /// A misfit of 2 % is the residual error of the law on woven fabrics \[NB04\]. Repeated KES
+    /// tests of one fabric scatter by some 5 %. An error of a quarter leaves one digit. A
+    /// correlation below a half hardly widens an interval.
     fn default() -> Limits {
         Limits { misfit: 0.02, error: 0.25, difference: 0.05, correlation: 0.5 }
     }
@@ -97,7 +98,8 @@ pub enum Trust {
     Unjudged,
     /// Follows its curves, and the curves determine its parameters.
     Good,
-    /// Follows its curves, but not all parameters are determined; or its misfit is up to twice the limit.
+    /// Follows its curves, but not all parameters are determined; or its misfit is up to twice the
+    /// limit.
     Doubtful,
     /// Does not follow its curves, or the search did not end at a minimum.
     Poor,

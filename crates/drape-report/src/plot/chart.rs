@@ -1,31 +1,21 @@
-//! Chart: what all plots over two axes share, from values in SI to the frame and the title of the x axis.
+//! Chart: what all plots over two axes share, from values in SI to the frame and the title of the x
+//! axis.
 //!
-//! `loop_plot`, `graph` and `overlay` build a [`Plane`] of their values, take frames and pixels from it, and
-//! put a [`Chart`] into their template.
+//! `loop_plot`, `graph` and `overlay` build a [`Plane`] of their values, take frames and pixels
+//! from it, and put a [`Chart`] into their template.
 
 use super::axis::Axis;
 use super::legend::{Legend, LegendEntry};
+use super::margin::{ACROSS, LEFT, RIGHT, WIDTH};
 use super::scale::{Scale, Tick};
 use super::style::Placement;
 use super::svg::px;
-
-/// Width of a plot, in px.
-pub(crate) const WIDTH: f64 = 720.0;
-
-/// Room for the labels left of a frame, in px.
-pub(crate) const LEFT: f64 = 68.0;
-
-/// Room right of a frame, in px.
-pub(crate) const RIGHT: f64 = 14.0;
 
 /// Room for the labels below a frame, in px.
 const BOTTOM: f64 = 46.0;
 
 /// Distance of the title of the x axis below the frame, in px.
 const X_TITLE: f64 = 38.0;
-
-/// First and last pixel across a frame.
-pub(crate) const ACROSS: [f64; 2] = [LEFT, WIDTH - RIGHT];
 
 /// Two axes with their scales.
 pub(crate) struct Plane<'a> {
@@ -34,7 +24,8 @@ pub(crate) struct Plane<'a> {
 }
 
 impl<'a> Plane<'a> {
-    /// Returns the plane of a frame between a top and a bottom pixel, with linear scales around values in SI.
+    /// Returns the plane of a frame between a top and a bottom pixel, with linear scales around
+    /// values in SI.
     pub(crate) fn around(
         axes: [&'a Axis; 2],
         x: impl Iterator<Item = f64>,

@@ -4,15 +4,16 @@ use askama::Template;
 use serde::Serialize;
 
 use super::axis::Axis;
-use super::chart::{ACROSS, Chart, Frame, Heading, Plane};
+use super::chart::{Chart, Frame, Heading, Plane};
 use super::legend::{Legend, LegendItem, Sign};
+use super::margin::ACROSS;
 use super::scale::Scale;
 use super::style::Placement;
 use super::svg::{dots, line};
 use crate::check;
 use crate::error::Error;
 
-/// Way in which a series of a graph is drawn.
+/// Look of a series of a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Look {
@@ -29,7 +30,7 @@ pub enum Look {
 pub struct GraphSeries {
     /// Name in the legend; series that look alike and have the same name share an entry.
     pub label: String,
-    /// Way in which it is drawn.
+    /// Look of its points.
     pub look: Look,
     /// Points in order.
     pub points: Vec<[f64; 2]>,
@@ -70,7 +71,8 @@ pub struct GraphPlot {
 }
 
 impl GraphPlot {
-    /// Refuses a plot without points, numbers that are not finite or have no logarithm, and units out of range.
+    /// Refuses a plot without points, numbers that are not finite or have no logarithm, and units
+    /// out of range.
     ///
     /// # Errors
     /// The first fault.
@@ -174,7 +176,8 @@ pub(crate) fn graph_figure(plot: &GraphPlot, placement: Placement) -> String {
     figure.render().expect("writing to a string does not fail")
 }
 
-/// Returns the series with their classes: references share one, the others take the colours in turn.
+/// Returns the series with their classes: references share one, the others take the colours in
+/// turn.
 fn classified(series: &[GraphSeries]) -> Vec<Classified<'_>> {
     let mut tones = (0..TONES).cycle();
     let class = |series| Classified {
@@ -203,7 +206,8 @@ fn scales(plot: &GraphPlot, top: f64) -> [Scale; 2] {
         return [x, y];
     }
     let width = ACROSS[1] - ACROSS[0];
-    // Length of a unit of the x axis, in px: as the width allows, unless the frame becomes too high.
+    // Length of a unit of the x axis, in px: as the width allows, unless the frame becomes too
+    // high.
     let units = plot.axes[1].in_si / plot.axes[0].in_si;
     let unit = (width / x.width()).min(HEIGHTS[1] / (y.width() * units));
     let height = (unit * y.width() * units).max(HEIGHTS[0]);

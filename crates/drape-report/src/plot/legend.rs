@@ -1,12 +1,13 @@
 //! Legend of a plot: the entries above its frame.
 
-use super::chart::{LEFT, RIGHT, WIDTH};
+use super::margin::{LEFT, RIGHT, WIDTH};
 use super::svg::px;
 
 /// Height of a row of the legend, in px.
 const ROW: f64 = 24.0;
 
-/// Mean width of a letter of a label, in px: that of lower-case words in common sans-serif faces at 13 px.
+/// Mean width of a letter of a label, in px: that of lower-case words in common sans-serif faces at
+/// 13 px.
 ///
 /// The room around the sign makes up for wider words.
 const LETTER: f64 = 5.9;
@@ -14,7 +15,7 @@ const LETTER: f64 = 5.9;
 /// Width of the sign before a label with the room around it, in px.
 const SIGN: f64 = 46.0;
 
-/// Way in which a series is drawn.
+/// Sign of a series in the legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sign {
     Points,

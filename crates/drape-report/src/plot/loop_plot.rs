@@ -115,7 +115,8 @@ impl LoopPlot {
         self.branches.iter().flat_map(|branch| &branch.points)
     }
 
-    /// Returns the range of the measured load, in SI; `None` without a measurement or where it hardly changes.
+    /// Returns the range of the measured load, in SI; `None` without a measurement or where it
+    /// hardly changes.
     fn measured_range(&self) -> Option<f64> {
         let loads = self.points().filter_map(|point| point.measured);
         let [low, high] = loads.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], load| {
@@ -136,11 +137,12 @@ const RESIDUAL_HEIGHT: f64 = 92.0;
 /// Room between both frames, in px.
 const GAP: f64 = 14.0;
 
-/// Smallest range of the measured load over the largest load; below it residuals in % have no meaning.
+/// Smallest range of the measured load over the largest load; below it residuals in % have no
+/// meaning.
 const LEAST_RANGE: f64 = 1e-9;
 
-/// Smallest range of residuals that the frame shows, in % of the range of the load; below it they would
-/// show rounding only.
+/// Smallest range of residuals that the frame shows, in % of the range of the load; below it they
+/// would show rounding only.
 const LEAST_RESIDUAL: f64 = 0.1;
 
 /// Opacity of the points of a cycle over that of the cycle before.
@@ -172,8 +174,8 @@ struct LoopFigure<'a> {
 
 /// Draws a loop as an SVG file: measured points, fitted line, confidence band, and the residuals.
 ///
-/// Each branch has its colour; later cycles are paler. The residuals are measured minus fitted load, in % of
-/// the range of the measured load.
+/// Each branch has its colour; later cycles are paler. The residuals are measured minus fitted
+/// load, in % of the range of the measured load.
 ///
 /// # Errors
 /// Those of [`LoopPlot::check`].

@@ -135,8 +135,8 @@ pub(crate) fn overlay_figure(plot: &OverlayPlot, placement: Placement) -> String
     figure.render().expect("writing to a string does not fail")
 }
 
-/// Returns the labels of the curves in order of appearance: the same label has the same dash pattern on
-/// both fabrics.
+/// Returns the labels of the curves in order of appearance: the same label has the same dash
+/// pattern on both fabrics.
 fn dashes(plot: &OverlayPlot) -> Vec<&str> {
     let mut labels: Vec<&str> = Vec::new();
     for trace in plot.traces.iter().flatten() {

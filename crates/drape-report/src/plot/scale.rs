@@ -3,12 +3,14 @@
 use super::svg::px;
 use crate::text::number::{significant, typeset};
 
-/// Room for a tick with its label, in px; with steps of 1, 2 and 5 there are up to 2.5 times as many ticks.
+/// Room for a tick with its label, in px; with steps of 1, 2 and 5 there are up to 2.5 times as
+/// many ticks.
 const TICK_ROOM: f64 = 85.0;
 /// Smallest numbers of ticks that a short and a long axis should have.
 const FEWEST_TICKS: [f64; 2] = [2.0, 4.0];
 
-/// Fraction of the range that stays free at both ends of an axis, so that no point lies on the frame.
+/// Fraction of the range that stays free at both ends of an axis, so that no point lies on the
+/// frame.
 const MARGIN: f64 = 0.04;
 
 /// Smallest width of a range over the magnitude of its numbers.
@@ -41,7 +43,8 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// Returns the scale that maps the range of values, with a margin, to the pixels between two bounds.
+    /// Returns the scale that maps the range of values, with a margin, to the pixels between two
+    /// bounds.
     pub(crate) fn around(values: impl Iterator<Item = f64>, [from, to]: [f64; 2]) -> Scale {
         let (low, high) = values
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
@@ -95,7 +98,8 @@ impl Scale {
         self.logarithmic
     }
 
-    /// Returns the value at pixel 0 and the value per pixel, from which a reader of the plot recovers values.
+    /// Returns the value at pixel 0 and the value per pixel, from which a reader of the plot
+    /// recovers values.
     pub(crate) fn inverse(&self) -> [f64; 2] {
         let per_pixel = (self.high - self.low) / (self.to - self.from);
         [self.low - self.from * per_pixel, per_pixel]
@@ -126,7 +130,8 @@ impl Scale {
         Tick { at: px(self.pixel(value)), label }
     }
 
-    /// Returns ticks of a logarithmic scale at powers of ten, and at 2 and 5 times them where there are few.
+    /// Returns ticks of a logarithmic scale at powers of ten, and at 2 and 5 times them where there
+    /// are few.
     fn decades(&self) -> Vec<Tick> {
         let factors: &[f64] = if self.width() > DECADES { &[1.0] } else { &[1.0, 2.0, 5.0] };
         let powers = self.low.floor() as i32..=self.high.ceil() as i32;

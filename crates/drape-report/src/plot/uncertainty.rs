@@ -69,7 +69,8 @@ struct UncertaintyFigure<'a> {
     rows: Vec<Row<'a>>,
 }
 
-/// Draws the relative uncertainty of parameters as an SVG file: 95 % intervals with standard errors inside.
+/// Draws the relative uncertainty of parameters as an SVG file: 95 % intervals with standard errors
+/// inside.
 ///
 /// # Errors
 /// No parameters, or those of [`Parameter::check`].

@@ -17,13 +17,14 @@ pub(crate) fn encode(light: f64) -> u8 {
     (255.0 * value).round() as u8
 }
 
-/// Colours of the lower end, the middle and the upper end of the diverging scale: blue, nearly white, red.
+/// Colours of the lower end, the middle and the upper end of the diverging scale: blue, nearly
+/// white, red.
 const STOPS: [Colour; 3] = [[33, 92, 172], [246, 246, 244], [186, 38, 48]];
 
 /// Returns the colour of a value on a diverging scale from minus to plus a limit.
 ///
-/// Zero is nearly white, negative values are blue, positive ones red; values beyond the ends have the
-/// colour of the end.
+/// Zero is nearly white, negative values are blue, positive ones red; values beyond the ends have
+/// the colour of the end.
 ///
 /// ```
 /// use drape_report::diverging;

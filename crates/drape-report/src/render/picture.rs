@@ -19,7 +19,8 @@ impl Picture {
         Picture { width, height, pixels }
     }
 
-    /// Returns pictures side by side on white, in rows of some columns, each in a field of the largest size.
+    /// Returns pictures side by side on white, in rows of some columns, each in a field of the
+    /// largest size.
     #[must_use]
     pub fn sheet(pictures: &[Picture], columns: usize) -> Picture {
         let columns = columns.clamp(1, pictures.len().max(1));

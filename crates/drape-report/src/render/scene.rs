@@ -32,8 +32,8 @@ pub struct Surface<'a> {
     pub positions: &'a [f64],
     /// Triangles: three vertex numbers each, anticlockwise seen from the front.
     pub triangles: &'a [[u32; 3]],
-    /// Material coordinates: two per vertex, along the weft and along the warp, in m. With them warp and
-    /// weft lines are drawn.
+    /// Material coordinates: two per vertex, along the weft and along the warp, in m. With them
+    /// warp and weft lines are drawn.
     pub coordinates: Option<&'a [f64]>,
     /// Distance of the warp lines and of the weft lines, in m.
     pub line_spacing: f64,
@@ -163,10 +163,11 @@ pub struct Scene<'a> {
     pub bodies: Vec<Surface<'a>>,
     /// Height of a floor of which only the shadows show, in m.
     pub floor: Option<f64>,
-    /// Depth bias of bodies: distance by which they are moved back behind cloth in depth tests, in m.
+    /// Depth bias of bodies: distance by which they are moved back behind cloth in depth tests, in
+    /// m.
     ///
-    /// The chord between two particles on either side of a convex edge dips below the edge. With a bias of
-    /// that depth the edge does not show through the cloth.
+    /// The chord between two particles on either side of a convex edge dips below the edge. With a
+    /// bias of that depth the edge does not show through the cloth.
     pub body_depth_bias: f64,
 }
 

@@ -6,8 +6,8 @@ use super::triangle::PlaneTriangle;
 
 /// Number of samples along each side of a pixel.
 ///
-/// With sixteen samples a pixel, edges have sixteen steps, about as many as the eye can tell apart; colours
-/// are evaluated only once per pixel and facet.
+/// With sixteen samples a pixel, edges have sixteen steps, about as many as the eye can tell apart;
+/// colours are evaluated only once per pixel and facet.
 pub(crate) const SAMPLES: usize = 4;
 
 /// Smallest depth of a corner that is projected, in m.
@@ -34,7 +34,8 @@ impl<'a> ScreenFacet<'a> {
         camera: &Camera,
     ) -> Option<ScreenFacet<'a>> {
         let corners = facet.corners.map(|corner| camera.project(corner.position));
-        // The camera is outside of the framed scene; facets that extend behind it are left out whole.
+        // The camera is outside of the framed scene; facets that extend behind it are left out
+        // whole.
         if corners.iter().any(|corner| corner.depth <= NEAREST) {
             return None;
         }

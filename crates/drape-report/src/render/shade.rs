@@ -1,8 +1,8 @@
 //! Shading: the colour of a facet at a pixel from its material, its lines and the lights.
 //!
-//! Diffuse light from the sky (`sky`), from a key light with soft shadows (`shadow_map`), from the ground
-//! and from the camera; on top of it warp lines, weft lines and the hem, drawn as ink. `raster` calls it once
-//! per pixel and visible facet.
+//! Diffuse light from the sky (`sky`), from a key light with soft shadows (`shadow_map`), from the
+//! ground and from the camera; on top of it warp lines, weft lines and the hem, drawn as ink.
+//! `raster` calls it once per pixel and visible facet.
 
 use super::camera::{Camera, View};
 use super::colour::{Colour, decode};
@@ -13,8 +13,8 @@ use super::sky::SkyLight;
 use super::tessellation::{FLOOR_HALF_SIDE, Part, Tessellation};
 use super::vector::{Bounds, Vector, add, cross, dot, norm, scale, subtract, unit};
 
-// The lights were chosen by eye on a draped cube and a pleated curtain: a surface that faces the key light
-// is a little brighter than its colour, the ground of a fold a third as bright.
+// The lights were chosen by eye on a draped cube and a pleated curtain: a surface that faces the
+// key light is a little brighter than its colour, the ground of a fold a third as bright.
 
 /// Irradiance of the whole sky on an upward surface; 1 shows a colour as it is given.
 const SKY: f64 = 0.62;
@@ -40,7 +40,7 @@ const KEY_AZIMUTH: f64 = 0.95;
 const KEY_TEXELS: usize = 1400;
 const KEY_FILTER: i64 = 2;
 
-/// The same for the shadow on the floor: larger texels make it softer.
+/// Texels and filter of the shadow map of the floor: larger texels make its shadow softer.
 const FLOOR_TEXELS: usize = 200;
 const FLOOR_FILTER: i64 = 2;
 
@@ -188,7 +188,8 @@ impl<'a> Shader<'a> {
                         / surface.line_spacing
                 };
                 let (coordinate, slope) = with_slope(&along);
-                // Lines that are too close merge into a tone of the same mean coverage, up to a limit.
+                // Lines that are too close merge into a tone of the same mean coverage, up to a
+                // limit.
                 let apart = 1.0 / (slope * self.line_width);
                 let sharp = (apart / LINES_MERGE - 1.0).clamp(0.0, 1.0);
                 let line = cover((coordinate - coordinate.round()).abs() / slope);

@@ -1,9 +1,9 @@
 //! Shadow maps of distant lights.
 //!
-//! A shadow map holds for each texel the height towards the light of the first surface \[Wil78\]; a point is
-//! lit if no surface lies above it. Looking up a square of texels and averaging the answers gives soft edges:
-//! percentage-closer filtering \[RSC87\]. `sky` looks up many maps with one texel each, `shade` the map of
-//! the key light.
+//! A shadow map holds for each texel the height towards the light of the first surface \[Wil78\]; a
+//! point is lit if no surface lies above it. Looking up a square of texels and averaging the
+//! answers gives soft edges: percentage-closer filtering \[RSC87\]. `sky` looks up many maps with
+//! one texel each, `shade` the map of the key light.
 
 use super::tessellation::{Facet, Part, Tessellation};
 use super::triangle::PlaneTriangle;
@@ -12,13 +12,14 @@ use super::vector::{Vector, add, dot, perpendiculars, scale, subtract};
 /// Half of the side of a map over the radius of the scene: its border stays empty.
 const MARGIN: f64 = 1.02;
 
-/// Normal offset: distance by which a point is moved out along its normal before the look-up, in texels,
-/// so that its own facet does not shade it.
+/// Normal offset: distance by which a point is moved out along its normal before the look-up, in
+/// texels, so that its own facet does not shade it.
 ///
 /// Over a filter of `n` texels a tilted facet rises by up to `n` texels more, which are added.
 const NORMAL_OFFSET: f64 = 1.5;
 
-/// Shadow map of one distant light: the height towards the light of the first surface in each texel.
+/// Shadow map of one distant light: the height towards the light of the first surface in each
+/// texel.
 pub(crate) struct ShadowMap {
     /// Unit vector towards the light.
     pub(crate) direction: Vector,
@@ -58,8 +59,8 @@ impl ShadowMap {
         map
     }
 
-    /// Returns a point in the frame of the light: texels to the right and down, and height towards the
-    /// light in m.
+    /// Returns a point in the frame of the light: texels to the right and down, and height towards
+    /// the light in m.
     fn to_light(&self, point: Vector) -> Vector {
         let from_center = subtract(point, self.center);
         let half = 0.5 * self.side as f64;
@@ -70,15 +71,15 @@ impl ShadowMap {
         ]
     }
 
-    /// Returns the fraction of the light that arrives at a point of a surface, filtered over a square with
-    /// a radius in texels, 0 to 1.
+    /// Returns the fraction of the light that arrives at a point of a surface, filtered over a
+    /// square with a radius in texels, 0 to 1.
     pub(crate) fn visibility(&self, point: Vector, normal: Vector, radius: i64) -> f64 {
         let offset = (NORMAL_OFFSET + radius as f64) * self.texel;
         let [x, y, height] = self.to_light(add(point, scale(normal, offset)));
         let (column, row) = ((x - 0.5).floor(), (y - 0.5).floor());
         let (right, down) = (x - 0.5 - column, y - 0.5 - row);
-        // Beyond its border the map is as empty as on it. In a scene without extent texels have no size,
-        // and the cast below saturates: the sum must saturate too.
+        // Beyond its border the map is as empty as on it. In a scene without extent texels have no
+        // size, and the cast below saturates: the sum must saturate too.
         let within = |k: i64| k.clamp(0, self.side as i64 - 1) as usize;
         let lit = |column: i64, row: i64| -> f64 {
             let first = self.heights[within(row) * self.side + within(column)];

@@ -1,9 +1,10 @@
 //! Light of a uniform sky: ambient occlusion.
 //!
-//! The irradiance at a corner with the normal `$n$` is `$\frac1\pi\int V(\omega)\,(n\cdot\omega)\,
-//! \mathrm{d}\omega$` over the upper half sphere, with the visibility `$V$` of the sky in the direction
-//! `$\omega$`; it is 1 where an upward normal sees all of the sky. The integral is a sum over evenly
-//! distributed directions, each with a shadow map. `shade` interpolates the result over the facets.
+//! The irradiance at a corner with the normal `$n$` is
+//! `$\frac1\pi\int V(\omega)\,(n\cdot\omega)\, \mathrm{d}\omega$` over the upper half sphere, with
+//! the visibility `$V$` of the sky in the direction `$\omega$`; it is 1 where an upward normal sees
+//! all of the sky. The integral is a sum over evenly distributed directions, each with a shadow
+//! map. `shade` interpolates the result over the facets.
 
 use rayon::prelude::*;
 
@@ -18,8 +19,8 @@ const DIRECTIONS: usize = 64;
 
 /// Texels along the side of the shadow map of one direction.
 ///
-/// A texel is 0.3 % of the width of the scene: smaller ones would only sharpen single directions of a light
-/// that is soft.
+/// A texel is 0.3 % of the width of the scene: smaller ones would only sharpen single directions of
+/// a light that is soft.
 const TEXELS: usize = 320;
 
 /// Angle from one direction of the sky to the next, in rad, which distributes them evenly.
@@ -74,8 +75,8 @@ impl SkyLight {
     }
 }
 
-/// Returns the contribution of one direction of the sky to each lit point: above 0 on its front, below on
-/// its back.
+/// Returns the contribution of one direction of the sky to each lit point: above 0 on its front,
+/// below on its back.
 fn directional_light(scene: &Tessellation, number: usize) -> Vec<f64> {
     // Equal areas of the half sphere, rotated by the golden angle from one to the next.
     let rise = (number as f64 + 0.5) / DIRECTIONS as f64;

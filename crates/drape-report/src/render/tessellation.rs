@@ -8,8 +8,8 @@ use super::vector::{Bounds, Vector, add, at, cross, dot, norm, scale, subtract, 
 
 /// Longest edge of a facet, over the radius of the scene.
 ///
-/// The light of the sky is evaluated at corners and interpolated, so large triangles are split until they
-/// can resolve the shade at the foot of a body.
+/// The light of the sky is evaluated at corners and interpolated, so large triangles are split
+/// until they can resolve the shade at the foot of a body.
 const LONGEST_EDGE: f64 = 1.0 / 24.0;
 
 /// Cosine of the angle between normals above which an edge of a body is smooth: 40°.
@@ -154,9 +154,9 @@ fn add_surface(facets: &mut Vec<Facet>, surface: &Surface, part: Part, longest: 
             *sides.entry(edge(triangle, k)).or_insert(0) += 1;
         }
     }
-    let is_hem = |edge: &(u32, u32)| is_cloth && sides.get(edge) == Some(&1);
+    let is_hem = |edge: &[u32; 2]| is_cloth && sides.get(edge) == Some(&1);
     let mut on_hem = vec![false; around.len()];
-    for (a, b) in sides.keys().filter(|edge| is_hem(edge)) {
+    for [a, b] in sides.keys().filter(|edge| is_hem(edge)) {
         on_hem[*a as usize] = true;
         on_hem[*b as usize] = true;
     }
@@ -190,9 +190,9 @@ fn add_surface(facets: &mut Vec<Facet>, surface: &Surface, part: Part, longest: 
 }
 
 /// Returns the edge opposite to a corner, by its vertices.
-fn edge(triangle: &[u32; 3], corner: usize) -> (u32, u32) {
-    let (a, b) = (triangle[(corner + 1) % 3], triangle[(corner + 2) % 3]);
-    (a.min(b), a.max(b))
+fn edge(triangle: &[u32; 3], corner: usize) -> [u32; 2] {
+    let [a, b] = [1, 2].map(|k| triangle[(corner + k) % 3]);
+    [a.min(b), a.max(b)]
 }
 
 /// Bisects the longest edge of a facet until none is too long.

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-/// Tolerance of the coverage test: barycentric coordinate of a cell centre outside the triangle that still
-/// counts as covered.
+/// Tolerance of the coverage test: barycentric coordinate of a cell centre outside the triangle
+/// that still counts as covered.
 ///
-/// Far above rounding, so that no centre on a common edge falls between two neighbours, and far below what
-/// could be seen.
+/// Far above rounding, so that no centre on a common edge falls between two neighbours, and far
+/// below what could be seen.
 const EDGE: f64 = 1e-9;
 
 /// Triangle in a plane of pixels or texels.
@@ -39,8 +39,8 @@ impl PlaneTriangle {
         span(self.corners.map(|c| c[1]), count)
     }
 
-    /// Visits the cells of some rows whose centres are inside, each with its column, its row and its
-    /// barycentric coordinates.
+    /// Visits the cells of some rows whose centres are inside, each with its column, its row and
+    /// its barycentric coordinates.
     pub(crate) fn rasterize(
         &self,
         columns: usize,

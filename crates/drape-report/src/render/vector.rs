@@ -37,7 +37,8 @@ pub(crate) fn unit(a: Vector) -> Vector {
     if length > 0.0 { scale(a, 1.0 / length) } else { a }
 }
 
-/// Returns two unit vectors perpendicular to a direction and to each other; the first is horizontal.
+/// Returns two unit vectors perpendicular to a direction and to each other; the first is
+/// horizontal.
 pub(crate) fn perpendiculars(direction: Vector) -> [Vector; 2] {
     let up = if direction[1].abs() > 0.999 {
         [0.0, 0.0, -direction[1].signum()]

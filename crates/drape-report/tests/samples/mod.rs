@@ -12,7 +12,8 @@ use drape_report::{
 
 pub const GRAM_FORCE_PER_CM: f64 = 0.980_665;
 
-/// A loop that a bent strip would give: out, back and out again, with a law 2 % of the range below it.
+/// A loop that a bent strip would give: out, back and out again, with a law 2 % of the range below
+/// it.
 pub fn a_loop() -> LoopPlot {
     let branch = |kind, cycle, from: f64, to: f64, friction: f64| Branch {
         kind,

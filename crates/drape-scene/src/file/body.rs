@@ -1,4 +1,7 @@
 //! TOML form of bodies.
+//!
+//! Each kind lists the keys that all kinds have in common again: a part that `serde` flattens into
+//! another one costs the refusal of unknown keys, and the lines of mistakes.
 
 use serde::Deserialize;
 

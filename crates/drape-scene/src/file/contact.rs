@@ -14,7 +14,7 @@ pub(crate) struct ContactFile {
     /// Whether surfaces are kept apart, and not particles out of bodies only; wherever that can be
     /// if missing.
     pub(crate) surfaces: Option<bool>,
-    /// Displacement by which surfaces that stick give way before they slide.
+    /// Displacement of surfaces that stick, before they slide.
     pub(crate) stick: Option<f64>,
     /// `error`, `thin` or `release`: treatment of cloth that bodies close on.
     pub(crate) pinch: Option<String>,

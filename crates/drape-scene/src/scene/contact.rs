@@ -12,7 +12,7 @@ pub struct ContactSettings {
     /// Stiffness of the contact of surfaces, in N/m³; without one, the fabrics' thickness under
     /// pressure gives it.
     pub stiffness: Option<f64>,
-    /// Displacement by which surfaces that stick give way before they slide, in m.
+    /// Displacement of surfaces that stick, before they slide, in m.
     pub sticking_displacement: f64,
     /// Treatment of cloth that bodies close on.
     pub pinch: PinchPolicy,

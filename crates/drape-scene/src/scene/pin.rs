@@ -30,6 +30,15 @@ pub enum HoldUntil {
     End,
 }
 
+/// Particle with the position at which a pin holds it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeldParticle {
+    /// Index of the particle.
+    pub particle: usize,
+    /// Position, in m.
+    pub position: [f64; 3],
+}
+
 impl Pin {
     /// Returns whether it holds its particles in a step that ends at a time, in s.
     #[must_use]
@@ -52,18 +61,19 @@ impl Pin {
     }
 
     /// Returns its particles with their positions at a time on the clock of motions, in s.
-    pub fn positions(&self, time: f64) -> impl Iterator<Item = (usize, [f64; 3])> {
+    pub fn positions(&self, time: f64) -> impl Iterator<Item = HeldParticle> {
         let moved = self.motion.as_ref().map(|motion| motion.transform(time));
         let place = move |&start: &[f64; 3]| moved.as_ref().map_or(start, |moved| moved(start));
-        self.particles.iter().copied().zip(self.start.iter().map(place))
+        let places = self.particles.iter().zip(self.start.iter().map(place));
+        places.map(|(&particle, position)| HeldParticle { particle, position })
     }
 
     /// Writes the positions of its particles at a time on the clock of motions, in s, into the flat
     /// array of all positions. A pin without a motion leaves them as they are.
     pub fn write_positions(&self, time: f64, positions: &mut [f64]) {
         if self.motion.is_some() {
-            for (particle, place) in self.positions(time) {
-                positions[3 * particle..3 * particle + 3].copy_from_slice(&place);
+            for HeldParticle { particle, position } in self.positions(time) {
+                positions[3 * particle..3 * particle + 3].copy_from_slice(&position);
             }
         }
     }

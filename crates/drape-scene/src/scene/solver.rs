@@ -23,7 +23,7 @@ pub enum Integrator {
     Bdf2,
     /// Backward Euler, of first order.
     BackwardEuler,
-    /// Many small explicit steps in each: a cross-check, not a way to get results.
+    /// Many small explicit steps in each: they check the implicit steps, and are too slow for more.
     Explicit,
 }
 

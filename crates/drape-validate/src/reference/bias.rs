@@ -1,3 +1,5 @@
+//! Stiffness of strips cut at an angle to the yarns \[Kil63\]. The case `bias-strip` calls it.
+
 /// Stiffness of a strip cut at an angle (in rad) to its first yarns, in N/m.
 ///
 /// ```math
@@ -5,8 +7,9 @@
 ///   + \frac{\sin^2\vartheta\cos^2\vartheta}{G}
 /// ```
 ///
-/// from the stiffnesses of the two yarn systems and the shear stiffness, for a fabric without coupling between
-/// the yarns [Kilby 1963]; it holds for a strip long enough that its ends do not tell.
+/// from the stiffnesses of the two yarn systems and the shear stiffness, for a fabric without
+/// coupling between the yarns \[Kil63\]; it holds for a strip long enough that its ends do not tell.
+#[must_use]
 pub fn bias_stiffness(angle: f64, [first, second]: [f64; 2], shear: f64) -> f64 {
     let (s, c) = (angle.sin().powi(2), angle.cos().powi(2));
     1.0 / (c * c / first + s * s / second + s * c / shear)

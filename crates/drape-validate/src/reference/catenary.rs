@@ -1,16 +1,22 @@
-use super::integrate::root;
+//! Catenary: the shape of an inextensible limp line between two supports. The case `catenary` calls
+//! it.
+
+use super::root;
 
 /// Sag of an inextensible line of a length between two supports at the same height, over the span.
 ///
 /// ```math
 /// L = 2a\sinh\frac{D}{2a},\qquad f = a\left(\cosh\frac{D}{2a} - 1\right)
 /// ```
+#[must_use]
 pub fn catenary_sag(length_over_span: f64) -> f64 {
     let x = half_angle(length_over_span);
     (x.cosh() - 1.0) / (2.0 * x)
 }
 
-/// The shape of the same line: place across and height over its ends, both over the span, at so many even places.
+/// The shape of the same line: place across and height over its ends, both over the span, at so
+/// many even places.
+#[must_use]
 pub fn catenary_shape(length_over_span: f64, places: usize) -> Vec<[f64; 2]> {
     let x = half_angle(length_over_span);
     let at = |k: usize| {

@@ -1,5 +1,8 @@
+//! Logarithmic decrement of a strip whose bending has the friction of a Dahl element \[Dahl68\].
+
 /// Zero of `$\cos k\cosh k = -1$` that belongs to the first mode of a cantilever.
 const WAVE: f64 = 1.875_104_068_711_961;
+
 /// Steps of the quadrature along the strip; the curvatures are smooth.
 const STEPS: usize = 400;
 
@@ -12,19 +15,40 @@ pub struct DahlStrip {
     pub rigidity: f64,
     /// Plateau `$F$` of the friction per width, in N.
     pub plateau: f64,
-    /// Its length `$\ell$`, in 1/m.
+    /// Length `$\ell$` of the friction, in 1/m.
     pub sliding: f64,
 }
 
+/// Deflection of a strip in its first mode, over the deflection of its tip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deflection {
+    /// Deflection over that of the tip, a ratio.
+    pub deflection: f64,
+    /// Curvature over the deflection of the tip, in 1/m².
+    pub curvature: f64,
+}
+
+/// Loss of a strip with friction in a cycle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CycleLoss {
+    /// Energy per width, in J/m.
+    pub energy: f64,
+    /// Logarithmic decrement of free swings, a ratio.
+    pub decrement: f64,
+}
+
 impl DahlStrip {
-    /// Angular frequency of the first mode without friction, in rad/s, for a mass per area in kg/m².
+    /// Returns the angular frequency of the first mode without friction, in rad/s, for a mass per
+    /// area in kg/m².
+    #[must_use]
     pub fn frequency(&self, density: f64) -> f64 {
         (WAVE / self.length).powi(2) * (self.rigidity / density).sqrt()
     }
 
-    /// Deflection in the first mode at a place from the clamp over that at the tip, and curvature over the tip's deflection
-    /// in 1/m².
-    pub fn mode(&self, place: f64) -> [f64; 2] {
+    /// Deflection in the first mode at a place from the clamp over that at the tip, and curvature
+    /// over the tip's deflection in 1/m².
+    #[must_use]
+    pub fn mode(&self, place: f64) -> Deflection {
         let shape = |part: f64| {
             let k = WAVE * part;
             let balance = (WAVE.sinh() - WAVE.sin()) / (WAVE.cosh() + WAVE.cos());
@@ -33,22 +57,26 @@ impl DahlStrip {
         };
         let [tip, _] = shape(1.0);
         let [deflection, bend] = shape(place / self.length);
-        [deflection / tip, bend / tip * (WAVE / self.length).powi(2)]
+        Deflection {
+            deflection: deflection / tip,
+            curvature: bend / tip * (WAVE / self.length).powi(2),
+        }
     }
 
-    /// Energy per width that a cycle between deflections of the tip of `$\pm a$` loses, in J/m, and the logarithmic
-    /// decrement of free swings of that amplitude.
+    /// Energy per width that a cycle between deflections of the tip of `$\pm a$` loses, in J/m, and
+    /// the logarithmic decrement of free swings of that amplitude.
     ///
-    /// A steady loop between `$\pm\kappa$` has the area `$4F(\kappa - \ell\tanh\frac\kappa\ell)$`, and at its ends the
-    /// element holds `$\frac12F\ell\tanh^2\frac\kappa\ell$`. Over the curvatures of the first mode, which little friction does
-    /// not change,
+    /// A steady loop between `$\pm\kappa$` has the area `$4F(\kappa - \ell\tanh\frac\kappa\ell)$`,
+    /// and at its ends the element holds `$\frac12F\ell\tanh^2\frac\kappa\ell$`. Over the
+    /// curvatures of the first mode, which little friction does not change,
     ///
     /// ```math
     /// \delta = \frac{W}{a\,\mathrm{d}U/\mathrm{d}a},\qquad
     /// W = \int 4F(\kappa - \ell\tanh\tfrac\kappa\ell)\,\mathrm{d}s,\qquad
     /// U = \int \tfrac12B\kappa^2 + \tfrac12F\ell\tanh^2\tfrac\kappa\ell\,\mathrm{d}s
     /// ```
-    pub fn decrement(&self, tip: f64) -> (f64, f64) {
+    #[must_use]
+    pub fn decrement(&self, tip: f64) -> CycleLoss {
         let Self { length, rigidity, plateau, sliding } = *self;
         let (mut lost, mut growth) = (0.0, 0.0);
         for step in 0..=STEPS {
@@ -62,14 +90,14 @@ impl DahlStrip {
                 2.0
             };
             let weight = weight * length / (3.0 * STEPS as f64);
-            let [_, bend] = self.mode(length * step as f64 / STEPS as f64);
-            let curvature = (tip * bend).abs();
+            let mode = self.mode(length * step as f64 / STEPS as f64);
+            let curvature = (tip * mode.curvature).abs();
             let held = (curvature / sliding).tanh();
             lost += weight * 4.0 * plateau * (curvature - sliding * held);
             let friction = plateau * curvature * held * (1.0 - held * held);
             growth += weight * (rigidity * curvature * curvature + friction);
         }
-        (lost, lost / growth)
+        CycleLoss { energy: lost, decrement: lost / growth }
     }
 }
 
@@ -82,15 +110,18 @@ mod tests {
 
     #[test]
     fn the_mode_is_that_of_a_clamped_beam() {
-        let [at_clamp, bend] = STRIP.mode(0.0);
+        let Deflection { deflection: at_clamp, curvature: bend } = STRIP.mode(0.0);
         assert!(at_clamp.abs() < 1e-15);
         // The curvature at the clamp is k² times the tip's deflection over the length squared.
         assert!((bend * STRIP.length.powi(2) / WAVE.powi(2) - 1.0).abs() < 1e-12, "{bend}");
-        let [at_tip, bend] = STRIP.mode(STRIP.length);
+        let Deflection { deflection: at_tip, curvature: bend } = STRIP.mode(STRIP.length);
         assert!((at_tip - 1.0).abs() < 1e-15 && bend.abs() * STRIP.length.powi(2) < 1e-12);
         // Its energy is that of the frequency: ∫Bκ² = ω²∫ρy².
         let sums = (0..1000).map(|k| STRIP.mode((f64::from(k) + 0.5) * 1e-3 * STRIP.length));
-        let [mass, bend] = sums.fold([0.0; 2], |sum, [y, k]| [sum[0] + y * y, sum[1] + k * k]);
+        let [mass, bend] = sums
+            .fold([0.0; 2], |sum, Deflection { deflection: y, curvature: k }| {
+                [sum[0] + y * y, sum[1] + k * k]
+            });
         let ratio = STRIP.rigidity * bend / (STRIP.frequency(0.2).powi(2) * 0.2 * mass);
         assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
     }
@@ -99,8 +130,9 @@ mod tests {
     fn large_swings_lose_what_coulombs_friction_takes() {
         // Far beyond the sliding length the loop is a parallelogram 2F high.
         let tip = 1e3;
-        let (lost, decrement) = STRIP.decrement(tip);
-        let bends = (0..4000).map(|k| STRIP.mode((f64::from(k) + 0.5) / 4000.0 * STRIP.length)[1]);
+        let CycleLoss { energy: lost, decrement } = STRIP.decrement(tip);
+        let bends =
+            (0..4000).map(|k| STRIP.mode((f64::from(k) + 0.5) / 4000.0 * STRIP.length).curvature);
         let [mean, square] = bends.fold([0.0; 2], |sum, k| [sum[0] + k, sum[1] + k * k]);
         let [mean, square] = [mean, square].map(|sum| sum / 4000.0);
         let exact = 4.0 * STRIP.plateau * mean * tip * STRIP.length;
@@ -111,7 +143,7 @@ mod tests {
 
     #[test]
     fn small_swings_lose_with_the_third_power() {
-        let (small, smaller) = (STRIP.decrement(1e-6).0, STRIP.decrement(5e-7).0);
+        let (small, smaller) = (STRIP.decrement(1e-6).energy, STRIP.decrement(5e-7).energy);
         assert!((small / smaller - 8.0).abs() < 1e-3, "{small} {smaller}");
     }
 }

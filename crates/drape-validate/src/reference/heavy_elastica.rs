@@ -1,39 +1,47 @@
-use super::integrate::{march, root, way};
+//! Heavy elastica: a clamped strip bent by its weight \[Bic34\] and by a load at its tip \[BD45\].
 
-/// Steps of the integration along the strip: the error of the fourth order is then below 1e-10 of the length.
+use super::root;
+use super::runge_kutta::{march, trajectory};
+
+/// Steps of the integration along the strip: the error of the fourth order is then below 1e-10 of
+/// the length.
 const STEPS: usize = 4000;
 
-/// Shape of a bent strip's end, from the clamp, over the strip's length.
+/// Tip of a bent strip, seen from its clamp, over the length of the strip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tip {
-    /// How far the tip hangs below the clamp, a ratio.
+    /// Drop of the tip below the clamp, a ratio.
     pub drop: f64,
-    /// How far the tip reaches from the clamp, a ratio.
+    /// Reach of the tip from the clamp, a ratio.
     pub reach: f64,
 }
 
-/// A strip clamped level, bent by its own weight and by a weight at its tip.
+/// Returns the tip of a strip clamped level, bent by its own weight and by a load at its tip.
 ///
-/// With the slope `$\theta$` below the level and the arc length `$\sigma$` from the tip, both over the
-/// length,
+/// With the slope `$\theta$` below the level and the arc length `$\sigma$` from the tip, both over
+/// the length,
 ///
 /// ```math
 /// \theta'' = -(\lambda\sigma + \mu)\cos\theta,\qquad \theta'(0) = 0,\qquad \theta(1) = 0
 /// ```
 ///
-/// for `$\lambda = wL^3/B$` and `$\mu = PL^2/B$`: the heavy elastica [Bickley 1934] where `$\mu = 0$`, the
-/// end-loaded cantilever [Bisshopp & Drucker 1945] where `$\lambda = 0$`. Solved by shooting from the tip.
+/// for `$\lambda = wL^3/B$` and `$\mu = PL^2/B$`: the heavy elastica \[Bic34\] where `$\mu = 0$`, the
+/// end-loaded cantilever \[BD45\] where `$\lambda = 0$`. Solved by shooting from the tip.
+#[must_use]
 pub fn cantilever(weight: f64, load: f64) -> Tip {
     let start = [tip_slope(weight, load), 0.0, 0.0, 0.0];
     let [_, _, drop, reach] = march(elastica(weight, load), start, 1.0, STEPS);
     Tip { drop, reach }
 }
 
-/// The whole shape of the same strip, from its clamp at (0, 0): reach and drop over the length at so many even places.
-pub fn cantilever_shape((weight, load): (f64, f64), places: usize) -> Vec<[f64; 2]> {
+/// The whole shape of the same strip, from its clamp at (0, 0): reach and drop over the length at
+/// so many even places.
+#[must_use]
+pub fn cantilever_shape(weight: f64, load: f64, places: usize) -> Vec<[f64; 2]> {
     let start = [tip_slope(weight, load), 0.0, 0.0, 0.0];
-    let shape: Vec<[f64; 4]> =
-        std::iter::once(start).chain(way(elastica(weight, load), start, 1.0, STEPS)).collect();
+    let shape: Vec<[f64; 4]> = std::iter::once(start)
+        .chain(trajectory(elastica(weight, load), start, 1.0, STEPS))
+        .collect();
     let [_, _, drop, reach] = shape[STEPS];
     let at = |k: usize| {
         let [_, _, down, across] = shape[STEPS - k * STEPS / places];
@@ -50,7 +58,8 @@ fn elastica(weight: f64, load: f64) -> impl Fn(f64, [f64; 4]) -> [f64; 4] {
     }
 }
 
-/// The slope at the tip for which the clamp is level: that at the clamp rises with it from below nought to above.
+/// The slope at the tip for which the clamp is level: that at the clamp rises with it from below
+/// nought to above.
 fn tip_slope(weight: f64, load: f64) -> f64 {
     let clamp = |tip: f64| march(elastica(weight, load), [tip, 0.0, 0.0, 0.0], 1.0, STEPS)[0];
     root(clamp, 0.0, std::f64::consts::FRAC_PI_2)
@@ -82,7 +91,7 @@ mod tests {
 
     #[test]
     fn the_shape_goes_from_the_clamp_to_the_tip() {
-        let (shape, tip) = (cantilever_shape((10.0, 0.0), 40), cantilever(10.0, 0.0));
+        let (shape, tip) = (cantilever_shape(10.0, 0.0, 40), cantilever(10.0, 0.0));
         let ([x0, y0], [x1, y1]) = (shape[0], shape[shape.len() - 1]);
         assert!(x0.abs() < 1e-9 && y0.abs() < 1e-9, "it begins at {x0}, {y0}");
         assert!((x1 - tip.reach).abs() < 1e-9 && (y1 - tip.drop).abs() < 1e-9, "{tip:?}");

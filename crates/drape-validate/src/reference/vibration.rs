@@ -1,15 +1,21 @@
+//! Vibrations of hanging strips and pendulums: modes, periods and swings.
+//!
+//! Modes of a chain are zeros of a Bessel function \[Ber38\]; those of a strip with bending rigidity
+//! come from cubic finite elements; the period of a pendulum is an arithmetic–geometric mean
+//! \[Gau99\].
+
 use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::integrate::way;
+use super::runge_kutta::trajectory;
 
-/// Angular frequencies of the swinging modes of a chain of length `$L$` that hangs from one end, over
-/// `$\sqrt{g/L}$`: half the zeros of the Bessel function `$J_0$` [Bernoulli 1732].
+/// Angular frequencies of the swinging modes of a chain of length `$L$` that hangs from one end,
+/// over `$\sqrt{g/L}$`: half the zeros of the Bessel function `$J_0$` \[Ber38\].
 pub const CHAIN_MODES: [f64; 3] = [1.202_412_778_848, 2.760_039_055_143, 4.326_863_956_455];
 
-/// Elements along the hanging strip: the lowest frequencies are then right to a millionth for a rigidity of 1e-6
-/// and above.
+/// Elements along the hanging strip: the lowest frequencies are then right to a millionth for a
+/// rigidity of 1e-6 and above.
 const ELEMENTS: usize = 60;
 
 /// Places and weights of Gauss's integration on 0 … 1, exact to the seventh power.
@@ -20,7 +26,8 @@ const GAUSS: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-/// Angular frequencies, over `$\sqrt{g/L}$`, of a strip that hangs from a clamp and has bending rigidity.
+/// Angular frequencies, over `$\sqrt{g/L}$`, of a strip that hangs from a clamp and has bending
+/// rigidity.
 ///
 /// The lowest modes of
 ///
@@ -29,6 +36,7 @@ const GAUSS: [(f64, f64); 4] = [
 /// ```
 ///
 /// with `$\beta = B/(wL^3)$`, by cubic finite elements.
+#[must_use]
 pub fn strip_modes(rigidity: f64, count: usize) -> Vec<f64> {
     // Shorter towards the clamp, where a limp strip bends within √β of its length.
     let node = |i: usize| (i as f64 / ELEMENTS as f64).powi(2);
@@ -91,7 +99,8 @@ fn cubic(t: f64, h: f64) -> [[f64; 4]; 3] {
 /// T/T_0 = 1/\mathrm{agm}\left(1, \cos\tfrac{\alpha}{2}\right)
 /// ```
 ///
-/// with the arithmetic–geometric mean [Gauss 1799].
+/// with the arithmetic–geometric mean \[Gau99\].
+#[must_use]
 pub fn pendulum_period(amplitude: f64) -> f64 {
     let (mut a, mut b) = (1.0, (0.5 * amplitude).cos());
     for _ in 0..8 {
@@ -100,11 +109,14 @@ pub fn pendulum_period(amplitude: f64) -> f64 {
     1.0 / a
 }
 
-/// The swing of a pendulum let go at an amplitude (in rad): time over that of small swings, and angle in rad, at so
-/// many even times of a number of such periods. By integration of `$\theta'' = -\sin\theta$`.
+/// The swing of a pendulum let go at an amplitude (in rad): time over that of small swings, and
+/// angle in rad, at so many even times of a number of such periods. By integration of
+/// `$\theta'' = -\sin\theta$`.
+#[must_use]
 pub fn pendulum_swing(amplitude: f64, periods: f64, places: usize) -> Vec<[f64; 2]> {
     let end = periods * TAU;
-    let swing = way(|_, [angle, rate]| [rate, -f64::sin(angle)], [amplitude, 0.0], end, places);
+    let swing =
+        trajectory(|_, [angle, rate]| [rate, -f64::sin(angle)], [amplitude, 0.0], end, places);
     let time = |k: usize| periods * (k + 1) as f64 / places as f64;
     let later = swing.enumerate().map(|(k, [angle, _])| [time(k), angle]);
     std::iter::once([0.0, amplitude]).chain(later).collect()

@@ -27,7 +27,7 @@ impl Verified {
     pub(crate) fn outcome(&self) -> Result<(), Failure> {
         match self.broken.first() {
             None => Ok(()),
-            Some(first) => Err(Failure::Certificate(format!(
+            Some(first) => Err(Failure::Intersecting(format!(
                 "surfaces intersect or are too close in {} frames, first in {}",
                 self.broken.len(),
                 first.display()

@@ -111,7 +111,7 @@ pub(crate) fn outcome(summary: Summary) -> Result<(), Failure> {
              was written",
             summary.reason.unwrap_or_default()
         ))),
-        Status::CertificateFailed => Err(Failure::Certificate(format!(
+        Status::Intersecting => Err(Failure::Intersecting(format!(
             "the step after {} s makes surfaces intersect, even at its shortest length; the last \
              good state was written",
             summary.simulated_seconds

@@ -2,8 +2,7 @@
 
 use drape::fabric::Fabric;
 use drape::validate::ValidationError;
-use drape::validate::drapemeter::{Drapemeter, Shake, Study, spacing_bound};
-use drape::validate::prior::Prediction;
+use drape::validate::drapemeter::{Drapemeter, Prediction, Sampling, Shake, Study, spacing_bound};
 use serde_json::json;
 
 use super::arguments::{Meter, ShakeName, TestArguments};
@@ -51,11 +50,11 @@ pub(crate) fn drape(fabric: &Fabric, arguments: &TestArguments) -> Result<(), Fa
     }
     let specimens = arguments.starts * (1 + Prediction::studies(fabric));
     let bar = progress::bar(specimens, "{pos}/{len} specimens, {eta} left");
-    let resolution = (spacing, arguments.starts);
-    let told = || bar.inc(1);
+    let sampling = Sampling { spacing, starts: arguments.starts };
+    let done = || bar.inc(1);
     let failed = |error: ValidationError| Failure::Solver(error.to_string());
-    let prediction = Prediction::of(&meter, fabric, resolution, &told).map_err(failed)?;
-    let elastic = meter.study(&fabric.without_friction(), resolution, &told).map_err(failed)?;
+    let prediction = Prediction::of(&meter, fabric, sampling, &done).map_err(failed)?;
+    let elastic = meter.study(&fabric.without_friction(), sampling, &done).map_err(failed)?;
     bar.finish_and_clear();
     let interval = prediction.interval();
     let open = !prediction.ends.is_empty();

@@ -1,7 +1,7 @@
 //! Specimens of a fabric in simulated KES instruments: their loops against the laws.
 
 use drape::fabric::Fabric;
-use drape::validate::tester::Comparison;
+use drape::validate::instrument::{Comparison, Resolution};
 use serde_json::json;
 
 use super::arguments::TestArguments;
@@ -23,8 +23,9 @@ pub(crate) fn compare(fabric: &Fabric, arguments: &TestArguments) -> Result<(), 
     let mut loops = Vec::new();
     for test in TESTS {
         for direction in DIRECTIONS {
-            let comparison = Comparison::of(fabric, (test, direction), (spacing, POINTS))
-                .map_err(|error| Failure::Solver(error.to_string()))?;
+            let comparison =
+                Comparison::of(fabric, test, direction, Resolution { spacing, points: POINTS })
+                    .map_err(|error| Failure::Solver(error.to_string()))?;
             let tested = TestedLoop { test, direction, comparison };
             if !arguments.json {
                 say(line(&tested))?;

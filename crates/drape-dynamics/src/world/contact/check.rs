@@ -1,7 +1,5 @@
-//! What keeps surfaces apart, taken away part by part: what is missing shows in the run or in its
-//! frames.
+//! Safeguards of contact, taken away one by one: what is missing shows in the run or in its frames.
 
-use drape_collide::Guards;
 use drape_input::Document;
 use drape_scene::Scene;
 use drape_verify::Recording;
@@ -12,6 +10,7 @@ use crate::record::recorder::{Recorder, prepare_folder};
 use crate::record::summary::{Contacts, Status};
 use crate::simulation::{Progress, Simulation};
 use crate::world::check::FABRIC;
+use crate::world::contact::surfaces::Omitted;
 
 /// A slanting sheet that goes 60 mm in a step, towards a plate of a millimetre.
 const THROWN: &str = r#"spacing = 0.01
@@ -53,11 +52,13 @@ impl Progress for Film<'_> {
     }
 }
 
-fn run(text: &str, take: impl FnOnce(&mut Guards)) -> End {
+fn run(text: &str, omitted: Omitted, stiffness: Option<f64>) -> End {
     let fabric = Document::new("plain.toml", FABRIC);
     let scene = Scene::from_documents(&Document::new("scene.toml", text), &[fabric]);
-    let mut simulation = Simulation::new(scene.expect("a right scene")).expect("a solver");
-    take(simulation.world.contact.surfaces_mut().expect("surfaces").contact.guards());
+    let mut scene = scene.expect("a right scene");
+    scene.contact.stiffness = stiffness.or(scene.contact.stiffness);
+    let mut simulation = Simulation::new(scene).expect("a solver");
+    simulation.world.contact.surfaces_mut().expect("surfaces").omitted = omitted;
     let folder = tempfile::tempdir().expect("a folder");
     let output = prepare_folder(folder.path(), false).expect("an empty folder");
     let mut film = Film(output.record(simulation.topology()).expect("it can be written"));
@@ -78,7 +79,7 @@ fn holds(end: &End) {
 
 #[test]
 fn with_all_of_it_no_step_crosses() {
-    let end = run(THROWN, |_| {});
+    let end = run(THROWN, Omitted::default(), None);
     holds(&end);
     assert!(end.status == Status::Ok && end.contact.pairs_max > 0, "{end:?}");
     assert_eq!((end.contact.intersections_found, end.contact.intersections), (0, 0));
@@ -86,40 +87,18 @@ fn with_all_of_it_no_step_crosses() {
 
 #[test]
 fn without_the_filter_steps_cross_and_are_taken_back() {
-    let end = run(THROWN, |guards| guards.filter = false);
+    let end = run(THROWN, Omitted { step_filter: true, intersection_test: false }, None);
     holds(&end);
     assert!(end.contact.intersections_found > 0, "{end:?}");
     // What takes them back is the exact test and nothing else.
-    let end = run(THROWN, |guards| (guards.filter, guards.exact) = (false, false));
+    let end = run(THROWN, Omitted { step_filter: true, intersection_test: true }, None);
     assert!(end.intersections > 0, "{end:?}");
 }
 
 #[test]
-fn pairs_that_are_too_old_stop_a_run_or_let_surfaces_cross() {
-    let end = run(THROWN, |guards| guards.cover = false);
-    holds(&end);
-    assert_eq!(end.status, Status::SolverFailed, "{end:?}");
-    let end = run(THROWN, |guards| (guards.cover, guards.budget) = (false, false));
-    holds(&end);
-    assert!(end.contact.intersections_found > 0, "{end:?}");
-    let end = run(THROWN, |guards| {
-        (guards.cover, guards.budget, guards.exact) = (false, false, false);
-    });
-    assert!(end.intersections > 0, "{end:?}");
-}
-
-#[test]
-fn without_the_barrier_pairs_freeze_or_cross() {
-    let end = run(THROWN, |guards| guards.barrier = false);
+fn without_a_barrier_pairs_freeze() {
+    let end = run(THROWN, Omitted::default(), Some(1e-30));
     holds(&end);
     assert_eq!(end.status, Status::SolverFailed, "{end:?}");
     assert_eq!(end.contact.intersections_found, 0, "{end:?}");
-    // The barrier keeps pairs from ever being so near that they freeze.
-    let end = run(THROWN, |guards| (guards.barrier, guards.freeze) = (false, false));
-    holds(&end);
-    assert_eq!(end.status, Status::CertificateFailed, "{end:?}");
-    let end = run(THROWN, |guards| {
-        (guards.barrier, guards.freeze, guards.exact) = (false, false, false);
-    });
-    assert!(end.intersections > 0, "{end:?}");
 }

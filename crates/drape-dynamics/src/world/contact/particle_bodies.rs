@@ -10,7 +10,7 @@ use crate::error::Error;
 /// Longest time over which contact with a body counts slip in one step of quasi-static relaxation,
 /// in s.
 ///
-/// Below its slip speed a contact that sticks gives way slowly. The length of a step of relaxation
+/// Below its slip speed a contact that sticks slips slowly. The length of a step of relaxation
 /// is not a duration, and without this limit cloth would slide off a body during long ones.
 const SLIP_TIME_MAX: f64 = 0.01;
 

@@ -1,7 +1,7 @@
 //! Springs of the pins that hold in some directions and leave their particles free in the others.
 
 use drape_implicit::BlockMatrix;
-use drape_scene::Pin;
+use drape_scene::{HeldParticle, Pin};
 
 /// Stiffness of a spring, in N/m for each particle and direction, as that of a closing spring of a
 /// seam. Under a hundredth of a newton, more than the weight that hangs on a particle, it yields by
@@ -58,7 +58,8 @@ impl PinSprings {
 
     /// Adds the springs of a pin at a time on the clock of motions, in s.
     pub(crate) fn add(&mut self, pin: &Pin, time: f64) {
-        let spring = |(particle, position)| Spring { particle, position, axes: pin.axes };
+        let spring =
+            |HeldParticle { particle, position }| Spring { particle, position, axes: pin.axes };
         self.0.extend(pin.positions(time).map(spring));
     }
 

@@ -12,7 +12,7 @@ pub(crate) struct AllowanceLine {
 }
 
 impl AllowanceLine {
-    /// The same line with other numbers of the nodes.
+    /// Line with other numbers of its nodes.
     pub(crate) fn numbered(&self, numbers: &[u32]) -> Allowance {
         Allowance {
             line: self.nodes.iter().map(|&node| numbers[node as usize]).collect(),

@@ -76,7 +76,7 @@ fn weights(t: f64) -> [f64; 4] {
     [s * s * s / 6.0, middle(t), middle(s), t * t * t / 6.0]
 }
 
-/// SplitMix64 generator: the same numbers on every machine.
+/// SplitMix64 generator \[SLF14\]: the same numbers on every machine.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Random(pub(crate) u64);
 

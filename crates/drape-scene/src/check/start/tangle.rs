@@ -109,14 +109,15 @@ pub(crate) struct Overlaps {
 
 /// Finds the pairs of triangles of a surface that cross or are nearer than their minimum
 /// separation, with the names of its groups.
-fn overlaps(contact: &SurfaceContact, positions: &[f64], names: &[String]) -> Overlaps {
+fn overlaps(contact: &mut SurfaceContact, positions: &[f64], names: &[String]) -> Overlaps {
+    let found = contact.intersections(positions).map(<[_]>::to_vec).unwrap_or_default();
+    let contact = &*contact;
     let surface = contact.surface();
     let places: Vec<f64> = positions.iter().chain(contact.body_positions()).copied().collect();
     let at = |vertex: u32| {
         let first = 3 * vertex as usize;
         [places[first], places[first + 1], places[first + 2]]
     };
-    let found = contact.intersections(positions).unwrap_or_default();
     let crossing = found.iter().map(|crossing| {
         let edge = surface.edges()[crossing.edge as usize].to_vec();
         let triangle = surface.triangles()[crossing.triangle as usize].to_vec();

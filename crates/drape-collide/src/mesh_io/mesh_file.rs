@@ -1,0 +1,52 @@
+//! Mesh files, by the extension of their names.
+
+use std::io::Read;
+use std::path::Path;
+
+use super::triangulation::Triangulation;
+use super::{obj, ply, stl};
+use crate::error::Error;
+
+/// Largest size of a mesh file, in bytes: a million triangles take a tenth of it.
+const BYTES_MAX: u64 = 1 << 28;
+
+/// Reads a Wavefront OBJ, STL (text or binary) or PLY (text or binary) file, by the extension of
+/// its name.
+///
+/// All groups and objects of an OBJ file are one surface; polygons become fans of triangles.
+/// Normals, texture coordinates, colours and materials are ignored. Each corner of an STL triangle
+/// is a vertex of its own. Coordinates are in units of the file, vertices in its order.
+///
+/// # Errors
+/// If the file is none of these, is cut off, is no regular file or is longer than 256 MiB.
+pub fn read_mesh(path: impl AsRef<Path>) -> Result<Triangulation, Error> {
+    let path = path.as_ref();
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let parse: fn(&[u8]) -> Result<Triangulation, String> = match extension.as_str() {
+        "obj" => obj::parse,
+        "stl" => stl::parse,
+        "ply" => ply::parse,
+        _ => return Err(Error::UnknownMeshFormat { path: path.to_path_buf() }),
+    };
+    let bytes = read_bytes(path, BYTES_MAX)?;
+    parse(&bytes).map_err(|reason| Error::MalformedFile { path: path.to_path_buf(), reason })
+}
+
+/// Returns the content of a regular file of at most `limit` bytes.
+pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
+    let unreadable = |reason: String| Error::UnreadableFile { path: path.to_path_buf(), reason };
+    let fail = |error: std::io::Error| unreadable(error.to_string());
+    // Asked before it is opened: opening a pipe would wait for its writer.
+    let metadata = std::fs::metadata(path).map_err(fail)?;
+    if !metadata.is_file() {
+        return Err(unreadable("it is no regular file".to_string()));
+    }
+    if metadata.len() > limit {
+        let (path, bytes) = (path.to_path_buf(), metadata.len());
+        return Err(Error::FileTooLong { path, bytes, limit });
+    }
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(fail)?;
+    file.take(limit).read_to_end(&mut bytes).map_err(fail)?;
+    Ok(bytes)
+}

@@ -1,0 +1,124 @@
+//! Point caches: positions of a mesh's vertices from frame to frame, in files of the format PC2.
+
+use std::path::Path;
+
+use super::mesh_file::read_bytes;
+use crate::error::Error;
+
+/// Largest size of a point cache, in bytes: twenty thousand vertices for a thousand frames.
+const BYTES_MAX: u64 = 1 << 28;
+
+/// Size of the header before the coordinates, in bytes.
+const HEADER: usize = 32;
+
+/// Positions of a mesh's vertices from frame to frame, as a file of the format PC2 has them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointCache {
+    /// Number of frames from one sample to the next.
+    pub frames_per_sample: f64,
+    /// Positions of all vertices in each sample, in units of the file.
+    pub samples: Vec<Vec<[f64; 3]>>,
+}
+
+impl PointCache {
+    /// Reads a point cache.
+    ///
+    /// Its content, little-endian: `POINTCACHE2` and a zero byte; the version 1; number of vertices;
+    /// first frame; frames per sample; number of samples; and the coordinates as 32-bit floats,
+    /// sample after sample.
+    ///
+    /// # Errors
+    /// A file that is no point cache, is cut off, or has a coordinate that is not finite.
+    pub fn read(path: impl AsRef<Path>) -> Result<PointCache, Error> {
+        let path = path.as_ref();
+        let bytes = read_bytes(path, BYTES_MAX)?;
+        parse(&bytes).map_err(|reason| Error::MalformedFile { path: path.to_path_buf(), reason })
+    }
+}
+
+fn parse(bytes: &[u8]) -> Result<PointCache, String> {
+    let (words, _) = bytes.as_chunks::<4>();
+    let [_, _, _, version, points, _, frames_per_sample, samples, values @ ..] = words else {
+        return Err(format!("its {} bytes are no point cache, or it is cut off", bytes.len()));
+    };
+    if !bytes.starts_with(b"POINTCACHE2\0") {
+        return Err("it does not begin with POINTCACHE2".to_string());
+    }
+    let version = i32::from_le_bytes(*version);
+    if version != 1 {
+        return Err(format!("it is of version {version}, and version 1 is read"));
+    }
+    let frames_per_sample = f64::from(f32::from_le_bytes(*frames_per_sample));
+    if !(frames_per_sample > 0.0 && frames_per_sample.is_finite()) {
+        return Err(format!("it has {frames_per_sample} frames per sample"));
+    }
+    let [points, samples] = [points, samples].map(|count| i32::from_le_bytes(*count));
+    let count = usize::try_from(points).ok().filter(|count| *count > 0);
+    let (Some(count), true) = (count, samples > 0) else {
+        return Err(format!("it has {points} vertices and {samples} samples"));
+    };
+    // Of the largest counts the product is beyond 64 bits.
+    let needed = 12 * count as u128 * samples as u128;
+    let found = (bytes.len() - HEADER) as u128;
+    if needed != found {
+        return Err(format!(
+            "{samples} samples of {points} vertices take {needed} bytes, and it has {found}"
+        ));
+    }
+    let positions = values.as_chunks::<3>().0.iter();
+    let positions = positions.map(|three| three.map(|value| f64::from(f32::from_le_bytes(value))));
+    let positions: Vec<[f64; 3]> = positions.collect();
+    if let Some(bad) = positions.iter().position(|three| !three.iter().all(|x| x.is_finite())) {
+        let (sample, vertex) = (bad / count, bad % count);
+        return Err(format!("vertex {vertex} of sample {sample} is at {:?}", positions[bad]));
+    }
+    Ok(PointCache {
+        frames_per_sample,
+        samples: positions.chunks(count).map(<[_]>::to_vec).collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(counts: [i32; 2], values: &[f32]) -> Vec<u8> {
+        let mut bytes = b"POINTCACHE2\0".to_vec();
+        bytes.extend(1_i32.to_le_bytes());
+        bytes.extend(counts[0].to_le_bytes());
+        bytes.extend(0_f32.to_le_bytes());
+        bytes.extend(2_f32.to_le_bytes());
+        bytes.extend(counts[1].to_le_bytes());
+        bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+        bytes
+    }
+
+    #[test]
+    fn samples_come_in_their_order() {
+        let values: Vec<f32> = (0..12).map(|k| k as f32).collect();
+        let cache = parse(&file([2, 2], &values)).expect("a right file");
+        assert_eq!(cache.frames_per_sample, 2.0);
+        let expected = [[[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]], [[6.0, 7.0, 8.0], [9.0, 10.0, 11.0]]];
+        assert_eq!(cache.samples, expected.map(|sample| sample.to_vec()));
+    }
+
+    #[test]
+    fn files_that_are_none_are_refused() {
+        let right = file([2, 2], &[0.5; 12]);
+        for end in 0..right.len() {
+            assert!(parse(&right[..end]).is_err(), "cut at {end}");
+        }
+        let cases = [
+            (file([2, 2], &[0.5; 13]), "has 52"),
+            (file([i32::MAX, i32::MAX], &[0.5; 12]), "take"),
+            (file([-2, 2], &[0.5; 12]), "-2 vertices"),
+            (file([2, 0], &[]), "0 samples"),
+            (file([2, 1], &[0.5, 0.5, 0.5, 0.5, f32::NAN, 0.5]), "vertex 1 of sample 0"),
+            (vec![b'P'; 100], "POINTCACHE2"),
+        ];
+        for (bytes, words) in cases {
+            let reason = parse(&bytes).expect_err(words);
+            assert!(reason.contains(words), "{words:?} is missing in: {reason}");
+        }
+    }
+}

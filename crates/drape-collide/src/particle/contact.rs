@@ -1,0 +1,276 @@
+//! Contact of particles: the object that a solver holds.
+
+use rayon::prelude::*;
+
+use super::detection::{ActiveParticle, Chunk, Nearest};
+use super::friction::Friction;
+use super::settings::ParticleSettings;
+use super::summary::{ParticleSummary, touching_particles};
+use crate::barrier::Barrier;
+use crate::body::{Body, Pose, SignedDistance, Solid};
+use crate::error::Error;
+use crate::vector::{Vector, at, combine, dot, outer};
+
+/// Contact of cloth particles with rigid bodies: potential, forces and stiffness.
+///
+/// Each pair of a particle `$i$` and a body within the activation distance adds the energy
+/// `$k_A A_i b(d)$`, with the lumped area `$A_i$` of the particle, its distance `$d$` and the
+/// two-stage barrier `$b$`, and the friction of the step that [`begin`](ParticleContact::begin)
+/// opened. The forces are exactly the negative gradient of
+/// [`potential`](ParticleContact::potential).
+///
+/// Only particles are tested: a triangle or a yarn between two particles can cut through a convex
+/// edge of a body by about its length squared over eight radii of the edge.
+///
+/// A position that is not finite gives NaN for its force, its stiffness and the potential, so that
+/// a solver cannot take it for a position away from bodies.
+///
+/// After the first step nothing is allocated, but by [`summary`](ParticleContact::summary).
+#[derive(Debug, Clone)]
+pub struct ParticleContact {
+    bodies: Vec<Body>,
+    solids: Vec<Solid>,
+    settings: ParticleSettings,
+    areas: Vec<f64>,
+    has_mesh: bool,
+    chunks: Vec<Chunk>,
+    /// Positions at which the chunks' active particles were detected, in m.
+    detected_at: Vec<f64>,
+    frictions: Vec<Friction>,
+    /// Slip `$\epsilon$` below which a particle sticks in the open step, in m.
+    sticking_slip: f64,
+}
+
+impl ParticleContact {
+    /// Makes the contact of as many particles as there are lumped areas, in m².
+    ///
+    /// # Errors
+    /// A body, a setting or an area out of range.
+    pub fn new(
+        bodies: Vec<Body>,
+        settings: ParticleSettings,
+        areas: Vec<f64>,
+    ) -> Result<ParticleContact, Error> {
+        settings.check()?;
+        let bad = |(_, area): &(usize, &f64)| !area.is_finite() || **area < 0.0;
+        if let Some((particle, &area)) = areas.iter().enumerate().find(bad) {
+            return Err(Error::InvalidArea { particle, area });
+        }
+        let solids = bodies.iter().map(Body::solid).collect::<Result<Vec<_>, _>>()?;
+        Ok(ParticleContact {
+            has_mesh: solids.iter().any(Solid::is_mesh),
+            chunks: Chunk::cover(areas.len(), bodies.len()),
+            detected_at: Vec::new(),
+            frictions: Vec::new(),
+            sticking_slip: f64::NAN,
+            bodies,
+            solids,
+            settings,
+            areas,
+        })
+    }
+
+    /// Bodies, in the order in which they were given.
+    #[must_use]
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// Settings.
+    #[must_use]
+    pub fn settings(&self) -> &ParticleSettings {
+        &self.settings
+    }
+
+    /// Opens a step of `dt` seconds: friction takes its normal forces and tangent planes from the
+    /// start positions, and slip is measured from there.
+    ///
+    /// A particle that comes into contact during the step has no friction until the next. Without
+    /// an open step, contact is frictionless.
+    ///
+    /// # Panics
+    ///
+    /// Like all methods that take positions, if there are not three coordinates per particle.
+    pub fn begin(&mut self, start: &[f64], dt: f64) {
+        self.detect(start);
+        self.sticking_slip = if dt > 0.0 { self.settings.slip_speed * dt } else { f64::NAN };
+        let mut frictions = std::mem::take(&mut self.frictions);
+        frictions.clear();
+        for active in self.active() {
+            let coefficient = self.solids[active.body].friction;
+            if coefficient != 0.0 {
+                let pressure = self.settings.pressure(active.signed.distance);
+                frictions.push(Friction {
+                    particle: active.particle,
+                    body: active.body,
+                    start: at(start, active.particle),
+                    carried: [0.0; 3],
+                    normal: active.signed.normal,
+                    limit: coefficient * pressure * self.areas[active.particle],
+                });
+            }
+        }
+        self.frictions = frictions;
+    }
+
+    /// Moves a body within the open step: friction resists the slip of the cloth over the body.
+    ///
+    /// # Errors
+    /// A pose out of range.
+    pub fn move_body(&mut self, body: usize, pose: Pose) -> Result<(), Error> {
+        if self.bodies[body].pose == pose {
+            return Ok(());
+        }
+        self.bodies[body].pose = pose;
+        let frame = self.bodies[body].check()?;
+        let before = std::mem::replace(&mut self.solids[body].frame, frame);
+        let frame = &self.solids[body].frame;
+        for friction in self.frictions.iter_mut().filter(|friction| friction.body == body) {
+            friction.carry(&before, frame);
+        }
+        self.chunks.iter_mut().for_each(|chunk| chunk.forget(body, self.bodies.len()));
+        self.detected_at.clear();
+        Ok(())
+    }
+
+    /// Returns the work that the bodies have done by friction on the cloth in the open step, in J.
+    #[must_use]
+    pub fn body_friction_work(&self, positions: &[f64]) -> f64 {
+        let works = self.frictions.iter().map(|friction| {
+            let force = friction.force(at(positions, friction.particle), self.sticking_slip);
+            dot(force, friction.carried)
+        });
+        works.sum()
+    }
+
+    /// Adds the contact and friction forces, in N.
+    pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
+        self.detect(positions);
+        self.each_force(positions, &mut |particle, _, force| {
+            for (k, value) in force.iter().enumerate() {
+                forces[3 * particle + k] += value;
+            }
+        });
+    }
+
+    /// Returns the energy of contact plus the friction potential of the step, in J.
+    pub fn potential(&mut self, positions: &[f64]) -> f64 {
+        self.detect(positions);
+        let barrier = Barrier::new(self.settings.activation_distance);
+        let contact: f64 = self
+            .active()
+            .map(|active| self.areas[active.particle] * barrier.energy(active.signed.distance))
+            .sum();
+        self.settings.stiffness * contact + self.friction_potential(positions)
+    }
+
+    /// Returns the friction of the step in [`potential`](ParticleContact::potential), in J.
+    #[must_use]
+    pub fn friction_potential(&self, positions: &[f64]) -> f64 {
+        self.frictions.iter().map(|f| f.energy(at(positions, f.particle), self.sticking_slip)).sum()
+    }
+
+    /// Calls `add` with the blocks `$-\partial f_i / \partial x_i$`, row by row, in N/m.
+    ///
+    /// There are no others: a particle's contact depends on its own position only. A particle may
+    /// have several blocks, which add up. With `definite` the curvature of surfaces, which
+    /// softens, is left out and no block has a negative eigenvalue.
+    pub fn add_stiffness(
+        &mut self,
+        positions: &[f64],
+        definite: bool,
+        add: &mut dyn FnMut(usize, [f64; 9]),
+    ) {
+        self.detect(positions);
+        let barrier = Barrier::new(self.settings.activation_distance);
+        for active in self.active() {
+            let SignedDistance { distance, normal, curvature } = &active.signed;
+            let scale = self.settings.stiffness * self.areas[active.particle];
+            let bend = if definite { 0.0 } else { barrier.slope(*distance) };
+            let push = barrier.curvature(*distance);
+            let block = combine(&outer(*normal), scale * push, curvature, scale * bend);
+            add(active.particle, block);
+        }
+        for friction in &self.frictions {
+            let position = at(positions, friction.particle);
+            add(friction.particle, friction.stiffness(position, self.sticking_slip));
+        }
+    }
+
+    /// Returns counts, distances and loads at given positions.
+    ///
+    /// # Panics
+    ///
+    /// If there are not three coordinates per particle.
+    #[must_use]
+    pub fn summary(&self, positions: &[f64]) -> ParticleSummary {
+        let mut current = self.clone();
+        current.detect(positions);
+        let nearest = || current.nearest(positions);
+        let bodies = current.bodies.len();
+        let mut summary = ParticleSummary::new(current.active(), nearest, positions, bodies);
+        current.each_force(positions, &mut |_, body, force| {
+            for (load, value) in summary.loads[body].iter_mut().zip(force) {
+                *load -= value;
+            }
+        });
+        summary
+    }
+
+    /// Returns the number of particles within the activation distance of at least one body, as the
+    /// [`summary`](ParticleContact::summary) has it, without allocating.
+    pub fn touching_particles(&mut self, positions: &[f64]) -> usize {
+        self.detect(positions);
+        touching_particles(self.active())
+    }
+
+    /// Calls `visit` with particle, body and force of every contact; the active particles must be
+    /// those of the positions.
+    fn each_force(&self, positions: &[f64], visit: &mut dyn FnMut(usize, usize, Vector)) {
+        for active in self.active() {
+            let size = self.areas[active.particle] * self.settings.pressure(active.signed.distance);
+            let force = active.signed.normal.map(|n| n * size);
+            visit(active.particle, active.body, force);
+        }
+        for friction in &self.frictions {
+            let force = friction.force(at(positions, friction.particle), self.sticking_slip);
+            visit(friction.particle, friction.body, force);
+        }
+    }
+
+    /// Finds all particles within the activation distance of a body.
+    fn detect(&mut self, positions: &[f64]) {
+        assert_eq!(
+            positions.len(),
+            3 * self.areas.len(),
+            "contact needs three coordinates for each particle"
+        );
+        // Force, potential and stiffness are mostly asked for at the same positions. NaN is never
+        // equal, and so is detected each time.
+        if self.detected_at == positions {
+            return;
+        }
+        self.detected_at.clear();
+        self.detected_at.extend_from_slice(positions);
+        let (solids, activation_distance) = (&self.solids, self.settings.activation_distance);
+        if self.has_mesh {
+            let chunks = self.chunks.par_iter_mut();
+            chunks.for_each(|chunk| chunk.detect(solids, activation_distance, positions));
+        } else {
+            // A primitive takes some nanoseconds, less than another thread needs to wake up.
+            let chunks = self.chunks.iter_mut();
+            chunks.for_each(|chunk| chunk.detect(solids, activation_distance, positions));
+        }
+    }
+
+    /// Active particles, sorted by particle and body.
+    fn active(&self) -> impl Iterator<Item = &ActiveParticle> {
+        self.chunks.iter().flat_map(|chunk| &chunk.active)
+    }
+
+    /// Returns the smallest distance of a particle from a body.
+    fn nearest(&self, positions: &[f64]) -> Option<Nearest> {
+        let chunks = self.chunks.iter();
+        chunks.fold(None, |nearest, chunk| chunk.nearest(&self.solids, positions, nearest))
+    }
+}

@@ -1,0 +1,32 @@
+//! Broad phase: search for candidate pairs.
+//!
+//! A pair is a candidate if its distance falls below its activation distance plus a margin `$m$`,
+//! at some positions or on straight trajectories from there:
+//!
+//! ```math
+//! \min_t d(x + t\,\Delta x) < \hat d + m
+//! ```
+//!
+//! As long as no vertex drifts by more than half of the margin, no other pair is active. A tree of
+//! boxes over primitives in a fixed order finds them; lists are sorted, so that no result depends on
+//! the number of threads.
+//!
+//! [`detector`](super::detector) calls the search. This chapter uses [`geometry`](super::geometry)
+//! and [`distance`](super::distance).
+
+mod candidates;
+mod margin;
+mod query;
+mod rest;
+mod scan;
+mod sweep;
+mod tree;
+
+pub use candidates::CandidatePairs;
+pub(crate) use candidates::Detection;
+pub(crate) use margin::AdaptiveMargin;
+pub(crate) use query::{Limit, Query};
+pub(crate) use rest::close_at_rest;
+pub(crate) use scan::Scan;
+pub use sweep::Sweep;
+pub(crate) use tree::{Bounds, Probe, Tree, array};

@@ -1,0 +1,132 @@
+//! Candidate pairs of a detection.
+
+use std::ops::Range;
+
+use super::sweep::{Sweep, nearest_fraction};
+use crate::surface::pair::Pair;
+
+/// Sorted list of the pairs that come near each other at some positions or on trajectories from
+/// there.
+///
+/// As long as no vertex is farther than half of the margin from its trajectory, no other pair is
+/// within its activation distance.
+#[derive(Debug, Clone, Default)]
+pub struct CandidatePairs {
+    list: Vec<Pair>,
+    /// Reference positions: the points of the trajectories that were followed last, in m.
+    positions: Vec<f64>,
+    pub(crate) margin: f64,
+    pub(crate) free: usize,
+    /// Start of the trajectories, in m; empty if there are none.
+    start: Vec<f64>,
+    /// Displacements along the trajectories, in m; empty if there are none.
+    displacements: Vec<f64>,
+    /// Whether all vertices move by a common fraction of their displacements.
+    common: bool,
+}
+
+/// Positions, trajectories and margin of a detection.
+pub(crate) struct Detection<'a> {
+    pub(crate) positions: &'a [f64],
+    pub(crate) sweep: Sweep<'a>,
+    pub(crate) margin: f64,
+    /// Number of free vertices.
+    pub(crate) free: usize,
+}
+
+impl CandidatePairs {
+    /// Pairs, sorted by kind and features.
+    #[must_use]
+    pub fn as_slice(&self) -> &[Pair] {
+        &self.list
+    }
+
+    /// Flat reference positions, in m: those of the detection or, of pairs along trajectories, the
+    /// points of these that were followed last.
+    #[must_use]
+    pub fn positions(&self) -> &[f64] {
+        &self.positions
+    }
+
+    /// Margin: distance beyond the activation distance up to which pairs were detected, in m.
+    #[must_use]
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
+    /// Replaces the pairs by those of another detection.
+    pub(crate) fn replace<'a>(
+        &mut self,
+        found: impl Iterator<Item = &'a [Pair]>,
+        detection: &Detection<'_>,
+    ) {
+        self.clear();
+        found.for_each(|pairs| self.list.extend_from_slice(pairs));
+        self.positions.extend_from_slice(detection.positions);
+        if let Some(displacements) = detection.sweep.displacements()
+            && !displacements.is_empty()
+        {
+            self.start.extend_from_slice(detection.positions);
+            self.displacements.extend_from_slice(displacements);
+        }
+        self.common = matches!(detection.sweep, Sweep::Common(_));
+        (self.margin, self.free) = (detection.margin, detection.free);
+    }
+
+    /// Drops all pairs and positions, and keeps the memory.
+    pub(crate) fn clear(&mut self) {
+        let Self { list, positions, margin, free, start, displacements, common } = self;
+        list.clear();
+        [positions, start, displacements].into_iter().for_each(Vec::clear);
+        (*margin, *free, *common) = (0.0, 0, false);
+    }
+
+    /// Moves the reference positions along the trajectories to where these come nearest to flat
+    /// positions.
+    pub(crate) fn follow_trajectories(&mut self, positions: &[f64]) {
+        let count = self.displacements.len();
+        if count == 0 || positions.len() != count {
+            return;
+        }
+        for part in self.parts() {
+            let start = &self.start[part.clone()];
+            let displacement = &self.displacements[part.clone()];
+            let offset = positions[part.clone()].iter().zip(start).map(|(x, start)| x - start);
+            let fraction = nearest_fraction(displacement.iter().zip(offset).map(|(d, o)| [*d, o]));
+            let along = start.iter().zip(displacement);
+            for (position, (start, displacement)) in self.positions[part].iter_mut().zip(along) {
+                *position = start + fraction * displacement;
+            }
+        }
+    }
+
+    /// Writes displacements from near the reference positions less their parts along the
+    /// trajectories, in m; with `common` if all vertices move by a common fraction of them.
+    pub(crate) fn write_off_trajectory(
+        &self,
+        displacements: &[f64],
+        common: bool,
+        off_trajectory: &mut Vec<f64>,
+    ) {
+        off_trajectory.clear();
+        off_trajectory.extend_from_slice(displacements);
+        if self.displacements.len() != displacements.len() || (self.common && !common) {
+            return;
+        }
+        for part in self.parts() {
+            // Rest of the trajectory.
+            let ahead = |k: usize| self.start[k] + self.displacements[k] - self.positions[k];
+            let fraction = nearest_fraction(part.clone().map(|k| [ahead(k), displacements[k]]));
+            for k in part {
+                off_trajectory[k] -= fraction * ahead(k);
+            }
+        }
+    }
+
+    /// Ranges of components that move by a common fraction of their displacements.
+    fn parts(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let count = self.displacements.len();
+        let part = if self.common { count.max(1) } else { 3 };
+        (0..count).step_by(part).map(move |first| first..first + part)
+    }
+}

@@ -1,0 +1,112 @@
+//! Active pairs: candidates within their activation distance at the positions of an evaluation.
+
+use rayon::prelude::*;
+
+use crate::error::Error;
+use crate::surface::barrier::{Gap, Gradient};
+use crate::surface::broad_phase::Sweep;
+use crate::surface::contact_surface::Surface;
+use crate::surface::pair::Pair;
+use crate::surface::tracked_pairs::TrackedPairs;
+
+/// Number of candidate pairs of a chunk, whatever the number of threads.
+const CHUNK: usize = 256;
+
+/// Pair within its activation distance.
+#[derive(Debug, Clone)]
+pub(super) struct ActivePair {
+    pub(super) pair: Pair,
+    pub(super) gap: Gap,
+}
+
+/// Active pairs at some positions.
+#[derive(Debug, Default)]
+pub(super) struct ActivePairs {
+    /// Positions of all vertices, in m.
+    pub(super) positions: Vec<f64>,
+    /// Pairs of each chunk of the candidates; lists beyond these are empty.
+    chunks: Vec<Vec<ActivePair>>,
+    /// Gradients of the energies of the pairs, in N, in their order.
+    gradients: Vec<Vec<Gradient>>,
+    /// Error of the last detection.
+    pub(super) failure: Option<Error>,
+}
+
+impl ActivePairs {
+    /// Active pairs, in the order of the candidates.
+    pub(super) fn iter(&self) -> impl Iterator<Item = &ActivePair> {
+        self.chunks.iter().flatten()
+    }
+
+    /// Drops the positions, for the distances of pairs have changed.
+    pub(super) fn invalidate(&mut self) {
+        self.positions.clear();
+    }
+
+    /// Finds the active pairs at positions, which it swaps with those at hand.
+    pub(super) fn update(
+        &mut self,
+        surface: &Surface,
+        tracked: &mut TrackedPairs,
+        positions: &mut Vec<f64>,
+    ) {
+        // NaN is never equal, and so is evaluated each time.
+        if *positions == self.positions && self.failure.is_none() {
+            return;
+        }
+        self.failure = None;
+        self.chunks.iter_mut().for_each(Vec::clear);
+        tracked.follow_trajectories(positions);
+        // Within half of the margin on both sides no pair becomes active that was not found.
+        if !(tracked.measure_drift(positions) <= 0.5 * tracked.pairs().margin()) {
+            self.failure = tracked.detect(surface, positions, Sweep::Still).err();
+            tracked.drift.fill(0.0);
+        }
+        std::mem::swap(&mut self.positions, positions);
+        if self.failure.is_some() {
+            return;
+        }
+        let (positions, drift) = (&self.positions, &tracked.drift);
+        let active = |pair: &Pair| {
+            if pair.distance - pair.largest_sum(drift) >= pair.activation_distance {
+                return None;
+            }
+            let gap = Gap::new(pair, positions);
+            // NaN counts as active.
+            (!(gap.distance() >= pair.activation_distance))
+                .then_some(ActivePair { pair: *pair, gap })
+        };
+        let candidates = tracked.pairs().as_slice().par_chunks(CHUNK);
+        if self.chunks.len() < candidates.len() {
+            self.chunks.resize_with(candidates.len(), Vec::new);
+        }
+        let chunks = self.chunks.par_iter_mut();
+        candidates
+            .zip(chunks)
+            .for_each(|(pairs, chunk)| chunk.extend(pairs.iter().filter_map(active)));
+    }
+
+    /// Calls `visit` with the vertices of each pair and the gradient of its energy, in N, for a
+    /// stiffness in N/m³.
+    pub(super) fn each_gradient(
+        &mut self,
+        stiffness: f64,
+        mut visit: impl FnMut(&[u32; 4], &Gradient),
+    ) {
+        let Self { chunks, gradients, .. } = self;
+        gradients.resize_with(chunks.len(), Vec::new);
+        let lists = gradients.par_iter_mut();
+        chunks.par_iter().zip(lists).for_each(|(chunk, gradients)| {
+            gradients.clear();
+            gradients.extend(chunk.iter().map(|active| active.gap.gradient(stiffness)));
+        });
+        for (active, gradient) in self.iter().zip(self.gradients.iter().flatten()) {
+            visit(&active.pair.vertices, gradient);
+        }
+    }
+
+    /// Returns the energy of the barriers, in J, for a stiffness in N/m³.
+    pub(super) fn energy(&self, stiffness: f64) -> f64 {
+        self.iter().map(|active| active.gap.energy(stiffness)).sum()
+    }
+}

@@ -1,0 +1,71 @@
+//! Settings of the contact of surfaces.
+
+use crate::barrier::Barrier;
+use crate::error::{Error, check};
+use crate::surface::geometry::{ContactDistances, THINNED_FRACTION};
+
+/// Stiffness, friction and pinch policy of the contact of surfaces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceSettings {
+    /// Stiffness `$k$` per area, in N/m³.
+    pub stiffness: f64,
+    /// Sticking displacement `$\delta$`: that at which two surfaces slide, in m.
+    ///
+    /// A load below Coulomb's limit displaces them by less than this, once. A smaller one holds
+    /// more stiffly and is harder to solve.
+    pub sticking_displacement: f64,
+    /// Coefficient of friction of each two groups, row by row.
+    pub friction_coefficients: Vec<f64>,
+    /// Policy for cloth between closing bodies.
+    pub pinch: PinchPolicy,
+}
+
+/// Policy for cloth that bodies pinch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PinchPolicy {
+    /// No step leads there: it fails.
+    #[default]
+    Error,
+    /// The cloth keeps [`PinchPolicy::THINNED_FRACTION`] of its minimum separation from bodies.
+    Thin,
+    /// The body that approaches passes through the cloth, and has contact again once it is out.
+    Release,
+}
+
+impl PinchPolicy {
+    /// Fraction of the minimum separation from bodies of cloth that is thinned.
+    pub const THINNED_FRACTION: f64 = THINNED_FRACTION;
+}
+
+impl SurfaceSettings {
+    /// Default of [`sticking_displacement`](SurfaceSettings::sticking_displacement), in m.
+    pub const STICKING_DISPLACEMENT: f64 = 5e-6;
+
+    /// Returns the stiffness, in N/m³, at which two equal sheets under a pressure, in Pa, are at a
+    /// distance, in m; infinite at the activation distance.
+    ///
+    /// Each of the two sheets counts the area of contact once: by its vertices over the other's
+    /// triangles, and by the edges that cross.
+    #[must_use]
+    pub fn stiffness_for_pressure(pressure: f64, distance: f64, of_pair: ContactDistances) -> f64 {
+        let ContactDistances { activation_distance, min_separation } = of_pair;
+        let slope =
+            Barrier::strict(activation_distance - min_separation).slope(distance - min_separation);
+        pressure / (-2.0 * slope)
+    }
+
+    /// Checks the ranges, for a number of groups.
+    pub(super) fn check(&self, groups: usize) -> Result<(), Error> {
+        let positive = |what: &str, value: f64| check(what, value, "above 0", value > 0.0);
+        positive("the contact stiffness (N/m³)", self.stiffness)?;
+        positive("the sticking displacement (m)", self.sticking_displacement)?;
+        let (needed, found) = (groups * groups, self.friction_coefficients.len());
+        if needed != found {
+            return Err(Error::WrongLength { what: "coefficients of friction", found, needed });
+        }
+        for &coefficient in &self.friction_coefficients {
+            check("a coefficient of friction", coefficient, "0 or more", coefficient >= 0.0)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,481 @@
+//! Contact of a surface with itself and with bodies.
+
+use super::active_pairs::{ActivePair, ActivePairs};
+use super::growth::Growth;
+use super::obstacles::Obstacles;
+use super::pinch::{Pinch, PinchedVertices, vertices_of};
+use super::settings::{PinchPolicy, SurfaceSettings};
+use super::summary::{PairDistance, SurfaceSummary};
+use crate::error::Error;
+use crate::surface::contact_surface::Surface;
+use crate::surface::exact::{Intersection, IntersectionTest, encloses, intersections};
+use crate::surface::friction::{ActiveGap, FrictionEnergy, Stretch, SurfaceFriction};
+use crate::surface::geometry::PinchState;
+use crate::surface::step_filter::{StepLimiter, SurfaceStep};
+use crate::surface::tracked_pairs::TrackedPairs;
+use crate::vector::{Matrix, at, outer};
+
+/// Contact of a surface with itself and with bodies: barrier and friction, their forces and
+/// stiffness, and the step filter.
+///
+/// The free vertices are the caller's; those of the bodies follow them in the numbering, and move
+/// straight from their positions at the start of a step to those at its end, which
+/// [`begin`](SurfaceContact::begin) is given.
+///
+/// After the first steps nothing is allocated, but by [`memory`](SurfaceContact::memory),
+/// [`intersections_with_released`](SurfaceContact::intersections_with_released) and
+/// [`is_inside_body`](SurfaceContact::is_inside_body).
+#[derive(Debug)]
+pub struct SurfaceContact {
+    surface: Surface,
+    stiffness: f64,
+    obstacles: Obstacles,
+    tracked: TrackedPairs,
+    active: ActivePairs,
+    friction: SurfaceFriction,
+    pub(super) limiter: StepLimiter,
+    intersection_test: IntersectionTest,
+    pinch: Pinch,
+    growth: Growth,
+    /// Positions of all vertices at which an evaluation is asked for, in m.
+    trial: Vec<f64>,
+}
+
+/// State of a [`SurfaceContact`] between two steps: stretches of friction, positions of the bodies,
+/// pinched vertices and the fraction of distances that is kept.
+#[derive(Debug, Clone, Default)]
+pub struct SurfaceMemory {
+    stretches: Vec<Stretch>,
+    bodies: Vec<f64>,
+    pinch: Vec<PinchState>,
+    growth_fraction: f64,
+}
+
+impl SurfaceContact {
+    /// Makes the contact of a surface whose bodies are at flat positions, in m.
+    ///
+    /// # Errors
+    /// Settings out of range, or bodies with another number of vertices.
+    pub fn new(
+        surface: Surface,
+        settings: SurfaceSettings,
+        bodies: Vec<f64>,
+    ) -> Result<SurfaceContact, Error> {
+        let groups = surface.group_distances().len();
+        settings.check(groups)?;
+        let needed = 3 * (surface.vertex_count() - surface.free_count());
+        if bodies.len() != needed {
+            let (what, found) = ("coordinates of bodies", bodies.len());
+            return Err(Error::WrongLength { what, found, needed });
+        }
+        let distances = surface.group_distances().iter();
+        let activation_distance = distances.map(|own| own.activation_distance).fold(0.0, f64::max);
+        let edge = surface.median_edge_length();
+        let SurfaceSettings { stiffness, sticking_displacement, friction_coefficients, pinch } =
+            settings;
+        Ok(SurfaceContact {
+            surface,
+            stiffness,
+            obstacles: Obstacles::new(bodies),
+            tracked: TrackedPairs::new(activation_distance, edge),
+            active: ActivePairs::default(),
+            friction: SurfaceFriction::new(friction_coefficients, groups, sticking_displacement),
+            limiter: StepLimiter::new(activation_distance, edge),
+            intersection_test: IntersectionTest::default(),
+            pinch: Pinch::new(pinch),
+            growth: Growth::NONE,
+            trial: Vec::new(),
+        })
+    }
+
+    /// Surface of cloth and bodies.
+    #[must_use]
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Positions of the vertices of the bodies when the last step was committed, in m.
+    #[must_use]
+    pub fn body_positions(&self) -> &[f64] {
+        &self.obstacles.start
+    }
+
+    /// Error of the last detection: forces are then NaN.
+    #[must_use]
+    pub fn failure(&self) -> Option<&Error> {
+        self.active.failure.as_ref()
+    }
+
+    /// Opens a step from the free vertices' positions, in m, to the bodies' at its end.
+    ///
+    /// The bodies return to their positions when the last step was committed. Friction takes its
+    /// normal forces and tangent planes from here.
+    ///
+    /// # Panics
+    /// If the bodies have another number of coordinates.
+    pub fn begin(&mut self, start: &[f64], bodies: &[f64]) {
+        self.obstacles.end.copy_from_slice(bodies);
+        self.obstacles.time = 0.0;
+        self.friction.clear();
+        self.update_pinch(start);
+        self.update(start);
+        for ActivePair { pair, gap } in self.active.iter() {
+            let [a, b] = [pair.vertices[0], pair.vertices[3]];
+            let groups = [a, b].map(|vertex| self.surface.group(vertex));
+            let active = ActiveGap { pair, gap };
+            self.friction.open_pair(active, groups, &self.active.positions, self.stiffness);
+        }
+    }
+
+    /// Sets the obstacle time: the fraction of the bodies' motion in the open step, 0 to 1.
+    pub fn set_obstacle_time(&mut self, time: f64) {
+        self.obstacles.time = time;
+    }
+
+    /// Commits the step at the free vertices' positions, in m: slip of friction becomes permanent.
+    pub fn commit(&mut self, positions: &[f64]) {
+        self.obstacles.time = 1.0;
+        self.update(positions);
+        self.friction.commit(&self.active.positions);
+        self.obstacles.commit();
+        self.pinch.committed.clone_from(&self.surface.separations.pinch);
+        self.growth.fraction = self.surface.separations.growth_fraction;
+    }
+
+    /// Returns the state between two steps.
+    #[must_use]
+    pub fn memory(&self) -> SurfaceMemory {
+        let mut memory = SurfaceMemory::default();
+        self.save(&mut memory);
+        memory
+    }
+
+    /// Writes the state between two steps into the memory of an earlier one.
+    pub fn save(&self, memory: &mut SurfaceMemory) {
+        let SurfaceMemory { stretches, bodies, pinch, growth_fraction } = memory;
+        stretches.clone_from(&self.friction.stretches);
+        bodies.clone_from(&self.obstacles.start);
+        pinch.clone_from(&self.pinch.committed);
+        *growth_fraction = self.growth.fraction;
+    }
+
+    /// Returns to an earlier state, as if the steps since had not been committed.
+    pub fn restore(&mut self, memory: &SurfaceMemory) {
+        let SurfaceMemory { stretches, bodies, pinch, growth_fraction } = memory;
+        self.friction.stretches.clone_from(stretches);
+        self.pinch.committed.clone_from(pinch);
+        self.growth.fraction = *growth_fraction;
+        self.set_pinch(pinch);
+        self.set_growth_fraction(*growth_fraction);
+        self.obstacles.restore(bodies);
+    }
+
+    /// Adds the forces on the free vertices, in N; NaN if positions are not finite.
+    pub fn add_forces(&mut self, positions: &[f64], forces: &mut [f64]) {
+        self.update(positions);
+        if self.active.failure.is_some() {
+            return forces.fill(f64::NAN);
+        }
+        let mut add = |vertices: &[u32; 4], gradient: &[f64; 12]| {
+            for (corner, &vertex) in vertices.iter().enumerate() {
+                let first = 3 * vertex as usize;
+                if first < forces.len() {
+                    for axis in 0..3 {
+                        forces[first + axis] -= gradient[3 * corner + axis];
+                    }
+                }
+            }
+        };
+        self.active.each_gradient(self.stiffness, &mut add);
+        self.friction.each_gradient(&self.active.positions, &mut add);
+    }
+
+    /// Returns the work of the bodies in the open step if it ends at some positions, in J: the
+    /// forces on them there times their displacements.
+    pub fn body_work(&mut self, positions: &[f64]) -> f64 {
+        self.update(positions);
+        let free = 3 * self.surface.free_count();
+        let Obstacles { start, end, .. } = &self.obstacles;
+        let mut work = 0.0;
+        let mut add = |vertices: &[u32; 4], gradient: &[f64; 12]| {
+            for (corner, &vertex) in vertices.iter().enumerate() {
+                if let Some(first) = (3 * vertex as usize).checked_sub(free) {
+                    for axis in 0..3 {
+                        let displacement = end[first + axis] - start[first + axis];
+                        work += gradient[3 * corner + axis] * displacement;
+                    }
+                }
+            }
+        };
+        self.active.each_gradient(self.stiffness, &mut add);
+        self.friction.each_gradient(&self.active.positions, &mut add);
+        work
+    }
+
+    /// Returns the energy of the contact with the potential of friction, in J; infinite or NaN if
+    /// positions are not finite.
+    pub fn potential(&mut self, positions: &[f64]) -> f64 {
+        self.update(positions);
+        if self.active.failure.is_some() {
+            return f64::NAN;
+        }
+        self.active.energy(self.stiffness) + self.friction_energy().potential
+    }
+
+    /// Returns the potential of friction at the positions of the last evaluation and its part that
+    /// is dissipated if the step ends there, in J.
+    #[must_use]
+    pub fn friction_energy(&self) -> FrictionEnergy {
+        self.friction.energy(&self.active.positions)
+    }
+
+    /// Calls `add` with the blocks of the second derivative of the potential by two free vertices,
+    /// row by row, in N/m: for every two of a pair once, in either order, and for each with itself.
+    ///
+    /// It is the Gauss–Newton part, without negative eigenvalues: with the exact one a stack of
+    /// sheets took no fewer iterations.
+    pub fn add_stiffness(&mut self, positions: &[f64], add: &mut dyn FnMut([usize; 2], &[f64; 9])) {
+        self.update(positions);
+        let free = self.surface.free_count();
+        // Both are blocks times the weights of two vertices.
+        let mut add_weighted = |vertices: [u32; 4], weights: [f64; 4], block: &Matrix| {
+            for a in 0..4 {
+                for b in a..4 {
+                    let [i, j] = [vertices[a], vertices[b]].map(|vertex| vertex as usize);
+                    let weight = weights[a] * weights[b];
+                    if i < free && j < free && weight != 0.0 {
+                        add([i, j], &block.map(|entry| weight * entry));
+                    }
+                }
+            }
+        };
+        for ActivePair { pair, gap } in self.active.iter() {
+            let curvature = gap.gauss_newton(self.stiffness).factor;
+            let block = outer(gap.normal()).map(|entry| curvature * entry);
+            add_weighted(pair.vertices, gap.weights(), &block);
+        }
+        self.friction.each_stiffness(&self.active.positions, add_weighted);
+    }
+
+    /// Limits a trial step such that every pair stays above its minimum separation, and returns
+    /// whether it is still whole.
+    ///
+    /// All displacements are shortened by a common fraction or, where that would leave little of
+    /// the step, vertex by vertex. The bodies and the held vertices move by a common fraction.
+    pub fn limit_step(&mut self, step: SurfaceStep<'_>) -> bool {
+        let SurfaceStep { start, displacements, held, obstacle_time, obstacle_advance } = step;
+        self.obstacles.write_positions(start, obstacle_time, &mut self.limiter.positions);
+        let Obstacles { start, end, .. } = &self.obstacles;
+        let bodies = start.iter().zip(end).map(|(start, end)| *obstacle_advance * (end - start));
+        self.limiter.displacements.clear();
+        self.limiter.displacements.extend(displacements.iter().copied().chain(bodies));
+        match self.limiter.limit(&self.surface, &mut self.tracked, held) {
+            Ok(None) => true,
+            Ok(Some(fraction)) => {
+                let limited = &self.limiter.displacements;
+                displacements.copy_from_slice(&limited[..displacements.len()]);
+                *obstacle_advance *= fraction;
+                false
+            }
+            Err(failure) => {
+                // Nothing is known to be safe.
+                self.active.failure = Some(failure);
+                displacements.fill(0.0);
+                *obstacle_advance = 0.0;
+                false
+            }
+        }
+    }
+
+    /// Returns every intersection of the surface with itself and with bodies at the free vertices'
+    /// positions in the open step; exact. Cloth through which a body passes is exempt.
+    ///
+    /// # Errors
+    /// Positions that are not finite.
+    pub fn intersections(&mut self, positions: &[f64]) -> Result<&[Intersection], Error> {
+        self.obstacles.write_positions(positions, self.obstacles.time, &mut self.trial);
+        self.intersection_test.run(&self.surface, &self.trial)?;
+        let surface = &self.surface;
+        let kept =
+            |found: &Intersection| surface.pinch_fraction(&vertices_of(surface, *found)).is_some();
+        self.intersection_test.found.retain(kept);
+        Ok(&self.intersection_test.found)
+    }
+
+    /// Returns the same with those of cloth through which a body passes.
+    ///
+    /// # Errors
+    /// Positions that are not finite.
+    pub fn intersections_with_released(
+        &self,
+        positions: &[f64],
+    ) -> Result<Vec<Intersection>, Error> {
+        let mut all = Vec::new();
+        self.obstacles.write_positions(positions, self.obstacles.time, &mut all);
+        intersections(&self.surface, &all)
+    }
+
+    /// Returns whether a free vertex is inside a body, for the free vertices' positions, in m.
+    #[must_use]
+    pub fn is_inside_body(&self, vertex: usize, positions: &[f64]) -> bool {
+        let mut all = Vec::new();
+        self.obstacles.write_positions(positions, self.obstacles.time, &mut all);
+        let bodies = self.surface.free_count()..self.surface.vertex_count();
+        let mut groups: Vec<u32> = bodies.map(|v| self.surface.group(v as u32)).collect();
+        groups.dedup();
+        groups.iter().any(|&group| encloses(&self.surface, group, at(&all, vertex), &all))
+    }
+
+    /// Returns the number and the smallest distances of pairs at the free vertices' positions.
+    ///
+    /// # Errors
+    /// Positions that are not finite, or too many pairs.
+    pub fn summary_at(&mut self, positions: &[f64]) -> Result<SurfaceSummary, Error> {
+        self.update(positions);
+        self.active.failure.clone().map_or_else(|| Ok(self.summary()), Err)
+    }
+
+    /// Returns the number and the smallest distances of pairs at the positions of the last
+    /// evaluation.
+    #[must_use]
+    pub fn summary(&self) -> SurfaceSummary {
+        SurfaceSummary::new(self.active.iter())
+    }
+
+    /// Returns the pair with the smallest ratio of distance and minimum separation at the positions
+    /// of the last evaluation.
+    #[must_use]
+    pub fn closest_pair(&self) -> Option<PairDistance<'_>> {
+        let pairs = self.active.iter().map(PairDistance::of);
+        pairs.min_by(|a, b| a.ratio().total_cmp(&b.ratio()))
+    }
+
+    /// Returns the pairs below their minimum separation at the positions of the last evaluation.
+    pub fn pairs_below_min_separation(&self) -> impl Iterator<Item = PairDistance<'_>> {
+        let pairs = self.active.iter().map(PairDistance::of);
+        pairs.filter(|PairDistance { pair, distance }| !(*distance >= pair.min_separation))
+    }
+
+    /// Fraction of their distances that surfaces keep since the last step, 0 to 1: of activation
+    /// distances and minimum separations.
+    #[must_use]
+    pub fn growth_fraction(&self) -> f64 {
+        self.growth.fraction
+    }
+
+    /// Energy that the last growth of distances added to the contact, in J.
+    #[must_use]
+    pub fn growth_work(&self) -> f64 {
+        self.growth.work
+    }
+
+    /// Shrinks all distances until no pair is active at the free vertices' positions, in m.
+    ///
+    /// The fraction is the smallest distance over the activation distance of its pair; 1 if no pair
+    /// is active.
+    ///
+    /// # Errors
+    /// Positions that are not finite, or too many pairs.
+    pub fn shrink_distances(&mut self, positions: &[f64]) -> Result<(), Error> {
+        self.summary_at(positions)?;
+        let fraction =
+            |active: &ActivePair| active.gap.distance() / active.pair.activation_distance;
+        self.growth.fraction =
+            self.active.iter().map(fraction).fold(self.growth.fraction, f64::min);
+        self.set_growth_fraction(self.growth.fraction);
+        Ok(())
+    }
+
+    /// Increases the fraction of the distances that is kept in a step from the free vertices'
+    /// positions, in m, which is then to be opened: as much of the increment as the nearest pair has
+    /// room for, and never below the fraction of the last step.
+    pub fn grow_distances(&mut self, start: &[f64], increment: f64) {
+        self.growth.work = 0.0;
+        if self.growth.fraction >= 1.0 {
+            return;
+        }
+        self.obstacles.time = 0.0;
+        // A rejected step leaves no pinches to this one.
+        self.with_states(|contact, committed, _| contact.set_pinch(committed));
+        self.set_growth_fraction(self.growth.fraction);
+        self.update(start);
+        let before = self.active.energy(self.stiffness);
+        let wanted = self.growth.increased(increment);
+        self.set_growth_fraction(wanted);
+        self.update(start);
+        if let Some(limited) = self.growth.limited(wanted, self.summary().min_ratio) {
+            self.set_growth_fraction(limited);
+            self.update(start);
+        }
+        self.growth.work = self.active.energy(self.stiffness) - before;
+    }
+
+    /// Fraction of its minimum separation from bodies that cloth keeps where they pinch it.
+    #[must_use]
+    pub fn thinned_fraction(&self) -> f64 {
+        if self.pinch.policy == PinchPolicy::Thin { PinchPolicy::THINNED_FRACTION } else { 1.0 }
+    }
+
+    /// Numbers of free vertices that bodies pinch since the last step.
+    #[must_use]
+    pub fn pinched_vertices(&self) -> PinchedVertices {
+        self.pinch.count()
+    }
+
+    /// Finds the vertices that bodies pinch in the open step.
+    fn update_pinch(&mut self, start: &[f64]) {
+        if self.pinch.policy == PinchPolicy::Error {
+            return;
+        }
+        self.set_pinch(&[]);
+        self.update(start);
+        if self.active.failure.is_some() {
+            return;
+        }
+        self.intersection_test.found.clear();
+        if self.pinch.any_released() {
+            // Positions that fail have no intersections; the detection reports the error.
+            let _ = self.intersection_test.run(&self.surface, &self.active.positions);
+        }
+        let found = &self.intersection_test.found;
+        self.pinch.update(&self.surface, &self.obstacles, &self.active, found);
+        self.with_states(|contact, _, next| contact.set_pinch(next));
+        self.update(start);
+    }
+
+    /// Calls `apply` with the committed and the next pinch states.
+    fn with_states(&mut self, apply: impl FnOnce(&mut Self, &[PinchState], &[PinchState])) {
+        let committed = std::mem::take(&mut self.pinch.committed);
+        let next = std::mem::take(&mut self.pinch.next);
+        apply(self, &committed, &next);
+        (self.pinch.committed, self.pinch.next) = (committed, next);
+    }
+
+    /// Sets the pinch states of the next detection.
+    fn set_pinch(&mut self, states: &[PinchState]) {
+        let all_free = states.iter().all(|state| *state == PinchState::Free);
+        let states = if all_free { &[] } else { states };
+        let own = &mut self.surface.separations.pinch;
+        if own.as_slice() != states {
+            own.clear();
+            own.extend_from_slice(states);
+            self.active.invalidate();
+            self.tracked.clear();
+        }
+    }
+
+    /// Sets the fraction of distances that is kept from the next detection on.
+    fn set_growth_fraction(&mut self, fraction: f64) {
+        if self.surface.separations.growth_fraction != fraction {
+            self.surface.separations.growth_fraction = fraction;
+            self.active.invalidate();
+            self.tracked.clear();
+        }
+    }
+
+    /// Finds the active pairs at the free vertices' positions.
+    fn update(&mut self, positions: &[f64]) {
+        self.obstacles.write_positions(positions, self.obstacles.time, &mut self.trial);
+        self.active.update(&self.surface, &mut self.tracked, &mut self.trial);
+    }
+}

@@ -1,0 +1,25 @@
+//! Height of a point over a plane, with a bound of its rounding.
+
+use crate::vector::Vector;
+
+/// Bound of the relative error of a dot product of differences, by the sum of the sizes of its
+/// terms.
+///
+/// The difference, the product and two sums round once each, by half of EPSILON: 2 EPSILON and
+/// terms of second order; the rest is for the rounding of the bound itself.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Height of a point over a plane, in m, with a bound of its error.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Height {
+    pub(crate) value: f64,
+    pub(crate) error: f64,
+}
+
+/// Returns the height `$n \cdot (x - o)$` of a point over the plane through an origin.
+pub(crate) fn height(normal: Vector, point: Vector, origin: Vector) -> Height {
+    let terms: Vector = std::array::from_fn(|k| normal[k] * (point[k] - origin[k]));
+    let size = terms[0].abs() + terms[1].abs() + terms[2].abs();
+    // Products below the normal numbers may lose all their digits.
+    Height { value: terms[0] + terms[1] + terms[2], error: ROUNDING * size + f64::MIN_POSITIVE }
+}

@@ -1,0 +1,78 @@
+//! Continuous collision detection of a step, for all vertices together or for each.
+
+use super::common_fraction::{StepFraction, common_fraction};
+use super::safeguards::Safeguards;
+use super::trial::{Drift, Trial};
+use super::truncation::{Truncation, Truncator};
+use crate::error::Error;
+use crate::surface::broad_phase::CandidatePairs;
+
+/// Filter that limits steps such that no two primitives come below their minimum separation.
+///
+/// Positions and displacements are flat, for all vertices of the surface, bodies included. Its
+/// results are proofs for the straight trajectory of each vertex from `x` to `x + dx` as rounded:
+/// every listed pair keeps a twentieth of its clearance, and every other pair stays beyond its
+/// activation distance as long as no vertex drifts farther than 0.45 margins from the reference
+/// positions of the pairs or from the trajectories along which they were detected. The filter
+/// limits the drift; it fails if the positions have drifted farther already.
+///
+/// It keeps its memory between calls.
+#[derive(Debug, Default)]
+pub struct CcdFilter {
+    drift: Drift,
+    truncator: Truncator,
+    pub(crate) safeguards: Safeguards,
+}
+
+impl CcdFilter {
+    /// Returns the largest fraction of a step that conservative advancement proves safe for all
+    /// vertices together.
+    ///
+    /// It keeps the direction of the step. Each listed pair keeps a tenth of its clearance.
+    ///
+    /// # Errors
+    ///
+    /// If a list has the wrong length, a number is not finite or beyond 1000 km, or the positions
+    /// have drifted beyond the budget of the pairs.
+    pub fn common_fraction(
+        &mut self,
+        pairs: &CandidatePairs,
+        positions: &[f64],
+        displacements: &[f64],
+    ) -> Result<StepFraction, Error> {
+        let mut step = Trial { positions, displacements, smallest: f64::NAN };
+        self.drift.measure(pairs, &mut step, true, self.safeguards)?;
+        let (drift, safeguards) = (&self.drift, self.safeguards);
+        let budget = (0..drift.vertices())
+            .map(|vertex| match safeguards.drift_budget {
+                true => drift.budget_fraction(pairs, &step, vertex),
+                false => 1.0,
+            })
+            .fold(1.0, f64::min);
+        let stays_apart = |pair: &_| drift.stays_apart(pair, &step);
+        Ok(common_fraction(pairs.as_slice(), &step, budget, stays_apart))
+    }
+
+    /// Truncates the displacement of each vertex by as much as its own pairs need, in place.
+    ///
+    /// Divide and truncate ([Che26]): two parallel planes between the closest points of a pair, as
+    /// far apart as the minimum separation, divide the room between them by the speeds at which the
+    /// two approach. Each vertex stays on its side of all its planes, so one pair does not void the
+    /// proof of another, and the step loses its direction only where something is near. The vertices
+    /// of bodies move by a common fraction.
+    ///
+    /// # Errors
+    ///
+    /// As of [`common_fraction`](CcdFilter::common_fraction).
+    pub fn truncate(
+        &mut self,
+        pairs: &CandidatePairs,
+        positions: &[f64],
+        displacements: &mut [f64],
+    ) -> Result<Truncation, Error> {
+        let mut step = Trial { positions, displacements, smallest: f64::NAN };
+        self.drift.measure(pairs, &mut step, false, self.safeguards)?;
+        let at_drift_budget = self.truncator.divide(pairs, &step, &self.drift, self.safeguards);
+        Ok(self.truncator.truncate(pairs, positions, displacements, at_drift_budget))
+    }
+}

@@ -1,0 +1,71 @@
+//! Candidate pairs that are kept up to date while the vertices of a surface drift.
+
+use super::broad_phase::{AdaptiveMargin, CandidatePairs, Sweep};
+use super::contact_surface::Surface;
+use super::detector::Detector;
+use crate::error::Error;
+use crate::vector::{at, norm, subtract};
+
+/// Candidate pairs, and the drift of each vertex since their detection.
+#[derive(Debug)]
+pub(crate) struct TrackedPairs {
+    detector: Detector,
+    margin: AdaptiveMargin,
+    /// Distance of each vertex from the reference positions of the pairs, in m.
+    pub(crate) drift: Vec<f64>,
+}
+
+impl TrackedPairs {
+    /// No pairs yet, of surfaces with an activation distance and edges of a length, in m.
+    pub(crate) fn new(activation_distance: f64, edge: f64) -> TrackedPairs {
+        TrackedPairs {
+            detector: Detector::default(),
+            margin: AdaptiveMargin::new(activation_distance, edge),
+            drift: Vec::new(),
+        }
+    }
+
+    /// Pairs of the last detection.
+    pub(crate) fn pairs(&self) -> &CandidatePairs {
+        self.detector.pairs()
+    }
+
+    /// Drops the pairs, whose distances have changed.
+    pub(crate) fn clear(&mut self) {
+        self.detector.clear();
+    }
+
+    /// Detects the pairs at flat positions or on trajectories from there, and adapts the margin.
+    pub(crate) fn detect(
+        &mut self,
+        surface: &Surface,
+        positions: &[f64],
+        sweep: Sweep<'_>,
+    ) -> Result<(), Error> {
+        let margin = self.margin.value();
+        let found = self.detector.detect_swept(surface, positions, sweep, margin)?;
+        self.margin.adapt(found.as_slice().len(), surface.vertex_count());
+        Ok(())
+    }
+
+    /// Moves the reference positions along the trajectories to where these come nearest to flat
+    /// positions.
+    pub(crate) fn follow_trajectories(&mut self, positions: &[f64]) {
+        self.detector.follow_trajectories(positions);
+    }
+
+    /// Measures the drift of each vertex and returns the largest, in m; infinite without a
+    /// detection.
+    pub(crate) fn measure_drift(&mut self, positions: &[f64]) -> f64 {
+        let reference = self.detector.pairs().positions();
+        self.drift.clear();
+        if reference.len() != positions.len() {
+            self.drift.resize(positions.len() / 3, 0.0);
+            return f64::INFINITY;
+        }
+        let drift = |vertex| norm(subtract(at(positions, vertex), at(reference, vertex)));
+        self.drift.extend((0..positions.len() / 3).map(drift));
+        // A maximum that passes NaN on.
+        self.drift.iter().fold(0.0, |most, &drift| if drift <= most { most } else { drift })
+    }
+}

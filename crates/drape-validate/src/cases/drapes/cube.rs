@@ -1,0 +1,213 @@
+//! Cloth on a cube: a square metre of cloth let down on a cube of half a metre \[BHW94\].
+
+use drape_dynamics::{Simulation, Snapshot};
+use drape_fabric::Fabric;
+
+use crate::error::ValidationError;
+use crate::outline::{Harmonics, evenly, length, maxima, section};
+use crate::setup::{finish_with, simulation};
+
+/// Half of the cube's side, in m.
+const HALF: f64 = 0.25;
+
+/// Height at which the draped cloth is cut, in m: just above the lowest place of the hem that is no
+/// corner's.
+const CUT: f64 = 0.3;
+
+/// Places of the cut that are looked at.
+const PLACES: usize = 720;
+
+/// Shortest wave of the cut that counts, over the spacing: what the grid can show.
+const SHORTEST_WAVE: f64 = 4.0;
+
+/// How far a billow stands out, in m: in proportion to the cloth what 3 mm are on a drapemeter.
+const PROMINENCE: f64 = 0.01;
+
+/// Which model the cloth is simulated in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Model {
+    /// The laws of the fabric.
+    Kes,
+    /// Breen's particles.
+    Breen,
+}
+
+impl Model {
+    /// Both, in the order of the pictures.
+    pub(crate) const ALL: [Self; 2] = [Self::Kes, Self::Breen];
+
+    /// The name in a scene.
+    fn key(self) -> &'static str {
+        match self {
+            Self::Kes => "kes",
+            Self::Breen => "breen-1994",
+        }
+    }
+
+    /// The name for people.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Kes => "laws of the fabric",
+            Self::Breen => "Breen's particles",
+        }
+    }
+}
+
+/// A cloth at rest on the cube.
+#[derive(Debug, Clone)]
+pub(crate) struct Draped {
+    /// The cloth and the cube.
+    pub(crate) snapshot: Snapshot,
+    /// The cut, places (x, z) in m.
+    pub(crate) cut: Vec<[f64; 2]>,
+    /// Billows of each corner: places of the cut that stand out from the cube, nearer to the corner
+    /// than to the middle of a side.
+    pub(crate) billows: [usize; 4],
+    /// Where the quarter of a side of cloth hangs that lies on no side of the cube: the middle of
+    /// it seen from the cube's edge, along x and along z, in m.
+    pub(crate) corners: [[f64; 2]; 4],
+    /// Time of each step and energy of fabric, weight and contact since the start, in s and J.
+    pub(crate) energy: Vec<[f64; 2]>,
+    /// What the forces lack for balance at rest, over g.
+    pub(crate) imbalance: f64,
+    /// Particles in the cube.
+    pub(crate) inside: usize,
+}
+
+impl Draped {
+    /// Lets a cloth of particles at a spacing, in m, down on the cube; the seed perturbs its start.
+    ///
+    /// The weft lies along x and the warp along z.
+    pub(crate) fn of(
+        fabric: &Fabric,
+        model: Model,
+        spacing: f64,
+        seed: u64,
+    ) -> Result<Self, ValidationError> {
+        let text = format!(
+            "name = \"cube\"\nmodel = \"{}\"\nspacing = {spacing}\nfabric.cloth.file = \"fabric.toml\"\n\
+             [[panel]]\nname = \"cloth\"\nfabric = \"cloth\"\nrectangle = [1, 1]\ncenter = [0, 0.505, 0]\n\
+             turn = [-90, 0, 0]\nnoise = {{ amplitude = 1e-4, seed = {seed} }}\n\
+             [[collider.box]]\nname = \"cube\"\nsize = [0.5, 0.5, 0.5]\ncenter = [0, {HALF}, 0]\nfriction = 0.3\n\
+             [contact]\nsurfaces = false\noffset = 0.002\n[time]\nstep = 0.005\nend = 100\n[settle]\n",
+            model.key()
+        );
+        let mut simulation = simulation(text, fabric.to_toml())?;
+        let mut energy = Vec::new();
+        finish_with(&mut simulation, |simulation, step| {
+            let held = simulation.energy().unwrap_or_default();
+            energy.push([step.time, held.elastic + held.gravity + held.contact]);
+        })?;
+        Ok(Self::read(&simulation, energy))
+    }
+
+    fn read(simulation: &Simulation, energy: Vec<[f64; 2]>) -> Self {
+        let snapshot = simulation.snapshot();
+        let summary = simulation.summary();
+        let cut = section(&snapshot.triangles, &snapshot.positions, CUT).unwrap_or_default();
+        Self {
+            billows: billows(&cut, snapshot.spacing),
+            corners: corners(&snapshot),
+            cut,
+            energy,
+            imbalance: summary.imbalance,
+            inside: summary.contact.intersections,
+            snapshot,
+        }
+    }
+
+    /// Directions in which the corners hang, in degrees from the diagonal of the cube; towards the
+    /// sides that the warp hangs down is positive.
+    pub(crate) fn leans(&self) -> [f64; 4] {
+        self.corners.map(|[x, z]| z.atan2(x).to_degrees() - 45.0)
+    }
+
+    /// How far the corners hang from the cube's edges on the average, in m.
+    pub(crate) fn reach(&self) -> f64 {
+        self.corners.iter().map(|[x, z]| x.hypot(*z)).sum::<f64>() / 4.0
+    }
+
+    /// Largest rise of the energy in a step, over its fall in all.
+    pub(crate) fn rise(&self) -> f64 {
+        let fall = self.energy.last().map_or(f64::NAN, |[_, last]| -last);
+        let before = std::iter::once(0.0).chain(self.energy.iter().map(|[_, energy]| *energy));
+        let rises = self.energy.iter().zip(before).map(|([_, now], before)| now - before);
+        rises.fold(0.0, f64::max) / fall
+    }
+}
+
+/// Distance of a place (x, z) from the sides of the cube, below nought inside.
+fn distance([x, z]: [f64; 2]) -> f64 {
+    let (x, z) = (x.abs() - HALF, z.abs() - HALF);
+    x.max(0.0).hypot(z.max(0.0)) + x.max(z).min(0.0)
+}
+
+/// Billows at each corner.
+fn billows(cut: &[[f64; 2]], spacing: f64) -> [usize; 4] {
+    let mut counts = [0; 4];
+    if cut.is_empty() {
+        return counts;
+    }
+    let places = evenly(cut, PLACES);
+    let away: Vec<f64> = places.iter().map(|place| distance(*place)).collect();
+    let harmonics = (length(cut) / (SHORTEST_WAVE * spacing)) as usize;
+    let smooth = Harmonics::of(&away, harmonics).curve(PLACES);
+    for [x, z] in maxima(&smooth, PROMINENCE).into_iter().map(|place| places[place]) {
+        if x.abs().min(z.abs()) > 0.5 * HALF {
+            counts[usize::from(x > 0.0) + 2 * usize::from(z > 0.0)] += 1;
+        }
+    }
+    counts
+}
+
+/// The middle of each corner of the cloth, seen from the nearest edge of the cube.
+fn corners(snapshot: &Snapshot) -> [[f64; 2]; 4] {
+    let mut sums = [[0.0; 3]; 4];
+    let places = snapshot.coordinates.iter().zip(snapshot.positions.chunks_exact(3));
+    for ([u, v], x) in places {
+        let (u, v) = (u - 0.5, v - 0.5);
+        if u.abs().min(v.abs()) >= HALF - 1e-9 {
+            let sum = &mut sums[usize::from(u > 0.0) + 2 * usize::from(v > 0.0)];
+            // A panel's warp runs against z when it lies.
+            sum[0] += x[0] * u.signum() - HALF;
+            sum[1] += -x[2] * v.signum() - HALF;
+            sum[2] += 1.0;
+        }
+    }
+    sums.map(|[x, z, count]| [x / count, z / count])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    /// A cut around the cube with so many waves at each corner.
+    fn wavy(waves: f64) -> Vec<[f64; 2]> {
+        let at = |k: usize| {
+            let angle = TAU * k as f64 / 2000.0;
+            let quarter = (angle / (0.25 * TAU)).fract() - 0.5;
+            let hump = (1.0 - (4.0 * quarter).powi(2)).max(0.0);
+            let wave = 1.0 + 0.5 * (TAU * waves * (2.0 * quarter + 0.5) - 0.5 * TAU).cos();
+            let (sin, cos) = angle.sin_cos();
+            let radius = HALF / sin.abs().max(cos.abs()) + 0.02 + 0.1 * hump * wave;
+            [radius * cos, radius * sin]
+        };
+        (0..2000).map(at).collect()
+    }
+
+    #[test]
+    fn billows_are_counted_at_the_corners() {
+        assert_eq!(billows(&wavy(1.0), 0.02), [1; 4]);
+        assert_eq!(billows(&wavy(2.0), 0.02), [2; 4]);
+        assert_eq!(billows(&[], 0.02), [0; 4]);
+    }
+
+    #[test]
+    fn distances_are_from_the_sides_and_the_edges() {
+        assert!((distance([0.3, 0.1]) - 0.05).abs() < 1e-15);
+        assert!((distance([-0.28, 0.29]) - 0.05).abs() < 1e-15);
+        assert!((distance([0.2, -0.24]) + 0.01).abs() < 1e-15);
+    }
+}

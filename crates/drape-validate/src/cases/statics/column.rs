@@ -1,0 +1,31 @@
+//! Case `column`: the weight at which an upright strip bends over \[Gre81\].
+//!
+//! Near the critical ratio `$\lambda_c$` of `$\lambda = wL^3/B$` a small side force gives the
+//! deflection `$\delta \propto \lambda/(\lambda_c - \lambda)$`; two weights give `$\lambda_c$`
+//! \[Sou32\].
+
+use super::REST;
+use crate::error::ValidationError;
+use crate::findings::{Check, Findings};
+use crate::reference;
+use crate::setup::{GRAVITY, Strip, finish};
+
+/// An upright strip leans the more the nearer its weight is to the critical one \[Sou32\].
+pub(crate) fn column() -> Result<Findings, ValidationError> {
+    let lean = |weight: f64| -> Result<f64, ValidationError> {
+        let strip = Strip::default().of_weight(weight);
+        // A slant of gravity by a part in a thousand pushes sideways in proportion to the weight.
+        let rest = format!("gravity = [{:e}, -{GRAVITY}, 0]\n{REST}", 1e-3 * GRAVITY);
+        let rest = rest.replace("residual = 1e-5\nspeed = 1e-5", "residual = 1e-6\nspeed = 1e-6");
+        let rest = rest.replace("tolerance = 1e-7", "tolerance = 1e-6");
+        let mut simulation = strip.simulation(90.0, &rest)?;
+        finish(&mut simulation)?;
+        Ok(strip.tip(&simulation)[0].abs() / strip.length)
+    };
+    // δ (λc − λ)/λ is the same for both weights.
+    let [low, high] = [6.0, 7.0];
+    let (first, second) = (lean(low)? / low, lean(high)? / high);
+    let critical = (second * high - first * low) / (second - first);
+    let what = "weight wL³/B at which an upright strip bends over";
+    Ok(vec![Check::within(what, critical, reference::SELF_WEIGHT_BUCKLING, 0.02)].into())
+}

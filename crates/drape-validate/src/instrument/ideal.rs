@@ -1,0 +1,53 @@
+//! Ideal curve of a test: the laws of a fabric driven through the cycle of the instrument.
+//!
+//! The fabric deforms evenly, so strain, angle or curvature is that of the clamps, and the load per
+//! width is that of the law.
+
+use drape_fabric::{Fabric, Law, YarnLaws, drive};
+use drape_kes::{Curve, Direction, Test};
+
+use super::cycle::cycle;
+
+/// Returns the curve of an instrument that deforms the fabric evenly: that of the laws alone.
+///
+/// # Panics
+/// If the loads are not finite, which those of a checked fabric are.
+#[must_use]
+pub fn ideal(fabric: &Fabric, test: Test, direction: Direction, points: usize) -> Curve {
+    let path = cycle(fabric, test, direction, points);
+    let laws = laws(fabric, direction);
+    let load = match test {
+        Test::Tensile => drive(&laws.traction, laws.traction.virgin(), &path),
+        Test::Bending | Test::LoopBending => drive(&laws.bending, laws.bending.virgin(), &path),
+        Test::Shear => {
+            let sines: Vec<f64> = path.iter().map(|angle| angle.sin()).collect();
+            drive(&fabric.shear, fabric.shear.virgin(), &sines)
+        }
+    };
+    curve(test, direction, path, load).expect("a checked fabric has finite loads")
+}
+
+/// Returns a curve; that of a tensile test ends where the returning fabric is slack.
+pub(crate) fn curve(
+    test: Test,
+    direction: Direction,
+    mut path: Vec<f64>,
+    mut load: Vec<f64>,
+) -> Result<Curve, drape_kes::Error> {
+    if test == Test::Tensile {
+        let points = path.len() / 2;
+        let slack = load.iter().skip(points).position(|load| *load <= 0.0);
+        let end = slack.map_or(path.len(), |slack| points + slack + 1);
+        path.truncate(end);
+        load.truncate(end);
+    }
+    Curve::new(test, direction, path, load)
+}
+
+/// Returns the laws of a direction.
+pub(crate) fn laws(fabric: &Fabric, direction: Direction) -> &YarnLaws {
+    match direction {
+        Direction::Warp => &fabric.warp,
+        Direction::Weft => &fabric.weft,
+    }
+}
