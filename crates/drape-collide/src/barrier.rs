@@ -12,7 +12,7 @@
 /// `$k_A \hat g$` before it sinks in. A smaller value carries more and conditions worse.
 const EXTENDED: f64 = 0.1;
 
-/// Two-stage barrier `$b(g)$` of a gap `$g$` below an activation gap `$\hat g$` ([Che25]).
+/// Two-stage barrier `$b(g)$` of a gap `$g$` below an activation gap `$\hat g$` \[Che25\].
 ///
 /// ```math
 /// b = \tfrac12 (\hat g - g)^2                         \quad (\hat g/2 \le g < \hat g), \qquad
@@ -20,8 +20,8 @@ const EXTENDED: f64 = 0.1;
 /// ```
 ///
 /// It is zero from `$\hat g$` on; below `$g_0$` it is its Taylor parabola at `$g_0$`, so energy and
-/// force are finite and grow with penetration. Value and slope are continuous everywhere, the second
-/// derivative everywhere but at `$\hat g$`, where it jumps from 1 to 0.
+/// force are finite and grow with penetration. Value and slope are continuous everywhere, the
+/// second derivative everywhere but at `$\hat g$`, where it jumps from 1 to 0.
 ///
 /// A [`strict`](Barrier::strict) barrier has no such parabola: it is infinite from 0 down.
 #[derive(Debug, Clone, Copy)]

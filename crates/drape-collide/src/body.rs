@@ -94,6 +94,11 @@ impl Body {
             "0 or more",
             self.friction >= 0.0,
         )?;
-        Frame::new(&self.pose, name)
+        self.frame()
+    }
+
+    /// Checks the pose and returns its frame.
+    pub(crate) fn frame(&self) -> Result<Frame, Error> {
+        Frame::new(&self.pose, &self.name)
     }
 }

@@ -7,11 +7,11 @@
 //! ```
 //!
 //! of the [barrier](crate::barrier) of its signed distance and of friction that is lagged: normal
-//! force and tangent plane are those at the start of the step ([Li20], eqs. 11–12 and 17).
+//! force and tangent plane are those at the start of the step \[Li20, eqs. 11–12 and 17\].
 //!
 //! The solver calls [`ParticleContact`] in each step: `begin`, then forces, potential and stiffness
-//! at trial positions. This chapter uses [`body`](crate::body) and the barrier, and knows nothing of
-//! surfaces.
+//! at trial positions. This chapter uses [`body`](crate::body) and the barrier, and knows nothing
+//! of surfaces.
 
 mod contact;
 mod detection;

@@ -2,7 +2,7 @@
 //!
 //! Each pair of a vertex with a triangle, or of two edges, whose distance `$d$` is below the
 //! activation distance has the energy `$k A\, m\, b(d - \xi)$` of a barrier that is infinite at the
-//! minimum separation `$\xi$` ([Li20], [Li21]), and friction. A step filter limits each step of the
+//! minimum separation `$\xi$` \[Li20, Li21\], and friction. A step filter limits each step of the
 //! solver such that `$d > \xi$` throughout, and an exact test confirms it.
 //!
 //! In their order in a step:

@@ -20,8 +20,8 @@ fn near(body: &Body, seed: u64) -> Vec<f64> {
     for distance in [9e-4, 7e-4, 3e-4, 1.5e-4, 5e-5, -4e-4] {
         let point = dice.point(0.5);
         let proximity = body.signed_distance(point).unwrap();
-        let way = distance - proximity.distance;
-        positions.extend([0, 1, 2].map(|k| point[k] + way * proximity.normal[k]));
+        let displacement = distance - proximity.distance;
+        positions.extend([0, 1, 2].map(|k| point[k] + displacement * proximity.normal[k]));
     }
     positions
 }
@@ -32,7 +32,7 @@ fn forces(contact: &mut ParticleContact, positions: &[f64]) -> Vec<f64> {
     forces
 }
 
-/// ParticleContact of a body with the particles of `near`, in a step in which they slipped.
+/// Contact of a body with the particles of `near`, in a step in which they slipped.
 fn slipping(body: &Body, seed: u64) -> (ParticleContact, Vec<f64>) {
     let start = near(body, seed);
     let mut contact =
@@ -138,8 +138,8 @@ fn energy_and_force_do_not_jump_across_features() {
             let mut point = far;
             for _ in 0..10 {
                 let proximity = body.signed_distance(point).unwrap();
-                let way = 5e-4 - proximity.distance;
-                point = [0, 1, 2].map(|k| point[k] + way * proximity.normal[k]);
+                let displacement = 5e-4 - proximity.distance;
+                point = [0, 1, 2].map(|k| point[k] + displacement * proximity.normal[k]);
             }
             let energy = contact.potential(&point);
             let force = forces(&mut contact, &point);
@@ -150,7 +150,7 @@ fn energy_and_force_do_not_jump_across_features() {
                 let steepest = 2.0 * 1000.0 * AREA;
                 assert!(jump <= steepest * moved + 1e-15, "{}: energy {jump:e}", body.name);
                 let jump = norm([0, 1, 2].map(|k| force[k] - old_force[k]));
-                // The normal turns by at most the way gone over the gap of 0.5 mm.
+                // The normal turns by at most the displacement over the gap of 0.5 mm.
                 let steepest = 2.0 * 1000.0 * AREA / 5e-4;
                 assert!(jump <= steepest * moved + 1e-9, "{}: force {jump:e}", body.name);
             }
@@ -171,11 +171,11 @@ fn a_resting_load_of_five_kilopascal_stays_outside() {
 }
 
 #[test]
-fn nothing_acts_out_of_reach() {
+fn nothing_acts_beyond_the_activation_distance() {
     for body in all_bodies() {
         let proximity = body.signed_distance([1.0, 1.0, 1.0]).unwrap();
-        let way = 1.0001e-3 - proximity.distance;
-        let point = [0, 1, 2].map(|k| 1.0 + way * proximity.normal[k]);
+        let displacement = 1.0001e-3 - proximity.distance;
+        let point = [0, 1, 2].map(|k| 1.0 + displacement * proximity.normal[k]);
         let mut contact = ParticleContact::new(vec![body], SLIPPERY, vec![AREA]).unwrap();
         contact.begin(&point, 0.01);
         assert_eq!(forces(&mut contact, &point), [0.0; 3]);
@@ -250,7 +250,7 @@ fn a_lost_position_is_never_taken_for_free_space() {
 }
 
 #[test]
-fn the_way_to_a_place_and_the_threads_do_not_change_a_bit() {
+fn the_order_of_positions_and_the_threads_do_not_change_a_bit() {
     let ball = Shape::Mesh(meshed(Shape::Sphere { radius: 0.3 }));
     let bodies = vec![
         Body::new("ball", ball, Pose::default()).with_friction(0.3),

@@ -1,4 +1,4 @@
-//! Distances, normals and curvatures against other ways to get them.
+//! Distances, normals and curvatures against other computations.
 
 #![allow(clippy::unwrap_used)]
 
@@ -207,8 +207,8 @@ fn outlines_are_closed_and_have_the_volume_of_the_body() {
     use std::f64::consts::PI;
     let volumes = [
         // Of the ball, the box, the rounded box (Steiner's formula) and the cylinder, each with the
-        // share that facets of 5.6° may lose: of a disc 1 - sin(2π/64)/(2π/64) = 0.16 %, of a ball
-        // three times its largest sag of 0.24 %, of the rounded box that of its rounded part.
+        // fraction that facets of 5.6° may lose: of a disc 1 - sin(2π/64)/(2π/64) = 0.16 %, of a
+        // ball three times its largest sag of 0.24 %, of the rounded box that of its rounded part.
         (4.0 / 3.0 * PI * 0.3f64.powi(3), 7.3e-3),
         (0.4 * 0.6 * 0.5, 1e-14),
         (

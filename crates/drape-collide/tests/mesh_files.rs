@@ -1,4 +1,5 @@
-//! Bodies from files: every format gives the same body, and what is wrong is refused without a panic.
+//! Bodies from files: every format gives the same body, and what is wrong is refused without a
+//! panic.
 
 #![allow(clippy::unwrap_used)]
 

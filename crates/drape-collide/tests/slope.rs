@@ -57,17 +57,17 @@ impl Block {
             for k in 0..3 {
                 matrix[4 * k] += MASS / (DT * DT);
             }
-            let way = solve(matrix, residual);
+            let displacement = solve(matrix, residual);
             // Halve the step until the potential falls; friction is stiff where it turns over.
-            let mut share = 1.0;
+            let mut fraction = 1.0;
             let before = self.merit(x, start);
             loop {
-                let trial = [0, 1, 2].map(|k| x[k] + share * way[k]);
-                if self.merit(trial, start) <= before || share < 1e-6 {
+                let trial = [0, 1, 2].map(|k| x[k] + fraction * displacement[k]);
+                if self.merit(trial, start) <= before || fraction < 1e-6 {
                     x = trial;
                     break;
                 }
-                share *= 0.5;
+                fraction *= 0.5;
             }
         }
         self.velocity = [0, 1, 2].map(|k| (x[k] - start[k]) / DT);

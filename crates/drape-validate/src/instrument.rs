@@ -13,6 +13,7 @@ mod ideal;
 mod measurement;
 mod placement;
 mod specimen;
+mod yarn;
 
 pub(crate) use bias::on_the_bias_along;
 pub use bias::{on_the_bias, on_the_bias_in_cells};
@@ -20,6 +21,6 @@ pub use comparison::Comparison;
 pub(crate) use cycle::LARGEST_CURVATURE;
 pub use cycle::{LARGEST_TENSION, SHEAR_TENSION, cycle};
 pub use ideal::ideal;
-pub(crate) use ideal::laws;
 pub use measurement::{Resolution, bend_on_the_bias, bias_spacing, measure};
 pub(crate) use placement::{Rows, arm, bent, moment};
+pub(crate) use yarn::laws;

@@ -40,12 +40,12 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Triangulation, String> {
     Ok(Triangulation { vertices, triangles })
 }
 
-/// Returns the vertices and faces of an OBJ text, the faces without normals and texture coordinates,
-/// and the number of vertices.
+/// Returns the vertices and faces of an OBJ text, the faces without normals and texture
+/// coordinates, and the number of vertices.
 ///
 /// The parser would split the surface by groups and materials, and fail on files that are careless
-/// about what is not used here. It also numbers vertices in the order in which faces use them: their
-/// numbers in the file are passed on as their colours.
+/// about what is not used here. It also numbers vertices in the order in which faces use them:
+/// their numbers in the file are passed on as their colours.
 fn surface_lines(text: &str) -> (String, usize) {
     let mut kept = String::with_capacity(text.len());
     let mut count = 0;

@@ -23,9 +23,9 @@ pub struct PointCache {
 impl PointCache {
     /// Reads a point cache.
     ///
-    /// Its content, little-endian: `POINTCACHE2` and a zero byte; the version 1; number of vertices;
-    /// first frame; frames per sample; number of samples; and the coordinates as 32-bit floats,
-    /// sample after sample.
+    /// Its content, little-endian: `POINTCACHE2` and a zero byte; the version 1; number of
+    /// vertices; first frame; frames per sample; number of samples; and the coordinates as 32-bit
+    /// floats, sample after sample.
     ///
     /// # Errors
     /// A file that is no point cache, is cut off, or has a coordinate that is not finite.

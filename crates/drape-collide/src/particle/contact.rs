@@ -122,7 +122,7 @@ impl ParticleContact {
             return Ok(());
         }
         self.bodies[body].pose = pose;
-        let frame = self.bodies[body].check()?;
+        let frame = self.bodies[body].frame()?;
         let before = std::mem::replace(&mut self.solids[body].frame, frame);
         let frame = &self.solids[body].frame;
         for friction in self.frictions.iter_mut().filter(|friction| friction.body == body) {

@@ -14,7 +14,7 @@ use crate::vector::{Matrix, Vector, add, combine, dot, norm, outer, projection, 
 /// ```
 ///
 /// `$F$` is the coefficient times the normal force and `$\epsilon$` the slip below which the
-/// particle sticks ([Li20], eqs. 11–12 and 17).
+/// particle sticks \[Li20, eqs. 11–12 and 17\].
 #[derive(Debug, Clone)]
 pub(crate) struct Friction {
     pub(crate) particle: usize,

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! As long as no vertex drifts by more than half of the margin, no other pair is active. A tree of
-//! boxes over primitives in a fixed order finds them; lists are sorted, so that no result depends on
-//! the number of threads.
+//! boxes over primitives in a fixed order finds them; lists are sorted, so that no result depends
+//! on the number of threads.
 //!
 //! [`detector`](super::detector) calls the search. This chapter uses [`geometry`](super::geometry)
 //! and [`distance`](super::distance).

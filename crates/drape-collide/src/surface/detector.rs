@@ -39,8 +39,8 @@ impl Detector {
         &self.pairs
     }
 
-    /// Finds every pair whose distance is below its activation distance plus a margin, in m, at flat
-    /// positions.
+    /// Finds every pair whose distance is below its activation distance plus a margin, in m, at
+    /// flat positions.
     ///
     /// Pairs that share a vertex, directly or through a seam, and pairs without a free vertex are
     /// left out. On an error the pairs of the detection before stay.

@@ -6,7 +6,7 @@
 //! p = \sum_i w_i x_i, \qquad d = |p|, \qquad n = p / d, \qquad \nabla d = w \otimes n ,
 //! ```
 //!
-//! exact to rounding for slivers and nearly parallel edges too ([Eri05]).
+//! exact to rounding for slivers and nearly parallel edges too \[Eri05\].
 //!
 //! The broad phase, the barrier and the step filter take distances from here. This chapter uses
 //! vectors only.

@@ -1,11 +1,11 @@
 //! Exact tests: intersections of edges with triangles, and points inside bodies.
 //!
-//! The predicates are exact for the positions as they are rounded ([She97], by the crate `robust`);
+//! The predicates are exact for the positions as they are rounded \[She97\], by the crate `robust`;
 //! touching counts as an intersection. A point is inside a body if the solid angle of its triangles
 //! is that of the whole sphere.
 //!
-//! [`contact`](super::contact) runs the test on every accepted step, as a proof that does not depend
-//! on the step filter. This chapter uses the surface and the tree of the broad phase.
+//! [`contact`](super::contact) runs the test on every accepted step, as a proof that does not
+//! depend on the step filter. This chapter uses the surface and the tree of the broad phase.
 
 mod intersections;
 mod predicate;

@@ -2,7 +2,7 @@
 //!
 //! A pair is a spring that yields, the elastic and perfectly plastic element (Jenkins) that the
 //! fabric's friction has for its limit. Normal force and tangent plane are lagged: those at the
-//! start of the step ([Li20], §5). With the slip `$u$` of the step and the stretch `$e_0$` of the
+//! start of the step \[Li20, §5\]. With the slip `$u$` of the step and the stretch `$e_0$` of the
 //! steps before, both in that plane, the stretch `$e = e_0 + u$` has the potential
 //!
 //! ```math
@@ -207,8 +207,8 @@ impl PairFriction {
         std::array::from_fn(|k| self.weights[k / 3] * pull * stretch[k % 3])
     }
 
-    /// Returns the second derivative of the potential by `$\sum w_i x_i$`, positive semidefinite, in
-    /// N/m.
+    /// Returns the second derivative of the potential by `$\sum w_i x_i$`, positive semidefinite,
+    /// in N/m.
     fn stiffness(&self, positions: &[f64], sticking: f64) -> Matrix {
         let stretch = self.stretch(positions);
         let length = norm(stretch);

@@ -1,12 +1,12 @@
 //! Step filter: limits a step of the solver such that no pair comes below its minimum separation.
 //!
-//! Each vertex moves straight from `$x$` to `$x + t \Delta x$`. A plane between the closest points of
-//! a pair proves its distance: with the heights of the first primitive at least `$h$` and those of
-//! the second at most `$k$`, `$d \ge h - k$`. Two filters use it, both continuous collision detection
-//! (CCD) with all rounding bounded:
+//! Each vertex moves straight from `$x$` to `$x + t \Delta x$`. A plane between the closest points
+//! of a pair proves its distance: with the heights of the first primitive at least `$h$` and those
+//! of the second at most `$k$`, `$d \ge h - k$`. Two filters use it, both continuous collision
+//! detection (CCD) with all rounding bounded:
 //!
-//! - one fraction `$t$` for all vertices, by conservative advancement ([Mir96]),
-//! - a fraction for each vertex, by two planes that divide the room of each pair ([Che26]).
+//! - one fraction `$t$` for all vertices, by conservative advancement \[Mir96\],
+//! - a fraction for each vertex, by two planes that divide the room of each pair \[Che26\].
 //!
 //! [`contact`](super::contact) passes trial steps of the solver here. This chapter uses
 //! [`tracked_pairs`](super::tracked_pairs) and [`distance`](super::distance).

@@ -1,4 +1,4 @@
-//! What the tests share: numbers that look random, and derivatives by differences.
+//! What the tests fraction: numbers that look random, and derivatives by differences.
 
 #![allow(dead_code)]
 

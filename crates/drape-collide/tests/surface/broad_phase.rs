@@ -1,6 +1,6 @@
 //! The list of near pairs against all pairs tried one by one.
 
-use crate::sheets::{SKIN, sheets, soup, surface};
+use crate::sheets::{DISTANCES, sheets, soup, surface};
 use crate::support::{Dice, norm, sub};
 use drape_collide::{ContactDistances, Detector, Error, PairKind, Surface, SurfaceParts, Sweep};
 use std::collections::BTreeSet;
@@ -93,7 +93,8 @@ fn compare(parts: &SurfaceParts, positions: &[f64], margin: f64) -> usize {
     assert!(keys.is_sorted(), "the list is sorted");
     let found: BTreeSet<Key> = keys.iter().copied().collect();
     assert_eq!(found.len(), keys.len(), "no pair is there twice");
-    let all = brute_force(&surface, parts, (positions, 2.0 * SKIN.activation_distance + margin));
+    let all =
+        brute_force(&surface, parts, (positions, 2.0 * DISTANCES.activation_distance + margin));
     let missing: Vec<_> = all.difference(&found).collect();
     let extra: Vec<_> = found.difference(&all).collect();
     assert!(missing.is_empty() && extra.is_empty(), "missing {missing:?}, extra {extra:?}");
@@ -124,7 +125,8 @@ fn folded_sheets_have_the_pairs_of_brute_force() {
         let last = (side * side) as u32 - 1;
         if layers > 1 && case % 2 == 0 {
             parts.seam_pairs = vec![[0, last + 1], [last, 2 * last + 1]];
-            // Of the second sheet's side three vertices lie on the first two edges of the first sheet's.
+            // Of the second sheet's side three vertices lie on the first two edges of the first
+            // sheet's.
             let tie = |own: u32, first: u32| [last + 1 + own, first, first + 1];
             parts.ties = vec![tie(1, 0), tie(3, 1), tie(2, 0)];
         }
@@ -146,7 +148,7 @@ fn folded_sheets_have_the_pairs_of_brute_force() {
 }
 
 #[test]
-fn what_comes_into_reach_on_a_course_is_found() {
+fn what_comes_near_on_a_trajectory_is_found() {
     let mut dice = Dice::new(13);
     let (mut met, mut found) = (0, [0; 3]);
     for case in 0..200 {
@@ -160,7 +162,7 @@ fn what_comes_into_reach_on_a_course_is_found() {
         let common = dice.point(1.0);
         let margin = 0.02;
         let vertices = surface.vertex_count();
-        let ways: Vec<f64> = (0..vertices)
+        let displacements: Vec<f64> = (0..vertices)
             .flat_map(|_| {
                 let own = dice.point(0.2);
                 [0, 1, 2].map(|k| common[k] + own[k])
@@ -168,8 +170,12 @@ fn what_comes_into_reach_on_a_course_is_found() {
             .collect();
         let mut detector = Detector::default();
         let together = case % 2 == 0;
-        let course = if together { Sweep::Common(&ways) } else { Sweep::Individual(&ways) };
-        let pairs = detector.detect_swept(&surface, &parts.rest_positions, course, margin).unwrap();
+        let sweep = if together {
+            Sweep::Common(&displacements)
+        } else {
+            Sweep::Individual(&displacements)
+        };
+        let pairs = detector.detect_swept(&surface, &parts.rest_positions, sweep, margin).unwrap();
         let listed: BTreeSet<Key> = pairs.as_slice().iter().map(|pair| pair.key()).collect();
         found[case % 2] += listed.len();
         found[2] += vertices * surface.triangles().len();
@@ -177,11 +183,12 @@ fn what_comes_into_reach_on_a_course_is_found() {
             let all = 0.5 + dice.roll();
             let mut there = parts.rest_positions.clone();
             for vertex in 0..vertices {
-                let share = if together { all } else { 0.5 + dice.roll() }.clamp(0.0, 1.0);
+                let fraction = if together { all } else { 0.5 + dice.roll() }.clamp(0.0, 1.0);
                 let beside = dice.direction();
                 for k in 0..3 {
-                    let way = share * ways[3 * vertex + k] + 0.49 * margin * beside[k];
-                    there[3 * vertex + k] += way;
+                    let displacement =
+                        fraction * displacements[3 * vertex + k] + 0.49 * margin * beside[k];
+                    there[3 * vertex + k] += displacement;
                 }
             }
             let near = brute_force(&surface, &parts, (&there, 2.0 * activation_distance));
@@ -201,7 +208,7 @@ fn a_fine_mesh_does_not_push_itself_at_rest() {
     let surface = surface(&parts);
     let mut detector = Detector::default();
     let pairs = detector.detect(&surface, &parts.rest_positions, 1e-3).unwrap();
-    // Neighbours but one are 0.28 or 0.4 mm apart, less than the activation_distance of 0.6 mm.
+    // Neighbours but one are 0.28 or 0.4 mm apart, less than the activation distance of 0.6 mm.
     assert!(!pairs.as_slice().is_empty());
     for pair in pairs.as_slice() {
         let half = 0.5 * pair.distance;

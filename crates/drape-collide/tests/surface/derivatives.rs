@@ -8,7 +8,7 @@ const STIFFNESS: f64 = 1e9;
 /// Of the differences, in m.
 const STEP: f64 = 2e-4;
 
-/// A pair of four vertices with a activation_distance of half a metre, near 1 m in size.
+/// A pair of four vertices with an activation distance of half a metre, near 1 m in size.
 fn pair(kind: PairKind) -> Pair {
     Pair {
         kind,
@@ -46,7 +46,7 @@ fn is_smooth(pair: &Pair, positions: &[f64], gap: &Gap) -> bool {
     })
 }
 
-/// Many random pairs within activation_distance, with the kinds of feature that came up.
+/// Many random pairs within activation distance, with the kinds of feature that came up.
 fn sample(kind: PairKind, count: usize, mut check: impl FnMut(&Pair, &[f64], &Gap)) {
     let mut dice = Dice::new(21);
     let pair = pair(kind);

@@ -27,7 +27,7 @@ fn energy(kind: PairKind, positions: &[f64]) -> f64 {
     Gap::new(&pair(kind, [0, 1, 2, 3]), positions).energy(STIFFNESS)
 }
 
-/// Random places of a pair within activation_distance but not within the min_separation.
+/// Random places of a pair within activation distance but not within the minimum separation.
 fn places(dice: &mut Dice, kind: PairKind) -> Vec<f64> {
     loop {
         let positions: Vec<f64> = (0..12).map(|_| 0.5 * dice.roll()).collect();
@@ -109,9 +109,9 @@ fn edges_fade_out_as_they_become_parallel() {
             let other = energy(PairKind::EdgeEdge, &turned(-angle));
             // Quadratic in the angle: 2 sin² / 0.1 of the whole.
             let whole = energy(PairKind::EdgeEdge, &turned(1.0));
-            let share = 20.0 * angle.powi(2);
-            assert!((now / whole / share - 1.0).abs() < 1e-3, "{now} of {whole} at {angle}");
-            assert!((now - other).abs() <= 1e-9 * whole * share, "{now} and {other}");
+            let fraction = 20.0 * angle.powi(2);
+            assert!((now / whole / fraction - 1.0).abs() < 1e-3, "{now} of {whole} at {angle}");
+            assert!((now - other).abs() <= 1e-9 * whole * fraction, "{now} and {other}");
         }
         let mut value = |x: &[f64]| [energy(PairKind::EdgeEdge, x)];
         let gap = Gap::new(&pair(PairKind::EdgeEdge, [0, 1, 2, 3]), &turned(1e-2));
@@ -239,26 +239,27 @@ fn the_pressure_between_sheets_does_not_depend_on_the_mesh() {
 #[test]
 fn a_pressed_pile_is_as_thick_as_the_stiffness_was_asked_for() {
     for (thickness, pressed) in [(5e-4, 3.5e-4), (5e-4, 4.5e-4), (1e-3, 3e-4)] {
-        let skin = ContactDistances {
+        let half = ContactDistances {
             activation_distance: 0.5 * thickness,
             min_separation: 0.25 * pressed,
         };
         let of_pair = ContactDistances {
-            activation_distance: 2.0 * skin.activation_distance,
-            min_separation: 2.0 * skin.min_separation,
+            activation_distance: 2.0 * half.activation_distance,
+            min_separation: 2.0 * half.min_separation,
         };
         let stiffness = SurfaceSettings::stiffness_for_pressure(4900.0, pressed, of_pair);
-        let found = pressure(([61, 61], false), (pressed, skin), stiffness);
+        let found = pressure(([61, 61], false), (pressed, half), stiffness);
         // What of the sheets does not lie over the other is a fiftieth of them.
         assert!((found / 4900.0 - 1.0).abs() < 0.05, "{found} Pa");
     }
 }
 
-/// Mean pressure, in Pa, between two sheets of a quarter of a square metre and so many vertices along their sides, of
-/// which the second may be a body; off by some of a cell, so that each point of either stands for the same area.
+/// Mean pressure, in Pa, between two sheets of a quarter of a square metre and so many vertices
+/// along their sides, of which the second may be a body; off by some of a cell, so that each point
+/// of either stands for the same area.
 fn pressure(
     (sides, body): ([usize; 2], bool),
-    (distance, skin): (f64, ContactDistances),
+    (distance, half): (f64, ContactDistances),
     stiffness: f64,
 ) -> f64 {
     let mut parts = sheets(1, sides[0], 0.5 / (sides[0] - 1) as f64);
@@ -269,7 +270,7 @@ fn pressure(
     parts.triangles.extend(other.triangles.iter().map(lifted));
     parts.areas.extend(&other.areas);
     parts.groups.extend(vec![1; other.areas.len()]);
-    parts.distances = vec![skin; 2];
+    parts.distances = vec![half; 2];
     parts.free_vertices = if body { first } else { parts.areas.len() };
     let mut positions = parts.rest_positions.clone();
     for place in positions[3 * first..].chunks_mut(3) {

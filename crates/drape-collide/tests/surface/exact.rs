@@ -44,8 +44,8 @@ fn edges<T: Number>(points: &[Place<T>]) -> Vec<[&Place<T>; 2]> {
     pairs.map(|pair| pair.map(|k| &points[k])).collect()
 }
 
-/// Directions one of which leads along the shortest way between two simplices of up to three
-/// points: that from a point to a point, an edge or a face, or from an edge to an edge.
+/// Directions one of which leads along the shortest displacement between two simplices of up to
+/// three points: that from a point to a point, an edge or a face, or from an edge to an edge.
 fn directions<T: Number>(a: &[Place<T>], b: &[Place<T>]) -> Vec<Place<T>> {
     let mut all = Vec::new();
     for p in a {
@@ -185,10 +185,11 @@ impl Motion {
         found.into_iter().map(|(_, direction)| direction.map(whole)).collect()
     }
 
-    /// Whether the points of `a` and `b` keep a distance on the whole way: a proof if true.
+    /// Whether the points of `a` and `b` keep a distance on the whole displacement: a proof if
+    /// true.
     ///
-    /// One plane between the two at the start and at the end is one all the way, for heights over
-    /// it change evenly. Where there is none the way is halved.
+    /// One plane between the two at the start and at the end is one all the displacement, for
+    /// heights over it change evenly. Where there is none the displacement is halved.
     pub fn keeps(&self, a: &[usize], b: &[usize], distance: f64) -> bool {
         let mut tries = TRIES;
         self.keeps_within([a, b], (distance, Time { count: 0, level: 0 }), &mut tries)
@@ -242,7 +243,8 @@ impl Motion {
             && halves.into_iter().all(|half| self.keeps_within([a, b], (distance, half), tries))
     }
 
-    /// Whether two sets of points are apart at a share `count / 2^level` of the way, exactly.
+    /// Whether two sets of points are apart at a share `count / 2^level` of the displacement,
+    /// exactly.
     pub fn apart_at(&self, a: &[usize], b: &[usize], (count, level): (u64, u32)) -> bool {
         let places = self.places(Time { count, level });
         let pick = |list: &[usize]| -> Vec<Place<BigInt>> {

@@ -1,7 +1,7 @@
 //! The exact test of crossings against another exact test.
 
 use crate::exact::{Motion, apart};
-use crate::sheets::{SKIN, surface};
+use crate::sheets::{DISTANCES, surface};
 use crate::support::{Dice, norm};
 use drape_collide::{Gap, Intersection, Pair, PairKind, SurfaceParts, intersections};
 use std::collections::BTreeSet;
@@ -21,7 +21,7 @@ fn compare(places: &[[i64; 3]], scale: f64, shift: f64) -> [usize; 2] {
         triangles: (0..triangles as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
         areas: vec![1.0; places.len()],
         groups: (0..places.len() as u32).map(|v| v / 3).collect(),
-        distances: vec![SKIN; triangles],
+        distances: vec![DISTANCES; triangles],
         free_vertices: places.len(),
         seam_pairs: Vec::new(),
         ties: Vec::new(),
@@ -72,7 +72,7 @@ fn a_last_place_decides() {
             triangles: vec![[0, 1, 2], [3, 4, 5]],
             areas: vec![1.0; 6],
             groups: vec![0, 0, 0, 1, 1, 1],
-            distances: vec![SKIN; 2],
+            distances: vec![DISTANCES; 2],
             free_vertices: 3,
             seam_pairs: Vec::new(),
             ties: Vec::new(),
@@ -93,11 +93,11 @@ fn distances_of_slivers_and_nearly_parallel_edges_are_exact() {
         let mut x: [[f64; 3]; 4] = std::array::from_fn(|_| dice.point(1.0));
         // The last place is all but on the line of the second and the third, or the second edge
         // all but along the first; both about a hundredth apart from the first.
-        let share = 2.0 * dice.roll();
+        let fraction = 2.0 * dice.roll();
         let rough = dice.point(tiny);
         match kind {
             PairKind::VertexFace => {
-                x[3] = [0, 1, 2].map(|k| x[1][k] + share * (x[2][k] - x[1][k]) + rough[k]);
+                x[3] = [0, 1, 2].map(|k| x[1][k] + fraction * (x[2][k] - x[1][k]) + rough[k]);
                 // Over the sliver itself or beside it.
                 let over = dice.roll();
                 let beside = dice.point(1e-2);
@@ -111,7 +111,7 @@ fn distances_of_slivers_and_nearly_parallel_edges_are_exact() {
             }
             PairKind::EdgeEdge => {
                 let away = dice.point(1e-2);
-                x[2] = [0, 1, 2].map(|k| x[0][k] + 0.5 * share * (x[1][k] - x[0][k]) + away[k]);
+                x[2] = [0, 1, 2].map(|k| x[0][k] + 0.5 * fraction * (x[1][k] - x[0][k]) + away[k]);
                 x[3] = [0, 1, 2].map(|k| x[2][k] + (x[1][k] - x[0][k]) + rough[k]);
             }
         }
@@ -131,8 +131,8 @@ fn distances_of_slivers_and_nearly_parallel_edges_are_exact() {
         let first = if kind == PairKind::VertexFace { 1 } else { 2 };
         let sums = [&weights[..first], &weights[first..]].map(|list| list.iter().sum::<f64>());
         assert!((sums[0] - 1.0).abs() < 1e-14 && (sums[1] + 1.0).abs() < 1e-14, "{weights:?}");
-        let way: [f64; 3] = [0, 1, 2].map(|k| (0..4).map(|i| weights[i] * x[i][k]).sum());
-        for (k, component) in way.into_iter().enumerate() {
+        let displacement: [f64; 3] = [0, 1, 2].map(|k| (0..4).map(|i| weights[i] * x[i][k]).sum());
+        for (k, component) in displacement.into_iter().enumerate() {
             let miss = (component - distance * gap.normal()[k]).abs();
             assert!(miss < 1e-14, "{kind:?} {x:?}: off by {miss}");
         }

@@ -1,4 +1,4 @@
-//! ParticleContact of surfaces: triangles against triangles, with every pair certified.
+//! Contact of surfaces: triangles against triangles, with every pair certified.
 
 #![allow(clippy::unwrap_used)]
 

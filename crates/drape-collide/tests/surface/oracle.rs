@@ -53,8 +53,8 @@ fn two_triangles(size: f64, free: usize) -> Surface {
     })
 }
 
-fn along(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
-    [0, 1, 2].map(|k| a[k] + share * (b[k] - a[k]))
+fn along(a: [f64; 3], b: [f64; 3], fraction: f64) -> [f64; 3] {
+    [0, 1, 2].map(|k| a[k] + fraction * (b[k] - a[k]))
 }
 
 /// Two triangles and where they are to go, in units of their size.
@@ -62,10 +62,10 @@ fn adversary(dice: &mut Dice, kind: usize) -> (Places, Places) {
     let mut x: Places = std::array::from_fn(|_| dice.point(0.6));
     let tiny = 10f64.powf(-6.0 + 6.0 * dice.roll());
     let up = [0.0, 0.0, 1.0];
-    // Some begin within the min_separation.
+    // Some begin within the minimum separation.
     let excess = 10f64.powf(-4.0 + 4.0 * dice.roll());
     let gap = SEPARATION * if dice.roll() > 0.6 { 1.0 - 0.9 * excess } else { 1.0 + excess };
-    let mut way: Places = std::array::from_fn(|_| dice.point(0.5));
+    let mut displacement: Places = std::array::from_fn(|_| dice.point(0.5));
     match kind {
         // Anything.
         0 => {}
@@ -82,7 +82,7 @@ fn adversary(dice: &mut Dice, kind: usize) -> (Places, Places) {
             let flat = dice.roll() > 0.0;
             for k in 0..6 {
                 x[k][2] = if k < 3 { 0.0 } else { 2.0 * gap * f64::from(flat) };
-                way[k][2] *= f64::from(dice.roll() > 0.0);
+                displacement[k][2] *= f64::from(dice.roll() > 0.0);
             }
         }
         // Slivers.
@@ -96,14 +96,14 @@ fn adversary(dice: &mut Dice, kind: usize) -> (Places, Places) {
         // All at rest, or all but one.
         4 => {
             let moving = (dice.roll().abs() * 12.0) as usize;
-            for (k, way) in way.iter_mut().enumerate() {
-                *way = if k == moving { *way } else { [0.0; 3] };
+            for (k, displacement) in displacement.iter_mut().enumerate() {
+                *displacement = if k == moving { *displacement } else { [0.0; 3] };
             }
         }
         // A vertex just over a face that goes to touch it, and through it.
         5 => {
-            let share = dice.roll().abs();
-            let foot = along(along(x[0], x[1], share), x[2], dice.roll().abs());
+            let fraction = dice.roll().abs();
+            let foot = along(along(x[0], x[1], fraction), x[2], dice.roll().abs());
             let normal = {
                 let (u, v) = (along([0.0; 3], x[1], 1.0), x[2]);
                 let (u, v) = ([0, 1, 2].map(|i| u[i] - x[0][i]), [0, 1, 2].map(|i| v[i] - x[0][i]));
@@ -117,17 +117,18 @@ fn adversary(dice: &mut Dice, kind: usize) -> (Places, Places) {
                 let apart = dice.roll().abs() + 2.0 * gap;
                 *place = [0, 1, 2].map(|i| place[i] + apart * normal[i]);
             }
-            way = [[0.0; 3]; 6];
+            displacement = [[0.0; 3]; 6];
             // To the touch exactly, or on.
             let factor = if dice.roll() > 0.0 { 1.0 } else { 1.0 + tiny };
-            way[3] = [0, 1, 2].map(|i| factor * (foot[i] - x[3][i]));
+            displacement[3] = [0, 1, 2].map(|i| factor * (foot[i] - x[3][i]));
         }
         // Very fast, or all together but for a little.
         6 => {
             let (common, fast) = (dice.point(3.0), dice.roll() > 0.0);
-            for way in &mut way {
+            for displacement in &mut displacement {
                 let alone = dice.point(tiny);
-                *way = [0, 1, 2].map(|i| if fast { 1e3 * way[i] } else { common[i] + alone[i] });
+                *displacement = [0, 1, 2]
+                    .map(|i| if fast { 1e3 * displacement[i] } else { common[i] + alone[i] });
             }
         }
         // Edges that cross each other, one just over the other.
@@ -137,21 +138,22 @@ fn adversary(dice: &mut Dice, kind: usize) -> (Places, Places) {
             for place in &mut x[3..] {
                 *place = [0, 1, 2].map(|i| place[i] + a[i] - b[i] + gap * up[i]);
             }
-            way[3..].iter_mut().for_each(|way| way[2] -= 0.5);
+            displacement[3..].iter_mut().for_each(|displacement| displacement[2] -= 0.5);
         }
     }
-    (x, way)
+    (x, displacement)
 }
 
 /// What came of some cases.
 #[derive(Debug, Default)]
 struct Tally {
-    /// Motions that would have brought two primitives within the min_separation, or made them cross.
+    /// Motions that would have brought two primitives within the minimum separation, or made them
+    /// cross.
     dangerous: usize,
     /// Steps that were shortened, and among them those that still go on.
     shortened: usize,
     moving: usize,
-    /// CandidatePairs that were apart by the min_separation at the start and judged.
+    /// CandidatePairs that were apart by the minimum separation at the start and judged.
     proved: usize,
 }
 
@@ -164,31 +166,32 @@ fn run(cases: usize, seed: u64) -> Tally {
     for case in 0..cases {
         let (size, far) = SIZES[case % SIZES.len()];
         let surface = &surfaces[case % SIZES.len()][case / 7 % 2];
-        let (places, ways) = adversary(&mut dice, case / SIZES.len() % 8);
+        let (places, displacements) = adversary(&mut dice, case / SIZES.len() % 8);
         let offset = dice.point(0.9 * far);
         let place = |k: usize, x: f64| size * x + offset[k];
         let mut positions: Vec<f64> =
             places.iter().flat_map(|p| [0, 1, 2].map(|k| place(k, p[k]))).collect();
         let limit = 4e5;
         let full: Vec<f64> =
-            ways.as_flattened().iter().map(|w| (size * w).clamp(-limit, limit)).collect();
+            displacements.as_flattened().iter().map(|w| (size * w).clamp(-limit, limit)).collect();
         let pairs = detector.detect(surface, &positions, MARGIN * size).unwrap();
         for round in 0..3 {
-            let mut way = full.clone();
+            let mut displacement = full.clone();
             if (case + round) % 2 == 0 {
-                let fraction = filter.common_fraction(pairs, &positions, &way).unwrap();
+                let fraction = filter.common_fraction(pairs, &positions, &displacement).unwrap();
                 assert!((0.0..=1.0).contains(&fraction.value));
-                way.iter_mut().for_each(|component| *component *= fraction.value);
+                displacement.iter_mut().for_each(|component| *component *= fraction.value);
             } else {
-                filter.truncate(pairs, &positions, &mut way).unwrap();
+                filter.truncate(pairs, &positions, &mut displacement).unwrap();
             }
-            let end: Vec<f64> = positions.iter().zip(&way).map(|(x, w)| x + w).collect();
+            let end: Vec<f64> = positions.iter().zip(&displacement).map(|(x, w)| x + w).collect();
             judge(&mut tally, (&positions, &end), SEPARATION * size, (case, round));
             if round == 0 {
                 let end: Vec<f64> = positions.iter().zip(&full).map(|(x, w)| x + w).collect();
                 tally.dangerous += usize::from(!harmless((&positions, &end), 0.0));
-                tally.shortened += usize::from(way != full);
-                tally.moving += usize::from(way != full && way.iter().any(|w| *w != 0.0));
+                tally.shortened += usize::from(displacement != full);
+                tally.moving +=
+                    usize::from(displacement != full && displacement.iter().any(|w| *w != 0.0));
             }
             positions = end;
         }
@@ -209,10 +212,10 @@ fn harmless(motion_of: (&[f64], &[f64]), target: f64) -> bool {
     (0..=16).all(|time| motion.apart_at(&[0, 1, 2], &[3, 4, 5], (time, 4)))
 }
 
-/// Every pair that kept the min_separation at the start keeps it all the way; every other pair that was
-/// apart stays apart.
+/// Every pair that kept the minimum separation at the start keeps it all the displacement; every
+/// other pair that was apart stays apart.
 fn judge(tally: &mut Tally, ends: (&[f64], &[f64]), min_separation: f64, case: (usize, usize)) {
-    // The promise is the min_separation to a billionth.
+    // The promise is the minimum separation to a billionth.
     let target = min_separation * (1.0 - 1e-9);
     let whole = motion(ends, target);
     let standing = motion((ends.0, ends.0), min_separation);

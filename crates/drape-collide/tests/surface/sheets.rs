@@ -1,9 +1,9 @@
-//! Meshes that the tests share.
+//! Meshes that the tests fraction.
 
 use crate::support::Dice;
 use drape_collide::{ContactDistances, Surface, SurfaceParts};
 
-pub const SKIN: ContactDistances =
+pub const DISTANCES: ContactDistances =
     ContactDistances { activation_distance: 3e-4, min_separation: 5e-5 };
 
 /// Parts of sheets of `side` × `side` vertices at a spacing, one group each, alike at rest.
@@ -13,7 +13,7 @@ pub fn sheets(layers: usize, side: usize, spacing: f64) -> SurfaceParts {
         triangles: Vec::new(),
         areas: vec![spacing * spacing; layers * side * side],
         groups: Vec::new(),
-        distances: vec![SKIN; layers],
+        distances: vec![DISTANCES; layers],
         free_vertices: layers * side * side,
         seam_pairs: Vec::new(),
         ties: Vec::new(),
@@ -60,7 +60,7 @@ pub fn soup(dice: &mut Dice, triangles: usize, size: f64) -> SurfaceParts {
         triangles: (0..triangles as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
         areas: vec![1e-4; 3 * triangles],
         groups: (0..3 * triangles).map(|v| u32::from(v >= free)).collect(),
-        distances: vec![SKIN; 2],
+        distances: vec![DISTANCES; 2],
         free_vertices: free,
         seam_pairs: Vec::new(),
         ties: Vec::new(),

@@ -1,6 +1,6 @@
 //! The stiffness of surfaces in contact against differences of their forces.
 
-use crate::sheets::{SKIN, sheets, surface};
+use crate::sheets::{DISTANCES, sheets, surface};
 use drape_collide::{PinchPolicy, SurfaceContact, SurfaceSettings};
 
 const STICK: f64 = 1e-4;
@@ -8,9 +8,10 @@ const STICK: f64 = 1e-4;
 /// Of the differences, in m.
 const STEP: f64 = 1e-9;
 
-/// Sum of the forces on the free sheet when all of it is moved by a way.
-fn pull(contact: &mut SurfaceContact, positions: &[f64], way: [f64; 3]) -> [f64; 3] {
-    let moved: Vec<f64> = positions.iter().zip(way.iter().cycle()).map(|(x, w)| x + w).collect();
+/// Sum of the forces on the free sheet when all of it is moved by a displacement.
+fn pull(contact: &mut SurfaceContact, positions: &[f64], displacement: [f64; 3]) -> [f64; 3] {
+    let moved: Vec<f64> =
+        positions.iter().zip(displacement.iter().cycle()).map(|(x, w)| x + w).collect();
     let mut forces = vec![0.0; moved.len()];
     contact.add_forces(&moved, &mut forces);
     let mut sum = [0.0; 3];
@@ -34,8 +35,9 @@ fn sum_of_blocks(contact: &mut SurfaceContact, positions: &[f64]) -> [f64; 9] {
     sum
 }
 
-/// A flat sheet over a flat body neither turns nor bends the distances of its pairs, so what `add_stiffness` leaves out is
-/// zero for its motion as a whole: up and down against the barrier, and along against friction that holds or slides.
+/// A flat sheet over a flat body neither turns nor bends the distances of its pairs, so what
+/// `add_stiffness` leaves out is zero for its motion as a whole: up and down against the barrier,
+/// and along against friction that holds or slides.
 #[test]
 fn a_flat_sheet_meets_the_derivative_of_its_forces() {
     let (side, spacing) = (6, 5e-3);
@@ -48,9 +50,10 @@ fn a_flat_sheet_meets_the_derivative_of_its_forces() {
         friction_coefficients: vec![0.4; 4],
         pinch: PinchPolicy::Error,
     };
-    let height = 2.0 * SKIN.min_separation
-        + 0.36 * (2.0 * SKIN.activation_distance - 2.0 * SKIN.min_separation);
-    // No vertex is within activation_distance of an edge that it is not over: all pairs push straight up.
+    let height = 2.0 * DISTANCES.min_separation
+        + 0.36 * (2.0 * DISTANCES.activation_distance - 2.0 * DISTANCES.min_separation);
+    // No vertex is within activation distance of an edge that it is not over: all pairs push
+    // straight up.
     let offset = [0.45 * spacing, 0.2 * spacing, height];
     let start: Vec<f64> = bodies.iter().zip(offset.iter().cycle()).map(|(x, o)| x + o).collect();
     for (slip, slides) in [([0.3 * STICK, -0.2 * STICK], false), ([2.0 * STICK, 1.5 * STICK], true)]
@@ -58,23 +61,25 @@ fn a_flat_sheet_meets_the_derivative_of_its_forces() {
         let mut contact =
             SurfaceContact::new(surface(&parts), settings.clone(), bodies.clone()).unwrap();
         contact.begin(&start, &bodies);
-        let way = [slip[0], slip[1], 0.0];
+        let displacement = [slip[0], slip[1], 0.0];
         let positions: Vec<f64> =
-            start.iter().zip(way.iter().cycle()).map(|(x, w)| x + w).collect();
+            start.iter().zip(displacement.iter().cycle()).map(|(x, w)| x + w).collect();
         let stiffness = sum_of_blocks(&mut contact, &positions);
         let size = stiffness[8];
         assert!(size > 0.0 && contact.summary().touching > 50);
         for axis in 0..3 {
-            let ways =
+            let displacements =
                 [STEP, -STEP].map(|step| [0, 1, 2].map(|k| if k == axis { step } else { 0.0 }));
-            let [ahead, behind] = ways.map(|way| pull(&mut contact, &positions, way));
+            let [ahead, behind] =
+                displacements.map(|displacement| pull(&mut contact, &positions, displacement));
             for k in 0..3 {
                 let slope = (behind[k] - ahead[k]) / (2.0 * STEP);
                 let entry = stiffness[3 * k + axis];
                 assert!((slope - entry).abs() < 1e-5 * size, "{k} by {axis}: {entry}, not {slope}");
             }
         }
-        // Along the slip a pair that slides resists no more than it does already, and across it does.
+        // Along the slip a pair that slides resists no more than it does already, and across it
+        // does.
         let along = [0, 1].map(|k| stiffness[3 * k] * slip[0] + stiffness[3 * k + 1] * slip[1]);
         let across = stiffness[0] * slip[1] * slip[1] - 2.0 * stiffness[1] * slip[0] * slip[1]
             + stiffness[4] * slip[0] * slip[0];

@@ -58,7 +58,7 @@ fn the_edges_of_bodies_do_not_count_in_the_median() {
     assert_eq!(surface(&parts).median_edge_length(), sheet);
 }
 
-/// Two crumpled sheets and a way for them.
+/// Two crumpled sheets and a displacement for them.
 fn crumpled() -> (Surface, Vec<f64>, Vec<f64>) {
     let mut parts = sheets(2, 40, 5e-3);
     parts.distances.fill(ContactDistances { activation_distance: 3e-4, min_separation: 1e-4 });
@@ -72,27 +72,27 @@ fn crumpled() -> (Surface, Vec<f64>, Vec<f64>) {
             [0.3 * x[0], x[1], height]
         })
         .collect();
-    let way = positions.iter().map(|_| 2e-3 * dice.roll()).collect();
-    (surface(&parts), positions, way)
+    let displacement = positions.iter().map(|_| 2e-3 * dice.roll()).collect();
+    (surface(&parts), positions, displacement)
 }
 
-fn filtered(pairs: &CandidatePairs, positions: &[f64], way: &[f64]) -> (Vec<f64>, f64) {
+fn filtered(pairs: &CandidatePairs, positions: &[f64], displacement: &[f64]) -> (Vec<f64>, f64) {
     let mut filter = CcdFilter::default();
-    let mut shortened = way.to_vec();
+    let mut shortened = displacement.to_vec();
     filter.truncate(pairs, positions, &mut shortened).unwrap();
-    (shortened, filter.common_fraction(pairs, positions, way).unwrap().value)
+    (shortened, filter.common_fraction(pairs, positions, displacement).unwrap().value)
 }
 
 #[test]
 fn all_answers_have_the_same_bits_for_any_number_of_threads() {
-    let (surface, positions, way) = crumpled();
+    let (surface, positions, displacement) = crumpled();
     let answers = [1, 2, 3, 8].map(|threads| {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut detector = Detector::default();
             let pairs = detector.detect(&surface, &positions, 1e-3).unwrap();
-            let filtered = filtered(pairs, &positions, &way);
-            let met: Vec<f64> = positions.iter().zip(&way).map(|(x, w)| x + w).collect();
+            let filtered = filtered(pairs, &positions, &displacement);
+            let met: Vec<f64> = positions.iter().zip(&displacement).map(|(x, w)| x + w).collect();
             (pairs.as_slice().to_vec(), filtered, intersections(&surface, &met).unwrap())
         })
     });
@@ -109,7 +109,7 @@ fn all_answers_have_the_same_bits_for_any_number_of_threads() {
 
 #[test]
 fn a_detector_and_a_filter_forget_what_they_did_before() {
-    let (surface, positions, way) = crumpled();
+    let (surface, positions, displacement) = crumpled();
     let (other, flat) = {
         let parts = sheets(3, 9, 1e-3);
         (crate::sheets::surface(&parts), parts.rest_positions)
@@ -122,20 +122,20 @@ fn a_detector_and_a_filter_forget_what_they_did_before() {
     let mut new = Detector::default();
     let fresh = new.detect(&surface, &positions, 1e-3).unwrap();
     assert_eq!(pairs.as_slice(), fresh.as_slice());
-    let mut shortened = way.clone();
+    let mut shortened = displacement.clone();
     filter.truncate(pairs, &positions, &mut shortened).unwrap();
-    assert_eq!(shortened, filtered(fresh, &positions, &way).0);
+    assert_eq!(shortened, filtered(fresh, &positions, &displacement).0);
 }
 
 #[test]
 fn a_filtered_step_is_shorter_straight_and_stays_as_it_is() {
-    let (surface, positions, way) = crumpled();
-    let way: Vec<f64> = way.iter().map(|w| 0.1 * w).collect();
+    let (surface, positions, displacement) = crumpled();
+    let displacement: Vec<f64> = displacement.iter().map(|w| 0.1 * w).collect();
     let mut detector = Detector::default();
     let pairs = detector.detect(&surface, &positions, 1e-3).unwrap();
-    let (shortened, _) = filtered(pairs, &positions, &way);
+    let (shortened, _) = filtered(pairs, &positions, &displacement);
     let mut shares = [0; 3];
-    for (short, full) in shortened.chunks(3).zip(way.chunks(3)) {
+    for (short, full) in shortened.chunks(3).zip(displacement.chunks(3)) {
         let share = short[0] / full[0];
         assert!((0.0..=1.0).contains(&share), "{short:?} of {full:?}");
         assert!(short.iter().zip(full).all(|(s, f)| (s - share * f).abs() <= 1e-15 * f.abs()));
@@ -155,7 +155,7 @@ fn a_step_beyond_the_pairs_is_limited_or_refused() {
     let mut detector = Detector::default();
     let pairs = detector.detect(&surface, &positions, margin).unwrap();
     let mut filter = CcdFilter::default();
-    // All together, so that only the budget can be in the way.
+    // All together, so that only the budget can be in the displacement.
     let up: Vec<f64> = (0..positions.len()).map(|k| 1e-2 * f64::from(k % 3 == 1)).collect();
     let fraction = filter.common_fraction(pairs, &positions, &up).unwrap();
     assert_eq!(fraction.limit, StepLimit::DriftBudget);
@@ -182,15 +182,15 @@ fn a_step_beyond_the_pairs_is_limited_or_refused() {
 
 #[test]
 fn a_second_detection_allocates_nothing() {
-    let (surface, positions, way) = crumpled();
+    let (surface, positions, displacement) = crumpled();
     let pool = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     pool.install(|| {
         let (mut detector, mut filter) = (Detector::default(), CcdFilter::default());
-        let mut shortened = way.clone();
+        let mut shortened = displacement.clone();
         let mut work = || {
             let pairs = detector.detect(&surface, &positions, 1e-3).unwrap();
-            filter.common_fraction(pairs, &positions, &way).unwrap();
-            shortened.copy_from_slice(&way);
+            filter.common_fraction(pairs, &positions, &displacement).unwrap();
+            shortened.copy_from_slice(&displacement);
             filter.truncate(pairs, &positions, &mut shortened).unwrap();
         };
         work();
@@ -232,18 +232,20 @@ fn a_head_on_approach_of_any_length_leaves_a_tenth_of_the_room() {
     let pairs = detector.detect(&surface, &rest, 5e-3).unwrap();
     for share in [0.0, 0.02, 0.3, 0.5, 1.0] {
         for length in (1..60).map(|k| 0.05 * f64::from(k) * room) {
-            let way: Vec<f64> = (0..18)
+            let displacement: Vec<f64> = (0..18)
                 .map(|k| match (k % 3, k / 9) {
                     (2, 0) => length * share,
                     (2, _) => -length * (1.0 - share),
                     _ => 0.0,
                 })
                 .collect();
-            let left = |way: &[f64]| (rest[11] + way[11] - way[2] - min_separation) / room;
-            let wanted = left(&way);
-            let least = filter.common_fraction(pairs, &rest, &way).unwrap();
-            let scaled: Vec<f64> = way.iter().map(|w| least.value * w).collect();
-            let mut shortened = way.clone();
+            let left = |displacement: &[f64]| {
+                (rest[11] + displacement[11] - displacement[2] - min_separation) / room
+            };
+            let wanted = left(&displacement);
+            let least = filter.common_fraction(pairs, &rest, &displacement).unwrap();
+            let scaled: Vec<f64> = displacement.iter().map(|w| least.value * w).collect();
+            let mut shortened = displacement.clone();
             filter.truncate(pairs, &rest, &mut shortened).unwrap();
             // Rounding of the proof takes a billionth; the scalar filter stops a fiftieth short.
             for (left, most) in [(left(&scaled), 0.103), (left(&shortened), 0.15)] {

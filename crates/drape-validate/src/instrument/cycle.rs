@@ -3,11 +3,10 @@
 //! Tensile: to 500 gf/cm and back. Bending: between ±2.5 1/cm. Shear: between ±8°. The laws alone
 //! and the simulated instruments follow the same cycle.
 
-use drape_fabric::{Fabric, Law, TractionLaw};
+use drape_fabric::Fabric;
 use drape_kes::{Direction, Test};
 
-use super::ideal::laws;
-use crate::bisection::bisect;
+use super::yarn::{extension, laws};
 
 /// Load of the standard tensile test: 500 gf/cm in N/m.
 pub const LARGEST_TENSION: f64 = 490.3325;
@@ -20,9 +19,6 @@ const LARGEST_ANGLE: f64 = 8.0;
 
 /// Largest curvature of the bending test, 2.5 1/cm in 1/m.
 pub(crate) const LARGEST_CURVATURE: f64 = 250.0;
-
-/// Strain at which a tensile test is given up.
-const LARGEST_STRAIN: f64 = 0.5;
 
 /// Returns the deformations of a test, with so many points in a branch, in the units of a
 /// [`drape_kes::Curve`].
@@ -48,10 +44,4 @@ pub(super) fn path(turns: &[f64], points: usize) -> Vec<f64> {
         (1..=points).map(move |i| from + (to - from) * i as f64 / points as f64).collect::<Vec<_>>()
     };
     std::iter::once(turns[0]).chain(turns.windows(2).flat_map(branch)).collect()
-}
-
-/// Returns the strain at which a virgin specimen has a tension in N/m.
-pub(crate) fn extension(law: &TractionLaw, tension: f64) -> f64 {
-    let virgin = law.virgin();
-    bisect(0.0..LARGEST_STRAIN, |strain| law.respond(&virgin, strain).load < tension).high
 }

@@ -3,10 +3,11 @@
 //! The fabric deforms evenly, so strain, angle or curvature is that of the clamps, and the load per
 //! width is that of the law.
 
-use drape_fabric::{Fabric, Law, YarnLaws, drive};
+use drape_fabric::{Fabric, Law, drive};
 use drape_kes::{Curve, Direction, Test};
 
 use super::cycle::cycle;
+use super::yarn::laws;
 
 /// Returns the curve of an instrument that deforms the fabric evenly: that of the laws alone.
 ///
@@ -42,12 +43,4 @@ pub(crate) fn curve(
         load.truncate(end);
     }
     Curve::new(test, direction, path, load)
-}
-
-/// Returns the laws of a direction.
-pub(crate) fn laws(fabric: &Fabric, direction: Direction) -> &YarnLaws {
-    match direction {
-        Direction::Warp => &fabric.warp,
-        Direction::Weft => &fabric.weft,
-    }
 }

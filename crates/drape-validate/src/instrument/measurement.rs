@@ -9,10 +9,11 @@ use drape_fabric::Fabric;
 use drape_kes::{Curve, Direction, Test};
 
 use super::bias::on_the_bias;
-use super::cycle::{SHEAR_TENSION, cycle, extension};
-use super::ideal::{curve, laws};
+use super::cycle::{SHEAR_TENSION, cycle};
+use super::ideal::curve;
 use super::placement::{Place, Rows, bent};
 use super::specimen::{GAUGE, Specimen, WIDTH};
+use super::yarn::{extension, laws};
 use crate::error::ValidationError;
 
 /// Steps in which the tension of the shear test is put on.

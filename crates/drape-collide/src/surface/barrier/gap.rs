@@ -35,11 +35,11 @@ const PARALLEL: f64 = 1e-28;
 /// b(g) = -\tfrac14 \hat g^2 (\ln(2g/\hat g) - \tfrac12) \;\; (0 < g < \hat g/2)
 /// ```
 ///
-/// with `$\hat g = \hat d - \xi$` and the stiffness `$k$` in N/m³ ([Che25]); the mollifier `$m$`
-/// fades out two edges as they become parallel, where their closest points would jump ([Li20], §5).
-/// The sum over all pairs of vertices with triangles and of edges is continuous with its gradient,
-/// whatever features the closest points lie on. A closed gap, `$d \le \xi$`, has an infinite energy,
-/// and derivatives that are not finite.
+/// with `$\hat g = \hat d - \xi$` and the stiffness `$k$` in N/m³ \[Che25\]; the mollifier `$m$`
+/// fades out two edges as they become parallel, where their closest points would jump
+/// \[Li20, §5\]. The sum over all pairs of vertices with triangles and of edges is continuous with
+/// its gradient, whatever features the closest points lie on. A closed gap, `$d \le \xi$`, has an
+/// infinite energy, and derivatives that are not finite.
 #[derive(Debug, Clone)]
 pub struct Gap {
     closest: Closest,
@@ -90,8 +90,8 @@ impl Gap {
         self.distance - self.min_separation
     }
 
-    /// Unit normal `$n$` from the closest point of the second primitive to that of the first; zero if
-    /// they touch.
+    /// Unit normal `$n$` from the closest point of the second primitive to that of the first; zero
+    /// if they touch.
     #[must_use]
     pub fn normal(&self) -> [f64; 3] {
         self.normal
@@ -196,8 +196,8 @@ impl Gap {
 
     /// Adds a multiple of the second derivative of the distance.
     ///
-    /// `$D = \tfrac12 |p|^2$` is least over the fractions `$t$` of the closest points along the edges
-    /// `$e_k$` on which they slide. By the implicit function theorem
+    /// `$D = \tfrac12 |p|^2$` is least over the fractions `$t$` of the closest points along the
+    /// edges `$e_k$` on which they slide. By the implicit function theorem
     /// `$\nabla^2 D = D_{xx} - D_{xt} D_{tt}^{-1} D_{tx}$` with `$D_{xx} = w w^T \otimes I$`,
     /// `$D_{xt} = \partial_k w \otimes p + w \otimes e_k$` and `$D_{tt} = e_k \cdot e_l$`; then
     /// `$d \nabla^2 d = \nabla^2 D - \nabla d \nabla d^T$`.

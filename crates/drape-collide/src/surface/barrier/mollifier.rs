@@ -8,8 +8,8 @@ use crate::vector::{Vector, cross, dot, subtract};
 /// m = c (2 - c), \qquad c = \min(1, |e_1 \times e_2|^2 / \epsilon)
 /// ```
 ///
-/// with the threshold `$\epsilon$` of the pair ([Li20], eq. 24). It is continuous with its gradient,
-/// and 1 throughout for a vertex and a triangle.
+/// with the threshold `$\epsilon$` of the pair \[Li20, eq. 24\]. It is continuous with its
+/// gradient, and 1 throughout for a vertex and a triangle.
 #[derive(Debug, Clone)]
 pub(crate) struct Mollifier {
     along: Vector,
@@ -57,8 +57,8 @@ impl Mollifier {
         }
     }
 
-    /// Returns the derivative of `$|e_1 \times e_2|^2$`: `$2 (|e_2|^2 e_1 - (e_1 \cdot e_2) e_2)$` by
-    /// `$e_1$`, and likewise by `$e_2$`.
+    /// Returns the derivative of `$|e_1 \times e_2|^2$`: `$2 (|e_2|^2 e_1 - (e_1 \cdot e_2) e_2)$`
+    /// by `$e_1$`, and likewise by `$e_2$`.
     fn square_gradient(&self) -> [f64; 12] {
         let (a, b) = (self.along, self.other);
         let [aa, ab, bb] = [dot(a, a), dot(a, b), dot(b, b)];
@@ -70,7 +70,8 @@ impl Mollifier {
         })
     }
 
-    /// Returns the second derivative of `$|e_1 \times e_2|^2 = |e_1|^2 |e_2|^2 - (e_1 \cdot e_2)^2$`.
+    /// Returns the second derivative of
+    /// `$|e_1 \times e_2|^2 = |e_1|^2 |e_2|^2 - (e_1 \cdot e_2)^2$`.
     fn square_hessian(&self, row: usize, column: usize) -> f64 {
         let (i, j) = (row % 3, column % 3);
         let same = f64::from(i == j);

@@ -6,7 +6,7 @@ use crate::surface::geometry::{Primitives, Separations};
 use crate::surface::pair::{Pair, PairKind, closest, distance};
 use crate::vector::{Vector, add, at, subtract};
 
-/// Squared sine of the angle below which two edges count as parallel: 1.8° ([Li20], eq. 24).
+/// Squared sine of the angle below which two edges count as parallel: 1.8° \[Li20, eq. 24\].
 const PARALLEL: f64 = 1e-3;
 
 /// Distance below which two primitives are a pair.

@@ -10,8 +10,8 @@ use crate::surface::geometry::{ContactDistances, Primitives, RestProximity, Sepa
 /// More than this is a mistake of the input, and would take gigabytes.
 const CAPACITY: usize = 50_000_000;
 
-/// Smallest minimum separation of a pair that lies close at rest, in m: a thousand times the rounding
-/// of coordinates of 1 m, and far below any cloth.
+/// Smallest minimum separation of a pair that lies close at rest, in m: a thousand times the
+/// rounding of coordinates of 1 m, and far below any cloth.
 const LEAST: f64 = 1e-9;
 
 /// Returns the pairs of a group that lie within twice their activation distance at rest, sorted.

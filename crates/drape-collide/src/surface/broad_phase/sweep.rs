@@ -39,8 +39,8 @@ impl<'a> Sweep<'a> {
 
     /// Returns a bound of the decrease of the distance of two primitives, in m.
     ///
-    /// Two points of them move relative to each other by no more than their vertices do, and that is
-    /// largest at the ends of the trajectories.
+    /// Two points of them move relative to each other by no more than their vertices do, and that
+    /// is largest at the ends of the trajectories.
     pub(crate) fn largest_approach(self, kind: PairKind, vertices: [u32; 4]) -> f64 {
         let Some(flat) = self.displacements() else { return 0.0 };
         let displacements = vertices.map(|vertex| at(flat, vertex as usize));

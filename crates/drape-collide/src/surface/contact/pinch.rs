@@ -17,16 +17,16 @@ pub struct PinchedVertices {
     pub released: usize,
 }
 
-/// Room between two faces, over the sum of the minimum separations from them, below which they pinch
-/// cloth. At 1 the barriers of both would be infinite.
+/// Room between two faces, over the sum of the minimum separations from them, below which they
+/// pinch cloth. At 1 the barriers of both would be infinite.
 const CLOSED: f64 = 1.25;
 
 /// Cosine of the angle between the directions from two faces to the cloth below which the cloth is
 /// between them: 120°.
 const OPPOSED: f64 = -0.5;
 
-/// Distance over the minimum separation from which thinned cloth keeps all of it again: a usual load
-/// presses it less, so that the barrier which returns adds little energy.
+/// Distance over the minimum separation from which thinned cloth keeps all of it again: a usual
+/// load presses it less, so that the barrier which returns adds little energy.
 const REGAINED: f64 = 2.0;
 
 /// Face of a body near a vertex of cloth.

@@ -41,6 +41,14 @@ impl SurfaceSettings {
     /// Default of [`sticking_displacement`](SurfaceSettings::sticking_displacement), in m.
     pub const STICKING_DISPLACEMENT: f64 = 5e-6;
 
+    /// Settings with a stiffness, in N/m³, and coefficients of friction of each two groups, row by
+    /// row; the others have their defaults.
+    #[must_use]
+    pub fn new(stiffness: f64, friction_coefficients: Vec<f64>) -> SurfaceSettings {
+        let (sticking_displacement, pinch) = (Self::STICKING_DISPLACEMENT, PinchPolicy::default());
+        SurfaceSettings { stiffness, sticking_displacement, friction_coefficients, pinch }
+    }
+
     /// Returns the stiffness, in N/m³, at which two equal sheets under a pressure, in Pa, are at a
     /// distance, in m; infinite at the activation distance.
     ///

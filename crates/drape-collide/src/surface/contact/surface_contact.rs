@@ -387,8 +387,8 @@ impl SurfaceContact {
     }
 
     /// Increases the fraction of the distances that is kept in a step from the free vertices'
-    /// positions, in m, which is then to be opened: as much of the increment as the nearest pair has
-    /// room for, and never below the fraction of the last step.
+    /// positions, in m, which is then to be opened: as much of the increment as the nearest pair
+    /// has room for, and never below the fraction of the last step.
     pub fn grow_distances(&mut self, start: &[f64], increment: f64) {
         self.growth.work = 0.0;
         if self.growth.fraction >= 1.0 {

@@ -19,7 +19,8 @@ const DEGENERATE: f64 = 1e-30;
 pub(crate) struct Closest {
     /// Offset `$p = \sum w_i x_i$` from one closest point to the other, in m.
     pub(crate) offset: Vector,
-    /// Weights `$w_i$`: those of the primitive to which the offset leads sum to 1, the others to -1.
+    /// Weights `$w_i$`: those of the primitive to which the offset leads sum to 1, the others to
+    /// -1.
     pub(crate) weights: [f64; 4],
     /// Edges along which the closest points slide as the vertices move: weight passes from the
     /// first vertex to the second. Only `sliding` of them count.
@@ -64,7 +65,7 @@ fn to_segment(a: Vector, b: Vector) -> OnSegment {
 /// Returns the closest points of a vertex and a triangle; the offset leads from the triangle.
 ///
 /// The four points are the vertex and the corners. The nearest point lies inside the triangle or on
-/// an edge that the vertex is beyond (Voronoi regions, [Eri05], §5.1.5); for a sliver all are
+/// an edge that the vertex is beyond (Voronoi regions, \[Eri05\], §5.1.5); for a sliver all are
 /// compared.
 pub(crate) fn vertex_face([p, a, b, c]: [Vector; 4]) -> Closest {
     let corners = [subtract(p, a), subtract(p, b), subtract(p, c)];
@@ -115,7 +116,7 @@ pub(crate) fn vertex_face([p, a, b, c]: [Vector; 4]) -> Closest {
 
 /// Returns the closest points of two edges; the offset leads from the second to the first.
 ///
-/// The four points are the ends of the first and of the second. Fractions are clamped ([Eri05],
+/// The four points are the ends of the first and of the second. Fractions are clamped (\[Eri05\],
 /// §5.1.9); of nearly parallel edges all candidates are compared.
 pub(crate) fn edge_edge([p0, p1, q0, q1]: [Vector; 4]) -> Closest {
     let (along, other, gap) = (subtract(p1, p0), subtract(q1, q0), subtract(p0, q0));

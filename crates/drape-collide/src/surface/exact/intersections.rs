@@ -25,7 +25,7 @@ pub struct Intersection {
 ///
 /// Edges that share a vertex with the triangle, directly or through a seam, and pairs without a
 /// free vertex are left out. Of two triangles without a common vertex that meet, an edge of one
-/// always meets the other. The result is exact for the positions as they are rounded ([She97], by
+/// always meets the other. The result is exact for the positions as they are rounded (\[She97\], by
 /// the crate `robust`), unless coordinates differ from each other by less than 1e-60 m but not at
 /// all.
 ///

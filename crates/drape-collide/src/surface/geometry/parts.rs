@@ -7,7 +7,7 @@ use crate::vector::at;
 /// Distances of contact: of a pair of primitives, or half of them of a group.
 ///
 /// A pair of two groups has the sum of both. Its primitives repel each other below the activation
-/// distance `$\hat d$` and are kept above the minimum separation `$\xi$` ([Li21]).
+/// distance `$\hat d$` and are kept above the minimum separation `$\xi$` \[Li21\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactDistances {
     /// Activation distance `$\hat d$`, in m.
@@ -17,7 +17,7 @@ pub struct ContactDistances {
 }
 
 /// Parts of a [`Surface`](crate::Surface): vertices, of which the first are cloth, and triangles.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct SurfaceParts {
     /// Three coordinates per vertex at rest, in m; of cloth, those of its flat panel.
     ///

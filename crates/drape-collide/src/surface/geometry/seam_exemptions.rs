@@ -40,8 +40,8 @@ impl SeamExemptions {
         self.class[vertex as usize]
     }
 
-    /// Returns whether two primitives, given by the classes of their vertices, are exempt: they share
-    /// a vertex, or one has a vertex that is tied to two of the other.
+    /// Returns whether two primitives, given by the classes of their vertices, are exempt: they
+    /// share a vertex, or one has a vertex that is tied to two of the other.
     #[inline]
     pub(crate) fn exempt(&self, one: &[u32], other: &[u32]) -> bool {
         one.iter().any(|class| other.contains(class))

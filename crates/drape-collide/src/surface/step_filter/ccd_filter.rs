@@ -55,11 +55,11 @@ impl CcdFilter {
 
     /// Truncates the displacement of each vertex by as much as its own pairs need, in place.
     ///
-    /// Divide and truncate ([Che26]): two parallel planes between the closest points of a pair, as
+    /// Divide and truncate \[Che26\]: two parallel planes between the closest points of a pair, as
     /// far apart as the minimum separation, divide the room between them by the speeds at which the
     /// two approach. Each vertex stays on its side of all its planes, so one pair does not void the
-    /// proof of another, and the step loses its direction only where something is near. The vertices
-    /// of bodies move by a common fraction.
+    /// proof of another, and the step loses its direction only where something is near. The
+    /// vertices of bodies move by a common fraction.
     ///
     /// # Errors
     ///

@@ -68,7 +68,7 @@ pub(super) fn common_fraction(
 /// Returns a fraction of a step up to which a pair surely keeps a tenth of its clearance, at most a
 /// limit.
 ///
-/// Conservative advancement ([Mir96]) along the normal of the closest points: over the rest of the
+/// Conservative advancement \[Mir96\] along the normal of the closest points: over the rest of the
 /// step the heights of the vertices over a plane change by no more than they approach.
 fn advance(pair: &Pair, step: &Trial<'_>, limit: f64) -> f64 {
     let (points, displacements) = (pair.points(step.positions), step.displacements(pair));

@@ -51,7 +51,7 @@ mod tests {
     /// The pairs are those of the margin, but the filter is told another.
     fn drop_corner(
         safeguards: Safeguards,
-        (apart, way, steps): (f64, f64, usize),
+        (apart, drop, steps): (f64, f64, usize),
         (margin, told): (f64, f64),
     ) -> [(f64, bool); 2] {
         [false, true].map(|scalar| {
@@ -64,11 +64,11 @@ mod tests {
             let mut met = false;
             for _ in 0..steps {
                 let mut displacement = vec![0.0; positions.len()];
-                displacement[11] = -way;
+                displacement[11] = -drop;
                 if scalar {
-                    let share =
+                    let fraction =
                         filter.common_fraction(&pairs, &positions, &displacement).unwrap().value;
-                    displacement[11] *= share;
+                    displacement[11] *= fraction;
                 } else {
                     filter.truncate(&pairs, &positions, &mut displacement).unwrap();
                 }
@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn a_pair_without_room_is_frozen_or_it_crosses() {
         let min_separation = 2.0 * DISTANCES.min_separation;
-        // Half a nanometre of room, and a way that ends just behind the other triangle.
+        // Half a nanometre of room, and a displacement that ends just behind the other triangle.
         let drop = (min_separation + 5e-10, 1.1 * min_separation, 1);
         for (height, met) in drop_corner(Safeguards::default(), drop, (MARGIN, MARGIN)) {
             assert!(height >= min_separation && !met, "at {height}, met {met}");

@@ -10,8 +10,8 @@ const UNIT: f64 = 8.0 * f64::EPSILON;
 /// Plane through the closest points of two primitives: one above, one below.
 ///
 /// It proves their distance, however it was found: the first primitive is the hull of vertices that
-/// are all at least at `low`, the second of vertices that are all at most at `high`. Both are bounds
-/// with all rounding.
+/// are all at least at `low`, the second of vertices that are all at most at `high`. Both are
+/// bounds with all rounding.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SeparatingPlane {
     /// Unit normal to rounding; zero if the two touch.

@@ -107,7 +107,8 @@ impl Drift {
         Ok(())
     }
 
-    /// Returns the largest fraction of its displacement that keeps a vertex within the drift budget.
+    /// Returns the largest fraction of its displacement that keeps a vertex within the drift
+    /// budget.
     pub(super) fn budget_fraction(
         &self,
         pairs: &CandidatePairs,

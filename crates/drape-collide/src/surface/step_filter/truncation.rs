@@ -186,7 +186,8 @@ impl Truncator {
         }
     }
 
-    /// Takes vertices back to their start that are not surely on their side of a plane at their end.
+    /// Takes vertices back to their start that are not surely on their side of a plane at their
+    /// end.
     ///
     /// The planes hold at the start, so going back voids the proof of no other pair.
     fn take_back(&self, pairs: &CandidatePairs, positions: &[f64], displacements: &mut [f64]) {
