@@ -192,3 +192,78 @@ fn a_list_of_nowhere_fails() {
     let message = fails(folder.path(), &["fabric", "list", "nowhere"], 3);
     assert!(message.contains("nowhere"), "{message}");
 }
+
+/// Writes a mesh as OBJ.
+fn write_obj(path: &Path, vertices: &[[f64; 3]], triangles: &[[usize; 3]]) {
+    let lines = vertices.iter().map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+    let faces = triangles.iter().map(|t| {
+        let [a, b, c] = t.map(|vertex| vertex + 1);
+        format!("f {a} {b} {c}\n")
+    });
+    std::fs::write(path, lines.chain(faces).collect::<String>()).expect("writes");
+}
+
+#[test]
+fn a_body_that_is_open_is_reported_repaired_and_then_taken() {
+    let folder = started();
+    let folder = folder.path();
+    // A tent of four triangles on a square of 2 cm, which has lost its floor, one triangle turned.
+    let vertices =
+        [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [1.0, 0.0, 1.0], [-1.0, 0.0, 1.0], [0.0, 2.0, 0.0]];
+    let vertices = vertices.map(|vertex| vertex.map(|x| 0.01 * x));
+    write_obj(&folder.join("tent.obj"), &vertices, &[[0, 4, 1], [1, 4, 2], [2, 4, 3], [0, 3, 4]]);
+    let report = succeeds(folder, &["check", "tent.obj", "--scale", "1"]);
+    assert!(report.contains("not closed") && report.contains("hole: 4 edges"), "{report}");
+
+    let text = std::fs::read_to_string(folder.join("moving.toml")).expect("a scene");
+    let ball = text.find("[[collider.sphere]]").expect("a ball");
+    let mesh = "[[collider.mesh]]\nname = \"tent\"\nfile = \"tent.obj\"\n\n[contact]";
+    let after = text.find("[contact]").expect("contact") + "[contact]".len();
+    let scene = [&text[..ball], mesh, &text[after..]].concat();
+    std::fs::write(folder.join("tent.toml"), &scene).expect("writes");
+    let refused = fails(folder, &["check", "tent.toml"], 3);
+    let commands: Vec<&str> =
+        refused.split('`').filter(|part| part.starts_with("drape check")).collect();
+    let [_, mend] = commands[..] else { panic!("no remedy in: {refused}") };
+    let words: Vec<&str> = mend.split(' ').skip(1).collect();
+    let mended = succeeds(folder, &[&words[..], &["--scale", "1", "--spacing", "20"]].concat());
+    assert!(mended.contains("closed at"), "{mended}");
+    let named = refused.split("file = \"").last().and_then(|rest| rest.split('"').next());
+    let named = named.expect("a name");
+    std::fs::write(folder.join("tent.toml"), scene.replace("tent.obj", named)).expect("writes");
+    succeeds(folder, &["check", "tent.toml"]);
+}
+
+#[test]
+fn a_body_in_centimetres_is_asked_for_its_unit() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let body = std::fs::read_to_string(root.join("scenes/bodies/body.obj")).expect("a body");
+    let centimetres = |line: &str| match line.strip_prefix("v ") {
+        Some(numbers) => {
+            let numbers = numbers.split_whitespace().map(|x| x.parse::<f64>().expect("a number"));
+            let numbers: Vec<String> = numbers.map(|x| format!("{}", 100.0 * x)).collect();
+            format!("v {}\n", numbers.join(" "))
+        }
+        None => format!("{line}\n"),
+    };
+    std::fs::write(folder.join("body.obj"), body.lines().map(centimetres).collect::<String>())
+        .expect("writes");
+    let skirt = std::fs::read_to_string(root.join("scenes/skirt.toml")).expect("a scene");
+    let patterns = format!("{}/scenes/patterns", root.display());
+    let fabrics = format!("{}/fabrics", root.display());
+    let scene = skirt
+        .replace("\"patterns/", &format!("\"{patterns}/"))
+        .replace("../fabrics", &fabrics)
+        .replace("bodies/body.obj", "body.obj")
+        .replace("spacing = 0.01", "spacing = 0.03");
+    std::fs::write(folder.join("skirt.toml"), &scene).expect("writes");
+    let refused = fails(folder, &["check", "skirt.toml"], 3);
+    assert!(refused.contains("scale = 0.01"), "{refused}");
+    let mended = scene.replace("file = \"body.obj\"", "file = \"body.obj\"\nscale = 0.01");
+    std::fs::write(folder.join("skirt.toml"), mended).expect("writes");
+    succeeds(folder, &["check", "skirt.toml"]);
+    let report = succeeds(folder, &["check", "body.obj"]);
+    assert!(report.contains("centimetres") && report.contains("closed"), "{report}");
+}

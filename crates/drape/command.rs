@@ -75,8 +75,8 @@ enum Command {
     /// Tests specimens of a fabric in simulated KES instruments and compares the loops with its
     /// laws.
     Test(TestArguments),
-    /// Checks scenes, fabrics, sheets and patterns without simulating, and the frames of a run for
-    /// intersections.
+    /// Checks scenes, fabrics, sheets, patterns and bodies without simulating, and the frames of a
+    /// run for intersections.
     Check(CheckArguments),
     /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
     Bench(BenchArguments),

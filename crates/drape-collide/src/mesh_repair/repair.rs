@@ -192,10 +192,8 @@ fn thinned(mesh: &mut Triangulation, settings: &RepairSettings) -> Option<Repair
     }
     Mesh::new(&mesh.vertices, &mesh.triangles).ok()?;
     let from = mesh.triangles.len();
-    let mut limits = ThinningLimits {
-        distance: settings.thinning_distance,
-        edge_length: settings.edge_length,
-    };
+    let mut limits =
+        ThinningLimits { distance: settings.thinning_distance, edge_length: settings.edge_length };
     for _ in 0..ATTEMPTS {
         let mut thin_mesh = mesh.clone();
         thin(&mut thin_mesh, limits);
