@@ -1,66 +1,114 @@
-//! The command line: which commands there are. Their arguments stand with them, in the modules of
-//! [`commands`](crate::commands).
+//! The command line: which commands there are, and the options that all of them have. Their own
+//! arguments stand with them, in the modules of [`commands`](crate::commands).
 
-use clap::Parser;
+use clap::{Args, Parser, Subcommand};
 
 use crate::commands::bench::{self, BenchArguments};
 use crate::commands::check::{self, CheckArguments};
 use crate::commands::convert::{self, ConvertArguments};
 use crate::commands::fabric::{self, FabricCommand};
 use crate::commands::fit::{self, FitArguments};
+use crate::commands::new::{self, NewArguments};
 use crate::commands::run::{self, RunArguments};
+use crate::commands::shell::{self, CompletionsArguments, ManArguments};
 use crate::commands::test::{self, TestArguments};
 use crate::commands::validate::{self, ValidateArguments};
+use crate::console::{Console, ProgressKind};
 use crate::failure::Failure;
+
+/// Codes that the program exits with, for the end of the help.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done
+  2    usage: arguments that do not fit together, or results that are there already
+  3    wrong input: files with mistakes
+  4    surfaces intersect
+  5    the solver failed, or the cloth did not come to rest
+  6    a file could not be read or written
+  7    a figure of the validation is beyond its limit
+  130  interrupted (143: terminated); summary, last frame and picture are written
+
+Results that are there already, of a run, a fit or `new`, are replaced with --force only; pages and
+figures are replaced always. Data go to stdout, messages and progress to stderr; NO_COLOR=1 turns
+colours off.";
 
 /// From measured fabric to moving cloth.
 #[derive(Parser)]
-#[command(name = "drape", version, propagate_version = true)]
-pub(crate) enum Command {
+#[command(name = "drape", version, propagate_version = true, after_long_help = EXIT_CODES)]
+pub(crate) struct CommandLine {
+    #[command(flatten)]
+    options: Options,
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// Options of every command.
+#[derive(Args)]
+#[command(next_help_heading = "Options of every command")]
+struct Options {
+    /// Number of threads [default: all; 1 for bench].
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Prints results, warnings and errors only.
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Prints a line for every step of a simulation, with what makes it slow.
+    #[arg(short, long, global = true)]
+    verbose: bool,
+    /// Progress on stderr.
+    #[arg(long, global = true, value_enum, default_value = "auto", value_name = "KIND")]
+    progress: ProgressKind,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Writes a commented file to start from: a scene, a sheet or a pattern.
+    New(NewArguments),
     /// Identifies a fabric from KES curves or values and writes fabric.toml.
     Fit(FitArguments),
     /// Lists fabrics, shows one, compares two.
     #[command(subcommand)]
     Fabric(FabricCommand),
-    /// Simulates a scene: frames, a picture and summary.json.
+    /// Simulates scenes: frames, a picture and summary.json of each.
     Run(RunArguments),
     /// Compares simulations with exact solutions and measurements.
     Validate(ValidateArguments),
     /// Tests specimens of a fabric in simulated KES instruments and compares the loops with its
     /// laws.
     Test(TestArguments),
-    /// Checks scenes, fabrics, sheets and patterns without simulating, and the frames of a run for
-    /// intersections.
+    /// Checks scenes, fabrics, sheets, patterns and bodies without simulating, and the frames of a
+    /// run for intersections.
     Check(CheckArguments),
     /// Converts patterns: GarmentCode, FreeSewing, SVG and DXF to TOML, and patterns to SVG at true
     /// scale, for a plotter or on pages of paper.
     Convert(ConvertArguments),
     /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
     Bench(BenchArguments),
+    /// Prints the completions of a shell.
+    Completions(CompletionsArguments),
+    /// Prints the manual page, or writes one for each command.
+    Man(ManArguments),
 }
 
-impl Command {
+impl CommandLine {
     /// Executes the command on a thread of the pool: work that comes from another thread is handed
     /// over each time.
     pub(crate) fn execute(&self) -> Result<(), Failure> {
-        if let Some(threads) = self.threads() {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+        let Options { threads, quiet, verbose, progress } = self.options;
+        Console { quiet, verbose, progress }.install();
+        let bench = matches!(self.command, Command::Bench(_)).then_some(1);
+        if let Some(threads) = threads.or(bench) {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
             pool.map_err(|error| Failure::Usage(format!("--threads {threads}: {error}")))?;
         }
-        rayon::scope(|_| self.dispatch())
+        rayon::scope(|_| self.command.execute())
     }
+}
 
-    /// Number of threads that the arguments ask for.
-    fn threads(&self) -> Option<usize> {
+impl Command {
+    fn execute(&self) -> Result<(), Failure> {
         match self {
-            Self::Run(arguments) => arguments.threads,
-            Self::Bench(arguments) => Some(arguments.threads),
-            _ => None,
-        }
-    }
-
-    fn dispatch(&self) -> Result<(), Failure> {
-        match self {
+            Self::New(arguments) => new::new(arguments),
             Self::Fit(arguments) => fit::fit(arguments),
             Self::Fabric(command) => fabric::fabric(command),
             Self::Run(arguments) => run::run(arguments),
@@ -69,6 +117,8 @@ impl Command {
             Self::Check(arguments) => check::check(arguments),
             Self::Convert(arguments) => convert::convert(arguments),
             Self::Bench(arguments) => bench::bench(arguments),
+            Self::Completions(arguments) => shell::completions(arguments),
+            Self::Man(arguments) => shell::man(arguments),
         }
     }
 }

@@ -7,6 +7,8 @@ use std::process::ExitCode;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
 
+use crate::console::{is_coloured, printable, tell, tell_coloured};
+
 /// Failure that ends a command, with its exit code.
 pub(crate) enum Failure {
     /// Exit code 2: the arguments do not fit together.
@@ -25,6 +27,10 @@ pub(crate) enum Failure {
     Solver(String),
     /// Exit code 7: a figure is beyond its limit.
     Limit(String),
+    /// Exit code 128 and the number of the signal: the program was asked to end.
+    Interrupted { signal: u8, message: String },
+    /// The code of the first failure of several, each of which was reported.
+    Several { code: u8 },
     /// Exit code 6: a file could not be written.
     Output(String),
 }
@@ -33,26 +39,32 @@ impl Failure {
     /// Prints the failure and returns its exit code.
     pub(crate) fn report(&self) -> ExitCode {
         self.print();
-        ExitCode::from(match self {
+        ExitCode::from(self.code())
+    }
+
+    /// Returns the exit code.
+    pub(crate) fn code(&self) -> u8 {
+        match self {
             Self::Usage(_) => 2,
             Self::Input(_) | Self::Fit(_) | Self::Frames(_) | Self::Batch => 3,
             Self::Intersecting(_) => 4,
             Self::Solver(_) => 5,
             Self::Output(_) => 6,
             Self::Limit(_) => 7,
-        })
+            Self::Interrupted { signal, .. } => 128 + signal,
+            Self::Several { code } => *code,
+        }
     }
 
     /// Prints the failure, with the lines of the input that caused it.
-    #[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
     pub(crate) fn print(&self) {
         match self {
             Self::Input(mistakes) => {
-                mistakes.shown().iter().for_each(|mistake| eprintln!("{}", render(mistake)));
-                mistakes.rest().iter().for_each(|rest| eprintln!("error: {rest}"));
+                mistakes.shown().iter().for_each(|mistake| tell_coloured(render(mistake)));
+                mistakes.rest().iter().for_each(|rest| tell(format_args!("error: {rest}")));
             }
-            Self::Batch => {}
-            other => eprintln!("error: {other}"),
+            Self::Batch | Self::Several { .. } => {}
+            other => tell(format_args!("error: {other}")),
         }
     }
 }
@@ -80,7 +92,9 @@ impl fmt::Display for Failure {
             | Self::Intersecting(message)
             | Self::Solver(message)
             | Self::Output(message)
-            | Self::Limit(message) => f.write_str(message),
+            | Self::Limit(message)
+            | Self::Interrupted { message, .. } => f.write_str(message),
+            Self::Several { .. } => f.write_str("not all scenes could be run"),
             Self::Input(mistakes) => mistakes.fmt(f),
             Self::Fit(error) => error.fmt(f),
             Self::Frames(error) => error.fmt(f),
@@ -131,20 +145,31 @@ impl From<drape::dynamics::Error> for Failure {
 
 /// Returns a mistake as text, with the line of its file.
 fn render(mistake: &Diagnostic) -> String {
-    let path = mistake.file.display().to_string();
+    let plain = || printable(&format!("error: {mistake}")).into_owned();
     let source = mistake.span.as_ref().and_then(|_| std::fs::read_to_string(&mistake.file).ok());
     let (Some(source), Some(span)) = (source, mistake.span.clone()) else {
-        return format!("error: {mistake}");
+        return plain();
     };
     let source = source.trim_start_matches('\u{feff}');
     if source.get(span.clone()).is_none() {
-        return format!("error: {mistake}");
+        return plain();
     }
+    let source = masked(source);
+    let path = mistake.file.display().to_string();
+    let [path, message] = [&path, &mistake.message].map(|text| printable(text).into_owned());
+    let help = mistake.help.as_deref().map(|help| printable(help).into_owned());
     let annotation = AnnotationKind::Primary.span(span);
-    let snippet = Snippet::source(source).path(&path).annotation(annotation);
-    let mut group = Level::ERROR.primary_title(&mistake.message).element(snippet);
-    if let Some(help) = &mistake.help {
+    let snippet = Snippet::source(&*source).path(&path).annotation(annotation);
+    let mut group = Level::ERROR.primary_title(&message).element(snippet);
+    if let Some(help) = &help {
         group = group.element(Level::HELP.message(help));
     }
-    Renderer::plain().render(&[group])
+    let renderer = if is_coloured() { Renderer::styled() } else { Renderer::plain() };
+    renderer.render(&[group])
+}
+
+/// Replaces every byte of control characters, so that places in the text stay where they are.
+fn masked(source: &str) -> String {
+    let kept = |c: char| !c.is_control() || matches!(c, '\n' | '\r' | '\t');
+    source.chars().map(|c| if kept(c) { c.to_string() } else { "?".repeat(c.len_utf8()) }).collect()
 }

@@ -1,8 +1,8 @@
 //! The `drape` command: see `drape --help`.
 //!
 //! From the top down: [`command`] reads the arguments, one module of [`commands`] carries each
-//! command out, [`pages`] turns its results into pages and pictures, and [`say`], [`file`],
-//! [`progress`] and [`failure`] are all that writes.
+//! command out, [`pages`] turns its results into pages and pictures, and [`console`], [`file`],
+//! [`progress`] and [`failure`] are all that writes. [`signal`] notes what asks the program to end.
 
 use std::process::ExitCode;
 
@@ -16,13 +16,16 @@ mod commands;
 mod pages;
 
 // Where it goes: stdout, files, stderr, the exit code.
+mod console;
 mod failure;
 mod file;
 mod progress;
-mod say;
+
+// What ends it early.
+mod signal;
 
 fn main() -> ExitCode {
-    let command = command::Command::parse();
+    let command = command::CommandLine::parse();
     match command.execute() {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),

@@ -281,6 +281,21 @@ pub(crate) fn check(
 /// coordinates are a mistake of unit, and boxes of a tree would overflow.
 const MAX_COORDINATE: f64 = 1e6;
 
+impl Error {
+    /// Returns whether the error is a fault of a surface that [`repair`](crate::repair) may mend.
+    #[must_use]
+    pub fn is_fault_of_surface(&self) -> bool {
+        matches!(
+            self,
+            Self::FlatTriangle { .. }
+                | Self::OpenMesh { .. }
+                | Self::NonManifoldMesh { .. }
+                | Self::InconsistentOrientation { .. }
+                | Self::NoVolume { .. }
+        )
+    }
+}
+
 /// Checks that a position is finite and within [`MAX_COORDINATE`].
 pub(crate) fn check_position(what: impl FnOnce() -> String, place: [f64; 3]) -> Result<(), Error> {
     // Written so that NaN fails.

@@ -7,6 +7,7 @@ mod vector;
 // Bodies, and the files of their meshes.
 mod body;
 mod mesh_io;
+mod mesh_repair;
 
 // Contact: the barrier, of particles with bodies, and of surfaces with each other and with bodies.
 mod barrier;
@@ -16,6 +17,9 @@ mod surface;
 pub use body::{Body, Mesh, Pose, Shape, SignedDistance};
 pub use error::Error;
 pub use mesh_io::{PointCache, Triangulation, read_mesh};
+pub use mesh_repair::{
+    EdgeLengths, Hole, MeshInspection, Places, RepairNote, RepairSettings, Repaired, repair,
+};
 pub use particle::{NearestParticle, ParticleContact, ParticleSettings, ParticleSummary};
 pub use surface::{
     CandidatePairs, CcdFilter, ContactDistances, Detector, FrictionEnergy, Gap, GaussNewton,

@@ -76,8 +76,8 @@ pub struct Simulation {
     statistics: Statistics,
     last: LastStep,
     outcome: Outcome,
-    /// Number of the last frame.
-    frame: usize,
+    /// Times of the frames so far, in s.
+    frame_times: Vec<f64>,
     /// Smallest distance of particles before deformation, in m.
     spacing: f64,
     scene_hash: String,
@@ -132,6 +132,8 @@ pub struct Step {
     pub report: Report,
     /// Warnings about what happened in it: a seam that was sewn stretched, a garment that slid.
     pub events: Vec<String>,
+    /// Phase of the run.
+    pub phase: PhaseName,
     /// Whether the simulation is over.
     pub finished: bool,
 }
@@ -147,6 +149,11 @@ pub trait Progress {
     /// Whatever keeps the frame from being stored; the run then ends with it.
     fn frame(&mut self, _frame: &Frame) -> Result<(), Error> {
         Ok(())
+    }
+
+    /// Returns whether the run is to end after this step, as if it were asked to by a person.
+    fn is_interrupted(&self) -> bool {
+        false
     }
 }
 
@@ -197,7 +204,7 @@ impl Simulation {
                 measures: serde_json::Map::new(),
                 place: None,
             },
-            frame: 0,
+            frame_times: Vec::new(),
             spacing,
             scene_hash,
             stopwatch: Stopwatch::start(),
@@ -221,7 +228,7 @@ impl Simulation {
     pub fn frame(&self) -> Frame {
         let bodies = self.world.contact.triangulations();
         Frame {
-            number: self.frame,
+            number: self.frame_times.len(),
             time: self.time(),
             positions: self.world.state.positions.clone(),
             bodies: bodies.into_iter().flat_map(|body| body.vertices).flatten().collect(),
@@ -257,6 +264,12 @@ impl Simulation {
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         self.world.cloth.triangles()
+    }
+
+    /// Returns the criteria of rest, where the scene asks for it.
+    #[must_use]
+    pub fn rest_criteria(&self) -> Option<Relaxation> {
+        self.rest.criteria
     }
 
     /// Returns whether the scene asks for rest.
@@ -321,6 +334,7 @@ impl Simulation {
             imbalance,
             report,
             events: self.outcome.events[told..].to_vec(),
+            phase: self.phase(),
             finished: self.is_at_rest() || self.outcome.status != Status::Ok || over,
         })
     }
@@ -330,7 +344,7 @@ impl Simulation {
     /// # Errors
     /// Only those of the watcher.
     pub fn run(&mut self, progress: &mut dyn Progress) -> Result<Summary, Error> {
-        progress.frame(&self.frame())?;
+        self.emit_frame(progress)?;
         let ticks_per_frame = self.stepping.clock().ticks_per_frame;
         loop {
             let frames = self.stepping.ticks() / ticks_per_frame;
@@ -343,10 +357,14 @@ impl Simulation {
                 }
             };
             progress.step(&step, self.stepping.ticks());
+            let interrupted = !step.finished && progress.is_interrupted();
             let due = self.stepping.ticks() / ticks_per_frame > frames;
-            if step.finished || due || self.phases.begun.len() > phases {
-                self.frame += 1;
-                progress.frame(&self.frame())?;
+            if step.finished || interrupted || due || self.phases.begun.len() > phases {
+                self.emit_frame(progress)?;
+            }
+            if interrupted {
+                self.outcome.status = Status::Interrupted;
+                break;
             }
             if step.finished {
                 if self.outcome.status == Status::Ok && self.settles() && !self.has_settled() {
@@ -363,6 +381,18 @@ impl Simulation {
         Ok(self.summary())
     }
 
+    /// Hands the next frame to the watcher.
+    fn emit_frame(&mut self, progress: &mut dyn Progress) -> Result<(), Error> {
+        progress.frame(&self.frame())?;
+        self.frame_times.push(self.time());
+        Ok(())
+    }
+
+    /// Returns the phase that the run is in.
+    fn phase(&self) -> PhaseName {
+        self.phases.begun.last().map_or(PhaseName::Simulate, |phase| phase.name)
+    }
+
     /// Returns the summary of the run so far.
     #[must_use]
     pub fn summary(&self) -> Summary {
@@ -376,7 +406,8 @@ impl Simulation {
             particles: cloth.particles(),
             phases: self.phases.begun.clone(),
             steps: self.statistics.steps,
-            frames: self.frame + 1,
+            frames: self.frame_times.len(),
+            frame_times: self.frame_times.clone(),
             simulated_seconds: self.time(),
             wall_seconds: self.stopwatch.wall_seconds(),
             cpu_seconds: self.stopwatch.cpu_seconds(),
@@ -402,7 +433,7 @@ impl Simulation {
 
     /// Begins a phase, whose first frame is the next one.
     fn begin_phase(&mut self, name: PhaseName) {
-        let (start, frame) = (self.time(), self.frame + 1);
+        let (start, frame) = (self.time(), self.frame_times.len());
         self.phases.begun.push(Phase { name, start, frame });
     }
 

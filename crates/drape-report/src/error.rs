@@ -10,6 +10,17 @@ pub enum Error {
     #[error("the scene has no triangles; give it a cloth or a body")]
     EmptyScene,
 
+    /// The light was computed for other shapes.
+    #[error(
+        "the light is on {lit} points and the scene has {points}; compute the light of this scene"
+    )]
+    OtherShapes {
+        /// Number of lit points of the scene.
+        points: usize,
+        /// Number of points of the light.
+        lit: usize,
+    },
+
     /// A list of a surface has a wrong length.
     #[error("{surface}: {what} has {length} numbers, not {expected}")]
     BadLength {

@@ -32,4 +32,7 @@ pub use page::{
     ValidationRow, Verdict,
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
-pub use render::{Camera, Colour, Picture, Scene, ScreenPoint, Surface, View, diverging, render};
+pub use render::{
+    Camera, Colour, Picture, Scene, ScreenPoint, SkyLight, Surface, View, diverging, render,
+    render_lit,
+};

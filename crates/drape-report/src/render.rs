@@ -29,13 +29,14 @@ pub use camera::{Camera, ScreenPoint, View};
 pub use colour::{Colour, diverging};
 pub use picture::Picture;
 pub use scene::{Scene, Surface};
+pub use sky::SkyLight;
 
 use rayon::prelude::*;
 
 use crate::error::Error;
 use raster::{BAND, Band};
 use screen::ScreenFacet;
-use shade::Shader;
+use shade::{LitScene, Shader};
 use tessellation::Tessellation;
 
 /// Draws a scene.
@@ -51,11 +52,30 @@ use tessellation::Tessellation;
 /// A scene without triangles, bad lists or coordinates, a number of the view out of range.
 pub fn render(scene: &Scene, view: &View) -> Result<Picture, Error> {
     let camera = view.camera(scene)?;
-    let tessellation = Tessellation::new(scene, view.body_depth_bias);
-    let shader = Shader::new(scene, &tessellation, &camera, view);
-    let indices = 0..tessellation.facets.len();
+    let tessellation = Tessellation::new(scene);
+    let sky = SkyLight::on(&tessellation);
+    Ok(draw(LitScene { scene, sky: &sky }, &tessellation, &camera, view))
+}
+
+/// Draws a scene with the light of the sky that another picture of the same shapes has.
+///
+/// # Errors
+/// Those of [`render`], or light of other shapes.
+pub fn render_lit(scene: &Scene, view: &View, sky: &SkyLight) -> Result<Picture, Error> {
+    let camera = view.camera(scene)?;
+    let tessellation = Tessellation::new(scene);
+    let points = tessellation.lit_points.len();
+    if sky.len() != points {
+        return Err(Error::OtherShapes { points, lit: sky.len() });
+    }
+    Ok(draw(LitScene { scene, sky }, &tessellation, &camera, view))
+}
+
+fn draw(lit: LitScene, tessellation: &Tessellation, camera: &Camera, view: &View) -> Picture {
+    let shader = Shader::new(lit, tessellation, camera, view);
+    let facets = tessellation.facets.iter();
     let facets: Vec<ScreenFacet> =
-        indices.filter_map(|index| ScreenFacet::project(&tessellation, index, &camera)).collect();
+        facets.filter_map(|facet| ScreenFacet::project(tessellation, facet, camera)).collect();
 
     let height = view.height as usize;
     let tops: Vec<usize> = (0..height).step_by(BAND).collect();
@@ -66,5 +86,5 @@ pub fn render(scene: &Scene, view: &View) -> Result<Picture, Error> {
             |band, top| band.paint(&facets, &shader, top..(top + BAND).min(height)),
         )
         .collect();
-    Ok(Picture::new(view.width, view.height, bands.concat()))
+    Picture::new(view.width, view.height, bands.concat())
 }

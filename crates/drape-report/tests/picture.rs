@@ -2,19 +2,13 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_report::{Picture, Scene, ScreenPoint, Surface, View, render};
+use drape_report::{Picture, Scene, ScreenPoint, SkyLight, Surface, View, render, render_lit};
 use std::f64::consts::{PI, TAU};
 
 type Shape = (Vec<f64>, Vec<[u32; 3]>);
 
-const SMALL: View = View {
-    azimuth_deg: 25.0,
-    elevation_deg: 30.0,
-    field_deg: 24.0,
-    width: 400,
-    height: 300,
-    body_depth_bias: 0.0,
-};
+const SMALL: View =
+    View { azimuth_deg: 25.0, elevation_deg: 30.0, field_deg: 24.0, width: 400, height: 300 };
 
 fn sphere(radius: f64, center: [f64; 3]) -> Shape {
     let (around, down) = (128, 64);
@@ -184,10 +178,10 @@ fn a_depth_bias_hides_the_edge_that_dips_through_the_cloth() {
     let (lid, _) = square(0.5, 0.0, 4);
     let (table, _) = square(0.4, 2e-3, 4);
     let grey_pixels = |body_depth_bias: f64, bodies: Vec<Surface>| {
-        let scene = Scene { cloths: vec![cloth(&lid)], bodies, ..Scene::default() };
-        let view = View { body_depth_bias, ..SMALL };
+        let cloths = vec![cloth(&lid)];
+        let scene = Scene { cloths, bodies, body_depth_bias, ..Scene::default() };
         let grey = |p: [u8; 3]| p != [255; 3] && p[0].abs_diff(p[2]) < 6;
-        count(&render(&scene, &view).unwrap(), grey)
+        count(&render(&scene, &SMALL).unwrap(), grey)
     };
     let body = vec![Surface::body(&table.0, &table.1)];
     let [through, hidden] = [0.0, 5e-3].map(|bias| grey_pixels(bias, body.clone()));
@@ -226,6 +220,7 @@ fn the_same_scene_gives_the_same_bytes() {
         cloths: vec![cloth(&shape).with_lines(&coordinates, 0.1)],
         bodies: vec![Surface::body(&ball.0, &ball.1)],
         floor: Some(-0.25),
+        ..Scene::default()
     };
     let with_threads = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -234,6 +229,9 @@ fn the_same_scene_gives_the_same_bytes() {
     let reference = with_threads(1);
     assert!(with_threads(1) == reference, "a second run differs");
     assert!(with_threads(3) == reference, "three threads differ");
+    let light = SkyLight::new(&scene).unwrap();
+    let lit = render_lit(&scene, &SMALL, &light).unwrap().png().unwrap();
+    assert!(lit == reference, "light computed beforehand differs");
 }
 
 #[test]

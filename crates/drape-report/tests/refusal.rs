@@ -2,16 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_report::{Error, Scene, Surface, View, render};
+use drape_report::{Error, Scene, SkyLight, Surface, View, render, render_lit};
 
-const SMALL: View = View {
-    azimuth_deg: 25.0,
-    elevation_deg: 30.0,
-    field_deg: 24.0,
-    width: 160,
-    height: 120,
-    body_depth_bias: 0.0,
-};
+const SMALL: View =
+    View { azimuth_deg: 25.0, elevation_deg: 30.0, field_deg: 24.0, width: 160, height: 120 };
 
 type Shape = (Vec<f64>, Vec<[u32; 3]>);
 
@@ -66,12 +60,17 @@ fn invalid_scenes_and_views_are_refused() {
         View { azimuth_deg: f64::NAN, ..SMALL },
         View { elevation_deg: 91.0, ..SMALL },
         View { field_deg: 0.0, ..SMALL },
-        View { body_depth_bias: -1.0, ..SMALL },
     ];
     for view in views {
         let error = refused(&scene, &view);
         assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
     }
+    let biased = Scene { body_depth_bias: -1.0, ..scene.clone() };
+    let error = refused(&biased, &SMALL);
+    assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
+    let light = SkyLight::new(&Scene { floor: Some(0.0), ..scene.clone() }).unwrap();
+    let error = render_lit(&scene, &SMALL, &light).expect_err("light of other shapes");
+    assert!(matches!(error, Error::OtherShapes { .. }), "{error}");
     let picture = render(&scene, &SMALL).unwrap();
     let error = picture.save("no/such/folder/picture.png").expect_err("nowhere");
     assert!(error.to_string().contains("no/such/folder"), "{error}");

@@ -9,18 +9,15 @@ use drape::input::Document;
 use drape::scene::Scene;
 use serde_json::json;
 
+use crate::console::say;
 use crate::failure::Failure;
 use crate::progress;
-use crate::say::say;
 
 #[derive(Args)]
 pub(crate) struct BenchArguments {
     /// Particles along a side of the square, one run each.
     #[arg(long, value_delimiter = ',', default_value = "20,50,100", value_name = "N,…")]
     sizes: Vec<usize>,
-    /// Number of threads.
-    #[arg(long, default_value_t = 1, value_name = "N")]
-    pub(crate) threads: usize,
     /// Length of a step, in seconds.
     #[arg(long, default_value_t = 0.005, value_name = "SECONDS")]
     step: f64,

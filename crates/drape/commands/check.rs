@@ -1,9 +1,11 @@
 //! `drape check`: reads scenes, fabrics, sheets and patterns without simulating, and verifies the
 //! frames of runs.
 //!
-//! [`describe`] says in SI what a file holds, [`pattern`] how a pattern is cut; [`frames`] reads
+//! [`describe`] says in SI what a file holds, [`pattern`] how a pattern is cut, [`body`] what a
+//! mesh is and how it is repaired; [`frames`] reads
 //! the folders of runs by `drape::verify`, which shares no code with the simulation.
 
+mod body;
 mod describe;
 mod frames;
 mod pattern;
@@ -11,26 +13,39 @@ mod pattern;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use drape::input::Diagnostics;
+use drape::input::{Diagnostic, Diagnostics};
+use serde_json::{Value, json};
 
+use self::body::Measure;
 use self::describe::describe;
 use self::pattern::CutOut;
+use crate::console::say;
 use crate::failure::Failure;
 use crate::file;
-use crate::say::say;
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {
-    /// Scenes, fabrics, sheets, patterns, or folders of runs.
+    /// Scenes, fabrics, sheets, patterns, bodies (OBJ, STL, PLY), or folders of runs.
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
     /// Draws the cut panels of a pattern, with the sides of a seam in one colour, as an SVG file.
     #[arg(long, value_name = "SVG")]
     pub(crate) figure: Option<PathBuf>,
-    /// Distance between the particles of a cut pattern, in mm.
+    /// Distance between the particles of a cut pattern, or of the cloth on a body, in mm.
     #[arg(long, value_name = "MM", default_value_t = 10.0)]
     pub(crate) spacing: f64,
-    /// Prints the results for folders of runs as JSON.
+    /// Length of a unit of a body's file, in m [default: by its size, that of a person].
+    #[arg(long, value_name = "M")]
+    pub(crate) scale: Option<f64>,
+    /// Repairs a body as far as that is safe, and writes it as an OBJ file: merges vertices, drops
+    /// triangles without area, turns all outside, closes holes up to 12 spacings long, and thins
+    /// fine triangles.
+    #[arg(long, value_name = "OBJ")]
+    pub(crate) repair: Option<PathBuf>,
+    /// Replaces a repaired body that is there already.
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Prints what was found as JSON: of each file its mistakes, of each run its frames.
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -40,34 +55,84 @@ pub(crate) struct CheckArguments {
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let (runs, files): (Vec<&PathBuf>, Vec<&PathBuf>) =
         arguments.files.iter().partition(|file| frames::is_run(file));
-    if let (true, Some(file)) = (arguments.json, files.first()) {
-        let message = format!("--json is for folders of runs, and {} is none", file.display());
-        return Err(Failure::Usage(message));
-    }
     let spacing = 1e-3 * arguments.spacing;
-    let mut mistakes = Vec::new();
-    let mut told = |file: &Path, found: Result<String, Diagnostics>| match found {
-        Ok(text) => say(format_args!("{}: {}", file.display(), text.trim_end())),
-        Err(found) => {
-            mistakes.extend(found.0);
-            Ok(())
+    let mut checked = Checked { json: arguments.json, ..Checked::default() };
+    let measure = Measure { scale: arguments.scale, spacing };
+    if !(spacing > 0.0 && spacing < 1e3) || arguments.scale.is_some_and(|scale| !(scale > 0.0)) {
+        return Err(Failure::Usage("--spacing (mm) and --scale (m) are above 0".into()));
+    }
+    if let Some(to) = &arguments.repair {
+        let [mesh] = &files[..] else {
+            return Err(Failure::Usage("--repair is for one body at a time".into()));
+        };
+        if to.exists() && !arguments.force {
+            let message = format!("{} exists; replace it with --force", to.display());
+            return Err(Failure::Usage(message));
         }
-    };
+        return say(body::mend(mesh, measure, to)?.trim_end());
+    }
     match (&arguments.figure, &files[..]) {
         (Some(figure), [pattern]) => {
             let cut = CutOut::read(pattern, spacing)?;
             file::write(figure, cut.figure())?;
-            told(pattern, Ok(cut.describe()))?;
+            checked.add(pattern, Ok(cut.describe()))?;
         }
         (Some(_), _) => {
             return Err(Failure::Usage("--figure is for one pattern at a time".into()));
         }
         (None, files) => {
             for file in files {
-                told(file, describe(file, spacing))?;
+                let found = match body::is_mesh(file) {
+                    true => body::describe(file, measure),
+                    false => describe(file, spacing),
+                };
+                checked.add(file, found)?;
             }
         }
     }
-    Diagnostics::check(mistakes)?;
-    frames::verify(&runs, arguments.json)
+    if !arguments.json {
+        Diagnostics::check(checked.mistakes)?;
+        return frames::verify(&runs, false)?.outcome();
+    }
+    let verified = frames::verify(&runs, true)?;
+    checked.found.extend(verified.found.iter().cloned());
+    let found = serde_json::to_string_pretty(&checked.found);
+    say(found.expect("verdicts always have a JSON form"))?;
+    Diagnostics::check(checked.mistakes)?;
+    verified.outcome()
+}
+
+/// Files that were checked.
+#[derive(Default)]
+struct Checked {
+    json: bool,
+    /// What was found, as JSON.
+    found: Vec<Value>,
+    mistakes: Vec<Diagnostic>,
+}
+
+impl Checked {
+    /// Adds what was found in a file, and says it.
+    fn add(&mut self, file: &Path, found: Result<String, Diagnostics>) -> Result<(), Failure> {
+        let (text, mistakes) = match found {
+            Ok(text) => (Some(text), Vec::new()),
+            Err(mistakes) => (None, mistakes.0),
+        };
+        if self.json {
+            let mistakes: Vec<Value> = mistakes.iter().map(as_json).collect();
+            let holds = text.is_some();
+            self.found
+                .push(json!({ "file": file, "holds": holds, "text": text, "mistakes": mistakes }));
+        } else if let Some(text) = text {
+            say(format_args!("{}: {}", file.display(), text.trim_end()))?;
+        }
+        self.mistakes.extend(mistakes);
+        Ok(())
+    }
+}
+
+/// Returns a mistake as JSON.
+fn as_json(mistake: &Diagnostic) -> Value {
+    let Diagnostic { file, line, column, message, help, .. } = mistake;
+    json!({ "file": file, "line": line, "column": column, "message": message, "help": help })
 }

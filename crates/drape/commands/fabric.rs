@@ -4,15 +4,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 use drape::fabric::Fabric;
+use drape::input::{Diagnostic, Diagnostics};
 use drape::kes::Sheet;
 use drape::scene::{FabricRequest, Model};
+use serde::Serialize;
+use serde_json::{Value, json};
 
 use crate::commands::fit::store;
 use crate::commands::sheets;
+use crate::console::{say, say_written};
 use crate::failure::Failure;
 use crate::file;
 use crate::pages::fabric::{compare_page, show_page};
-use crate::say::say;
 
 #[derive(Subcommand)]
 pub(crate) enum FabricCommand {
@@ -21,6 +24,9 @@ pub(crate) enum FabricCommand {
         /// Folders to search.
         #[arg(default_value = "fabrics", value_name = "FOLDER")]
         folders: Vec<PathBuf>,
+        /// Prints the sheets as JSON, in SI.
+        #[arg(long)]
+        json: bool,
     },
     /// Shows a fabric: its parameters, the loops an instrument would draw, its KES values.
     Show {
@@ -29,6 +35,9 @@ pub(crate) enum FabricCommand {
         /// Folder for a page with plots.
         #[arg(long, value_name = "FOLDER")]
         report: Option<PathBuf>,
+        /// Prints the page as JSON, in SI.
+        #[arg(long)]
+        json: bool,
     },
     /// Compares two fabrics: their loops overlaid, a table of their values.
     Compare {
@@ -38,20 +47,23 @@ pub(crate) enum FabricCommand {
         /// Folder for a page with plots.
         #[arg(long, value_name = "FOLDER")]
         report: Option<PathBuf>,
+        /// Prints the page as JSON, in SI.
+        #[arg(long)]
+        json: bool,
     },
 }
 
 /// Executes `drape fabric`.
 pub(crate) fn fabric(command: &FabricCommand) -> Result<(), Failure> {
     match command {
-        FabricCommand::List { folders } => list(folders),
-        FabricCommand::Show { fabric, report } => show(fabric, report.as_deref()),
-        FabricCommand::Compare { fabrics, report } => {
+        FabricCommand::List { folders, json } => list(folders, *json),
+        FabricCommand::Show { fabric, report, json } => show(fabric, report.as_deref(), *json),
+        FabricCommand::Compare { fabrics, report, json } => {
             let [first, second] = fabrics.as_slice() else {
                 let message = format!("two fabrics are compared, {} were given", fabrics.len());
                 return Err(Failure::Usage(message));
             };
-            compare([first, second], report.as_deref())
+            compare([first, second], report.as_deref(), *json)
         }
     }
 }
@@ -63,16 +75,53 @@ pub(crate) fn read(path: &Path) -> Result<Fabric, Failure> {
     Ok(drape::scene_fabric(FabricRequest { file, model: Model::Kes })?)
 }
 
-fn list(folders: &[PathBuf]) -> Result<(), Failure> {
-    let sheets = sheets::sheets(folders)?;
+fn list(folders: &[PathBuf], json: bool) -> Result<(), Failure> {
+    let paths = sheets::sheets(folders)?;
+    let sheets: Vec<_> = paths.iter().map(|path| (path, sheets::read(path))).collect();
+    if json {
+        let rows = sheets.iter().filter_map(|(path, sheet)| Some(row(path, sheet.as_ref().ok()?)));
+        say(as_json(&rows.collect::<Vec<_>>()))?;
+    } else {
+        table(&sheets)?;
+    }
+    let failed = sheets.into_iter().filter_map(|(_, sheet)| sheet.err());
+    let mistakes: Vec<Diagnostic> = failed.flat_map(|mistakes| mistakes.0).collect();
+    Ok(Diagnostics::check(mistakes)?)
+}
+
+/// Prints the table of the sheets that could be read.
+fn table(sheets: &[(&PathBuf, Result<Sheet, Diagnostics>)]) -> Result<(), Failure> {
     say(format_args!("{:<44} {:>6} {:>7}  {:<38} sheet", "fabric", "g/m²", "mm", "measured"))?;
-    for path in &sheets {
-        match sheets::read(path) {
-            Ok(sheet) => say(line(path, &sheet))?,
-            Err(mistakes) => Failure::from(mistakes).print(),
-        }
+    let read = sheets.iter().filter_map(|(path, sheet)| Some((path, sheet.as_ref().ok()?)));
+    for (path, sheet) in read {
+        say(line(path, sheet))?;
     }
     Ok(())
+}
+
+/// Returns the tests of a sheet that have curves, and whether it has values.
+fn measured(sheet: &Sheet) -> Vec<&str> {
+    let mut tests: Vec<&str> = sheet.curves.iter().map(|curve| curve.test.name()).collect();
+    tests.dedup();
+    if !sheet.warp.is_empty() || !sheet.weft.is_empty() {
+        tests.push("values");
+    }
+    tests
+}
+
+/// Returns a sheet as JSON.
+fn row(path: &Path, sheet: &Sheet) -> Value {
+    json!({
+        "sheet": path,
+        "name": sheet.name,
+        "density": sheet.density(),
+        "thickness": sheet.thickness(),
+        "measured": measured(sheet),
+    })
+}
+
+fn as_json(value: &impl Serialize) -> String {
+    serde_json::to_string_pretty(value).expect("numbers and strings have a JSON form")
 }
 
 /// Line of the table for a sheet: mass, thickness, tests that have curves, and whether it has
@@ -81,39 +130,44 @@ fn line(path: &Path, sheet: &Sheet) -> String {
     let number = |value: Option<f64>, scale: f64, digits: usize| {
         value.map_or("–".into(), |value| format!("{:.digits$}", value * scale))
     };
-    let mut tests: Vec<&str> = sheet.curves.iter().map(|curve| curve.test.name()).collect();
-    tests.dedup();
-    if !sheet.warp.is_empty() || !sheet.weft.is_empty() {
-        tests.push("values");
-    }
     format!(
         "{:<44} {:>6} {:>7}  {:<38} {}",
         sheet.name,
         number(sheet.density(), 1e3, 1),
         number(sheet.thickness(), 1e3, 3),
-        tests.join(", "),
+        measured(sheet).join(", "),
         path.display()
     )
 }
 
-fn show(path: &Path, report: Option<&Path>) -> Result<(), Failure> {
+fn show(path: &Path, report: Option<&Path>, json: bool) -> Result<(), Failure> {
     let sheet = sheets::of(path).and_then(|path| sheets::read(path).ok());
     let page = show_page(&read(path)?, sheet.as_ref());
-    say(page.to_text()?.trim_end())?;
-    if let Some(written) = store(&page, &sheets::stem(path), report)? {
-        say(format_args!("page written to {}", written.display()))?;
+    if json {
+        say(as_json(&page))?;
+    } else {
+        say(page.to_text()?.trim_end())?;
+    }
+    if let (Some(written), false) = (store(&page, &sheets::stem(path), report)?, json) {
+        say_written(format_args!("page written to {}", written.display()))?;
     }
     Ok(())
 }
 
-fn compare(paths: [&PathBuf; 2], report: Option<&Path>) -> Result<(), Failure> {
+fn compare(paths: [&PathBuf; 2], report: Option<&Path>, json: bool) -> Result<(), Failure> {
     let page = compare_page([&read(paths[0])?, &read(paths[1])?]);
-    say(page.to_text()?.trim_end())?;
+    if json {
+        say(as_json(&page))?;
+    } else {
+        say(page.to_text()?.trim_end())?;
+    }
     if let Some(folder) = report {
         let [first, second] = paths.map(|path| sheets::stem(path));
         let path = folder.join(format!("{first}-and-{second}.html"));
         file::write(&path, &page.to_html()?)?;
-        say(format_args!("page written to {}", path.display()))?;
+        if !json {
+            say_written(format_args!("page written to {}", path.display()))?;
+        }
     }
     Ok(())
 }

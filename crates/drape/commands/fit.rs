@@ -14,9 +14,9 @@ pub(crate) use identify::store;
 
 use self::identify::identify;
 use crate::commands::sheets;
+use crate::console::{say, say_written};
 use crate::failure::Failure;
 use crate::file;
-use crate::say::say;
 
 /// Executes `drape fit`.
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
@@ -30,22 +30,31 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
 /// Fits one sheet and prints its report.
 fn one(sheet: &Path, arguments: &FitArguments) -> Result<(), Failure> {
     let path = arguments.output.clone().unwrap_or_else(|| identify::beside(sheet));
-    if path.exists() && arguments.output.is_none() && !arguments.force {
+    let to_stdout = path.as_os_str() == "-";
+    if to_stdout && arguments.json {
+        let message = "-o - and --json both print to stdout; give one of them";
+        return Err(Failure::Usage(message.into()));
+    }
+    if path.exists() && !arguments.force {
         let message = format!("{} exists; give -o, or replace it with --force", path.display());
         return Err(Failure::Usage(message));
     }
     let identified = identify(sheet, &arguments.laws.settings())?;
-    file::write(&path, identified.fit.fabric.to_toml())?;
+    if to_stdout {
+        say(identified.fit.fabric.to_toml().trim_end())?;
+    } else {
+        file::write(&path, identified.fit.fabric.to_toml())?;
+    }
     let page = &identified.page;
     let report = store(page, &sheets::stem(sheet), arguments.report.as_deref())?;
     if arguments.json {
         let json = serde_json::to_string_pretty(page);
         say(json.expect("numbers and strings have a JSON form"))?;
-    } else {
+    } else if !to_stdout {
         say(page.to_text()?.trim_end())?;
-        say(format_args!("fabric written to {}", path.display()))?;
+        say_written(format_args!("fabric written to {}", path.display()))?;
         if let Some(report) = report {
-            say(format_args!("report written to {}", report.display()))?;
+            say_written(format_args!("report written to {}", report.display()))?;
         }
     }
     Ok(())

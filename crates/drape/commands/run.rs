@@ -6,45 +6,84 @@
 
 mod report;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use drape::dynamics::{Simulation, Snapshot, prepare_folder};
+use drape::dynamics::{Simulation, Snapshot, Summary, prepare_folder};
 use drape::scene::{Error, Scene};
+use serde::Serialize;
+use serde_json::json;
 
 use self::report::{describe, outcome};
+use crate::console::{note, say, say_written};
 use crate::failure::Failure;
-use crate::file;
-use crate::pages::picture;
+use crate::pages::picture::{self, Pictures};
 use crate::pages::strain_map::draw_strains;
-use crate::progress::Screen;
-use crate::say::say;
+use crate::progress::RunProgress;
+use crate::{file, signal};
 
 #[derive(Args)]
 pub(crate) struct RunArguments {
-    /// The scene, a TOML file.
-    pub(crate) scene: PathBuf,
-    /// Folder for the results [default: the folder that the scene names, or out/NAME].
+    /// Scenes, TOML files; they are run one after the other, and one that fails does not stop the
+    /// rest.
+    #[arg(required = true, value_name = "SCENE")]
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Folder for the results, of several scenes with a folder for each [default: the folder that
+    /// the scene names, or out/NAME].
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
-    /// Number of threads [default: all].
-    #[arg(long, value_name = "N")]
-    pub(crate) threads: Option<usize>,
     /// Ends the simulation at this time, in seconds.
     #[arg(long, value_name = "SECONDS")]
     pub(crate) until: Option<f64>,
     /// Replaces the results of an earlier run.
     #[arg(long)]
     pub(crate) force: bool,
-    /// Prints the summary as JSON.
+    /// Draws no picture and no map of strains.
+    #[arg(long)]
+    pub(crate) no_picture: bool,
+    /// Prints the summary as JSON, those of several scenes as a list.
     #[arg(long)]
     pub(crate) json: bool,
 }
 
 /// Executes `drape run`.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let mut scene =
-        drape::read_scene(&arguments.scene).map_err(|error| refuse(error, arguments))?;
+    signal::watch();
+    if let [scene] = &arguments.scenes[..] {
+        let summary = run_scene(scene, arguments)?;
+        if arguments.json {
+            say(json(&summary))?;
+        }
+        return outcome(summary);
+    }
+    let mut summaries = Vec::new();
+    let mut code = None;
+    for scene in &arguments.scenes {
+        if !arguments.json {
+            say(format_args!("{}:", scene.display()))?;
+        }
+        let ended = run_scene(scene, arguments).and_then(|summary| {
+            summaries.push(json!({ "scene": scene, "summary": summary }));
+            outcome(summary)
+        });
+        if let Err(failure) = ended {
+            failure.print();
+            let first = *code.get_or_insert(failure.code());
+            if let Failure::Interrupted { signal, .. } = failure {
+                code = Some(if first > 128 { first } else { 128 + signal });
+                break;
+            }
+        }
+    }
+    if arguments.json {
+        say(json(&summaries))?;
+    }
+    code.map_or(Ok(()), |code| Err(Failure::Several { code }))
+}
+
+/// Runs one scene, stores its results and says what came out; a run that fails has a summary too.
+fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> {
+    let mut scene = drape::read_scene(path).map_err(|error| refuse(error, path, arguments))?;
     if let Some(end) = arguments.until {
         if !(end >= scene.schedule.clock.step) {
             let step = scene.schedule.clock.step;
@@ -52,23 +91,25 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         }
         scene.schedule.clock.end = end;
     }
-    let folder = folder(arguments, scene.output.folder.as_ref());
-    let output = prepare_folder(&folder, arguments.force || arguments.output.is_none())?;
+    let folder = folder(path, arguments, scene.output.folder.as_ref());
+    let output = prepare_folder(&folder, arguments.force)?;
     let view = [scene.output.view.azimuth, scene.output.view.elevation];
     let garment = scene.sewing.is_some();
     notes(&scene);
+    let (name, step) = (scene.name.clone(), scene.schedule.clock.step);
     let mut simulation = Simulation::new(scene)?;
     let recorder = output.record(simulation.topology())?;
-    let mut screen = Screen::new(simulation.ticks_to_do(), recorder);
-    let summary = simulation.run(&mut screen);
-    screen.finish();
+    let mut progress = RunProgress::new(&name, &simulation, step, recorder);
+    let summary = simulation.run(&mut progress);
+    progress.finish();
     let summary = summary?;
     output.summary(&summary)?;
-    if let Some(frame) = &screen.last {
+    if let (Some(frame), false) = (&progress.last, arguments.no_picture) {
         let shown = Snapshot { positions: frame.positions.clone(), ..simulation.snapshot() };
+        let pictures = Pictures::new(&shown)?;
         let picture = match (garment, view) {
-            (true, [None, None]) => picture::draw_round(&shown)?,
-            _ => picture::draw(&shown, view, picture::SIZE)?,
+            (true, [None, None]) => pictures.draw_round()?,
+            _ => pictures.draw(view, picture::SIZE)?,
         };
         let stored = picture.save(output.path("picture.png"));
         stored.map_err(|error| Failure::Output(error.to_string()))?;
@@ -77,43 +118,50 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
             let stored = picture.save(output.path("place.png"));
             stored.map_err(|error| Failure::Output(error.to_string()))?;
         }
+        if let Some(place) = summary.place {
+            let near = picture::near(&shown, place);
+            let picture = Pictures::new(&near)?.draw(view, picture::SIZE)?;
+            let stored = picture.save(output.path("place.png"));
+            stored.map_err(|error| Failure::Output(error.to_string()))?;
+        }
         if garment {
-            file::write(&output.path("strain.svg"), draw_strains(&shown)?)?;
+            file::write(&output.path("strain.svg"), draw_strains(&shown, &pictures)?)?;
         }
     }
-    if arguments.json {
-        let json = serde_json::to_string_pretty(&summary);
-        say(json.expect("a summary always has a JSON form"))?;
-    } else {
+    if !arguments.json {
         say(describe(&summary))?;
         for warning in &summary.warnings {
             say(format_args!("warning: {warning}"))?;
         }
-        say(format_args!("results in {}", folder.display()))?;
+        say_written(format_args!("results in {}", folder.display()))?;
     }
-    outcome(summary)
+    Ok(summary)
+}
+
+fn json(value: &impl Serialize) -> String {
+    serde_json::to_string_pretty(value).expect("a summary always has a JSON form")
 }
 
 /// Prints the notes on the patterns of a scene.
-#[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
 fn notes(scene: &Scene) {
-    scene.source.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    scene.source.notes.iter().for_each(note);
 }
 
-/// Returns the folder for the results.
-fn folder(arguments: &RunArguments, of_scene: Option<&PathBuf>) -> PathBuf {
-    let given = arguments.output.as_ref().or(of_scene);
-    given.cloned().unwrap_or_else(|| {
-        let name = arguments.scene.file_stem().unwrap_or_default();
-        PathBuf::from("out").join(name)
-    })
+/// Returns the folder for the results of a scene.
+fn folder(scene: &Path, arguments: &RunArguments, of_scene: Option<&PathBuf>) -> PathBuf {
+    let name = scene.file_stem().unwrap_or_default();
+    match (&arguments.output, &arguments.scenes[..]) {
+        (Some(folder), [_]) => folder.clone(),
+        (Some(folder), _) => folder.join(name),
+        (None, _) => of_scene.cloned().unwrap_or_else(|| PathBuf::from("out").join(name)),
+    }
 }
 
 /// Returns the failure for a scene that is refused. Triangles that intersect at the start are
 /// written to a file beside the folder that the results would have.
-fn refuse(error: Error, arguments: &RunArguments) -> Failure {
+fn refuse(error: Error, scene: &Path, arguments: &RunArguments) -> Failure {
     let Error::Tangled(mut tangle) = error else { return error.into() };
-    let folder = folder(arguments, tangle.folder.as_ref());
+    let folder = folder(scene, arguments, tangle.folder.as_ref());
     let mut name = folder.file_name().unwrap_or_default().to_owned();
     name.push("-start.ply");
     let path = folder.with_file_name(name);

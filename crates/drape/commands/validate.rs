@@ -7,10 +7,11 @@ use drape::input::Diagnostic;
 use drape::report::CaptionedPicture;
 use drape::report::plot::graph_svg;
 use drape::validate::{CASES, Case, Check, Kind, Outcome};
+use serde_json::{Value, json};
 
+use crate::console::{say, say_written};
 use crate::failure::Failure;
 use crate::pages::validation::{self, figure};
-use crate::say::say;
 use crate::{file, progress};
 
 #[derive(Args)]
@@ -63,7 +64,8 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     outcomes.sort_by_key(place);
     outcomes.dedup_by_key(|outcome| place(outcome));
     if arguments.json {
-        let json = serde_json::to_string_pretty(&outcomes);
+        let judged: Vec<Value> = outcomes.iter().map(judged).collect();
+        let json = serde_json::to_string_pretty(&judged);
         say(json.expect("numbers and strings have a JSON form"))?;
     }
     if let Some(path) = &arguments.markdown {
@@ -72,7 +74,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     if let Some(folder) = &arguments.report {
         let page = store(&outcomes, folder)?;
         if !arguments.json {
-            say(format_args!("page written to {}", page.display()))?;
+            say_written(format_args!("page written to {}", page.display()))?;
         }
     }
     let failed = outcomes.iter().filter(|outcome| !outcome.passes()).count();
@@ -81,6 +83,17 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
         return Err(Failure::Limit(message));
     }
     Ok(())
+}
+
+/// Returns an outcome as JSON, with the verdict on it and on each of its figures.
+fn judged(outcome: &Outcome) -> Value {
+    let mut value = json!(outcome);
+    value["passes"] = json!(outcome.passes());
+    let checks = value["checks"].as_array_mut().into_iter().flatten();
+    for (value, check) in checks.zip(&outcome.checks) {
+        value["passes"] = json!(check.verdict());
+    }
+    value
 }
 
 /// Writes the page into a folder, with every plot and picture as a file beside it, and returns its

@@ -1,7 +1,7 @@
 //! Pictures of cloth and bodies, with yarn lines or in a colour per particle.
 
 use drape::dynamics::Snapshot;
-use drape::report::{Colour, Picture, Scene, Surface, View, render};
+use drape::report::{Colour, Picture, Scene, SkyLight, Surface, View, render_lit};
 
 use crate::failure::Failure;
 
@@ -50,67 +50,89 @@ fn keep_near(positions: &mut [f64], triangles: &mut Vec<[u32; 3]>, place: [f64; 
     corners.filter(|(_, is_used)| !is_used).for_each(|(corner, _)| corner.copy_from_slice(&place));
 }
 
-/// Draws a garment from the front, the side and the back.
-pub(crate) fn draw_round(snapshot: &Snapshot) -> Result<Picture, Failure> {
-    draw_from(snapshot, &SIDES, None)
+/// Pictures of one snapshot, which share the light of the sky.
+pub(crate) struct Pictures<'a> {
+    snapshot: &'a Snapshot,
+    /// Material coordinates, two per particle, in m.
+    coordinates: Vec<f64>,
+    sky: SkyLight,
 }
 
-/// Draws a garment from some azimuths, in degrees; with its yarn lines, or in a colour per
-/// particle.
-pub(crate) fn draw_from(
-    snapshot: &Snapshot,
-    sides: &[f64],
-    tints: Option<&[Colour]>,
-) -> Result<Picture, Failure> {
-    let side = |azimuth: &f64| {
-        let cloth = Surface::cloth(&snapshot.positions, &snapshot.triangles);
-        let view = [Some(*azimuth), Some(ELEVATION)];
-        match tints {
-            Some(tints) => draw_cloth(snapshot, cloth.with_tints(tints), view, UPRIGHT),
-            None => draw(snapshot, view, UPRIGHT),
-        }
-    };
-    let pictures: Result<Vec<Picture>, Failure> = sides.iter().map(side).collect();
-    Ok(Picture::sheet(&pictures?, sides.len()))
+impl<'a> Pictures<'a> {
+    /// Prepares the pictures of a snapshot.
+    pub(crate) fn new(snapshot: &'a Snapshot) -> Result<Self, Failure> {
+        let Snapshot { positions, triangles, coordinates, .. } = snapshot;
+        let sky = SkyLight::new(&scene(snapshot, Surface::cloth(positions, triangles)));
+        Ok(Self {
+            snapshot,
+            coordinates: coordinates.iter().flatten().copied().collect(),
+            sky: sky.map_err(|error| Failure::Output(error.to_string()))?,
+        })
+    }
+
+    /// Draws a garment from the front, the side and the back.
+    pub(crate) fn draw_round(&self) -> Result<Picture, Failure> {
+        self.draw_from(&SIDES, None)
+    }
+
+    /// Draws a garment from some azimuths, in degrees; with its yarn lines, or in a colour per
+    /// particle.
+    pub(crate) fn draw_from(
+        &self,
+        sides: &[f64],
+        tints: Option<&[Colour]>,
+    ) -> Result<Picture, Failure> {
+        let side = |azimuth: &f64| {
+            let view = [Some(*azimuth), Some(ELEVATION)];
+            match tints {
+                Some(tints) => self.draw_cloth(self.cloth().with_tints(tints), view, UPRIGHT),
+                None => self.draw(view, UPRIGHT),
+            }
+        };
+        let pictures: Result<Vec<Picture>, Failure> = sides.iter().map(side).collect();
+        Ok(Picture::sheet(&pictures?, sides.len()))
+    }
+
+    /// Draws the snapshot, seen from an azimuth and an elevation in degrees, in so many pixels.
+    pub(crate) fn draw(&self, view: [Option<f64>; 2], size: [u32; 2]) -> Result<Picture, Failure> {
+        let extent = self.coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
+        let spacing = LINE_SPACING * extent.max(0.1);
+        self.draw_cloth(self.cloth().with_lines(&self.coordinates, spacing), view, size)
+    }
+
+    fn cloth(&self) -> Surface<'_> {
+        Surface::cloth(&self.snapshot.positions, &self.snapshot.triangles)
+    }
+
+    fn draw_cloth(
+        &self,
+        cloth: Surface<'_>,
+        [azimuth, elevation]: [Option<f64>; 2],
+        [width, height]: [u32; 2],
+    ) -> Result<Picture, Failure> {
+        let standard = View::default();
+        let view = View {
+            azimuth_deg: azimuth.unwrap_or(standard.azimuth_deg),
+            elevation_deg: elevation.unwrap_or(standard.elevation_deg),
+            width,
+            height,
+            ..standard
+        };
+        render_lit(&scene(self.snapshot, cloth), &view, &self.sky)
+            .map_err(|error| Failure::Output(error.to_string()))
+    }
 }
 
-/// Draws a scene, seen from an azimuth and an elevation in degrees, in so many pixels.
-pub(crate) fn draw(
-    snapshot: &Snapshot,
-    view: [Option<f64>; 2],
-    size: [u32; 2],
-) -> Result<Picture, Failure> {
-    let Snapshot { positions, coordinates, triangles, .. } = snapshot;
-    let coordinates: Vec<f64> = coordinates.iter().flatten().copied().collect();
-    let extent = coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
-    let cloth = Surface::cloth(positions, triangles);
-    let cloth = cloth.with_lines(&coordinates, LINE_SPACING * extent.max(0.1));
-    draw_cloth(snapshot, cloth, view, size)
-}
-
-fn draw_cloth(
-    snapshot: &Snapshot,
-    cloth: Surface<'_>,
-    [azimuth, elevation]: [Option<f64>; 2],
-    [width, height]: [u32; 2],
-) -> Result<Picture, Failure> {
+/// Returns the scene of a snapshot: its cloth, bodies and a floor below them.
+fn scene<'a>(snapshot: &'a Snapshot, cloth: Surface<'a>) -> Scene<'a> {
     let Snapshot { positions, bodies, spacing, .. } = snapshot;
     let bodies_too = bodies.iter().flat_map(|body| &body.positions[..]);
     let all = positions.iter().chain(bodies_too).skip(1).step_by(3);
     let lowest = all.copied().fold(f64::INFINITY, f64::min);
-    let scene = Scene {
+    Scene {
         cloths: vec![cloth],
         bodies: bodies.iter().map(|body| Surface::body(&body.positions, &body.triangles)).collect(),
         floor: Some(lowest - FLOOR),
-    };
-    let standard = View::default();
-    let view = View {
-        azimuth_deg: azimuth.unwrap_or(standard.azimuth_deg),
-        elevation_deg: elevation.unwrap_or(standard.elevation_deg),
         body_depth_bias: *spacing,
-        width,
-        height,
-        ..standard
-    };
-    render(&scene, &view).map_err(|error| Failure::Output(error.to_string()))
+    }
 }

@@ -5,7 +5,7 @@ use drape::dynamics::Snapshot;
 use drape::report::plot::{StrainMap, strain_svg};
 use drape::report::{Colour, diverging};
 
-use super::picture::draw_from;
+use super::picture::Pictures;
 use crate::failure::Failure;
 
 /// Azimuths of the maps: front and back, in degrees.
@@ -35,7 +35,10 @@ struct Weighted {
 }
 
 /// Draws the strains of a garment from the front and from the back.
-pub(crate) fn draw_strains(snapshot: &Snapshot) -> Result<String, Failure> {
+pub(crate) fn draw_strains(
+    snapshot: &Snapshot,
+    pictures: &Pictures<'_>,
+) -> Result<String, Failure> {
     let maps = KINDS.iter().map(|Kind { caption, unit, value }| {
         let weighted =
             |strain: &TriangleStrain| Weighted { value: value(strain), area: strain.area };
@@ -44,7 +47,7 @@ pub(crate) fn draw_strains(snapshot: &Snapshot) -> Result<String, Failure> {
         let tints: Vec<Colour> =
             at_particles(snapshot, &values).iter().map(|value| diverging(*value, limit)).collect();
         let (caption, unit) = ((*caption).to_owned(), (*unit).to_owned());
-        let picture = draw_from(snapshot, &SIDES, Some(&tints))?;
+        let picture = pictures.draw_from(&SIDES, Some(&tints))?;
         Ok(StrainMap { caption, limit, unit, picture })
     });
     let maps: Result<Vec<StrainMap>, Failure> = maps.collect();

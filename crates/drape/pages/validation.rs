@@ -7,7 +7,7 @@ use drape::report::{CaptionedPicture, Picture, ValidationCase, ValidationPage, V
 use drape::validate::{Check, Graph, Kind, Layout, Outcome, Source, Still};
 
 use self::limits::LIMITS;
-use super::picture;
+use super::picture::Pictures;
 use super::version::VERSION;
 use crate::failure::Failure;
 
@@ -68,7 +68,7 @@ fn plot(graph: &Graph) -> GraphPlot {
 /// Draws the cloths of a still side by side.
 fn draw(still: &Still) -> Result<Picture, Failure> {
     let view = still.view.map(Some);
-    let picture = |snapshot| picture::draw(snapshot, view, FIELD);
+    let picture = |snapshot| Pictures::new(snapshot)?.draw(view, FIELD);
     let pictures: Result<Vec<Picture>, Failure> = still.snapshots.iter().map(picture).collect();
     Ok(Picture::sheet(&pictures?, still.columns))
 }

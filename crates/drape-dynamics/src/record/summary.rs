@@ -25,6 +25,8 @@ pub struct Summary {
     pub steps: usize,
     /// Number of frames, the first at the start.
     pub frames: usize,
+    /// Time of each frame, in s.
+    pub frame_times: Vec<f64>,
     /// Time reached, in s.
     pub simulated_seconds: f64,
     /// Wall-clock time taken, in s.
@@ -105,6 +107,9 @@ pub enum Status {
     /// A step could not be solved.
     #[serde(rename = "solver failed")]
     SolverFailed,
+    /// The run was asked to end before its end.
+    #[serde(rename = "interrupted")]
+    Interrupted,
 }
 
 /// Work of the solver.

@@ -7,8 +7,8 @@ use crate::error::Error;
 /// Fraction of the picture that the scene fills.
 const FILL: f64 = 0.9;
 
-/// Margin around the cloths within which bodies count for the framing, over the radius of the
-/// cloths: a table is shown, a room does not shrink the cloth to a dot.
+/// Margin around the cloths within which bodies count for the framing, over the radius of the cloths: a
+/// table is shown, a room does not shrink the cloth to a dot.
 const MARGIN: f64 = 0.35;
 
 /// View of a scene: direction of the camera, field of view, size of the picture.
@@ -37,25 +37,12 @@ pub struct View {
     pub width: u32,
     /// Height of the picture, in pixels.
     pub height: u32,
-    /// Depth bias of bodies: distance by which they are moved back behind cloth in depth tests, in
-    /// m.
-    ///
-    /// The chord between two particles on either side of a convex edge dips below the edge. With a
-    /// bias of that depth the edge does not show through the cloth.
-    pub body_depth_bias: f64,
 }
 
 impl Default for View {
     /// Returns a view from the front right and above, 1200 × 900 pixels.
     fn default() -> View {
-        View {
-            azimuth_deg: 30.0,
-            elevation_deg: 28.0,
-            field_deg: 24.0,
-            width: 1200,
-            height: 900,
-            body_depth_bias: 0.0,
-        }
+        View { azimuth_deg: 30.0, elevation_deg: 28.0, field_deg: 24.0, width: 1200, height: 900 }
     }
 }
 
@@ -80,8 +67,7 @@ impl View {
         within("the elevation (°)", self.elevation_deg, "from -90 to 90", -90.0, 90.0)?;
         within("the field of view (°)", self.field_deg, "from 1 to 120", 1.0, 120.0)?;
         within("the width (pixels)", self.width.into(), size, 16.0, 16384.0)?;
-        within("the height (pixels)", self.height.into(), size, 16.0, 16384.0)?;
-        within("the depth bias of bodies (m)", self.body_depth_bias, "from 0 to 1", 0.0, 1.0)
+        within("the height (pixels)", self.height.into(), size, 16.0, 16384.0)
     }
 }
 
@@ -122,8 +108,7 @@ impl Camera {
         self.right
     }
 
-    /// Returns the camera closest to the scene, in the direction of the view, that has all of it in
-    /// the frame.
+    /// Returns the camera closest to the scene, in the direction of the view, that has all of it in the frame.
     fn framing(view: &View, scene: &Scene) -> Camera {
         let (sine, cosine) = view.azimuth_deg.to_radians().sin_cos();
         let (rise, level) = view.elevation_deg.to_radians().sin_cos();
@@ -178,13 +163,11 @@ fn extreme(points: &[Vector], start: f64, choose: fn(f64, f64) -> f64) -> Vector
     points.iter().fold([start; 3], |sum, p| std::array::from_fn(|k| choose(sum[k], p[k])))
 }
 
-/// Returns the position of the camera from which all points are within slopes to the sides and up
-/// and down.
+/// Returns the position of the camera from which all points are within slopes to the sides and up and down.
 ///
-/// In the axes of the camera a point `$(x, z)$` is within the slope `$t$` if
-/// `$|x - x_0| \le t\,(z - z_0)$`. The two sides give the largest `$x - tz$` and the largest
-/// `$-x - tz$`; half of their difference is `$x_0$`, and half of their sum over `$-t$` the closest
-/// `$z_0$`.
+/// In the axes of the camera a point `$(x, z)$` is within the slope `$t$` if `$|x - x_0| \le t\,(z - z_0)$`.
+/// The two sides give the largest `$x - tz$` and the largest `$-x - tz$`; half of their difference is
+/// `$x_0$`, and half of their sum over `$-t$` the closest `$z_0$`.
 fn fit(points: Vec<Vector>, [right, up, forward]: [Vector; 3], slopes: [f64; 2]) -> Vector {
     let mut eye = [0.0; 3];
     let mut closest = f64::MAX;

@@ -163,6 +163,12 @@ pub struct Scene<'a> {
     pub bodies: Vec<Surface<'a>>,
     /// Height of a floor of which only the shadows show, in m.
     pub floor: Option<f64>,
+    /// Depth bias of bodies: distance by which they are moved back behind cloth in depth tests, in
+    /// m.
+    ///
+    /// The chord between two particles on either side of a convex edge dips below the edge. With a
+    /// bias of that depth the edge does not show through the cloth.
+    pub body_depth_bias: f64,
 }
 
 impl Scene<'_> {
@@ -182,6 +188,9 @@ impl Scene<'_> {
                 floor.abs() <= MAX_COORDINATE,
             )?;
         }
+        let bias = self.body_depth_bias;
+        let what = "the depth bias of bodies (m)";
+        check_range(what, bias, "from 0 to 1", (0.0..=1.0).contains(&bias))?;
         let mut surfaces = self.cloths.iter().chain(&self.bodies);
         if surfaces.all(|surface| surface.triangles.is_empty()) {
             return Err(Error::EmptyScene);

@@ -16,8 +16,6 @@ const NEAREST: f64 = 1e-6;
 /// Facet on the screen.
 pub(crate) struct ScreenFacet<'a> {
     pub(crate) facet: &'a Facet,
-    /// Number of the facet in the tessellation.
-    pub(crate) index: usize,
     /// Triangle in pixels.
     pub(crate) pixels: PlaneTriangle,
     /// Triangle in samples.
@@ -31,11 +29,10 @@ pub(crate) struct ScreenFacet<'a> {
 impl<'a> ScreenFacet<'a> {
     /// Projects a facet; `None` if it is not visible.
     pub(crate) fn project(
-        scene: &'a Tessellation,
-        index: usize,
+        scene: &Tessellation,
+        facet: &'a Facet,
         camera: &Camera,
     ) -> Option<ScreenFacet<'a>> {
-        let facet = &scene.facets[index];
         let corners = facet.corners.map(|corner| camera.project(corner.position));
         // The camera is outside of the framed scene; facets that extend behind it are left out
         // whole.
@@ -52,7 +49,6 @@ impl<'a> ScreenFacet<'a> {
             |corner: ScreenPoint| [corner.x * SAMPLES as f64, corner.y * SAMPLES as f64];
         Some(ScreenFacet {
             facet,
-            index,
             pixels: PlaneTriangle::new(corners.map(in_pixels))?,
             samples: PlaneTriangle::new(corners.map(in_samples))?,
             inverse_depths: corners.map(|corner| 1.0 / corner.depth),

@@ -9,7 +9,7 @@ use super::colour::{Colour, decode};
 use super::scene::{Scene, Surface};
 use super::screen::ScreenFacet;
 use super::shadow_map::ShadowMap;
-use super::sky::{FacetLight, sky_light};
+use super::sky::SkyLight;
 use super::tessellation::{FLOOR_HALF_SIDE, Part, Tessellation};
 use super::vector::{Bounds, Vector, add, cross, dot, norm, scale, subtract, unit};
 
@@ -59,6 +59,13 @@ const LINE_WIDTH: f64 = 1.6 / 900.0;
 /// Distance of lines, in line widths, below which they fade into an even tone.
 const LINES_MERGE: f64 = 3.0;
 
+/// Scene with the light of the sky on it.
+#[derive(Clone, Copy)]
+pub(crate) struct LitScene<'a> {
+    pub(crate) scene: &'a Scene<'a>,
+    pub(crate) sky: &'a SkyLight,
+}
+
 /// Shader of the points of a scene.
 pub(crate) struct Shader<'a> {
     scene: &'a Scene<'a>,
@@ -66,7 +73,7 @@ pub(crate) struct Shader<'a> {
     /// Colours of front and back of each cloth and then of each body, in linear light.
     tints: Vec<[Vector; 2]>,
     inks: [Vector; 3],
-    sky: Vec<FacetLight>,
+    sky: &'a SkyLight,
     key: ShadowMap,
     key_on_floor: ShadowMap,
     bounds: Bounds,
@@ -77,11 +84,12 @@ pub(crate) struct Shader<'a> {
 impl<'a> Shader<'a> {
     /// Prepares the lights of a scene for a camera.
     pub(crate) fn new(
-        scene: &'a Scene,
+        lit: LitScene<'a>,
         tessellation: &Tessellation,
         camera: &Camera,
         view: &View,
     ) -> Shader<'a> {
+        let LitScene { scene, sky } = lit;
         let (sine, cosine) = KEY_AZIMUTH.sin_cos();
         // Horizontal directions from the scene to the camera and to the left of it.
         let right = camera.right();
@@ -97,7 +105,7 @@ impl<'a> Shader<'a> {
             inks: INK.map(|ink| ink.map(decode)),
             scene,
             eye: camera.eye(),
-            sky: sky_light(tessellation),
+            sky,
             key: ShadowMap::new(tessellation, direction, KEY_TEXELS),
             key_on_floor: ShadowMap::new(tessellation, direction, FLOOR_TEXELS),
             bounds: tessellation.bounds,
@@ -117,7 +125,7 @@ impl<'a> Shader<'a> {
         let smooth = unit(mix(facet.corners.map(|corner| corner.normal)));
         let front = dot(facet.area_normal(), to_eye) >= 0.0;
         let normal = if front { smooth } else { scale(smooth, -1.0) };
-        let sky = self.sky[item.index][usize::from(!front)];
+        let sky = self.sky.at(facet, front);
         let sky = (0..3).map(|c| weights[c] * sky[c]).sum::<f64>();
         let cosine = dot(normal, self.key.direction).max(0.0);
         let (map, filter) = match facet.part {

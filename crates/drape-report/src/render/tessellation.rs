@@ -40,6 +40,22 @@ pub(crate) struct Corner {
     pub(crate) tint: Vector,
     /// Whether it lies on the boundary of the cloth, the hem.
     pub(crate) on_hem: bool,
+    /// Number of its lit point.
+    pub(crate) lit_point: u32,
+}
+
+/// Place and normal that the light of the sky is computed for, shared by the corners of facets.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LitPoint {
+    pub(crate) position: Vector,
+    pub(crate) normal: Vector,
+}
+
+impl LitPoint {
+    /// Returns the bits of its numbers, to find equal points.
+    fn bits(&self) -> [[u64; 3]; 2] {
+        [self.position, self.normal].map(|vector| vector.map(f64::to_bits))
+    }
 }
 
 /// Triangle of the tessellation.
@@ -62,6 +78,8 @@ impl Facet {
 /// Scene subdivided into facets.
 pub(crate) struct Tessellation {
     pub(crate) facets: Vec<Facet>,
+    /// Points of the corners, each once.
+    pub(crate) lit_points: Vec<LitPoint>,
     /// Bounds of cloths and bodies, in m.
     pub(crate) bounds: Bounds,
     /// Depth bias of bodies, for the camera and for lights, in m.
@@ -70,7 +88,7 @@ pub(crate) struct Tessellation {
 
 impl Tessellation {
     /// Subdivides a scene.
-    pub(crate) fn new(scene: &Scene, body_depth_bias: f64) -> Tessellation {
+    pub(crate) fn new(scene: &Scene) -> Tessellation {
         let surfaces = scene.cloths.iter().chain(&scene.bodies);
         let bounds = Bounds::of(surfaces.flat_map(|surface| surface.points()));
         let longest = LONGEST_EDGE * bounds.radius;
@@ -84,7 +102,8 @@ impl Tessellation {
         if let Some(height) = scene.floor {
             add_floor(&mut facets, bounds.center, FLOOR_HALF_SIDE * bounds.radius, height);
         }
-        Tessellation { facets, bounds, body_depth_bias }
+        let lit_points = number_lit_points(&mut facets);
+        Tessellation { facets, lit_points, bounds, body_depth_bias: scene.body_depth_bias }
     }
 
     /// Returns the depth bias of a part, in m.
@@ -94,6 +113,29 @@ impl Tessellation {
             Part::Cloth(_) | Part::Floor => 0.0,
         }
     }
+}
+
+/// Numbers the lit points of facets and returns them.
+fn number_lit_points(facets: &mut [Facet]) -> Vec<LitPoint> {
+    let point = |facet: &Facet, corner: usize| {
+        let Corner { position, normal, .. } = facet.corners[corner];
+        LitPoint { position, normal }
+    };
+    let mut corners: Vec<[u32; 2]> = (0..facets.len() as u32)
+        .flat_map(|facet| [0, 1, 2].map(|corner| [facet, corner]))
+        .collect();
+    corners.sort_unstable_by_key(|&[facet, corner]| {
+        point(&facets[facet as usize], corner as usize).bits()
+    });
+    let mut points: Vec<LitPoint> = Vec::new();
+    for [facet, corner] in corners.into_iter().map(|pair| pair.map(|number| number as usize)) {
+        let own = point(&facets[facet], corner);
+        if points.last().is_none_or(|last| last.bits() != own.bits()) {
+            points.push(own);
+        }
+        facets[facet].corners[corner].lit_point = points.len() as u32 - 1;
+    }
+    points
 }
 
 /// Adds the facets of a surface, with edges up to a longest length in m.
@@ -139,6 +181,7 @@ fn add_surface(facets: &mut Vec<Facet>, surface: &Surface, part: Part, longest: 
                 coordinates,
                 tint: surface.tints.map_or([0.0; 3], |tints| tints[index].map(decode)),
                 on_hem: on_hem[index],
+                lit_point: 0,
             }
         });
         let hems = [0, 1, 2].map(|k| is_hem(&edge(triangle, k)));
@@ -174,6 +217,7 @@ fn split(facets: &mut Vec<Facet>, facet: Facet, longest: f64) {
         coordinates: [0, 1].map(|i| 0.5 * (one.coordinates[i] + other.coordinates[i])),
         tint: scale(add(one.tint, other.tint), 0.5),
         on_hem: facet.hems[k],
+        lit_point: 0,
     };
     for (replaced, cut) in [(c, b), (b, c)] {
         let mut half = facet.clone();
@@ -194,6 +238,7 @@ fn add_floor(facets: &mut Vec<Facet>, center: Vector, half_side: f64, height: f6
             coordinates: [0.0; 2],
             tint: [0.0; 3],
             on_hem: false,
+            lit_point: 0,
         }
     };
     for i in 0..FLOOR_CELLS {
@@ -221,7 +266,7 @@ mod tests {
         let triangles = [[0, 2, 1], [0, 3, 2], [1, 5, 4], [1, 2, 5]];
         let scene =
             Scene { cloths: vec![Surface::cloth(&positions, &triangles)], ..Scene::default() };
-        let Tessellation { facets, bounds, .. } = Tessellation::new(&scene, 0.0);
+        let Tessellation { facets, bounds, .. } = Tessellation::new(&scene);
         let area: f64 = facets.iter().map(|f| 0.5 * norm(f.area_normal())).sum();
         assert!((area - 4.0).abs() < 1e-12, "area {area}");
         let mut hem = 0.0;
@@ -246,7 +291,7 @@ mod tests {
         let triangles = [[0, 1, 2], [0, 2, 3], [0, 4, 1], [1, 4, 2], [2, 4, 3], [3, 4, 0]];
         let scene =
             Scene { bodies: vec![Surface::body(&positions, &triangles)], ..Scene::default() };
-        let facets = Tessellation::new(&scene, 0.0).facets;
+        let facets = Tessellation::new(&scene).facets;
         let mut sides = BTreeMap::new();
         for facet in &facets {
             let keys = facet.corners.map(|c| c.position.map(f64::to_bits));
@@ -265,7 +310,7 @@ mod tests {
         let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         let triangles = [[0, 1, 2], [0, 2, 3]];
         let normal_at_the_fold = |scene: Scene| {
-            let corners = Tessellation::new(&scene, 0.0).facets.into_iter().flat_map(|f| f.corners);
+            let corners = Tessellation::new(&scene).facets.into_iter().flat_map(|f| f.corners);
             let mut at_origin = corners.filter(|c| c.position == [0.0; 3]);
             at_origin.next().expect("the first vertex").normal
         };
@@ -285,8 +330,10 @@ pub(crate) mod samples {
     use super::*;
 
     /// Scene of facets with its bounds.
-    pub(crate) fn scene(facets: Vec<Facet>, center: Vector, radius: f64) -> Tessellation {
-        Tessellation { facets, bounds: Bounds { center, radius }, body_depth_bias: 0.0 }
+    pub(crate) fn scene(mut facets: Vec<Facet>, center: Vector, radius: f64) -> Tessellation {
+        let lit_points = number_lit_points(&mut facets);
+        let bounds = Bounds { center, radius };
+        Tessellation { facets, lit_points, bounds, body_depth_bias: 0.0 }
     }
 
     /// Disc around the y axis, facing up, as a fan of triangles.
@@ -299,6 +346,7 @@ pub(crate) mod samples {
                 coordinates: [0.0; 2],
                 tint: [0.0; 3],
                 on_hem: false,
+                lit_point: 0,
             }
         };
         let piece = |k| Facet {

@@ -2,6 +2,8 @@
 
 mod shape_files;
 
+use std::path::Path;
+
 use drape_collide::{Body, Mesh, Pose, Shape};
 use drape_input::{Given, excerpt, figure, figure_below};
 
@@ -165,11 +167,30 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
     match Mesh::load(path, scale(checker, file)) {
         Ok(mesh) => {
             check_size(checker, index, &mesh);
+            check_unit(checker, index, file, &mesh);
             let entry = Entry { kind: "mesh", index, common: file.common() };
             Some(rigid_body(checker, &entry, Shape::Mesh(mesh)))
         }
         Err(error) => {
-            checker.fail_with(&format!("collider.mesh[{index}].file"), &error);
+            let key = format!("collider.mesh[{index}].file");
+            match error.is_fault_of_surface() {
+                true => {
+                    let path = checker.folder.join(&file.file);
+                    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                    let repaired = path.with_file_name(format!("{stem}-repaired.obj"));
+                    let named =
+                        Path::new(&file.file).with_file_name(format!("{stem}-repaired.obj"));
+                    let help = format!(
+                        "`drape check {0}` shows all faults; `drape check {0} --repair {1}` mends \
+                         what is safe; then give file = {2:?}",
+                        path.display(),
+                        repaired.display(),
+                        named.display().to_string()
+                    );
+                    checker.fail(&key, error.to_string(), &help);
+                }
+                false => checker.fail_with(&key, &error),
+            }
             None
         }
     }
@@ -189,18 +210,53 @@ fn check_scale(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> 
 
 /// Checks the size of a mesh: one that is no size for cloth has another unit than the scene says.
 fn check_size(checker: &mut Checker<'_>, index: usize, mesh: &Mesh) {
-    let vertices = mesh.vertices();
-    let extent = |axis: usize| {
-        let values = || vertices.iter().map(|vertex| vertex[axis]);
-        values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
-    };
-    let longest = (0..3).map(extent).fold(0.0, f64::max);
+    let longest = longest(mesh);
     if !(SIZE_MIN..=SIZE_MAX).contains(&longest) {
         let message = format!("the body is {longest:.4} m long");
         let help = "is the unit right? scale = 0.001 reads a file in millimetres, 0.01 one in centimetres, 1 one in \
                     metres; bodies are 2 mm to 100 m long";
         checker.fail(&format!("collider.mesh[{index}].scale"), message, help);
     }
+}
+
+/// Units of files, with their lengths in m.
+const UNITS: [(&str, f64); 4] =
+    [("millimetres", 0.001), ("centimetres", 0.01), ("inches", 0.0254), ("metres", 1.0)];
+
+/// Sizes of a body that wears a garment, in m: from a doll to a tall person.
+const WEARER: [f64; 2] = [0.15, 3.0];
+
+/// Asks for the unit of a body that wears a garment and is as large as none does, where a unit would
+/// give it the size of one.
+fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, mesh: &Mesh) {
+    let longest = longest(mesh);
+    let wears = |size: f64| (WEARER[0]..=WEARER[1]).contains(&size);
+    if checker.file.garment.is_empty() || file.scale.is_some() || wears(longest) {
+        return;
+    }
+    let in_file = longest / checker.unit;
+    let choices: Vec<String> = UNITS
+        .iter()
+        .filter(|(_, unit)| wears(in_file * unit))
+        .map(|(name, unit)| {
+            format!("scale = {unit} if the file is in {name} ({:.2} m)", in_file * unit)
+        })
+        .collect();
+    if !choices.is_empty() && (SIZE_MIN..=SIZE_MAX).contains(&longest) {
+        let message = format!("the body is {longest:.2} m long, too large or small for a garment");
+        let help = format!("{}; scale = {} keeps its size", choices.join(", "), checker.unit);
+        checker.fail(&format!("collider.mesh[{index}].file"), message, &help);
+    }
+}
+
+/// Returns the largest extent of a mesh along an axis, in m.
+fn longest(mesh: &Mesh) -> f64 {
+    let vertices = mesh.vertices();
+    let extent = |axis: usize| {
+        let values = || vertices.iter().map(|vertex| vertex[axis]);
+        values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
+    };
+    (0..3).map(extent).fold(0.0, f64::max)
 }
 
 /// Refuses keys of frames in a mesh that has none.

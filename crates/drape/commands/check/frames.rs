@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use drape::verify::{ClosePair, PartNumber, Recording, Verdict};
-use serde_json::json;
+use serde_json::{Value, json};
 
+use crate::console::say;
 use crate::failure::Failure;
-use crate::say::say;
 
 /// Returns whether a folder was written by a run, complete or not.
 pub(crate) fn is_run(path: &Path) -> bool {
@@ -14,8 +14,30 @@ pub(crate) fn is_run(path: &Path) -> bool {
     Recording::exists(path) || has("frame-00000.obj") || has("summary.json")
 }
 
-/// Verifies every frame of the folders; fails after the last if one does not hold.
-pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
+/// Runs that were verified.
+pub(crate) struct Verified {
+    /// What was found, as JSON, one entry a run.
+    pub(crate) found: Vec<Value>,
+    /// Files of the frames that do not hold.
+    broken: Vec<PathBuf>,
+}
+
+impl Verified {
+    /// Fails if a frame does not hold.
+    pub(crate) fn outcome(&self) -> Result<(), Failure> {
+        match self.broken.first() {
+            None => Ok(()),
+            Some(first) => Err(Failure::Intersecting(format!(
+                "surfaces intersect or are too close in {} frames, first in {}",
+                self.broken.len(),
+                first.display()
+            ))),
+        }
+    }
+}
+
+/// Verifies every frame of the folders, and says what it finds unless that is printed as JSON.
+pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<Verified, Failure> {
     let mut broken = Vec::new();
     let mut found = Vec::new();
     for folder in folders {
@@ -44,18 +66,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<(), Failure> {
             "frames": verdicts,
         }));
     }
-    if json {
-        let found = serde_json::to_string_pretty(&found);
-        say(found.expect("verdicts always have a JSON form"))?;
-    }
-    match broken.first() {
-        None => Ok(()),
-        Some(first) => Err(Failure::Intersecting(format!(
-            "surfaces intersect or are too close in {} frames, first in {}",
-            broken.len(),
-            first.display()
-        ))),
-    }
+    Ok(Verified { found, broken })
 }
 
 fn headline(folder: &Path, recording: &Recording) -> String {

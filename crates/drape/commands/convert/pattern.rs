@@ -8,7 +8,7 @@ use drape::pattern::{Error, Paper, Pattern, Request, Unit};
 use super::arguments::ConvertArguments;
 use crate::failure::Failure;
 use crate::file;
-use crate::say::say;
+use crate::console::say;
 
 /// Converts a pattern and says what is not in the result, or was taken for it.
 pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {

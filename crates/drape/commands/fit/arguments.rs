@@ -10,7 +10,8 @@ pub(crate) struct FitArguments {
     /// Sheets, TOML files, or folders: one with a sheet.toml, or one with such folders inside.
     #[arg(required = true, value_name = "SHEET")]
     pub(crate) sheets: Vec<PathBuf>,
-    /// The fabric to write, or the folder for several [default: fabric.toml beside each sheet].
+    /// The fabric to write, - for stdout, or the folder for several [default: fabric.toml beside
+    /// each sheet].
     #[arg(short, long, value_name = "FABRIC.toml")]
     pub(crate) output: Option<PathBuf>,
     /// Folder for a report with plots, one HTML page per sheet.

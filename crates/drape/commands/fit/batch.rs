@@ -10,8 +10,8 @@ use drape::report::{FitPage, Trust};
 use super::arguments::FitArguments;
 use super::identify::{beside, page, store};
 use crate::commands::sheets;
+use crate::console::{Console, say, tell};
 use crate::failure::Failure;
-use crate::say::say;
 use crate::{file, progress};
 
 /// One sheet of a batch, with what its files are called.
@@ -66,7 +66,6 @@ struct Row {
 }
 
 /// Fits every sheet on all threads; a sheet that fails does not stop the others.
-#[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
 pub(crate) fn fit_all(sheets: &[PathBuf], arguments: &FitArguments) -> Result<(), Failure> {
     let bar = progress::bar(sheets.len() as u64, "{pos}/{len} sheets, {per_sec}, {eta} left");
     let jobs = plan(sheets, arguments);
@@ -96,7 +95,9 @@ pub(crate) fn fit_all(sheets: &[PathBuf], arguments: &FitArguments) -> Result<()
         }
     }
     rows.iter().filter_map(|row| row.as_ref().err()).for_each(Failure::print);
-    eprintln!("{} of {} sheets fitted", sheets.len() - failed, sheets.len());
+    if !Console::get().quiet {
+        tell(format_args!("{} of {} sheets fitted", sheets.len() - failed, sheets.len()));
+    }
     if failed > 0 { Err(Failure::Batch) } else { Ok(()) }
 }
 

@@ -3,6 +3,7 @@
 use drape::dynamics::{Contacts, Energy, PhaseName, Status, Summary};
 
 use crate::failure::Failure;
+use crate::signal;
 
 /// Describes a run in a few lines.
 pub(crate) fn describe(summary: &Summary) -> String {
@@ -122,6 +123,13 @@ pub(crate) fn outcome(summary: Summary) -> Result<(), Failure> {
              good state was written",
             summary.simulated_seconds
         ))),
+        Status::Interrupted => Err(Failure::Interrupted {
+            signal: signal::received().unwrap_or_default(),
+            message: format!(
+                "interrupted at {:.4} s; the summary, the last frame and a picture were written",
+                summary.simulated_seconds
+            ),
+        }),
         Status::SolverFailed => Err(Failure::Solver(format!(
             "the step after {} s could not be solved; the last good state was written: {}",
             summary.simulated_seconds,

@@ -6,10 +6,10 @@ use serde_json::json;
 
 use super::arguments::TestArguments;
 use crate::commands::sheets;
+use crate::console::{say, say_written};
 use crate::failure::Failure;
 use crate::file;
 use crate::pages::instruments::{DIRECTIONS, TESTS, TestedLoop, page};
-use crate::say::say;
 
 /// Spacing of the particles, in mm.
 const SPACING: f64 = 5.0;
@@ -42,7 +42,7 @@ pub(crate) fn compare(fabric: &Fabric, arguments: &TestArguments) -> Result<(), 
         let path = folder.join(format!("{}-tested.html", sheets::stem(&arguments.fabric)));
         file::write(&path, &page(fabric, &loops).to_html()?)?;
         if !arguments.json {
-            say(format_args!("page written to {}", path.display()))?;
+            say_written(format_args!("page written to {}", path.display()))?;
         }
     }
     Ok(())

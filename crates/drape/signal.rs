@@ -1,0 +1,43 @@
+//! Signals that ask the program to end: the first one ends a run at its next step, a later one ends
+//! the program at once.
+
+use std::sync::Once;
+use std::sync::atomic::{AtomicU8, Ordering};
+use std::time::{Duration, Instant};
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+
+/// Time after the first signal in which others count as the same one, since shells and wrappers
+/// send it to a process and to its group.
+const SAME: Duration = Duration::from_millis(500);
+
+/// Number of the first signal that was received; 0 for none.
+static RECEIVED: AtomicU8 = AtomicU8::new(0);
+
+static WATCH: Once = Once::new();
+
+/// Begins to note signals instead of ending at once. Where they cannot be watched, they end the
+/// program as before.
+pub(crate) fn watch() {
+    WATCH.call_once(|| {
+        let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+        std::thread::spawn(move || {
+            let mut first = None;
+            for signal in signals.forever() {
+                let number = u8::try_from(signal).unwrap_or_default();
+                let since = *first.get_or_insert_with(Instant::now);
+                if RECEIVED.load(Ordering::Relaxed) == 0 {
+                    RECEIVED.store(number, Ordering::Relaxed);
+                } else if since.elapsed() > SAME {
+                    std::process::exit(128 + signal);
+                }
+            }
+        });
+    });
+}
+
+/// Returns the number of the signal that was received.
+pub(crate) fn received() -> Option<u8> {
+    Some(RECEIVED.load(Ordering::Relaxed)).filter(|signal| *signal > 0)
+}
