@@ -43,6 +43,7 @@ fn fabric() -> Fabric {
         density: 0.2,
         thickness: 3e-4,
         pressed_thickness: None,
+        compression_linearity: None,
         surface_friction: SURFACE_FRICTION,
         warp: direction(1.0e-5),
         weft: direction(1.2e-5),

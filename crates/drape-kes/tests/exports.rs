@@ -370,6 +370,35 @@ fn cycles_are_one_history_or_those_that_are_named() {
     assert_same("the first cycle", &first.curves[0], 1.0);
 }
 
+#[test]
+fn loading_and_recovery_side_by_side_are_one_history() {
+    // The recovery from its end at zero up, as plotting programs want it.
+    let there: Vec<Point> = curve().into_iter().take(21).collect();
+    let back: Vec<Point> = curve().into_iter().skip(21).rev().collect();
+    let row = |(index, p): (usize, &Point)| {
+        let of_back = back
+            .get(index)
+            .map_or(";".into(), |p| format!("{};{}", comma(p.percent()), comma(p.gf_per_cm())));
+        format!("{};{};{of_back}\n", comma(p.percent()), comma(p.gf_per_cm()))
+    };
+    let text = format!(
+        "Loading;;Recovery;\nStrain (%);Force (gf/cm);Strain (%);Force (gf/cm)\n{}",
+        there.iter().enumerate().map(row).collect::<String>()
+    );
+    let reading = assert_read("parts.csv", text.as_bytes(), "");
+    assert!(reading.contains("turned around"), "{reading}");
+}
+
+#[test]
+fn columns_without_a_header_are_named_by_their_numbers() {
+    let text = rows(|_, p| format!("{:.6},{:.6}", p.percent(), p.gf_per_cm()));
+    let found = mistake("plain.csv", text.as_bytes(), "");
+    says(&found, "plain.csv", Some(1), &["deformation = { column = 1", "load = { column = 2"]);
+    let keys =
+        "deformation = { column = 1, unit = \"%\" }\nload = { column = 2, unit = \"gf/cm\" }";
+    assert_read("plain.csv", text.as_bytes(), keys);
+}
+
 /// Writes an OpenDocument spreadsheet of one sheet with the cells of some rows.
 fn ods(name: &str, rows: &[Vec<String>]) -> Vec<u8> {
     let cell = |cell: &String| match cell.parse::<f64>() {

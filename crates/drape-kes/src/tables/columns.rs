@@ -187,15 +187,19 @@ fn none_fits(block: &Block, axis: &AxisQuery<'_>) -> NoColumns {
     } else {
         format!("no column is a {} by its heading: a {}", axis.name, what.join(" or a "))
     };
+    let unit = axis.accepted[0].laboratory().spelling;
+    // By number, the usual order; without a header both have to be named.
+    let number = if axis.name == "load" { 2 } else { 1 };
+    let named = if block.headings.is_empty() {
+        "deformation = { column = 1, unit = \"…\" } and load = { column = 2, unit = \"…\" }"
+            .to_owned()
+    } else {
+        format!("{} = {{ column = {number}, unit = \"{unit}\" }}", axis.name)
+    };
     NoColumns {
         line: block.header_line.or(Some(block.first_line())),
         message,
-        help: format!(
-            "name it: {} = {{ column = 1, unit = \"{}\" }}; columns of the file: {}",
-            axis.name,
-            axis.accepted[0].laboratory().spelling,
-            names.join(", ")
-        ),
+        help: format!("name it: {named}; columns of the file: {}", names.join(", ")),
     }
 }
 

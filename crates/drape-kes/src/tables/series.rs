@@ -77,6 +77,7 @@ pub(crate) fn find(
         match pairs(&block, &request.deformation, &request.load) {
             Ok(pairs) => {
                 let several = pairs.len() > 1;
+                let (block, pairs) = one_history(block, pairs, &mut found.reading);
                 for pair in pairs {
                     let label = title(&block, &pair);
                     let series = Series {
@@ -244,6 +245,52 @@ fn title(block: &Block, pair: &Pair) -> String {
     parts.join(", ")
 }
 
+/// Joins loading and recovery that stand side by side into one history in the columns of the first.
+///
+/// A way back that is listed from zero up is turned around, so that it goes on where the way there
+/// ends; the reading says so.
+fn one_history(
+    mut block: Block,
+    pairs: Vec<Pair>,
+    reading: &mut Vec<String>,
+) -> (Block, Vec<Pair>) {
+    let part = |pair: &Pair| heading::is_part(&pair.label) && !heading::is_specimen(&pair.label);
+    if pairs.len() < 2 || !pairs.iter().all(part) {
+        return (block, pairs);
+    }
+    let first = pairs[0].clone();
+    let value = |row: &Row, column: usize| {
+        row.cells
+            .get(column)
+            .and_then(|cell| cell.number(Decimal::Comma).or(cell.number(Decimal::Point)))
+    };
+    let mut joined: Vec<Row> = Vec::new();
+    for pair in &pairs {
+        let filled = |row: &&Row| row.cells.get(pair.load).is_some_and(|cell| !cell.is_empty());
+        let mut rows: Vec<Row> = block.rows.iter().filter(filled).cloned().collect();
+        let ends = [rows.first(), rows.last()].map(|row| value(row?, pair.deformation));
+        let before = joined.last().and_then(|row| value(row, first.deformation));
+        if let (Some(end), [Some(from), Some(to)]) = (before, ends)
+            && (to - end).abs() < (from - end).abs()
+        {
+            rows.reverse();
+            reading.push(format!("\"{}\" turned around to go on from its neighbour", pair.label));
+        }
+        joined.extend(rows.into_iter().map(|mut row| {
+            let width = row.cells.len().max(1 + first.deformation.max(first.load));
+            row.cells.resize(width.max(1 + pair.deformation), Cell::Text(String::new()));
+            let cells = [pair.deformation, pair.load].map(|column| row.cells[column].clone());
+            for (column, cell) in [first.deformation, first.load].into_iter().zip(cells) {
+                row.cells[column] = cell;
+            }
+            row
+        }));
+    }
+    reading.push(format!("{} parts of one history side by side", pairs.len()));
+    block.rows = joined;
+    (block, vec![Pair { label: String::new(), ..first }])
+}
+
 /// Splits a series at the values of a column of specimens, if there is one.
 fn by_specimen(series: Series, layout: &Layout) -> Vec<Series> {
     let is_specimen = |column: &usize| {
@@ -377,8 +424,9 @@ fn decimal(series: &Series, layout: &Layout) -> Result<Decimal, Diagnostics> {
     }
     let mut seen: [Option<(usize, String)>; 2] = [None, None];
     let mut either = None;
+    let columns = series.block.number_columns();
     for row in &series.block.rows {
-        for column in series.block.number_columns() {
+        for &column in &columns {
             let Some(cell) = row.cells.get(column) else { continue };
             let here = || (row.line, cell.text());
             match cell.evidence() {
