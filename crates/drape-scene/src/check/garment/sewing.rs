@@ -50,7 +50,9 @@ pub(crate) fn sewing(
         ties: seam.pairs.ties.clone(),
         ..drape_cloth::Seam::new(seam.pairs.pairs.clone())
     };
-    let bending: Vec<drape_cloth::Seam> = seams.iter().map(bending).collect();
+    // A seam of one pair, of edges that are too short for the spacing, has nothing to bend.
+    let long = seams.iter().filter(|seam| seam.pairs.pairs.len() > 1);
+    let bending: Vec<drape_cloth::Seam> = long.map(bending).collect();
     let bending = SeamBending::new(panels, &bending).map_err(|error| {
         let help = "choose another spacing, and report the pattern";
         checker.fail("garment", error.to_string(), help);
