@@ -97,7 +97,9 @@ fn a_reversed_seam_is_answered_with_the_sense_that_fits() {
     let wrong = pattern(170.0).replace(good, &format!("{good}\nreversed = true"));
     let said = read(&wrong, "").unwrap_err();
     assert!(said.contains("seam.side_left: the seam is reversed: its stitches are"), "{said}");
-    assert_eq!(between(&said, "[seam.side_left]: ", "; or"), format!("{good}, without reversed = true"));
+    let line = between(&said, "[seam.side_left]: ", "; or");
+    assert_eq!(line, format!("{good}, without reversed = true"));
+    assert!(read(&wrong.replace("reversed = true", ""), "").is_ok());
     // The twist may be meant.
     assert!(read(&wrong, "[sew]\ntwisted = [\"side_left\"]").is_ok());
     let said = read(&wrong, "[sew]\ntwisted = [\"side_lef\"]").unwrap_err();

@@ -71,6 +71,12 @@ pub(crate) fn garments(
         first += garment.panels.iter().map(|own| own.positions.len() / 3).sum::<usize>();
         garments.push(garment);
     }
+    let seams = garments.iter().flat_map(|garment| &garment.seams);
+    let known: Vec<&str> = seams.map(|seam| seam.name.as_str()).collect();
+    for name in file.sew.twisted.iter().filter(|name| !known.contains(&name.as_str())) {
+        let unknown = UnknownName { name, known: &known, kind: "seams" };
+        checker.unknown("sew.twisted", format!("there is no seam \"{name}\""), unknown);
+    }
     garments
 }
 

@@ -3,7 +3,7 @@
 use drape_cloth::{Cloth, Lattice, SeamBending};
 use drape_fabric::Fabric;
 
-use crate::check::checker::{Checker, UnknownName};
+use crate::check::checker::Checker;
 use crate::scene::garment::Sewing;
 use crate::scene::seam::{Seam, SeamPairs};
 
@@ -25,11 +25,6 @@ pub(crate) fn sewing(
             checker.fail("sew", "nothing is sewn", help);
         }
         return None;
-    }
-    let known: Vec<&str> = seams.iter().map(|seam| seam.name.as_str()).collect();
-    for name in file.sew.twisted.iter().filter(|name| !known.contains(&name.as_str())) {
-        let unknown = UnknownName { name, known: &known, kind: "seams" };
-        checker.unknown("sew.twisted", format!("there is no seam \"{name}\""), unknown);
     }
     let explicit = file.solver.integrator.as_deref() == Some("explicit");
     for (wrong, key, word) in [
