@@ -191,9 +191,8 @@ fn check_seam_order(
         Some(document) => document.clone(),
         None => Document::read(&path).unwrap_or_else(|_| Document::new(&path, "")),
     };
-    let mistakes: Vec<Diagnostic> = twisted
-        .filter_map(|seam| PlacedSeam::new(pattern, seam, &places).mistake(&file))
-        .collect();
+    let mistakes: Vec<Diagnostic> =
+        twisted.filter_map(|seam| PlacedSeam::new(pattern, seam, &places).mistake(&file)).collect();
     checker.extend(Diagnostics(mistakes));
 }
 

@@ -82,7 +82,7 @@ impl<'a> Solids<'a> {
     }
 
     /// Returns the signed distance of a point from the nearest body, in m.
-    fn distance(&self, point: [f64; 3]) -> f64 {
+    pub(crate) fn distance(&self, point: [f64; 3]) -> f64 {
         let distances = self.bodies.iter().filter_map(|body| body.signed_distance(point).ok());
         distances.map(|near| near.distance).fold(f64::INFINITY, f64::min)
     }
@@ -256,7 +256,9 @@ pub(crate) fn remedy(checker: &Checker<'_>, garment: usize, shift: Option<[f64; 
     };
     let [x, y, z] = [0, 1, 2].map(|k| entry.center[k] + shift[k] / checker.unit);
     let digits = if checker.unit == 1.0 { 3 } else { 0 };
-    format!("write center = [{x:.digits$}, {y:.digits$}, {z:.digits$}] in its [[garment]]; there it is about the body")
+    format!(
+        "write center = [{x:.digits$}, {y:.digits$}, {z:.digits$}] in its [[garment]]; there it is about the body"
+    )
 }
 
 /// Returns some of many points, evenly.
