@@ -50,7 +50,7 @@ fn an_edge_between_two_seams_that_is_too_short_becomes_one_particle() {
     let (particles, cut) = cut(&shipped("shirt.json"), 0.02);
     let welded = cut.notes.iter().filter_map(|note| match note {
         Note::Welded { panel, edge, length, .. } => {
-            assert!((length - 0.0075).abs() < 1e-6, "{note}");
+            assert!((length - 0.0075).abs() < 1e-4, "{note}");
             Some(format!("{panel}.{edge}"))
         }
         _ => None,
@@ -80,7 +80,8 @@ fn a_short_pair_of_edges_between_free_ones_is_sewn_at_one_particle() {
     );
     let pattern = Pattern::parse(&Document::new("tack.toml", text)).expect("it is sound");
     let cut = Cutter::new(0.02).cut(&pattern).expect("it can be cut");
-    let [tack, _] = &cut.seams[..] else { panic!("two seams") };
+    let number = pattern.seams().iter().position(|seam| seam.name == "tack").expect("it is there");
+    let tack = &cut.seams[number];
     assert_eq!(tack.pairs.len(), 1);
     let places = tack.pairs[0].map(|id| cut.panels[id.panel].positions[id.node as usize]);
     assert_eq!(places[0], places[1]);
