@@ -31,6 +31,7 @@ fn fabric() -> Fabric {
         density: 0.12,
         thickness: 3e-4,
         pressed_thickness: None,
+        compression_linearity: None,
         surface_friction: SURFACE_FRICTION,
         warp: laws,
         weft: laws,

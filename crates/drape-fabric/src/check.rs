@@ -38,6 +38,10 @@ impl Fabric {
             let help = "in m, under 4.9 kPa: no more than the thickness";
             check.within("pressed_thickness", pressed, 1e-6..=self.thickness, help);
         }
+        if let Some(linearity) = self.compression_linearity {
+            let help = "LC of the compression test, a ratio: 1 for a straight line, 0.2 to 0.5 for fabrics";
+            check.within("compression_linearity", linearity, 0.02..=1.0, help);
+        }
         check.within("surface_friction", self.surface_friction, 0.0..=5.0, "a ratio such as 0.2");
         for (name, direction) in [("warp", &self.warp), ("weft", &self.weft)] {
             check.traction(&format!("{name}.traction"), &direction.traction);

@@ -49,6 +49,9 @@ pub struct Fabric {
     pub thickness: f64,
     /// Thickness under 4.9 kPa (50 gf/cm²), in m, if it was measured (KES-FB3).
     pub pressed_thickness: Option<f64>,
+    /// Work of compression to 4.9 kPa over that of a straight line there, a ratio, if it was measured
+    /// (LC of KES-FB3). The less it is, the later and the harder the fabric resists pressure.
+    pub compression_linearity: Option<f64>,
     /// Coefficient of friction of the surface, a ratio.
     pub surface_friction: f64,
     /// Laws along the warp yarns.
@@ -88,6 +91,10 @@ pub struct Provenance {
     /// `warp.bending.rigidity`.
     #[serde(default)]
     pub standard_errors: BTreeMap<String, f64>,
+    /// Measured values that the model does not use, by their symbols such as `warp.MMD`, in the
+    /// laboratory's units.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub unused: BTreeMap<String, f64>,
     /// Largest deformation at which each law was measured, by key path such as `warp.traction`: a
     /// strain, a curvature in 1/m, the sine of a shear angle. Its table in the file is `reach`.
     #[serde(rename = "reach", default, skip_serializing_if = "BTreeMap::is_empty")]

@@ -24,6 +24,8 @@ struct FabricFile {
     thickness: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pressed_thickness: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compression_linearity: Option<f64>,
     #[serde(default = "surface_friction")]
     surface_friction: f64,
     warp: YarnFile,
@@ -177,6 +179,7 @@ impl FabricFile {
             density: self.density,
             thickness: self.thickness,
             pressed_thickness: self.pressed_thickness,
+            compression_linearity: self.compression_linearity,
             surface_friction: self.surface_friction,
             warp,
             weft,
@@ -300,6 +303,7 @@ impl From<&Fabric> for FabricFile {
             density: fabric.density,
             thickness: fabric.thickness,
             pressed_thickness: fabric.pressed_thickness,
+            compression_linearity: fabric.compression_linearity,
             surface_friction: fabric.surface_friction,
             warp: (&fabric.warp).into(),
             weft: (&fabric.weft).into(),

@@ -21,6 +21,7 @@
 pub(crate) mod curve_fit;
 pub(crate) mod estimate;
 pub(crate) mod linear;
+pub(crate) mod repeats;
 pub(crate) mod residuals;
 pub(crate) mod search;
 pub(crate) mod selection;

@@ -43,6 +43,9 @@ fn values_of(fabric: &Fabric, direction: Direction, extension: f64) -> Values {
         wt: Some(tensile.work / 0.980_665),
         rt: tensile.resilience.map(|resilience| 100.0 * resilience),
         em: Some(100.0 * tensile.extension),
+        miu: None,
+        mmd: None,
+        smd: None,
     }
 }
 
@@ -66,6 +69,9 @@ const WARP: Values = Values {
     wt: None,
     rt: Some(62.0),
     em: Some(4.5),
+    miu: None,
+    mmd: None,
+    smd: None,
 };
 
 #[test]

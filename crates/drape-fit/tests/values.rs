@@ -34,6 +34,9 @@ fn values(random: &mut Random) -> Values {
         wt: Some(0.5 * lt * 500.0 * em / 100.0),
         rt: Some(rt),
         em: Some(em),
+        miu: None,
+        mmd: None,
+        smd: None,
     }
 }
 

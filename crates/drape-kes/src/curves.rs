@@ -13,7 +13,7 @@
 //! curves from files, drape-fit fits laws to them. The chapter reads no file and fits nothing.
 //!
 //! * `branch`: reversals and branches of a history.
-//! * `curve`: the curve itself.
+//! * `curve`: the curve itself; `mean`: the mean of repeats.
 //! * `loop_values`, `tensile_values`: values of one test, in SI.
 //! * `evaluation`: all values of a curve, in laboratory units.
 
@@ -21,4 +21,5 @@ pub(crate) mod branch;
 pub(crate) mod curve;
 pub(crate) mod evaluation;
 pub(crate) mod loop_values;
+pub(crate) mod mean;
 pub(crate) mod tensile_values;

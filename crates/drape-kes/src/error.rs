@@ -39,6 +39,16 @@ pub enum Error {
         /// Deformation, in SI.
         deformation: f64,
     },
+    /// Repeat with another history than the first: average those that are alike.
+    #[error("repeat {repeat} has {found} branches where the first has {wanted}")]
+    UnlikeRepeats {
+        /// Number of the repeat, from 1.
+        repeat: usize,
+        /// Number of its branches.
+        found: usize,
+        /// Number of the branches of the first.
+        wanted: usize,
+    },
     /// Curve of another test than the value: choose a curve of the right one.
     #[error("a {found} curve was given where a {wanted} curve is needed")]
     WrongTest {

@@ -6,9 +6,10 @@
 //! [`Curve::values`] computes KES values from a curve.
 //!
 //! * `unit`: quantities, their units and factors to SI, in one table.
-//! * `test`, `symbol`, `values`: the nine KES values of one direction, in laboratory units and in
+//! * `test`, `symbol`, `values`: the KES values of one direction, in laboratory units and in
 //!   SI.
 //! * `curves`: [`Curve`], its branches, and the KES values read off it at [`EvaluationPoints`].
+//! * `tables`: the files of instruments and spreadsheets, made into columns of numbers.
 //! * `sheets`: [`Sheet`], its TOML and table files, and the checks of what they say.
 
 mod error;
@@ -21,6 +22,8 @@ mod values;
 mod curves;
 // Sheets and their files.
 mod sheets;
+// Tables of any instrument.
+mod tables;
 
 pub use curves::branch::{Branch, reversals};
 pub use curves::curve::{Curve, Extent};
@@ -28,6 +31,7 @@ pub use curves::evaluation::{CurveValue, EvaluationPoints};
 pub use curves::loop_values::{BendingPoints, BendingValues, ShearPoints, ShearValues};
 pub use curves::tensile_values::TensileValues;
 pub use error::Error;
+pub use sheets::listed::SheetValue;
 pub use sheets::model::Model;
 pub use sheets::sheet::Sheet;
 pub use symbol::Symbol;

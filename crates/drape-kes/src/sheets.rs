@@ -2,23 +2,30 @@
 //!
 //! ```text
 //! sheet.toml ─ section ─┬─ values (plausible) ──────────────┐
-//!                       └─ [[curve]] ─ table ─ curve_file ─ suspect ─ Curve ─ Sheet
+//!                       └─ [[curve]] ─ axis ─ (tables) ─ convert ─ suspect ─ Curve ─ Sheet
 //! ```
 //!
 //! Units are converted here and nowhere later. Whatever is wrong is collected, not returned at the
-//! first mistake: each finding has file, line, value and remedy. The chapter uses `unit`, `values`
-//! and `curves`; nothing in the crate uses it.
+//! first mistake: each finding has file, line, value and remedy. The chapter uses `unit`, `values`,
+//! `curves` and `tables`; nothing in the crate uses it.
 //!
 //! * `findings`: the list of errors and warnings.
-//! * `section`: typed access to a TOML table; `table`: text tables of any spreadsheet.
+//! * `section`: typed access to a TOML table.
+//! * `spelling`, `value_keys`: the values; `compression`: what those of KES-FB3 give together;
+//!   `listed`: all of them, with their use.
 //! * `plausible`, `suspect`: values and curves that cannot be right.
-//! * `curve_file`: a `[[curve]]` made into a curve; `model`, `sheet`: the sheet.
+//! * `axis`, `convert`, `curve_file`: a `[[curve]]` made into a curve; `model`, `sheet`: the sheet.
 
+pub(crate) mod axis;
+pub(crate) mod compression;
+pub(crate) mod convert;
 pub(crate) mod curve_file;
 pub(crate) mod findings;
+pub(crate) mod listed;
 pub(crate) mod model;
 pub(crate) mod plausible;
 pub(crate) mod section;
 pub(crate) mod sheet;
+pub(crate) mod spelling;
 pub(crate) mod suspect;
-pub(crate) mod table;
+pub(crate) mod value_keys;

@@ -9,6 +9,12 @@ use drape_input::closest;
 /// The reading of a balance depends on the place; the unit is defined as 980.665 dyn.
 pub(crate) const GRAM_FORCE: f64 = 9.806_65e-3;
 
+/// Inch, in metres.
+const INCH: f64 = 0.0254;
+
+/// Standard pound-force, in newtons.
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+
 /// One degree, in radians.
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
@@ -39,6 +45,8 @@ pub(crate) enum Quantity {
     WorkPerArea,
     /// Mass per area, in kg/m².
     MassPerArea,
+    /// Height of a surface, in metres.
+    Roughness,
 }
 
 impl Quantity {
@@ -57,6 +65,7 @@ impl Quantity {
             Self::ShearStiffness => "shear stiffness",
             Self::WorkPerArea => "work per area",
             Self::MassPerArea => "mass per area",
+            Self::Roughness => "roughness",
         }
     }
 
@@ -67,7 +76,14 @@ impl Quantity {
         match self {
             Self::Ratio => &[("%", 0.01), ("-", 1.0), ("1", 1.0), ("m/m", 1.0), ("mm/mm", 1.0)],
             Self::Angle => &[("deg", DEGREE), ("rad", 1.0), ("mrad", 1e-3)],
-            Self::Length => &[("mm", 1e-3), ("cm", 1e-2), ("m", 1.0), ("um", 1e-6)],
+            Self::Length => &[
+                ("mm", 1e-3),
+                ("cm", 1e-2),
+                ("m", 1.0),
+                ("um", 1e-6),
+                ("in", INCH),
+                ("inch", INCH),
+            ],
             Self::Curvature => &[
                 ("1/cm", 1e2),
                 ("cm-1", 1e2),
@@ -82,6 +98,12 @@ impl Quantity {
                 ("mN", 1e-3),
                 ("cN", 1e-2),
                 ("kgf", 1e3 * GRAM_FORCE),
+                ("kN", 1e3),
+                ("lbf", POUND_FORCE),
+                ("dyn", 1e-5),
+                // Balances and older instruments print the force of a mass by the mass.
+                ("g", GRAM_FORCE),
+                ("kg", 1e3 * GRAM_FORCE),
             ],
             Self::ForcePerWidth => &[
                 ("gf/cm", 1e2 * GRAM_FORCE),
@@ -92,6 +114,12 @@ impl Quantity {
                 ("mN/mm", 1.0),
                 ("N/mm", 1e3),
                 ("kgf/m", 1e3 * GRAM_FORCE),
+                ("kgf/cm", 1e5 * GRAM_FORCE),
+                ("gf/mm", 1e3 * GRAM_FORCE),
+                ("kN/m", 1e3),
+                ("N/5cm", 20.0),
+                ("lbf/in", POUND_FORCE / INCH),
+                ("g/cm", 1e2 * GRAM_FORCE),
             ],
             Self::Moment => &[
                 ("gf.cm", 1e-2 * GRAM_FORCE),
@@ -99,6 +127,10 @@ impl Quantity {
                 ("mN.m", 1e-3),
                 ("mN.mm", 1e-6),
                 ("uN.m", 1e-6),
+                ("N.mm", 1e-3),
+                ("N.cm", 1e-2),
+                ("gf.mm", 1e-3 * GRAM_FORCE),
+                ("g.cm", 1e-2 * GRAM_FORCE),
             ],
             Self::MomentPerWidth => &[
                 ("gf.cm/cm", GRAM_FORCE),
@@ -108,6 +140,10 @@ impl Quantity {
                 ("mN.cm/cm", 1e-3),
                 ("N", 1.0),
                 ("mN", 1e-3),
+                ("N.cm/cm", 1.0),
+                ("N.mm/mm", 1.0),
+                ("gf.mm/mm", GRAM_FORCE),
+                ("g.cm/cm", GRAM_FORCE),
             ],
             Self::BendingRigidity => &[
                 ("gf.cm2/cm", 1e-2 * GRAM_FORCE),
@@ -137,6 +173,7 @@ impl Quantity {
                 ("N/m", 1.0),
                 ("mJ/m2", 1e-3),
             ],
+            Self::Roughness => &[("um", 1e-6), ("mm", 1e-3), ("m", 1.0)],
             Self::MassPerArea => {
                 &[("mg/cm2", 1e-2), ("kg/m2", 1.0), ("g/m2", 1e-3), ("g/cm2", 10.0), ("gsm", 1e-3)]
             }
@@ -191,6 +228,27 @@ pub(crate) fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, Unit
     })
 }
 
+/// Returns whether a text is a unit of measurement of a curve.
+pub(crate) fn is_unit(text: &str) -> bool {
+    const OF_CURVES: [Quantity; 8] = [
+        Quantity::Ratio,
+        Quantity::Angle,
+        Quantity::Length,
+        Quantity::Curvature,
+        Quantity::Force,
+        Quantity::ForcePerWidth,
+        Quantity::Moment,
+        Quantity::MomentPerWidth,
+    ];
+    const OTHERS: [&str; 14] = [
+        "s", "sec", "min", "ms", "h", "MPa", "Pa", "kPa", "N/mm2", "J", "mJ", "C", "mm/min", "mm/s",
+    ];
+    let text = text.trim();
+    let bare_number = text.parse::<f64>().is_ok();
+    !bare_number
+        && (parse_unit(text, &OF_CURVES).is_ok() || OTHERS.contains(&normal_form(text).as_str()))
+}
+
 /// Number with its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Written {
@@ -227,7 +285,12 @@ fn normal_form(text: &str) -> String {
     let mut normal = String::with_capacity(text.len());
     for c in text.trim().chars() {
         match c {
-            '·' | '*' | '×' | '⋅' | ' ' => normal.push('.'),
+            '·' | '*' | '×' | '⋅' | ' ' | '・' | '･' | '•' => normal.push('.'),
+            '／' => normal.push('/'),
+            '％' => normal.push('%'),
+            '（' => normal.push('('),
+            '）' => normal.push(')'),
+            '\u{ff21}'..='\u{ff5a}' => normal.extend(char::from_u32(c as u32 - 0xfee0)),
             '²' => normal.push('2'),
             '⁻' | '−' => normal.push('-'),
             '¹' => normal.push('1'),
@@ -238,9 +301,17 @@ fn normal_form(text: &str) -> String {
         }
     }
     match normal.as_str() {
-        "degree" | "degrees" | "deg." => "deg".to_owned(),
-        "percent" => "%".to_owned(),
-        _ => normal,
+        "degree" | "degrees" | "deg." | "Deg" | "DEG" | "Grad" | "度" => "deg".to_owned(),
+        "percent" | "Percent" | "pct" | "Prozent" => "%".to_owned(),
+        // Capitals where they mean nothing else; MN would be a million newtons.
+        "MM" | "CM" | "GF" | "KGF" | "Kgf" | "Gf" | "GF/CM" | "gF/cm" | "Gf/cm" | "KN" | "IN" => {
+            if normal == "KN" {
+                "kN".to_owned()
+            } else {
+                normal.to_lowercase()
+            }
+        }
+        _ => normal.replace("grf", "gf"),
     }
 }
 

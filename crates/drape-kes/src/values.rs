@@ -34,6 +34,12 @@ pub struct Values {
     pub rt: Option<f64>,
     /// EM, extension at the maximum load, in percent.
     pub em: Option<f64>,
+    /// MIU, coefficient of friction of the surface, a ratio.
+    pub miu: Option<f64>,
+    /// MMD, mean deviation of MIU along the path, a ratio; the model does not use it.
+    pub mmd: Option<f64>,
+    /// SMD, mean deviation of the height of the surface, in µm; the model does not use it.
+    pub smd: Option<f64>,
 }
 
 impl Values {

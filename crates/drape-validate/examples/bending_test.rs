@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release -p drape-validate --example bending_test`
 
+#![allow(clippy::print_stdout, reason = "an example prints its result")]
+
 use drape_fabric::Fabric;
 use drape_input::Document;
 use drape_kes::{Direction, Test};

@@ -97,7 +97,8 @@ fn line(path: &Path, sheet: &Sheet) -> String {
 }
 
 fn show(path: &Path, report: Option<&Path>) -> Result<(), Failure> {
-    let page = show_page(&read(path)?);
+    let sheet = sheets::of(path).and_then(|path| sheets::read(path).ok());
+    let page = show_page(&read(path)?, sheet.as_ref());
     say(page.to_text()?.trim_end())?;
     if let Some(written) = store(&page, &sheets::stem(path), report)? {
         say(format_args!("page written to {}", written.display()))?;

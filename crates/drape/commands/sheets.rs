@@ -60,6 +60,19 @@ pub(crate) fn stem(sheet: &Path) -> String {
     name.map_or("fabric".into(), |name| name.to_string_lossy().into_owned())
 }
 
+/// Returns the sheet that a path stands for, if it is one: a file called so, or a folder with it; a
+/// fabric or anything else is none.
+pub(crate) fn of(path: &Path) -> Option<&Path> {
+    if path.is_dir() {
+        return path.join(SHEET_FILE).exists().then_some(path);
+    }
+    let text = std::fs::read_to_string(path).ok()?;
+    let table: toml::Table = text.parse().ok()?;
+    // A fabric has its laws in these tables.
+    let is_fabric = table.contains_key("density") || table.contains_key("shear");
+    (!is_fabric).then_some(path)
+}
+
 /// Reads a sheet.
 pub(crate) fn read(path: &Path) -> Result<Sheet, Diagnostics> {
     Sheet::read(path).map_err(|error| match error {

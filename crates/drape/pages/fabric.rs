@@ -4,7 +4,7 @@
 use drape::fabric::{
     BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
 };
-use drape::kes::{Direction, Test};
+use drape::kes::{Direction, Sheet, Test};
 use drape::report::plot::OverlayPlot;
 use drape::report::{
     ComparePage, ComparedValue, FabricName, FitPage, Interval, LawReport, Parameter, Quantity,
@@ -28,14 +28,31 @@ fn directions(test: Test) -> &'static [Direction] {
     if test == Test::Shear { &DIRECTIONS[..1] } else { &DIRECTIONS }
 }
 
-/// Returns the page of a fabric, with the loops that an instrument would draw of it.
-pub(crate) fn show_page(fabric: &Fabric) -> FitPage {
+/// Returns the page of a fabric, with the loops that an instrument would draw of it, and the values
+/// of the sheet that it comes from where that is at hand.
+pub(crate) fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
     let given = |name: &str, value: f64, units| Quantity {
         name: name.into(),
         value,
         units,
         origin: String::new(),
     };
+    let mut quantities = vec![
+        given("mass per area", fabric.density, quantity::mass()),
+        given("thickness", fabric.thickness, quantity::thickness()),
+        given("surface friction", fabric.surface_friction, quantity::ratio()),
+    ];
+    if let Some(linearity) = fabric.compression_linearity {
+        let pressed = fabric.thickness_under_pressure();
+        quantities.push(given("thickness at 50 gf/cm²", pressed, quantity::thickness()));
+        quantities.push(given("compression linearity", linearity, quantity::ratio()));
+    }
+    match sheet {
+        Some(sheet) => quantities.extend(sheet.listed().iter().map(kes_value::listed)),
+        None => quantities.extend(fabric.provenance.iter().flat_map(|p| {
+            p.unused.iter().map(|(symbol, value)| kes_value::unused(symbol, *value))
+        })),
+    }
     let laws = TESTS.into_iter().flat_map(|test| {
         directions(test).iter().map(move |&direction| law(fabric, test, direction))
     });
@@ -46,11 +63,7 @@ pub(crate) fn show_page(fabric: &Fabric) -> FitPage {
             format!("from the sheet \"{}\" by {}", p.sheet, p.fitted_by)
         }),
         version: VERSION.into(),
-        quantities: vec![
-            given("mass per area", fabric.density, quantity::mass()),
-            given("thickness", fabric.thickness, quantity::thickness()),
-            given("surface friction", fabric.surface_friction, quantity::ratio()),
-        ],
+        quantities,
         laws: laws.collect(),
         values: DIRECTIONS
             .iter()

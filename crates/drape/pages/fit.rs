@@ -117,6 +117,12 @@ const SYSTEMATIC: f64 = 0.5;
 
 fn notes(fit: &CurveFit) -> Vec<String> {
     let mut notes = Vec::new();
+    if fit.repeats > 0 {
+        notes.push(format!(
+            "the mean of {} repeats; their scatter is in the errors of the parameters",
+            fit.repeats
+        ));
+    }
     if fit.autocorrelation > SYSTEMATIC {
         notes.push(format!(
             "neighbouring residuals are alike (correlation {:.2}): the law misses the curve \

@@ -2,8 +2,8 @@
 
 use drape::fabric::Fabric;
 use drape::fit::{Settings, ValueComparison, compare_values, fabric_values};
-use drape::kes::{Direction, Sheet, Symbol};
-use drape::report::{ComparedValue, KesValue, Units};
+use drape::kes::{Direction, Sheet, SheetValue, Symbol};
+use drape::report::{ComparedValue, KesValue, Quantity, Units};
 
 use super::quantity;
 
@@ -44,6 +44,43 @@ pub(crate) fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> S
         shown(row.direction, row.symbol, [row.sheet, row.curve.ok(), row.law])
     };
     SheetValues { values: known.map(value).collect(), warnings }
+}
+
+/// Returns a value of a sheet as a page shows it: with its symbol, and what the model uses it for.
+pub(crate) fn listed(value: &SheetValue) -> Quantity {
+    let SheetValue { symbol, name, direction, value, used_for, .. } = *value;
+    let direction = direction.map_or(String::new(), |direction| format!(" {}", direction.name()));
+    let units = units(symbol);
+    let factor = units.kes.as_ref().map_or(1.0, |unit| unit.in_si);
+    let origin = match used_for {
+        Some(part) => format!("sheet: {part}"),
+        None => "sheet: not used by the model".into(),
+    };
+    Quantity { name: format!("{symbol}{direction}, {name}"), value: value * factor, units, origin }
+}
+
+/// Returns a value that a fabric keeps though its model does not use it.
+pub(crate) fn unused(symbol: &str, value: f64) -> Quantity {
+    let units = units(symbol.rsplit('.').next().unwrap_or(symbol));
+    let factor = units.kes.as_ref().map_or(1.0, |unit| unit.in_si);
+    let origin = "not used by the model".into();
+    Quantity { name: symbol.replace('.', " "), value: value * factor, units, origin }
+}
+
+/// Returns the units of a symbol of a sheet.
+fn units(symbol: &str) -> Units {
+    if let Some(symbol) = Symbol::ALL.into_iter().find(|known| known.name() == symbol) {
+        return named(symbol).units;
+    }
+    match symbol {
+        "W" => quantity::mass(),
+        "T" | "T0" | "TM" => quantity::thickness(),
+        "WC" => quantity::work(),
+        "RC" => quantity::percent(),
+        "SMD" => Units::si("m").with_kes("µm", 1e-6),
+        "FM" => quantity::tension(),
+        _ => quantity::ratio(),
+    }
 }
 
 /// Returns the values of a fabric in a direction.

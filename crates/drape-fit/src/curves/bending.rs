@@ -9,6 +9,7 @@ use crate::curves::piecewise::{backbone, fit_first_branch};
 use crate::error::Error;
 use crate::forward::loop_drive::drive_loop;
 use crate::regression::curve_fit::{FitOptions, Identified, fit_curve};
+use crate::regression::repeats::with_scatter;
 use crate::regression::selection::CandidateModel;
 use crate::settings::Settings;
 use crate::settings::model::{LoopModel, Plateau};
@@ -57,6 +58,7 @@ pub fn identify_bending(
         let fit = fit_first_branch(curve, curvature, settings, |p, history, out| {
             drive_loop(&law(p), history.iter().copied(), out);
         })?;
+        let fit = with_scatter(curve, fit, |repeat| Ok(identify_bending(repeat, settings)?.fit));
         return Ok(Identified { law: law(&fit.values()), fit });
     }
     let measured = MeasuredLoop::new(curve, "rigidity", curvature)?;
@@ -68,6 +70,9 @@ pub fn identify_bending(
     let weights = settings.weighting.weights(curve, 0.0);
     let options = FitOptions { weights, intervals: settings.intervals };
     let fit = fit_curve(curve, &models, options);
+    let selected = LoopModel::Linear(forms[fit.chosen].order);
+    let settings = Settings { bending: Some(selected), ..*settings };
+    let fit = with_scatter(curve, fit, |repeat| Ok(identify_bending(repeat, &settings)?.fit));
     let LinearLaw { stiffness, friction, .. } = forms[fit.chosen].law(&fit.values());
     let law = BendingLaw {
         backbone: BendingBackbone::Linear { rigidity: stiffness },

@@ -9,6 +9,7 @@ use crate::curves::piecewise::{backbone, fit_first_branch};
 use crate::error::Error;
 use crate::forward::loop_drive::drive_loop;
 use crate::regression::curve_fit::{FitOptions, Identified, fit_curve};
+use crate::regression::repeats::with_scatter;
 use crate::regression::selection::CandidateModel;
 use crate::settings::Settings;
 use crate::settings::model::{LoopModel, Plateau};
@@ -37,6 +38,7 @@ pub fn identify_shear(curve: &Curve, settings: &Settings) -> Result<Identified<S
             let fit = fit_first_branch(curve, &sines, settings, |p, history, out| {
                 drive_loop(&law(p), history.iter().copied(), out);
             })?;
+            let fit = with_scatter(curve, fit, |repeat| Ok(identify_shear(repeat, settings)?.fit));
             Identified { law: law(&fit.values()), fit }
         }
         _ => linear(curve, &sines, settings)?,
@@ -72,6 +74,10 @@ fn linear(
     let weights = settings.weighting.weights(curve, 0.0);
     let options = FitOptions { weights, intervals: settings.intervals };
     let fit = fit_curve(curve, &models, options);
+    let LoopForm { order, plateau } = forms[fit.chosen];
+    let selected = Some(LoopModel::Linear(order));
+    let settings = Settings { shear: selected, plateau: Some(plateau), ..*settings };
+    let fit = with_scatter(curve, fit, |repeat| Ok(identify_shear(repeat, &settings)?.fit));
     let LinearLaw { stiffness, growth, friction, .. } = forms[fit.chosen].law(&fit.values());
     let law =
         ShearLaw { backbone: ShearBackbone::Linear { stiffness }, friction, growth, locking: None };

@@ -9,6 +9,7 @@ use crate::curves::tensile_form::{StripKind, TensileForm};
 use crate::curves::tensile_start::InitialGuess;
 use crate::error::Error;
 use crate::regression::curve_fit::{FitOptions, Identified, fit_curve};
+use crate::regression::repeats::with_scatter;
 use crate::regression::selection::CandidateModel;
 use crate::settings::Settings;
 
@@ -43,6 +44,9 @@ pub fn identify_tensile(
     let weights = settings.weighting.weights(curve, guess.zero.strain);
     let options = FitOptions { weights, intervals: settings.intervals };
     let fit = fit_curve(curve, &models, options);
+    let TensileForm { model, toe, .. } = forms[fit.chosen];
+    let settings = Settings { traction: Some(model), toe: Some(toe), ..*settings };
+    let fit = with_scatter(curve, fit, |repeat| Ok(identify_tensile(repeat, &settings)?.fit));
     Ok(Identified { law: forms[fit.chosen].law(&fit.values()), fit })
 }
 

@@ -1,7 +1,9 @@
 //! One fabric from one sheet.
 
+use std::collections::BTreeMap;
+
 use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
-use drape_kes::{BendingValues, Direction, Sheet};
+use drape_kes::{BendingValues, Direction, Sheet, SheetValue};
 
 use crate::error::Error;
 use crate::fabric::keys::standard_errors;
@@ -71,6 +73,21 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
     let pressed_thickness = sheet.pressed_thickness();
     if pressed_thickness.is_none() {
         notes.push("pressed_thickness: not measured, 0.7 of the thickness taken".into());
+    } else if sheet.tm.is_none() {
+        notes.push("pressed_thickness: not measured, that of LC and WC taken".into());
+    }
+    // Without both thicknesses the linearity says nothing.
+    let measured = sheet.thickness().is_some() && pressed_thickness.is_some();
+    let compression_linearity = sheet.compression_linearity().filter(|_| measured);
+    if let Some(linearity) = compression_linearity.filter(|_| sheet.lc.is_none()) {
+        notes.push(format!(
+            "compression_linearity: not measured, {linearity:.3} by WC, T0 and TM taken"
+        ));
+    }
+    let shared: Vec<&str> =
+        sheet.shared.iter().copied().filter(|key| !SURFACE.contains(key)).collect();
+    if !shared.is_empty() {
+        notes.push(format!("{}: one value, for both directions", shared.join(", ")));
     }
     let surface_friction = sheet.miu.unwrap_or_else(|| {
         notes.push(format!("surface_friction: not measured, {SURFACE_FRICTION} taken"));
@@ -101,6 +118,7 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         density,
         thickness,
         pressed_thickness,
+        compression_linearity,
         surface_friction,
         warp: fabric::YarnLaws { traction: traction.warp, bending: bending.warp },
         weft: fabric::YarnLaws { traction: traction.weft, bending: bending.weft },
@@ -111,6 +129,7 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
             fitted_by: concat!("drape-fit ", env!("CARGO_PKG_VERSION")).to_owned(),
             assumed: notes.clone(),
             standard_errors: standard_errors(&fits),
+            unused: unused(sheet),
             measured_range: measured_range(sheet),
         }),
     };
@@ -119,6 +138,22 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         return Err(Error::InvalidFabric { key, message, help });
     }
     Ok(Fit { fabric, curves: fits, assumed: notes })
+}
+
+/// Symbols of the surface test, which are given without a direction as a rule.
+const SURFACE: [&str; 3] = ["MIU", "MMD", "SMD"];
+
+/// Returns the values that no part of the model comes from, by their symbols.
+///
+/// Those whose test has a curve are in the fabric by the curve.
+fn unused(sheet: &Sheet) -> BTreeMap<String, f64> {
+    let key = |value: &SheetValue| match value.direction {
+        Some(direction) => format!("{}.{}", direction.name(), value.symbol),
+        None => value.symbol.to_owned(),
+    };
+    let never = |value: &SheetValue| ["RC", "MMD", "SMD"].contains(&value.symbol);
+    let listed = sheet.listed().into_iter().filter(never);
+    listed.map(|value| (key(&value), value.value)).collect()
 }
 
 /// Laws of one kind in both directions.

@@ -56,6 +56,8 @@ pub struct CurveFit {
     ///
     /// `$n(1-\rho)/(1+\rho)$` with the autocorrelation `$\rho$`, where that is more than chance.
     pub effective_points: f64,
+    /// Number of repeats whose scatter is in the errors of the parameters; 0 for a single curve.
+    pub repeats: usize,
     /// Number of iterations of the best start.
     pub iterations: usize,
     /// Number of evaluations of the law along the history, over all starts of all candidates.
@@ -158,6 +160,7 @@ impl CurveFit {
             r_squared: 1.0 - square / variance,
             autocorrelation: independence.correlation,
             effective_points: independence.effective_count,
+            repeats: 0,
             iterations: result.report.iterations,
             evaluations: result.evaluations,
             stop: result.report.stop,

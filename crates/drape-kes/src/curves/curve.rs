@@ -66,6 +66,8 @@ pub struct Curve {
     pub slack: bool,
     deformation: Vec<f64>,
     load: Vec<f64>,
+    pub(crate) repeats: Vec<Curve>,
+    pub(crate) scatter: Vec<f64>,
 }
 
 impl Curve {
@@ -96,7 +98,17 @@ impl Curve {
             return Err(Error::ConstantDeformation { deformation: deformation[0] });
         }
         let name = format!("{} {}", test.name(), direction.name());
-        Ok(Self { name, test, direction, gauge: None, slack: false, deformation, load })
+        Ok(Self {
+            name,
+            test,
+            direction,
+            gauge: None,
+            slack: false,
+            deformation,
+            load,
+            repeats: Vec::new(),
+            scatter: Vec::new(),
+        })
     }
 
     /// Returns the points, in the order of measurement.
@@ -122,6 +134,19 @@ impl Curve {
     #[must_use]
     pub fn load(&self) -> &[f64] {
         &self.load
+    }
+
+    /// Returns the curves that this one is the mean of; none where it was measured once.
+    #[must_use]
+    pub fn repeats(&self) -> &[Self] {
+        &self.repeats
+    }
+
+    /// Returns the standard deviation of the load over the repeats at each point, in SI; empty where
+    /// the curve was measured once.
+    #[must_use]
+    pub fn scatter(&self) -> &[f64] {
+        &self.scatter
     }
 
     /// Returns the lowest and the highest deformation, in SI.

@@ -1,23 +1,45 @@
-//! A `[[curve]]` of a sheet and the table file that it names, made into a curve in SI.
+//! A `[[curve]]` of a sheet and the files that it names, made into a curve in SI.
 //!
 //! Each axis is read once, as numbers with their parsed unit; conversion and checks use that unit.
 
 use std::path::{Path, PathBuf};
 
-use drape_input::{Diagnostics, closest};
+use drape_input::closest;
 
 use crate::curves::curve::Curve;
 use crate::error::Error;
+use crate::sheets::axis::AxisKeys;
+use crate::sheets::convert::{deformation, load};
 use crate::sheets::findings::Findings;
-use crate::sheets::section::{Choice, ColumnOrLength, Section};
-use crate::sheets::suspect::{AsWritten, AxesAsWritten, Keys, examine};
-use crate::sheets::table::{Column, Table};
+use crate::sheets::section::{Choice, Section};
+use crate::sheets::suspect::{AxesAsWritten, Keys, examine};
+use crate::tables::block::Lines;
+use crate::tables::encoding;
+use crate::tables::file;
+use crate::tables::grid::Separator;
+use crate::tables::layout::Layout;
+use crate::tables::number::Decimal;
+use crate::tables::series::{Found, Request, Series, find};
 use crate::test::{Direction, Test};
-use crate::unit::{Quantity, Unit, parse_unit};
 
-const CURVE_KEYS: [&str; 7] = ["name", "test", "direction", "file", "deformation", "load", "slack"];
-const DEFORMATION_KEYS: [&str; 3] = ["column", "unit", "gauge"];
-const LOAD_KEYS: [&str; 3] = ["column", "unit", "width"];
+const CURVE_KEYS: [&str; 16] = [
+    "name",
+    "test",
+    "direction",
+    "file",
+    "deformation",
+    "load",
+    "slack",
+    "encoding",
+    "separator",
+    "decimal",
+    "header",
+    "skip",
+    "sheet",
+    "table",
+    "specimen",
+    "cycle",
+];
 
 const TEST: Choice<'_, Test> = Choice {
     key: "test",
@@ -26,107 +48,173 @@ const TEST: Choice<'_, Test> = Choice {
 };
 const DIRECTION: Choice<'_, Direction> =
     Choice { key: "direction", values: &[Direction::Warp, Direction::Weft], name: Direction::name };
+const SEPARATOR: Choice<'_, Separator> =
+    Choice { key: "separator", values: &Separator::ALL, name: Separator::name };
+const DECIMAL: Choice<'_, Decimal> =
+    Choice { key: "decimal", values: &Decimal::ALL, name: Decimal::name };
 
-/// Column of one axis, as the sheet names it, with its key paths for messages.
-struct AxisKeys {
-    column: Column,
-    unit: Option<String>,
-    /// Gauge of a deformation, or width of a load.
-    size: Option<ColumnOrLength>,
-    unit_key: String,
-    size_key: String,
+/// What the sheet says of a curve.
+struct CurveKeys {
+    test: Test,
+    direction: Direction,
+    slack: bool,
+    deformation: AxisKeys,
+    load: AxisKeys,
+    layout: Layout,
+    paths: Keys,
 }
 
-/// Numbers of an axis as written, with their unit.
-struct Numbers {
-    unit: Unit,
-    numbers: Vec<f64>,
-}
-
-impl Numbers {
-    fn as_written(&self, size: Option<f64>) -> AsWritten {
-        let largest = self.numbers.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        AsWritten { largest, unit: self.unit, size }
-    }
-}
-
-/// Axis in SI, with the numbers that it was written in.
-struct AxisValues {
-    si: Vec<f64>,
-    written: AsWritten,
-}
-
-/// Reads the curve that a section describes; `None` after reporting why there is none.
-pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Curve> {
+/// Reads the curves that a section describes; none after reporting why there is none.
+///
+/// Repeats are one curve, their mean; strips of loop bending are fitted together, and stay apart.
+pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Curve> {
     section.allow(&CURVE_KEYS, findings);
     let test = section.required_choice(&TEST, findings);
     let direction = section.required_choice(&DIRECTION, findings);
     let name = section.text("name", findings);
     let slack = section.flag("slack", findings);
-    let file = section.required_text("file", "\"tensile-warp.csv\"", findings);
-    let deformation = axis(section, "deformation", &DEFORMATION_KEYS, findings);
-    let load = axis(section, "load", &LOAD_KEYS, findings);
-    let (test, direction, file) = (test?, direction?, file?);
-    let (deformation, load) = (deformation?, load?);
-
-    let table = open(&file, &section.key("file"), findings)?;
-    let deformation = deformations(test, &deformation, &table, findings)?;
-    let load = loads(test, &load, &table, findings)?;
-    match Curve::new(test, direction, deformation.si, load.si) {
-        Ok(mut curve) => {
-            if let Some(name) = name {
-                curve.name = name;
-            }
-            (curve.gauge, curve.slack) = (deformation.written.size, slack);
-            if let Some(line) = table.truncated() {
-                let message = format!("line {line} of {} breaks off", table.path().display());
-                findings.warn(&section.key("file"), message, "it was left out");
-            }
-            let keys = Keys {
-                file: section.key("file"),
-                deformation: section.key("deformation"),
-                load: section.key("load"),
-            };
-            let written = AxesAsWritten { deformation: deformation.written, load: load.written };
-            examine(curve, &written, &keys, findings)
+    let files = section.required_texts("file", "\"tensile-warp.csv\"", findings);
+    let layout = layout(section, findings);
+    let axes = match test {
+        Some(test) => (
+            AxisKeys::deformation(section, test, findings),
+            AxisKeys::load(section, test, findings),
+        ),
+        None => {
+            AxisKeys::check(section, findings);
+            (None, None)
         }
-        Err(error) => {
-            let help = match error {
-                Error::TooFewPoints { .. } => "write one point per line",
-                _ => "check that the right column is named",
-            };
-            findings.errors.push(table.finding(error.to_string()).help(help));
-            None
+    };
+    let (Some(test), Some(direction), Some(files)) = (test, direction, files) else {
+        return Vec::new();
+    };
+    let ((Some(deformation), Some(load)), Some(layout)) = (axes, layout) else {
+        return Vec::new();
+    };
+    let paths = Keys {
+        file: section.key("file"),
+        deformation: section.key("deformation"),
+        load: section.key("load"),
+        turned: deformation.reversed.is_some() || load.reversed.is_some(),
+    };
+    let keys = CurveKeys { test, direction, slack, deformation, load, layout, paths };
+    let curves: Option<Vec<Vec<Curve>>> =
+        files.iter().map(|file| keys.curves(file, findings)).collect();
+    let Some(mut curves) = curves.map(|curves| curves.concat()) else { return Vec::new() };
+    if test != Test::LoopBending && curves.len() > 1 {
+        curves = match Curve::mean(curves) {
+            Ok(mean) => vec![mean],
+            Err(error) => {
+                let help = "name the alike ones, such as table = [1, 3], or the cycles that all of them have: \
+                            cycle = 1";
+                findings.error(&keys.paths.file, error.to_string(), help);
+                return Vec::new();
+            }
+        };
+    }
+    if let Some(name) = name {
+        let several = curves.len() > 1;
+        for (index, curve) in curves.iter_mut().enumerate() {
+            curve.name = if several { format!("{name}, {}", index + 1) } else { name.clone() };
         }
     }
+    curves
 }
 
-/// Reads the keys of an axis; the last of them is that of its gauge or width.
-fn axis(
-    section: &Section<'_>,
-    key: &str,
-    keys: &[&str; 3],
-    findings: &mut Findings<'_>,
-) -> Option<AxisKeys> {
-    let example = "{ column = \"name in the header\", unit = \"…\" }";
-    let axis = section.required_section(key, example, findings)?;
-    axis.allow(keys, findings);
-    let unit = axis.text("unit", findings);
-    let size = axis.column_or_length(keys[2], findings);
-    let column = axis.column("column", findings)?;
-    Some(AxisKeys { column, unit, size, unit_key: axis.key("unit"), size_key: axis.key(keys[2]) })
-}
-
-/// Opens the table file, which is beside the sheet.
-fn open(file: &str, key: &str, findings: &mut Findings<'_>) -> Option<Table> {
-    let sheet = findings.document.path();
-    let path = sheet.parent().map_or_else(|| PathBuf::from(file), |folder| folder.join(file));
-    if path.is_file() {
-        return collect(Table::read(&path), findings);
+/// Reads the declared layout of the file.
+fn layout(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Layout> {
+    let errors = findings.errors.len();
+    let label = section.text("encoding", findings);
+    let encoding = label.as_deref().and_then(encoding::by_label);
+    if let (Some(label), None) = (&label, encoding) {
+        let help = "write UTF-8, UTF-16LE, windows-1252 or Shift_JIS, or leave it out";
+        findings.error(&section.key("encoding"), format!("\"{label}\" is not an encoding"), help);
     }
-    let help = suggestion(&path, file);
-    findings.error(key, format!("there is no file {}", path.display()), help);
-    None
+    let layout = Layout {
+        encoding,
+        separator: section.choice(&SEPARATOR, findings),
+        decimal: section.choice(&DECIMAL, findings),
+        lines: Lines {
+            skip: section.whole("skip", findings).unwrap_or(0),
+            header: section.whole("header", findings),
+        },
+        sheet: section.name_or_number("sheet", findings),
+        table: section.take("table", findings),
+        specimen: section.take("specimen", findings),
+        cycle: section.take("cycle", findings),
+    };
+    (findings.errors.len() == errors).then_some(layout)
+}
+
+impl CurveKeys {
+    /// Reads the curves of one file; `None` after reporting why there is none.
+    fn curves(&self, file: &str, findings: &mut Findings<'_>) -> Option<Vec<Curve>> {
+        let path = self.locate(file, findings)?;
+        let table_file = findings.collect(file::read(&path, &self.layout))?;
+        let request = Request {
+            test: self.test,
+            direction: self.direction,
+            deformation: self.deformation.query("deformation", self.test),
+            load: self.load.query("load", self.test),
+        };
+        let Found { series, mut reading, warnings } =
+            findings.collect(find(&path, &table_file, &self.layout, &request))?;
+        for warning in warnings {
+            findings.warn(&self.paths.file, warning.message, warning.help);
+        }
+        let mut points = 0;
+        let mut curves = Vec::new();
+        for (index, mut series) in series.into_iter().enumerate() {
+            series.trim();
+            points += series.block.rows.len();
+            let (curve, scales) = self.curve(&series, findings)?;
+            if index == 0 {
+                reading.extend(scales);
+            }
+            curves.push(curve);
+        }
+        let words = format!("{file}: {points} points; {}", reading.join("; "));
+        findings.readings.push(words);
+        Some(curves)
+    }
+
+    /// Makes one series into a curve, and says what its axes were taken for.
+    fn curve(&self, series: &Series, findings: &mut Findings<'_>) -> Option<(Curve, [String; 2])> {
+        let deformation = deformation(self.test, &self.deformation, series, findings)?;
+        let load = load(self.test, &self.load, series, findings)?;
+        let words = [deformation.reading, load.reading];
+        let (q, f) = (deformation.written, load.written);
+        match Curve::new(self.test, self.direction, deformation.si, load.si) {
+            Ok(mut curve) => {
+                (curve.gauge, curve.slack) = (q.size, self.slack);
+                let written = AxesAsWritten { deformation: q, load: f };
+                let curve = examine(curve, &written, &self.paths, findings)?;
+                Some((curve, words))
+            }
+            Err(error) => {
+                let help = match error {
+                    Error::TooFewPoints { .. } => "write one point per line",
+                    _ => "check that the right column is named",
+                };
+                let finding = drape_input::Diagnostic::new(&series.path, error.to_string());
+                findings.errors.push(finding.help(help));
+                None
+            }
+        }
+    }
+
+    /// Returns the path of a table file, which is beside the sheet.
+    fn locate(&self, file: &str, findings: &mut Findings<'_>) -> Option<PathBuf> {
+        let sheet = findings.document.path();
+        let path = sheet.parent().map_or_else(|| PathBuf::from(file), |folder| folder.join(file));
+        if path.is_file() {
+            return Some(path);
+        }
+        let help = suggestion(&path, file);
+        let message = format!("there is no file {}", path.display());
+        findings.error(&self.paths.file, message, help);
+        None
+    }
 }
 
 /// Suggests the file that was meant by a name that does not exist.
@@ -145,129 +233,4 @@ fn suggestion(path: &Path, written: &str) -> String {
         Some(close) => format!("did you mean \"{close}\"?"),
         None => "files are looked for beside the sheet".to_owned(),
     }
-}
-
-/// Reads the deformations, with the gauge where there is one.
-fn deformations(
-    test: Test,
-    axis: &AxisKeys,
-    table: &Table,
-    findings: &mut Findings<'_>,
-) -> Option<AxisValues> {
-    let accepted: &[Quantity] = match test {
-        Test::Tensile => &[Quantity::Ratio, Quantity::Length],
-        Test::Shear => &[Quantity::Angle],
-        Test::Bending => &[Quantity::Curvature],
-        Test::LoopBending => &[Quantity::Length],
-    };
-    let written = numbers(axis, accepted, table, findings)?;
-    let Numbers { unit, numbers } = &written;
-    let gauge = sizes(axis, numbers.len(), table, findings)?;
-    let first = gauge.as_ref().map(|gauge| gauge[0]);
-    if unit.quantity != Quantity::Length {
-        let si = numbers.iter().map(|&number| number * unit.factor).collect();
-        return Some(AxisValues { si, written: written.as_written(first) });
-    }
-    let Some(gauge) = gauge else {
-        let help = "add gauge = \"5 cm\", or the name of the column that holds it in metres";
-        findings.error(&axis.size_key, "is missing: a clamp distance needs it", help);
-        return None;
-    };
-    let strain = numbers.iter().zip(&gauge).map(|(&d, &length)| d * unit.factor / length - 1.0);
-    Some(AxisValues { si: strain.collect(), written: written.as_written(first) })
-}
-
-/// Reads the loads per width.
-fn loads(
-    test: Test,
-    axis: &AxisKeys,
-    table: &Table,
-    findings: &mut Findings<'_>,
-) -> Option<AxisValues> {
-    let accepted = match test {
-        Test::Bending => [Quantity::MomentPerWidth, Quantity::Moment],
-        _ => [Quantity::ForcePerWidth, Quantity::Force],
-    };
-    let written = numbers(axis, &accepted, table, findings)?;
-    let Numbers { unit, numbers } = &written;
-    let width = sizes(axis, numbers.len(), table, findings)?;
-    let per_width = unit.quantity == accepted[0];
-    match (per_width, width) {
-        (true, None) => {
-            let si = numbers.iter().map(|&load| load * unit.factor).collect();
-            Some(AxisValues { si, written: written.as_written(None) })
-        }
-        (false, Some(width)) => {
-            let pairs = numbers.iter().zip(&width);
-            let si = pairs.map(|(&load, &w)| load * unit.factor / w).collect();
-            Some(AxisValues { si, written: written.as_written(Some(width[0])) })
-        }
-        (true, Some(_)) => {
-            let message = format!("given, but {} is per width already", unit.spelling);
-            findings.error(
-                &axis.size_key,
-                message,
-                "remove it, or give the unit of the whole load",
-            );
-            None
-        }
-        (false, None) => {
-            let message = format!("is missing: a load in {} needs it", unit.spelling);
-            let help = "add width = \"20 cm\", or the name of the column that holds it in metres";
-            findings.error(&axis.size_key, message, help);
-            None
-        }
-    }
-}
-
-/// Reads the numbers of a column, and their unit from the sheet or from the header of the file.
-fn numbers(
-    axis: &AxisKeys,
-    accepted: &[Quantity],
-    table: &Table,
-    findings: &mut Findings<'_>,
-) -> Option<Numbers> {
-    let column = collect(table.find(&axis.column), findings)?;
-    let Some(text) = axis.unit.as_deref().or(table.unit(column)) else {
-        let unit = accepted[0].laboratory().spelling;
-        let help = format!("add unit = \"{unit}\", or the unit that was used");
-        findings.error(&axis.unit_key, "is missing, and the column's header names none", help);
-        return None;
-    };
-    let unit = match parse_unit(text, accepted) {
-        Ok(unit) => unit,
-        Err(error) => {
-            findings.error(&axis.unit_key, error.message, error.help);
-            return None;
-        }
-    };
-    Some(Numbers { unit, numbers: collect(table.numbers(column), findings)? })
-}
-
-/// Reads a gauge or a width for each row, in metres; the inner `None` where none is given.
-fn sizes(
-    axis: &AxisKeys,
-    rows: usize,
-    table: &Table,
-    findings: &mut Findings<'_>,
-) -> Option<Option<Vec<f64>>> {
-    match &axis.size {
-        None => Some(None),
-        Some(ColumnOrLength::Length(length)) => Some(Some(vec![*length; rows])),
-        Some(ColumnOrLength::Column(column)) => {
-            let column = collect(table.find(column), findings)?;
-            let sizes = collect(table.numbers(column), findings)?;
-            if let Some(size) = sizes.iter().find(|&&size| size <= 0.0) {
-                let message = format!("{}: the file has a length of {size} m", axis.size_key);
-                findings.errors.push(table.finding(message).help("a length is positive"));
-                return None;
-            }
-            Some(Some(sizes))
-        }
-    }
-}
-
-/// Returns a result, or `None` after collecting its mistakes.
-fn collect<T>(result: Result<T, Diagnostics>, findings: &mut Findings<'_>) -> Option<T> {
-    result.map_err(|Diagnostics(mistakes)| findings.errors.extend(mistakes)).ok()
 }

@@ -7,7 +7,9 @@ use drape_input::closest;
 use toml::de::{DeTable, DeValue};
 
 use crate::sheets::findings::Findings;
-use crate::sheets::table::Column;
+use crate::sheets::spelling;
+use crate::tables::layout::{Column, Take};
+use crate::test::Direction;
 use crate::unit::{Quantity, Written, parse_quantity};
 
 /// Table of the file, with its key path.
@@ -15,6 +17,8 @@ use crate::unit::{Quantity, Written, parse_quantity};
 pub(crate) struct Section<'t> {
     path: String,
     table: &'t DeTable<'t>,
+    /// Direction that the keys of values name; `None` for keys without a direction.
+    direction: Option<Direction>,
 }
 
 /// Number of the file: as written, in SI, and in the laboratory's unit.
@@ -52,7 +56,7 @@ pub(crate) struct Choice<'a, T> {
 impl<'t> Section<'t> {
     /// Returns the whole file.
     pub(crate) fn root(table: &'t DeTable<'t>) -> Self {
-        Self { path: String::new(), table }
+        Self { path: String::new(), table, direction: None }
     }
 
     /// Returns the key path of a key of this table.
@@ -64,13 +68,79 @@ impl<'t> Section<'t> {
     pub(crate) fn allow(&self, keys: &[&str], findings: &mut Findings<'_>) {
         for key in self.table.keys().map(|key| key.get_ref().as_ref()) {
             if !keys.contains(&key) {
-                let help = match closest(key, keys.iter().copied()) {
-                    Some(close) => format!("did you mean `{close}`?"),
-                    None => format!("known here: {}", keys.join(", ")),
-                };
-                findings.error(&self.key(key), "there is no such key", help);
+                self.unknown(key, keys, findings);
             }
         }
+    }
+
+    /// Returns the table with the values of a direction for its keys.
+    pub(crate) fn of(mut self, direction: Option<Direction>) -> Self {
+        self.direction = direction;
+        self
+    }
+
+    /// Returns whether a value is there, in any spelling, with that direction in its key.
+    pub(crate) fn has_value(&self, key: &str, direction: Option<Direction>) -> bool {
+        self.clone().of(direction).spelt(key).is_some()
+    }
+
+    /// Returns the key as it is written, in whatever spelling, and its value.
+    fn spelt(&self, key: &str) -> Option<(&'t str, &'t DeValue<'t>)> {
+        let means = |written: &str| {
+            spelling::value(written)
+                .is_some_and(|spelt| spelt.key == key && spelt.direction == self.direction)
+        };
+        let exact = |written: &str| written == key && self.direction.is_none();
+        let pairs = || self.table.iter().map(|(k, value)| (k.get_ref().as_ref(), value.get_ref()));
+        let found = pairs().find(|(k, _)| exact(k)).or_else(|| pairs().find(|(k, _)| means(k)))?;
+        // `B = { warp = 0.1, weft = 0.08 }` has directions within.
+        Some(found).filter(|(_, value)| !(value.is_table() && spelling::value(key).is_some()))
+    }
+
+    /// Returns the table of a direction, whatever it is called.
+    pub(crate) fn directed(
+        &self,
+        direction: Direction,
+        findings: &mut Findings<'_>,
+    ) -> Option<Section<'t>> {
+        let keys = self.table.keys().map(|key| key.get_ref().as_ref());
+        let named: Vec<&str> = keys.filter(|k| spelling::direction(k) == Some(direction)).collect();
+        if let [_, second, ..] = named.as_slice() {
+            let message = format!("is the {} once more, beside [{}]", direction.name(), named[0]);
+            findings.error(&self.key(second), message, "put the values into one table");
+        }
+        self.section(named.first()?, findings)
+    }
+
+    /// Reports every key that is neither in a list nor another spelling of a value in it, and every
+    /// value that is there twice.
+    pub(crate) fn allow_values(&self, keys: &[&str], findings: &mut Findings<'_>) {
+        let mut seen: Vec<(spelling::Spelt, &str)> = Vec::new();
+        for key in self.table.keys().map(|key| key.get_ref().as_ref()) {
+            let spelt = spelling::value(key).filter(|spelt| keys.contains(&spelt.key));
+            if let Some(spelt) = spelt {
+                if self.get(key).is_some_and(|value| value.is_table()) {
+                    let help =
+                        format!("write {key} into [warp] and [weft], or {key}_warp and {key}_weft");
+                    findings.error(&self.key(key), "is a table where a number is needed", help);
+                }
+                if let Some((_, first)) = seen.iter().find(|(other, _)| *other == spelt) {
+                    let message = format!("is {} once more: {first} is there too", spelt.key);
+                    findings.error(&self.key(key), message, "keep one of them");
+                }
+                seen.push((spelt, key));
+            } else if !keys.contains(&key) && !(self.path.is_empty() && is_table_of_values(key)) {
+                self.unknown(key, keys, findings);
+            }
+        }
+    }
+
+    fn unknown(&self, key: &str, keys: &[&str], findings: &mut Findings<'_>) {
+        let help = match closest(key, keys.iter().copied()) {
+            Some(close) => format!("did you mean `{close}`?"),
+            None => format!("known here: {}", keys.join(", ")),
+        };
+        findings.error(&self.key(key), "there is no such key", help);
     }
 
     fn get(&self, key: &str) -> Option<&'t DeValue<'t>> {
@@ -177,6 +247,90 @@ impl<'t> Section<'t> {
         }
     }
 
+    /// Returns texts: one, or a list of them, which must be there.
+    pub(crate) fn required_texts(
+        &self,
+        key: &str,
+        example: &str,
+        findings: &mut Findings<'_>,
+    ) -> Option<Vec<String>> {
+        if !self.has(key, example, findings) {
+            return None;
+        }
+        let text = |value: &DeValue<'_>| value.as_str().map(str::to_owned);
+        let texts = match self.get(key)? {
+            DeValue::Array(items) => items.iter().map(|item| text(item.get_ref())).collect(),
+            one => text(one).map(|text| vec![text]),
+        };
+        let texts = texts.filter(|texts: &Vec<String>| !texts.is_empty());
+        if texts.is_none() {
+            self.wrong_kind(key, "text in quotes, or a list of such texts", findings);
+        }
+        texts
+    }
+
+    /// Returns a whole number that is not negative, if the key is there; `false` is none.
+    pub(crate) fn whole(&self, key: &str, findings: &mut Findings<'_>) -> Option<usize> {
+        let value = match self.get(key)? {
+            DeValue::Integer(number) => number.as_str().parse().ok(),
+            DeValue::Boolean(false) => Some(0),
+            _ => None,
+        };
+        if value.is_none() {
+            self.wrong_kind(key, "a number of lines, such as 12", findings);
+        }
+        value
+    }
+
+    /// Returns a choice among several of a kind: a number from 1, a list of them, or `"all"`.
+    pub(crate) fn take(&self, key: &str, findings: &mut Findings<'_>) -> Take {
+        let Some(value) = self.get(key) else { return Take::Undeclared };
+        let number = |value: &DeValue<'_>| match value {
+            DeValue::Integer(number) => number.as_str().parse::<usize>().ok(),
+            _ => None,
+        };
+        let take = match value {
+            DeValue::String(text) if text == "all" => Some(Take::All),
+            DeValue::Array(items) => {
+                let numbers: Option<Vec<usize>> =
+                    items.iter().map(|item| number(item.get_ref())).collect();
+                numbers.filter(|numbers| !numbers.is_empty()).map(Take::These)
+            }
+            one => number(one).map(|number| Take::These(vec![number])),
+        };
+        if take.is_none() {
+            self.wrong_kind(key, "a number from 1, a list such as [1, 3], or \"all\"", findings);
+        }
+        take.unwrap_or_default()
+    }
+
+    /// Returns a sheet of a spreadsheet, by its name or its number from 1, if the key is there.
+    pub(crate) fn name_or_number(&self, key: &str, findings: &mut Findings<'_>) -> Option<Column> {
+        let found = as_column(self.get(key)?);
+        if found.is_none() {
+            self.wrong_kind(key, "a name in quotes, or a number from 1", findings);
+        }
+        found
+    }
+
+    /// Returns columns, by their names or numbers from 1: none, one, or a list of them.
+    pub(crate) fn columns(&self, key: &str, findings: &mut Findings<'_>) -> Vec<Column> {
+        let Some(value) = self.get(key) else { return Vec::new() };
+        let columns = match value {
+            DeValue::Array(items) => items.iter().map(|item| as_column(item.get_ref())).collect(),
+            one => as_column(one).map(|column| vec![column]),
+        };
+        if columns.is_none() {
+            self.wrong_kind(key, "a column name, its place from 1, or a list of them", findings);
+        }
+        columns.unwrap_or_default()
+    }
+
+    /// Returns whether a key is there.
+    pub(crate) fn declares(&self, key: &str) -> bool {
+        self.get(key).is_some()
+    }
+
     /// Returns a finite number, bare in the laboratory's unit or text with its unit.
     pub(crate) fn measured(
         &self,
@@ -185,7 +339,9 @@ impl<'t> Section<'t> {
         findings: &mut Findings<'_>,
     ) -> Option<Measured> {
         let own = quantity.laboratory();
-        let (number, unit, written) = match self.get(key)? {
+        let (spelt, value) = self.spelt(key)?;
+        let key = spelt;
+        let (number, unit, written) = match value {
             DeValue::String(text) => match parse_quantity(text, quantity) {
                 Ok(Written { number, unit }) => (number, unit, text.to_string()),
                 Err(error) => {
@@ -214,22 +370,12 @@ impl<'t> Section<'t> {
     /// Returns a table inside this one, if the key is there.
     pub(crate) fn section(&self, key: &str, findings: &mut Findings<'_>) -> Option<Section<'t>> {
         match self.get(key)? {
-            DeValue::Table(table) => Some(Section { path: self.key(key), table }),
+            DeValue::Table(table) => Some(Section { path: self.key(key), table, direction: None }),
             _ => {
                 self.wrong_kind(key, "a table", findings);
                 None
             }
         }
-    }
-
-    /// Returns a table inside this one, which must be there.
-    pub(crate) fn required_section(
-        &self,
-        key: &str,
-        example: &str,
-        findings: &mut Findings<'_>,
-    ) -> Option<Section<'t>> {
-        self.has(key, example, findings).then(|| self.section(key, findings)).flatten()
     }
 
     /// Returns the tables of an array of tables.
@@ -246,7 +392,7 @@ impl<'t> Section<'t> {
             .enumerate()
             .filter_map(|(index, item)| {
                 let path = format!("{}[{index}]", self.key(key));
-                item.as_table().map(|table| Section { path, table })
+                item.as_table().map(|table| Section { path, table, direction: None })
             })
             .collect();
         if sections.len() < whole || !matches!(self.get(key), Some(DeValue::Array(_))) {
@@ -254,22 +400,6 @@ impl<'t> Section<'t> {
             return Vec::new();
         }
         sections
-    }
-
-    /// Returns a column, by its name or by its number from 1.
-    pub(crate) fn column(&self, key: &str, findings: &mut Findings<'_>) -> Option<Column> {
-        if !self.has(key, "\"name in the header\"", findings) {
-            return None;
-        }
-        let column = match self.get(key)? {
-            DeValue::String(name) => Some(Column::Name(name.to_string())),
-            DeValue::Integer(number) => number.as_str().parse().ok().map(Column::Number),
-            _ => None,
-        };
-        if column.is_none() {
-            self.wrong_kind(key, "a column name, or its place from 1", findings);
-        }
-        column
     }
 
     /// Returns a length with its unit (a bare number is in metres), or a column in metres.
@@ -300,6 +430,19 @@ impl<'t> Section<'t> {
         findings.error(&self.key(key), format!("{length} m is not a positive length"), help);
         None
     }
+}
+
+fn as_column(value: &DeValue<'_>) -> Option<Column> {
+    match value {
+        DeValue::String(name) => Some(Column::Name(name.to_string())),
+        DeValue::Integer(number) => number.as_str().parse().ok().map(Column::Number),
+        _ => None,
+    }
+}
+
+/// Returns whether a key is that of a table of values.
+fn is_table_of_values(key: &str) -> bool {
+    key == "mean" || spelling::direction(key).is_some()
 }
 
 fn starts_with_number(text: &str) -> bool {

@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::sheets::findings::Findings;
 use crate::sheets::model::Model;
 use crate::sheets::section::{Choice, Measured, Section};
+use crate::sheets::value_keys::{DirectedValues, WholeValues};
 use crate::sheets::{curve_file, plausible};
 use crate::symbol::Symbol;
 use crate::test::{Direction, Test};
@@ -19,9 +20,10 @@ use crate::values::Values;
 /// Name of the sheet in a folder.
 const SHEET_FILE: &str = "sheet.toml";
 
-const SHEET_KEYS: [&str; 11] =
-    ["name", "source", "model", "W", "T", "TM", "MIU", "FM", "warp", "weft", "curve"];
-const VALUE_KEYS: [&str; 9] = ["B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM"];
+const SHEET_KEYS: [&str; 26] = [
+    "name", "source", "model", "W", "T", "T0", "TM", "LC", "WC", "RC", "MIU", "MMD", "SMD", "FM",
+    "B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM", "warp", "weft", "curve",
+];
 const MODEL: Choice<'_, Model> = Choice { key: "model", values: &Model::ALL, name: Model::name };
 
 /// FM of the standard tensile test, in gf/cm; the "high sensitivity" test stops at 50.
@@ -57,9 +59,17 @@ pub struct Sheet {
     pub w: Option<f64>,
     /// T, thickness, in mm.
     pub t: Option<f64>,
+    /// T0, thickness under 0.5 gf/cm² in the compression test, in mm.
+    pub t0: Option<f64>,
     /// TM, thickness under 50 gf/cm² in the compression test, in mm.
     pub tm: Option<f64>,
-    /// MIU, coefficient of friction of the surface test, a ratio.
+    /// LC, linearity of the compression curve, a ratio.
+    pub lc: Option<f64>,
+    /// WC, compression work per area, in gf·cm/cm².
+    pub wc: Option<f64>,
+    /// RC, compression resilience, in percent; the model does not use it.
+    pub rc: Option<f64>,
+    /// MIU, coefficient of friction of the surface test, a ratio: the mean of both directions.
     pub miu: Option<f64>,
     /// FM, maximum load of the tensile test, in gf/cm; 500 in the standard test when not given.
     pub fm: Option<f64>,
@@ -67,9 +77,12 @@ pub struct Sheet {
     pub warp: Values,
     /// Values along the weft.
     pub weft: Values,
+    /// Symbols of the values that stand for both directions with one number.
+    pub shared: Vec<&'static str>,
     /// Measured curves, in SI.
     pub curves: Vec<Curve>,
     warnings: Vec<Diagnostic>,
+    readings: Vec<String>,
 }
 
 impl Sheet {
@@ -91,44 +104,54 @@ impl Sheet {
         let mut findings = Findings::new(&document);
         let sheet = Self::check(&Section::root(table.get_ref()), &mut findings);
         Diagnostics::check(findings.errors)?;
-        Ok(Self { warnings: findings.warnings, ..sheet })
+        Ok(Self { warnings: findings.warnings, readings: findings.readings, ..sheet })
     }
 
     fn check(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
-        root.allow(&SHEET_KEYS, findings);
+        root.allow_values(&SHEET_KEYS, findings);
         let name = root.required_text("name", "\"cotton poplin\"", findings);
         let source = root.text("source", findings);
         let model = root.choice(&MODEL, findings);
-        let w = positive(root, "W", Quantity::MassPerArea, findings);
-        let t = positive(root, "T", Quantity::Length, findings);
-        let tm = pressed_thickness(root, t.as_ref(), findings);
-        let miu = MIU.read(root, findings);
-        let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
-        if let Some(w) = &w {
+        let whole = WholeValues::read(root, findings);
+        if let Some(w) = &whole.w {
             plausible::density(w, findings);
         }
-        let warp = values(root, Direction::Warp, w.as_ref(), findings);
-        let weft = values(root, Direction::Weft, w.as_ref(), findings);
+        let DirectedValues { warp, weft, shared } =
+            DirectedValues::read(root, whole.w.as_ref(), findings);
         let curves = root
             .sections("curve", findings)
             .iter()
-            .filter_map(|section| curve_file::read(section, findings))
+            .flat_map(|section| curve_file::read(section, findings))
             .collect();
         let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
-        Self {
+        let known: Vec<f64> = [warp.miu, weft.miu].into_iter().flatten().collect();
+        let miu = match known.as_slice() {
+            [] => None,
+            [first, .., last] if first == last => Some(*first),
+            all => Some(all.iter().sum::<f64>() / all.len() as f64),
+        };
+        let sheet = Self {
             name: name.unwrap_or_default(),
             source: source.unwrap_or_default(),
             model,
-            w: laboratory(w),
-            t: laboratory(t),
-            tm: laboratory(tm),
+            w: laboratory(whole.w),
+            t: laboratory(whole.t),
+            t0: laboratory(whole.t0),
+            tm: laboratory(whole.tm),
+            lc: whole.lc,
+            wc: laboratory(whole.wc),
+            rc: laboratory(whole.rc),
             miu,
-            fm: laboratory(fm),
+            fm: laboratory(whole.fm),
             warp,
             weft,
+            shared,
             curves,
             warnings: Vec::new(),
-        }
+            readings: Vec::new(),
+        };
+        sheet.compare_compression(root, findings);
+        sheet
     }
 
     /// Returns W: mass per area, in kg/m².
@@ -137,16 +160,10 @@ impl Sheet {
         self.w.map(|w| w * Quantity::MassPerArea.laboratory().factor)
     }
 
-    /// Returns T: thickness, in metres.
+    /// Returns T0, else T: thickness, in metres.
     #[must_use]
     pub fn thickness(&self) -> Option<f64> {
-        self.t.map(|t| t * Quantity::Length.laboratory().factor)
-    }
-
-    /// Returns TM: thickness under 50 gf/cm², which is 4.9 kPa, in metres.
-    #[must_use]
-    pub fn pressed_thickness(&self) -> Option<f64> {
-        self.tm.map(|tm| tm * Quantity::Length.laboratory().factor)
+        self.t0.or(self.t).map(|t| t * Quantity::Length.laboratory().factor)
     }
 
     /// Returns FM: the maximum load of the tensile test, given or standard, in N/m.
@@ -192,12 +209,28 @@ impl Sheet {
             curve.deformation().iter().chain(curve.load()).for_each(|&value| number(value));
         }
         // Only where they are given, so that sheets older than these keys keep their digests.
-        for (index, value) in [self.pressed_thickness(), self.miu].into_iter().enumerate() {
+        let millimetre = Quantity::Length.laboratory().factor;
+        let pressed = self.tm.map(|tm| tm * millimetre);
+        let surface = |values: &Values| [values.mmd, values.smd];
+        let newer = [pressed, self.miu, self.t0, self.lc, self.wc, self.rc].into_iter();
+        let newer = newer.chain(surface(&self.warp)).chain(surface(&self.weft));
+        for (index, value) in newer.enumerate() {
             value
                 .into_iter()
                 .for_each(|value| [index as f64, value].into_iter().for_each(&mut number));
         }
+        for repeat in self.curves.iter().flat_map(Curve::repeats) {
+            let points = repeat.deformation().iter().chain(repeat.load());
+            points.for_each(|&value| number(value));
+        }
         hasher.finalize().to_hex().to_string()
+    }
+
+    /// Returns what each curve file was taken for, a line each: its encoding, separators, header,
+    /// columns, units and repeats, as far as they were not declared.
+    #[must_use]
+    pub fn readings(&self) -> &[String] {
+        &self.readings
     }
 
     /// Returns warnings about values that are admissible but that few fabrics have, and about
@@ -206,138 +239,4 @@ impl Sheet {
     pub fn warnings(&self) -> &[Diagnostic] {
         &self.warnings
     }
-}
-
-/// Reads the values of one direction and checks each of them.
-fn values(
-    root: &Section<'_>,
-    direction: Direction,
-    w: Option<&Measured>,
-    findings: &mut Findings<'_>,
-) -> Values {
-    let Some(section) = root.section(direction.name(), findings) else {
-        return Values::default();
-    };
-    section.allow(&VALUE_KEYS, findings);
-    let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
-    let b = section.measured("B", Quantity::BendingRigidity, findings);
-    let b = b.filter(|b| plausible::bending_rigidity(b, findings));
-    if let Some(b) = &b {
-        plausible::bending(direction, b, w, findings);
-    }
-    let mut at_least_zero =
-        |key, quantity| laboratory(zero_or_more(&section, key, quantity, findings));
-    let two_hb = at_least_zero("2HB", Quantity::MomentPerWidth);
-    let two_hg = at_least_zero("2HG", Quantity::ForcePerWidth);
-    let two_hg5 = at_least_zero("2HG5", Quantity::ForcePerWidth);
-    let mut above_zero = |key, quantity| laboratory(positive(&section, key, quantity, findings));
-    let g = above_zero("G", Quantity::ShearStiffness);
-    let wt = above_zero("WT", Quantity::WorkPerArea);
-    let em = above_zero("EM", Quantity::Ratio);
-    let lt = LT.read(&section, findings);
-    let rt = resilience(&section, findings);
-    Values { b: laboratory(b), two_hb, g, two_hg, two_hg5, lt, wt, rt, em }
-}
-
-/// Value that is a ratio and not a percentage: a bare number is a ratio.
-struct Ratio {
-    key: &'static str,
-    /// Upper limit.
-    limit: f64,
-    help: &'static str,
-}
-
-/// LT, at most 2: the work under a curve of constant sign cannot exceed the box around it, which is
-/// twice the triangle.
-const LT: Ratio = Ratio {
-    key: "LT",
-    limit: 2.0,
-    help: "LT is a ratio, about 0.5 to 1; is this another value, or a percentage?",
-};
-const MIU: Ratio = Ratio {
-    key: "MIU",
-    limit: 2.0,
-    help: "MIU is a ratio, about 0.1 to 0.3; is this a percentage?",
-};
-
-impl Ratio {
-    fn read(&self, section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
-        let Self { key, limit, help } = *self;
-        let value = positive(section, key, Quantity::Ratio, findings)?;
-        // A bare number was parsed as a percentage, the laboratory's unit of every other ratio.
-        let ratio = if value.written.parse::<f64>().is_ok() { value.number } else { value.si };
-        if ratio < limit {
-            return Some(ratio);
-        }
-        findings.error(&value.key, format!("{} is not between 0 and {limit}", value.written), help);
-        None
-    }
-}
-
-/// Reads TM, which is not above T.
-fn pressed_thickness(
-    root: &Section<'_>,
-    t: Option<&Measured>,
-    findings: &mut Findings<'_>,
-) -> Option<Measured> {
-    let tm = positive(root, "TM", Quantity::Length, findings)?;
-    let Some(t) = t.filter(|t| tm.si > t.si) else { return Some(tm) };
-    findings.error(
-        &tm.key,
-        format!("{} is more than T, {}", tm.written, t.written),
-        "TM is the thickness under 50 gf/cm², T that under 0.5 gf/cm²",
-    );
-    None
-}
-
-/// Reads RT, which is at most 100 %.
-fn resilience(section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
-    let rt = positive(section, "RT", Quantity::Ratio, findings)?;
-    if rt.si <= 1.0 {
-        return Some(rt.laboratory);
-    }
-    findings.error(
-        &rt.key,
-        format!("{} is more than 100 %, which no fabric gives back", rt.written),
-        "RT is recovered work over work spent, in percent",
-    );
-    None
-}
-
-/// Reads a number greater than zero.
-fn positive(
-    section: &Section<'_>,
-    key: &str,
-    quantity: Quantity,
-    findings: &mut Findings<'_>,
-) -> Option<Measured> {
-    let value = section.measured(key, quantity, findings)?;
-    if value.si > 0.0 {
-        return Some(value);
-    }
-    findings.error(
-        &value.key,
-        format!("{} is not greater than 0", value.written),
-        "write the measured value, or remove the line if it was not measured",
-    );
-    None
-}
-
-/// Reads a loop width, zero or more.
-fn zero_or_more(
-    section: &Section<'_>,
-    key: &str,
-    quantity: Quantity,
-    findings: &mut Findings<'_>,
-) -> Option<Measured> {
-    let value = section.measured(key, quantity, findings)?;
-    if value.si >= 0.0 {
-        return Some(value);
-    }
-    findings.error(
-        &value.key,
-        format!("{} is negative", value.written),
-        "a loop width is the distance between the two branches, without sign",
-    );
-    None
 }

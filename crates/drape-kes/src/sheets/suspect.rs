@@ -6,7 +6,8 @@
 use std::ops::RangeInclusive;
 
 use crate::curves::branch::Branch;
-use crate::curves::curve::{Curve, Point};
+use crate::curves::curve::{Curve, Extent, Point};
+use crate::sheets::axis::Zero;
 use crate::sheets::findings::Findings;
 use crate::test::Test;
 use crate::unit::{Quantity, Unit, parse_unit};
@@ -30,6 +31,8 @@ pub(crate) struct Keys {
     pub(crate) file: String,
     pub(crate) deformation: String,
     pub(crate) load: String,
+    /// Whether the sheet says which way the signs are: they are then left as they are.
+    pub(crate) turned: bool,
 }
 
 /// Numbers of an axis as written, and their conversion to SI.
@@ -37,9 +40,13 @@ pub(crate) struct Keys {
 pub(crate) struct AsWritten {
     /// Largest absolute number.
     pub(crate) largest: f64,
+    /// First number.
+    pub(crate) first: f64,
     pub(crate) unit: Unit,
-    /// Gauge of a clamp distance, or width of a whole load, in metres.
+    /// Gauge of a length, or width of a whole load, in metres.
     pub(crate) size: Option<f64>,
+    /// Zero of a length.
+    pub(crate) zero: Option<Zero>,
 }
 
 impl AsWritten {
@@ -47,7 +54,11 @@ impl AsWritten {
     fn to_si(self, number: f64) -> f64 {
         let si = number * self.unit.factor;
         match (self.unit.quantity, self.size) {
-            (Quantity::Length, Some(gauge)) => si / gauge - 1.0,
+            (Quantity::Length, Some(gauge)) => match self.zero {
+                Some(Zero::Extension) => si / gauge,
+                Some(Zero::Position) => (si - self.first * self.unit.factor) / gauge,
+                _ => si / gauge - 1.0,
+            },
             (Quantity::Force | Quantity::Moment, Some(width)) => si / width,
             _ => si,
         }
@@ -197,20 +208,39 @@ fn deformation_units(test: Test) -> impl Iterator<Item = Unit> {
     spellings.iter().filter_map(move |spelling| parse_unit(spelling, &[quantity]).ok())
 }
 
+/// Signs that are to be turned.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Turn {
+    deformation: bool,
+    load: bool,
+}
+
+impl Turn {
+    /// Returns the signs that are wrong beyond doubt: none where the curve as it is given may be right.
+    ///
+    /// A strip is stretched and pulled, so both columns of a tensile test reach further above zero
+    /// than below. A loop may lie anywhere, but its load rises with its deformation.
+    fn of(curve: &Curve) -> Self {
+        if curve.test == Test::Tensile {
+            // The zeros of a slack strip may be anywhere.
+            let below = |range: Extent| !curve.slack && -range.low > range.high;
+            return Self {
+                deformation: below(curve.deformation_range()),
+                load: below(curve.load_range()) && !curve.slack,
+            };
+        }
+        let (q, f) = (curve.deformation(), curve.load());
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        let (middle, level) = (mean(q), mean(f));
+        let covariance: f64 = q.iter().zip(f).map(|(q, f)| (q - middle) * (f - level)).sum();
+        Self { deformation: false, load: covariance < 0.0 }
+    }
+}
+
 /// Reverses the sign of the load, or of both columns, where it is the wrong one.
 fn upright(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Curve {
-    let (q, f) = (curve.deformation(), curve.load());
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let (middle, level) = (mean(q), mean(f));
-    let covariance: f64 = q.iter().zip(f).map(|(q, f)| (q - middle) * (f - level)).sum();
-    let falls = covariance < 0.0;
-    // The zero of a slack strip may be anywhere.
-    let backwards = curve.test == Test::Tensile && !curve.slack && {
-        let range = curve.deformation_range();
-        -range.low > range.high
-    };
-    let (turn_q, turn_f) = (backwards, falls != backwards);
-    if !(turn_q || turn_f) {
+    let Turn { deformation: turn_q, load: turn_f } = Turn::of(&curve);
+    if keys.turned || !(turn_q || turn_f) {
         return curve;
     }
     let (columns, key) = match (turn_q, turn_f) {
@@ -218,7 +248,9 @@ fn upright(curve: Curve, keys: &Keys, findings: &mut Findings<'_>) -> Curve {
         (true, false) => ("the deformation has", &keys.deformation),
         _ => ("the load has", &keys.load),
     };
-    findings.warn(key, format!("{columns} the opposite sign"), "it was turned");
+    let help =
+        "it was turned; reversed = true on the axis says the same, reversed = false keeps it";
+    findings.warn(key, format!("{columns} the opposite sign"), help);
     let sign = |turn: bool| if turn { -1.0 } else { 1.0 };
     let points = curve.points().map(|point| Point {
         deformation: sign(turn_q) * point.deformation,

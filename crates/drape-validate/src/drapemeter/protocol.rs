@@ -62,7 +62,6 @@ pub(super) struct Strokes {
 }
 
 /// Returns the trajectory of the disc when it is shaken from a time in s on.
-
 pub(super) fn shaken(shake: Option<Shake>, start: f64) -> Strokes {
     let shake = shake.unwrap_or(Shake { amplitude: 0.0, frequency: 1.0, strokes: 0 });
     let end = start + shake.seconds();

@@ -29,7 +29,7 @@ use super::ideal::curve;
 /// `$B_1 c^4 + B_2 s^4 + 2Hc^2s^2$`, has `$\tfrac12 H$` more: here yarns twist freely, `$H = 0$`.
 ///
 /// # Panics
-/// As [`ideal`].
+/// As [`ideal`](super::ideal()).
 #[must_use]
 pub fn on_the_bias(fabric: &Fabric, largest: f64, points: usize) -> Curve {
     let path = path(&there_and_back(largest), points);
@@ -55,7 +55,7 @@ pub fn on_the_bias(fabric: &Fabric, largest: f64, points: usize) -> Curve {
 /// a fifth at 2.5 cm⁻¹ and 2.4 mm, and of the fourth order in the spacing.
 ///
 /// # Panics
-/// As [`ideal`].
+/// As [`ideal`](super::ideal()).
 #[must_use]
 pub fn on_the_bias_in_cells(fabric: &Fabric, spacing: f64, largest: f64, points: usize) -> Curve {
     let path = path(&there_and_back(largest), points);

@@ -141,6 +141,9 @@ fn sheet(file: &Path) -> Result<String, Diagnostics> {
             load.high
         );
     }
+    sheet.readings().iter().for_each(|reading| {
+        let _ = writeln!(text, "  read {reading}");
+    });
     sheet.warnings().iter().for_each(|warning| {
         let _ = writeln!(text, "  warning: {warning}");
     });

@@ -1,0 +1,140 @@
+//! Mean of several measurements of one test, with their scatter.
+
+use crate::curves::curve::{Curve, Point};
+use crate::error::Error;
+
+/// Difference of two deformations, over their range, up to which they count as the same.
+const SAME_DEFORMATION: f64 = 1e-9;
+
+impl Curve {
+    /// Returns the mean of repeats of one test: curves of further specimens of the fabric.
+    ///
+    /// Repeats at the same deformations are averaged point by point. Others, such as tensile tests
+    /// that end at the same load, are averaged at equal fractions of each branch: deformations and
+    /// loads alike. The repeats stay with the mean ([`Curve::repeats`]).
+    ///
+    /// ```
+    /// use drape_kes::{Curve, Direction, Test};
+    ///
+    /// let strip = |load: f64| {
+    ///     let strain = vec![0.0, 0.02, 0.04];
+    ///     Curve::new(Test::Tensile, Direction::Warp, strain, vec![0.0, 0.3 * load, load])
+    /// };
+    /// let mean = Curve::mean(vec![strip(190.0)?, strip(200.0)?, strip(210.0)?])?;
+    /// assert_eq!(mean.load()[2], 200.0);
+    /// assert_eq!(mean.scatter()[2], 10.0);
+    /// # Ok::<(), drape_kes::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// There is no curve, or the curves have different numbers of branches.
+    pub fn mean(repeats: Vec<Self>) -> Result<Self, Error> {
+        let Some(first) = repeats.first().cloned() else {
+            return Err(Error::TooFewPoints { points: 0 });
+        };
+        if repeats.len() == 1 {
+            return Ok(first);
+        }
+        let branches = first.branches();
+        for (index, other) in repeats.iter().enumerate() {
+            let (found, wanted) = (other.branches().len(), branches.len());
+            if found != wanted {
+                return Err(Error::UnlikeRepeats { repeat: index + 1, found, wanted });
+            }
+        }
+        let span = first.deformation_range().span();
+        let same = |other: &Self| {
+            other.deformation().len() == first.deformation().len()
+                && other
+                    .deformation()
+                    .iter()
+                    .zip(first.deformation())
+                    .all(|(a, b)| (a - b).abs() <= SAME_DEFORMATION * span)
+        };
+        let sampled: Vec<Vec<Point>> = if repeats.iter().all(same) {
+            repeats.iter().map(|curve| curve.points().collect()).collect()
+        } else {
+            repeats.iter().map(|curve| sampled_as(&first, curve)).collect()
+        };
+        let count = repeats.len() as f64;
+        let of_point = |index: usize| {
+            let all = || sampled.iter().map(move |points| points[index]);
+            let deformation = all().map(|point| point.deformation).sum::<f64>() / count;
+            let load = all().map(|point| point.load).sum::<f64>() / count;
+            let square = all().map(|point| (point.load - load).powi(2)).sum::<f64>();
+            (Point { deformation, load }, (square / (count - 1.0)).sqrt())
+        };
+        let (points, scatter) = (0..sampled[0].len()).map(of_point).unzip();
+        let mut mean = first.with_points(points);
+        (mean.repeats, mean.scatter) = (repeats, scatter);
+        Ok(mean)
+    }
+}
+
+/// Returns the points of a curve at the fractions of its branches at which another was measured.
+fn sampled_as(pattern: &Curve, curve: &Curve) -> Vec<Point> {
+    let mut sampled = Vec::with_capacity(pattern.load().len());
+    for (index, (own, other)) in pattern.branches().iter().zip(curve.branches()).enumerate() {
+        let points: Vec<Point> =
+            curve.points().skip(other.points.start).take(other.points.len()).collect();
+        let fractions = fractions(&points);
+        let wanted: Vec<Point> =
+            pattern.points().skip(own.points.start).take(own.points.len()).collect();
+        let (start, end) = (points[0].deformation, points[points.len() - 1].deformation);
+        // A reversal is the last point of the branch before.
+        for fraction in self::fractions(&wanted).into_iter().skip(usize::from(index > 0)) {
+            let after = fractions.partition_point(|&other| other < fraction);
+            let after = after.clamp(1, points.len() - 1);
+            let (a, b) = (fractions[after - 1], fractions[after]);
+            let part = if b > a { ((fraction - a) / (b - a)).clamp(0.0, 1.0) } else { 1.0 };
+            let load =
+                points[after - 1].load + part * (points[after].load - points[after - 1].load);
+            sampled.push(Point { deformation: start + fraction * (end - start), load });
+        }
+    }
+    sampled
+}
+
+/// Returns the fraction of the branch that each of its points has reached; it never falls.
+fn fractions(points: &[Point]) -> Vec<f64> {
+    let (start, end) = (points[0].deformation, points[points.len() - 1].deformation);
+    let mut reached = 0.0_f64;
+    let of_point = |point: &Point| {
+        reached = reached.max(((point.deformation - start) / (end - start)).clamp(0.0, 1.0));
+        reached
+    };
+    points.iter().map(of_point).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test::{Direction, Test};
+
+    /// Strip stretched to a strain and released, in some steps.
+    fn strip(extension: f64, steps: u32) -> Curve {
+        let up = (0..=steps).map(|i| extension * f64::from(i) / f64::from(steps));
+        let down = (0..steps).rev().map(|i| extension * f64::from(i) / f64::from(steps));
+        let strain: Vec<f64> = up.chain(down).collect();
+        let load = strain.iter().map(|q| 490.0 * q / extension).collect();
+        Curve::new(Test::Tensile, Direction::Warp, strain, load).unwrap()
+    }
+
+    #[test]
+    fn tests_that_end_at_one_load_have_the_mean_extension() {
+        let mean = Curve::mean(vec![strip(0.04, 20), strip(0.05, 33), strip(0.06, 20)]).unwrap();
+        assert!((mean.deformation_range().high - 0.05).abs() < 1e-12);
+        assert!((mean.load_range().high - 490.0).abs() < 1e-9);
+        assert!(mean.scatter().iter().all(|&scatter| scatter < 1e-9));
+        assert_eq!((mean.load().len(), mean.repeats().len()), (41, 3));
+        assert_eq!(mean.branches().len(), 2);
+    }
+
+    #[test]
+    fn repeats_of_other_histories_are_refused() {
+        let line = vec![0.0, 0.02, 0.04];
+        let loading = Curve::new(Test::Tensile, Direction::Warp, line.clone(), line).unwrap();
+        let error = Curve::mean(vec![strip(0.04, 20), loading]).unwrap_err();
+        assert!(matches!(error, Error::UnlikeRepeats { repeat: 2, found: 1, wanted: 2 }));
+    }
+}

@@ -1,0 +1,104 @@
+//! Spellings of the KES values and of the two directions, as laboratories write them.
+
+use crate::test::Direction;
+
+/// Keys of the values, in the order in which laboratories print them.
+pub(crate) const VALUES: [&str; 19] = [
+    "LT", "WT", "RT", "EM", "G", "2HG", "2HG5", "B", "2HB", "LC", "WC", "RC", "MIU", "MMD", "SMD",
+    "T0", "TM", "T", "W",
+];
+
+/// Other spellings, in small letters without signs between.
+const OTHERS: [(&str, &str); 16] = [
+    ("emt", "EM"),
+    ("et", "EM"),
+    ("hb", "2HB"),
+    ("hg", "2HG"),
+    ("hg5", "2HG5"),
+    ("2hg05", "2HG"),
+    ("2hg50", "2HG5"),
+    ("to", "T0"),
+    ("t05", "T0"),
+    ("t50", "TM"),
+    ("mu", "MIU"),
+    ("μ", "MIU"),
+    ("µ", "MIU"),
+    ("weight", "W"),
+    ("thickness", "T"),
+    ("fmax", "FM"),
+];
+
+/// Key that a spelling stands for, with the direction that it names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Spelt {
+    pub(crate) key: &'static str,
+    pub(crate) direction: Option<Direction>,
+}
+
+/// Returns the value that a key stands for; `None` where it is none.
+///
+/// ```text
+/// EMT   T_0   2HG_5   2hg5   B_warp   B-1 (warp)   B-2 (weft)
+/// ```
+pub(crate) fn value(written: &str) -> Option<Spelt> {
+    let plain = |text: &str| -> String {
+        text.to_lowercase().chars().filter(|letter| !"_- .·".contains(*letter)).collect()
+    };
+    let key_of = |text: &str| {
+        let wanted = plain(text);
+        let exact = VALUES.into_iter().find(|key| key.to_lowercase() == wanted);
+        exact.or_else(|| OTHERS.iter().find(|(other, _)| *other == wanted).map(|(_, key)| *key))
+    };
+    if let Some(key) = key_of(written) {
+        return Some(Spelt { key, direction: None });
+    }
+    let (start, end) = written.rsplit_once(['_', '-', ' ', '.'])?;
+    let direction = match end {
+        "1" => Direction::Warp,
+        "2" => Direction::Weft,
+        word => direction(word)?,
+    };
+    Some(Spelt { key: key_of(start)?, direction: Some(direction) })
+}
+
+/// Returns the direction that a key names: warp, weft, and what else they are called.
+pub(crate) fn direction(written: &str) -> Option<Direction> {
+    match written.to_lowercase().as_str() {
+        "warp" | "wp" | "kette" | "chaine" | "chaîne" | "経" | "たて" => Some(Direction::Warp),
+        "weft" | "wf" | "filling" | "fill" | "schuss" | "trame" | "緯" | "よこ" => {
+            Some(Direction::Weft)
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_spellings_in_use_are_understood() {
+        let cases = [
+            ("EMT", "EM"),
+            ("T_0", "T0"),
+            ("T_o", "T0"),
+            ("2HG_5", "2HG5"),
+            ("2hg5", "2HG5"),
+            ("2HG0.5", "2HG"),
+            ("T_m", "TM"),
+            ("miu", "MIU"),
+            ("Lt", "LT"),
+            ("2-HB", "2HB"),
+        ];
+        for (written, key) in cases {
+            assert_eq!(value(written), Some(Spelt { key, direction: None }), "{written}");
+        }
+        let of = |key, direction| Some(Spelt { key, direction: Some(direction) });
+        assert_eq!(value("B_warp"), of("B", Direction::Warp));
+        assert_eq!(value("EM-2"), of("EM", Direction::Weft));
+        assert_eq!(value("2HG5_weft"), of("2HG5", Direction::Weft));
+        for other in ["name", "source", "BB", "curve", "model", "warp", "colour"] {
+            assert_eq!(value(other), None, "{other}");
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! KES values of a sheet: by direction, or one for both, in any spelling.
+
+use crate::sheets::findings::Findings;
+use crate::sheets::plausible;
+use crate::sheets::section::{Measured, Section};
+use crate::test::Direction;
+use crate::unit::Quantity;
+use crate::values::Values;
+
+/// Values of a sheet that have no direction, as they were measured.
+#[derive(Debug, Default)]
+pub(crate) struct WholeValues {
+    pub(crate) w: Option<Measured>,
+    pub(crate) t: Option<Measured>,
+    pub(crate) t0: Option<Measured>,
+    pub(crate) tm: Option<Measured>,
+    pub(crate) lc: Option<f64>,
+    pub(crate) wc: Option<Measured>,
+    pub(crate) rc: Option<Measured>,
+    pub(crate) fm: Option<Measured>,
+}
+
+impl WholeValues {
+    /// Reads the values without direction and holds those of the compression test against each other.
+    pub(crate) fn read(root: &Section<'_>, findings: &mut Findings<'_>) -> Self {
+        let w = positive(root, "W", Quantity::MassPerArea, findings);
+        let t = positive(root, "T", Quantity::Length, findings);
+        let t0 = positive(root, "T0", Quantity::Length, findings);
+        let tm = pressed_thickness(root, t0.as_ref().or(t.as_ref()), findings);
+        let lc = LC.read(root, findings);
+        let wc = positive(root, "WC", Quantity::WorkPerArea, findings);
+        let rc = percentage(root, "RC", findings);
+        let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
+        Self { w, t, t0, tm, lc, wc, rc, fm }
+    }
+}
+
+/// Values of both directions, and the names of those that one number gives for both.
+#[derive(Debug, Default)]
+pub(crate) struct DirectedValues {
+    pub(crate) warp: Values,
+    pub(crate) weft: Values,
+    pub(crate) shared: Vec<&'static str>,
+}
+
+impl DirectedValues {
+    /// Reads the values that a direction has: from its table, from a key that names it, else from the
+    /// number for both.
+    pub(crate) fn read(
+        root: &Section<'_>,
+        w: Option<&Measured>,
+        findings: &mut Findings<'_>,
+    ) -> Self {
+        let sections = [Direction::Warp, Direction::Weft].map(|direction| {
+            let section = root.directed(direction, findings);
+            if let Some(section) = &section {
+                section.allow_values(&KEYS, findings);
+            }
+            section
+        });
+        let mean = root.section("mean", findings);
+        if let Some(mean) = &mean {
+            mean.allow_values(&KEYS, findings);
+        }
+        let mut read = Self::default();
+        for (index, direction) in [Direction::Warp, Direction::Weft].into_iter().enumerate() {
+            let mut shared = Vec::new();
+            let mut source = Source {
+                own: sections[index].as_ref(),
+                of_root: root,
+                mean: mean.as_ref(),
+                direction,
+                shared: &mut shared,
+            };
+            let values = values(&mut source, w, findings);
+            match direction {
+                Direction::Warp => read.warp = values,
+                Direction::Weft => read.weft = values,
+            }
+            read.shared.extend(shared);
+        }
+        read.shared.sort_unstable();
+        read.shared.dedup();
+        read
+    }
+}
+
+/// Values that have a direction.
+const KEYS: [&str; 12] =
+    ["B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM", "MIU", "MMD", "SMD"];
+
+/// Places where a value of one direction may stand.
+struct Source<'a, 't> {
+    own: Option<&'a Section<'t>>,
+    of_root: &'a Section<'t>,
+    mean: Option<&'a Section<'t>>,
+    direction: Direction,
+    shared: &'a mut Vec<&'static str>,
+}
+
+impl<'t> Source<'_, 't> {
+    /// Returns the table in which a value stands, and the key that it has there.
+    fn find(&mut self, key: &'static str) -> Option<Section<'t>> {
+        if let Some(own) = self.own.filter(|own| own.has_value(key, None)) {
+            return Some(own.clone().of(None));
+        }
+        if self.of_root.has_value(key, Some(self.direction)) {
+            return Some(self.of_root.clone().of(Some(self.direction)));
+        }
+        // MIU, MMD and SMD are given once as a rule; the others are told.
+        let mean = self.mean.filter(|mean| mean.has_value(key, None));
+        let found = mean.or_else(|| self.of_root.has_value(key, None).then_some(self.of_root))?;
+        self.shared.push(key);
+        Some(found.clone().of(None))
+    }
+}
+
+/// Reads the values of one direction and checks each of them.
+fn values(
+    source: &mut Source<'_, '_>,
+    w: Option<&Measured>,
+    findings: &mut Findings<'_>,
+) -> Values {
+    let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
+    let direction = source.direction;
+    let b = source.find("B").and_then(|section| {
+        let b = section.measured("B", Quantity::BendingRigidity, findings)?;
+        Some(b).filter(|b| plausible::bending_rigidity(b, findings))
+    });
+    if let Some(b) = &b {
+        plausible::bending(direction, b, w, findings);
+    }
+    let mut at_least_zero = |key: &'static str, quantity| {
+        laboratory(source.find(key).and_then(|s| zero_or_more(&s, key, quantity, findings)))
+    };
+    let two_hb = at_least_zero("2HB", Quantity::MomentPerWidth);
+    let two_hg = at_least_zero("2HG", Quantity::ForcePerWidth);
+    let two_hg5 = at_least_zero("2HG5", Quantity::ForcePerWidth);
+    let mut above_zero = |key: &'static str, quantity| {
+        laboratory(source.find(key).and_then(|s| positive(&s, key, quantity, findings)))
+    };
+    let g = above_zero("G", Quantity::ShearStiffness);
+    let wt = above_zero("WT", Quantity::WorkPerArea);
+    let em = above_zero("EM", Quantity::Ratio);
+    let smd = above_zero("SMD", Quantity::Roughness);
+    let lt = source.find("LT").and_then(|section| LT.read(&section, findings));
+    let rt = laboratory(source.find("RT").and_then(|s| percentage(&s, "RT", findings)));
+    let miu = source.find("MIU").and_then(|section| MIU.read(&section, findings));
+    let mmd = source.find("MMD").and_then(|section| MMD.read(&section, findings));
+    Values { b: laboratory(b), two_hb, g, two_hg, two_hg5, lt, wt, rt, em, miu, mmd, smd }
+}
+
+/// Value that is a ratio and not a percentage: a bare number is a ratio.
+struct Ratio {
+    key: &'static str,
+    /// Upper limit.
+    limit: f64,
+    help: &'static str,
+}
+
+/// LT, at most 2: the work under a curve of constant sign cannot exceed the box around it, which is
+/// twice the triangle.
+const LT: Ratio = Ratio {
+    key: "LT",
+    limit: 2.0,
+    help: "LT is a ratio, about 0.5 to 1; is this another value, or a percentage?",
+};
+/// LC, bounded as LT is.
+const LC: Ratio = Ratio {
+    key: "LC",
+    limit: 2.0,
+    help: "LC is a ratio, about 0.2 to 0.5; is this another value, or a percentage?",
+};
+const MIU: Ratio = Ratio {
+    key: "MIU",
+    limit: 2.0,
+    help: "MIU is a ratio, about 0.1 to 0.3; is this a percentage?",
+};
+/// MMD, which some print a hundredfold.
+const MMD: Ratio = Ratio {
+    key: "MMD",
+    limit: 10.0,
+    help: "MMD is a ratio, about 0.005 to 0.05; is this another value?",
+};
+
+impl Ratio {
+    fn read(&self, section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
+        let Self { key, limit, help } = *self;
+        let value = positive(section, key, Quantity::Ratio, findings)?;
+        // A bare number was parsed as a percentage, the laboratory's unit of every other ratio.
+        let ratio = if value.written.parse::<f64>().is_ok() { value.number } else { value.si };
+        if ratio < limit {
+            return Some(ratio);
+        }
+        findings.error(&value.key, format!("{} is not between 0 and {limit}", value.written), help);
+        None
+    }
+}
+
+/// Reads TM, which is not above T0.
+fn pressed_thickness(
+    root: &Section<'_>,
+    t0: Option<&Measured>,
+    findings: &mut Findings<'_>,
+) -> Option<Measured> {
+    let tm = positive(root, "TM", Quantity::Length, findings)?;
+    let Some(t0) = t0.filter(|t0| tm.si > t0.si) else { return Some(tm) };
+    findings.error(
+        &tm.key,
+        format!("{} is more than {}, {}", tm.written, t0.key, t0.written),
+        "TM is the thickness under 50 gf/cm², T0 or T that under 0.5 gf/cm²",
+    );
+    None
+}
+
+/// Reads RT or RC, which are at most 100 %.
+fn percentage(section: &Section<'_>, key: &str, findings: &mut Findings<'_>) -> Option<Measured> {
+    let value = positive(section, key, Quantity::Ratio, findings)?;
+    if value.si <= 1.0 {
+        return Some(value);
+    }
+    findings.error(
+        &value.key,
+        format!("{} is more than 100 %, which no fabric gives back", value.written),
+        format!("{key} is recovered work over work spent, in percent"),
+    );
+    None
+}
+
+/// Reads a number greater than zero.
+fn positive(
+    section: &Section<'_>,
+    key: &str,
+    quantity: Quantity,
+    findings: &mut Findings<'_>,
+) -> Option<Measured> {
+    let value = section.measured(key, quantity, findings)?;
+    if value.si > 0.0 {
+        return Some(value);
+    }
+    findings.error(
+        &value.key,
+        format!("{} is not greater than 0", value.written),
+        "write the measured value, or remove the line if it was not measured",
+    );
+    None
+}
+
+/// Reads a loop width, zero or more.
+fn zero_or_more(
+    section: &Section<'_>,
+    key: &str,
+    quantity: Quantity,
+    findings: &mut Findings<'_>,
+) -> Option<Measured> {
+    let value = section.measured(key, quantity, findings)?;
+    if value.si >= 0.0 {
+        return Some(value);
+    }
+    findings.error(
+        &value.key,
+        format!("{} is negative", value.written),
+        "a loop width is the distance between the two branches, without sign",
+    );
+    None
+}

@@ -1,0 +1,342 @@
+//! Blocks of numbers in a grid, each with its heading, its units and the text above it.
+
+use crate::tables::grid::{Cell, Grid, Row, Separator};
+use crate::tables::heading::{self, Heading};
+use crate::unit::is_unit;
+
+/// Lines of a file that a sheet declares.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Lines {
+    /// Lines that are left out at the start.
+    pub(crate) skip: usize,
+    /// Line of the header; 0 where the file has none.
+    pub(crate) header: Option<usize>,
+}
+
+/// Rows of numbers that follow each other, with what stands above them.
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    /// Sheet of the spreadsheet; empty for a text file.
+    pub(crate) sheet: String,
+    /// Text above the header, since the block before.
+    pub(crate) above: Vec<Row>,
+    /// Line of the header.
+    pub(crate) header_line: Option<usize>,
+    /// Line of the units below the header.
+    pub(crate) units_line: Option<usize>,
+    /// Headings of the columns; empty without a header.
+    pub(crate) headings: Vec<Heading>,
+    /// Titles of groups of columns, from the row above the header.
+    pub(crate) groups: Vec<String>,
+    pub(crate) rows: Vec<Row>,
+}
+
+impl Block {
+    /// Returns the number of columns.
+    pub(crate) fn width(&self) -> usize {
+        let rows = self.rows.iter().map(|row| row.cells.len()).max().unwrap_or(0);
+        rows.max(self.headings.len())
+    }
+
+    /// Returns the columns in whose first rows there are numbers.
+    pub(crate) fn number_columns(&self) -> Vec<usize> {
+        let has_numbers = |column: &usize| {
+            let first = self.rows.iter().take(8).filter_map(|row| row.cells.get(*column));
+            first.clone().any(Cell::is_number)
+                && first.filter(|cell| !cell.is_empty()).all(Cell::is_number)
+        };
+        (0..self.width()).filter(has_numbers).collect()
+    }
+
+    /// Returns the name of a column for messages: its heading, or its number from 1.
+    pub(crate) fn column_name(&self, column: usize) -> String {
+        match self.headings.get(column).filter(|heading| !heading.name.is_empty()) {
+            Some(heading) => format!("\"{}\"", heading.name),
+            None => (column + 1).to_string(),
+        }
+    }
+
+    /// Returns the text above the block as one label: its last line that is a title, and no key with
+    /// a value.
+    pub(crate) fn title(&self) -> String {
+        let title = |row: &&Row| row.filled().count() == 1;
+        let row = self.above.iter().rev().find(title);
+        row.and_then(|row| row.filled().next()).map_or(String::new(), |(_, cell)| cell.text())
+    }
+
+    /// Returns the line of the first row of numbers.
+    pub(crate) fn first_line(&self) -> usize {
+        self.rows.first().map_or(0, |row| row.line)
+    }
+}
+
+/// Blocks of a grid, with the rows of statistics that were left out.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Blocks {
+    pub(crate) blocks: Vec<Block>,
+    /// Lines of means and deviations below the numbers.
+    pub(crate) statistics: Vec<usize>,
+}
+
+/// Finds the blocks of a grid.
+pub(crate) fn blocks(grid: &Grid, lines: Lines) -> Blocks {
+    let mut found = Blocks::default();
+    let mut open = OpenBlock::default();
+    let from = lines.header.unwrap_or(0).max(lines.skip + 1);
+    for row in grid.rows.iter().filter(|row| row.line >= from) {
+        let is_header = lines.header == Some(row.line);
+        match part(row, open.rows.first(), is_header) {
+            Part::Numbers => open.rows.push(row.clone()),
+            Part::Statistics => found.statistics.push(row.line),
+            Part::Text => {
+                open.finish(grid, lines, &mut found);
+                open.above.push(row.clone());
+            }
+        }
+    }
+    open.finish(grid, lines, &mut found);
+    found
+}
+
+/// Rows of a block that may go on.
+#[derive(Default)]
+struct OpenBlock {
+    above: Vec<Row>,
+    rows: Vec<Row>,
+}
+
+/// Part that a row plays.
+enum Part {
+    Numbers,
+    /// Mean or deviation of the rows above.
+    Statistics,
+    Text,
+}
+
+fn part(row: &Row, first: Option<&Row>, is_header: bool) -> Part {
+    let numbers = row.numbers();
+    if is_header || numbers == 0 {
+        return Part::Text;
+    }
+    let Some(first) = first else {
+        return if numbers >= 2 { Part::Numbers } else { Part::Text };
+    };
+    let was_number = |column: usize| first.cells.get(column).is_some_and(Cell::is_number);
+    let start =
+        row.filled().next().filter(|(column, cell)| !cell.is_number() && was_number(*column));
+    match start {
+        Some((_, cell)) if is_statistic(&cell.text()) => Part::Statistics,
+        Some(_) => Part::Text,
+        None => Part::Numbers,
+    }
+}
+
+fn is_statistic(text: &str) -> bool {
+    const WORDS: [&str; 22] = [
+        "mean",
+        "average",
+        "avg",
+        "ave",
+        "max",
+        "min",
+        "maximum",
+        "minimum",
+        "median",
+        "sd",
+        "s d",
+        "std",
+        "std dev",
+        "stdev",
+        "cv",
+        "cv%",
+        "cv (%)",
+        "mittelwert",
+        "moyenne",
+        "平均",
+        "標準偏差",
+        "σ",
+    ];
+    let text = heading::normal(text);
+    WORDS.contains(&text.as_str()) || text.starts_with("standard dev") || text.starts_with("x̄")
+}
+
+impl OpenBlock {
+    /// Ends the block of the collected rows, if there are any.
+    fn finish(&mut self, grid: &Grid, lines: Lines, found: &mut Blocks) {
+        if self.rows.is_empty() {
+            return;
+        }
+        let mut block = Block {
+            sheet: grid.sheet.clone(),
+            above: std::mem::take(&mut self.above),
+            header_line: None,
+            units_line: None,
+            headings: Vec::new(),
+            groups: Vec::new(),
+            rows: std::mem::take(&mut self.rows),
+        };
+        if lines.header != Some(0) {
+            take_header(&mut block, lines.header, grid.separator == Some(Separator::Space));
+        }
+        // A block below a title alone has the header of the one above it.
+        if block.header_line.is_none()
+            && let Some(before) = found.blocks.last()
+            && before.width() == block.width()
+        {
+            block.headings.clone_from(&before.headings);
+            block.header_line = before.header_line;
+            block.units_line = before.units_line;
+        }
+        found.blocks.push(block);
+    }
+}
+
+/// Takes header, units and titles of groups from the text above a block.
+fn take_header(block: &mut Block, declared: Option<usize>, spaced: bool) {
+    let ruled =
+        |row: &Row| row.filled().all(|(_, cell)| cell.text().chars().all(|c| "-=_+|~".contains(c)));
+    block.above.retain(|row| !ruled(row) || declared == Some(row.line));
+    let units = block.above.last().filter(|row| is_row_of_units(row) && declared != Some(row.line));
+    let units = units.cloned();
+    if units.is_some() {
+        block.above.pop();
+    }
+    let is_header = |row: &Row| match declared {
+        Some(line) => row.line == line,
+        None => is_row_of_names(row, block.rows.first()),
+    };
+    let header = block.above.last().filter(|row| is_header(row)).cloned();
+    let header = header.map(|row| match block.rows.first() {
+        Some(first) if spaced && row.cells.len() > first.cells.len() => rejoined(&row),
+        _ => row,
+    });
+    if let Some(header) = &header {
+        block.above.pop();
+        block.header_line = Some(header.line);
+        block.headings = header.cells.iter().map(|cell| Heading::parse(&cell.text())).collect();
+    }
+    if let Some(units) = &units {
+        if header.is_some() {
+            block.units_line = Some(units.line);
+        } else {
+            block.header_line = Some(units.line);
+        }
+        block.headings.resize(block.headings.len().max(units.cells.len()), Heading::default());
+        for (column, cell) in units.filled() {
+            block.headings[column].unit = Some(unbracketed(&cell.text()).to_owned());
+        }
+    }
+    if let (Some(header), Some(above)) = (&header, block.above.last())
+        && above.line + 1 == header.line
+        && above.filled().count() >= 2
+        && above.numbers() == 0
+        && !above.filled().any(|(_, cell)| cell.text().ends_with(':'))
+        && above.filled().count() < header.filled().count()
+    {
+        block.groups = spread(above, block.headings.len());
+        block.above.pop();
+    }
+}
+
+/// Joins words that blanks have parted: a name ends with its unit in brackets.
+fn rejoined(row: &Row) -> Row {
+    let mut names: Vec<String> = vec![String::new()];
+    for (_, cell) in row.filled() {
+        let word = cell.text();
+        let name = names.last_mut().expect("there is always a last name");
+        name.push_str(if name.is_empty() { "" } else { " " });
+        name.push_str(&word);
+        if word.ends_with([')', ']', '）', '%']) {
+            names.push(String::new());
+        }
+    }
+    names.retain(|name| !name.is_empty());
+    Row { line: row.line, cells: names.into_iter().map(Cell::Text).collect() }
+}
+
+/// Returns the titles of groups over each of their columns.
+fn spread(row: &Row, width: usize) -> Vec<String> {
+    let mut title = String::new();
+    let of = |column: usize| row.cells.get(column).filter(|cell| !cell.is_empty());
+    (0..width)
+        .map(|column| {
+            if let Some(cell) = of(column) {
+                title = cell.text();
+            }
+            title.clone()
+        })
+        .collect()
+}
+
+fn unbracketed(text: &str) -> &str {
+    text.trim().trim_matches(['(', ')', '[', ']', '（', '）', '<', '>', '［', '］']).trim()
+}
+
+/// Returns whether every cell of a row is a unit.
+fn is_row_of_units(row: &Row) -> bool {
+    row.filled().count() > 0
+        && row.filled().all(|(_, cell)| {
+            let text = cell.text();
+            let text = text.trim();
+            // A closing bracket belongs to the unit where there is one within, as in gf/(cm.deg).
+            is_unit(text) || is_unit(unbracketed(text)) || text == "-" || text == "()"
+        })
+}
+
+/// Returns whether a row names the columns of the numbers below it: text over two of them at least.
+fn is_row_of_names(row: &Row, first: Option<&Row>) -> bool {
+    let over_number = |(column, cell): (usize, &Cell)| {
+        !cell.is_number()
+            && first.is_some_and(|first| first.cells.get(column).is_some_and(Cell::is_number))
+    };
+    let words = row.filled().filter(|(_, cell)| !cell.is_number()).count();
+    row.filled().filter(|&cell| over_number(cell)).count() >= 2 && words == row.filled().count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tables::grid::separator;
+
+    fn of(text: &str, lines: Lines) -> Vec<Block> {
+        let rows = separator(text).split(text).expect("it splits");
+        blocks(&Grid { rows, ..Grid::default() }, lines).blocks
+    }
+
+    #[test]
+    fn a_block_has_its_header_its_units_and_what_is_above() {
+        let text = "Method;KES FB1\nGauge length;50;mm\n\nTime;Extension;Load\n(s);(mm);(N)\n0;0;0\n1;0,5;2\n";
+        let [block] = &of(text, Lines::default())[..] else { panic!("not one block") };
+        assert_eq!((block.header_line, block.units_line, block.rows.len()), (Some(4), Some(5), 2));
+        assert_eq!(block.headings[2], Heading { name: "Load".into(), unit: Some("N".into()) });
+        assert_eq!(block.above.len(), 2);
+    }
+
+    #[test]
+    fn tests_below_each_other_are_blocks_with_titles() {
+        let text = "Specimen 1\nExtension (mm),Load (N)\n0,0\n1,2\nSpecimen 2\nExtension (mm),Load (N)\n0,0\n1,3\nMean,2.5\n";
+        let found = of(text, Lines::default());
+        let titles: Vec<String> = found.iter().map(Block::title).collect();
+        assert_eq!(titles, ["Specimen 1", "Specimen 2"]);
+        assert_eq!(found[1].rows.len(), 2, "the mean is no point");
+    }
+
+    #[test]
+    fn groups_of_columns_have_their_titles() {
+        let text = "Warp 1,,Warp 2,\nStrain (%),Force (gf/cm),Strain (%),Force (gf/cm)\n0,0,0,0\n1,2,1,3\n";
+        let [block] = &of(text, Lines::default())[..] else { panic!("not one block") };
+        assert_eq!(block.groups, ["Warp 1", "Warp 1", "Warp 2", "Warp 2"]);
+    }
+
+    #[test]
+    fn declared_lines_stand_above_what_is_found() {
+        let text = "1,2\n3,4\n5,6\n7,8\n";
+        let header = Lines { header: Some(2), skip: 0 };
+        let [block] = &of(text, header)[..] else { panic!("not one block") };
+        assert_eq!((block.headings[0].name.as_str(), block.rows.len()), ("3", 2));
+        let [block] = &of(text, Lines { skip: 3, header: None })[..] else {
+            panic!("not one block")
+        };
+        assert_eq!(block.rows.len(), 1);
+    }
+}

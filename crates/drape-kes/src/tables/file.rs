@@ -1,0 +1,94 @@
+//! A file made into grids: spreadsheet or text, its encoding and its separator.
+
+use std::path::Path;
+
+use drape_input::{Diagnostic, Diagnostics};
+
+use crate::tables::encoding;
+use crate::tables::grid::{Grid, Separator, separator};
+use crate::tables::layout::Layout;
+use crate::tables::spreadsheet;
+
+/// Largest table that is read, in bytes: half a million points.
+///
+/// A curve has some hundred; the limit keeps a wrong path from filling the memory.
+const LARGEST: u64 = 32 << 20;
+
+/// Grids of a file, with what was found about its characters.
+#[derive(Clone, Debug)]
+pub(crate) struct TableFile {
+    pub(crate) grids: Vec<Grid>,
+    /// Encoding and separator, in words; empty for ASCII with commas.
+    pub(crate) reading: Vec<String>,
+}
+
+/// Reads a file.
+pub(crate) fn read(path: &Path, layout: &Layout) -> Result<TableFile, Diagnostics> {
+    let unreadable = |error: std::io::Error| {
+        Diagnostic::new(path, format!("cannot read the file: {error}"))
+            .help("check the path and that the file can be read")
+    };
+    let size = std::fs::metadata(path).map_err(unreadable)?.len();
+    if size > LARGEST {
+        return Err(Diagnostic::new(path, format!("the file has {size} bytes"))
+            .help("a curve has some thousand lines: is this the right file?")
+            .into());
+    }
+    parse(path, &std::fs::read(path).map_err(unreadable)?, layout)
+}
+
+/// Parses the bytes of a file; `path` is used in messages, and for the ending of its name.
+pub(crate) fn parse(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, Diagnostics> {
+    if spreadsheet::is_spreadsheet(path, bytes) {
+        let grids = spreadsheet::read(bytes).map_err(|reason| {
+            Diagnostic::new(path, format!("not a spreadsheet that can be read: {reason}"))
+                .help("save it again as .xlsx, or each sheet as .csv")
+        })?;
+        return Ok(TableFile { grids, reading: Vec::new() });
+    }
+    let decoded = encoding::decode(bytes, layout.encoding).map_err(|place| {
+        let line = bytes[..place].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let name = layout.encoding.map_or("UTF-8", |encoding| encoding.name());
+        Diagnostic::new(path, format!("the file is not {name}"))
+            .on_line(line)
+            .help("remove `encoding`, so that it is detected, or name the right one")
+    })?;
+    let text = decoded.text.strip_prefix('\u{feff}').unwrap_or(&decoded.text);
+    let text = text.replace("\r\n", "\n").replace('\r', "\n");
+    let mut reading = Vec::new();
+    if !decoded.reading.is_empty() {
+        reading.push(decoded.reading);
+    }
+    let text = match declared_by_file(&text) {
+        // Excel's own first line, which names the separator.
+        Some(_) => text.replacen("sep=", "# sep=", 1),
+        None => text,
+    };
+    let taken = layout.separator.unwrap_or_else(|| separator(&text));
+    if layout.separator.is_none() && taken != Separator::Comma {
+        let words = match taken {
+            Separator::Tab => "tabs",
+            Separator::Semicolon => "semicolons",
+            Separator::Bar => "bars",
+            _ => "blanks",
+        };
+        reading.push(format!("{words} between the cells"));
+    }
+    let rows = taken.split(&text).map_err(|broken| {
+        Diagnostic::new(path, format!("not a table: {}", broken.reason))
+            .on_line(broken.line)
+            .help("save the file as .csv or .xlsx again")
+    })?;
+    let grid = Grid {
+        sheet: String::new(),
+        rows,
+        breaks_off: !text.is_empty() && !text.ends_with('\n'),
+        separator: Some(taken),
+    };
+    Ok(TableFile { grids: vec![grid], reading })
+}
+
+/// Returns the separator that the first line declares, as Excel writes it: `sep=;`.
+fn declared_by_file(text: &str) -> Option<&str> {
+    text.strip_prefix("sep=")?.lines().next()
+}
