@@ -7,6 +7,7 @@
 
 mod fall;
 pub(crate) mod garment_parts;
+pub(crate) mod open_seam;
 mod openings;
 mod pressure;
 mod strain;

@@ -20,6 +20,5 @@
 mod check;
 pub(crate) mod closing_springs;
 pub(crate) mod node_map;
-pub(crate) mod open_seam;
 pub(crate) mod reduced_system;
 pub(crate) mod reduction;

@@ -9,6 +9,7 @@ use drape_scene::{Relaxation, Scene};
 
 use crate::error::Error;
 use crate::measure::garment_parts::GarmentParts;
+use crate::measure::open_seam::{OpenSeam, STRETCHED_MAX};
 use crate::measure::{fallen, measures, note_slides, warnings};
 use crate::record::frame::Frame;
 use crate::record::snapshot::Snapshot;
@@ -19,7 +20,6 @@ use crate::record::summary::{Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
 use crate::sewing::closing_springs::SeamState;
 use crate::sewing::node_map::merge;
-use crate::sewing::open_seam::{OpenSeam, STRETCHED_MAX};
 use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
 use crate::world::{Energy, PinLoad, World};
 

@@ -2,7 +2,7 @@
 //!
 //! 1. `breakpoint` finds the points of the outlines that become nodes: ends of edges, and notches
 //!    opposite to them across seams. `simplify` removes those between pieces shorter than half a
-//!    spacing.
+//!    spacing, or makes one of both (`collapse`).
 //! 2. `sampling` divides each piece of outline into equal arcs: `$n = \mathrm{round}(L/h)$` of them
 //!    for a length `$L$` and a spacing `$h$`, the same number on both sides of a seam, in a gather
 //!    a multiple. It places the nodes and pairs them (`seam_nodes`, with `partition` for nodes that
@@ -16,6 +16,7 @@
 //! scene.
 
 mod breakpoint;
+mod collapse;
 mod cut_pattern;
 mod cutter;
 mod lattice;

@@ -84,6 +84,21 @@ pub enum Note {
         /// The spacing, in m.
         spacing: f64,
     },
+    /// The ends of a short edge are one node, and with them those of the edge that it is sewn to.
+    #[error(
+        "panel {panel}: edge {edge} is {}, under half the spacing ({}); its ends are one particle",
+        Millimetres(*length), Millimetres(*spacing)
+    )]
+    Welded {
+        /// The panel.
+        panel: String,
+        /// The edge.
+        edge: String,
+        /// Its length, in m.
+        length: f64,
+        /// The spacing, in m.
+        spacing: f64,
+    },
     /// Ends of short edges in smooth runs, of which digitised outlines consist, are no nodes.
     #[error(
         "panel {panel}: {ends} ends of edges in smooth runs of edges under half the spacing ({}) are no nodes",

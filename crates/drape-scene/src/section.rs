@@ -83,7 +83,7 @@ pub(crate) fn encloses(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     crossed.count() % 2 == 1
 }
 
-/// Returns the corners of the convex hull of points, in their order [Andrew79].
+/// Returns the corners of the convex hull of points, in their order \[And79\].
 pub(crate) fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let chain = |points: &mut dyn Iterator<Item = &[f64; 2]>| {

@@ -97,7 +97,9 @@ fn a_reversed_seam_is_answered_with_the_sense_that_fits() {
     let wrong = pattern(170.0).replace(good, &format!("{good}\nreversed = true"));
     let said = read(&wrong, "").unwrap_err();
     assert!(said.contains("seam.side_left: the seam is reversed: its stitches are"), "{said}");
-    assert_eq!(between(&said, "[seam.side_left]: ", "; or"), format!("{good}, without reversed = true"));
+    let line = between(&said, "[seam.side_left]: ", "; or");
+    assert_eq!(line, format!("{good}, without reversed = true"));
+    assert!(read(&wrong.replace("reversed = true", ""), "").is_ok());
     // The twist may be meant.
     assert!(read(&wrong, "[sew]\ntwisted = [\"side_left\"]").is_ok());
     let said = read(&wrong, "[sew]\ntwisted = [\"side_lef\"]").unwrap_err();
@@ -106,8 +108,10 @@ fn a_reversed_seam_is_answered_with_the_sense_that_fits() {
 
 #[test]
 fn a_twisted_seam_is_answered_with_the_order_that_fits() {
-    let good = "sides = [[\"back.top_right\", \"back.top_left\"], [\"band.bottom\"]]\nreversed = false";
-    let swapped = "sides = [[\"back.top_left\", \"back.top_right\"], [\"band.bottom\"]]\nreversed = false";
+    let good =
+        "sides = [[\"back.top_right\", \"back.top_left\"], [\"band.bottom\"]]\nreversed = false";
+    let swapped =
+        "sides = [[\"back.top_left\", \"back.top_right\"], [\"band.bottom\"]]\nreversed = false";
     let wrong = pattern(170.0).replace(good, swapped).replace("[100, 250]", "[0, 250]");
     let said = read(&wrong, "").unwrap_err();
     assert!(said.contains("seam.waist: the seam is twisted: its stitches are"), "{said}");
@@ -144,5 +148,8 @@ fn a_skirt_that_is_too_narrow_is_answered_with_what_is_missing() {
     // Little of it stretches, and that is only said.
     let scene = read(&pattern(158.0), "").unwrap();
     let notes = scene.source.notes.join("\n");
-    assert!(notes.contains("\"skirt\" is too narrow") && notes.contains("would stretch by"), "{notes}");
+    assert!(
+        notes.contains("\"skirt\" is too narrow") && notes.contains("would stretch by"),
+        "{notes}"
+    );
 }

@@ -16,7 +16,8 @@ pub(crate) fn fallen(parts: &GarmentParts, positions: &[f64]) -> Option<String> 
     let below = |garment: &&HungGarment| garment.extent(positions).high < ground;
     let HungGarment { name, hung, slid, .. } = parts.garments.iter().find(below)?;
     let top = hung.high;
-    let left = slid.map_or(String::new(), |time| format!(", left its place on the body at {time:.1} s"));
+    let left =
+        slid.map_or(String::new(), |time| format!(", left its place on the body at {time:.1} s"));
     Some(format!(
         "the garment \"{name}\" fell off: it was up at {top:.2} m{left}, and is below {ground:.2} m, where the bodies end"
     ))

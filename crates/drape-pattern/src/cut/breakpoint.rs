@@ -4,6 +4,7 @@
 //! edge on the other side is sewn to. Between two breakpoints an outline is sampled at equal arcs;
 //! `simplify` removes breakpoints, `sampling` samples the arcs.
 
+use super::collapse::Weld;
 use crate::edge::Edge;
 use crate::pattern::{EdgeId, Pattern, Seam};
 
@@ -56,6 +57,8 @@ pub(crate) struct Breakpoints {
     pub pieces: Vec<SeamPiece>,
     /// Breakpoints of each class.
     pub classes: Vec<Vec<usize>>,
+    /// Breakpoints that are all of a collapsed piece.
+    pub welds: Vec<Weld>,
     /// Distances along the outline at which the edges of each panel start, and its perimeter, in m.
     pub starts: Vec<Vec<f64>>,
     /// First breakpoint of each panel; the breakpoints at the starts of its edges follow.
@@ -301,7 +304,7 @@ impl Breakpoints {
     }
 
     /// Makes one class of the classes of two breakpoints.
-    fn unite(&mut self, a: usize, b: usize) {
+    pub fn unite(&mut self, a: usize, b: usize) {
         let (a, b) = (self.points[a].class, self.points[b].class);
         if a != b {
             let moved = std::mem::take(&mut self.classes[a.max(b)]);

@@ -1,5 +1,5 @@
 //! Simplification of outlines: pieces shorter than half a spacing are joined with a neighbour where
-//! the outline is smooth.
+//! the outline is smooth, and become one node where it is not.
 //!
 //! Called on the breakpoints of a pattern before `sampling` counts the arcs between them.
 
@@ -77,6 +77,11 @@ impl Simplifier<'_> {
                 }
             }
             if !changed {
+                let welded = self.weld(&short);
+                changed = !welded.is_empty();
+                notes.extend(welded);
+            }
+            if !changed {
                 let mistakes = short.iter().map(|&(length, point)| {
                     let EdgeName { panel, edge } = self.edge_after(point);
                     Mistake::ShortEdge { panel, edge, length, spacing: self.spacing }
@@ -84,6 +89,25 @@ impl Simplifier<'_> {
                 return Simplified { mistakes: mistakes.collect(), notes };
             }
         }
+    }
+
+    /// Makes one breakpoint of the ends of short pieces, given with their lengths, in m, and the
+    /// breakpoints before them; returns notes on those of which that could be done.
+    fn weld(&mut self, short: &[(f64, usize)]) -> Vec<Note> {
+        let mut notes = Vec::new();
+        for &(length, point) in short {
+            // An earlier one may have changed it.
+            if self.breakpoints.points[point].removed
+                || self.breakpoints.counted_after(point) != length
+            {
+                continue;
+            }
+            let EdgeName { panel, edge } = self.edge_after(point);
+            if self.breakpoints.collapse(point) {
+                notes.push(Note::Welded { panel, edge, length, spacing: self.spacing });
+            }
+        }
+        notes
     }
 
     /// Removes the smooth breakpoints inside runs of short pieces, of which digitised outlines

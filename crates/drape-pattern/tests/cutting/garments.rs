@@ -1,6 +1,7 @@
 //! Shipped garments, cut at several spacings.
 
-use drape_pattern::{CutPattern, Cutter, Error, Mistake, Note, Panel, Pattern, Quality};
+use drape_input::Document;
+use drape_pattern::{CutPattern, Cutter, Note, Panel, Pattern, Quality};
 
 use crate::invariants;
 
@@ -45,21 +46,46 @@ fn garments_are_cut_well_at_all_spacings() {
 }
 
 #[test]
-fn an_edge_between_two_seams_that_is_too_short_names_the_spacing() {
-    let result = Cutter::new(0.02).cut(&shipped("shirt.json"));
-    let Err(Error::Pattern(mistakes)) = result else { panic!("the sleeves have edges of 7.5 mm") };
-    let edges: Vec<&str> = mistakes
-        .iter()
-        .map(|mistake| match mistake {
-            Mistake::ShortEdge { panel, edge, .. } => {
-                assert!(panel.ends_with("sleeve_b"), "{mistake}");
-                edge.as_str()
-            }
-            _ => panic!("{mistake}"),
-        })
-        .collect();
-    assert_eq!(edges, ["2", "3"]);
-    assert!(mistakes[0].help().contains("15.0 mm"), "{}", mistakes[0].help());
+fn an_edge_between_two_seams_that_is_too_short_becomes_one_particle() {
+    let (particles, cut) = cut(&shipped("shirt.json"), 0.02);
+    let welded = cut.notes.iter().filter_map(|note| match note {
+        Note::Welded { panel, edge, length, .. } => {
+            assert!((length - 0.0075).abs() < 1e-4, "{note}");
+            Some(format!("{panel}.{edge}"))
+        }
+        _ => None,
+    });
+    let welded: Vec<String> = welded.collect();
+    assert_eq!(welded, ["left_sleeve_b.2", "right_sleeve_b.3"]);
+    assert!(cut.notes.iter().any(|note| note.to_string().contains("its ends are one particle")));
+    assert!(particles > 1000, "{particles}");
+}
+
+#[test]
+fn a_short_pair_of_edges_between_free_ones_is_sewn_at_one_particle() {
+    // Two squares that are sewn along edges of 0.9 mm, and in another seam along a whole side.
+    let corner = |name: &str| {
+        format!(
+            "[panel.{name}]\ngrain = 0\nstart = [0, 0]\noutline = [\n\
+             {{ name = \"hem\", to = [200, 0] }}, {{ name = \"side\", to = [200, 200] }},\n\
+             {{ name = \"slit\", to = [199.1, 200] }}, {{ name = \"top\", to = [0, 200] }},\n\
+             {{ name = \"fold\", to = [0, 0] }},\n]\n"
+        )
+    };
+    let text = format!(
+        "length = \"mm\"\n{}{}[seam.tack]\nsides = [[\"a.slit\"], [\"b.slit\"]]\nreversed = true\n\
+         [seam.fold]\nsides = [[\"a.fold\"], [\"b.fold\"]]\nreversed = true\n",
+        corner("a"),
+        corner("b")
+    );
+    let pattern = Pattern::parse(&Document::new("tack.toml", text)).expect("it is sound");
+    let cut = Cutter::new(0.02).cut(&pattern).expect("it can be cut");
+    let number = pattern.seams().iter().position(|seam| seam.name == "tack").expect("it is there");
+    let tack = &cut.seams[number];
+    assert_eq!(tack.pairs.len(), 1);
+    let places = tack.pairs[0].map(|id| cut.panels[id.panel].positions[id.node as usize]);
+    assert_eq!(places[0], places[1]);
+    assert!(places[0][0] > 0.199 && (places[0][1] - 0.2).abs() < 1e-12, "{places:?}");
 }
 
 #[test]

@@ -72,6 +72,12 @@ pub(crate) fn garments(
         first += garment.panels.iter().map(|own| own.positions.len() / 3).sum::<usize>();
         garments.push(garment);
     }
+    let seams = garments.iter().flat_map(|garment| &garment.seams);
+    let known: Vec<&str> = seams.map(|seam| seam.name.as_str()).collect();
+    for name in file.sew.twisted.iter().filter(|name| !known.contains(&name.as_str())) {
+        let unknown = UnknownName { name, known: &known, kind: "seams" };
+        checker.unknown("sew.twisted", format!("there is no seam \"{name}\""), unknown);
+    }
     garments
 }
 
@@ -221,9 +227,8 @@ fn check_seam_order(
         Some(document) => document.clone(),
         None => Document::read(&path).unwrap_or_else(|_| Document::new(&path, "")),
     };
-    let mistakes: Vec<Diagnostic> = twisted
-        .filter_map(|seam| PlacedSeam::new(pattern, seam, &places).mistake(&file))
-        .collect();
+    let mistakes: Vec<Diagnostic> =
+        twisted.filter_map(|seam| PlacedSeam::new(pattern, seam, &places).mistake(&file)).collect();
     checker.extend(Diagnostics(mistakes));
 }
 

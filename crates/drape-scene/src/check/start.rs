@@ -6,6 +6,7 @@ mod layers;
 mod place_key;
 pub(crate) mod placing;
 mod rings;
+mod stitches;
 mod tangle;
 
 use drape_collide::{ParticleContact, SurfaceContact};
@@ -22,6 +23,7 @@ use self::girth::check_girths;
 use self::layers::check_layers;
 use self::place_key::place_key;
 use self::placing::check_places;
+use self::stitches::stitches_through_bodies;
 use self::tangle::{Tangled, check_tangle};
 
 /// Checks the start of a scene that has no other mistakes, and returns the scene with notes on its
@@ -39,7 +41,7 @@ pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result
     let notes = check_places(checker, &scene);
     scene.source.notes.extend(notes);
     if tangle.is_none() {
-        let notes = check_girths(checker, &scene);
+        let notes = [stitches_through_bodies(&scene), check_girths(checker, &scene)].concat();
         scene.source.notes.extend(notes);
     }
     if tangle.is_none() {

@@ -105,7 +105,7 @@ pub(crate) fn outcome(summary: Summary) -> Result<(), Failure> {
         ))),
         Status::SeamsOpen => Err(Failure::Solver(format!(
             "{}; something keeps its sides apart, or sew.seconds is too short; the last state was \
-             written",
+             written, and place.png shows the seam",
             summary.reason.unwrap_or_default()
         ))),
         Status::FellOff => Err(Failure::Solver(format!(
@@ -130,6 +130,11 @@ pub(crate) fn outcome(summary: Summary) -> Result<(), Failure> {
                 summary.simulated_seconds
             ),
         }),
+        Status::SolverFailed if summary.place.is_some() => Err(Failure::Solver(format!(
+            "the step after {} s could not be solved; the last good state was written, and place.png shows the seam: {}",
+            summary.simulated_seconds,
+            summary.reason.unwrap_or_default()
+        ))),
         Status::SolverFailed => Err(Failure::Solver(format!(
             "the step after {} s could not be solved; the last good state was written: {}",
             summary.simulated_seconds,

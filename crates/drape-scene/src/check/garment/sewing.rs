@@ -4,7 +4,7 @@ use drape_cloth::{Cloth, Lattice, SeamBending};
 use drape_fabric::Fabric;
 use drape_input::Given;
 
-use crate::check::checker::{Checker, UnknownName};
+use crate::check::checker::Checker;
 use crate::scene::garment::Sewing;
 use crate::scene::seam::{Seam, SeamPairs};
 
@@ -33,11 +33,6 @@ pub(crate) fn sewing_settings(checker: &mut Checker<'_>, is_plain: bool) -> Opti
             checker.fail("sew", "nothing is sewn", help);
         }
         return None;
-    }
-    let known: Vec<&str> = seams.iter().map(|seam| seam.name.as_str()).collect();
-    for name in file.sew.twisted.iter().filter(|name| !known.contains(&name.as_str())) {
-        let unknown = UnknownName { name, known: &known, kind: "seams" };
-        checker.unknown("sew.twisted", format!("there is no seam \"{name}\""), unknown);
     }
     let explicit = file.solver.integrator.as_deref() == Some("explicit");
     for (wrong, key, word) in [
@@ -70,7 +65,9 @@ impl SewingSettings {
             ties: seam.pairs.ties.clone(),
             ..drape_cloth::Seam::new(seam.pairs.pairs.clone())
         };
-        let bending: Vec<drape_cloth::Seam> = seams.iter().map(bending).collect();
+        // A seam of one pair, of edges that are too short for the spacing, has nothing to bend.
+        let long = seams.iter().filter(|seam| seam.pairs.pairs.len() > 1);
+        let bending: Vec<drape_cloth::Seam> = long.map(bending).collect();
         let bending = SeamBending::new(panels, &bending).map_err(|error| {
             let help = "choose another spacing, and report the pattern";
             checker.fail("garment", error.to_string(), help);

@@ -88,7 +88,8 @@ pub(crate) fn check_girths(checker: &mut Checker<'_>, scene: &Scene) -> Vec<Stri
 fn heights(scene: &Scene, panels: &[usize]) -> impl Iterator<Item = f64> {
     let particles = panels.iter().flat_map(|&panel| scene.panels[panel].particles());
     let heights = particles.map(|particle| scene.start.positions[3 * particle + 1]);
-    let [low, high] = heights.fold([f64::MAX, f64::MIN], |[low, high], y| [low.min(y), high.max(y)]);
+    let [low, high] =
+        heights.fold([f64::MAX, f64::MIN], |[low, high], y| [low.min(y), high.max(y)]);
     let spacing = panels.iter().flat_map(|&panel| scene.panels[panel].lattice.spacing);
     let step = spacing.fold(STEP_MIN, f64::max);
     let count = ((high - low) / step).max(0.0) as usize;
@@ -164,5 +165,7 @@ fn remedy(tight: &TightRing<'_>) -> String {
         true => ", choose a smaller spacing",
         false => "",
     };
-    format!("widen it there by {wider:.0} mm in all{coarse}, or start it where the body is narrower (center)")
+    format!(
+        "widen it there by {wider:.0} mm in all{coarse}, or start it where the body is narrower (center)"
+    )
 }

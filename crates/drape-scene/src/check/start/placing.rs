@@ -35,7 +35,14 @@ const INSIDE_MAX: f64 = 0.002;
 /// Number of particles by which places are compared.
 const SAMPLES: usize = 250;
 
-/// Weight of a depth inside a body against a distance outside of it.
+/// Distance from a body at which a garment is to start, in m: its surfaces are apart there.
+const MARGIN: f64 = 0.005;
+
+/// Increase of the weight of a distance with it, in 1/m: of places with one mean distance, that in
+/// the middle is taken.
+const CENTRING: f64 = 2.0;
+
+/// Weight of a depth below the margin against a distance outside of a body.
 const DEPTH_WEIGHT: f64 = 50.0;
 
 /// Fraction of a garment's height that is its top, and the weight of a distance there.
@@ -75,7 +82,7 @@ impl<'a> Solids<'a> {
     }
 
     /// Returns the signed distance of a point from the nearest body, in m.
-    fn distance(&self, point: [f64; 3]) -> f64 {
+    pub(crate) fn distance(&self, point: [f64; 3]) -> f64 {
         let distances = self.bodies.iter().filter_map(|body| body.signed_distance(point).ok());
         distances.map(|near| near.distance).fold(f64::INFINITY, f64::min)
     }
@@ -128,18 +135,16 @@ impl<'a> Solids<'a> {
     /// Returns the shift, in m, that brings a garment with particles at some points about a body,
     /// if there is one.
     pub(crate) fn shift(&self, points: &[[f64; 3]]) -> Option<[f64; 3]> {
-        let points = samples(points);
+        let (all, points) = (points, samples(points));
         let [low, high] = extent(points.iter());
         let middle = [0, 1, 2].map(|k| 0.5 * (self.low[k] + self.high[k] - low[k] - high[k]));
         let top = high[1] - TOP * (high[1] - low[1]);
         let cost = |shift: [f64; 3]| {
             let costs = points.iter().map(|point| {
                 let distance = self.distance([0, 1, 2].map(|k| point[k] + shift[k]));
-                match distance < 0.0 {
-                    true => -DEPTH_WEIGHT * distance,
-                    false if point[1] > top => TOP_WEIGHT * distance,
-                    false => distance,
-                }
+                let weight = if point[1] > top { TOP_WEIGHT } else { 1.0 };
+                let depth = (MARGIN - distance).max(0.0);
+                weight * distance.max(0.0) * (1.0 + CENTRING * distance) + DEPTH_WEIGHT * depth
             });
             costs.sum::<f64>() / points.len() as f64
         };
@@ -167,8 +172,10 @@ impl<'a> Solids<'a> {
         }
         let rounded = best.map(|x| (1e3 * x).round() / 1e3);
         let moved: Vec<[f64; 3]> =
-            points.iter().map(|point| [0, 1, 2].map(|k| point[k] + rounded[k])).collect();
-        (self.fraction_around(&moved) >= AROUND_MIN).then_some(rounded)
+            all.iter().map(|point| [0, 1, 2].map(|k| point[k] + rounded[k])).collect();
+        let is_about =
+            self.fraction_around(&moved) >= AROUND_MIN && self.fraction_inside(&moved) == 0.0;
+        is_about.then_some(rounded)
     }
 }
 
@@ -249,7 +256,9 @@ pub(crate) fn remedy(checker: &Checker<'_>, garment: usize, shift: Option<[f64; 
     };
     let [x, y, z] = [0, 1, 2].map(|k| entry.center[k] + shift[k] / checker.unit);
     let digits = if checker.unit == 1.0 { 3 } else { 0 };
-    format!("write center = [{x:.digits$}, {y:.digits$}, {z:.digits$}] in its [[garment]]; there it is about the body")
+    format!(
+        "write center = [{x:.digits$}, {y:.digits$}, {z:.digits$}] in its [[garment]]; there it is about the body"
+    )
 }
 
 /// Returns some of many points, evenly.

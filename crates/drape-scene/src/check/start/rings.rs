@@ -98,11 +98,17 @@ impl<'a> RingFinder<'a> {
         }
         let class = equivalence_classes(cuts.len(), &pairs);
         let mut rings: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-        class.iter().enumerate().for_each(|(cut, &class)| rings.entry(class).or_default().push(cut));
+        class
+            .iter()
+            .enumerate()
+            .for_each(|(cut, &class)| rings.entry(class).or_default().push(cut));
         let is_girth = |cut: usize| !is_open[cut] && self.upright[cuts[cut].panel];
         let closed = rings.into_values().filter(|ring| ring.iter().all(|&cut| is_girth(cut)));
         let ring = |ring: Vec<usize>| Ring {
-            parts: ring.iter().map(|&cut| self.scene.panels[cuts[cut].panel].name.clone()).collect(),
+            parts: ring
+                .iter()
+                .map(|&cut| self.scene.panels[cuts[cut].panel].name.clone())
+                .collect(),
             panel: cuts[ring[0]].panel,
             girth: ring.iter().map(|&cut| cuts[cut].length).sum(),
             points: ring.iter().flat_map(|&cut| cuts[cut].points.iter().copied()).collect(),
@@ -228,9 +234,8 @@ fn opening(scene: &Scene, row: &[FreeEdge]) -> Option<Ring> {
         let [[a, b], [c, d]] = [pair[0], pair[1]].map(|particle| coordinates[particle as usize]);
         (c - a).hypot(d - b)
     };
-    let place = |&particle: &u32| {
-        [0, 1, 2].map(|axis| scene.start.positions[3 * particle as usize + axis])
-    };
+    let place =
+        |&particle: &u32| [0, 1, 2].map(|axis| scene.start.positions[3 * particle as usize + axis]);
     let points: Vec<[f64; 3]> =
         row.iter().flat_map(|edge| edge.particles.iter().map(place)).collect();
     Some(Ring {
