@@ -114,11 +114,6 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
         let stored = picture.save(output.path("picture.png"));
         stored.map_err(|error| Failure::Output(error.to_string()))?;
         if let Some(place) = summary.place {
-            let picture = picture::draw(&picture::near(&shown, place), view, picture::SIZE)?;
-            let stored = picture.save(output.path("place.png"));
-            stored.map_err(|error| Failure::Output(error.to_string()))?;
-        }
-        if let Some(place) = summary.place {
             let near = picture::near(&shown, place);
             let picture = Pictures::new(&near)?.draw(view, picture::SIZE)?;
             let stored = picture.save(output.path("place.png"));

@@ -14,8 +14,8 @@ use crate::sheets::value_keys::{DirectedValues, WholeValues};
 use crate::sheets::{curve_file, plausible};
 use crate::symbol::Symbol;
 use crate::test::{Direction, Test};
-use drape_input::Quantity;
 use crate::values::Values;
+use drape_input::Quantity;
 
 /// Name of the sheet in a folder.
 const SHEET_FILE: &str = "sheet.toml";

@@ -4,8 +4,8 @@ use crate::sheets::findings::Findings;
 use crate::sheets::plausible;
 use crate::sheets::section::{Measured, Section};
 use crate::test::Direction;
-use drape_input::Quantity;
 use crate::values::Values;
+use drape_input::Quantity;
 
 /// Values of a sheet that have no direction, as they were measured.
 #[derive(Debug, Default)]

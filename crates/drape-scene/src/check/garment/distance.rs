@@ -5,8 +5,8 @@ use drape_collide::Shape;
 use crate::check::body::CheckedBody;
 use crate::check::checker::Checker;
 use crate::check::panel::PlacedPanel;
-use crate::file::body::MeshBodyFile;
 use crate::check::start::placing::{Solids, remedy};
+use crate::file::body::MeshBodyFile;
 
 /// Largest distance of a garment from every body at the start, in m: a pattern that was made for
 /// another figure, or in another frame, is metres off.
@@ -78,7 +78,7 @@ pub(crate) fn check_distance(
         let places: Vec<[f64; 3]> = places.copied().collect();
         let shift = solids.and_then(|solids| solids.shift(&places));
         let help = format!("was the pattern made for another body? {}", remedy(checker, 0, shift));
-        checker.fail("garment[0]", message, help);
+        checker.fail("garment[0]", message, &help);
     }
 }
 

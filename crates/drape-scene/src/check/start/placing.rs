@@ -254,7 +254,7 @@ pub(crate) fn remedy(checker: &Checker<'_>, garment: usize, shift: Option<[f64; 
     let (Some(shift), Some(entry)) = (shift, checker.file.garment.get(garment)) else {
         return "no place about the body was found: does the pattern fit it? turn or move its panels".into();
     };
-    let [x, y, z] = [0, 1, 2].map(|k| entry.center[k] + shift[k] / checker.unit);
+    let [x, y, z] = [0, 1, 2].map(|k| (entry.center[k] * checker.unit + shift[k]) / checker.unit);
     let digits = if checker.unit == 1.0 { 3 } else { 0 };
     format!(
         "write center = [{x:.digits$}, {y:.digits$}, {z:.digits$}] in its [[garment]]; there it is about the body"
