@@ -58,7 +58,7 @@ fn mistakes_of_such_seams_are_located_in_the_scene() {
         ("[garment.seam.a]\nsides = [[\"draft.front.right\"], [\"back.top\"]]\n", "max_ease"),
         ("panel.\"draft.front\".grain = 999\n", "anticlockwise"),
     ] {
-        let said = read(garment).err().expect("it is wrong");
+        let said = read(garment).expect_err("it is wrong");
         assert!(said.contains("scene.toml:") && said.contains(words), "{words:?}: {said}");
     }
 }

@@ -99,7 +99,7 @@ impl GarmentParts {
     pub(crate) fn seam_of(&self, ends: [u32; 2]) -> &str {
         let sews = |seam: &&Seam| {
             let tie = |particle| seam.pairs.ties.iter().any(|tie| tie.particle == particle);
-            seam.pairs.pairs.iter().any(|pair| *pair == ends) || tie(ends[0])
+            seam.pairs.pairs.contains(&ends) || tie(ends[0])
         };
         self.named_seams.iter().find(sews).map_or("", |seam| &seam.name)
     }

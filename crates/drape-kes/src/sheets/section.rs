@@ -129,7 +129,7 @@ impl<'t> Section<'t> {
                     findings.error(&self.key(key), message, "keep one of them");
                 }
                 seen.push((spelt, key));
-            } else if !keys.contains(&key) && !(self.path.is_empty() && is_table_of_values(key)) {
+            } else if !(keys.contains(&key) || self.path.is_empty() && is_table_of_values(key)) {
                 self.unknown(key, keys, findings);
             }
         }

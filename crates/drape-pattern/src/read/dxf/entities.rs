@@ -1,6 +1,6 @@
 //! Blocks and entities of DXF, as far as patterns use them.
 
-use drape_input::{Diagnostic, Document};
+use drape_input::{Diagnostic, Diagnostics, Document};
 
 use super::pairs::Pair;
 use crate::edge::{Curve, Edge};
@@ -53,7 +53,7 @@ struct Open<'a> {
 }
 
 /// Returns the contents of the pairs of a file.
-pub(crate) fn contents(document: &Document, pairs: &[Pair<'_>]) -> Result<Contents, Diagnostic> {
+pub(crate) fn contents(document: &Document, pairs: &[Pair<'_>]) -> Result<Contents, Diagnostics> {
     let mut contents = Contents::default();
     let mut block: Option<Block> = None;
     let mut open: Option<Open<'_>> = None;
@@ -106,7 +106,7 @@ pub(crate) fn contents(document: &Document, pairs: &[Pair<'_>]) -> Result<Conten
 }
 
 /// Returns the number of a pair.
-fn number(document: &Document, pair: &Pair<'_>) -> Result<f64, Diagnostic> {
+fn number(document: &Document, pair: &Pair<'_>) -> Result<f64, Diagnostics> {
     match pair.value.replace(',', ".").parse::<f64>() {
         Ok(value) if value.abs() < FARTHEST => Ok(value),
         _ => {
@@ -115,13 +115,13 @@ fn number(document: &Document, pair: &Pair<'_>) -> Result<f64, Diagnostic> {
                 pair.value, pair.code
             );
             let help = "export the file again; numbers are such as 120.5";
-            Err(Diagnostic::new(document.path(), message).on_line(pair.line).help(help))
+            Err(Diagnostic::new(document.path(), message).on_line(pair.line).help(help).into())
         }
     }
 }
 
 /// Returns an entity.
-fn entity(document: &Document, open: &Open<'_>) -> Result<Entity, Diagnostic> {
+fn entity(document: &Document, open: &Open<'_>) -> Result<Entity, Diagnostics> {
     let value = |code: i32| open.pairs.iter().find(|pair| pair.code == code);
     let get = |code: i32| value(code).map_or(Ok(0.0), |pair| number(document, pair));
     let flag = value(70).and_then(|pair| pair.value.parse::<i32>().ok()).unwrap_or(0);

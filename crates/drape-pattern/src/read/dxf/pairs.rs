@@ -1,6 +1,6 @@
 //! Pairs of DXF: a line with a group code, then a line with its value.
 
-use drape_input::{Diagnostic, Document};
+use drape_input::{Diagnostic, Diagnostics, Document};
 
 /// Group code with its value.
 #[derive(Debug, Clone, Copy)]
@@ -12,11 +12,11 @@ pub(crate) struct Pair<'a> {
 }
 
 /// Returns the pairs of a file.
-pub(crate) fn pairs(document: &Document) -> Result<Vec<Pair<'_>>, Diagnostic> {
+pub(crate) fn pairs(document: &Document) -> Result<Vec<Pair<'_>>, Diagnostics> {
     let help = "export the pattern as DXF-AAMA or DXF-ASTM, in ASCII";
     let text = document.text();
     if text.starts_with("AutoCAD Binary DXF") {
-        return Err(Diagnostic::new(document.path(), "the file is binary DXF").help(help));
+        return Err(Diagnostic::new(document.path(), "the file is binary DXF").help(help).into());
     }
     let mut pairs = Vec::new();
     let mut lines = text.lines().enumerate();
@@ -27,7 +27,10 @@ pub(crate) fn pairs(document: &Document) -> Result<Vec<Pair<'_>>, Diagnostic> {
         let Ok(number) = code.trim().parse() else {
             let shown: String = code.trim().chars().take(40).collect();
             let message = format!("\"{shown}\" is no group code of DXF");
-            return Err(Diagnostic::new(document.path(), message).on_line(index + 1).help(help));
+            return Err(Diagnostic::new(document.path(), message)
+                .on_line(index + 1)
+                .help(help)
+                .into());
         };
         let Some((index, value)) = lines.next() else { break };
         pairs.push(Pair { code: number, value: value.trim(), line: index + 1 });
