@@ -6,7 +6,7 @@ use std::process::Output;
 use assert_cmd::Command;
 use tempfile::TempDir;
 
-const FABRIC: &str = include_str!("plain-weave.toml");
+const FABRIC: &str = include_str!("fabrics/plain-weave.toml");
 
 const SCENE: &str = r#"name = "towel"
 spacing = 0.02

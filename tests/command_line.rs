@@ -178,7 +178,8 @@ fn checks_and_lists_have_a_form_for_programs() {
     let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     assert_eq!((&found[0]["holds"], &found[1]["holds"]), (&true.into(), &false.into()));
     assert_eq!(found[0]["mistakes"], Value::Array(Vec::new()));
-    assert!(found[1]["mistakes"][0]["line"].is_u64(), "{found}");
+    let mistakes = found[1]["mistakes"].as_array().expect("mistakes");
+    assert!(mistakes.iter().any(|mistake| mistake["line"].is_u64()), "{found}");
     for arguments in [&["list", "."][..], &["show", "sheet.toml"], &["compare", ".", "."]] {
         let printed = succeeds(folder.path(), &[&["fabric"], arguments, &["--json"]].concat());
         let value: Value = serde_json::from_str(&printed).expect("JSON");

@@ -9,7 +9,7 @@ use drape::verify::Recording;
 use serde_json::Value;
 use tempfile::TempDir;
 
-const FABRIC: &str = include_str!("plain-weave.toml");
+const FABRIC: &str = include_str!("fabrics/plain-weave.toml");
 
 /// Scene of two sheets that fall on a rising table.
 const SCENE: &str = r#"spacing = 0.02
@@ -133,7 +133,7 @@ fn a_sheet_that_pokes_through_is_found_with_its_frame_and_triangles() {
     assert!(triangle <= Some(1), "a triangle at the corner, not {triangle:?}");
     let output = drape(folder.path(), &["check", "results"]);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(text.contains("of \"lower\" and triangle 0 of \"upper\" meet"), "{text}");
+    assert!(text.contains("of \"lower\" and triangle 0 of \"upper\" intersect"), "{text}");
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn files_that_are_not_as_they_were_written_are_named() {
         (
             "surfaces.json",
             |t| t.replacen("\"format\"", "\"thinned\": 2, \"format\"", 1),
-            &["2 is no part of a distance"],
+            &["2 is no fraction of a distance"],
         ),
     ];
     let folder = results();

@@ -6,7 +6,7 @@ use std::path::Path;
 use assert_cmd::Command;
 use serde_json::Value;
 
-const FABRIC: &str = include_str!("plain-weave.toml");
+const FABRIC: &str = include_str!("fabrics/plain-weave.toml");
 
 /// Runs a scene in a folder; returns its summary, and the positions in its first and last frame.
 fn run(folder: &Path, scene: &str, fabric: &str) -> (Value, [Vec<[f64; 3]>; 2]) {

@@ -7,7 +7,7 @@ use std::process::Output;
 use assert_cmd::Command;
 use tempfile::TempDir;
 
-const FABRIC: &str = include_str!("plain-weave.toml");
+const FABRIC: &str = include_str!("fabrics/plain-weave.toml");
 
 /// Scene of an upright sheet, a level one at HEIGHT that it intersects, and a ball far below.
 const SCENE: &str = r#"spacing = 0.02

@@ -86,5 +86,5 @@ fn another_model_is_not_known() {
                 rectangle = [0.1, 0.1]\n[time]\nstep = 0.01\nend = 0.1\n";
     let fabric = Document::new("plain.toml", FABRIC);
     let error = Scene::from_documents(&Document::new("a.toml", text), &[fabric]).unwrap_err();
-    assert!(error.to_string().ends_with("help: one of kes, breen-1994"), "{error}");
+    assert!(error.to_string().ends_with("help: did you mean \"breen-1994\"?"), "{error}");
 }

@@ -12,22 +12,25 @@
 //!    they have some. What it makes can be checked further: [`Faults`] knows the keys that were left
 //!    out, about which nothing more is to be said.
 //!
-//! `reader` reads the values of the text, `stand_in` makes others; `stop` is what ends a reading.
+//! `state` is what a reading has found, `reader` reads the values of the text, `stand_in` makes others; `stop` is what ends a reading.
 
 mod reader;
 mod stand_in;
+mod state;
 mod stop;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
-use std::ops::Range;
 
 use serde::de::DeserializeOwned;
 
 use crate::diagnostic::Diagnostic;
 use crate::node::Node;
 
+pub(crate) use self::state::Fault;
+
 use self::reader::{Path, Reader};
+use self::state::State;
 use self::stop::Stop;
 
 /// Mistakes of a decoded text, with the keys whose values were left out.
@@ -75,32 +78,12 @@ impl Faults {
     }
 }
 
-/// Mistake of a text, before its line is looked up.
-pub(crate) struct Fault {
-    pub(crate) span: Option<Range<usize>>,
-    pub(crate) message: String,
-    pub(crate) help: String,
-}
-
 /// Structure that was decoded, if it could be, with its mistakes.
 pub(crate) struct Decoded<T> {
     pub(crate) value: Option<T>,
     pub(crate) faults: Vec<Fault>,
     /// Keys whose values were left out.
     pub(crate) keys: BTreeSet<String>,
-}
-
-/// State of a reading.
-#[derive(Default)]
-struct State {
-    faults: Vec<Fault>,
-    keys: BTreeSet<String>,
-    /// Names of structures with the keys that they need.
-    needed: BTreeSet<(&'static str, &'static str)>,
-    /// Addresses of values that are wrong.
-    wrong: BTreeSet<usize>,
-    /// Whether wrong values are left out, and mistakes are not written down again.
-    is_last: bool,
 }
 
 /// Decodes a text.

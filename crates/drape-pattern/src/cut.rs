@@ -28,6 +28,7 @@ mod rim;
 mod sampling;
 mod seam_nodes;
 mod simplify;
+mod weld;
 
 pub use cut_pattern::CutPattern;
 pub use cutter::Cutter;

@@ -10,6 +10,7 @@
 pub(crate) mod body;
 pub(crate) mod checker;
 mod contact;
+pub(crate) mod documents;
 mod fabrics;
 mod garment;
 mod hash;
@@ -23,12 +24,12 @@ mod time;
 use std::collections::BTreeSet;
 
 use drape_cloth::{Breen, Cloth};
-use drape_input::{Diagnostics, Document, Faults, Given, excerpt, figures};
+use drape_input::{Diagnostics, Faults, Given, excerpt, figures};
 
 use crate::error::Error;
 use crate::file::SceneFile;
 use crate::scene::garment::Garment;
-use crate::scene::material::{FabricReader, Material};
+use crate::scene::material::Material;
 use crate::scene::model::Model;
 use crate::scene::panel::Panel;
 use crate::scene::{Environment, MovingBody, Output, Scene, Schedule, Source, Start, View};
@@ -36,6 +37,7 @@ use crate::scene::{Environment, MovingBody, Output, Scene, Schedule, Source, Sta
 use self::body::CheckedBody;
 use self::checker::Checker;
 use self::contact::ContactBounds;
+use self::documents::Documents;
 use self::garment::cost::cost;
 use self::garment::distance::check_distance;
 use self::garment::sewing::{frictionless_cloth, sewing_settings};
@@ -47,14 +49,6 @@ const AIR_DENSITY: f64 = 1.2;
 
 /// Drag coefficient of a flat plate across the flow.
 const AIR_DRAG: f64 = 1.28;
-
-/// Documents of a scene: its own, and others that it names by their paths; its fabrics are read by
-/// a function.
-pub(crate) struct Documents<'a> {
-    pub(crate) scene: &'a Document,
-    pub(crate) others: &'a [Document],
-    pub(crate) fabrics: FabricReader<'a>,
-}
 
 /// Checks the content of a scene's file.
 pub(crate) fn check(

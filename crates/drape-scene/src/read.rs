@@ -4,7 +4,8 @@ use std::path::Path;
 
 use drape_input::Document;
 
-use crate::check::{Documents, check};
+use crate::check::check;
+use crate::check::documents::Documents;
 use crate::error::Error;
 use crate::file::SceneFile;
 use crate::scene::Scene;

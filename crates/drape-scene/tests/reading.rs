@@ -262,7 +262,7 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
         ("", "[[pin]]\npanel = \"towl\"\nedge = \"top\"", "towl", 10),
         ("", "[[pin]]\npanel = \"towel\"\npoints = [[1, 1]]", "[1, 1]", 11),
         ("", "[[pin]]\npanel = \"towel\"\nedge = \"top\"\nrelease = -1", "-1", 12),
-        ("", "[[collider.sphere]]\nradius = 1", "inside", 3),
+        ("", "[[collider.sphere]]\nradius = 1", "inside", 2),
         ("fabric = \"plain\"", "fabric = \"plane\"", "plane", 4),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, -0.3]", "-0.3", 5),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = 200", "200", 6),

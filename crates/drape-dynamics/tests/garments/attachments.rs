@@ -159,9 +159,9 @@ fn lifting_by_springs_does_the_work_of_lifting_by_hand() {
 fn a_pin_that_holds_wrongly_is_refused_at_its_line() {
     let time = "[time]\nstep = 0.002\nend = 1\n";
     for (wrong, place, said) in [
-        ("axes = [\"w\"]", "scene.toml:11", "one of x, y, z"),
+        ("axes = [\"w\"]", "scene.toml:11", "there is no \"w\""),
         ("axes = []", "scene.toml:11", "in no direction"),
-        ("until = \"sow\"", "scene.toml:11", "one of end, sewn, rest"),
+        ("until = \"sow\"", "scene.toml:11", "there is no \"sow\""),
         ("until = \"rest\"", "scene.toml:11", "add [motion]"),
     ] {
         let message = sheet(&format!("{wrong}\n{time}")).unwrap_err().to_string();

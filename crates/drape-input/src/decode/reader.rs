@@ -14,8 +14,8 @@ use crate::spelling::closest;
 use crate::unit::{Quantity, Written, parse_quantity};
 
 use super::stand_in::{Kind, StandIn};
+use super::state::{Fault, State};
 use super::stop::Stop;
-use super::{Fault, State};
 
 /// Place of a value: the keys and numbers that lead to it.
 pub(super) struct Path<'a> {

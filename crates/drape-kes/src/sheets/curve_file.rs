@@ -68,7 +68,9 @@ struct CurveKeys {
 ///
 /// Repeats are one curve, their mean; strips of loop bending are fitted together, and stay apart.
 pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Curve> {
+    let errors = findings.errors.len();
     section.allow(&CURVE_KEYS, findings);
+    let keys_are_known = findings.errors.len() == errors;
     let test = section.required_choice(&TEST, findings);
     let direction = section.required_choice(&DIRECTION, findings);
     let name = section.text("name", findings);
@@ -91,6 +93,10 @@ pub(crate) fn read(section: &Section<'_>, findings: &mut Findings<'_>) -> Vec<Cu
     let ((Some(deformation), Some(load)), Some(layout)) = (axes, layout) else {
         return Vec::new();
     };
+    // A key that is misspelt leaves what it would have said unknown.
+    if !keys_are_known {
+        return Vec::new();
+    }
     let paths = Keys {
         file: section.key("file"),
         deformation: section.key("deformation"),

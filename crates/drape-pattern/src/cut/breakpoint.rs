@@ -4,7 +4,7 @@
 //! edge on the other side is sewn to. Between two breakpoints an outline is sampled at equal arcs;
 //! `simplify` removes breakpoints, `sampling` samples the arcs.
 
-use super::collapse::Weld;
+use super::weld::Weld;
 use crate::edge::Edge;
 use crate::pattern::{EdgeId, Pattern, Seam};
 

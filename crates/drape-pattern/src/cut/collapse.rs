@@ -6,18 +6,10 @@
 //! `simplify` for the pieces that cannot be joined with a smooth neighbour.
 
 use super::breakpoint::{Breakpoints, SeamPiece};
+use super::weld::Weld;
 
 /// Smallest number of breakpoints of an outline.
 const POINTS_MIN: usize = 3;
-
-/// Two breakpoints that are all of a piece of a seam.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Weld {
-    /// Number of the seam.
-    pub seam: usize,
-    /// Breakpoints of both sides.
-    pub points: [usize; 2],
-}
 
 impl Breakpoints {
     /// Makes one breakpoint of those at the ends of the piece after a breakpoint, and of those on

@@ -166,8 +166,9 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
     let path = checker.folder.join(&file.file);
     match Mesh::load(path, scale(checker, file)) {
         Ok(mesh) => {
-            check_size(checker, index, &mesh);
-            check_unit(checker, index, file, &mesh);
+            if check_unit(checker, index, file, &mesh) {
+                check_size(checker, index, &mesh);
+            }
             let entry = Entry { kind: "mesh", index, common: file.common() };
             Some(rigid_body(checker, &entry, Shape::Mesh(mesh)))
         }
@@ -227,12 +228,12 @@ const UNITS: [(&str, f64); 4] =
 const WEARER: [f64; 2] = [0.15, 3.0];
 
 /// Asks for the unit of a body that wears a garment and is as large as none does, where a unit would
-/// give it the size of one.
-fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, mesh: &Mesh) {
+/// give it the size of one; returns whether there was nothing to ask.
+fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, mesh: &Mesh) -> bool {
     let longest = longest(mesh);
     let wears = |size: f64| (WEARER[0]..=WEARER[1]).contains(&size);
     if checker.file.garment.is_empty() || file.scale.is_some() || wears(longest) {
-        return;
+        return true;
     }
     let in_file = longest / checker.unit;
     let choices: Vec<String> = UNITS
@@ -242,11 +243,12 @@ fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, mesh
             format!("scale = {unit} if the file is in {name} ({:.2} m)", in_file * unit)
         })
         .collect();
-    if !choices.is_empty() && (SIZE_MIN..=SIZE_MAX).contains(&longest) {
+    if !choices.is_empty() {
         let message = format!("the body is {longest:.2} m long, too large or small for a garment");
         let help = format!("{}; scale = {} keeps its size", choices.join(", "), checker.unit);
         checker.fail(&format!("collider.mesh[{index}].file"), message, &help);
     }
+    choices.is_empty()
 }
 
 /// Returns the largest extent of a mesh along an axis, in m.

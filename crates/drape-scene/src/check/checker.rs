@@ -6,7 +6,7 @@ use std::path::Path;
 
 use drape_input::{Diagnostic, Diagnostics, Document, Faults, closest, excerpt, figure, tidy};
 
-use crate::check::Documents;
+use crate::check::documents::Documents;
 use crate::file::SceneFile;
 
 /// File of a scene that is being checked, with the mistakes found so far.

@@ -1,0 +1,10 @@
+//! Pair of breakpoints that are sewn to each other and are all of a piece of a seam.
+
+/// Two breakpoints that are all of a piece of a seam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Weld {
+    /// Number of the seam.
+    pub seam: usize,
+    /// Breakpoints of both sides.
+    pub points: [usize; 2],
+}
