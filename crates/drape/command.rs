@@ -1,7 +1,7 @@
 //! The command line: which commands there are, and the options that all of them have. Their own
 //! arguments stand with them, in the modules of [`commands`](crate::commands).
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use crate::commands::bench::{self, BenchArguments};
 use crate::commands::check::{self, CheckArguments};
@@ -117,8 +117,8 @@ impl Command {
             Self::Check(arguments) => check::check(arguments),
             Self::Convert(arguments) => convert::convert(arguments),
             Self::Bench(arguments) => bench::bench(arguments),
-            Self::Completions(arguments) => shell::completions(arguments),
-            Self::Man(arguments) => shell::man(arguments),
+            Self::Completions(arguments) => shell::completions(arguments, CommandLine::command()),
+            Self::Man(arguments) => shell::man(arguments, CommandLine::command()),
         }
     }
 }

@@ -1,16 +1,14 @@
-//! The console: lines on stdout, messages on stderr, and how much of both the user asked for.
+//! The console: messages on stderr, and how much the user asked to be told.
 //!
 //! The command line installs the console once. Text of the input may hold control characters; none
 //! of them reaches a terminal.
 
 use std::borrow::Cow;
 use std::fmt::Display;
-use std::io::{ErrorKind, IsTerminal, Write};
+use std::io::IsTerminal;
 use std::sync::OnceLock;
 
 use clap::ValueEnum;
-
-use crate::failure::Failure;
 
 /// How much a command tells.
 #[derive(Clone, Copy, Default)]
@@ -58,21 +56,6 @@ pub(crate) fn is_coloured() -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     let dumb = std::env::var_os("TERM").is_some_and(|value| value == "dumb");
     !refused && !dumb && std::io::stderr().is_terminal()
-}
-
-/// Writes a line to stdout; a closed pipe is no failure.
-pub(crate) fn say(text: impl Display) -> Result<(), Failure> {
-    match writeln!(std::io::stdout().lock(), "{}", printable(&text.to_string())) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure::Output(format!("cannot write to stdout: {error}")))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Writes a line that says where a result is, unless the user asked for quiet.
-pub(crate) fn say_written(text: impl Display) -> Result<(), Failure> {
-    if Console::get().quiet { Ok(()) } else { say(text) }
 }
 
 /// Writes a message to stderr.

@@ -1,7 +1,7 @@
 //! The `drape` command: see `drape --help`.
 //!
 //! From the top down: [`command`] reads the arguments, one module of [`commands`] carries each
-//! command out, [`pages`] turns its results into pages and pictures, and [`console`], [`file`],
+//! command out, [`pages`] turns its results into pages and pictures, and [`say`], [`console`], [`file`],
 //! [`progress`] and [`failure`] are all that writes. [`signal`] notes what asks the program to end.
 
 use std::process::ExitCode;
@@ -20,6 +20,7 @@ mod console;
 mod failure;
 mod file;
 mod progress;
+mod say;
 
 // What ends it early.
 mod signal;

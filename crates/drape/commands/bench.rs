@@ -9,9 +9,9 @@ use drape::input::Document;
 use drape::scene::Scene;
 use serde_json::json;
 
-use crate::console::say;
 use crate::failure::Failure;
 use crate::progress;
+use crate::say::say;
 
 #[derive(Args)]
 pub(crate) struct BenchArguments {

@@ -19,9 +19,9 @@ use serde_json::{Value, json};
 use self::body::Measure;
 use self::describe::describe;
 use self::pattern::CutOut;
-use crate::console::say;
 use crate::failure::Failure;
 use crate::file;
+use crate::say::say;
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {

@@ -12,10 +12,10 @@ use serde_json::{Value, json};
 
 use crate::commands::fit::store;
 use crate::commands::sheets;
-use crate::console::{say, say_written};
 use crate::failure::Failure;
 use crate::file;
 use crate::pages::fabric::{compare_page, show_page};
+use crate::say::{say, say_written};
 
 #[derive(Subcommand)]
 pub(crate) enum FabricCommand {

@@ -14,9 +14,9 @@ pub(crate) use identify::store;
 
 use self::identify::identify;
 use crate::commands::sheets;
-use crate::console::{say, say_written};
 use crate::failure::Failure;
 use crate::file;
+use crate::say::{say, say_written};
 
 /// Executes `drape fit`.
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use crate::console::{say, say_written};
 use crate::failure::Failure;
 use crate::file;
+use crate::say::{say, say_written};
 
 #[derive(Args)]
 pub(crate) struct NewArguments {

@@ -15,11 +15,12 @@ use serde::Serialize;
 use serde_json::json;
 
 use self::report::{describe, outcome};
-use crate::console::{note, say, say_written};
+use crate::console::note;
 use crate::failure::Failure;
 use crate::pages::picture::{self, Pictures};
 use crate::pages::strain_map::draw_strains;
 use crate::progress::RunProgress;
+use crate::say::{say, say_written};
 use crate::{file, signal};
 
 #[derive(Args)]

@@ -3,14 +3,13 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Command, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use crate::command::CommandLine;
-use crate::console::{say, say_written};
 use crate::failure::Failure;
 use crate::file;
+use crate::say::{say, say_written};
 
 #[derive(Args)]
 pub(crate) struct CompletionsArguments {
@@ -27,16 +26,18 @@ pub(crate) struct ManArguments {
     output: Option<PathBuf>,
 }
 
-/// Executes `drape completions`.
-pub(crate) fn completions(arguments: &CompletionsArguments) -> Result<(), Failure> {
+/// Executes `drape completions` for the command line.
+pub(crate) fn completions(
+    arguments: &CompletionsArguments,
+    mut command: Command,
+) -> Result<(), Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(arguments.shell, &mut CommandLine::command(), "drape", &mut script);
+    clap_complete::generate(arguments.shell, &mut command, "drape", &mut script);
     say(String::from_utf8_lossy(&script).trim_end())
 }
 
-/// Executes `drape man`.
-pub(crate) fn man(arguments: &ManArguments) -> Result<(), Failure> {
-    let mut command = CommandLine::command();
+/// Executes `drape man` for the command line.
+pub(crate) fn man(arguments: &ManArguments, mut command: Command) -> Result<(), Failure> {
     command.build();
     let Some(folder) = &arguments.output else {
         return say(String::from_utf8_lossy(&page(&command)?).trim_end());

@@ -9,9 +9,9 @@ use drape::report::plot::graph_svg;
 use drape::validate::{CASES, Case, Check, Kind, Outcome};
 use serde_json::{Value, json};
 
-use crate::console::{say, say_written};
 use crate::failure::Failure;
 use crate::pages::validation::{self, figure};
+use crate::say::{say, say_written};
 use crate::{file, progress};
 
 #[derive(Args)]

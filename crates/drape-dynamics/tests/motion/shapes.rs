@@ -172,7 +172,7 @@ fn motions_that_do_not_fit_are_refused_with_their_file() {
         ),
         (format!("frames = {}\nrate = -1", path("walk_*.obj")), ["rate", "-1"]),
         ("rate = 24".to_owned(), ["no frames", "rate"]),
-        ("motion = 3\nrate = 24".to_owned(), ["table of keys", "3"]),
+        ("motion = 3\nrate = 24".to_owned(), ["a table is needed", "a number"]),
     ];
     for (motion, words) in cases {
         let error = sheet(scene(folder.path(), &motion)).try_scene().expect_err(&motion);

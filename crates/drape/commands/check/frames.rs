@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use drape::verify::{ClosePair, PartNumber, Recording, Verdict};
 use serde_json::{Value, json};
 
-use crate::console::say;
 use crate::failure::Failure;
+use crate::say::say;
 
 /// Returns whether a folder was written by a run, complete or not.
 pub(crate) fn is_run(path: &Path) -> bool {

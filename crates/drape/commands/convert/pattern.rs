@@ -6,9 +6,9 @@ use drape::input::{Diagnostic, Diagnostics};
 use drape::pattern::{Error, Paper, Pattern, Request, Unit};
 
 use super::arguments::ConvertArguments;
-use crate::console::say;
 use crate::failure::Failure;
 use crate::file;
+use crate::say::say;
 
 /// Converts a pattern and says what is not in the result, or was taken for it.
 pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {

@@ -10,8 +10,9 @@ use drape::report::{FitPage, Trust};
 use super::arguments::FitArguments;
 use super::identify::{beside, page, store};
 use crate::commands::sheets;
-use crate::console::{Console, say, tell};
+use crate::console::{Console, tell};
 use crate::failure::Failure;
+use crate::say::say;
 use crate::{file, progress};
 
 /// One sheet of a batch, with what its files are called.

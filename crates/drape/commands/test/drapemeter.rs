@@ -6,9 +6,9 @@ use drape::validate::drapemeter::{Drapemeter, Prediction, Sampling, Shake, Study
 use serde_json::json;
 
 use super::arguments::{Meter, ShakeName, TestArguments};
-use crate::console::say;
 use crate::failure::Failure;
 use crate::progress;
+use crate::say::say;
 
 /// Largest default spacing, in m.
 const SPACING_MAX: f64 = 0.005;

@@ -6,10 +6,10 @@ use serde_json::json;
 
 use super::arguments::TestArguments;
 use crate::commands::sheets;
-use crate::console::{say, say_written};
 use crate::failure::Failure;
 use crate::file;
 use crate::pages::instruments::{DIRECTIONS, TESTS, TestedLoop, page};
+use crate::say::{say, say_written};
 
 /// Spacing of the particles, in mm.
 const SPACING: f64 = 5.0;

@@ -1,0 +1,22 @@
+//! Lines that commands write to stdout.
+
+use std::fmt::Display;
+use std::io::{ErrorKind, Write};
+
+use crate::console::{Console, printable};
+use crate::failure::Failure;
+
+/// Writes a line to stdout; a closed pipe is no failure.
+pub(crate) fn say(text: impl Display) -> Result<(), Failure> {
+    match writeln!(std::io::stdout().lock(), "{}", printable(&text.to_string())) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::Output(format!("cannot write to stdout: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes a line that says where a result is, unless the user asked for quiet.
+pub(crate) fn say_written(text: impl Display) -> Result<(), Failure> {
+    if Console::get().quiet { Ok(()) } else { say(text) }
+}
