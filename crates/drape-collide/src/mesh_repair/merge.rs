@@ -18,7 +18,9 @@ pub(crate) fn merge_vertices(mesh: &mut Triangulation, distance: f64) -> usize {
         let around =
             (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [i, j, k])));
         let near = around
-            .filter_map(|[i, j, k]| at.get(&[x + i, y + j, z + k]))
+            .filter_map(|[i, j, k]| {
+                at.get(&[x.saturating_add(i), y.saturating_add(j), z.saturating_add(k)])
+            })
             .flatten()
             .copied()
             .filter(|&other| norm(subtract(kept[other as usize], position)) <= distance)
