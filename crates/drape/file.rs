@@ -14,3 +14,11 @@ pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failur
         .and_then(|()| std::fs::rename(&temporary, path));
     written.map_err(|error| Failure::Output(format!("cannot write {}: {error}", path.display())))
 }
+
+/// Refuses to replace a file that is there already, unless that is allowed, with a remedy.
+pub(crate) fn refuse_existing(path: &Path, force: bool, help: &str) -> Result<(), Failure> {
+    if path.exists() && !force {
+        return Err(Failure::Usage(format!("{} exists; {help}", path.display())));
+    }
+    Ok(())
+}

@@ -68,7 +68,7 @@ impl Goal {
         }
     }
 
-    /// Describes a step: how far it is from rest, and what makes it slow.
+    /// Describes a step: its phase, how far it is from rest, and what makes it slow.
     fn describe(&self, step: &Step) -> String {
         let speed = 1e3 * step.speed_max;
         let motion = match self.rest {
@@ -82,7 +82,8 @@ impl Goal {
         };
         let slow: String =
             slow(step, self.step).into_iter().map(|reason| ", ".to_owned() + &reason).collect();
-        format!("t {:.4} s, {motion}, {} iterations{slow}", step.time, step.report.iterations)
+        let (phase, iterations) = (phase_name(step.phase), step.report.iterations);
+        format!("{phase}: t {:.4} s, {motion}, {iterations} iterations{slow}", step.time)
     }
 }
 
@@ -154,9 +155,10 @@ impl Progress for RunProgress<'_> {
                 "slow": slow(step, self.goal.step),
             }));
         } else if console.verbose {
-            tell(format_args!("{}: {}", phase_name(step.phase), self.goal.describe(step)));
+            tell(self.goal.describe(step));
+        } else if !self.bar.is_hidden() {
+            self.bar.set_message(self.goal.describe(step));
         }
-        self.bar.set_message(format!("{}: {}", phase_name(step.phase), self.goal.describe(step)));
         self.bar.set_position((PARTS * done) as u64);
     }
 

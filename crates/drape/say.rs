@@ -3,6 +3,8 @@
 use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 
+use serde::Serialize;
+
 use crate::console::{Console, printable};
 use crate::failure::Failure;
 
@@ -19,4 +21,9 @@ pub(crate) fn say(text: impl Display) -> Result<(), Failure> {
 /// Writes a line that says where a result is, unless the user asked for quiet.
 pub(crate) fn say_written(text: impl Display) -> Result<(), Failure> {
     if Console::get().quiet { Ok(()) } else { say(text) }
+}
+
+/// Writes a result to stdout as JSON.
+pub(crate) fn say_json(value: &impl Serialize) -> Result<(), Failure> {
+    say(serde_json::to_string_pretty(value).expect("results always have a JSON form"))
 }

@@ -8,6 +8,7 @@ mod vector;
 mod body;
 mod mesh_io;
 mod mesh_repair;
+pub mod section;
 
 // Contact: the barrier, of particles with bodies, and of surfaces with each other and with bodies.
 mod barrier;

@@ -2,7 +2,6 @@
 
 // Values
 mod scene;
-mod section;
 mod surfaces;
 mod tangle;
 

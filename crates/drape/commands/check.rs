@@ -21,7 +21,7 @@ use self::describe::describe;
 use self::pattern::CutOut;
 use crate::failure::Failure;
 use crate::file;
-use crate::say::say;
+use crate::say::{say, say_json};
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {
@@ -65,10 +65,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         let [mesh] = &files[..] else {
             return Err(Failure::Usage("--repair is for one body at a time".into()));
         };
-        if to.exists() && !arguments.force {
-            let message = format!("{} exists; replace it with --force", to.display());
-            return Err(Failure::Usage(message));
-        }
+        file::refuse_existing(to, arguments.force, "replace it with --force")?;
         return say(body::mend(mesh, measure, to)?.trim_end());
     }
     match (&arguments.figure, &files[..]) {
@@ -96,8 +93,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     }
     let verified = frames::verify(&runs, true)?;
     checked.found.extend(verified.found.iter().cloned());
-    let found = serde_json::to_string_pretty(&checked.found);
-    say(found.expect("verdicts always have a JSON form"))?;
+    say_json(&checked.found)?;
     Diagnostics::check(checked.mistakes)?;
     verified.outcome()
 }

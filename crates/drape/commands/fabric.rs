@@ -7,7 +7,6 @@ use drape::fabric::Fabric;
 use drape::input::{Diagnostic, Diagnostics};
 use drape::kes::Sheet;
 use drape::scene::{FabricRequest, Model};
-use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::commands::fit::store;
@@ -15,7 +14,7 @@ use crate::commands::sheets;
 use crate::failure::Failure;
 use crate::file;
 use crate::pages::fabric::{compare_page, show_page};
-use crate::say::{say, say_written};
+use crate::say::{say, say_json, say_written};
 
 #[derive(Subcommand)]
 pub(crate) enum FabricCommand {
@@ -80,7 +79,7 @@ fn list(folders: &[PathBuf], json: bool) -> Result<(), Failure> {
     let sheets: Vec<_> = paths.iter().map(|path| (path, sheets::read(path))).collect();
     if json {
         let rows = sheets.iter().filter_map(|(path, sheet)| Some(row(path, sheet.as_ref().ok()?)));
-        say(as_json(&rows.collect::<Vec<_>>()))?;
+        say_json(&rows.collect::<Vec<_>>())?;
     } else {
         table(&sheets)?;
     }
@@ -120,10 +119,6 @@ fn row(path: &Path, sheet: &Sheet) -> Value {
     })
 }
 
-fn as_json(value: &impl Serialize) -> String {
-    serde_json::to_string_pretty(value).expect("numbers and strings have a JSON form")
-}
-
 /// Line of the table for a sheet: mass, thickness, tests that have curves, and whether it has
 /// values.
 fn line(path: &Path, sheet: &Sheet) -> String {
@@ -144,7 +139,7 @@ fn show(path: &Path, report: Option<&Path>, json: bool) -> Result<(), Failure> {
     let sheet = sheets::of(path).and_then(|path| sheets::read(path).ok());
     let page = show_page(&read(path)?, sheet.as_ref());
     if json {
-        say(as_json(&page))?;
+        say_json(&page)?;
     } else {
         say(page.to_text()?.trim_end())?;
     }
@@ -157,7 +152,7 @@ fn show(path: &Path, report: Option<&Path>, json: bool) -> Result<(), Failure> {
 fn compare(paths: [&PathBuf; 2], report: Option<&Path>, json: bool) -> Result<(), Failure> {
     let page = compare_page([&read(paths[0])?, &read(paths[1])?]);
     if json {
-        say(as_json(&page))?;
+        say_json(&page)?;
     } else {
         say(page.to_text()?.trim_end())?;
     }

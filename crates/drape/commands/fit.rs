@@ -16,7 +16,7 @@ use self::identify::identify;
 use crate::commands::sheets;
 use crate::failure::Failure;
 use crate::file;
-use crate::say::{say, say_written};
+use crate::say::{say, say_json, say_written};
 
 /// Executes `drape fit`.
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
@@ -35,10 +35,7 @@ fn one(sheet: &Path, arguments: &FitArguments) -> Result<(), Failure> {
         let message = "-o - and --json both print to stdout; give one of them";
         return Err(Failure::Usage(message.into()));
     }
-    if path.exists() && !arguments.force {
-        let message = format!("{} exists; give -o, or replace it with --force", path.display());
-        return Err(Failure::Usage(message));
-    }
+    file::refuse_existing(&path, arguments.force, "give -o, or replace it with --force")?;
     let identified = identify(sheet, &arguments.laws.settings())?;
     if to_stdout {
         say(identified.fit.fabric.to_toml().trim_end())?;
@@ -48,8 +45,7 @@ fn one(sheet: &Path, arguments: &FitArguments) -> Result<(), Failure> {
     let page = &identified.page;
     let report = store(page, &sheets::stem(sheet), arguments.report.as_deref())?;
     if arguments.json {
-        let json = serde_json::to_string_pretty(page);
-        say(json.expect("numbers and strings have a JSON form"))?;
+        say_json(page)?;
     } else if !to_stdout {
         say(page.to_text()?.trim_end())?;
         say_written(format_args!("fabric written to {}", path.display()))?;

@@ -67,10 +67,7 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<(), Failure> {
     if path.as_os_str() == "-" {
         return say(kind.content().trim_end());
     }
-    if path.exists() && !force {
-        let message = format!("{} exists; give -o, or replace it with --force", path.display());
-        return Err(Failure::Usage(message));
-    }
+    file::refuse_existing(path, *force, "give -o, or replace it with --force")?;
     write(path, *kind)?;
     let sheet = path.with_file_name(Kind::Sheet.file_name());
     if matches!(kind, Kind::Scene) && !sheet.exists() {

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use drape::dynamics::{Simulation, Snapshot, Summary, prepare_folder};
+use drape::report::Picture;
 use drape::scene::{Error, Scene};
-use serde::Serialize;
 use serde_json::json;
 
 use self::report::{describe, outcome};
@@ -20,7 +20,7 @@ use crate::failure::Failure;
 use crate::pages::picture::{self, Pictures};
 use crate::pages::strain_map::draw_strains;
 use crate::progress::RunProgress;
-use crate::say::{say, say_written};
+use crate::say::{say, say_json, say_written};
 use crate::{file, signal};
 
 #[derive(Args)]
@@ -53,7 +53,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     if let [scene] = &arguments.scenes[..] {
         let summary = run_scene(scene, arguments)?;
         if arguments.json {
-            say(json(&summary))?;
+            say_json(&summary)?;
         }
         return outcome(summary);
     }
@@ -77,7 +77,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         }
     }
     if arguments.json {
-        say(json(&summaries))?;
+        say_json(&summaries)?;
     }
     code.map_or(Ok(()), |code| Err(Failure::Several { code }))
 }
@@ -112,13 +112,11 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
             (true, [None, None]) => pictures.draw_round()?,
             _ => pictures.draw(view, picture::SIZE)?,
         };
-        let stored = picture.save(output.path("picture.png"));
-        stored.map_err(|error| Failure::Output(error.to_string()))?;
+        save(&picture, &output.path("picture.png"))?;
         if let Some(place) = summary.place {
             let near = picture::near(&shown, place);
             let picture = Pictures::new(&near)?.draw(view, picture::SIZE)?;
-            let stored = picture.save(output.path("place.png"));
-            stored.map_err(|error| Failure::Output(error.to_string()))?;
+            save(&picture, &output.path("place.png"))?;
         }
         if garment {
             file::write(&output.path("strain.svg"), draw_strains(&shown, &pictures)?)?;
@@ -134,8 +132,8 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
     Ok(summary)
 }
 
-fn json(value: &impl Serialize) -> String {
-    serde_json::to_string_pretty(value).expect("a summary always has a JSON form")
+fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {
+    picture.save(path).map_err(|error| Failure::Output(error.to_string()))
 }
 
 /// Prints the notes on the patterns of a scene.

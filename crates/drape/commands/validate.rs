@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use crate::failure::Failure;
 use crate::pages::validation::{self, figure};
-use crate::say::{say, say_written};
+use crate::say::{say, say_json, say_written};
 use crate::{file, progress};
 
 #[derive(Args)]
@@ -65,8 +65,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<(), Failure> {
     outcomes.dedup_by_key(|outcome| place(outcome));
     if arguments.json {
         let judged: Vec<Value> = outcomes.iter().map(judged).collect();
-        let json = serde_json::to_string_pretty(&judged);
-        say(json.expect("numbers and strings have a JSON form"))?;
+        say_json(&judged)?;
     }
     if let Some(path) = &arguments.markdown {
         file::write(path, validation::markdown(&outcomes))?;

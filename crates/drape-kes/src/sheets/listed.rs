@@ -84,22 +84,16 @@ impl Sheet {
                 });
             }
         }
-        let mut whole = |symbol, name, value: Option<f64>, unit, used_for| {
-            let one = value.map(|value| SheetValue {
-                symbol,
-                name,
-                direction: None,
-                value,
-                unit,
-                used_for,
-            });
+        let mut add = |direction, symbol, name, value: Option<f64>, unit, used_for| {
+            let one =
+                value.map(|value| SheetValue { symbol, name, direction, value, unit, used_for });
             listed.extend(one);
         };
         let contact = Some("contact");
         let needed = self.tm.is_none() || self.lc.is_none();
-        whole("LC", "compression linearity", self.lc, "", contact);
-        whole("WC", "compression work", self.wc, "gf·cm/cm²", contact.filter(|_| needed));
-        whole("RC", "compression resilience", self.rc, "%", None);
+        add(None, "LC", "compression linearity", self.lc, "", contact);
+        add(None, "WC", "compression work", self.wc, "gf·cm/cm²", contact.filter(|_| needed));
+        add(None, "RC", "compression resilience", self.rc, "%", None);
         for direction in [Direction::Warp, Direction::Weft] {
             let values = self.values(direction);
             let surface = [
@@ -108,35 +102,15 @@ impl Sheet {
                 ("SMD", "surface roughness", values.smd, "µm", None),
             ];
             for (symbol, name, value, unit, used_for) in surface {
-                let direction = Some(direction);
-                let one = value.map(|value| SheetValue {
-                    symbol,
-                    name,
-                    direction,
-                    value,
-                    unit,
-                    used_for,
-                });
-                listed.extend(one);
+                add(Some(direction), symbol, name, value, unit, used_for);
             }
         }
-        let mut whole = |symbol, name, value: Option<f64>, unit, used_for| {
-            let one = value.map(|value| SheetValue {
-                symbol,
-                name,
-                direction: None,
-                value,
-                unit,
-                used_for,
-            });
-            listed.extend(one);
-        };
-        whole("T0", "thickness at 0.5 gf/cm²", self.t0, "mm", Some("thickness, contact"));
-        whole("TM", "thickness at 50 gf/cm²", self.tm, "mm", contact);
+        add(None, "T0", "thickness at 0.5 gf/cm²", self.t0, "mm", Some("thickness, contact"));
+        add(None, "TM", "thickness at 50 gf/cm²", self.tm, "mm", contact);
         let thickness = Some("thickness, contact").filter(|_| self.t0.is_none());
-        whole("T", "thickness", self.t, "mm", thickness);
-        whole("W", "mass per area", self.w, "mg/cm²", Some("mass"));
-        whole("FM", "largest load of the tensile test", self.fm, "gf/cm", Some("traction"));
+        add(None, "T", "thickness", self.t, "mm", thickness);
+        add(None, "W", "mass per area", self.w, "mg/cm²", Some("mass"));
+        add(None, "FM", "largest load of the tensile test", self.fm, "gf/cm", Some("traction"));
         listed
     }
 }

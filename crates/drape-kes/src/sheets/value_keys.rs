@@ -35,7 +35,7 @@ impl WholeValues {
     }
 }
 
-/// Values of both directions, and the names of those that one number gives for both.
+/// Values of warp and weft, and the symbols whose one number stands for both.
 #[derive(Debug, Default)]
 pub(crate) struct DirectedValues {
     pub(crate) warp: Values,
@@ -216,15 +216,15 @@ fn pressed_thickness(
 /// Reads RT or RC, which are at most 100 %.
 fn percentage(section: &Section<'_>, key: &str, findings: &mut Findings<'_>) -> Option<Measured> {
     let value = positive(section, key, Quantity::Ratio, findings)?;
-    if value.si <= 1.0 {
-        return Some(value);
-    }
-    findings.error(
-        &value.key,
-        format!("{} is more than 100 %, which no fabric gives back", value.written),
-        format!("{key} is recovered work over work spent, in percent"),
-    );
-    None
+    held(
+        value,
+        findings,
+        |si| si <= 1.0,
+        |written| Answer {
+            message: format!("{written} is more than 100 %, which no fabric gives back"),
+            help: format!("{key} is recovered work over work spent, in percent"),
+        },
+    )
 }
 
 /// Reads a number greater than zero.
@@ -235,15 +235,15 @@ fn positive(
     findings: &mut Findings<'_>,
 ) -> Option<Measured> {
     let value = section.measured(key, quantity, findings)?;
-    if value.si > 0.0 {
-        return Some(value);
-    }
-    findings.error(
-        &value.key,
-        format!("{} is not greater than 0", value.written),
-        "write the measured value, or remove the line if it was not measured",
-    );
-    None
+    held(
+        value,
+        findings,
+        |si| si > 0.0,
+        |written| Answer {
+            message: format!("{written} is not greater than 0"),
+            help: "write the measured value, or remove the line if it was not measured".into(),
+        },
+    )
 }
 
 /// Reads a loop width, zero or more.
@@ -254,13 +254,34 @@ fn zero_or_more(
     findings: &mut Findings<'_>,
 ) -> Option<Measured> {
     let value = section.measured(key, quantity, findings)?;
-    if value.si >= 0.0 {
+    held(
+        value,
+        findings,
+        |si| si >= 0.0,
+        |written| Answer {
+            message: format!("{written} is negative"),
+            help: "a loop width is the distance between the two branches, without sign".into(),
+        },
+    )
+}
+
+/// Answer to a value out of its range.
+struct Answer {
+    message: String,
+    help: String,
+}
+
+/// Returns a value that is in its range; reports one that is not, by its number as written.
+fn held(
+    value: Measured,
+    findings: &mut Findings<'_>,
+    holds: impl Fn(f64) -> bool,
+    answer: impl Fn(&str) -> Answer,
+) -> Option<Measured> {
+    if holds(value.si) {
         return Some(value);
     }
-    findings.error(
-        &value.key,
-        format!("{} is negative", value.written),
-        "a loop width is the distance between the two branches, without sign",
-    );
+    let Answer { message, help } = answer(&value.written);
+    findings.error(&value.key, message, help);
     None
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::layout::Rows;
+use super::xml::escape;
 use crate::cut::{Cut, CutPattern, NodeId, SeamNodes};
 use crate::edge::difference;
 use crate::panel::{Fold, Panel};
@@ -398,19 +399,7 @@ impl Label<'_> {
     /// Draws the text on a white halo.
     fn draw(&self, svg: &mut String) {
         let Self { text, anchor, at: [x, y], size } = self;
-        let mut clean = String::new();
-        for letter in text.chars() {
-            match letter {
-                '&' => clean.push_str("&amp;"),
-                '<' => clean.push_str("&lt;"),
-                '>' => clean.push_str("&gt;"),
-                // Characters that XML does not allow.
-                letter if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => {
-                    clean.push(' ');
-                }
-                letter => clean.push(letter),
-            }
-        }
+        let clean = escape(text);
         let _ = writeln!(
             svg,
             "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"{size:.1}\" text-anchor=\"{anchor}\" \

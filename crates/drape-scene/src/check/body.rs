@@ -166,8 +166,9 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
     let path = checker.folder.join(&file.file);
     match Mesh::load(path, scale(checker, file)) {
         Ok(mesh) => {
-            if check_unit(checker, index, file, &mesh) {
-                check_size(checker, index, &mesh);
+            let longest = longest(&mesh);
+            if check_unit(checker, index, file, longest) {
+                check_size(checker, index, longest);
             }
             let entry = Entry { kind: "mesh", index, common: file.common() };
             Some(rigid_body(checker, &entry, Shape::Mesh(mesh)))
@@ -210,8 +211,7 @@ fn check_scale(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> 
 }
 
 /// Checks the size of a mesh: one that is no size for cloth has another unit than the scene says.
-fn check_size(checker: &mut Checker<'_>, index: usize, mesh: &Mesh) {
-    let longest = longest(mesh);
+fn check_size(checker: &mut Checker<'_>, index: usize, longest: f64) {
     if !(SIZE_MIN..=SIZE_MAX).contains(&longest) {
         let message = format!("the body is {longest:.4} m long");
         let help = "is the unit right? scale = 0.001 reads a file in millimetres, 0.01 one in centimetres, 1 one in \
@@ -229,8 +229,7 @@ const WEARER: [f64; 2] = [0.15, 3.0];
 
 /// Asks for the unit of a body that wears a garment and is as large as none does, where a unit would
 /// give it the size of one; returns whether there was nothing to ask.
-fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, mesh: &Mesh) -> bool {
-    let longest = longest(mesh);
+fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, longest: f64) -> bool {
     let wears = |size: f64| (WEARER[0]..=WEARER[1]).contains(&size);
     if checker.file.garment.is_empty() || file.scale.is_some() || wears(longest) {
         return true;
@@ -310,7 +309,7 @@ fn changing_mesh(
     };
     match read_shapes(file, checker.folder, Sampling { rate, start }, place) {
         Ok(shapes) => {
-            check_size(checker, index, &shapes.mesh);
+            check_size(checker, index, longest(&shapes.mesh));
             let name = common.name.map_or_else(|| format!("mesh {}", index + 1), str::to_owned);
             let body = Body::new(name, Shape::Mesh(shapes.mesh), Pose::default());
             let motion = Some(BodyMotion::Shapes(shapes.motion));

@@ -12,7 +12,7 @@ use super::identify::{beside, page, store};
 use crate::commands::sheets;
 use crate::console::{Console, tell};
 use crate::failure::Failure;
-use crate::say::say;
+use crate::say::{say, say_json};
 use crate::{file, progress};
 
 /// One sheet of a batch, with what its files are called.
@@ -45,10 +45,7 @@ fn plan<'a>(sheets: &'a [PathBuf], arguments: &FitArguments) -> Vec<Job<'a>> {
 impl Job<'_> {
     /// Reads the sheet, unless its fabric is there already and may not be replaced.
     fn read(&self, force: bool) -> Result<Sheet, Failure> {
-        if self.fabric.exists() && !force {
-            let path = self.fabric.display();
-            return Err(Failure::Usage(format!("{path} exists; replace it with --force")));
-        }
+        file::refuse_existing(&self.fabric, force, "replace it with --force")?;
         Ok(sheets::read(self.sheet)?)
     }
 }
@@ -86,8 +83,7 @@ pub(crate) fn fit_all(sheets: &[PathBuf], arguments: &FitArguments) -> Result<()
     let failed = rows.iter().filter(|row| row.is_err()).count();
     if arguments.json {
         let rows: Vec<_> = sheets.iter().zip(&rows).map(|(sheet, row)| json(sheet, row)).collect();
-        let json = serde_json::to_string_pretty(&rows);
-        say(json.expect("numbers and strings have a JSON form"))?;
+        say_json(&rows)?;
     } else {
         let [name, fit, misfit, warnings, assumed] = HEAD;
         say(format_args!("{name:<36} {fit:<10} {misfit:>8} {warnings:>8} {assumed:>8}  sheet"))?;

@@ -8,7 +8,7 @@ use serde_json::json;
 use super::arguments::{Meter, ShakeName, TestArguments};
 use crate::failure::Failure;
 use crate::progress;
-use crate::say::say;
+use crate::say::{say, say_json};
 
 /// Largest default spacing, in m.
 const SPACING_MAX: f64 = 0.005;
@@ -72,7 +72,7 @@ pub(crate) fn drape(fabric: &Fabric, arguments: &TestArguments) -> Result<(), Fa
         let page = json!({
             "spacing": spacing, "spacing_bound": bound, "interval": interval, "evaluations": rows
         });
-        return say(serde_json::to_string_pretty(&page).expect("numbers have a JSON form"));
+        return say_json(&page);
     }
     found.iter().try_for_each(|Evaluation { of, study }| say(line(of, study)))?;
     if open {

@@ -9,7 +9,7 @@ use crate::commands::sheets;
 use crate::failure::Failure;
 use crate::file;
 use crate::pages::instruments::{DIRECTIONS, TESTS, TestedLoop, page};
-use crate::say::{say, say_written};
+use crate::say::{say, say_json, say_written};
 
 /// Spacing of the particles, in mm.
 const SPACING: f64 = 5.0;
@@ -35,8 +35,7 @@ pub(crate) fn compare(fabric: &Fabric, arguments: &TestArguments) -> Result<(), 
     }
     if arguments.json {
         let rows: Vec<serde_json::Value> = loops.iter().map(row).collect();
-        let json = serde_json::to_string_pretty(&rows);
-        say(json.expect("numbers and strings have a JSON form"))?;
+        say_json(&rows)?;
     }
     if let Some(folder) = &arguments.report {
         let path = folder.join(format!("{}-tested.html", sheets::stem(&arguments.fabric)));

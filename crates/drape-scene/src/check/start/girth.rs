@@ -16,7 +16,7 @@ use drape_collide::{Shape, Triangulation};
 
 use crate::check::checker::Checker;
 use crate::scene::Scene;
-use crate::section::{SectionPlane, convex_hull, encloses, perimeter};
+use drape_collide::section::{SectionPlane, convex_hull, encloses, perimeter};
 
 use super::rings::{Ring, RingFinder, openings};
 

@@ -10,7 +10,7 @@ use drape_collide::{Body, Shape, Triangulation};
 use crate::check::checker::Checker;
 use crate::scene::Scene;
 use crate::scene::garment::Garment;
-use crate::section::{SectionPlane, convex_hull, encloses};
+use drape_collide::section::{SectionPlane, convex_hull, encloses};
 
 /// Number of heights at which a garment is looked at.
 const HEIGHTS: usize = 24;

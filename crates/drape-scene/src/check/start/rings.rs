@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use drape_collide::equivalence_classes;
 
 use crate::scene::Scene;
-use crate::section::{SectionPlane, between};
+use drape_collide::section::{SectionPlane, between};
 
 /// Mean gradient of the height from which on a panel stands upright: with an axis within 30 degrees
 /// of the vertical.

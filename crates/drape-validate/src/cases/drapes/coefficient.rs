@@ -1,7 +1,8 @@
 //! Cases `drapemeter-cotton` and `drapemeter-wool`: drape coefficients against measured ones
 //! \[Mat15\].
 //!
-//! What the sheet leaves open is varied; the measured coefficient lies within the prediction.
+//! The values that the sheet does not give are varied over their range. The measured coefficient
+//! lies within the range of the coefficients that follow.
 
 use super::shadows::shadows;
 use super::{STARTS, points, spacing};

@@ -3,9 +3,11 @@
 //! A garment that goes round a body is measured against the convex hull of the body's section: a
 //! string round it would not follow the hollows either.
 
+use crate::vector::{Vector, cross, dot, norm, subtract};
+
 /// Plane with directions in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct SectionPlane {
+pub struct SectionPlane {
     middle: [f64; 3],
     normal: [f64; 3],
     axes: [[f64; 3]; 2],
@@ -13,7 +15,8 @@ pub(crate) struct SectionPlane {
 
 impl SectionPlane {
     /// Returns the horizontal plane at a height, in m.
-    pub(crate) fn horizontal(height: f64) -> Self {
+    #[must_use]
+    pub fn horizontal(height: f64) -> Self {
         Self {
             middle: [0.0, height, 0.0],
             normal: [0.0, 1.0, 0.0],
@@ -23,7 +26,8 @@ impl SectionPlane {
 
     /// Returns the plane through the middle of a closed line, across the area that it encloses, if
     /// that is any.
-    pub(crate) fn through(places: &[[f64; 3]]) -> Option<Self> {
+    #[must_use]
+    pub fn through(places: &[[f64; 3]]) -> Option<Self> {
         let count = places.len() as f64;
         let middle = [0, 1, 2].map(|k| places.iter().map(|place| place[k]).sum::<f64>() / count);
         let mut area = [0.0; 3];
@@ -39,23 +43,27 @@ impl SectionPlane {
     }
 
     /// Returns the plane moved along its normal by a distance, in m.
-    pub(crate) fn moved(&self, distance: f64) -> Self {
+    #[must_use]
+    pub fn moved(&self, distance: f64) -> Self {
         let middle = [0, 1, 2].map(|k| self.middle[k] + distance * self.normal[k]);
         Self { middle, ..*self }
     }
 
     /// Returns the height of its middle, in m.
-    pub(crate) fn height(&self) -> f64 {
+    #[must_use]
+    pub fn height(&self) -> f64 {
         self.middle[1]
     }
 
     /// Returns the foot of a point in the plane.
-    pub(crate) fn flat(&self, point: [f64; 3]) -> [f64; 2] {
+    #[must_use]
+    pub fn flat(&self, point: [f64; 3]) -> [f64; 2] {
         self.axes.map(|axis| dot(axis, subtract(point, self.middle)))
     }
 
     /// Returns the points where the plane cuts the sides of a triangle.
-    pub(crate) fn cuts(&self, corners: [[f64; 3]; 3]) -> Vec<[f64; 2]> {
+    #[must_use]
+    pub fn cuts(&self, corners: [[f64; 3]; 3]) -> Vec<[f64; 2]> {
         let heights = corners.map(|corner| dot(self.normal, subtract(corner, self.middle)));
         let cut = |k: usize| {
             let (a, b) = (k, (k + 1) % 3);
@@ -68,14 +76,18 @@ impl SectionPlane {
     }
 }
 
-/// Returns the length of a closed line, in m.
-pub(crate) fn perimeter(places: &[[f64; 2]]) -> f64 {
-    let next = places.iter().cycle().skip(1);
-    places.iter().zip(next).map(|([ax, ay], [bx, by])| (bx - ax).hypot(by - ay)).sum()
+/// Returns the length of a closed line in a plane or in space, in m.
+#[must_use]
+pub fn perimeter<const N: usize>(places: &[[f64; N]]) -> f64 {
+    let distance = |(a, b): (&[f64; N], &[f64; N])| {
+        a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    };
+    places.iter().zip(places.iter().cycle().skip(1)).map(distance).sum()
 }
 
 /// Returns whether a closed line goes round a point.
-pub(crate) fn encloses(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+#[must_use]
+pub fn encloses(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let sides = ring.iter().zip(ring.iter().cycle().skip(1));
     let crossed = sides.filter(|([ax, ay], [bx, by])| {
         (*ay > y) != (*by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax)
@@ -84,7 +96,8 @@ pub(crate) fn encloses(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
 }
 
 /// Returns the corners of the convex hull of points, in their order \[And79\].
-pub(crate) fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+#[must_use]
+pub fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let chain = |points: &mut dyn Iterator<Item = &[f64; 2]>| {
         let mut chain: Vec<[f64; 2]> = Vec::new();
@@ -103,24 +116,14 @@ pub(crate) fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 }
 
 /// Returns the point between two others at a fraction of their distance.
-pub(crate) fn between<const N: usize>(a: [f64; N], b: [f64; N], part: f64) -> [f64; N] {
+#[must_use]
+pub fn between<const N: usize>(a: [f64; N], b: [f64; N], part: f64) -> [f64; N] {
     std::array::from_fn(|axis| a[axis] + part * (b[axis] - a[axis]))
 }
 
-fn subtract(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|axis| a[axis] - b[axis])
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
-    let length = dot(a, a).sqrt();
+/// Returns the vector of length 1 in the direction of one that is not zero.
+fn unit(a: Vector) -> Option<Vector> {
+    let length = norm(a);
     (length > 0.0).then(|| a.map(|x| x / length))
 }
 
@@ -146,5 +149,48 @@ mod tests {
         assert!((perimeter(&flat) - exact).abs() < 1e-12);
         assert!(encloses(&flat, [0.0, 0.1]) && !encloses(&flat, [0.26, 0.0]));
         assert!((perimeter(&convex_hull(flat)) - exact).abs() < 1e-12);
+    }
+
+    /// A circle of a radius about a point at a height, tilted about x by a slope.
+    fn circle(radius: f64, slope: f64) -> Vec<[f64; 3]> {
+        let place = |k: i32| {
+            let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 400.0).sin_cos();
+            [1.0 + radius * cos, 2.0 + slope * radius * sin, radius * sin]
+        };
+        (0..400).map(place).collect()
+    }
+
+    #[test]
+    fn a_tilted_circle_lies_about_its_middle_and_is_cut_where_it_crosses() {
+        let tilted: Vec<[f64; 3]> = circle(0.2, 0.75);
+        let plane = SectionPlane::through(&tilted).expect("it has an area");
+        // The middle is the circle's, and the normal is across its slope of 3 in 4.
+        assert!(norm(subtract(plane.middle, [1.0, 2.0, 0.0])) < 1e-12);
+        let slope = [plane.normal[1].abs(), plane.normal[2].abs()];
+        assert!((slope[0] - 0.8).abs() < 1e-9 && (slope[1] - 0.6).abs() < 1e-9, "{slope:?}");
+        let flat: Vec<[f64; 2]> = tilted.iter().map(|&place| plane.flat(place)).collect();
+        assert!((perimeter(&flat) - perimeter(&tilted)).abs() < 1e-12);
+        assert!(encloses(&flat, [0.0, 0.1]) && !encloses(&flat, [0.26, 0.0]));
+        // A triangle across it is cut twice, one beside it never.
+        let across = [[0.9, 1.9, 0.0], [1.1, 1.9, 0.0], [1.0, 2.2, 0.0]];
+        assert_eq!(plane.cuts(across).len(), 2);
+        assert!(plane.cuts(across.map(|[x, y, z]| [x, y + 1.0, z])).is_empty());
+        assert!(SectionPlane::through(&[[0.0; 3], [1.0, 0.0, 0.0]]).is_none());
+    }
+
+    #[test]
+    fn a_hull_leaves_out_what_is_hollow_or_inside() {
+        let star = vec![
+            [0.0, 0.0],
+            [2.0, 0.0],
+            [1.0, 0.5],
+            [2.0, 2.0],
+            [0.0, 2.0],
+            [0.2, 1.0],
+            [1.0, 0.0],
+        ];
+        let corners = convex_hull(star);
+        assert_eq!(corners, [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
+        assert!((perimeter(&corners) - 8.0).abs() < 1e-12);
     }
 }
