@@ -12,4 +12,5 @@ mod toml_text;
 mod xml;
 
 pub use figure::figure;
+pub(crate) use number::as_written;
 pub use pages::{Page, Paper};

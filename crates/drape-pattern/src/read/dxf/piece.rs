@@ -11,6 +11,7 @@ use crate::read::diagnostic::{diagnostic, wrong_unit};
 use crate::read::fit::{TOLERANCE, fitted};
 use crate::read::marks::{add_notch, grain_of, low_corner, unfold};
 use crate::read::unit::Unit;
+use crate::write::as_written;
 
 /// Distance of a vertex from a corner point that is meant to be it, in m.
 const CORNER: f64 = 2e-4;
@@ -61,8 +62,11 @@ impl Reader<'_> {
         self.remarks(block, &name);
         let polygon: Vec<[f64; 2]> = edges.iter().flat_map(Edge::polyline).collect();
         let origin = low_corner(&polygon);
-        let edges = edges.iter().map(|edge| edge.mapped(false, |p| difference(p, origin)));
         let at = |answer: Diagnostic| answer.on_line(block.line);
+        // With the digits that a pattern is written with: curves fitted to chords may come within
+        // rounding of each other, and what is sound here is sound when it is read again.
+        let place = |p| difference(p, origin).map(as_written);
+        let edges = edges.iter().map(|edge| edge.mapped(false, place));
         let panel = match Panel::new(&name, edges.collect()) {
             Ok(panel) => panel,
             Err(all) => {
