@@ -121,8 +121,13 @@ fn a_wrong_unit_names_the_known_ones() {
 
 #[test]
 fn nan_is_refused_wherever_it_stands() {
-    mistake("towel.toml", ("step = 0.005", "step = nan"), RUN, &["towel.toml:10", "NaN"]);
-    mistake("plain.toml", ("density = 0.12", "density = nan"), RUN, &["plain.toml:2", "NaN"]);
+    mistake("towel.toml", ("step = 0.005", "step = nan"), RUN, &["towel.toml:10", "nan is not"]);
+    mistake(
+        "plain.toml",
+        ("density = 0.12", "density = nan"),
+        RUN,
+        &["plain.toml:2", "nan is not"],
+    );
     mistake("bending.csv", ("2,0.32", "2,nan"), FIT, &["bending.csv:4", "nan"]);
 }
 

@@ -62,7 +62,8 @@ fn files_to_start_from_run_as_they_are() {
     assert_eq!(summary(&folder.join("out/scene"))["settled"], true);
     let printed = succeeds(folder, &["new", "sheet", "-o", "-"]);
     let written = std::fs::read_to_string(folder.join("sheet.toml")).expect("a sheet");
-    assert_eq!(printed, written);
+    // Printed, it has no schema beside it.
+    assert_eq!(written, format!("#:schema ./sheet.schema.json\n{printed}"));
 }
 
 #[test]
@@ -155,7 +156,7 @@ fn an_interrupted_run_leaves_a_summary_the_last_frame_and_a_picture() {
 fn shells_and_man_know_every_command() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     succeeds(folder.path(), &["man", "-o", "man"]);
-    for name in ["new", "fit", "fabric", "run", "validate", "test", "check", "bench"] {
+    for name in ["new", "fit", "fabric", "run", "validate", "test", "check", "bench", "schema"] {
         let page = std::fs::read_to_string(folder.path().join(format!("man/drape-{name}.1")));
         assert!(page.expect("a page").contains(".SH"), "drape-{name}.1");
         for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {

@@ -10,6 +10,7 @@ use crate::commands::fabric::{self, FabricCommand};
 use crate::commands::fit::{self, FitArguments};
 use crate::commands::new::{self, NewArguments};
 use crate::commands::run::{self, RunArguments};
+use crate::commands::schema::{self, SchemaArguments};
 use crate::commands::shell::{self, CompletionsArguments, ManArguments};
 use crate::commands::test::{self, TestArguments};
 use crate::commands::validate::{self, ValidateArguments};
@@ -84,6 +85,8 @@ enum Command {
     Convert(ConvertArguments),
     /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
     Bench(BenchArguments),
+    /// Prints the JSON Schema of a kind of file, by which editors complete and check it.
+    Schema(SchemaArguments),
     /// Prints the completions of a shell.
     Completions(CompletionsArguments),
     /// Prints the manual page, or writes one for each command.
@@ -117,6 +120,7 @@ impl Command {
             Self::Check(arguments) => check::check(arguments),
             Self::Convert(arguments) => convert::convert(arguments),
             Self::Bench(arguments) => bench::bench(arguments),
+            Self::Schema(arguments) => schema::schema(arguments),
             Self::Completions(arguments) => shell::completions(arguments, CommandLine::command()),
             Self::Man(arguments) => shell::man(arguments, CommandLine::command()),
         }

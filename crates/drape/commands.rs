@@ -6,7 +6,8 @@
 //! [`Failure`](crate::failure::Failure) into an exit code.
 //!
 //! [`sheets`] is shared by the commands that read sheets. Of the commands, [`test`] reads its
-//! fabric through [`fabric`], which stores its page through [`fit`]; no other knows another.
+//! fabric through [`fabric`], which stores its page through [`fit`], and [`new`] has the schemas of
+//! [`schema`]; no other knows another.
 
 pub(crate) mod bench;
 pub(crate) mod check;
@@ -15,6 +16,7 @@ pub(crate) mod fabric;
 pub(crate) mod fit;
 pub(crate) mod new;
 pub(crate) mod run;
+pub(crate) mod schema;
 pub(crate) mod shell;
 pub(crate) mod test;
 pub(crate) mod validate;

@@ -8,6 +8,7 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
 
 use crate::console::{is_coloured, printable, tell, tell_coloured};
+use crate::input;
 
 /// Failure that ends a command, with its exit code.
 pub(crate) enum Failure {
@@ -73,7 +74,9 @@ impl Failure {
     /// Adds the sheet that the failure concerns, if it does not name one.
     pub(crate) fn of(self, sheet: &Path) -> Self {
         match self {
-            Self::Fit(error) => Self::Input(Diagnostic::new(sheet, error.to_string()).into()),
+            Self::Fit(error) => {
+                Self::Input(Diagnostic::new(input::shown(sheet), error.to_string()).into())
+            }
             other => other,
         }
     }
@@ -146,7 +149,7 @@ impl From<drape::dynamics::Error> for Failure {
 /// Returns a mistake as text, with the line of its file.
 fn render(mistake: &Diagnostic) -> String {
     let plain = || printable(&format!("error: {mistake}")).into_owned();
-    let source = mistake.span.as_ref().and_then(|_| std::fs::read_to_string(&mistake.file).ok());
+    let source = mistake.span.as_ref().and_then(|_| input::source(&mistake.file));
     let (Some(source), Some(span)) = (source, mistake.span.clone()) else {
         return plain();
     };

@@ -50,4 +50,4 @@ pub use drape_report as report;
 pub use drape_validate as validate;
 pub use drape_verify as verify;
 
-pub use scene_fabric::{read_scene, scene_fabric};
+pub use scene_fabric::{fabric_of, read_scene, scene_fabric, scene_of};

@@ -19,6 +19,7 @@ mod pages;
 mod console;
 mod failure;
 mod file;
+mod input;
 mod progress;
 mod say;
 

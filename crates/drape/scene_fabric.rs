@@ -17,6 +17,14 @@ pub fn read_scene(path: impl AsRef<Path>) -> Result<Scene, drape_scene::Error> {
     Scene::read_with(path, &scene_fabric)
 }
 
+/// Makes a scene of a document, as [`read_scene`] does of a file.
+///
+/// # Errors
+/// As for [`read_scene`].
+pub fn scene_of(document: &Document) -> Result<Scene, drape_scene::Error> {
+    Scene::from_document(document, &scene_fabric)
+}
+
 /// Reads a `fabric.toml`, or fits a fabric to a `sheet.toml`.
 ///
 /// The laws are those of the model of the scene: Breen's are fitted to the first branches of the
@@ -25,12 +33,19 @@ pub fn read_scene(path: impl AsRef<Path>) -> Result<Scene, drape_scene::Error> {
 /// # Errors
 /// The mistakes of the file, or the reason why a sheet gives no fabric.
 pub fn scene_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
-    let FabricRequest { file, model } = request;
-    let document = Document::read(file)?;
-    if is_fabric(&document) {
-        return Fabric::from_document(&document);
+    fabric_of(&Document::read(request.file)?, request.model)
+}
+
+/// Makes the fabric of a document: of a `fabric.toml`, or fitted to a `sheet.toml`.
+///
+/// # Errors
+/// As for [`scene_fabric`].
+pub fn fabric_of(document: &Document, model: Model) -> Result<Fabric, Diagnostics> {
+    if is_fabric(document) {
+        return Fabric::from_document(document);
     }
-    let sheet = Sheet::read(file).map_err(|error| match error {
+    let file = document.path();
+    let sheet = Sheet::from_document(document).map_err(|error| match error {
         drape_kes::Error::Input(mistakes) => mistakes,
         other => Diagnostic::new(file, other.to_string()).into(),
     })?;

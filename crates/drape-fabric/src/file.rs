@@ -15,26 +15,45 @@ use crate::fabric::{Fabric, Provenance, SURFACE_FRICTION, YarnLaws};
 use crate::laws::bending::{BendingBackbone, BendingLaw};
 use crate::laws::piecewise::Piecewise;
 use crate::laws::shear::{Locking, ShearBackbone, ShearLaw};
+#[cfg(feature = "schema")]
+use crate::laws::traction::TOE_RATIO_MIN;
 use crate::laws::traction::{Buckling, Polynomial, Primed, TractionBackbone, TractionLaw};
 
+/// Fabric of drape: the laws of a weave, in SI.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct FabricFile {
+    /// Name of the fabric.
     name: String,
+    /// Source: who measured it, when, and where.
     #[serde(default)]
     source: String,
+    /// Mass per area, in kg/m².
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.005, 5.0)))]
     density: Given<MassPerArea>,
+    /// Thickness under 49 Pa, in m.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-6, 0.02)))]
     thickness: Given<Length>,
+    /// Thickness under 4.9 kPa, in m.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-6, 0.02)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pressed_thickness: Option<Given<Length>>,
+    /// Linearity of the compression curve, LC.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.02, 1.0)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     compression_linearity: Option<f64>,
+    /// Coefficient of friction of its surface, MIU.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 5.0)))]
     #[serde(default = "surface_friction")]
     surface_friction: f64,
+    /// Laws of the warp.
     warp: YarnFile,
+    /// Laws of the weft.
     weft: YarnFile,
+    /// Law of shear between warp and weft.
     shear: ShearFile,
+    /// Provenance of fitted numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     provenance: Option<Provenance>,
 }
@@ -43,51 +62,80 @@ fn surface_friction() -> f64 {
     SURFACE_FRICTION
 }
 
+/// Laws of a yarn direction.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct YarnFile {
+    /// Law of traction.
     traction: TractionFile,
+    /// Law of bending.
     bending: BendingFile,
 }
 
+/// Law of traction.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = drape_input::one_of("primed", "polynomial")))]
 #[serde(deny_unknown_fields)]
 struct TractionFile {
+    /// Friction elements, one or two.
+    #[cfg_attr(feature = "schema", schemars(extend("maxItems" = 2)))]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     friction: Vec<ElementFile<ForcePerWidth, Ratio>>,
+    /// Backbone with a priming zone and a line.
     #[serde(skip_serializing_if = "Option::is_none")]
     primed: Option<PrimedFile>,
+    /// Backbone as a polynomial.
     #[serde(skip_serializing_if = "Option::is_none")]
     polynomial: Option<PolynomialFile>,
+    /// Compression, in which yarns buckle.
     #[serde(skip_serializing_if = "Option::is_none")]
     buckling: Option<BucklingFile>,
 }
 
+/// Backbone of traction with a priming zone and a line.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct PrimedFile {
+    /// Slope of the line, in N/m.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1.0, 1e7)))]
     stiffness: Given<ForcePerWidth>,
+    /// Load at the end of the priming zone over that of the line.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(TOE_RATIO_MIN, 1.0)))]
     toe_ratio: f64,
+    /// Strain at the end of the priming zone, of virgin fabric.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-6, 1.0)))]
     toe_strain: Given<Ratio>,
+    /// Strain at the end of the priming zone, once stretched.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-6, 2.0)))]
     toe_strain_after: Given<Ratio>,
 }
 
+/// Backbone of traction as a polynomial.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct PolynomialFile {
+    /// Coefficient of the squared strain, in N/m.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1e12)))]
     quadratic: Given<ForcePerWidth>,
+    /// Coefficient of the fourth power of the strain, in N/m.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1e15)))]
     quartic: Given<ForcePerWidth>,
 }
 
+/// Compression of a yarn.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct BucklingFile {
+    /// Compressive strain at which yarns buckle.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-5, 0.1)))]
     strain: Given<Ratio>,
+    /// Slope beyond, in N/m.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1e6)))]
     stiffness: Given<ForcePerWidth>,
 }
 
@@ -96,7 +144,10 @@ struct BucklingFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(bound = ""))]
 #[serde(deny_unknown_fields, bound = "")]
 struct ElementFile<L: Dimension, D: Dimension> {
+    /// Load that friction tends to.
     plateau: Given<L>,
+    /// Deformation within which it comes to 63 % of it.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     length: Given<D>,
 }
 
@@ -105,8 +156,13 @@ struct ElementFile<L: Dimension, D: Dimension> {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(bound = ""))]
 #[serde(deny_unknown_fields, bound = "")]
 struct PiecewiseFile<S: Dimension, L: Dimension, D: Dimension> {
+    /// Slope of the second piece, a straight line.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     slope: Given<S>,
+    /// Load at which that line meets deformation 0.
     intercept: Given<L>,
+    /// Deformation at which it begins.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     knot: Given<D>,
 }
 
@@ -116,41 +172,65 @@ type BendingCurveFile = PiecewiseFile<BendingRigidity, MomentPerWidth, Curvature
 /// Curve of the shear force over the sine of the angle.
 type ShearCurveFile = PiecewiseFile<ShearStiffness, ForcePerWidth, Ratio>;
 
+/// Law of bending.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = drape_input::one_of("rigidity", "piecewise")))]
 #[serde(deny_unknown_fields)]
 struct BendingFile {
+    /// Bending rigidity per width, in N·m.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-7, 1e-3)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     rigidity: Option<Given<BendingRigidity>>,
+    /// Curvature without load, in 1/m.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-1e4, 1e4)))]
     #[serde(default)]
     rest_curvature: Given<Curvature>,
+    /// Friction elements, one or two.
+    #[cfg_attr(feature = "schema", schemars(extend("maxItems" = 2)))]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     friction: Vec<ElementFile<MomentPerWidth, Curvature>>,
+    /// Backbone of two pieces.
     #[serde(skip_serializing_if = "Option::is_none")]
     piecewise: Option<BendingCurveFile>,
 }
 
+/// Law of shear.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = drape_input::one_of("stiffness", "piecewise")))]
 #[serde(deny_unknown_fields)]
 struct ShearFile {
+    /// Stiffness, in N/m.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.01, 1e5)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     stiffness: Option<Given<ShearStiffness>>,
+    /// Increase of friction per unit of the sine of the angle.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1e3)))]
     #[serde(default)]
     growth: f64,
+    /// Friction elements, one or two.
+    #[cfg_attr(feature = "schema", schemars(extend("maxItems" = 2)))]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     friction: Vec<ElementFile<ForcePerWidth, Ratio>>,
+    /// Backbone of two pieces.
     #[serde(skip_serializing_if = "Option::is_none")]
     piecewise: Option<ShearCurveFile>,
+    /// Rise of the force where yarns jam.
     #[serde(skip_serializing_if = "Option::is_none")]
     locking: Option<LockingFile>,
 }
 
+/// Rise of the shear force where yarns jam.
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct LockingFile {
+    /// Sine of the angle at which it begins.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.01, 0.99)))]
     onset: f64,
+    /// Sine of the angle that is never passed.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.01, 1.0)))]
     limit: f64,
 }
 
@@ -158,7 +238,8 @@ struct LockingFile {
 #[cfg(feature = "schema")]
 #[must_use]
 pub fn fabric_schema() -> serde_json::Value {
-    drape_input::schema_of::<FabricFile>("Fabric of drape")
+    let about = "Fabric of drape: the laws of a weave. Bare numbers are in SI.";
+    drape_input::schema_of::<FabricFile>("Fabric of drape", about, serde_json::Map::new())
 }
 
 impl Fabric {

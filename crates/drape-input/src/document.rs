@@ -174,11 +174,11 @@ impl Document {
         let mut node = &self.content().root;
         let innermost =
             |place: Option<Place>| place.map(|place| Place { is_whole: false, ..place });
-        for Part { name, index } in parts(key) {
+        for Part { name, indices } in parts(key) {
             let Some(entry) = node.entry(name) else { return innermost(place) };
             node = &entry.node;
             place = Some(Place { span: node.span.clone(), is_whole: true });
-            if let Some(index) = index {
+            for index in indices {
                 let Value::List(elements) = &node.value else { return innermost(place) };
                 let Some(element) = elements.get(index) else { return innermost(place) };
                 node = element;
@@ -227,10 +227,11 @@ fn sorted(mistakes: Vec<Diagnostic>) -> Diagnostics {
     }
 }
 
-/// Key of a key path, with the index of an element if it is an array.
+/// Key of a key path, with the index of an element if it is an array, of an element of that if it is
+/// an array of arrays, and so on.
 struct Part<'a> {
     name: &'a str,
-    index: Option<usize>,
+    indices: Vec<usize>,
 }
 
 /// Splits a key path at its dots outside of quotes.
@@ -241,17 +242,17 @@ fn parts(key: &str) -> impl Iterator<Item = Part<'_>> {
         letter == '.' && !quoted
     });
     pieces.map(|piece| match piece.strip_prefix('"').and_then(|rest| rest.split_once('"')) {
-        Some((name, rest)) => Part { name, index: index(rest) },
-        None => match piece.split_once('[') {
-            Some((name, rest)) => Part { name, index: index(rest) },
-            None => Part { name: piece, index: None },
-        },
+        Some((name, rest)) => Part { name, indices: indices(rest) },
+        None => {
+            let (name, rest) = piece.split_once('[').unwrap_or((piece, ""));
+            Part { name, indices: indices(rest) }
+        }
     })
 }
 
-/// Returns the number in brackets.
-fn index(text: &str) -> Option<usize> {
-    text.trim_matches(['[', ']']).parse().ok()
+/// Returns the numbers in brackets.
+fn indices(text: &str) -> Vec<usize> {
+    text.split(['[', ']']).filter_map(|number| number.parse().ok()).collect()
 }
 
 /// Returns advice on a path that does not exist: the file beside it that was probably meant.
@@ -320,6 +321,15 @@ mod tests {
         assert_eq!(line("a.b.c.d"), Some(7));
         assert_eq!(line("a.b.e"), Some(6));
         assert_eq!(line("nothing"), None);
+    }
+
+    #[test]
+    fn a_key_path_leads_into_lists_of_lists() {
+        let document = Document::new("a.toml", "sides = [[1, 2], [3, 4]]");
+        let column = |key: &str| document.at(key, "").column;
+        assert_eq!(column("sides[1]"), Some(18));
+        assert_eq!(column("sides[1][1]"), Some(22));
+        assert_eq!(column("sides[1][2]"), Some(18));
     }
 
     #[test]

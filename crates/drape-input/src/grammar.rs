@@ -67,7 +67,8 @@ fn told(text: &str, span: Option<Range<usize>>, parser: &str) -> GrammarMistake 
     }
     let (message, help) = match headline {
         _ if is_decimal_comma(text, start) => {
-            ("a number has a point, not a comma".to_owned(), "write it as 0.5".to_owned())
+            let number = excerpt(&decimal(text, start));
+            ("a number has a point, not a comma".to_owned(), format!("write {number}"))
         }
         "string values must be quoted" => {
             let line = line_at(text, start);
@@ -95,6 +96,15 @@ fn is_decimal_comma(text: &str, at: usize) -> bool {
         index.and_then(|index| bytes.get(index)).is_some_and(u8::is_ascii_digit)
     };
     bytes.get(at) == Some(&b',') && digit(at.checked_sub(1)) && digit(Some(at + 1))
+}
+
+/// Returns the number about a comma at a byte of a text, with a point.
+fn decimal(text: &str, comma: usize) -> String {
+    let is_part = |letter: char| letter.is_ascii_digit() || matches!(letter, '+' | '-' | '_');
+    let before = text[..comma].trim_end_matches(is_part).len();
+    let after =
+        text[comma + 1..].trim_start_matches(|c: char| is_part(c) || c.eq_ignore_ascii_case(&'e'));
+    format!("{}.{}", &text[before..comma], &text[comma + 1..text.len() - after.len()])
 }
 
 /// Returns the place of a list that began in the line before a byte and was not closed.

@@ -38,6 +38,6 @@ pub use given::{
 };
 pub use quoting::{toml_key, toml_string};
 #[cfg(feature = "schema")]
-pub use schema::schema_of;
+pub use schema::{at_least, laboratory_schema, one_of, positive, schema_of, unit_schema, within};
 pub use spelling::closest;
 pub use unit::{Quantity, Unit, UnitError, Written, is_unit, parse_quantity, parse_unit};

@@ -1,8 +1,13 @@
 //! JSON Schema of numbers that may stand with a unit, and what schemas of files have in common.
+//!
+//! A schema describes the form of a file: its keys, what kind of value each has, and the range of
+//! bare numbers. What one part of a file says of another is for the checks.
 
 use std::borrow::Cow;
 
+use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::{Map, Value, json};
 
 use crate::given::{Dimension, Given, TextOr};
 use crate::unit::Quantity;
@@ -23,7 +28,7 @@ impl<D: Dimension> JsonSchema for Given<D> {
             "description": format!("{}, such as {bare} or \"{unit}\"", capital(quantity.name())),
             "anyOf": [
                 { "type": "number" },
-                { "type": "string", "pattern": pattern(quantity) },
+                { "type": "string", "pattern": format!("^{}$", quantity_pattern(quantity)) },
             ],
         })
     }
@@ -46,14 +51,38 @@ fn capital(word: &str) -> String {
     first.to_uppercase() + rest
 }
 
-/// Returns the texts of a number with a unit, as a regular expression.
-fn pattern(quantity: Quantity) -> String {
-    let units: Vec<String> = quantity.spellings().map(unit_pattern).collect();
-    format!("^\\s*{NUMBER}\\s*({})\\s*$", units.join("|"))
+/// Returns the texts of a number with a unit of a quantity, as a regular expression without anchors.
+fn quantity_pattern(quantity: Quantity) -> String {
+    format!(r"\s*{NUMBER}\s*({})\s*", units_pattern(quantity))
+}
+
+/// Returns the texts of the units of a quantity, as a regular expression without anchors.
+fn units_pattern(quantity: Quantity) -> String {
+    quantity.spellings().map(spelling_pattern).collect::<Vec<_>>().join("|")
+}
+
+/// Returns the schema of a number in the unit of a laboratory, bare or in a text, or with another
+/// unit.
+#[must_use]
+pub fn laboratory_schema(quantity: Quantity) -> Value {
+    let written = format!(r"^({}|\s*{NUMBER}\s*)$", quantity_pattern(quantity));
+    json!({ "anyOf": [{ "type": "number" }, { "type": "string", "pattern": written }] })
+}
+
+/// Returns the schema of a unit of one of several quantities.
+#[must_use]
+pub fn unit_schema(quantities: &[Quantity]) -> Value {
+    let units: Vec<String> = quantities.iter().map(|&quantity| units_pattern(quantity)).collect();
+    json!({ "type": "string", "pattern": format!(r"^\s*({})\s*$", units.join("|")) })
 }
 
 /// Returns the texts of a unit in all of its spellings.
-fn unit_pattern(spelling: &str) -> String {
+fn spelling_pattern(spelling: &str) -> String {
+    match spelling {
+        "%" => return "(%|[Pp]ercent|pct)".into(),
+        "deg" => return "(deg|degrees?|°)".into(),
+        _ => {}
+    }
     let spelling = spelling.replace("deg", "°");
     let mut pattern = String::new();
     for letter in spelling.chars() {
@@ -61,7 +90,7 @@ fn unit_pattern(spelling: &str) -> String {
             '.' => pattern.push_str("[.·*× ]"),
             '2' => pattern.push_str(r"(\^?2|²)"),
             '3' => pattern.push_str(r"\^?3"),
-            '-' => pattern.push_str("[-⁻−]"),
+            '-' => pattern.push_str(r"\^?[-⁻−]"),
             'u' => pattern.push_str("[uµμ]"),
             '°' => pattern.push_str("(deg|°)"),
             '/' | '(' | ')' => {
@@ -74,10 +103,88 @@ fn unit_pattern(spelling: &str) -> String {
     pattern
 }
 
-/// Returns the JSON Schema of a file with a title.
+/// Returns what gives a schema of numbers, or of lists of them, a range. Texts with units are not
+/// held to it.
+pub fn within(least: f64, most: f64) -> impl Fn(&mut Schema) {
+    move |schema| {
+        bound(schema, "minimum", least);
+        bound(schema, "maximum", most);
+    }
+}
+
+/// Returns what gives a schema of numbers, or of lists of them, a least value.
+pub fn at_least(least: f64) -> impl Fn(&mut Schema) {
+    move |schema| bound(schema, "minimum", least)
+}
+
+/// Gives a schema of numbers, or of lists of them, values above 0.
+pub fn positive(schema: &mut Schema) {
+    bound(schema, "exclusiveMinimum", 0.0);
+}
+
+/// Returns what gives a schema of a table two keys of which one is there, and not both.
+pub fn one_of(first: &'static str, second: &'static str) -> impl Fn(&mut Schema) {
+    move |schema| {
+        let each = [first, second].map(|key| json!({ "required": [key] }));
+        schema.insert("oneOf".into(), each.to_vec().into());
+    }
+}
+
+/// Gives a schema a limit, in its lists too. A schema without a type has one for the numbers in it.
+fn bound(schema: &mut Schema, keyword: &str, limit: f64) {
+    let is_list = schema.get("items").is_some()
+        || schema.get("type").is_some_and(|kind| kind == "array" || kind[0] == "array");
+    if !is_list {
+        schema.insert(keyword.into(), limit.into());
+        return;
+    }
+    if let Some(items) = schema.get_mut("items")
+        && let Ok(items) = items.try_into()
+    {
+        bound(items, keyword, limit);
+    }
+}
+
+/// Takes what TOML does not have out of a schema: null.
+struct WithoutNull;
+
+impl Transform for WithoutNull {
+    fn transform(&mut self, schema: &mut Schema) {
+        transform_subschemas(self, schema);
+        let Some(object) = schema.as_object_mut() else { return };
+        if object.get("default").is_some_and(Value::is_null) {
+            object.remove("default");
+        }
+        if let Some(Value::Array(kinds)) = object.get_mut("type") {
+            kinds.retain(|kind| kind != "null");
+            if let [kind] = &kinds[..] {
+                let kind = kind.clone();
+                object.insert("type".into(), kind);
+            }
+        }
+        if let Some(Value::Array(parts)) = object.get_mut("anyOf") {
+            parts.retain(|part| part.get("type").is_none_or(|kind| kind != "null"));
+            if let [Value::Object(part)] = &parts[..] {
+                let part = part.clone();
+                object.remove("anyOf");
+                for (key, value) in part {
+                    object.entry(key).or_insert(value);
+                }
+            }
+        }
+    }
+}
+
+/// Returns the JSON Schema of a file with a title, a description, and what keywords of the whole
+/// add: conditions between its tables.
 #[must_use]
-pub fn schema_of<T: JsonSchema>(title: &str) -> serde_json::Value {
+pub fn schema_of<T: JsonSchema>(title: &str, description: &str, more: Map<String, Value>) -> Value {
     let mut schema = schemars::schema_for!(T);
+    WithoutNull.transform(&mut schema);
     schema.insert("title".into(), title.into());
+    schema.insert("description".into(), description.into());
+    for (keyword, value) in more {
+        schema.insert(keyword, value);
+    }
     schema.into()
 }

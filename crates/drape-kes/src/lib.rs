@@ -31,6 +31,8 @@ pub use curves::tensile_values::TensileValues;
 pub use error::Error;
 pub use sheets::listed::SheetValue;
 pub use sheets::model::Model;
+#[cfg(feature = "schema")]
+pub use sheets::schema::sheet_schema;
 pub use sheets::sheet::Sheet;
 pub use symbol::Symbol;
 pub use test::{Direction, Test};

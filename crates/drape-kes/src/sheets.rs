@@ -13,6 +13,7 @@
 //! * `section`: typed access to a TOML table.
 //! * `spelling`, `value_keys`: the values; `compression`: what those of KES-FB3 give together;
 //!   `listed`: all of them, with their use.
+//! * `schema`: JSON Schema of all that.
 //! * `plausible`, `suspect`: values and curves that cannot be right.
 //! * `axis`, `convert`, `curve_file`: a `[[curve]]` made into a curve; `model`, `sheet`: the sheet.
 
@@ -24,6 +25,8 @@ pub(crate) mod findings;
 pub(crate) mod listed;
 pub(crate) mod model;
 pub(crate) mod plausible;
+#[cfg(feature = "schema")]
+pub(crate) mod schema;
 pub(crate) mod section;
 pub(crate) mod sheet;
 pub(crate) mod spelling;

@@ -43,5 +43,7 @@ pub use note::Note;
 pub use panel::{Fold, Panel};
 pub use pattern::{EdgeId, Pattern, Seam};
 pub use placement::Placement;
+#[cfg(feature = "schema")]
+pub use read::pattern_schema;
 pub use read::{Place, Request, SeamKeys, Unit};
 pub use write::{Page, Paper, figure};

@@ -304,7 +304,9 @@ impl Mistake {
                 format!("from 1 to {}: gathers beyond are not cut", MAX_EASE)
             }
             Self::Ease { ratio, .. } if *ratio <= MAX_EASE => {
-                "raise max_ease if the fullness is meant".into()
+                // Two digits, rounded up.
+                let enough = ((100.0 * ratio).ceil() / 100.0).min(MAX_EASE);
+                format!("write max_ease = {enough} if the fullness is meant, or correct the edges")
             }
             Self::Ease { .. } => format!(
                 "gathers above {} are not cut: shorten the longer side, or sew it to several edges",

@@ -34,6 +34,8 @@ use diagnostic::syntax;
 
 pub use request::Request;
 pub use seams::{Place, SeamKeys};
+#[cfg(feature = "schema")]
+pub use toml_file::keys::pattern_schema;
 pub use unit::Unit;
 
 /// Largest file that is read, in bytes; drafts with all their drawings have some hundred kilobytes.
@@ -73,16 +75,31 @@ impl Pattern {
         parse(document, &Request::new(document.path()))
     }
 
+    /// Returns the pattern of a document with what it may not say itself; the path of the request is
+    /// not read.
+    ///
+    /// # Errors
+    /// All mistakes of the text, each with its place and a remedy.
+    pub fn parse_as(document: &Document, request: &Request) -> Result<Self, Diagnostics> {
+        parse(document, request)
+    }
+
     /// Returns whether a path has the ending of a file that holds nothing but patterns.
     #[must_use]
     pub fn is_drawing(path: &Path) -> bool {
         matches!(ending(path).as_str(), "json" | "svg" | "dxf")
     }
+
+    /// Returns whether a document is in a format that holds nothing but patterns.
+    #[must_use]
+    pub fn is_drawing_text(document: &Document) -> bool {
+        format(document) != "toml"
+    }
 }
 
 /// Returns the pattern of a document.
 fn parse(document: &Document, request: &Request) -> Result<Pattern, Diagnostics> {
-    let ending = ending(document.path());
+    let ending = format(document);
     if !ENDINGS.contains(&ending.as_str()) {
         let help = "patterns are *.toml, *.json of GarmentCode or FreeSewing, *.svg and *.dxf";
         let message = format!("files *.{ending} hold no pattern");
@@ -101,11 +118,15 @@ fn parse(document: &Document, request: &Request) -> Result<Pattern, Diagnostics>
     match ending.as_str() {
         "toml" => {
             let file = toml_file::decode(document)?;
-            let base = match file.from()? {
-                Some(from) => Some(parse(&self::document(&from.path)?, &from)?),
-                None => None,
+            let base = match file.from() {
+                Ok(Some(from)) => self::document(&from.path).and_then(|base| parse(&base, &from)),
+                Ok(None) => return file.pattern(None),
+                Err(mistakes) => Err(mistakes),
             };
-            file.pattern(base)
+            match base {
+                Ok(base) => file.pattern(Some(base)),
+                Err(mistakes) => Err(file.without_base(mistakes)),
+            }
         }
         "svg" => svg::read(document, request),
         "dxf" => dxf::read(document, request),
@@ -128,6 +149,23 @@ fn json(document: &Document) -> Result<Pattern, Diagnostics> {
         let message = "this JSON holds no pattern";
         Err(Diagnostic::new(document.path(), message).help(help).into())
     }
+}
+
+/// Returns the format of a document, by the ending of its path, or if that has none by its text.
+fn format(document: &Document) -> String {
+    let ending = ending(document.path());
+    if !ending.is_empty() {
+        return ending;
+    }
+    let text = document.text().trim_start();
+    let kind = match text.as_bytes().first() {
+        Some(b'{') => "json",
+        Some(b'<') => "svg",
+        // Group codes 0 and 999 begin a drawing and a comment.
+        _ if matches!(text.lines().next().map(str::trim), Some("0" | "999")) => "dxf",
+        _ => "toml",
+    };
+    kind.into()
 }
 
 /// Returns the ending of a path, in small letters.

@@ -106,8 +106,12 @@ fn folds_and_angles_of_seams_are_read() {
     assert!(
         fold.ends == [[0.0, 0.1], [0.3, 0.12]] && (fold.angle.to_degrees() + 60.0).abs() < 1e-12
     );
-    says("p.toml", &text.replace("= 30\n", "= 150\n"), &["seam", "is 150", "-140 to 140"]);
-    says("p.toml", &text.replace("-60", "nan"), &["fold", "is NaN", "-140 to 140"]);
+    says(
+        "p.toml",
+        &text.replace("= 30\n", "= 150\n"),
+        &["seam", "150 is not between -140 and 140"],
+    );
+    says("p.toml", &text.replace("-60", "nan"), &["fold", "nan is not a finite number"]);
     says("p.toml", &text.replace("[30, 12]", "[0, 10]"), &["fold", "no length"]);
 }
 
@@ -135,9 +139,13 @@ fn allowances_and_hems_are_read() {
     assert_eq!(hemmed, [("waist", 0.02)]);
     let wrong =
         |from: &str, to: &str, words: &[&str]| says("p.toml", &text.replace(from, to), words);
-    wrong("allowance = 1", "allowance = -1", &["p.toml:19:", "is -1", "0 to 300 mm"]);
-    wrong("allowance = 1", "allowance = nan", &["is NaN", "0 to 300 mm"]);
-    wrong("hem = 2.5", "hem = 31", &["p.toml:7:", "is 31", "0 to 300 mm"]);
+    wrong(
+        "allowance = 1",
+        "allowance = -1",
+        &["p.toml:19:", "-10.0 mm is not between 0 and 300 mm"],
+    );
+    wrong("allowance = 1", "allowance = nan", &["seam.side.allowance: nan is not a finite number"]);
+    wrong("hem = 2.5", "hem = 31", &["p.toml:7:", "310 mm is not between 0 and 300 mm"]);
     wrong("to = [30, 30]", "to = [30, 30], hem = 2", &["side_l", "has a hem", "an allowance"]);
 }
 
@@ -167,8 +175,11 @@ fn mistakes_of_the_own_format_have_line_value_and_remedy() {
         &["names 1 edges of 4"],
     );
     toml(&[("rectangle = [30, 30]", "path = \"M0 0 L1 x\"")], &["a.toml:15:", "command 2"]);
-    toml(&[("rectangle = [30, 30]", "rectangle = [30, nan]")], &["not finite"]);
-    toml(&[("rectangle = [30, 30]", "rectangle = [30, 30]\nturn = [0, inf, 0]")], &["place"]);
+    toml(&[("rectangle = [30, 30]", "rectangle = [30, nan]")], &["nan is not a finite"]);
+    toml(
+        &[("rectangle = [30, 30]", "rectangle = [30, 30]\nturn = [0, inf, 0]")],
+        &["turn[1]: inf is not a finite number"],
+    );
     toml(
         &[("rectangle = [30, 30]", "rectangle = [30, 30]\nwrap = -4.7")],
         &["a.toml:16:", "panel back is 300 mm wide", "a radius of -47.0 mm", "more than 47.7 mm"],
@@ -177,7 +188,10 @@ fn mistakes_of_the_own_format_have_line_value_and_remedy() {
         &[("rectangle = [30, 30]", "rectangle = [30, 30]\nwrap = 0")],
         &["0.000 mm", "leave wrap"],
     );
-    toml(&[("rectangle = [30, 30]", "rectangle = [30, 30]\nwrap = nan")], &["wrap a radius"]);
+    toml(
+        &[("rectangle = [30, 30]", "rectangle = [30, 30]\nwrap = nan")],
+        &["wrap: nan is not a finite"],
+    );
     // One of each kind, all at once, in the order of the text.
     let said = mistakes(
         "a.toml",
@@ -219,12 +233,12 @@ fn mistakes_of_outlines_and_seams_are_named() {
         &[("rectangle = [30, 30]", "rectangle = [30, 34.5]")],
         &[
             "back.left 345 mm and front.side_l 300 mm: ratio 1.150 is above max_ease 1.1",
-            "raise max_ease if the fullness is meant",
+            "write max_ease = 1.15 if the fullness is meant",
         ],
     );
     toml(
         &[("rectangle = [30, 30]", "rectangle = [30, 60]")],
-        &["ratio 2.000 is above max_ease 1.1", "raise max_ease if the fullness is meant"],
+        &["ratio 2.000 is above max_ease 1.1", "write max_ease = 2 if the fullness is meant"],
     );
     toml(
         &[("rectangle = [30, 30]", "rectangle = [30, 156]")],
@@ -248,6 +262,80 @@ fn places_are_read_in_the_unit_of_the_file() {
     let corner = placement.point([0.1 * std::f64::consts::PI, 0.3]);
     let error = [-0.19, 0.32, -0.17].iter().zip(corner).map(|(a, b)| (a - b).abs());
     assert!(error.fold(0.0, f64::max) < 1e-12, "{corner:?}");
+}
+
+#[test]
+fn quantities_may_have_a_unit_of_their_own() {
+    let bare = squares(&[
+        ("to = [30, 0]", "to = [30, 0], hem = 2, notches = [10]"),
+        (
+            "rectangle = [30, 30]",
+            "rectangle = [30, 30]\norigin = [1, 2, 3]\nturn = [0, 90, 0]\nwrap = 20",
+        ),
+        (
+            "[[\"front.side_l\"], [\"back.left\"]]",
+            "[[\"front.side_l\"], [\"back.left\"]]\nangle = 30\nallowance = 1",
+        ),
+    ]);
+    let with_units = squares(&[
+        ("to = [30, 0]", "to = [\"300 mm\", 0], hem = \"20 mm\", notches = [\"0.1 m\"]"),
+        (
+            "rectangle = [30, 30]",
+            "rectangle = [\"300 mm\", 30]\norigin = [1, \"20 mm\", 3]\nturn = [0, \"90 deg\", 0]\nwrap = \"0.2 m\"",
+        ),
+        (
+            "[[\"front.side_l\"], [\"back.left\"]]",
+            "[[\"front.side_l\"], [\"back.left\"]]\nangle = \"30 deg\"\nallowance = \"10 mm\"",
+        ),
+    ]);
+    let read = |text: String| {
+        Pattern::parse(&Document::new("p.toml", text)).expect("it is sound").to_toml("")
+    };
+    assert_eq!(read(with_units.clone()), read(bare));
+    says(
+        "p.toml",
+        &with_units.replace("\"20 mm\", notches", "\"20 s\", notches"),
+        &["p.toml:7:40", "not a unit of length"],
+    );
+}
+
+#[test]
+fn all_mistakes_of_a_file_are_told_at_once_under_their_values() {
+    let text = squares(&[
+        ("length = \"cm\"", "lenght = \"cm\""),
+        ("grain = 0\nstart", "grian = 0\nstart"),
+        ("to = [30, 30] }", "to = \"up\" }"),
+        (
+            "rectangle = [30, 30]",
+            "rectangle = [30, 30]\nfold = [{ from = [0, 1], to = [3, 1], angle = 170 }]",
+        ),
+        ("\"back.left\"", "\"back.lfet\""),
+    ]) + "allowance = -1\n[seam.two]\nsides = 3\n";
+    let told = mistakes("p.toml", &text);
+    let places: Vec<&str> = told.lines().filter(|line| line.starts_with("p.toml")).collect();
+    let expected = [
+        "p.toml:1:1: lenght: there is no such key",
+        "p.toml:4:1: panel.front.grian: there is no such key",
+        "p.toml:8:30: panel.front.outline[1].to: is text where a list of 2 values is needed",
+        "p.toml:16:47: panel.back.fold[0].angle: 170 is not between -140 and 140",
+        "p.toml:19:29: seam.side.sides[1][0]: panel back has no edge \"lfet\"",
+        "p.toml:20:13: seam.side.allowance: -10.0 mm is not between 0 and 300 mm",
+        "p.toml:22:9: seam.two.sides: is a number where a list of 2 values is needed",
+    ];
+    assert_eq!(places, expected, "{told}");
+}
+
+#[test]
+fn without_a_unit_only_what_depends_on_it_is_left_unsaid() {
+    let text = squares(&[("length = \"cm\"\n", ""), ("[[\"front.side_l\"]", "[[\"frnt.side_l\"]")]);
+    let told = mistakes("p.toml", &(text + "allowance = 7\nangle = 200\n"));
+    let messages = told.lines().filter(|line| line.starts_with("p.toml"));
+    let keys: Vec<&str> =
+        messages.map(|line| line.rsplit(": ").nth(1).unwrap_or_default()).collect();
+    assert!(told.contains("p.toml: length: is missing"), "{told}");
+    assert_eq!(keys.len(), 3, "{told}");
+    says("p.toml", &squares(&[("\"cm\"", "\"ell\"")]), &["p.toml:1:10", "\"ell\" is not a unit"]);
+    says("p.toml", &squares(&[("\"cm\"", "\"pt\"")]), &["p.toml:1:10", "\"pt\" is not a unit"]);
 }
 
 #[test]

@@ -11,6 +11,8 @@ pub(crate) mod motion;
 pub(crate) mod panel;
 pub(crate) mod pin;
 pub(crate) mod run;
+#[cfg(feature = "schema")]
+pub(crate) mod schema;
 
 use std::collections::BTreeMap;
 
@@ -24,66 +26,81 @@ use self::panel::PanelFile;
 use self::pin::PinFile;
 use self::run::{MotionPhaseFile, OutputFile, SettleFile, SolverFile, TimeFile};
 
+/// Scene of drape: cloth, bodies, contact, time.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneFile {
+    /// Name of the scene; that of the file if missing.
     pub(crate) name: Option<String>,
-    /// `kes` or `breen-1994`.
+    /// Model of the cloth: `kes`, yarns with friction, or `breen-1994`, interacting particles.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["kes", "breen-1994"])))]
     pub(crate) model: Option<String>,
-    /// Unit of all lengths of the file: `m`, `cm` or `mm`.
+    /// Unit of all lengths of the file that stand without one: `m`, `cm` or `mm`; `m` if missing.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["m", "cm", "mm"])))]
     pub(crate) length: Option<String>,
     /// Distance between particles.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) spacing: Option<Given<Length>>,
-    /// Acceleration of gravity, in m/s².
+    /// Acceleration of gravity along x, y and z, in m/s².
     pub(crate) gravity: Option<[Given<Acceleration>; 3]>,
+    /// Air that the cloth moves in.
     pub(crate) air: Option<AirFile>,
+    /// Fabrics by the names that panels and garments use.
     #[serde(default)]
     pub(crate) fabric: BTreeMap<String, FabricFile>,
+    /// Pieces of cloth.
     #[serde(default)]
     pub(crate) panel: Vec<PanelFile>,
+    /// Patterns that are cut, placed and sewn.
     #[serde(default)]
     pub(crate) garment: Vec<GarmentFile>,
+    /// Sewing of the garments.
     #[serde(default)]
     pub(crate) sew: SewFile,
+    /// Particles that are held.
     #[serde(default)]
     pub(crate) pin: Vec<PinFile>,
+    /// Bodies.
     #[serde(default)]
     pub(crate) collider: ColliderFile,
+    /// Contact of cloth with bodies and with itself.
     #[serde(default)]
     pub(crate) contact: ContactFile,
+    /// Steps and the end of the run.
     pub(crate) time: TimeFile,
+    /// Run to rest, without momentum; in time if missing.
     pub(crate) settle: Option<SettleFile>,
+    /// Phase that follows when the cloth has come to rest.
     pub(crate) motion: Option<MotionPhaseFile>,
+    /// Solver of the steps.
     #[serde(default)]
     pub(crate) solver: SolverFile,
+    /// Results.
     #[serde(default)]
     pub(crate) output: OutputFile,
 }
 
+/// Air that the cloth moves in.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AirFile {
     /// Density, in kg/m³.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 100.0)))]
     pub(crate) density: Option<Given<Density>>,
+    /// Coefficient of drag of the cloth.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     pub(crate) drag: Option<f64>,
 }
 
+/// Fabric of a scene.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FabricFile {
+    /// Fabric, sheet, or folder of a sheet, relative to the folder of the scene.
     pub(crate) file: String,
-}
-
-/// Returns the JSON Schema of scenes.
-#[cfg(feature = "schema")]
-#[must_use]
-pub fn scene_schema() -> serde_json::Value {
-    drape_input::schema_of::<SceneFile>("Scene of drape")
 }
 
 impl SceneFile {

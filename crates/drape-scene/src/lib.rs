@@ -13,7 +13,7 @@ mod read;
 
 pub use error::Error;
 #[cfg(feature = "schema")]
-pub use file::scene_schema;
+pub use file::schema::scene_schema;
 pub use scene::clock::Clock;
 pub use scene::contact::{ContactSettings, DistanceGrowth, Inflation};
 pub use scene::garment::{Garment, Sewing};

@@ -27,7 +27,15 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::read`].
     pub fn read_with(path: impl AsRef<Path>, fabrics: FabricReader<'_>) -> Result<Self, Error> {
-        let scene = &Document::read(path)?;
+        Self::from_document(&Document::read(path)?, fabrics)
+    }
+
+    /// Makes a scene of a document; the files that it names are seen from the folder of its path,
+    /// and a function makes its fabrics of them.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn from_document(scene: &Document, fabrics: FabricReader<'_>) -> Result<Self, Error> {
         let (file, faults) = scene.decode_with_faults::<SceneFile>()?;
         check(&Documents { scene, others: &[], fabrics }, &file, faults)
     }

@@ -266,7 +266,7 @@ fn a_mistake_is_answered_at_its_line_with_its_value() {
         ("fabric = \"plain\"", "fabric = \"plane\"", "plane", 4),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, -0.3]", "-0.3", 5),
         ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = 200", "200", 6),
-        ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = nan", "NaN", 6),
+        ("rectangle = [0.2, 0.3]", "rectangle = [0.2, 0.3]\ngrain = nan", "nan is not", 6),
         (
             "rectangle = [0.2, 0.3]",
             "rectangle = [0.2, 0.3]\nnoise = { amplitude = nan }",

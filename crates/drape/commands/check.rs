@@ -20,12 +20,13 @@ use self::body::Measure;
 use self::describe::describe;
 use self::pattern::CutOut;
 use crate::failure::Failure;
-use crate::file;
 use crate::say::{say, say_json};
+use crate::{file, input};
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {
-    /// Scenes, fabrics, sheets, patterns, bodies (OBJ, STL, PLY), or folders of runs.
+    /// Scenes, fabrics, sheets, patterns, bodies (OBJ, STL, PLY), or folders of runs; - for standard
+    /// input.
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
     /// Draws the cut panels of a pattern, with the sides of a seam in one colour, as an SVG file.
@@ -110,6 +111,7 @@ struct Checked {
 impl Checked {
     /// Adds what was found in a file, and says it.
     fn add(&mut self, file: &Path, found: Result<String, Diagnostics>) -> Result<(), Failure> {
+        let file = input::shown(file);
         let (text, mistakes) = match found {
             Ok(text) => (Some(text), Vec::new()),
             Err(mistakes) => (None, mistakes.0),

@@ -6,15 +6,15 @@ use clap::Subcommand;
 use drape::fabric::Fabric;
 use drape::input::{Diagnostic, Diagnostics};
 use drape::kes::Sheet;
-use drape::scene::{FabricRequest, Model};
+use drape::scene::Model;
 use serde_json::{Value, json};
 
 use crate::commands::fit::store;
 use crate::commands::sheets;
 use crate::failure::Failure;
-use crate::file;
 use crate::pages::fabric::{compare_page, show_page};
 use crate::say::{say, say_json, say_written};
+use crate::{file, input};
 
 #[derive(Subcommand)]
 pub(crate) enum FabricCommand {
@@ -29,7 +29,7 @@ pub(crate) enum FabricCommand {
     },
     /// Shows a fabric: its parameters, the loops an instrument would draw, its KES values.
     Show {
-        /// A fabric, or a sheet, which is fitted first.
+        /// A fabric, or a sheet, which is fitted first; - for standard input.
         fabric: PathBuf,
         /// Folder for a page with plots.
         #[arg(long, value_name = "FOLDER")]
@@ -71,7 +71,7 @@ pub(crate) fn fabric(command: &FabricCommand) -> Result<(), Failure> {
 pub(crate) fn read(path: &Path) -> Result<Fabric, Failure> {
     let sheet = path.join(sheets::SHEET_FILE);
     let file = if path.is_dir() { &sheet } else { path };
-    Ok(drape::scene_fabric(FabricRequest { file, model: Model::Kes })?)
+    Ok(drape::fabric_of(&input::document(file)?, Model::Kes)?)
 }
 
 fn list(folders: &[PathBuf], json: bool) -> Result<(), Failure> {

@@ -30,12 +30,13 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
 /// Fits one sheet and prints its report.
 fn one(sheet: &Path, arguments: &FitArguments) -> Result<(), Failure> {
     let path = arguments.output.clone().unwrap_or_else(|| identify::beside(sheet));
-    let to_stdout = path.as_os_str() == "-";
+    let to_stdout = file::is_standard(&path);
     if to_stdout && arguments.json {
         let message = "-o - and --json both print to stdout; give one of them";
         return Err(Failure::Usage(message.into()));
     }
-    file::refuse_existing(&path, arguments.force, "give -o, or replace it with --force")?;
+    let force = arguments.force || to_stdout;
+    file::refuse_existing(&path, force, "give -o, or replace it with --force")?;
     let identified = identify(sheet, &arguments.laws.settings())?;
     if to_stdout {
         say(identified.fit.fabric.to_toml().trim_end())?;

@@ -1,9 +1,10 @@
-//! `drape new`: commented files to start from, which run as they are.
+//! `drape new`: commented files to start from, which run as they are, with their schemas.
 
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use crate::commands::schema::SchemaKind;
 use crate::failure::Failure;
 use crate::file;
 use crate::say::{say, say_written};
@@ -49,6 +50,23 @@ impl Kind {
         }
     }
 
+    /// Returns the name of its schema, which is beside it.
+    fn schema_name(self) -> &'static str {
+        match self {
+            Self::Scene => "scene.schema.json",
+            Self::Sheet => "sheet.schema.json",
+            Self::Pattern => "pattern.schema.json",
+        }
+    }
+
+    fn schema(self) -> SchemaKind {
+        match self {
+            Self::Scene => SchemaKind::Scene,
+            Self::Sheet => SchemaKind::Sheet,
+            Self::Pattern => SchemaKind::Pattern,
+        }
+    }
+
     /// Returns what to do with the file next.
     fn next(self) -> &'static str {
         match self {
@@ -64,7 +82,7 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<(), Failure> {
     let NewArguments { kind, output, force } = arguments;
     let default = PathBuf::from(kind.file_name());
     let path = output.as_ref().unwrap_or(&default);
-    if path.as_os_str() == "-" {
+    if file::is_standard(path) {
         return say(kind.content().trim_end());
     }
     file::refuse_existing(path, *force, "give -o, or replace it with --force")?;
@@ -76,7 +94,15 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<(), Failure> {
     say_written(format_args!("next: {} {}", kind.next(), path.display()))
 }
 
+/// Writes a file, and its schema beside it if none is there, which its first line names to editors.
 fn write(path: &Path, kind: Kind) -> Result<(), Failure> {
-    file::write(path, kind.content())?;
-    say_written(format_args!("{} written", path.display()))
+    let name = kind.schema_name();
+    file::write(path, format!("#:schema ./{name}\n{}", kind.content()))?;
+    say_written(format_args!("{} written", path.display()))?;
+    let schema = path.with_file_name(name);
+    if schema.exists() {
+        return Ok(());
+    }
+    file::write(&schema, kind.schema().text())?;
+    say_written(format_args!("{} written, by which editors check it", schema.display()))
 }

@@ -21,12 +21,12 @@ use crate::pages::picture::{self, Pictures};
 use crate::pages::strain_map::draw_strains;
 use crate::progress::RunProgress;
 use crate::say::{say, say_json, say_written};
-use crate::{file, signal};
+use crate::{file, input, signal};
 
 #[derive(Args)]
 pub(crate) struct RunArguments {
     /// Scenes, TOML files; they are run one after the other, and one that fails does not stop the
-    /// rest.
+    /// rest. - stands for standard input, whose paths are seen from the current folder.
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scenes: Vec<PathBuf>,
     /// Folder for the results, of several scenes with a folder for each [default: the folder that
@@ -61,10 +61,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut code = None;
     for scene in &arguments.scenes {
         if !arguments.json {
-            say(format_args!("{}:", scene.display()))?;
+            say(format_args!("{}:", input::shown(scene).display()))?;
         }
         let ended = run_scene(scene, arguments).and_then(|summary| {
-            summaries.push(json!({ "scene": scene, "summary": summary }));
+            summaries.push(json!({ "scene": input::shown(scene), "summary": summary }));
             outcome(summary)
         });
         if let Err(failure) = ended {
@@ -84,7 +84,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 /// Runs one scene, stores its results and says what came out; a run that fails has a summary too.
 fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> {
-    let mut scene = drape::read_scene(path).map_err(|error| refuse(error, path, arguments))?;
+    let read = drape::scene_of(&input::document(path)?);
+    let mut scene = read.map_err(|error| refuse(error, path, arguments))?;
     if let Some(end) = arguments.until {
         if !(end >= scene.schedule.clock.step) {
             let step = scene.schedule.clock.step;
@@ -143,7 +144,7 @@ fn notes(scene: &Scene) {
 
 /// Returns the folder for the results of a scene.
 fn folder(scene: &Path, arguments: &RunArguments, of_scene: Option<&PathBuf>) -> PathBuf {
-    let name = scene.file_stem().unwrap_or_default();
+    let name = input::named(scene).file_stem().unwrap_or_default();
     match (&arguments.output, &arguments.scenes[..]) {
         (Some(folder), [_]) => folder.clone(),
         (Some(folder), _) => folder.join(name),

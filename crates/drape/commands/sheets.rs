@@ -8,6 +8,7 @@ use drape::input::{Diagnostic, Diagnostics};
 use drape::kes::Sheet;
 
 use crate::failure::Failure;
+use crate::{file, input};
 
 /// Name of the file of a sheet in its folder.
 pub(crate) const SHEET_FILE: &str = "sheet.toml";
@@ -51,6 +52,7 @@ fn search(folder: &Path, depth: usize, found: &mut BTreeSet<PathBuf>) -> Result<
 
 /// Returns the name that the files of a sheet get: its folder's, or the file's.
 pub(crate) fn stem(sheet: &Path) -> String {
+    let sheet = input::named(sheet);
     let named = if sheet.file_name().is_some_and(|name| name == SHEET_FILE) {
         sheet.parent().filter(|folder| folder.file_name().is_some()).unwrap_or(sheet)
     } else {
@@ -66,8 +68,7 @@ pub(crate) fn of(path: &Path) -> Option<&Path> {
     if path.is_dir() {
         return path.join(SHEET_FILE).exists().then_some(path);
     }
-    let text = std::fs::read_to_string(path).ok()?;
-    let table: toml::Table = text.parse().ok()?;
+    let table: toml::Table = input::document(path).ok()?.text().parse().ok()?;
     // A fabric has its laws in these tables.
     let is_fabric = table.contains_key("density") || table.contains_key("shear");
     (!is_fabric).then_some(path)
@@ -75,8 +76,12 @@ pub(crate) fn of(path: &Path) -> Option<&Path> {
 
 /// Reads a sheet.
 pub(crate) fn read(path: &Path) -> Result<Sheet, Diagnostics> {
-    Sheet::read(path).map_err(|error| match error {
+    let sheet = match file::is_standard(path) {
+        true => Sheet::from_document(&input::document(path)?),
+        false => Sheet::read(path),
+    };
+    sheet.map_err(|error| match error {
         drape::kes::Error::Input(diagnostics) => diagnostics,
-        other => Diagnostic::new(path, other.to_string()).into(),
+        other => Diagnostic::new(input::shown(path), other.to_string()).into(),
     })
 }

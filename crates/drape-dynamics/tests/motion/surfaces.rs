@@ -145,7 +145,7 @@ fn a_start_that_crosses_is_refused() {
     let panel = format!("{FLAT}stack = {{ count = 2, step = [0, 0, 0], turn = [10, 20, 0] }}\n");
     let sheet = Sheet { side: 0.2, scene: scene.into(), panel, ..Sheet::default() };
     let message = sheet.try_scene().unwrap_err().to_string();
-    assert!(message.contains("surfaces cross in"), "{message}");
+    assert!(message.contains("surfaces cross at the start"), "{message}");
     let close = FLAT.to_owned() + "stack = { count = 2, step = [0, 1e-5, 0] }\n";
     let message = Sheet { panel: close, ..sheet }.try_scene().unwrap_err().to_string();
     assert!(message.contains("1.000e-5 m apart, where 1.400e-4 m is kept"), "{message}");

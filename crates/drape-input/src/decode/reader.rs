@@ -119,9 +119,19 @@ impl<'a> Reader<'a> {
     fn number<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
         match self.node.value {
             Value::Integer(number) => visitor.visit_f64(number as f64),
-            Value::Float(number) => visitor.visit_f64(number),
+            Value::Float(number) if number.is_finite() => visitor.visit_f64(number),
+            Value::Float(number) => {
+                self.infinite(number);
+                visitor.visit_f64(1.0)
+            }
             _ => self.stand_in(Kind::Number, |by| by.deserialize_f64(visitor)),
         }
+    }
+
+    /// Writes down that a number is infinite, or none.
+    fn infinite(&self, number: f64) {
+        let word = if number.is_nan() { "nan" } else { "inf" };
+        self.fault(format!("{word} is not a finite number"), "write a finite number".into());
     }
 
     fn whole<'de, V: Visitor<'de>>(
@@ -170,6 +180,10 @@ impl<'a> Reader<'a> {
         };
         let has_unit = text.trim().parse::<f64>().is_err();
         match parse_quantity(text, quantity) {
+            Ok(Written { number, .. }) if !number.is_finite() => {
+                self.infinite(number);
+                visitor.visit_f64(1.0)
+            }
             Ok(Written { number, unit }) if has_unit => {
                 visitor.visit_seq(SeqDeserializer::new([number, unit.factor].into_iter()))
             }

@@ -8,8 +8,8 @@ use crate::tables::layout::Column;
 use crate::test::Test;
 use drape_input::{Quantity, Unit, parse_unit};
 
-const DEFORMATION_KEYS: [&str; 5] = ["column", "unit", "gauge", "zero", "reversed"];
-const LOAD_KEYS: [&str; 4] = ["column", "unit", "width", "reversed"];
+pub(crate) const DEFORMATION_KEYS: [&str; 5] = ["column", "unit", "gauge", "zero", "reversed"];
+pub(crate) const LOAD_KEYS: [&str; 4] = ["column", "unit", "width", "reversed"];
 
 /// Zero of a length that gives a deformation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ impl Zero {
     }
 }
 
-const ZERO: Choice<'_, Zero> = Choice {
+pub(crate) const ZERO: Choice<'_, Zero> = Choice {
     key: "zero",
     values: &[Zero::Extension, Zero::Distance, Zero::Position],
     name: Zero::name,

@@ -22,7 +22,7 @@ use crate::tables::number::Decimal;
 use crate::tables::series::{Found, Request, Series, find};
 use crate::test::{Direction, Test};
 
-const CURVE_KEYS: [&str; 16] = [
+pub(crate) const CURVE_KEYS: [&str; 16] = [
     "name",
     "test",
     "direction",
@@ -41,16 +41,16 @@ const CURVE_KEYS: [&str; 16] = [
     "cycle",
 ];
 
-const TEST: Choice<'_, Test> = Choice {
+pub(crate) const TEST: Choice<'_, Test> = Choice {
     key: "test",
     values: &[Test::Tensile, Test::Shear, Test::Bending, Test::LoopBending],
     name: Test::name,
 };
-const DIRECTION: Choice<'_, Direction> =
+pub(crate) const DIRECTION: Choice<'_, Direction> =
     Choice { key: "direction", values: &[Direction::Warp, Direction::Weft], name: Direction::name };
-const SEPARATOR: Choice<'_, Separator> =
+pub(crate) const SEPARATOR: Choice<'_, Separator> =
     Choice { key: "separator", values: &Separator::ALL, name: Separator::name };
-const DECIMAL: Choice<'_, Decimal> =
+pub(crate) const DECIMAL: Choice<'_, Decimal> =
     Choice { key: "decimal", values: &Decimal::ALL, name: Decimal::name };
 
 /// What the sheet says of a curve.

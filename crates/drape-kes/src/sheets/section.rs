@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::sheets::findings::Findings;
 use crate::sheets::spelling;
+use crate::sheets::value_keys::KEYS;
 use crate::tables::layout::{Column, Take};
 use crate::test::Direction;
 use drape_input::{Quantity, Written, parse_quantity};
@@ -113,11 +114,15 @@ impl<'t> Section<'t> {
     }
 
     /// Reports every key that is neither in a list nor another spelling of a value in it, and every
-    /// value that is there twice.
+    /// value that is there twice. Only at the top of a sheet a key names a direction, of a value that
+    /// has one.
     pub(crate) fn allow_values(&self, keys: &[&str], findings: &mut Findings<'_>) {
         let mut seen: Vec<(spelling::Spelt, &str)> = Vec::new();
         for key in self.table.keys().map(|key| key.get_ref().as_ref()) {
-            let spelt = spelling::value(key).filter(|spelt| keys.contains(&spelt.key));
+            let spelt = spelling::value(key).filter(|spelt| {
+                let directed = self.path.is_empty() && KEYS.contains(&spelt.key);
+                keys.contains(&spelt.key) && (spelt.direction.is_none() || directed)
+            });
             if let Some(spelt) = spelt {
                 if self.get(key).is_some_and(|value| value.is_table()) {
                     let help =

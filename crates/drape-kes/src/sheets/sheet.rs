@@ -20,11 +20,12 @@ use drape_input::Quantity;
 /// Name of the sheet in a folder.
 const SHEET_FILE: &str = "sheet.toml";
 
-const SHEET_KEYS: [&str; 26] = [
+pub(crate) const SHEET_KEYS: [&str; 26] = [
     "name", "source", "model", "W", "T", "T0", "TM", "LC", "WC", "RC", "MIU", "MMD", "SMD", "FM",
     "B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM", "warp", "weft", "curve",
 ];
-const MODEL: Choice<'_, Model> = Choice { key: "model", values: &Model::ALL, name: Model::name };
+pub(crate) const MODEL: Choice<'_, Model> =
+    Choice { key: "model", values: &Model::ALL, name: Model::name };
 
 /// FM of the standard tensile test, in gf/cm; the "high sensitivity" test stops at 50.
 const STANDARD_MAXIMUM_TENSION: f64 = 500.0;
@@ -98,10 +99,18 @@ impl Sheet {
         } else {
             Document::read(path)?
         };
+        Self::from_document(&document)
+    }
+
+    /// Reads a sheet from a document; the curves that it names are in the folder of its path.
+    ///
+    /// # Errors
+    /// As for [`Sheet::read`].
+    pub fn from_document(document: &Document) -> Result<Self, Error> {
         // Decoding into a plain table reports mistakes of grammar as for every other file.
         document.decode::<toml::Table>()?;
         let table = DeTable::parse(document.text()).expect("the text has just been decoded");
-        let mut findings = Findings::new(&document);
+        let mut findings = Findings::new(document);
         let sheet = Self::check(&Section::root(table.get_ref()), &mut findings);
         Diagnostics::check(findings.errors)?;
         Ok(Self { warnings: findings.warnings, readings: findings.readings, ..sheet })

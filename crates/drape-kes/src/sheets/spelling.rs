@@ -61,6 +61,28 @@ pub(crate) fn value(written: &str) -> Option<Spelt> {
     Some(Spelt { key: key_of(start)?, direction: Some(direction) })
 }
 
+/// Directions by all of their names, as a regular expression.
+#[cfg(feature = "schema")]
+pub(crate) const DIRECTIONS: &str = "^([Ww][Aa][Rr][Pp]|[Ww][Ee][Ff][Tt]|[Ww][PpFf]|[Kk]ette|[Cc]ha[iî]ne|経|たて|\
+     [Ff]ill(ing)?|[Ss]chuss|[Tt]rame|緯|よこ)$";
+
+/// Returns the spellings of a key, as a regular expression; with a direction behind where it may have
+/// one.
+#[cfg(feature = "schema")]
+pub(crate) fn pattern(key: &str, directed: bool) -> String {
+    let others = OTHERS.iter().filter(|(_, own)| *own == key).map(|(other, _)| *other);
+    let letter = |letter: char| match letter.is_ascii_alphabetic() {
+        true => format!("[{}{}]", letter.to_ascii_uppercase(), letter.to_ascii_lowercase()),
+        false => letter.to_string(),
+    };
+    let between = "[-_ .·]*";
+    let spelt = |word: &str| word.chars().map(letter).collect::<Vec<_>>().join(between);
+    let all: Vec<String> = std::iter::once(key).chain(others).map(spelt).collect();
+    let direction = DIRECTIONS.trim_start_matches('^').trim_end_matches('$');
+    let direction = if directed { format!("([-_ .](1|2|{direction}))?") } else { String::new() };
+    format!("^({}){between}{direction}$", all.join("|"))
+}
+
 /// Returns the direction that a key names: warp, weft, and what else they are called.
 pub(crate) fn direction(written: &str) -> Option<Direction> {
     match written.to_lowercase().as_str() {

@@ -86,7 +86,7 @@ impl DirectedValues {
 }
 
 /// Values that have a direction.
-const KEYS: [&str; 12] =
+pub(crate) const KEYS: [&str; 12] =
     ["B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM", "MIU", "MMD", "SMD"];
 
 /// Places where a value of one direction may stand.

@@ -2,10 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use drape_input::{Diagnostic, Diagnostics, Document, closest, toml_key};
+use drape_input::{
+    Angle, Diagnostic, Diagnostics, Document, Given, Length, closest, figure, toml_key,
+};
 use serde::Deserialize;
 
 use crate::ease::DEFAULT_EASE;
+#[cfg(feature = "schema")]
+use crate::ease::MAX_EASE;
+use crate::length::Millimetres;
 use crate::mistake::{Mistake, Subject};
 use crate::pattern::{EdgeId, Pattern, Seam};
 
@@ -17,6 +22,7 @@ const WIDTH_MAX: f64 = 0.3;
 
 /// Seam as a file states it, with edges by their names.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SeamKeys {
     /// Edges of both sides, as `panel.edge`, in the order in which the seam runs.
@@ -25,13 +31,16 @@ pub struct SeamKeys {
     #[serde(default)]
     pub reversed: bool,
     /// Largest ratio of the lengths of the sides that is meant; 1.1 if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1.0, MAX_EASE)))]
     pub max_ease: Option<f64>,
     /// Angle between the sides of the sewn seam, towards their right sides, in degrees.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-ANGLE_MAX, ANGLE_MAX)))]
     #[serde(default)]
-    pub angle: f64,
+    pub angle: Given<Angle>,
     /// Width of the seam allowance on each side, in the unit of the file.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     #[serde(default)]
-    pub allowance: f64,
+    pub allowance: Given<Length>,
 }
 
 /// Place of a table with seams and panels in a file.
@@ -41,7 +50,7 @@ pub struct Place<'a> {
     pub document: &'a Document,
     /// Key of the table, with a dot at its end; empty at the top of the file.
     pub prefix: &'a str,
-    /// Unit of its lengths, in m.
+    /// Unit of its lengths, in m; NaN if it is not known.
     pub unit: f64,
 }
 
@@ -52,16 +61,22 @@ impl Place<'_> {
     }
 
     /// Returns the mistake of an angle of a fold or a seam, in degrees.
-    pub(crate) fn angle(&self, key: &str, angle: f64) -> Option<Diagnostic> {
-        let help = "degrees towards the right side of the cloth, from -140 to 140; 0 is flat";
-        (!(angle.abs() <= ANGLE_MAX)).then(|| self.at(key, format!("is {angle}"), help))
+    pub(crate) fn angle(&self, key: &str, angle: Given<Angle>) -> Option<Diagnostic> {
+        let angle = angle.value();
+        let message = || format!("{} is not between -140 and 140", figure(angle));
+        let help = "degrees towards the right side of the cloth; 0 is flat";
+        (!(angle.abs() <= ANGLE_MAX)).then(|| self.at(key, message(), help))
     }
 
     /// Returns the mistake of the width of an allowance or a hem.
-    pub(crate) fn width(&self, key: &str, width: f64) -> Option<Diagnostic> {
-        let right = (0.0..=WIDTH_MAX).contains(&(width * self.unit));
-        let help = "a length from 0 to 300 mm; 0 is none";
-        (!right).then(|| self.at(key, format!("is {width}"), help))
+    pub(crate) fn width(&self, key: &str, width: Given<Length>) -> Option<Diagnostic> {
+        let metres = width * self.unit;
+        // Without a unit nothing can be said.
+        let right = (0.0..=WIDTH_MAX).contains(&metres)
+            || self.unit.is_nan() && metres.is_nan() && !width.number().is_nan();
+        let message = || format!("{} is not between 0 and 300 mm", Millimetres(metres));
+        let help = "is the unit right? 0 is none";
+        (!right).then(|| self.at(key, message(), help))
     }
 }
 
@@ -79,9 +94,9 @@ pub(crate) fn seams(
     for (name, seam) in keys {
         let key = format!("seam.{}", toml_key(name));
         let sides = [0, 1].map(|side| {
-            let key = format!("{key}.sides[{side}]");
             let mut ids = Vec::new();
-            for word in &seam.sides[side] {
+            for (number, word) in seam.sides[side].iter().enumerate() {
+                let key = format!("{key}.sides[{side}][{number}]");
                 match edge(word, known) {
                     Ok(id) => ids.extend(id),
                     Err((message, help)) => mistakes.push(place.at(&key, message, &help)),
@@ -96,7 +111,7 @@ pub(crate) fn seams(
             sides,
             reversed: seam.reversed,
             max_ease: seam.max_ease.unwrap_or(DEFAULT_EASE),
-            angle: seam.angle.to_radians(),
+            angle: seam.angle.value().to_radians(),
             allowance: seam.allowance * place.unit,
         });
     }

@@ -26,7 +26,7 @@ mod panels;
 
 use std::collections::BTreeSet;
 
-use drape_input::{Diagnostic, Diagnostics, Document, closest};
+use drape_input::{Diagnostic, Diagnostics, Document, Faults, closest, excerpt, toml_key};
 
 use self::keys::{PanelKeys, PatternKeys};
 use self::panels::{Reader, key};
@@ -42,17 +42,23 @@ use crate::pattern::{EdgeId, Pattern, Seam};
 pub(crate) struct File<'a> {
     document: &'a Document,
     keys: PatternKeys,
+    /// Mistakes of spelling and type.
+    faults: Faults,
 }
 
-/// Decodes a document.
+/// Decodes a document in spite of mistakes of spelling and type, which the pattern answers for.
 pub(crate) fn decode(document: &Document) -> Result<File<'_>, Diagnostics> {
-    Ok(File { document, keys: document.decode()? })
+    let (keys, faults) = document.decode_with_faults()?;
+    Ok(File { document, keys, faults })
 }
 
 impl File<'_> {
     /// Returns the file that it adds to, if it names one, and how that is to be read.
     pub(crate) fn from(&self) -> Result<Option<Request>, Diagnostics> {
         let Some(from) = &self.keys.from else { return Ok(None) };
+        if self.faults.cover("from") {
+            return Err(Diagnostics(Vec::new()));
+        }
         let folder = self.document.path().parent().unwrap_or(std::path::Path::new(""));
         let path = folder.join(&from.file);
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
@@ -68,7 +74,8 @@ impl File<'_> {
             None => None,
             Some(Some(unit)) => Some(unit),
             Some(None) => {
-                let message = format!("is \"{}\"", from.unit.as_deref().unwrap_or_default());
+                let unit = excerpt(from.unit.as_deref().unwrap_or_default());
+                let message = format!("\"{unit}\" is not a unit");
                 return Err(self.document.at("from.unit", message).help(Unit::HELP).into());
             }
         };
@@ -103,32 +110,31 @@ impl File<'_> {
 
     /// Returns the pattern: its own panels and seams, and those of the pattern that it adds to.
     pub(crate) fn pattern(&self, base: Option<Pattern>) -> Result<Pattern, Diagnostics> {
-        let Self { document, keys } = self;
-        let mut reader = Reader { document, mistakes: vec![], notes: vec![], metres: f64::NAN };
-        let unit = keys.length.as_deref().unwrap_or_default();
-        match Unit::parse(unit).filter(Unit::is_of_files) {
-            Some(unit) => reader.metres = unit.metres(),
-            None => {
-                let help = "set length = \"mm\", \"cm\", \"m\" or \"in\", the unit of all lengths";
-                reader.fail("length", format!("the unit is {unit:?}"), help);
-            }
-        }
-        if keys.panel.is_empty() && base.is_none() {
+        let Self { document, keys, faults } = self;
+        let mut reader = Reader::new(document, faults);
+        reader.read_unit(keys);
+        if keys.panel.is_empty() && base.is_none() && !faults.cover("panel") {
             let help = "add [panel.front] with start and outline, rectangle, or path";
             let message = "the pattern has no panel";
             reader.mistakes.push(Diagnostic::new(document.path(), message).help(help));
         }
         // Without a unit the sizes cannot be checked.
         if reader.metres.is_nan() {
-            let known = keys.panel.keys().map(|name| (name.as_str(), None)).collect();
-            if let Err(more) = seams(&reader.place(), &keys.seam, &known) {
-                reader.mistakes.extend(more);
-            }
-            return Err(sorted(reader.mistakes));
+            return Err(reader.loose(keys, base.as_ref()));
         }
         let entries = entries(keys, base.as_ref());
         let panels = reader.all(&entries, base.as_ref());
         reader.pattern(keys, base.as_ref(), &panels)
+    }
+
+    /// Returns the mistakes of the file that do not depend on the pattern that it adds to, which has
+    /// mistakes itself.
+    pub(crate) fn without_base(&self, mistakes: Diagnostics) -> Diagnostics {
+        let mut reader = Reader::new(self.document, &self.faults);
+        reader.read_unit(&self.keys);
+        reader.mistakes.extend(mistakes.0);
+        self.keys.panel.iter().for_each(|(name, keys)| reader.check_loose(name, keys));
+        reader.finish()
     }
 }
 
@@ -151,6 +157,49 @@ fn entries<'a>(keys: &'a PatternKeys, base: Option<&'a Pattern>) -> Vec<Entry<'a
 type Made<'a> = Vec<(&'a str, Option<Panel>)>;
 
 impl Reader<'_> {
+    /// Reads the unit of lengths.
+    fn read_unit(&mut self, keys: &PatternKeys) {
+        let help =
+            "\"mm\", \"cm\", \"m\" or \"in\", the unit of all lengths that have none of their own";
+        match &keys.length {
+            Some(word) => match Unit::parse(word).filter(Unit::is_of_files) {
+                Some(unit) => self.metres = unit.metres(),
+                None => {
+                    let message = format!("\"{}\" is not a unit of patterns", excerpt(word));
+                    self.fail("length", message, format!("write {help}"));
+                }
+            },
+            None => self.fail("length", "is missing", format!("add length = {help}")),
+        }
+    }
+
+    /// Returns the mistakes of a file whose unit is not known.
+    fn loose(mut self, keys: &PatternKeys, base: Option<&Pattern>) -> Diagnostics {
+        keys.panel.iter().for_each(|(name, keys)| self.check_loose(name, keys));
+        let given = base.map_or(&[][..], Pattern::panels).iter().map(Panel::name);
+        let names = given.chain(keys.panel.keys().map(String::as_str));
+        let known = names.map(|name| (name, None)).collect();
+        self.seams(keys, &known);
+        self.finish()
+    }
+
+    /// Returns the seams of the file, without those that could not be read.
+    fn seams(&mut self, keys: &PatternKeys, known: &Known<'_>) -> Vec<Seam> {
+        let mut own = keys.seam.clone();
+        own.retain(|name, _| !self.faults.cover(&format!("seam.{}", toml_key(name))));
+        seams(&self.place(), &own, known).unwrap_or_else(|more| {
+            self.mistakes.extend(more);
+            Vec::new()
+        })
+    }
+
+    /// Returns all mistakes in the order of the text.
+    fn finish(self) -> Diagnostics {
+        let mut mistakes = self.mistakes;
+        mistakes.extend(self.faults.clone().into_mistakes());
+        sorted(mistakes)
+    }
+
     /// Returns all panels of the pattern but those that are left out.
     fn all<'e>(&mut self, entries: &[Entry<'e>], base: Option<&Pattern>) -> Made<'e> {
         let mut made: Made<'e> = Vec::new();
@@ -163,6 +212,11 @@ impl Reader<'_> {
                 continue;
             };
             let copy = keys.copy_of.is_some();
+            if self.is_shapeless(name, keys) {
+                self.check_loose(name, keys);
+                made.push((name, None));
+                continue;
+            }
             if keys.omit || (copy && !keys.has_shape()) {
                 continue;
             }
@@ -198,6 +252,7 @@ impl Reader<'_> {
                 entry.keys.and_then(|keys| Some((keys, keys.copy_of.as_ref()?)))
                 && !keys.omit
                 && !keys.has_shape()
+                && !self.is_shapeless(entry.name, keys)
             {
                 let panel = self.copy(entry.name, keys, (of, &made));
                 made.push((entry.name, panel));
@@ -254,11 +309,7 @@ impl Reader<'_> {
                 (*name, panel.as_ref().map(edges))
             })
             .collect();
-        let added = seams(&self.place(), &keys.seam, &known);
-        let added = added.unwrap_or_else(|more| {
-            self.mistakes.extend(more);
-            Vec::new()
-        });
+        let added = self.seams(keys, &known);
         let given = base.map(|base| self.kept(base, panels)).unwrap_or_default();
         if let Some(base) = base {
             let own =
@@ -275,8 +326,8 @@ impl Reader<'_> {
                 }
             }
         }
-        if !self.mistakes.is_empty() {
-            return Err(sorted(self.mistakes));
+        if !(self.mistakes.is_empty() && self.faults.is_empty()) {
+            return Err(self.finish());
         }
         let panels = panels.iter().filter_map(|(_, panel)| panel.clone()).collect();
         match Pattern::new(panels, merged(given, added)) {

@@ -120,12 +120,16 @@ fn changed(
         let Some(grain) = entry.panel.get(&name).and_then(|own| own.grain) else { continue };
         let key = format!("{key}.panel.{}.grain", toml_key(&name));
         let help = "degrees from the panel's y axis to its warp, anticlockwise";
+        let grain = grain.value();
         if checker.within(&key, grain, -180.0..=180.0, help) {
             pattern = pattern.with_grain(number, grain.to_radians()).ok()?;
         }
     }
     if entry.seam.is_empty() {
         return Some(pattern);
+    }
+    if !checker.is_sound(&format!("{key}.seam")) {
+        return None;
     }
     let prefix = format!("{key}.");
     let place = Place { document: checker.document(), prefix: &prefix, unit: checker.unit };

@@ -8,18 +8,24 @@ use serde::Deserialize;
 
 use crate::file::motion::MotionFile;
 
+/// Bodies, by their shapes.
 #[derive(Debug, Default, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ColliderFile {
+    /// Spheres.
     #[serde(default)]
     pub(crate) sphere: Vec<SphereFile>,
+    /// Boxes.
     #[serde(default, rename = "box")]
     pub(crate) boxes: Vec<BoxFile>,
+    /// Cylinders, upright until they are turned.
     #[serde(default)]
     pub(crate) cylinder: Vec<CylinderFile>,
+    /// Planes, level until they are turned.
     #[serde(default)]
     pub(crate) plane: Vec<PlaneFile>,
+    /// Meshes of files.
     #[serde(default)]
     pub(crate) mesh: Vec<MeshBodyFile>,
 }
@@ -35,84 +41,133 @@ pub(crate) struct CommonFile<'a> {
     pub(crate) motion: Option<&'a MotionFile>,
 }
 
+/// Sphere.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SphereFile {
+    /// Name, for messages and measures.
     name: Option<String>,
+    /// Radius.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) radius: Given<Length>,
+    /// Place of its middle.
     #[serde(default)]
     center: [Given<Length>; 3],
+    /// Coefficient of its friction with cloth; that of the fabric if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
+    /// Motion along keys; at rest if missing.
     motion: Option<MotionFile>,
 }
 
+/// Box.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BoxFile {
+    /// Name, for messages and measures.
     name: Option<String>,
     /// Lengths of the sides.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) size: [Given<Length>; 3],
+    /// Radius of its rounded edges.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     #[serde(default)]
     pub(crate) edge_radius: Given<Length>,
+    /// Place of its middle.
     #[serde(default)]
     center: [Given<Length>; 3],
+    /// Rotations about x, y and z, one after the other, in degrees.
     #[serde(default)]
     turn: [Given<Angle>; 3],
+    /// Coefficient of its friction with cloth; that of the fabric if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
+    /// Motion along keys; at rest if missing.
     motion: Option<MotionFile>,
 }
 
+/// Cylinder.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CylinderFile {
+    /// Name, for messages and measures.
     name: Option<String>,
+    /// Radius.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) radius: Given<Length>,
+    /// Height.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) height: Given<Length>,
+    /// Radius of its rounded edges.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     #[serde(default)]
     pub(crate) edge_radius: Given<Length>,
+    /// Place of its middle.
     #[serde(default)]
     center: [Given<Length>; 3],
+    /// Rotations about x, y and z, one after the other, in degrees.
     #[serde(default)]
     turn: [Given<Angle>; 3],
+    /// Coefficient of its friction with cloth; that of the fabric if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
+    /// Motion along keys; at rest if missing.
     motion: Option<MotionFile>,
 }
 
+/// Plane.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaneFile {
+    /// Name, for messages and measures.
     name: Option<String>,
+    /// Point of the plane.
     #[serde(default)]
     center: [Given<Length>; 3],
+    /// Rotations about x, y and z, one after the other, in degrees.
     #[serde(default)]
     turn: [Given<Angle>; 3],
+    /// Coefficient of its friction with cloth; that of the fabric if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
+    /// Motion along keys; at rest if missing.
     motion: Option<MotionFile>,
 }
 
+/// Body whose surface is in a file.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MeshBodyFile {
+    /// Name, for messages and measures.
     name: Option<String>,
+    /// Mesh, OBJ, STL or PLY, relative to the folder of the scene.
     pub(crate) file: String,
-    /// Unit of the file's coordinates, in m.
+    /// Length of a unit of the file, in m.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-6, 1e3)))]
     pub(crate) scale: Option<Given<Length>>,
+    /// Shift of its vertices.
     #[serde(default)]
     center: [Given<Length>; 3],
+    /// Rotations about x, y and z, one after the other, in degrees.
     #[serde(default)]
     turn: [Given<Angle>; 3],
+    /// Coefficient of its friction with cloth; that of the fabric if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
+    /// Motion along keys, or a file of shapes; at rest if missing.
     motion: Option<TextOr<MotionFile>>,
     /// Mesh files, with a * for the number of the frame.
     pub(crate) frames: Option<String>,
     /// Frames per second.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-3, 1e5)))]
     pub(crate) rate: Option<f64>,
     /// Time at which the first frame is left, in s.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1e6)))]
     pub(crate) start: Option<Given<Time>>,
 }
 

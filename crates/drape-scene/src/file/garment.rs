@@ -16,14 +16,18 @@ pub(crate) struct GarmentFile {
     /// Name, which its panels have before theirs: `NAME.PANEL`; they keep the names of the pattern
     /// if missing.
     pub(crate) name: Option<String>,
+    /// Pattern, relative to the folder of the scene.
     pub(crate) pattern: String,
     /// Fabric of the panels that name none.
     pub(crate) fabric: String,
+    /// Distance between its particles; that of the scene if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) spacing: Option<Given<Length>>,
     /// Shift of all panels.
     #[serde(default)]
     pub(crate) center: [Given<Length>; 3],
     /// Layer in which it is worn; 0 if missing, which is next to the body.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     pub(crate) layer: Option<i64>,
     /// Random heights over the panels.
     pub(crate) noise: Option<NoiseFile>,
@@ -35,31 +39,39 @@ pub(crate) struct GarmentFile {
     pub(crate) seam: BTreeMap<String, SeamKeys>,
 }
 
+/// Keys of one panel of a garment.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentPanelFile {
+    /// Fabric; that of the garment if missing.
     pub(crate) fabric: Option<String>,
     /// Angle from the panel's y axis to its warp, anticlockwise, in degrees; that of the pattern if
     /// missing.
-    pub(crate) grain: Option<f64>,
-    /// Origin of the panel's frame, and its rotations about x, y and z in degrees; those of the
-    /// pattern if both are missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-180.0, 180.0)))]
+    pub(crate) grain: Option<Given<Angle>>,
+    /// Origin of the panel's frame; that of the pattern if `center` and `turn` are missing.
     pub(crate) center: Option<[Given<Length>; 3]>,
+    /// Rotations about x, y and z, one after the other, in degrees.
     pub(crate) turn: Option<[Given<Angle>; 3]>,
     /// Radius of the cylinder that it is bent to; that of the pattern if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) wrap: Option<Given<Length>>,
     /// Layer in which it is worn; that of its garment if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     pub(crate) layer: Option<i64>,
 }
 
+/// Sewing of the garments.
 #[derive(Debug, Default, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SewFile {
     /// Time until the seams are to be closed.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-3, 1e3)))]
     pub(crate) seconds: Option<Given<Time>>,
     /// Bending stiffness of a seam over that of the fabric.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1e3)))]
     pub(crate) stiffness: Option<f64>,
     /// Names of seams that are twisted or reversed on purpose.
     #[serde(default)]

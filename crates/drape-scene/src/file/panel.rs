@@ -3,23 +3,33 @@
 use drape_input::{Angle, AngularSpeed, Given, Length, Speed};
 use serde::Deserialize;
 
+/// Piece of cloth: a rectangle or a disc.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = drape_input::one_of("rectangle", "disc")))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PanelFile {
+    /// Name, by which pins and measures know it.
     pub(crate) name: String,
+    /// Name of its fabric.
     pub(crate) fabric: String,
-    /// Width × height: weft × warp where no grain is given.
+    /// Width × height of a rectangle: weft × warp where no grain is given.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) rectangle: Option<[Given<Length>; 2]>,
-    /// Diameter.
+    /// Diameter of a disc.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) disc: Option<Given<Length>>,
     /// Diameter of the hole in a disc's middle.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) hole: Option<Given<Length>>,
     /// Angle from the panel's height to its warp, anticlockwise, in degrees.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-180.0, 180.0)))]
     #[serde(default)]
     pub(crate) grain: Given<Angle>,
     /// Position of a particle from the middle, weft × warp; a particle is in the middle if missing.
     pub(crate) grid: Option<[Given<Length>; 2]>,
+    /// Distance between its particles; that of the scene if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) spacing: Option<Given<Length>>,
     /// Position of the middle of the panel.
     #[serde(default)]
@@ -27,13 +37,16 @@ pub(crate) struct PanelFile {
     /// Rotations about the x, y and z axes, one after the other, in degrees.
     #[serde(default)]
     pub(crate) turn: [Given<Angle>; 3],
-    /// Velocity of its middle at the start, per second.
+    /// Velocity of its middle at the start, in the unit of the file per second.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-1e5, 1e5)))]
     #[serde(default)]
     pub(crate) velocity: [Given<Speed>; 3],
     /// Angular velocity about the world's axes through its middle, in degrees/s.
     #[serde(default)]
     pub(crate) spin: [Given<AngularSpeed>; 3],
+    /// Waves over the panel at the start.
     pub(crate) ripple: Option<RippleFile>,
+    /// Random heights over the panel at the start.
     pub(crate) noise: Option<NoiseFile>,
     /// Further panels like this one.
     pub(crate) stack: Option<StackFile>,
@@ -42,22 +55,26 @@ pub(crate) struct PanelFile {
     pub(crate) fold: Vec<FoldFile>,
 }
 
+/// Line along which a panel is folded at rest.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FoldFile {
-    /// Its ends, positions on the panel as for a pin.
+    /// One end, a position on the panel as for a pin.
     pub(crate) from: [Given<Length>; 2],
+    /// The other end.
     pub(crate) to: [Given<Length>; 2],
     /// Angle by which the panel is turned towards its right side, in degrees.
     pub(crate) angle: Given<Angle>,
 }
 
+/// Panels like another one, in a row.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StackFile {
     /// Number of panels in all; they are called NAME 2, NAME 3 and so on.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(1.0)))]
     pub(crate) count: usize,
     /// Vector from the middle of each to that of the next.
     pub(crate) step: [Given<Length>; 3],
@@ -66,20 +83,30 @@ pub(crate) struct StackFile {
     pub(crate) turn: [Given<Angle>; 3],
 }
 
+/// Waves over a panel at the start.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RippleFile {
+    /// Height of the waves.
     pub(crate) amplitude: Given<Length>,
+    /// Length of the waves.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) wavelength: Given<Length>,
 }
 
+/// Random heights over a panel at the start.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NoiseFile {
+    /// Largest height.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     pub(crate) amplitude: Given<Length>,
+    /// Length over which heights change.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) length: Option<Given<Length>>,
+    /// Number that chooses the heights.
     #[serde(default)]
     pub(crate) seed: u64,
 }

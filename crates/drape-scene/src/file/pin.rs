@@ -5,25 +5,33 @@ use serde::Deserialize;
 
 use crate::file::motion::MotionFile;
 
+/// Particles of a panel that are held.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(extend("anyOf" = [{ "required": ["points"] }, { "required": ["edge"] }])))]
+#[cfg_attr(feature = "schema", schemars(extend("dependentRequired" = { "rows": ["edge"] })))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PinFile {
+    /// Name of the panel.
     pub(crate) panel: String,
     /// Positions on the panel, width × height from its lower left corner (a disc's middle).
     #[serde(default)]
     pub(crate) points: Vec<[Given<Length>; 2]>,
     /// Distance from the points within which particles are held; without it, the nearest to each.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     pub(crate) radius: Option<Given<Length>>,
     /// `top`, `bottom`, `left` or `right`; of a panel of a garment, one of its edges.
     pub(crate) edge: Option<String>,
     /// Rows that an edge holds: all within so many spacings less a half.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(1.0)))]
     pub(crate) rows: Option<usize>,
     /// Time at which it lets go, in s; never if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1e5)))]
     pub(crate) release: Option<Given<Time>>,
     /// `x`, `y` and `z`: the directions in which it holds; all of them if missing.
+    #[cfg_attr(feature = "schema", schemars(extend("items" = { "enum": ["x", "y", "z"] })))]
     pub(crate) axes: Option<Vec<String>>,
-    /// `sewn`: it lets go when the garment is sewn; `rest`: when the cloth has come to rest.
+    /// Until when it holds: `end`, of the run; `sewn`, until the garment is sewn; `rest`, until the cloth has come to rest.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["end", "sewn", "rest"])))]
     pub(crate) until: Option<String>,
     /// Motion of its particles; they stay where they are if missing.

@@ -4,38 +4,43 @@ use std::fmt::Write;
 use std::path::Path;
 
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
-use drape::input::{Diagnostic, Diagnostics, Document};
+use drape::input::{Diagnostic, Diagnostics};
+use drape::pattern::Pattern;
 use drape::scene::{Error, Scene, is_fabric};
 
 use super::pattern::CutOut;
 use crate::commands::sheets;
+use crate::{file, input};
 
 /// Reads a file and describes it, in SI; a pattern as it is cut at a spacing, in m.
-pub(crate) fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics> {
-    if file.is_dir() {
-        return sheet(file);
+pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics> {
+    if path.is_dir() {
+        return sheet(path);
     }
-    if drape::pattern::Pattern::is_drawing(file) {
-        return Ok(CutOut::read(file, spacing)?.describe());
+    if Pattern::is_drawing(path) {
+        return Ok(CutOut::read(path, spacing)?.describe());
     }
-    let document = Document::read(file)?;
+    let document = input::document(path)?;
+    if Pattern::is_drawing_text(&document) && file::is_standard(path) {
+        return Ok(CutOut::read(path, spacing)?.describe());
+    }
     let table: toml::Table = document.decode()?;
     let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
     // The panels of a pattern have names, those of a scene are in a row.
     if matches!(table.get("panel"), Some(toml::Value::Table(_))) || has(&["from"]) {
-        return Ok(CutOut::read(file, spacing)?.describe());
+        return Ok(CutOut::read(path, spacing)?.describe());
     }
     if has(&["panel", "garment", "time", "collider"]) {
-        let read = drape::read_scene(file).map_err(|error| match error {
+        let read = drape::scene_of(&document).map_err(|error| match error {
             Error::Input(mistakes) => mistakes,
             Error::Tangled(tangle) => tangle.mistakes,
-            other => Diagnostic::new(file, other.to_string()).into(),
+            other => Diagnostic::new(document.path(), other.to_string()).into(),
         });
         Ok(scene(&read?))
     } else if is_fabric(&document) {
         Ok(fabric(&Fabric::from_document(&document)?))
     } else {
-        sheet(file)
+        sheet(path)
     }
 }
 

@@ -6,6 +6,8 @@ use std::path::Path;
 use drape::input::{Diagnostic, Diagnostics};
 use drape::pattern::{CutPattern, Cutter, Error, Pattern, Quality, figure};
 
+use crate::{file, input};
+
 /// A pattern with its panels cut.
 pub(crate) struct CutOut {
     pattern: Pattern,
@@ -15,17 +17,21 @@ pub(crate) struct CutOut {
 impl CutOut {
     /// Reads a pattern and cuts it at a spacing, in m.
     pub(crate) fn read(path: &Path, spacing: f64) -> Result<Self, Diagnostics> {
+        let shown = input::shown(path);
         let mistakes = |error: Error| match error {
             Error::Input(mistakes) => mistakes,
             Error::Pattern(mistakes) => Diagnostics(
                 mistakes
                     .iter()
-                    .map(|mistake| Diagnostic::new(path, mistake.to_string()).help(mistake.help()))
+                    .map(|mistake| Diagnostic::new(shown, mistake.to_string()).help(mistake.help()))
                     .collect(),
             ),
-            other => Diagnostic::new(path, other.to_string()).into(),
+            other => Diagnostic::new(shown, other.to_string()).into(),
         };
-        let pattern = Pattern::read(path).map_err(mistakes)?;
+        let pattern = match file::is_standard(path) {
+            true => Pattern::parse(&input::document(path)?)?,
+            false => Pattern::read(path).map_err(mistakes)?,
+        };
         let cut = Cutter::new(spacing).cut(&pattern).map_err(mistakes)?;
         Ok(Self { pattern, cut })
     }

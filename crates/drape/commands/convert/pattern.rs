@@ -7,18 +7,21 @@ use drape::pattern::{Error, Paper, Pattern, Request, Unit};
 
 use super::arguments::ConvertArguments;
 use crate::failure::Failure;
-use crate::file;
 use crate::say::say;
+use crate::{file, input};
 
 /// Converts a pattern and says what is not in the result, or was taken for it.
 pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {
     let form = Form::new(arguments)?;
     let request =
         Request { path: from.into(), unit: unit(arguments)?, size: arguments.size.clone() };
-    let pattern = Pattern::read_as(&request).map_err(|error| match error {
-        Error::Input(mistakes) => Failure::Input(mistakes),
-        other => Failure::Input(Diagnostics::from(Diagnostic::new(from, other.to_string()))),
-    })?;
+    let pattern = match file::is_standard(from) {
+        true => Pattern::parse_as(&input::document(from)?, &request)?,
+        false => Pattern::read_as(&request).map_err(|error| match error {
+            Error::Input(mistakes) => Failure::Input(mistakes),
+            other => Failure::Input(Diagnostics::from(Diagnostic::new(from, other.to_string()))),
+        })?,
+    };
     let files = form.files(from, &pattern);
     if let Form::Text(None) = form {
         notes(&pattern);
@@ -60,7 +63,7 @@ struct Written {
 impl Form {
     /// Returns what the arguments ask for.
     fn new(arguments: &ConvertArguments) -> Result<Self, Failure> {
-        let output = arguments.output.as_ref().filter(|path| *path != Path::new("-"));
+        let output = arguments.output.as_ref().filter(|path| !file::is_standard(path));
         let ending = output.and_then(|path| path.extension()).map(|e| e.to_ascii_lowercase());
         let drawing = ending.as_ref().is_some_and(|ending| ending == "svg");
         let Some(path) = output.filter(|_| drawing) else {
@@ -96,7 +99,11 @@ impl Form {
     fn files(&self, from: &Path, pattern: &Pattern) -> Vec<Written> {
         match self {
             Self::Text(path) => {
-                let name = from.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                let name = input::shown(from)
+                    .file_name()
+                    .unwrap_or_default()
+                    .to_string_lossy()
+                    .into_owned();
                 let heading = format!(
                     "Pattern converted from {name} by drape {}. Lengths are in mm, angles in degrees.",
                     env!("CARGO_PKG_VERSION")

@@ -7,7 +7,8 @@ use drape::fit::{FrictionOrder, Intervals, LoopModel, Settings, TractionModel};
 
 #[derive(Args)]
 pub(crate) struct FitArguments {
-    /// Sheets, TOML files, or folders: one with a sheet.toml, or one with such folders inside.
+    /// Sheets, TOML files, or folders: one with a sheet.toml, or one with such folders inside; - for
+    /// standard input.
     #[arg(required = true, value_name = "SHEET")]
     pub(crate) sheets: Vec<PathBuf>,
     /// The fabric to write, - for stdout, or the folder for several [default: fabric.toml beside

@@ -2,54 +2,89 @@
 
 use std::collections::BTreeMap;
 
+use drape_input::{Angle, Given, Length};
 use serde::Deserialize;
 
 use crate::read::seams::SeamKeys;
 
+/// Two lengths, along x and y of a panel.
+type Point = [Given<Length>; 2];
+
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PatternKeys {
+    /// Unit of all lengths of the file that stand without one: `mm`, `cm`, `m` or `in`.
+    #[cfg_attr(feature = "schema", schemars(required, extend("enum" = ["mm", "cm", "m", "in"])))]
     pub(crate) length: Option<String>,
+    /// Pattern of another format that the file adds to.
     pub(crate) from: Option<FromKeys>,
+    /// Panels by their names.
     #[serde(default)]
     pub(crate) panel: BTreeMap<String, PanelKeys>,
+    /// Seams by their names.
     #[serde(default)]
     pub(crate) seam: BTreeMap<String, SeamKeys>,
 }
 
 /// Pattern of another format that the file adds to.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FromKeys {
+    /// Its file, relative to the folder of this one.
     pub(crate) file: String,
+    /// Unit of a drawing that states none.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["mm", "cm", "m", "in", "pt", "px"])))]
     pub(crate) unit: Option<String>,
+    /// Size of a graded drawing.
     pub(crate) size: Option<String>,
 }
 
+/// Panel: one shape, and how it lies.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PanelKeys {
-    pub(crate) start: Option<[f64; 2]>,
+    /// Point where the first edge of the outline begins.
+    pub(crate) start: Option<Point>,
+    /// Edges, anticlockwise as seen from the right side of the cloth.
     pub(crate) outline: Option<Vec<EdgeKeys>>,
-    pub(crate) rectangle: Option<[f64; 2]>,
+    /// Width and height of a rectangle, with the edges bottom, right, top and left.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
+    pub(crate) rectangle: Option<Point>,
+    /// Outline as path data of SVG.
     pub(crate) path: Option<String>,
+    /// Names of the edges of a path or a rectangle.
     pub(crate) edges: Option<Vec<String>>,
+    /// Name of the panel that this one is a copy of.
     pub(crate) copy_of: Option<String>,
+    /// Whether the copy is mirrored.
     #[serde(default)]
     pub(crate) mirrored: bool,
+    /// Whether the panel of the other file is left out.
     #[serde(default)]
     pub(crate) omit: bool,
     /// Shift of the outline and the folds in the panel's frame.
-    pub(crate) shift: Option<[f64; 2]>,
+    pub(crate) shift: Option<Point>,
+    /// Edges that are split, each with the ascending distances from its start.
     #[serde(default)]
-    pub(crate) split: BTreeMap<String, Vec<f64>>,
+    pub(crate) split: BTreeMap<String, Vec<Given<Length>>>,
+    /// Widths of hems, by the names of edges.
     #[serde(default)]
-    pub(crate) hems: BTreeMap<String, f64>,
+    pub(crate) hems: BTreeMap<String, Given<Length>>,
+    /// Fabric; that of the garment if missing.
     pub(crate) fabric: Option<String>,
-    pub(crate) grain: Option<f64>,
-    pub(crate) origin: Option<[f64; 3]>,
-    pub(crate) turn: Option<[f64; 3]>,
-    pub(crate) wrap: Option<f64>,
+    /// Angle from the panel's y axis to its warp, anticlockwise, in degrees.
+    pub(crate) grain: Option<Given<Angle>>,
+    /// Place of the panel's point (0, 0) in the scene.
+    pub(crate) origin: Option<[Given<Length>; 3]>,
+    /// Rotations about x, y and z, one after the other, in degrees.
+    pub(crate) turn: Option<[Given<Angle>; 3]>,
+    /// Radius of the cylinder that the panel is bent to; flat if missing.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
+    pub(crate) wrap: Option<Given<Length>>,
+    /// Lines along which the panel is folded.
     #[serde(default)]
     pub(crate) fold: Vec<FoldKeys>,
 }
@@ -64,26 +99,52 @@ impl PanelKeys {
     }
 }
 
+/// Line along which a panel is folded.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FoldKeys {
-    pub(crate) from: [f64; 2],
-    pub(crate) to: [f64; 2],
-    pub(crate) angle: f64,
+    /// One end of the line.
+    pub(crate) from: Point,
+    /// The other end.
+    pub(crate) to: Point,
+    /// Angle towards the right side of the cloth, in degrees; 0 is flat.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-140.0, 140.0)))]
+    pub(crate) angle: Given<Angle>,
 }
 
+/// Edge of an outline: a line, or one kind of curve.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct EdgeKeys {
+    /// Name, by which seams and hems know it; its number from 1 if missing.
     pub(crate) name: Option<String>,
-    pub(crate) to: [f64; 2],
-    pub(crate) quadratic: Option<[f64; 2]>,
-    pub(crate) cubic: Option<[[f64; 2]; 2]>,
-    pub(crate) radius: Option<f64>,
+    /// Point where it ends.
+    pub(crate) to: Point,
+    /// Control point of a quadratic Bézier curve.
+    pub(crate) quadratic: Option<Point>,
+    /// Control points of a cubic Bézier curve.
+    pub(crate) cubic: Option<[Point; 2]>,
+    /// Radius of an arc; one that turns to the right is negative.
+    pub(crate) radius: Option<Given<Length>>,
+    /// Whether the arc is the larger of the two.
     #[serde(default)]
     pub(crate) large: bool,
+    /// Width of its hem.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     #[serde(default)]
-    pub(crate) hem: f64,
+    pub(crate) hem: Given<Length>,
+    /// Distances of notches from its start.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     #[serde(default)]
-    pub(crate) notches: Vec<f64>,
+    pub(crate) notches: Vec<Given<Length>>,
+}
+
+/// Returns the JSON Schema of patterns.
+#[cfg(feature = "schema")]
+#[must_use]
+pub fn pattern_schema() -> serde_json::Value {
+    let about = "Garment pattern of drape: panels, and the seams between them.";
+    drape_input::schema_of::<PatternKeys>("Pattern of drape", about, serde_json::Map::new())
 }

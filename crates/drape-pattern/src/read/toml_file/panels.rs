@@ -1,10 +1,11 @@
 //! Panels of a pattern in the project's own format: a shape of their own, or changes of another
 //! panel.
 
-use drape_input::{Diagnostic, Document, closest, toml_key};
+use drape_input::{Diagnostic, Document, Faults, Given, Length, closest, figures, toml_key};
 
 use super::keys::{EdgeKeys, FoldKeys, PanelKeys};
 use crate::edge::{Curve, Edge};
+use crate::length::Millimetres;
 use crate::mistake::Mistake;
 use crate::note::Note;
 use crate::panel::{Fold, Panel};
@@ -16,21 +17,84 @@ use crate::read::svg_path;
 /// Reader of the panels of one document, with the mistakes and notes so far.
 pub(crate) struct Reader<'a> {
     pub(crate) document: &'a Document,
+    /// Mistakes of spelling and type, and what they leave unknown.
+    pub(crate) faults: &'a Faults,
     pub(crate) mistakes: Vec<Diagnostic>,
     pub(crate) notes: Vec<Note>,
-    /// Unit of lengths of the file, in m.
+    /// Unit of lengths of the file, in m; NaN if it is not known.
     pub(crate) metres: f64,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    /// Creates the reader of a document with faults, before its unit is known.
+    pub(crate) fn new(document: &'a Document, faults: &'a Faults) -> Self {
+        Self { document, faults, mistakes: Vec::new(), notes: Vec::new(), metres: f64::NAN }
+    }
+
     /// Place of the tables of the file.
-    pub(crate) fn place(&self) -> Place<'_> {
+    pub(crate) fn place(&self) -> Place<'a> {
         Place { document: self.document, prefix: "", unit: self.metres }
     }
 
-    /// Adds a mistake at a key.
+    /// Adds a mistake at a key. Of a value that could not be read nothing more is said.
     pub(crate) fn fail(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
-        self.mistakes.push(self.document.at(key, message).help(help));
+        if !self.faults.cover(key) {
+            self.mistakes.push(self.document.at(key, message).help(help));
+        }
+    }
+
+    /// Returns whether the outline of a panel depends on values that could not be read.
+    pub(crate) fn is_shapeless(&self, name: &str, keys: &PanelKeys) -> bool {
+        const OF_SHAPES: [&str; 8] =
+            ["start", "rectangle", "path", "edges", "copy_of", "mirrored", "shift", "split"];
+        const OF_EDGES: [&str; 6] = ["name", "to", "quadratic", "cubic", "radius", "large"];
+        if self.faults.is_empty() {
+            return false;
+        }
+        let key = key(name);
+        let unknown = |path: &str| self.faults.cover(&format!("{key}.{path}"));
+        let edges = keys.outline.as_ref().map(Vec::len);
+        OF_SHAPES.into_iter().any(unknown)
+            || edges.is_none() && unknown("outline")
+            || (0..edges.unwrap_or(0)).any(|index| {
+                OF_EDGES.into_iter().any(|own| unknown(&format!("outline[{index}].{own}")))
+            })
+    }
+
+    /// Checks the keys of a panel that do not need its outline.
+    pub(crate) fn check_loose(&mut self, name: &str, keys: &PanelKeys) {
+        let key = key(name);
+        for (edge, width) in &keys.hems {
+            self.check_width(&format!("{key}.hems.{}", toml_key(edge)), *width);
+        }
+        for (index, edge) in keys.outline.iter().flatten().enumerate() {
+            self.check_width(&format!("{key}.outline[{index}].hem"), edge.hem);
+        }
+        self.check_angles(&key, &keys.fold);
+        if keys.grain.is_some_and(|grain| !grain.value().is_finite()) {
+            self.fail_grain(&key, keys);
+        }
+    }
+
+    fn fail_grain(&mut self, key: &str, keys: &PanelKeys) {
+        let grain = keys.grain.map_or(f64::NAN, Given::value);
+        let help = "degrees from the panel's y axis to its warp, anticlockwise";
+        self.fail(&format!("{key}.grain"), format!("is {grain}"), help);
+    }
+
+    /// Checks the width of a hem.
+    fn check_width(&mut self, key: &str, width: Given<Length>) {
+        let mistake = self.place().width(key, width);
+        self.mistakes.extend(mistake.filter(|_| !self.faults.cover(key)));
+    }
+
+    /// Checks the angles of folds.
+    fn check_angles(&mut self, key: &str, folds: &[FoldKeys]) {
+        for (index, fold) in folds.iter().enumerate() {
+            let key = format!("{key}.fold[{index}].angle");
+            let mistake = self.place().angle(&key, fold.angle);
+            self.mistakes.extend(mistake.filter(|_| !self.faults.cover(&key)));
+        }
     }
 
     /// Adds a mistake of the pattern at the key of its subject.
@@ -71,7 +135,7 @@ impl Reader<'_> {
                 Some(moved) => panel = moved,
                 None => {
                     let help = "a length along x and one along y, within 1000 m";
-                    self.fail(&format!("{key}.shift"), format!("is {shift:?}"), help);
+                    self.fail(&format!("{key}.shift"), format!("is {} m", figures(&by)), help);
                     return None;
                 }
             }
@@ -80,7 +144,7 @@ impl Reader<'_> {
         let metres = self.metres;
         if !keys.hems.is_empty() {
             panel = panel.with_edges(|edge| {
-                let width = keys.hems.get(&edge.name).map(|width| width * metres);
+                let width = keys.hems.get(&edge.name).map(|&width| width * metres);
                 vec![edge.clone().hemmed(width.unwrap_or(edge.hem))]
             });
         }
@@ -88,11 +152,10 @@ impl Reader<'_> {
             panel = panel.with_fabric(fabric);
         }
         if let Some(grain) = keys.grain {
-            panel = match panel.with_grain(grain.to_radians()) {
+            panel = match panel.with_grain(grain.value().to_radians()) {
                 Ok(panel) => panel,
                 Err(_) => {
-                    let help = "degrees from the panel's y axis to its warp, anticlockwise";
-                    self.fail(&format!("{key}.grain"), format!("is {grain}"), help);
+                    self.fail_grain(&key, keys);
                     return None;
                 }
             };
@@ -113,7 +176,7 @@ impl Reader<'_> {
         let flat = match (&keys.origin, &keys.turn, given) {
             (None, None, Some(given)) => given.with_wrap(None),
             (origin, turn, given) => {
-                let angles = turn.map(|turn| turn.map(f64::to_radians));
+                let angles = turn.map(|turn| turn.map(|angle| angle.value().to_radians()));
                 let angles = angles.or(given.map(|given| given.angles()));
                 let origin = origin.map(|origin| origin.map(|x| x * self.metres));
                 let origin = origin.or(given.map(|given| given.translation));
@@ -129,9 +192,15 @@ impl Reader<'_> {
                 None
             }
             Err(_) => {
+                let wrong = |numbers: &[f64]| numbers.iter().any(|number| !number.is_finite());
+                let own = match (keys.origin, keys.turn) {
+                    (Some(origin), _) if wrong(&origin.map(Given::number)) => "origin",
+                    (_, Some(turn)) if wrong(&turn.map(Given::number)) => "turn",
+                    _ => "wrap",
+                };
                 let help = "origin is three lengths, turn three angles in degrees about x, y and z, \
-                            wrap a radius";
-                self.fail(&key, "its place is not finite", help);
+                            wrap a radius above 0";
+                self.fail(&format!("{key}.{own}"), "does not give the panel a place", help);
                 None
             }
         }
@@ -143,17 +212,19 @@ impl Reader<'_> {
         for (name, places) in &keys.split {
             let key = format!("{}.split.{}", key(panel.name()), toml_key(name));
             let Some(edge) = self.edge(&panel, &key, name) else { continue };
-            let length = edge.length() / self.metres;
+            let length = edge.length();
+            let places: Vec<f64> = places.iter().map(|&at| at * self.metres).collect();
             let rising = places.windows(2).all(|pair| pair[0] < pair[1]);
             let inside = places.iter().all(|at| 0.0 < *at && *at < length);
             if !(rising && inside) {
-                let help = format!("ascending distances from its start, between 0 and {length:.2}");
-                self.fail(&key, format!("is {places:?}"), help);
+                let length = Millimetres(length);
+                let help = format!("ascending distances from its start, between 0 and {length}");
+                self.fail(&key, format!("is {}", millimetres(&places)), help);
             }
         }
         let metres = self.metres;
         let cut = |edge: &Edge| match keys.split.get(&edge.name) {
-            Some(places) => edge.split(&places.iter().map(|at| at * metres).collect::<Vec<_>>()),
+            Some(places) => edge.split(&places.iter().map(|&at| at * metres).collect::<Vec<_>>()),
             None => vec![edge.clone()],
         };
         (self.mistakes.len() == before).then(|| panel.with_edges(cut))
@@ -165,8 +236,7 @@ impl Reader<'_> {
         for (name, width) in &keys.hems {
             let key = format!("{}.hems.{}", key(panel.name()), toml_key(name));
             let _ = self.edge(panel, &key, name);
-            let mistake = self.place().width(&key, *width);
-            self.mistakes.extend(mistake);
+            self.check_width(&key, *width);
         }
         (self.mistakes.len() == before).then_some(())
     }
@@ -187,19 +257,17 @@ impl Reader<'_> {
 
     /// Returns a panel with its folds.
     fn folded(&mut self, panel: Panel, folds: &[FoldKeys]) -> Option<Panel> {
-        let key = format!("{}.fold", key(panel.name()));
-        for (index, fold) in folds.iter().enumerate() {
-            let mistake = self.place().angle(&format!("{key}[{index}].angle"), fold.angle);
-            self.mistakes.extend(mistake);
-        }
-        let scaled = |p: [f64; 2]| p.map(|x| x * self.metres);
+        let key = key(panel.name());
+        self.check_angles(&key, folds);
+        let scaled = |p: [Given<Length>; 2]| p.map(|x| x * self.metres);
         let fold = |fold: &FoldKeys| Fold {
             ends: [scaled(fold.from), scaled(fold.to)],
-            angle: fold.angle.to_radians(),
+            angle: fold.angle.value().to_radians(),
         };
         let folds = folds.iter().map(fold).collect();
         let folded = panel.with_folds(folds);
         let help = "from and to are the ends of a line, such as [0, 10] and [40, 10]";
+        let key = format!("{key}.fold");
         folded.map_err(|_| self.fail(&key, "a fold has no length, or is not finite", help)).ok()
     }
 
@@ -208,9 +276,15 @@ impl Reader<'_> {
         let key = key(name);
         let mut edges = match (&keys.outline, keys.rectangle, &keys.path) {
             (Some(outline), None, None) => self.outline(&key, keys.start, outline)?,
-            (None, Some([x, y]), None) => {
-                let corner = |x: f64, y: f64| [x * self.metres, y * self.metres];
-                let corners = [corner(0.0, 0.0), corner(x, 0.0), corner(x, y), corner(0.0, y)];
+            (None, Some(size), None) => {
+                let [x, y] = size.map(|side| side * self.metres);
+                if !(x > 0.0 && y > 0.0) {
+                    let message = format!("is {}", millimetres(&[x, y]));
+                    let help = "width and height of the panel, both above 0";
+                    self.fail(&format!("{key}.rectangle"), message, help);
+                    return None;
+                }
+                let corners = [[0.0, 0.0], [x, 0.0], [x, y], [0.0, y]];
                 let names = ["bottom", "right", "top", "left"];
                 (0..4).map(|k| Edge::line(names[k], corners[k], corners[(k + 1) % 4])).collect()
             }
@@ -246,7 +320,7 @@ impl Reader<'_> {
     fn outline(
         &mut self,
         key: &str,
-        start: Option<[f64; 2]>,
+        start: Option<[Given<Length>; 2]>,
         outline: &[EdgeKeys],
     ) -> Option<Vec<Edge>> {
         let Some(mut at) = start else {
@@ -256,7 +330,7 @@ impl Reader<'_> {
         let before = self.mistakes.len();
         let mut edges = Vec::new();
         for (index, keys) in outline.iter().enumerate() {
-            let scaled = |p: [f64; 2]| p.map(|x| x * self.metres);
+            let scaled = |p: [Given<Length>; 2]| p.map(|x| x * self.metres);
             let name = keys.name.clone().unwrap_or_else(|| (index + 1).to_string());
             let line = Edge::line(name, scaled(at), scaled(keys.to));
             let curve = match (keys.quadratic, keys.cubic, keys.radius) {
@@ -264,16 +338,19 @@ impl Reader<'_> {
                 (Some(control), None, None) => Some(Curve::Quadratic(scaled(control))),
                 (None, Some(controls), None) => Some(Curve::Cubic(controls.map(scaled))),
                 (None, None, Some(radius)) => {
-                    let (size, left) = ((radius * self.metres).abs(), radius > 0.0);
+                    let (size, left) = ((radius * self.metres).abs(), radius.number() > 0.0);
                     Some(Curve::Arc { sweep: line.arc_sweep(size, keys.large, left) })
                 }
                 _ => None,
             };
             let place = format!("{key}.outline[{index}]");
-            let mistake = self.place().width(&format!("{place}.hem"), keys.hem);
-            self.mistakes.extend(mistake);
+            self.check_width(&format!("{place}.hem"), keys.hem);
             if keys.large && keys.radius.is_none() {
-                self.fail(&place, "large belongs to a radius", "remove it, or add radius");
+                self.fail(
+                    &format!("{place}.large"),
+                    "belongs to a radius",
+                    "remove it, or add radius",
+                );
             }
             at = keys.to;
             let Some(curve) = curve else {
@@ -282,16 +359,23 @@ impl Reader<'_> {
                 continue;
             };
             let mut edge = line.curved(curve).hemmed(keys.hem * self.metres);
-            let length = edge.length() / self.metres;
-            if !keys.notches.iter().all(|notch| (0.0..=length).contains(notch)) {
-                let help = format!("distances from its start, from 0 to {length:.2}");
-                self.fail(&format!("{place}.notches"), format!("are {:?}", keys.notches), help);
+            let length = edge.length();
+            edge.notches = keys.notches.iter().map(|&notch| notch * self.metres).collect();
+            if !edge.notches.iter().all(|notch| (0.0..=length).contains(notch)) {
+                let message = format!("are {}", millimetres(&edge.notches));
+                let help = format!("distances from its start, from 0 to {}", Millimetres(length));
+                self.fail(&format!("{place}.notches"), message, help);
             }
-            edge.notches = keys.notches.iter().map(|notch| notch * self.metres).collect();
             edges.push(edge);
         }
         (self.mistakes.len() == before).then_some(edges)
     }
+}
+
+/// Returns lengths in m as a list in mm.
+fn millimetres(lengths: &[f64]) -> String {
+    let lengths: Vec<f64> = lengths.iter().map(|length| 1000.0 * length).collect();
+    format!("{} mm", figures(&lengths))
 }
 
 /// Returns the key of a panel.

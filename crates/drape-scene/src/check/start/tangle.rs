@@ -58,7 +58,7 @@ pub(crate) fn check_tangle(
             format!("surfaces start {distance:.3e} m apart, where {kept:.3e} m is kept")
         }
         (Ok(0), Ok(_)) => return None,
-        (Ok(count), _) if count > 0 => format!("surfaces cross in {count} places at the start"),
+        (Ok(count), _) if count > 0 => "surfaces cross at the start".into(),
         (Err(error), _) | (_, Err(error)) => {
             checker.fail("panel", error.to_string(), APART);
             return None;
@@ -80,11 +80,8 @@ pub(crate) fn check_tangle(
         format!("\"{a}\" and \"{b}\" near ({x:.4}, {y:.4}, {z:.4}) m")
     });
     let told: Vec<String> = told.collect();
-    let more = match total.saturating_sub(told.len()) {
-        0 => String::new(),
-        more => format!("; and {more} more pairs of triangles"),
-    };
-    let fault = format!("{fault}: {}{more}", told.join("; "));
+    let pairs = if total == 1 { "pair" } else { "pairs" };
+    let fault = format!("{fault}, in {total} {pairs} of triangles: {}", told.join("; "));
     let parts = overlaps.first.iter().flat_map(|overlap| &overlap.parts);
     let panel = |name: &String| scene.panels.iter().find(|panel| panel.name == *name);
     let panel = parts.filter_map(panel).next();

@@ -1,0 +1,278 @@
+//! JSON Schema of sheets, from the keys, words and quantities by which they are read.
+
+use drape_input::{Quantity, laboratory_schema, unit_schema};
+use serde_json::{Map, Value, json};
+
+use crate::sheets::axis::{DEFORMATION_KEYS, LOAD_KEYS, ZERO, deformations, loads};
+use crate::sheets::curve_file::{CURVE_KEYS, DECIMAL, DIRECTION, SEPARATOR, TEST};
+use crate::sheets::section::Choice;
+use crate::sheets::sheet::{MODEL, SHEET_KEYS};
+use crate::sheets::spelling::{DIRECTIONS, pattern};
+use crate::sheets::value_keys::KEYS;
+
+/// Range of a bare number.
+#[derive(Clone, Copy)]
+enum Range {
+    Positive,
+    AtLeastZero,
+    /// Above 0 and below a limit.
+    Below(f64),
+    /// Above 0, in percent.
+    Percent,
+}
+
+/// Value of a sheet: its key, its quantity, its range, and a description.
+type ValueKey = (&'static str, Quantity, Range, &'static str);
+
+/// Values, in the order in which laboratories print them.
+const VALUES: [ValueKey; 20] = [
+    ("LT", Quantity::Ratio, Range::Below(2.0), "Linearity of the tensile curve, a ratio."),
+    ("WT", Quantity::WorkPerArea, Range::Positive, "Tensile work, in gf·cm/cm²."),
+    ("RT", Quantity::Ratio, Range::Percent, "Tensile resilience, in percent."),
+    ("EM", Quantity::Ratio, Range::Positive, "Extension at the largest load, in percent."),
+    ("G", Quantity::ShearStiffness, Range::Positive, "Shear stiffness, in gf/(cm·deg)."),
+    (
+        "2HG",
+        Quantity::ForcePerWidth,
+        Range::AtLeastZero,
+        "Width of the shear loop at 0.5°, in gf/cm.",
+    ),
+    (
+        "2HG5",
+        Quantity::ForcePerWidth,
+        Range::AtLeastZero,
+        "Width of the shear loop at 5°, in gf/cm.",
+    ),
+    ("B", Quantity::BendingRigidity, Range::Positive, "Bending rigidity, in gf·cm²/cm."),
+    (
+        "2HB",
+        Quantity::MomentPerWidth,
+        Range::AtLeastZero,
+        "Width of the bending loop, in gf·cm/cm.",
+    ),
+    ("LC", Quantity::Ratio, Range::Below(2.0), "Linearity of the compression curve, a ratio."),
+    ("WC", Quantity::WorkPerArea, Range::Positive, "Compression work, in gf·cm/cm²."),
+    ("RC", Quantity::Ratio, Range::Percent, "Compression resilience, in percent."),
+    ("MIU", Quantity::Ratio, Range::Below(2.0), "Coefficient of friction of the surface, a ratio."),
+    ("MMD", Quantity::Ratio, Range::Below(10.0), "Mean deviation of MIU, a ratio."),
+    ("SMD", Quantity::Roughness, Range::Positive, "Roughness of the surface, in µm."),
+    ("T0", Quantity::Length, Range::Positive, "Thickness under 0.5 gf/cm², in mm."),
+    ("TM", Quantity::Length, Range::Positive, "Thickness under 50 gf/cm², in mm."),
+    ("T", Quantity::Length, Range::Positive, "Thickness, in mm."),
+    ("W", Quantity::MassPerArea, Range::Positive, "Mass per area, in mg/cm²."),
+    (
+        "FM",
+        Quantity::ForcePerWidth,
+        Range::Positive,
+        "Largest load of the tensile test, in gf/cm; 500 if missing.",
+    ),
+];
+
+/// Returns the JSON Schema of sheets.
+#[must_use]
+pub fn sheet_schema() -> Value {
+    let words = "Values of one direction.";
+    let directed = values(|key| KEYS.contains(&key), false);
+    let mut keys = values(|key| SHEET_KEYS.contains(&key), true);
+    let others = json!({
+        "name": { "type": "string", "description": "Name of the fabric." },
+        "source": { "type": "string", "description": "Source: who measured it, when, and under which licence." },
+        "model": choice(&MODEL, "Law that bending and shear are fitted with; selected by the data if missing."),
+        "warp": { "$ref": "#/$defs/Values", "description": "Values along the warp." },
+        "weft": { "$ref": "#/$defs/Values", "description": "Values along the weft." },
+        "mean": { "$ref": "#/$defs/Values", "description": "Values for both directions." },
+        "curve": {
+            "type": "array",
+            "items": { "$ref": "#/$defs/Curve" },
+            "description": "Curves, each in a table file beside the sheet.",
+        },
+    });
+    extend(&mut keys.properties, others);
+    let other_names = json!({ DIRECTIONS: { "$ref": "#/$defs/Values" } });
+    extend(&mut keys.patterns, other_names);
+    let mut sheet = keys.table();
+    let whole = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Sheet of drape",
+        "description": "What was measured of a fabric on the Kawabata Evaluation System (KES). Bare numbers are in the units of KES.",
+        "required": ["name"],
+        "$defs": { "Values": directed.described(words), "Curve": curve() },
+    });
+    extend(&mut sheet, whole);
+    Value::Object(sheet)
+}
+
+/// Keys of a table: by name, and by pattern.
+#[derive(Default)]
+struct Keys {
+    properties: Map<String, Value>,
+    patterns: Map<String, Value>,
+}
+
+impl Keys {
+    /// Returns the schema of a table that has these keys only.
+    fn table(self) -> Map<String, Value> {
+        let Self { properties, patterns } = self;
+        let mut table = Map::new();
+        let keywords = json!({
+            "type": "object",
+            "properties": properties,
+            "patternProperties": patterns,
+            "additionalProperties": false,
+        });
+        extend(&mut table, keywords);
+        table
+    }
+
+    /// Returns the same with a description.
+    fn described(self, description: &str) -> Map<String, Value> {
+        let mut table = self.table();
+        table.insert("description".into(), description.into());
+        table
+    }
+}
+
+/// Adds the keywords of an object to a schema.
+fn extend(schema: &mut Map<String, Value>, more: Value) {
+    if let Value::Object(more) = more {
+        schema.extend(more);
+    }
+}
+
+/// Returns the keys of values that are in a list, in all spellings; at the top of a sheet with a
+/// direction as well.
+fn values(in_list: impl Fn(&str) -> bool, top: bool) -> Keys {
+    let mut keys = Keys::default();
+    for (key, quantity, range, description) in VALUES.into_iter().filter(|value| in_list(value.0)) {
+        let mut schema = laboratory_schema(quantity);
+        let limits = match range {
+            Range::Positive => json!({ "exclusiveMinimum": 0 }),
+            Range::AtLeastZero => json!({ "minimum": 0 }),
+            Range::Below(limit) => json!({ "exclusiveMinimum": 0, "exclusiveMaximum": limit }),
+            Range::Percent => json!({ "exclusiveMinimum": 0, "maximum": 100 }),
+        };
+        if let Value::Object(schema) = &mut schema {
+            schema.insert("description".into(), description.into());
+            extend(schema, limits);
+        }
+        keys.patterns.insert(pattern(key, top && KEYS.contains(&key)), schema.clone());
+        keys.properties.insert(key.into(), schema);
+    }
+    keys
+}
+
+/// Returns the schema of a word among several.
+fn choice<T: Copy>(choice: &Choice<'_, T>, description: &str) -> Value {
+    let words: Vec<&str> = choice.values.iter().map(|&value| (choice.name)(value)).collect();
+    json!({ "enum": words, "description": description })
+}
+
+/// Returns the schema of a curve.
+fn curve() -> Value {
+    let text = |description: &str| json!({ "type": "string", "description": description });
+    let lines = |description: &str| {
+        let number = json!({ "type": "integer", "minimum": 0 });
+        json!({ "anyOf": [number, { "const": false }], "description": description })
+    };
+    let take = |description: &str| {
+        let number = json!({ "type": "integer", "minimum": 0 });
+        let list = json!({ "type": "array", "items": number, "minItems": 1 });
+        json!({ "anyOf": [number, list, { "const": "all" }], "description": description })
+    };
+    let files = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
+    let properties = json!({
+        "name": text("Name of the curve."),
+        "test": choice(&TEST, "Test that it comes from."),
+        "direction": choice(&DIRECTION, "Yarns along which the strip was cut."),
+        "file": {
+            "anyOf": [{ "type": "string" }, files],
+            "description": "Table file beside the sheet, or several with repeats of the test.",
+        },
+        "deformation": axis(&DEFORMATION_KEYS, "Column of the deformation."),
+        "load": axis(&LOAD_KEYS, "Column of the load."),
+        "slack": { "type": "boolean", "description": "Whether the strip hung slack at the start." },
+        "encoding": text("Encoding of the file; detected if missing."),
+        "separator": choice(&SEPARATOR, "Sign between columns; detected if missing."),
+        "decimal": choice(&DECIMAL, "Decimal sign; detected if missing."),
+        "header": lines("Line of the header, from 1; false for none; detected if missing."),
+        "skip": lines("Number of lines to leave out at the start."),
+        "sheet": {
+            "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 0 }],
+            "description": "Sheet of a spreadsheet, by its name or its number from 1.",
+        },
+        "table": take("Tables of the file that are repeats of the test, from 1."),
+        "specimen": take("Specimens that are repeats of the test."),
+        "cycle": take("Cycles that are taken, from 1."),
+    });
+    json!({
+        "type": "object",
+        "description": "Measured curve, in a table file.",
+        "properties": kept(&CURVE_KEYS, properties),
+        "additionalProperties": false,
+        "required": ["test", "direction", "file"],
+        "allOf": TEST.values.iter().map(|&test| json!({
+            "if": { "properties": { "test": { "const": test.name() } } },
+            "then": { "properties": {
+                "deformation": { "properties": { "unit": unit_schema(deformations(test)) } },
+                "load": { "properties": { "unit": unit_schema(loads(test)) } },
+            } },
+        })).collect::<Vec<Value>>(),
+    })
+}
+
+/// Returns the schema of an axis of a curve with some keys.
+fn axis(keys: &[&str], description: &str) -> Value {
+    let column = json!({ "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 0 }] });
+    let columns = json!({ "anyOf": [column, { "type": "array", "items": column }] });
+    let size = |description: &str| {
+        json!({
+            "anyOf": [{ "type": "number", "exclusiveMinimum": 0 }, { "type": "string" }],
+            "description": description,
+        })
+    };
+    let described = |mut schema: Value, description: &str| {
+        schema["description"] = description.into();
+        schema
+    };
+    let properties = json!({
+        "column": described(columns, "Column, by its name or its place from 1, or a list of them."),
+        "unit": { "type": "string", "description": "Unit of the column; that of its header if missing." },
+        "gauge": size("Length of the specimen with its unit, or the column with it."),
+        "width": size("Width of the specimen with its unit, or the column with it, for loads of a whole specimen."),
+        "zero": choice(&ZERO, "Zero of a length: an extension, the distance of the clamps, or a position."),
+        "reversed": { "type": "boolean", "description": "Whether the sign is the opposite one." },
+    });
+    json!({
+        "type": "object",
+        "description": description,
+        "properties": kept(keys, properties),
+        "additionalProperties": false,
+    })
+}
+
+/// Returns the properties that are in a list of keys.
+fn kept(keys: &[&str], properties: Value) -> Map<String, Value> {
+    let Value::Object(properties) = properties else { return Map::new() };
+    properties.into_iter().filter(|(key, _)| keys.contains(&key.as_str())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_of_a_sheet_and_a_curve_is_described() {
+        let schema = sheet_schema();
+        let has = |place: &Value, keys: &[&str]| {
+            for key in keys {
+                assert!(place[key]["description"].is_string(), "{key}");
+            }
+        };
+        has(&schema["properties"], &SHEET_KEYS);
+        let [values, curve] = ["Values", "Curve"].map(|name| &schema["$defs"][name]["properties"]);
+        has(values, &KEYS);
+        has(curve, &CURVE_KEYS);
+        has(&curve["deformation"]["properties"], &DEFORMATION_KEYS);
+        has(&curve["load"]["properties"], &LOAD_KEYS);
+    }
+}
