@@ -1,6 +1,7 @@
 //! The schemas that `drape schema` prints: they accept every file that ships and every file to start
 //! from, and refuse the mistakes of `mistakes/page.md` that are mistakes of form.
 
+#[allow(dead_code, reason = "messages are for another test")]
 #[path = "mistakes/page.rs"]
 mod page;
 
