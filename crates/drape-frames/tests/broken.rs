@@ -23,9 +23,9 @@ fn array<T: npyz::AutoSerialize + Copy>(rows: u64, numbers: &[T]) -> Vec<u8> {
     let mut file = Vec::new();
     let shape = [rows, numbers.len() as u64 / rows];
     let options = npyz::WriteOptions::new().default_dtype().shape(&shape);
-    let mut writer = options.writer(&mut file).begin_nd().unwrap();
-    writer.extend(numbers.iter().copied()).unwrap();
-    writer.finish().unwrap();
+    let mut writer = options.writer(&mut file).begin_nd().expect("an array");
+    writer.extend(numbers.iter().copied()).expect("an array");
+    writer.finish().expect("an array");
     file
 }
 
@@ -54,7 +54,7 @@ fn new() -> Files {
 }
 
 fn folder(files: &Files) -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a folder");
     files.iter().for_each(|(name, content)| write(folder.path(), name, content));
     folder
 }
