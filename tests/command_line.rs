@@ -269,3 +269,67 @@ fn a_body_in_centimetres_is_asked_for_its_unit() {
     let report = succeeds(folder, &["check", "body.obj"]);
     assert!(report.contains("centimetres") && report.contains("closed"), "{report}");
 }
+
+/// Runs a command with a file as its standard input.
+fn piped(folder: &Path, arguments: &[&str], file: &str) -> Output {
+    let input = std::fs::File::open(folder.join(file)).expect("it is there");
+    command(folder, arguments).stdin(input).output().expect("it runs")
+}
+
+#[test]
+fn a_dash_is_standard_input_and_output() {
+    let folder = started();
+    let folder = folder.path();
+    let pipe = |arguments: &[&str], file: &str| {
+        let output = piped(folder, arguments, file);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{arguments:?} said: {message}");
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let fabric = pipe(&["fit", "-", "-o", "-"], "sheet.toml");
+    assert_eq!(fabric, succeeds(folder, &["fit", "sheet.toml", "-o", "-"]));
+    std::fs::write(folder.join("fabric.toml"), &fabric).expect("writes");
+    for (kind, first) in
+        [("scene", "scene"), ("sheet", "sheet"), ("fabric", "fabric"), ("pattern", "pattern")]
+    {
+        let file = format!("{kind}.toml");
+        let found = pipe(&["check", "-"], &file);
+        assert!(found.starts_with(&format!("<standard input>: {first}")), "{found}");
+        let named = succeeds(folder, &["check", &file]);
+        assert_eq!(found.replace("<standard input>", &file), named);
+    }
+    for file in ["sheet.toml", "fabric.toml"] {
+        let shown = pipe(&["fabric", "show", "-"], file);
+        assert_eq!(shown, succeeds(folder, &["fabric", "show", file]), "{file}");
+    }
+    let converted = pipe(&["convert", "-", "-o", "-"], "pattern.toml");
+    let named = succeeds(folder, &["convert", "pattern.toml"]);
+    assert_eq!(converted.replace("<standard input>", "pattern.toml"), named);
+    pipe(&["convert", "-", "-o", "pattern.svg"], "pattern.toml");
+    // What is no TOML is told by its text.
+    assert!(pipe(&["check", "-"], "pattern.svg").starts_with("<standard input>: pattern"));
+    pipe(&["run", "-", "--until", "0.01", "--no-picture"], "moving.toml");
+    succeeds(folder, &["run", "moving.toml", "--until", "0.01", "--no-picture"]);
+    let hashes = ["standard-input", "moving"].map(|name| summary(&folder.join("out").join(name)));
+    assert_eq!(hashes[0]["state_hash"], hashes[1]["state_hash"]);
+}
+
+#[test]
+fn mistakes_of_standard_input_have_their_lines() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    std::fs::write(folder.join("a.toml"), "spacing = \"1 s\"\n[time]\nstep = 0.1\nend = 1\n")
+        .expect("writes");
+    std::fs::write(folder.join("b.toml"), b"name = \"caf\xe9\"\n").expect("writes");
+    for arguments in [["check", "-"], ["run", "-"]] {
+        let output = piped(folder, &arguments, "a.toml");
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(3), "{message}");
+        assert!(message.contains("<standard input>:1:11"), "{message}");
+        assert!(message.contains("1 | spacing = \"1 s\""), "{message}");
+    }
+    let output = piped(folder, &["fit", "-"], "b.toml");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{message}");
+    assert!(message.contains("<standard input>: is not UTF-8"), "{message}");
+}

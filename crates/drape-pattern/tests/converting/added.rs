@@ -64,7 +64,7 @@ reversed = true
         ("[panel.\"teagan.front\"]\nhems = { x = 3 }\n", vec!["no edge \"x\"", "its edges are"]),
         (
             "[panel.\"teagan.front\"]\nsplit = { cbHem-hem = [900] }\n",
-            vec!["is [900.0]", "between 0 and 296.77"],
+            vec!["is [900] mm", "between 0 and 297 mm"],
         ),
         (
             "[panel.x]\ncopy_of = \"teagan.slevee\"\n",
