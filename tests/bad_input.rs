@@ -99,7 +99,7 @@ fn the_files_are_right_before_they_are_made_wrong() {
 fn an_unknown_key_names_the_one_that_was_meant() {
     let change = ("fabric = \"plain\"", "fabirc = \"plain\"");
     mistake("towel.toml", change, RUN, &["towel.toml:7", "fabirc", "did you mean `fabric`?"]);
-    mistake("plain.toml", ("density", "densty"), RUN, &["plain.toml:2", "densty", "density"]);
+    mistake("plain.toml", ("density", "densty"), RUN, &["plain.toml:3", "densty", "density"]);
     mistake("sheet.toml", ("load =", "laod ="), FIT, &["sheet.toml:9", "laod", "load"]);
 }
 
@@ -126,7 +126,7 @@ fn nan_is_refused_wherever_it_stands() {
         "plain.toml",
         ("density = 0.12", "density = nan"),
         RUN,
-        &["plain.toml:2", "nan is not"],
+        &["plain.toml:3", "nan is not"],
     );
     mistake("bending.csv", ("2,0.32", "2,nan"), FIT, &["bending.csv:4", "nan"]);
 }
@@ -139,7 +139,7 @@ fn a_curve_of_no_or_one_point_is_refused() {
 
 #[test]
 fn a_negative_density_is_refused() {
-    mistake("plain.toml", ("0.12", "-0.12"), RUN, &["plain.toml:2", "-0.12", "help"]);
+    mistake("plain.toml", ("0.12", "-0.12"), RUN, &["plain.toml:3", "-0.12", "help"]);
     mistake("sheet.toml", ("W = 18.0", "W = -18.0"), FIT, &["sheet.toml:2", "-18", "help"]);
 }
 

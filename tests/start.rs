@@ -143,7 +143,10 @@ fn a_long_list_of_intersections_is_cut_short() {
     let output = run(folder.path(), &[]);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(3), "{message}");
-    assert!(message.contains("the first 1000 of ") && message.contains("more pairs"), "{message}");
+    assert!(
+        message.contains("the first 1000 of ") && message.contains("pairs of triangles"),
+        "{message}"
+    );
     let found = triangles(&folder.path().join("out/scene-start.ply")).len();
     assert!((100..=2000).contains(&found), "{found} triangles");
 }

@@ -4,11 +4,6 @@ use std::path::Path;
 
 use crate::failure::Failure;
 
-/// Returns whether a path stands for standard input or output.
-pub(crate) fn is_standard(path: &Path) -> bool {
-    path.as_os_str() == "-"
-}
-
 /// Writes a file, through a temporary one so that no reader sees half of it; creates its folder.
 pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     let temporary = path.with_extension("part");

@@ -10,8 +10,6 @@ use std::sync::OnceLock;
 
 use drape::input::{Diagnostic, Diagnostics, Document};
 
-use crate::file::is_standard;
-
 /// Name of standard input in messages.
 const NAME: &str = "<standard input>";
 
@@ -20,6 +18,11 @@ const LARGEST: u64 = 1 << 24;
 
 /// Text of standard input, or why there is none.
 static TEXT: OnceLock<Result<String, String>> = OnceLock::new();
+
+/// Returns whether a path stands for standard input or output.
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
 
 /// Reads a file, or standard input.
 pub(crate) fn document(path: &Path) -> Result<Document, Diagnostics> {

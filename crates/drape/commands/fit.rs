@@ -15,8 +15,8 @@ pub(crate) use identify::store;
 use self::identify::identify;
 use crate::commands::sheets;
 use crate::failure::Failure;
-use crate::file;
 use crate::say::{say, say_json, say_written};
+use crate::{file, input};
 
 /// Executes `drape fit`.
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
@@ -30,7 +30,7 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
 /// Fits one sheet and prints its report.
 fn one(sheet: &Path, arguments: &FitArguments) -> Result<(), Failure> {
     let path = arguments.output.clone().unwrap_or_else(|| identify::beside(sheet));
-    let to_stdout = file::is_standard(&path);
+    let to_stdout = input::is_standard(&path);
     if to_stdout && arguments.json {
         let message = "-o - and --json both print to stdout; give one of them";
         return Err(Failure::Usage(message.into()));

@@ -6,8 +6,8 @@ use clap::{Args, ValueEnum};
 
 use crate::commands::schema::SchemaKind;
 use crate::failure::Failure;
-use crate::file;
 use crate::say::{say, say_written};
+use crate::{file, input};
 
 #[derive(Args)]
 pub(crate) struct NewArguments {
@@ -82,7 +82,7 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<(), Failure> {
     let NewArguments { kind, output, force } = arguments;
     let default = PathBuf::from(kind.file_name());
     let path = output.as_ref().unwrap_or(&default);
-    if file::is_standard(path) {
+    if input::is_standard(path) {
         return say(kind.content().trim_end());
     }
     file::refuse_existing(path, *force, "give -o, or replace it with --force")?;

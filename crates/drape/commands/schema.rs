@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 use serde_json::Value;
 
 use crate::failure::Failure;
-use crate::file;
 use crate::say::{say, say_written};
+use crate::{file, input};
 
 #[derive(Args)]
 pub(crate) struct SchemaArguments {
@@ -53,7 +53,7 @@ impl SchemaKind {
 /// Executes `drape schema`.
 pub(crate) fn schema(arguments: &SchemaArguments) -> Result<(), Failure> {
     let SchemaArguments { kind, output, force } = arguments;
-    let Some(path) = output.as_ref().filter(|path| !file::is_standard(path)) else {
+    let Some(path) = output.as_ref().filter(|path| !input::is_standard(path)) else {
         return say(kind.text().trim_end());
     };
     file::refuse_existing(path, *force, "replace it with --force")?;

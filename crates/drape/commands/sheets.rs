@@ -8,7 +8,7 @@ use drape::input::{Diagnostic, Diagnostics};
 use drape::kes::Sheet;
 
 use crate::failure::Failure;
-use crate::{file, input};
+use crate::input;
 
 /// Name of the file of a sheet in its folder.
 pub(crate) const SHEET_FILE: &str = "sheet.toml";
@@ -76,7 +76,7 @@ pub(crate) fn of(path: &Path) -> Option<&Path> {
 
 /// Reads a sheet.
 pub(crate) fn read(path: &Path) -> Result<Sheet, Diagnostics> {
-    let sheet = match file::is_standard(path) {
+    let sheet = match input::is_standard(path) {
         true => Sheet::from_document(&input::document(path)?),
         false => Sheet::read(path),
     };

@@ -7,8 +7,7 @@ use crate::sheets::axis::{DEFORMATION_KEYS, LOAD_KEYS, ZERO, deformations, loads
 use crate::sheets::curve_file::{CURVE_KEYS, DECIMAL, DIRECTION, SEPARATOR, TEST};
 use crate::sheets::section::Choice;
 use crate::sheets::sheet::{MODEL, SHEET_KEYS};
-use crate::sheets::spelling::{DIRECTIONS, pattern};
-use crate::sheets::value_keys::KEYS;
+use crate::sheets::spelling::{DIRECTIONS, KEYS, pattern};
 
 /// Range of a bare number.
 #[derive(Clone, Copy)]

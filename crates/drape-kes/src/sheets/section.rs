@@ -7,8 +7,7 @@ use drape_input::closest;
 use toml::de::{DeTable, DeValue};
 
 use crate::sheets::findings::Findings;
-use crate::sheets::spelling;
-use crate::sheets::value_keys::KEYS;
+use crate::sheets::spelling::{self, KEYS};
 use crate::tables::layout::{Column, Take};
 use crate::test::Direction;
 use drape_input::{Quantity, Written, parse_quantity};

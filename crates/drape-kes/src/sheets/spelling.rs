@@ -8,6 +8,10 @@ pub(crate) const VALUES: [&str; 19] = [
     "T0", "TM", "T", "W",
 ];
 
+/// Values that have a direction.
+pub(crate) const KEYS: [&str; 12] =
+    ["B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM", "MIU", "MMD", "SMD"];
+
 /// Other spellings, in small letters without signs between.
 const OTHERS: [(&str, &str); 16] = [
     ("emt", "EM"),

@@ -3,6 +3,7 @@
 use crate::sheets::findings::Findings;
 use crate::sheets::plausible;
 use crate::sheets::section::{Measured, Section};
+use crate::sheets::spelling::KEYS;
 use crate::test::Direction;
 use crate::values::Values;
 use drape_input::Quantity;
@@ -84,10 +85,6 @@ impl DirectedValues {
         read
     }
 }
-
-/// Values that have a direction.
-pub(crate) const KEYS: [&str; 12] =
-    ["B", "2HB", "G", "2HG", "2HG5", "LT", "WT", "RT", "EM", "MIU", "MMD", "SMD"];
 
 /// Places where a value of one direction may stand.
 struct Source<'a, 't> {

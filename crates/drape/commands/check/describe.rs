@@ -10,7 +10,7 @@ use drape::scene::{Error, Scene, is_fabric};
 
 use super::pattern::CutOut;
 use crate::commands::sheets;
-use crate::{file, input};
+use crate::input;
 
 /// Reads a file and describes it, in SI; a pattern as it is cut at a spacing, in m.
 pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics> {
@@ -21,7 +21,7 @@ pub(crate) fn describe(path: &Path, spacing: f64) -> Result<String, Diagnostics>
         return Ok(CutOut::read(path, spacing)?.describe());
     }
     let document = input::document(path)?;
-    if Pattern::is_drawing_text(&document) && file::is_standard(path) {
+    if Pattern::is_drawing_text(&document) && input::is_standard(path) {
         return Ok(CutOut::read(path, spacing)?.describe());
     }
     let table: toml::Table = document.decode()?;

@@ -6,7 +6,7 @@ use std::path::Path;
 use drape::input::{Diagnostic, Diagnostics};
 use drape::pattern::{CutPattern, Cutter, Error, Pattern, Quality, figure};
 
-use crate::{file, input};
+use crate::input;
 
 /// A pattern with its panels cut.
 pub(crate) struct CutOut {
@@ -28,7 +28,7 @@ impl CutOut {
             ),
             other => Diagnostic::new(shown, other.to_string()).into(),
         };
-        let pattern = match file::is_standard(path) {
+        let pattern = match input::is_standard(path) {
             true => Pattern::parse(&input::document(path)?)?,
             false => Pattern::read(path).map_err(mistakes)?,
         };

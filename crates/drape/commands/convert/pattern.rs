@@ -15,7 +15,7 @@ pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), F
     let form = Form::new(arguments)?;
     let request =
         Request { path: from.into(), unit: unit(arguments)?, size: arguments.size.clone() };
-    let pattern = match file::is_standard(from) {
+    let pattern = match input::is_standard(from) {
         true => Pattern::parse_as(&input::document(from)?, &request)?,
         false => Pattern::read_as(&request).map_err(|error| match error {
             Error::Input(mistakes) => Failure::Input(mistakes),
@@ -63,7 +63,7 @@ struct Written {
 impl Form {
     /// Returns what the arguments ask for.
     fn new(arguments: &ConvertArguments) -> Result<Self, Failure> {
-        let output = arguments.output.as_ref().filter(|path| !file::is_standard(path));
+        let output = arguments.output.as_ref().filter(|path| !input::is_standard(path));
         let ending = output.and_then(|path| path.extension()).map(|e| e.to_ascii_lowercase());
         let drawing = ending.as_ref().is_some_and(|ending| ending == "svg");
         let Some(path) = output.filter(|_| drawing) else {

@@ -8,8 +8,8 @@ use drape::kes::{Error, SheetDraft};
 use super::arguments::ConvertArguments;
 use crate::commands::sheets::SHEET_FILE;
 use crate::failure::Failure;
-use crate::file;
 use crate::say::say;
+use crate::{file, input};
 
 /// Drafts the sheet of a folder and says what was assumed and what needs a word.
 pub(crate) fn convert(folder: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {
@@ -45,7 +45,7 @@ pub(crate) fn convert(folder: &Path, arguments: &ConvertArguments) -> Result<(),
 
 /// Returns the file to write: a `*.toml`, or the sheet of a folder; `None` for stdout.
 fn target(arguments: &ConvertArguments) -> Result<Option<PathBuf>, Failure> {
-    let Some(path) = arguments.output.as_ref().filter(|path| !file::is_standard(path)) else {
+    let Some(path) = arguments.output.as_ref().filter(|path| !input::is_standard(path)) else {
         return Ok(None);
     };
     match path.extension().map(|ending| ending.to_ascii_lowercase()) {

@@ -1,16 +1,13 @@
 //! The schemas that `drape schema` prints: they accept every file that ships and every file to start
-//! from, and refuse the mistakes of `mistakes/page.md` that are mistakes of form.
-
-#[allow(dead_code, reason = "messages are for another test")]
-#[path = "mistakes/page.rs"]
-mod page;
+//! from, and refuse the mistakes of `page.md` that are mistakes of form.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use jsonschema::Validator;
-use page::Page;
 use serde_json::Value;
+
+use crate::page::Page;
 
 /// Kinds of files.
 const KINDS: [&str; 4] = ["scene", "sheet", "fabric", "pattern"];
@@ -169,7 +166,7 @@ fn files_to_start_from_are_accepted_and_name_their_schemas() {
 
 #[test]
 fn mistakes_of_form_are_refused_and_their_remedies_accepted() {
-    let page = Page::parse(include_str!("mistakes/page.md"));
+    let page = Page::parse(include_str!("page.md"));
     let schemas = KINDS.map(|kind| (kind, validator(kind)));
     let of = |name: &str| {
         let kind = match name {

@@ -1,8 +1,9 @@
-//! The mistakes that a newcomer makes most: `mistakes/page.md` has them with their messages, word
+//! The mistakes that a newcomer makes most: `page.md` has them with their messages, word
 //! for word, and the remedies that these advise. Here each is made, read and remedied.
 
-#[path = "mistakes/page.rs"]
+mod bounds;
 mod page;
+mod schema;
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -42,7 +43,7 @@ fn answer(files: &Files, checked: &str) -> Option<String> {
 
 #[test]
 fn every_mistake_has_its_answer_and_every_remedy_works() {
-    let page = Page::parse(include_str!("mistakes/page.md"));
+    let page = Page::parse(include_str!("page.md"));
     for checked in ["scene.toml", "plain.toml", "garment.toml", "sheet.toml"] {
         assert_eq!(answer(&page.files, checked), None, "{checked} is right as it is");
     }

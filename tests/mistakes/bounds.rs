@@ -43,7 +43,7 @@ fn written(folder: &Path, name: &str, text: &str) {
 fn scenes_beyond_all_bounds_are_answered_in_few_words() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();
-    written(folder, "plain-weave.toml", include_str!("fabrics/plain-weave.toml"));
+    written(folder, "plain-weave.toml", include_str!("../fabrics/plain-weave.toml"));
     let size = "[0.2, 0.3]";
     let cases = [
         (scene("1e-9", size, ""), "spacing"),
@@ -70,7 +70,7 @@ fn scenes_beyond_all_bounds_are_answered_in_few_words() {
 fn thousands_of_mistakes_are_counted_and_the_first_twenty_told() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();
-    written(folder, "plain-weave.toml", include_str!("fabrics/plain-weave.toml"));
+    written(folder, "plain-weave.toml", include_str!("../fabrics/plain-weave.toml"));
     for count in [2000, 4000] {
         let keys = repeated(count, |number| format!("key{number} = 1"));
         let panels = repeated(count, |number| {
