@@ -106,6 +106,9 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
     let summary = simulation.run(&mut progress);
     progress.finish();
     let summary = summary?;
+    if let Some(pressures) = simulation.pressures() {
+        output.pressure(&pressures)?;
+    }
     output.summary(&summary)?;
     save_last(&folder)?;
     if let (Some(frame), false) = (&progress.last, arguments.no_picture) {
