@@ -2,6 +2,8 @@
 
 mod field;
 mod obj;
+mod view;
 
 pub use field::{Field, Fields};
 pub use obj::write_obj;
+pub use view::{Named, View};
