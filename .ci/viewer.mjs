@@ -1,45 +1,122 @@
-import { chromium } from '/tmp/three/node_modules/playwright-core/index.mjs';
-const [,, file, out, width = '1280', height = '800'] = process.argv;
-const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking', '--disable-component-update', '--disable-sync'] });
-const page = await browser.newPage({ viewport: { width: +width, height: +height } });
-const said = [];
-page.on('console', (m) => said.push(m.type() + ': ' + m.text()));
-page.on('pageerror', (e) => said.push('error: ' + e.message));
-const t0 = Date.now();
-await page.goto('file://' + file);
-await page.waitForFunction(() => window.drapeViewer, null, { timeout: 120000 });
-console.log('loaded, ms by page clock', await page.evaluate(() => window.drapeViewer.loaded), 'wall', Date.now() - t0);
-await page.screenshot({ path: out + '-1.png' });
-for (const value of await page.$$eval('#field option', (all) => all.map((o) => o.value))) {
-  await page.evaluate((v) => { const f = document.getElementById('field'); f.value = v; f.dispatchEvent(new Event('change')); }, value);
-  await page.waitForTimeout(150);
-  if (value) await page.screenshot({ path: `${out}-field-${value}.png` });
-}
-const box = await page.locator('#canvas').boundingBox();
-await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
-await page.waitForTimeout(200);
-console.log('picked:', (await page.textContent('#picked')).slice(0, 400));
-if (+width > 760) {
-for (const id of ['front', 'flank', 'back', 'top', 'fit', 'theme', 'theme', 'lines', 'edges', 'edges', 'lines']) { await page.click('#' + id); await page.waitForTimeout(100); }
-await page.selectOption('#axis', 'x'); await page.fill('#cut', '400'); await page.check('#flip'); await page.waitForTimeout(200);
-await page.screenshot({ path: out + '-section.png' });
-await page.selectOption('#axis', '');
-for (const check of await page.$$('#parts input')) { await check.click(); await page.waitForTimeout(30); await check.click(); }
-await page.click('#theme'); await page.waitForTimeout(200); await page.screenshot({ path: out + '-dark.png' }); await page.click('#theme');
-await page.fill('#scrub', '0'); await page.waitForTimeout(200); await page.screenshot({ path: out + '-first.png' });
-for (const speed of ['0.1', '5']) await page.selectOption('#speed', speed);
-await page.click('#play'); await page.waitForTimeout(500); console.log('clock', await page.textContent('#clock'));
-await page.focus('#canvas');
-for (const key of ['Space', 'ArrowLeft', 'ArrowRight', 'm', 'l', 'f', 't', '1', '2', '3', '4', 't']) { await page.keyboard.press(key); await page.waitForTimeout(60); }
-} else {
-await page.click('#drawer'); await page.waitForTimeout(300); await page.screenshot({ path: out + '-drawer.png' });
-}
-// Frames per second while turning, by the page's own clock.
-const fps = await page.evaluate(async () => {
-  const { camera, views } = window.drapeViewer; let n = 0; const t0 = performance.now();
-  while (performance.now() - t0 < 3000) { camera.position.applyAxisAngle({x:0,y:1,z:0}, 0.02); camera.lookAt(0, 0, 0); window.dispatchEvent(new Event('resize')); await new Promise(requestAnimationFrame); n++; }
-  return n / 3;
+// Exercises every control of the viewer's pages in a folder, and fails on any message of the console.
+import { chromium } from 'playwright-core';
+import assert from 'node:assert/strict';
+import path from 'node:path';
+
+const out = path.resolve(process.argv[2]);
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking'],
 });
-console.log('turning, frames per second', fps.toFixed(1));
-console.log('console:', said);
+
+async function open(name, width, height) {
+  const page = await browser.newPage({ viewport: { width, height } });
+  page.said = [];
+  page.on('console', (message) => page.said.push(message.text()));
+  page.on('pageerror', (error) => page.said.push(error.message));
+  page.on('request', (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) page.said.push(`asked for ${request.url()}`);
+  });
+  await page.goto(`file://${out}/${name}.html`);
+  await page.waitForFunction(() => window.drapeViewer, null, { timeout: 60000 });
+  page.shot = (what) => page.screenshot({ path: `${out}/${name}-${width}-${what}.png` });
+  const loaded = await page.evaluate(() => window.drapeViewer.loaded);
+  console.log(`${name} at ${width} pixels: loaded in ${(loaded / 1000).toFixed(2)} s by the page's clock`);
+  return page;
+}
+
+// What the canvas shows, as a text to compare.
+const picture = async (page) => (await page.locator('#canvas').screenshot()).toString('base64');
+
+// Does something that must change the picture.
+async function changes(page, what, action) {
+  const before = await picture(page);
+  await action();
+  await page.waitForTimeout(250);
+  assert.notEqual(await picture(page), before, `${what} changes nothing`);
+}
+
+async function exercise(page) {
+  await page.shot('start');
+  const fields = await page.$$eval('#field option', (all) => all.map((own) => own.value));
+  for (const field of fields.filter(Boolean)) {
+    await page.selectOption('#field', field);
+    await page.waitForTimeout(150);
+    assert.ok(await page.isVisible('#legend'), field);
+    await page.shot(field);
+  }
+  await page.selectOption('#field', '');
+  for (const [id, what] of [['back', 'back'], ['flank', 'side'], ['top', 'top'], ['front', 'front'], ['lines', 'lines'],
+    ['lines', 'lines'], ['edges', 'triangles'], ['edges', 'triangles'], ['theme', 'theme']]) {
+    await changes(page, what, () => page.click(`#${id}`));
+  }
+  await page.shot('other-theme');
+  await page.click('#theme');
+  await changes(page, 'section', () => page.selectOption('#axis', 'x'));
+  await changes(page, 'place of the section', () => page.fill('#cut', '300'));
+  await changes(page, 'side of the section', () => page.check('#flip'));
+  await page.shot('section');
+  await page.selectOption('#axis', '');
+  for (const part of await page.$$('#parts input')) {
+    await changes(page, 'part', () => part.click());
+    await part.click();
+  }
+  await changes(page, 'time', () => page.fill('#scrub', '0'));
+  await page.shot('first');
+  await page.selectOption('#speed', '5');
+  await changes(page, 'play', () => page.click('#play'));
+  const box = await page.locator('#canvas').boundingBox();
+  const [x, y] = [box.x + box.width / 4, box.y + box.height / 2];
+  await changes(page, 'drag', async () => {
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 90, y + 20, { steps: 4 });
+    await page.mouse.up();
+  });
+  await changes(page, 'wheel', () => page.mouse.wheel(0, 400));
+  await page.click('#fit');
+  await page.waitForTimeout(600);
+  await page.mouse.click(x, y);
+  assert.match(await page.textContent('#picked'), /weft, warp, mm/);
+  await page.focus('#canvas');
+  for (const key of ['Space', 'Space', 'ArrowLeft', 'ArrowRight', 'm', 'l', 'l', 't', 't', '1', '2', '3', '4', 'f']) {
+    await page.keyboard.press(key);
+    await page.waitForTimeout(50);
+  }
+}
+
+async function framesPerSecond(page) {
+  return page.evaluate(async () => {
+    const { camera } = window.drapeViewer;
+    let frames = 0;
+    const start = performance.now();
+    while (performance.now() - start < 3000) {
+      camera.position.x += 0.002;
+      window.dispatchEvent(new Event('resize'));
+      await new Promise(requestAnimationFrame);
+      frames++;
+    }
+    return frames / 3;
+  });
+}
+
+for (const name of ['sphere', 'both']) {
+  const page = await open(name, 1280, 800);
+  await exercise(page);
+  console.log(`${name}: ${(await framesPerSecond(page)).toFixed(1)} frames per second while turning, drawn by the processor`);
+  assert.deepEqual(page.said, []);
+  await page.close();
+}
+const narrow = await open('sphere', 390, 844);
+await narrow.shot('start');
+await narrow.click('#drawer');
+await narrow.waitForTimeout(300);
+await narrow.shot('drawer');
+assert.ok(await narrow.isVisible('#play'));
+assert.deepEqual(narrow.said, []);
+const hostile = await open('hostile', 1280, 800);
+assert.equal(await hostile.evaluate(() => window.hostile), undefined);
+assert.match(await hostile.textContent('#parts'), /<\/script>/);
+assert.deepEqual(hostile.said, []);
 await browser.close();
+console.log('every control works, and the console is silent');

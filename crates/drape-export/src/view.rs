@@ -6,10 +6,12 @@
 
 mod bits;
 mod measures;
+mod named;
 mod scene;
 
-use drape_frames::{Error, Recording};
+use drape_frames::Error;
 
+pub use self::named::Named;
 use self::scene::Scene;
 
 const PAGE: &str = include_str!("../viewer/viewer.html");
@@ -24,15 +26,6 @@ pub struct View {
     pub html: String,
     /// Numbers of the frames that it shows, of each run.
     pub frames: Vec<Vec<usize>>,
-}
-
-/// Run with the name that the page gives it.
-#[derive(Debug, Clone, Copy)]
-pub struct Named<'a> {
-    /// Name.
-    pub name: &'a str,
-    /// Run.
-    pub recording: &'a Recording,
 }
 
 impl View {

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use drape_frames::{Error, Frame, Part, Recording};
 use serde_json::{Value, json};
 
-use super::Named;
 use super::bits::{Bounds, Differences, deflated, octet};
 use super::measures::rows;
+use super::named::Named;
 use crate::field::{Field, Fields};
 
 /// Most frames that are shown of a run.
