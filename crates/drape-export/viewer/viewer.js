@@ -83,7 +83,7 @@ const scales = { true: scaleTexture(DIVERGING), false: scaleTexture(SEQUENTIAL) 
 
 // Material of cloth: the colour of a side or of a field, with lines along warp and weft.
 function clothMaterial(front, back) {
-  const material = new THREE.MeshStandardMaterial({ side: THREE.DoubleSide, roughness: 0.85, metalness: 0 });
+  const material = new THREE.MeshStandardMaterial({ side: THREE.DoubleSide, roughness: 0.85 });
   material.userData = {
     front: { value: new THREE.Color(front) }, back: { value: new THREE.Color(back) },
     scale: { value: scales[false] }, mapped: { value: 0 }, lines: { value: 1 },
