@@ -20,5 +20,6 @@ pub(crate) mod schema;
 pub(crate) mod shell;
 pub(crate) mod test;
 pub(crate) mod validate;
+pub(crate) mod view;
 
 mod sheets;
