@@ -68,7 +68,7 @@ fn every_needed_key_that_is_missing_is_told_with_an_example() {
         "[0, 0] spacing: is missing; add spacing = …, a length such as 0.01 or \"10 mm\"",
         "[1, 1] panel[0].size: is missing; add size = …, a list such as [1, 2]",
         "[2, 1] panel[1].size: is missing; add size = …, a list such as [1, 2]",
-        "[4, 2] pin.left.edge: is missing; add edge = …, text in quotes",
+        "[4, 6] pin.left.edge: is missing; add edge = …, text in quotes",
     ];
     assert_eq!(lines, expected);
 }
@@ -156,7 +156,10 @@ fn an_unknown_key_in_every_one_of_many_tables_is_told_each_time() {
 
 #[test]
 fn mistakes_of_grammar_are_all_told_and_nothing_else() {
-    let document = Document::new("a.toml", "name = a b\nspacing = 0,01\nlayers = \"x\"\n");
+    let document = Document::new(
+        "a.toml",
+        "name = a b\nlayers = 1\npin = 2\nspacing = 0,01\nlayers = \"x\"\n",
+    );
     let mistakes = document.decode_with_faults::<Cloth>().expect_err("it is no TOML").0;
     let helps: Vec<&str> = mistakes.iter().filter_map(|mistake| mistake.help.as_deref()).collect();
     assert_eq!(helps, ["write \"a b\"", "write 0.01"]);
