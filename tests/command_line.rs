@@ -135,7 +135,7 @@ fn an_interrupted_run_leaves_a_summary_the_last_frame_and_a_picture() {
     let mut running = command(folder.path(), &["run", "scene.toml", "--threads", "1"]);
     let running = running.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it runs");
     let deadline = Instant::now() + Duration::from_secs(60);
-    while !out.join("frame-00001.obj").exists() {
+    while !out.join("frame-00001.npy").exists() {
         assert!(Instant::now() < deadline, "no frame after a minute");
         std::thread::sleep(Duration::from_millis(5));
     }
@@ -147,7 +147,7 @@ fn an_interrupted_run_leaves_a_summary_the_last_frame_and_a_picture() {
     let summary = summary(&out);
     assert_eq!(summary["status"], "interrupted");
     let last = summary["frames"].as_u64().expect("a count") - 1;
-    assert!(out.join(format!("frame-{last:05}.obj")).exists());
+    assert!(out.join(format!("frame-{last:05}.npy")).exists());
     assert!(out.join("picture.png").exists());
 }
 

@@ -5,7 +5,7 @@ use std::process::Output;
 
 use assert_cmd::Command;
 use drape::collide::{ContactDistances, Surface, SurfaceParts, intersections};
-use drape::verify::Recording;
+use drape::verify::Verifier;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -67,23 +67,27 @@ fn check(folder: &Path) -> (Option<i32>, String, Value) {
     (output.status.code(), said, found[0].clone())
 }
 
-fn change(folder: &Path, file: &str, change: impl FnOnce(String) -> String) {
+fn change(folder: &Path, file: &str, change: impl FnOnce(Vec<u8>) -> Vec<u8>) {
     let path = folder.join("results").join(file);
-    let text = std::fs::read_to_string(&path).expect("reads");
-    std::fs::write(&path, change(text)).expect("writes");
+    let bytes = std::fs::read(&path).expect("reads");
+    std::fs::write(&path, change(bytes)).expect("writes");
 }
 
+/// Length of the header of an array, in bytes.
+const HEADER: usize = 128;
+
 /// Returns a frame with one vertex moved.
-fn moved(text: &str, vertex: usize, [x, y, z]: [f64; 3]) -> String {
-    let mut vertices = 0;
-    let lines = text.lines().map(|line| {
-        vertices += usize::from(line.starts_with("v "));
-        match line.starts_with("v ") && vertices == vertex + 1 {
-            true => format!("v {x:?} {y:?} {z:?}\n"),
-            false => format!("{line}\n"),
-        }
-    });
-    lines.collect()
+fn moved(mut frame: Vec<u8>, vertex: usize, place: [f64; 3]) -> Vec<u8> {
+    let at = HEADER + 24 * vertex;
+    let bytes: Vec<u8> = place.into_iter().flat_map(f64::to_le_bytes).collect();
+    frame[at..at + 24].copy_from_slice(&bytes);
+    frame
+}
+
+/// Returns the height of a vertex of a frame, in m.
+fn height(frame: &[u8], vertex: usize) -> f64 {
+    let at = HEADER + 24 * vertex + 8;
+    f64::from_le_bytes(frame[at..at + 8].try_into().expect("eight bytes"))
 }
 
 #[test]
@@ -102,7 +106,7 @@ fn frames_of_a_run_pass_with_the_bodies_where_they_were() {
     assert!(seen >= least * (1.0 - 1e-12) && seen < 1e-3, "{seen} of {least}");
     assert!(frames.iter().all(|f| f["intersections"] == 0 && f["pairs"].as_u64() > Some(0)));
     // The table is stored where it has moved, in frames in which it has.
-    let stored = |number: usize| folder.path().join(format!("results/bodies-{number:05}.obj"));
+    let stored = |number: usize| folder.path().join(format!("results/bodies-{number:05}.npy"));
     assert_eq!([0, 1, 2, 3].map(|number| stored(number).exists()), [true, false, true, true]);
     // With the table of the last frame, the first frame has an intersection.
     std::fs::copy(stored(3), stored(0)).expect("copies");
@@ -115,12 +119,12 @@ fn a_sheet_that_pokes_through_is_found_with_its_frame_and_triangles() {
     // A corner of the upper sheet, of one triangle or two, is moved below the lower one near its
     // middle.
     let first_of_upper = 11 * 11;
-    change(folder.path(), "frame-00002.obj", |text| {
-        moved(&text, first_of_upper, [0.0, -0.05, 0.0])
+    change(folder.path(), "frame-00002.npy", |frame| {
+        moved(frame, first_of_upper, [0.0, -0.05, 0.0])
     });
     let (code, said, found) = check(folder.path());
     assert_eq!(code, Some(4), "{said}");
-    assert!(said.contains("frame-00002.obj") && said.contains("1 frames"), "{said}");
+    assert!(said.contains("frame-00002.npy") && said.contains("1 frames"), "{said}");
     for (number, frame) in found["frames"].as_array().expect("frames").iter().enumerate() {
         let meeting = frame["intersections"].as_u64().expect("a count");
         assert_eq!(meeting > 0, number == 2, "{frame:#}");
@@ -142,17 +146,15 @@ fn the_smallest_step_through_is_seen() {
     // In the first frame both sheets are level but for rounding. A vertex is moved to just below
     // and just above the lower sheet.
     let touching = |height: f64| {
-        change(folder.path(), "frame-00000.obj", |text| {
-            moved(&text, 11 * 11, [0.001, height, 0.0])
+        change(folder.path(), "frame-00000.npy", |frame| {
+            moved(frame, 11 * 11, [0.001, height, 0.0])
         });
         let found = check(folder.path()).2;
         let frame = &found["frames"][0];
         (frame["intersections"].as_u64() > Some(0), frame["too_near"].as_u64() > Some(0))
     };
-    let text = std::fs::read_to_string(folder.path().join("results/frame-00000.obj"));
-    let text = text.expect("reads");
-    let heights = text.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(1));
-    let height: f64 = heights.take(1).collect::<String>().parse().expect("a number");
+    let frame = std::fs::read(folder.path().join("results/frame-00000.npy")).expect("reads");
+    let height = height(&frame, 0);
     assert_eq!(touching(height - 1e-15), (true, true), "at {height}");
     assert_eq!(touching(height + 1e-15), (false, true), "at {height}");
     assert_eq!(
@@ -162,30 +164,54 @@ fn the_smallest_step_through_is_seen() {
     );
 }
 
+/// Returns an array with another first byte.
+fn first_byte(mut array: Vec<u8>, byte: u8) -> Vec<u8> {
+    array[HEADER] = byte;
+    array
+}
+
+/// Returns bytes with one text in place of another of the same length.
+fn text_in(mut bytes: Vec<u8>, old: &str, new: &str) -> Vec<u8> {
+    let at = bytes.windows(old.len()).position(|part| part == old.as_bytes()).expect("the text");
+    bytes[at..at + new.len()].copy_from_slice(new.as_bytes());
+    bytes
+}
+
 #[test]
 fn files_that_are_not_as_they_were_written_are_named() {
-    type Change = fn(String) -> String;
+    type Change = fn(Vec<u8>) -> Vec<u8>;
+    fn text(bytes: Vec<u8>, change: impl FnOnce(String) -> String) -> Vec<u8> {
+        change(String::from_utf8(bytes).expect("a text")).into_bytes()
+    }
     let cases: [(&str, Change, &[&str]); 13] = [
-        ("frame-00001.obj", |t| t[..t.len() - 1].into(), &["frame-00001.obj", "cut off"]),
-        ("frame-00001.obj", |t| t[..t.len() / 2].into(), &["frame-00001.obj", "line"]),
-        ("frame-00001.obj", |t| moved(&t, 7, [f64::NAN, 0.0, 0.0]), &["line 10", "NaN"]),
-        ("frame-00001.obj", |t| moved(&t, 7, [0.0, f64::INFINITY, 0.0]), &["line 10", "inf"]),
-        ("frame-00001.obj", |t| t.replacen("v ", "w ", 1), &["line 3", "\"w\""]),
-        ("frame-00001.obj", |t| t.replacen("f 1/1", "f 9999/9999", 1), &["triangle 0", "its part"]),
-        ("frame-00001.obj", |t| t.replacen("f 1/1", "f 3/3", 1), &["triangle 0", "first frame"]),
-        ("frame-00001.obj", |t| t + "v 0 0 0\n", &["243 vertices", "242"]),
-        ("frame-00001.obj", |t| t.replace("bodies-0", "../bodies-0"), &["../bodies-00000.obj"]),
-        ("bodies-00002.obj", |_| String::new(), &["bodies-00002.obj", "cut off"]),
-        ("surfaces.json", |t| t.replace("\"format\": 1", "\"format\": 9"), &["format 9"]),
+        ("frame-00001.npy", |f| f[..f.len() - 1].into(), &["frame-00001.npy", "cut off"]),
+        ("frame-00001.npy", |f| f[..f.len() / 2].into(), &["frame-00001.npy", "cut off"]),
+        ("frame-00001.npy", |f| moved(f, 7, [f64::NAN, 0.0, 0.0]), &["row 7", "NaN"]),
+        ("frame-00001.npy", |f| moved(f, 7, [0.0, f64::INFINITY, 0.0]), &["row 7", "inf"]),
+        ("frame-00001.npy", |f| [f, vec![0; 24]].concat(), &["5832 bytes", "242 vertices"]),
+        ("frame-00001.npy", |f| text_in(f, "<f8", "<f4"), &["no table of numbers <f8"]),
+        ("triangles.npy", |f| first_byte(f, 200), &["triangle 0", "its part"]),
+        ("frames.csv", |f| text(f, |t| t.replace("\n2,", "\n5,")), &["line 4", "numbered"]),
+        ("bodies-00002.npy", |_| Vec::new(), &["bodies-00002.npy", "cut off"]),
         (
             "surfaces.json",
-            |t| t.replace("242", "-1").replace("121", "-1"),
+            |f| text(f, |t| t.replace("\"format\": 2", "\"format\": 9")),
+            &["format 9"],
+        ),
+        (
+            "surfaces.json",
+            |f| text(f, |t| t.replace("242", "-1").replace("121", "-1")),
             &["surfaces.json, line"],
         ),
         (
             "surfaces.json",
-            |t| t.replacen("\"format\"", "\"thinned\": 2, \"format\"", 1),
+            |f| text(f, |t| t.replacen("\"format\"", "\"thinned\": 2, \"format\"", 1)),
             &["2 is no fraction of a distance"],
+        ),
+        (
+            "surfaces.json",
+            |f| text(f, |t| t.replacen("1.0", "1.5", 1)),
+            &["the weft of \"lower\" has no direction"],
         ),
     ];
     let folder = results();
@@ -209,7 +235,7 @@ fn files_that_are_not_as_they_were_written_are_named() {
         assert_eq!(code, Some(3), "{name}: {said}");
         assert!(said.contains(name), "{name}: {said}");
     };
-    ["frame-00000.obj", "frame-00003.obj", "bodies-00000.obj", "surfaces.json"]
+    ["frame-00000.npy", "frame-00003.npy", "bodies-00000.npy", "surfaces.json", "frames.csv"]
         .into_iter()
         .for_each(gone);
     assert_eq!(check(folder.path()).0, Some(0), "all is as it was");
@@ -269,7 +295,7 @@ fn two_tests_that_share_no_code_find_the_same_pairs() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("surfaces.json"), manifest).expect("writes");
     std::fs::write(folder.path().join("frame-00000.obj"), text).expect("writes");
-    let verdict = Recording::open(folder.path()).and_then(|recording| recording.verify(0));
+    let verdict = Verifier::open(folder.path()).and_then(|verifier| verifier.verify(0));
     let verdict = verdict.expect("a right frame");
 
     // An edge that intersects a triangle makes a pair with each triangle that has the edge.

@@ -18,7 +18,7 @@ pub(crate) enum Failure {
     /// Exit code 3: a sheet gives no fabric.
     Fit(drape::fit::Error),
     /// Exit code 3: saved frames cannot be read.
-    Frames(drape::verify::Error),
+    Frames(drape::frames::Error),
     /// Exit code 3: some sheets of a batch failed; each was reported.
     Batch,
     /// Exit code 4: surfaces intersect.
@@ -103,8 +103,8 @@ impl fmt::Display for Failure {
     }
 }
 
-impl From<drape::verify::Error> for Failure {
-    fn from(error: drape::verify::Error) -> Self {
+impl From<drape::frames::Error> for Failure {
+    fn from(error: drape::frames::Error) -> Self {
         Self::Frames(error)
     }
 }

@@ -10,8 +10,8 @@
 //! * materials: [`fabric`] (laws in SI), [`hysteresis`] (their friction), [`pattern`] (garments);
 //! * simulation: [`scene`] (TOML to checked values), [`cloth`] (forces and stiffness), [`collide`]
 //!   (contact), [`implicit`] (time steps), [`dynamics`] (what joins the four to frames);
-//! * results: [`report`] (pictures and pages), [`validate`] (simulated instruments), [`verify`]
-//!   (stored frames verified).
+//! * results: [`frames`] (stored frames read), [`verify`] (and verified), [`export`] (for other
+//!   programs), [`report`] (pictures and pages), [`validate`] (simulated instruments).
 //!
 //! ```
 //! use drape::fabric::Fabric;
@@ -46,6 +46,8 @@ pub use drape_implicit as implicit;
 pub use drape_scene as scene;
 
 // Results.
+pub use drape_export as export;
+pub use drape_frames as frames;
 pub use drape_report as report;
 pub use drape_validate as validate;
 pub use drape_verify as verify;

@@ -5,6 +5,7 @@
 //! work of the solver, energy, strain, contact, measures. This chapter reads the world and writes
 //! files; it changes nothing.
 
+mod array;
 pub(crate) mod frame;
 pub(crate) mod recorder;
 pub(crate) mod snapshot;

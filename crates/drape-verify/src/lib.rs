@@ -2,18 +2,13 @@
 //!
 //! # Tour
 //!
-//! [`Recording`] opens a folder of frames and reads them one by one. A [`Verdict`] says of one frame
-//! which [`ClosePair`]s of triangles intersect or lie closer than the [`Manifest`] promises.
+//! [`Verifier`] opens a folder of frames and tests them one by one. A [`Verdict`] says of one frame
+//! which [`ClosePair`]s of triangles intersect or lie closer than the run promises.
 //! [`triangles_intersect`] is the exact test by itself.
 //!
-//! Layers, lowest first: `error`; `manifest` and `obj` read the files; `mesh` numbers the triangles;
-//! `triangle` says which are joined, `intersection` and `distance` test a pair, `grid` finds the pairs;
-//! `verdict` looks at a frame; `recording` ties the files to it.
-
-// The files of a run.
-mod manifest;
-mod obj;
-mod recording;
+//! Layers, lowest first: `mesh` numbers the triangles; `triangle` says which are joined,
+//! `intersection` and `distance` test a pair, `grid` finds the pairs; `verdict` looks at a frame;
+//! `verifier` ties frames to their folder.
 
 // The triangles of a frame.
 mod mesh;
@@ -25,12 +20,11 @@ mod grid;
 mod intersection;
 
 // The result.
-mod error;
 mod verdict;
+mod verifier;
 
-pub use error::Error;
+pub use drape_frames::Error;
 pub use intersection::triangles_intersect;
-pub use manifest::{Manifest, Part};
 pub use mesh::{Mesh, PartNumber};
-pub use recording::Recording;
 pub use verdict::{ClosePair, Verdict};
+pub use verifier::Verifier;

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::manifest::{Manifest, Part};
+use drape_frames::{Manifest, Part, Topology};
+
 use crate::triangle::Vertex;
 
 /// Panel or body to which a triangle belongs, by its number.
@@ -33,16 +34,16 @@ pub struct Mesh {
     /// Classes of the two ends of the edge to which a vertex is tied, by the class of the vertex.
     between: BTreeMap<u32, [u32; 2]>,
     /// Material coordinates of the vertices of the cloth, in m: its rest shape.
-    pub(crate) material: Vec<[f64; 2]>,
+    material: Vec<[f64; 2]>,
 }
 
 impl Mesh {
-    /// Returns the mesh of checked triangles; the vertices of the bodies are numbered after the cloth's.
-    pub(crate) fn new(
-        manifest: &Manifest,
-        triangles: Vec<[u32; 3]>,
-        material: Vec<[f64; 2]>,
-    ) -> Mesh {
+    /// Returns the mesh of a run; the vertices of the bodies are numbered after the cloth's.
+    pub(crate) fn new(manifest: &Manifest, topology: &Topology) -> Mesh {
+        let cloth = topology.material.len() as u32;
+        let bodies = topology.bodies.iter().map(|triangle| triangle.map(|corner| corner + cloth));
+        let triangles: Vec<_> = topology.cloth.iter().copied().chain(bodies).collect();
+        let material = topology.material.clone();
         let parts: Vec<Part> = manifest.panels.iter().chain(&manifest.bodies).cloned().collect();
         let mut first = Vec::new();
         let mut part = Vec::with_capacity(triangles.len());

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use drape_frames::Frame;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -31,8 +32,7 @@ const ROUNDING: f64 = 1e-9;
 /// # "#)?;
 /// # let frame = "v 0 0 0\nv 0 0 1\nv 1 0 0\nvt 0 0\nvt 0 1\nvt 1 0\nf 1 2 3\n";
 /// # std::fs::write(folder.path().join("frame-00000.obj"), frame)?;
-/// let recording = drape_verify::Recording::open(folder.path())?;
-/// let verdict = recording.verify(0)?;
+/// let verdict = drape_verify::Verifier::open(folder.path())?.verify(0)?;
 /// assert!(verdict.holds());
 /// assert_eq!((verdict.triangles, verdict.pairs, verdict.intersections), (1, 0, 0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -126,15 +126,12 @@ impl Found {
     }
 }
 
-/// Frame to be tested: the mesh and the positions of its vertices, in m.
-pub(crate) struct Frame<'a> {
-    pub(crate) number: usize,
-    pub(crate) file: PathBuf,
-    pub(crate) time: Option<f64>,
+/// State to be tested: the mesh and the positions of its vertices, in m.
+struct State<'a> {
+    mesh: &'a Mesh,
+    positions: &'a [[f64; 3]],
     /// Growth fraction of the minimum separation, 0 to 1.
-    pub(crate) growth: f64,
-    pub(crate) mesh: &'a Mesh,
-    pub(crate) positions: &'a [[f64; 3]],
+    growth: f64,
 }
 
 /// Distances of a pair, in m.
@@ -143,9 +140,28 @@ struct Limits {
     min_separation: f64,
 }
 
-impl Frame<'_> {
-    /// Tests all pairs of triangles but those of bodies with bodies.
-    pub(crate) fn verify(self) -> Verdict {
+/// Tests all pairs of triangles of a frame but those of bodies with bodies.
+pub(crate) fn verify(mesh: &Mesh, frame: Frame) -> Verdict {
+    let Frame { number, file, time, growth, cloth, bodies, .. } = frame;
+    let positions = [cloth, bodies].concat();
+    let found = State { mesh, positions: &positions, growth }.search();
+    Verdict {
+        number,
+        file,
+        time,
+        growth,
+        triangles: mesh.triangles(),
+        pairs: found.pairs,
+        intersections: found.intersections,
+        degenerate: found.degenerate,
+        too_near: found.too_near,
+        min_distance: found.min_distance,
+        worst: found.worst,
+    }
+}
+
+impl State<'_> {
+    fn search(&self) -> Found {
         let mesh = self.mesh;
         let halves = mesh.parts().iter().map(|part| part.half_activation_distance);
         let margin = halves.fold(0.0, f64::max);
@@ -162,20 +178,7 @@ impl Frame<'_> {
             found
         });
         let chunks: Vec<Found> = chunks.collect();
-        let found = chunks.into_iter().fold(Found::default(), Found::with);
-        Verdict {
-            number: self.number,
-            file: self.file,
-            time: self.time,
-            growth: self.growth,
-            triangles: mesh.triangles(),
-            pairs: found.pairs,
-            intersections: found.intersections,
-            degenerate: found.degenerate,
-            too_near: found.too_near,
-            min_distance: found.min_distance,
-            worst: found.worst,
-        }
+        chunks.into_iter().fold(Found::default(), Found::with)
     }
 
     fn corners(&self, triangle: usize) -> [[f64; 3]; 3] {

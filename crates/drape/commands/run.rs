@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use drape::dynamics::{Simulation, Snapshot, Summary, prepare_folder};
+use drape::export::write_obj;
+use drape::frames::Recording;
 use drape::report::Picture;
 use drape::scene::{Error, Scene};
 use serde_json::json;
@@ -99,12 +101,13 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
     notes(&scene);
     let (name, step) = (scene.name.clone(), scene.schedule.clock.step);
     let mut simulation = Simulation::new(scene)?;
-    let recorder = output.record(simulation.topology())?;
+    let recorder = output.record(&simulation.topology())?;
     let mut progress = RunProgress::new(&name, &simulation, step, recorder);
     let summary = simulation.run(&mut progress);
     progress.finish();
     let summary = summary?;
     output.summary(&summary)?;
+    save_last(&folder)?;
     if let (Some(frame), false) = (&progress.last, arguments.no_picture) {
         let shown = Snapshot { positions: frame.positions.clone(), ..simulation.snapshot() };
         let pictures = Pictures::new(&shown)?;
@@ -130,6 +133,15 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
         say_written(format_args!("results in {}", folder.display()))?;
     }
     Ok(summary)
+}
+
+/// Saves the last frame as `last.obj`, which any program opens.
+fn save_last(folder: &Path) -> Result<(), Failure> {
+    let recording = Recording::open(folder)?;
+    let frame = recording.frame(recording.frames() - 1)?;
+    let mut obj = Vec::new();
+    write_obj(&recording, &frame, &mut obj).map_err(|error| Failure::Output(error.to_string()))?;
+    file::write(&folder.join("last.obj"), obj)
 }
 
 fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {

@@ -35,6 +35,12 @@ impl Grain {
         }
     }
 
+    /// Returns the direction of the weft in the panel's own frame.
+    #[must_use]
+    pub fn weft(&self) -> [f64; 2] {
+        [self.cos, self.sin]
+    }
+
     /// Returns the point in the panel's own frame that has the given material coordinates.
     #[must_use]
     pub fn to_panel(&self, [u, v]: [f64; 2]) -> [f64; 2] {

@@ -34,6 +34,8 @@ pub(crate) struct PanelSpan {
     pub(crate) name: String,
     /// Name of its fabric in the scene.
     pub(crate) fabric: String,
+    /// Direction of its weft in its own frame.
+    pub(crate) weft: [f64; 2],
     pub(crate) particles: Range<usize>,
 }
 
@@ -70,6 +72,7 @@ impl GarmentParts {
         let span = |panel: &Panel| PanelSpan {
             name: panel.name.clone(),
             fabric: scene.materials[panel.material].name.clone(),
+            weft: panel.lattice.grain.weft(),
             particles: panel.particles(),
         };
         let hung = |garment: &Garment| HungGarment::new(garment, &scene.start.positions);

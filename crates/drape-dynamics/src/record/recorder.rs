@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::error::Error;
+use crate::record::array;
 use crate::record::frame::Frame;
 use crate::record::summary::Summary;
 use crate::record::topology::Topology;
@@ -23,11 +24,21 @@ const SUMMARY: &str = "summary.json";
 /// Name of the file of the topology.
 const SURFACES: &str = "surfaces.json";
 
+/// Name of the list of frames.
+const FRAMES: &str = "frames.csv";
+
+/// Names of the arrays of the topology.
+const ARRAYS: [&str; 3] = ["material.npy", "triangles.npy", "body-triangles.npy"];
+
+/// Name of the last frame in a form that any program opens.
+const LAST: &str = "last.obj";
+
 /// Writer of the frames of a run.
 #[derive(Debug)]
 pub struct Recorder<'a> {
     output: &'a Output,
-    topology: Topology,
+    /// List of the frames so far.
+    list: fs::File,
     /// Bodies that were stored last.
     bodies: Option<StoredBodies>,
 }
@@ -37,8 +48,8 @@ pub struct Recorder<'a> {
 struct StoredBodies {
     /// Positions of their vertices, in m.
     positions: Vec<f64>,
-    /// Name of the file.
-    file: String,
+    /// Number of the frame with which they were stored.
+    frame: usize,
 }
 
 /// Makes the folder for a run, emptied of the frames of an earlier one if `replace` allows it.
@@ -66,10 +77,13 @@ pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, Error> {
     Ok(output)
 }
 
+/// Returns whether a file is one that a run writes and a later run would take for its own.
 fn is_result(path: &Path) -> bool {
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     let numbered = name.starts_with("frame-") || name.starts_with("bodies-");
-    name == SUMMARY || name == SURFACES || (numbered && name.ends_with(".obj"))
+    let whole = [SUMMARY, SURFACES, FRAMES, LAST].into_iter().chain(ARRAYS);
+    whole.into_iter().any(|own| own == name)
+        || (numbered && [".npy", ".obj"].iter().any(|ending| name.ends_with(ending)))
 }
 
 impl Output {
@@ -79,13 +93,27 @@ impl Output {
         self.folder.join(name)
     }
 
-    /// Stores the topology as `surfaces.json` and returns the writer of frames.
+    /// Stores the topology as `surfaces.json` and arrays, begins `frames.csv`, and returns the writer
+    /// of frames.
     ///
     /// # Errors
-    /// When it cannot be written.
-    pub fn record(&self, topology: Topology) -> Result<Recorder<'_>, Error> {
-        self.json(SURFACES, &topology)?;
-        Ok(Recorder { output: self, topology, bodies: None })
+    /// When they cannot be written.
+    pub fn record(&self, topology: &Topology) -> Result<Recorder<'_>, Error> {
+        let [material, triangles, of_bodies] = ARRAYS.map(|name| self.path(name));
+        self.write(&material, |to| array::write(to, &topology.coordinates))?;
+        self.write(&triangles, |to| array::write(to, &topology.triangles))?;
+        if !topology.bodies.is_empty() {
+            self.write(&of_bodies, |to| array::write(to, &topology.body_triangles))?;
+        }
+        let path = self.path(FRAMES);
+        let begin = || -> std::io::Result<fs::File> {
+            let mut list = fs::File::create(&path)?;
+            list.write_all(b"number,time,growth,bodies\n")?;
+            Ok(list)
+        };
+        let list = begin().map_err(|reason| Error::Write { path, reason })?;
+        self.json(SURFACES, topology)?;
+        Ok(Recorder { output: self, list, bodies: None })
     }
 
     /// Stores the summary as `summary.json`.
@@ -121,21 +149,28 @@ impl Output {
 }
 
 impl Recorder<'_> {
-    /// Stores a frame as `frame-00012.obj` and, where they have moved, the bodies as
-    /// `bodies-00012.obj`.
+    /// Stores a frame as `frame-00012.npy` and, where they have moved, the bodies as
+    /// `bodies-00012.npy`; then it is listed in `frames.csv`.
     ///
     /// # Errors
     /// When it cannot be written.
     pub fn frame(&mut self, frame: &Frame) -> Result<(), Error> {
         let stored = self.bodies.as_ref().is_some_and(|own| own.positions == frame.bodies);
         if !frame.bodies.is_empty() && !stored {
-            let name = format!("bodies-{:05}.obj", frame.number);
-            let path = self.output.path(&name);
-            self.output.write(&path, |to| frame.write_bodies_obj(&self.topology, to))?;
-            self.bodies = Some(StoredBodies { positions: frame.bodies.clone(), file: name });
+            self.positions("bodies", frame.number, &frame.bodies)?;
+            self.bodies =
+                Some(StoredBodies { positions: frame.bodies.clone(), frame: frame.number });
         }
-        let bodies = self.bodies.as_ref().map(|own| own.file.as_str());
-        let path = self.output.path(&format!("frame-{:05}.obj", frame.number));
-        self.output.write(&path, |to| frame.write_obj(&self.topology, bodies, to))
+        self.positions("frame", frame.number, &frame.positions)?;
+        let bodies = self.bodies.as_ref().map_or(String::new(), |own| own.frame.to_string());
+        let line =
+            format!("{},{:?},{:?},{bodies}\n", frame.number, frame.time, frame.growth_fraction);
+        let listed = self.list.write_all(line.as_bytes()).and_then(|()| self.list.sync_data());
+        listed.map_err(|reason| Error::Write { path: self.output.path(FRAMES), reason })
+    }
+
+    fn positions(&self, kind: &str, number: usize, positions: &[f64]) -> Result<(), Error> {
+        let path = self.output.path(&format!("{kind}-{number:05}.npy"));
+        self.output.write(&path, |to| array::write(to, positions.as_chunks::<3>().0))
     }
 }

@@ -1,18 +1,22 @@
-//! Topology: the content of `surfaces.json`, and the triangles of all frames.
+//! Topology: what all frames have in common, stored once.
 
 use serde::Serialize;
 
 use crate::measure::garment_parts::GarmentParts;
 use crate::world::World;
 
-/// Format of a folder of frames, which `drape-verify` describes.
-const FORMAT: u64 = 1;
+/// Format of a folder of frames, which `drape-frames` describes.
+const FORMAT: u64 = 2;
 
-/// Data that all frames of a run have in common: the content of `surfaces.json`, and the triangles.
+/// Data that all frames of a run have in common: the content of `surfaces.json`, and arrays.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Topology {
     /// Format of the folder.
     format: u64,
+    /// Unit of all lengths.
+    units: &'static str,
+    /// Axis against gravity.
+    up: &'static str,
     /// Whether surfaces are kept apart.
     #[serde(rename = "guarded")]
     pub keeps_surfaces_apart: bool,
@@ -56,6 +60,18 @@ pub struct Part {
     /// Half of the minimum separation from another part, in m; likewise.
     #[serde(rename = "separation")]
     pub half_min_separation: f64,
+    /// What only a panel has.
+    #[serde(flatten)]
+    pub panel: Option<PanelData>,
+}
+
+/// Data of a panel that a body has not.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PanelData {
+    /// Name of its fabric in the scene.
+    pub fabric: String,
+    /// Direction of its weft in its own frame.
+    pub weft: [f64; 2],
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it so")]
@@ -78,11 +94,14 @@ impl Topology {
                 triangles,
                 half_activation_distance: own.map_or(0.0, |own| own.activation_distance),
                 half_min_separation: own.map_or(0.0, |own| own.min_separation),
+                panel: None,
             }
         };
         let panels = parts.panels.iter().map(|panel| {
             let own = |triangle: &&[u32; 3]| panel.particles.contains(&(triangle[0] as usize));
-            part(&panel.name, panel.particles.len(), cloth.triangles().iter().filter(own).count())
+            let triangles = cloth.triangles().iter().filter(own).count();
+            let data = PanelData { fabric: panel.fabric.clone(), weft: panel.weft };
+            Part { panel: Some(data), ..part(&panel.name, panel.particles.len(), triangles) }
         });
         let panels = panels.collect();
         let (mut bodies, mut body_triangles) = (Vec::new(), Vec::new());
@@ -95,6 +114,8 @@ impl Topology {
         }
         Self {
             format: FORMAT,
+            units: "m",
+            up: "y",
             keeps_surfaces_apart: surfaces.is_some(),
             panels,
             bodies,

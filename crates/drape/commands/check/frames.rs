@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use drape::verify::{ClosePair, PartNumber, Recording, Verdict};
+use drape::frames::{Part, Recording};
+use drape::verify::{ClosePair, PartNumber, Verdict, Verifier};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
@@ -11,7 +12,10 @@ use crate::say::say;
 /// Returns whether a folder was written by a run, complete or not.
 pub(crate) fn is_run(path: &Path) -> bool {
     let has = |name: &str| path.join(name).exists();
-    Recording::exists(path) || has("frame-00000.obj") || has("summary.json")
+    Recording::exists(path)
+        || has("frame-00000.obj")
+        || has("frame-00000.npy")
+        || has("summary.json")
 }
 
 /// Runs that were verified.
@@ -41,15 +45,16 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<Verified, Failu
     let mut broken = Vec::new();
     let mut found = Vec::new();
     for folder in folders {
-        let recording = Recording::open(folder)?;
+        let verifier = Verifier::open(folder)?;
+        let recording = verifier.recording();
         if !json {
-            say(headline(folder, &recording))?;
+            say(headline(folder, recording))?;
         }
         let mut verdicts = Vec::new();
         for number in 0..recording.frames() {
-            let verdict = recording.verify(number)?;
+            let verdict = verifier.verify(number)?;
             if !json {
-                say(describe(&recording, &verdict))?;
+                say(describe(recording, &verdict))?;
             }
             if !verdict.holds() {
                 broken.push(verdict.file.clone());
@@ -58,7 +63,7 @@ pub(crate) fn verify(folders: &[&PathBuf], json: bool) -> Result<Verified, Failu
         }
         let holds = verdicts.iter().all(Verdict::holds);
         let (guarded, ended) = (recording.manifest().surface_contact, recording.ended());
-        let names = |part: &drape::verify::Part| part.name.clone();
+        let names = |part: &Part| part.name.clone();
         found.push(json!({
             "folder": folder, "holds": holds, "guarded": guarded, "ended": ended,
             "panels": recording.manifest().panels.iter().map(names).collect::<Vec<_>>(),
@@ -84,7 +89,7 @@ fn headline(folder: &Path, recording: &Recording) -> String {
         recording.frames(),
         manifest.panels.len(),
         manifest.bodies.len(),
-        recording.mesh().triangles()
+        recording.topology().cloth.len() + recording.topology().bodies.len()
     )
 }
 

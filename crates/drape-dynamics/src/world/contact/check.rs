@@ -2,7 +2,7 @@
 
 use drape_input::Document;
 use drape_scene::Scene;
-use drape_verify::Recording;
+use drape_verify::Verifier;
 
 use crate::error::Error;
 use crate::record::frame::Frame;
@@ -61,10 +61,11 @@ fn run(text: &str, omitted: Omitted, stiffness: Option<f64>) -> End {
     simulation.world.contact.surfaces_mut().expect("surfaces").omitted = omitted;
     let folder = tempfile::tempdir().expect("a folder");
     let output = prepare_folder(folder.path(), false).expect("an empty folder");
-    let mut film = Film(output.record(simulation.topology()).expect("it can be written"));
+    let mut film = Film(output.record(&simulation.topology()).expect("it can be written"));
     let summary = simulation.run(&mut film).expect("frames can be written");
-    let recording = Recording::open(folder.path()).expect("a run");
-    let verdicts = (0..recording.frames()).map(|number| recording.verify(number).expect("a frame"));
+    let verifier = Verifier::open(folder.path()).expect("a run");
+    let frames = 0..verifier.recording().frames();
+    let verdicts = frames.map(|number| verifier.verify(number).expect("a frame"));
     let sums = verdicts.fold([0; 2], |[met, near], verdict| {
         [met + verdict.intersections, near + verdict.too_near]
     });

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// Reason why recorded frames cannot be checked.
+/// Reason why recorded frames cannot be read.
 ///
 /// Every variant names one remedy and carries the values that led to it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -42,14 +42,32 @@ pub enum Error {
         /// Fault, in words.
         reason: String,
     },
+    /// A file is not the array that the run wrote.
+    #[error("{}: {reason}; run the scene again", path.display())]
+    BadArray {
+        /// The file.
+        path: PathBuf,
+        /// Fault, in words.
+        reason: String,
+    },
+    /// There is no frame of that number.
+    #[error("{} has no frame {number}; its frames are 0 to {last}", folder.display())]
+    NoFrame {
+        /// The folder.
+        folder: PathBuf,
+        /// Number that was asked for.
+        number: usize,
+        /// Number of the last frame.
+        last: usize,
+    },
     /// The folder was written by a newer version.
-    #[error("{} is of format {format}, and this version reads format {known}; check it with the version that wrote it", path.display())]
+    #[error("{} is of format {format}, and this version reads formats up to {known}; read it with the version that wrote it", path.display())]
     UnknownFormat {
         /// The file.
         path: PathBuf,
         /// Its format.
         format: u64,
-        /// Format that is read here.
+        /// Newest format that is read here.
         known: u64,
     },
     /// Frames are missing.

@@ -1,17 +1,12 @@
-//! Reader of the frames: Wavefront OBJ as a run writes it.
+//! Wavefront OBJ: the files of a run of format 1.
 
-use std::io::Read;
 use std::path::Path;
 
+use crate::array::COORDINATE_MAX;
 use crate::error::Error;
+use crate::text::read_text;
 
-/// Longest file that is read, in bytes; 4 million particles take a quarter of it.
-const BYTES_MAX: u64 = 1 << 32;
-
-/// Largest coordinate that a run can have, in m.
-const COORDINATE_MAX: f64 = 1e6;
-
-/// File of vertices and triangles as a run writes it: `v`, `vt`, `f`, `o` and comments only.
+/// File of vertices and triangles as a run wrote it: `v`, `vt`, `f`, `o` and comments only.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Obj {
     /// Position of each vertex, in m.
@@ -26,26 +21,6 @@ pub(crate) struct Obj {
     pub(crate) bodies: Option<String>,
     /// Growth fraction of the minimum separation, from the comment `grown: FRACTION`.
     pub(crate) growth: Option<f64>,
-}
-
-/// Reads the text of a file, whose last line must be complete.
-pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
-    let fail = |error: std::io::Error| {
-        let reason = error.to_string();
-        Error::Unreadable { path: path.to_owned(), reason }
-    };
-    let file = std::fs::File::open(path).map_err(fail)?;
-    let bytes = file.metadata().map_err(fail)?.len();
-    if bytes > BYTES_MAX {
-        return Err(Error::TooLarge { path: path.to_owned(), bytes, limit: BYTES_MAX });
-    }
-    let mut text = String::new();
-    file.take(BYTES_MAX).read_to_string(&mut text).map_err(fail)?;
-    if !text.ends_with('\n') {
-        let (line, reason) = (text.lines().count().max(1), "the file is cut off here".to_owned());
-        return Err(Error::Malformed { path: path.to_owned(), line, reason });
-    }
-    Ok(text)
 }
 
 impl Obj {

@@ -6,16 +6,16 @@ use serde::Deserialize;
 
 use crate::error::Error;
 
-/// Format of the folder that is read here.
-const FORMAT: u64 = 1;
+/// Newest format of a folder that is read here.
+const FORMAT: u64 = 2;
 
 /// Largest number of vertices and triangles of all parts together; more is a fault of the file.
-const COUNT_MAX: usize = 1 << 27;
+pub(crate) const COUNT_MAX: usize = 1 << 27;
 
 /// Data that all frames of a run share: the content of `surfaces.json`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Manifest {
-    /// Format of the folder.
+    /// Format of the folder: 2 with arrays, 1 with OBJ files.
     pub format: u64,
     /// Whether contact kept surfaces apart; otherwise only particles met bodies, and no distance was
     /// promised.
@@ -54,6 +54,13 @@ pub struct Part {
     /// was promised.
     #[serde(rename = "separation", default)]
     pub half_min_separation: f64,
+    /// Name of the fabric of a panel, empty for a body and in format 1.
+    #[serde(default)]
+    pub fabric: String,
+    /// Direction of the weft in the panel's own frame, whose x is its width and y its height; the warp
+    /// is a quarter turn anticlockwise from it.
+    #[serde(default = "along_width")]
+    pub weft: [f64; 2],
 }
 
 /// Pinch fraction of a run whose file gives none: the full separation holds everywhere.
@@ -61,12 +68,26 @@ fn one() -> f64 {
     1.0
 }
 
+/// Direction of the weft of a body, and in format 1.
+fn along_width() -> [f64; 2] {
+    [1.0, 0.0]
+}
+
+impl Part {
+    /// Returns the point in the panel's own frame, in m, that has some weft and warp coordinates.
+    #[must_use]
+    pub fn pattern_point(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.weft;
+        [u * x - v * y, u * y + v * x]
+    }
+}
+
 impl Manifest {
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Manifest, Error> {
         let malformed = |line, reason| Error::Malformed { path: path.to_owned(), line, reason };
         let manifest: Manifest = serde_json::from_str(text)
             .map_err(|error| malformed(error.line(), error.to_string()))?;
-        if manifest.format != FORMAT {
+        if !(1..=FORMAT).contains(&manifest.format) {
             let (format, known) = (manifest.format, FORMAT);
             return Err(Error::UnknownFormat { path: path.to_owned(), format, known });
         }
@@ -77,6 +98,13 @@ impl Manifest {
             let valid = |length: f64| (0.0..=1.0).contains(&length);
             if !valid(part.half_activation_distance) || !valid(part.half_min_separation) {
                 return Err(malformed(1, format!("\"{}\" has no distances", part.name)));
+            }
+            let [x, y] = part.weft;
+            if !((x.hypot(y) - 1.0).abs() < 1e-6) {
+                return Err(malformed(
+                    1,
+                    format!("the weft of \"{}\" has no direction", part.name),
+                ));
             }
         }
         if !(manifest.pinch_fraction > 0.0 && manifest.pinch_fraction <= 1.0) {
@@ -94,5 +122,29 @@ impl Manifest {
             return Err(malformed(1, "a vertex is sewn that does not exist".to_owned()));
         }
         Ok(manifest)
+    }
+
+    /// Returns the numbers of vertices and triangles of the cloth.
+    pub(crate) fn cloth_counts(&self) -> Counts {
+        Counts::of(&self.panels)
+    }
+
+    /// Returns the numbers of vertices and triangles of all bodies.
+    pub(crate) fn body_counts(&self) -> Counts {
+        Counts::of(&self.bodies)
+    }
+}
+
+/// Numbers of vertices and triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Counts {
+    pub(crate) vertices: usize,
+    pub(crate) triangles: usize,
+}
+
+impl Counts {
+    fn of(parts: &[Part]) -> Counts {
+        let sum = |of: fn(&Part) -> usize| parts.iter().map(of).sum();
+        Counts { vertices: sum(|part| part.vertices), triangles: sum(|part| part.triangles) }
     }
 }

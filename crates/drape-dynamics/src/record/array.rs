@@ -1,0 +1,17 @@
+//! Array: a table of numbers in the format of NumPy (`.npy`).
+
+use std::io::{Result, Write};
+
+use npyz::{AutoSerialize, WriterBuilder};
+
+/// Writes rows of `N` numbers.
+pub(crate) fn write<T: AutoSerialize + Copy, const N: usize>(
+    to: &mut dyn Write,
+    rows: &[[T; N]],
+) -> Result<()> {
+    let shape = [rows.len() as u64, N as u64];
+    let options = npyz::WriteOptions::new().default_dtype().shape(&shape);
+    let mut array = options.writer(to).begin_nd()?;
+    array.extend(rows.iter().flatten().copied())?;
+    array.finish()
+}

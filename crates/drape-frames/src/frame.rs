@@ -1,0 +1,22 @@
+//! Frame: cloth and bodies at one time, as their files have them.
+
+use std::path::PathBuf;
+
+/// Cloth and bodies at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Number of the frame, from 0.
+    pub number: usize,
+    /// File of the cloth.
+    pub file: PathBuf,
+    /// Time, in s; some folders of format 1 give none.
+    pub time: Option<f64>,
+    /// Growth fraction of the minimum separation, above 0 and at most 1.
+    pub growth: f64,
+    /// Positions of the vertices of the cloth, panel after panel, in m.
+    pub cloth: Vec<[f64; 3]>,
+    /// File of the bodies; none without bodies. Frames between which no body moved have the same file.
+    pub bodies_file: Option<PathBuf>,
+    /// Positions of the vertices of the bodies, body after body, in m.
+    pub bodies: Vec<[f64; 3]>,
+}

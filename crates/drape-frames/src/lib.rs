@@ -1,0 +1,34 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! [`Recording`] opens a folder and reads a [`Frame`] of it. The [`Manifest`] names the panels and
+//! bodies, the [`Topology`] has their triangles.
+//!
+//! Layers, lowest first: `error`; `text`, `array` and `obj` read files; `manifest`, `topology` and
+//! `index` are what all frames share; `obj_frames` and `array_frames` read a frame of either format;
+//! `recording` ties them to a folder.
+
+mod error;
+
+// Files.
+mod array;
+mod obj;
+mod text;
+
+// What all frames share.
+mod index;
+mod manifest;
+mod topology;
+
+// Frames.
+mod array_frames;
+mod frame;
+mod obj_frames;
+mod recording;
+
+pub use error::Error;
+pub use frame::Frame;
+pub use manifest::{Manifest, Part};
+pub use recording::Recording;
+pub use topology::Topology;

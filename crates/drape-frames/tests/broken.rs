@@ -1,0 +1,168 @@
+//! Files that were cut off, or changed in a byte, in both formats of a folder.
+
+use std::path::Path;
+
+use drape_frames::{Error, Frame, Recording};
+use npyz::WriterBuilder;
+use tempfile::TempDir;
+
+const FRAME: &str = "# metres, y up; t = 0.5 s\n# bodies: bodies-00000.obj\nv 0 2e-4 0\nv 0 2e-4 1\n\
+                     v 1 2e-4 0\nvt 0 0\nvt 0 1\nvt 1 0\nf 1/1 2/2 3/3\n";
+const BODIES: &str = "v 0 0 0\nv 0 0 1\nv 1 0 0\no b\nf 1 2 3\n";
+
+fn manifest(format: u8) -> String {
+    format!(
+        r#"{{ "format": {format}, "guarded": true, "panels": [
+{{ "name": "a", "vertices": 3, "triangles": 1, "reach": 1.5e-4, "separation": 5e-5 }} ], "bodies": [
+{{ "name": "b", "vertices": 3, "triangles": 1, "reach": 1.5e-4, "separation": 5e-5 }} ] }}
+"#
+    )
+}
+
+fn array<T: npyz::AutoSerialize + Copy>(rows: u64, numbers: &[T]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let shape = [rows, numbers.len() as u64 / rows];
+    let options = npyz::WriteOptions::new().default_dtype().shape(&shape);
+    let mut writer = options.writer(&mut file).begin_nd().expect("an array");
+    writer.extend(numbers.iter().copied()).expect("an array");
+    writer.finish().expect("an array");
+    file
+}
+
+/// Files of a folder by their names.
+type Files = Vec<(&'static str, Vec<u8>)>;
+
+fn old() -> Files {
+    vec![
+        ("surfaces.json", manifest(1).into()),
+        ("frame-00000.obj", FRAME.into()),
+        ("bodies-00000.obj", BODIES.into()),
+    ]
+}
+
+fn new() -> Files {
+    let corners = [0_u32, 1, 2];
+    vec![
+        ("surfaces.json", manifest(2).into()),
+        ("frames.csv", b"number,time,growth,bodies\n0,0.5,1.0,0\n".to_vec()),
+        ("material.npy", array(3, &[0.0, 0.0, 0.0, 1.0, 1.0, 0.0])),
+        ("triangles.npy", array(1, &corners)),
+        ("body-triangles.npy", array(1, &corners)),
+        ("frame-00000.npy", array(3, &[0.0, 2e-4, 0.0, 0.0, 2e-4, 1.0, 1.0, 2e-4, 0.0])),
+        ("bodies-00000.npy", array(3, &[0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0])),
+    ]
+}
+
+fn folder(files: &Files) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    files.iter().for_each(|(name, content)| write(folder.path(), name, content));
+    folder
+}
+
+fn write(folder: &Path, name: &str, content: &[u8]) {
+    std::fs::write(folder.join(name), content).expect("writes");
+}
+
+fn read(folder: &Path) -> Result<Frame, Error> {
+    Recording::open(folder)?.frame(0)
+}
+
+#[test]
+fn both_formats_give_the_same_frame() {
+    let [old, new] = [folder(&old()), folder(&new())];
+    let [a, b] = [&old, &new].map(|folder| Recording::open(folder.path()).unwrap());
+    assert_eq!(a.topology(), b.topology());
+    let [one, two] = [a, b].map(|recording| recording.frame(0).unwrap());
+    assert_eq!((&one.cloth, &one.bodies), (&two.cloth, &two.bodies));
+    assert_eq!((one.time, one.growth), (two.time, two.growth));
+    assert_eq!((one.time, one.growth), (Some(0.5), 1.0));
+}
+
+#[test]
+fn a_file_cut_at_any_byte_is_an_error_that_names_it() {
+    for files in [old(), new()] {
+        let folder = folder(&files);
+        for (name, content) in &files {
+            for end in 0..content.len() {
+                write(folder.path(), name, &content[..end]);
+                let error = read(folder.path()).unwrap_err().to_string();
+                // The list of frames may end after any line; then its frames are missing.
+                let named = error.contains(name) || *name == "frames.csv";
+                assert!(named, "{name} cut at {end}: {error}");
+            }
+            write(folder.path(), name, content);
+        }
+        assert!(read(folder.path()).is_ok());
+    }
+}
+
+#[test]
+fn a_changed_byte_is_an_error_or_another_state_and_never_a_panic() {
+    for files in [old(), new()] {
+        let folder = folder(&files);
+        let (mut errors, mut states) = (0, 0);
+        for (name, content) in &files {
+            for at in 0..content.len() {
+                for byte in [b'-', b'9', b'\n', 0xff] {
+                    let mut bytes = content.clone();
+                    bytes[at] = byte;
+                    write(folder.path(), name, &bytes);
+                    match read(folder.path()) {
+                        Ok(_) => states += 1,
+                        Err(_) => errors += 1,
+                    }
+                }
+            }
+            write(folder.path(), name, content);
+        }
+        assert!(errors > 100 && states > 100, "{errors} errors, {states} states");
+    }
+}
+
+#[test]
+fn what_a_killed_run_listed_is_read() {
+    let folder = folder(&new());
+    let list = "number,time,growth,bodies\n0,0.5,1.0,0\n1,0.6,1.";
+    write(folder.path(), "frames.csv", list.as_bytes());
+    write(folder.path(), "frame-00001.npy", b"half");
+    let recording = Recording::open(folder.path()).unwrap();
+    assert_eq!((recording.frames(), recording.ended(), recording.time(0)), (1, false, Some(0.5)));
+    assert!(matches!(recording.frame(1), Err(Error::NoFrame { last: 0, .. })));
+    write(folder.path(), "summary.json", b"{ \"frames\": 2 }\n");
+    let error = Recording::open(folder.path()).unwrap_err().to_string();
+    assert!(error.contains("1 of 2 frames, and frame-00001.npy"), "{error}");
+}
+
+#[test]
+fn arrays_of_another_kind_are_refused_with_what_they_are() {
+    let cases: [(&str, Vec<u8>, &str); 8] = [
+        ("frame-00000.npy", array(3, &[0.0_f32; 9]), "no table of numbers <f8"),
+        ("frame-00000.npy", array(3, &[0.0; 6]), "2 columns, and needs 3"),
+        ("frame-00000.npy", array(4, &[0.0; 12]), "4 vertices, and surfaces.json says 3"),
+        ("frame-00000.npy", array(3, &[f64::NAN; 9]), "row 0 (from 0) is [NaN"),
+        ("frame-00000.npy", array(3, &[1e7; 9]), "at most 1000000 m"),
+        ("triangles.npy", array(1, &[0_u32, 1, 1]), "two are the same"),
+        ("triangles.npy", array(1, &[0_u32, 1, 3]), "not all are vertices of its part"),
+        ("body-triangles.npy", array(1, &[0_i64, 1, 2]), "no table of numbers <u4"),
+    ];
+    for (name, content, words) in cases {
+        let folder = folder(&new());
+        write(folder.path(), name, &content);
+        let error = read(folder.path()).unwrap_err().to_string();
+        assert!(error.contains(name) && error.contains(words), "{error}");
+    }
+    for (list, words) in [
+        ("0,0.5,1.0,0\n2,0.6,1.0,0\n", "line 3: the frames are not numbered"),
+        ("0,0.5,1.0,1\n", "line 2: the frames are not numbered"),
+        ("0,0.5,1.0,\n", "line 2: frame 0 names no frame that has its bodies"),
+        ("0,0.5,2.0,0\n", "line 2: 2 is no fraction"),
+        ("0,inf,1.0,0\n", "line 2: inf s is no time"),
+        ("0,soon,1.0,0\n", "line 2"),
+        ("", "has 0 of 1 frames"),
+    ] {
+        let folder = folder(&new());
+        write(folder.path(), "frames.csv", format!("number,time,growth,bodies\n{list}").as_bytes());
+        let error = read(folder.path()).unwrap_err().to_string();
+        assert!(error.contains(words), "{list}: {error}");
+    }
+}
