@@ -221,6 +221,26 @@ mod tests {
     }
 
     #[test]
+    fn a_plane_cuts_a_body_in_a_line_for_each_limb() {
+        // Two tetrahedra side by side.
+        let tetrahedron = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]];
+        let beside = tetrahedron.map(|[x, y, z]| [x + 2.0, y, z]);
+        let faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
+        let mesh = Triangulation {
+            vertices: [tetrahedron, beside].concat(),
+            triangles: [faces, faces.map(|face| face.map(|corner| corner + 4))].concat(),
+        };
+        let mut lines = SectionPlane::horizontal(0.5).lines(&mesh);
+        lines.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
+        assert_eq!(lines.len(), 2);
+        for (line, left) in lines.into_iter().zip([0.0, 2.0]) {
+            let corners = convex_hull(line);
+            assert_eq!(corners, [[left, 0.0], [left + 0.5, 0.0], [left, 0.5]]);
+        }
+        assert!(SectionPlane::horizontal(1.5).lines(&mesh).is_empty());
+    }
+
+    #[test]
     fn a_hull_leaves_out_what_is_hollow_or_inside() {
         let star = vec![
             [0.0, 0.0],

@@ -248,6 +248,9 @@ const UNITS: [(&str, f64); 4] =
 /// Sizes of a body that wears a garment, in m: from a doll to a tall person.
 const WEARER: [f64; 2] = [0.15, 3.0];
 
+/// Height of a person, in m: the unit that gives it is the first that is advised.
+const PERSON: f64 = 1.7;
+
 /// Asks for the unit of a body that wears a garment and is as large as none does, where a unit would
 /// give it the size of one; returns whether there was nothing to ask.
 fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, longest: f64) -> bool {
@@ -256,9 +259,12 @@ fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, long
         return true;
     }
     let in_file = longest / checker.unit;
-    let choices: Vec<String> = UNITS
+    let mut units: Vec<(&str, f64)> =
+        UNITS.into_iter().filter(|(_, unit)| wears(in_file * unit)).collect();
+    let unlike = |(_, unit): &(&str, f64)| (in_file * unit / PERSON).ln().abs();
+    units.sort_by(|a, b| unlike(a).total_cmp(&unlike(b)));
+    let choices: Vec<String> = units
         .iter()
-        .filter(|(_, unit)| wears(in_file * unit))
         .map(|(name, unit)| {
             format!("scale = {unit} if the file is in {name} ({:.2} m)", in_file * unit)
         })

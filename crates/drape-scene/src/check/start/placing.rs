@@ -166,7 +166,7 @@ impl<'a> Solids<'a> {
         let waist = waist.and_then(|girths| self.place_at_waist(points, girths));
         let place = waist.or_else(|| {
             let near = self.place_near(points, girths)?;
-            Some(self.refine(points, near, &[0, 1, 2]))
+            Some(self.refine(points, near, Search { axes: &[0, 1, 2], clear: true }))
         });
         place.map(|place| place.map(|x| (1e3 * x).round() / 1e3))
     }
@@ -197,7 +197,12 @@ impl<'a> Solids<'a> {
                 .filter(|&place| self.is_clear(points, place) && self.is_around(points, place));
             let costed = clear.map(|place| (self.cost(&samples, place), place));
             if let Some((_, place)) = costed.min_by(|a, b| a.0.total_cmp(&b.0)) {
-                return Some(self.refine(points, place, &[0, 2]));
+                return Some(self.refine(points, place, Search { axes: &[0, 2], clear: true }));
+            }
+            // A close garment is clear of the body at one place only.
+            let place = self.refine(points, middle, Search { axes: &[0, 1, 2], clear: false });
+            if self.is_clear(points, place) && self.is_around(points, place) {
+                return Some(place);
             }
         }
         None
@@ -254,9 +259,8 @@ impl<'a> Solids<'a> {
         costs.sum::<f64>() / points.len() as f64
     }
 
-    /// Returns the shift near another, in m, along some axes, at which points are nearest to the
-    /// bodies and clear of them.
-    fn refine(&self, points: &[[f64; 3]], start: [f64; 3], axes: &[usize]) -> [f64; 3] {
+    /// Returns the shift near another, in m, at which points are nearest to the bodies.
+    fn refine(&self, points: &[[f64; 3]], start: [f64; 3], search: Search<'_>) -> [f64; 3] {
         let samples = samples(points, SAMPLES);
         let at_start =
             |point: &&[f64; 3]| self.distance([0, 1, 2].map(|k| point[k] + start[k])) < NEAR;
@@ -265,12 +269,12 @@ impl<'a> Solids<'a> {
         let mut step = 0.5 * STEP;
         while step > STEP_LAST {
             let mut moved = false;
-            for (axis, sign) in axes.iter().flat_map(|&k| [(k, -1.0), (k, 1.0)]) {
+            for (axis, sign) in search.axes.iter().flat_map(|&k| [(k, -1.0), (k, 1.0)]) {
                 let mut shift = best;
                 shift[axis] += sign * step;
                 let cost = self.cost(&samples, shift);
                 let is_here = (0..3).all(|k| (shift[k] - start[k]).abs() <= 0.5 * NEAR);
-                if cost < least && is_here && self.is_clear(&near, shift) {
+                if cost < least && is_here && (!search.clear || self.is_clear(&near, shift)) {
                     (best, least, moved) = (shift, cost, true);
                 }
             }
@@ -280,6 +284,15 @@ impl<'a> Solids<'a> {
         }
         best
     }
+}
+
+/// Search for the best place near another.
+#[derive(Clone, Copy)]
+struct Search<'a> {
+    /// Axes along which a garment is moved.
+    axes: &'a [usize],
+    /// Whether it stays clear of the bodies where it is so at the start of the search.
+    clear: bool,
 }
 
 /// Place of a garment that is looked at.
@@ -305,11 +318,20 @@ impl Candidate {
     }
 }
 
-/// Checks the places of the garments of a scene; returns notes on those about the feet.
-pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> Vec<String> {
-    let mut notes = Vec::new();
+/// What is said of the places of garments.
+#[derive(Default)]
+pub(crate) struct Places {
+    /// Notes on those about the feet.
+    pub(crate) notes: Vec<String>,
+    /// Whether one is wrong, and its garment has got another.
+    pub(crate) advised: bool,
+}
+
+/// Checks the places of the garments of a scene.
+pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> Places {
+    let mut places = Places::default();
     let Some(solids) = Solids::new(scene.bodies.iter().map(|moving| &moving.body)) else {
-        return notes;
+        return places;
     };
     for (number, garment) in scene.garments.iter().enumerate() {
         // What is held needs no body.
@@ -324,15 +346,17 @@ pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> Vec<Stri
         }
         let fault = describe(&garment.name, place, &points, &solids);
         let girths = Girths::new(scene, number);
-        let help = remedy(checker, number, solids.shift(&points, Some(&girths)));
+        let shift = solids.shift(&points, Some(&girths));
+        let help = remedy(checker, number, shift);
         match place {
-            Place::Feet => notes.push(format!("{fault}; {help}")),
+            Place::Feet => places.notes.push(format!("{fault}; {help}")),
             _ => {
                 checker.fail(&format!("garment[{number}].pattern"), fault, &help);
+                places.advised |= shift.is_some();
             }
         }
     }
-    notes
+    places
 }
 
 /// Returns whether bodies grow at the start.
