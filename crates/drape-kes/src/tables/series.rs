@@ -33,7 +33,8 @@ pub(crate) struct Series {
     pub(crate) label: String,
     /// Text of its file or sheet outside of the tables.
     pub(crate) stated: Vec<Row>,
-    several: bool,
+    /// Whether its table holds others beside it.
+    pub(crate) several: bool,
 }
 
 /// Series of a test with what was found on the way.
@@ -64,6 +65,23 @@ pub(crate) struct Request<'a> {
 
 /// Finds the series of a test in one file.
 pub(crate) fn find(
+    path: &Path,
+    file: &TableFile,
+    layout: &Layout,
+    request: &Request<'_>,
+) -> Result<Found, Diagnostics> {
+    let mut found = every(path, file, layout, request)?;
+    choose(path, layout, request, &mut found)?;
+    for series in &mut found.series {
+        series.decimal = decimal(series, layout)?;
+        take_cycles(series, layout)?;
+    }
+    describe(&mut found, layout);
+    Ok(found)
+}
+
+/// Finds every series of a test in one file, whatever its direction, in the order that `table` counts.
+pub(crate) fn every(
     path: &Path,
     file: &TableFile,
     layout: &Layout,
@@ -105,12 +123,6 @@ pub(crate) fn find(
         let finding = Diagnostic::new(path, message).help(help);
         return Err(Diagnostic { line, ..finding }.into());
     }
-    choose(path, layout, request, &mut found)?;
-    for series in &mut found.series {
-        series.decimal = decimal(series, layout)?;
-        take_cycles(series, layout)?;
-    }
-    describe(&mut found, layout);
     Ok(found)
 }
 
@@ -374,7 +386,7 @@ fn choose(
             direction.name()
         ));
     }
-    let repeats = mine.iter().all(|series| is_repeat(&series.label));
+    let repeats = is_repeat(&mine.iter().map(|series| series.label.as_str()).collect::<Vec<_>>());
     if mine.len() > 1 && !repeats && layout.table == Take::Undeclared {
         let message = format!("{} tables could be the curve: {}", mine.len(), list(&found.series));
         let help = if mine.iter().any(|series| !series.block.sheet.is_empty()) {
@@ -389,16 +401,23 @@ fn choose(
     Ok(())
 }
 
-/// Returns whether a label is that of a repeat: each of its parts is one of a specimen, or says
+/// Returns whether labels are those of repeats: what they do not share are numbers of specimens, or says
 /// nothing but test and direction.
-fn is_repeat(label: &str) -> bool {
-    let mut numbered = false;
-    let plain = label.split(", ").all(|part| {
-        let specimen = heading::is_specimen(part);
-        numbered |= specimen;
-        specimen || !heading::directions(part).is_empty() || !heading::tests(part).is_empty()
-    });
-    plain && numbered
+pub(crate) fn is_repeat(labels: &[&str]) -> bool {
+    let parts: Vec<Vec<&str>> = labels.iter().map(|label| label.split(", ").collect()).collect();
+    let shared = |part: &&str| parts.iter().all(|other| other.contains(part));
+    parts.iter().all(|parts| {
+        let mut numbered = false;
+        let own: Vec<&&str> = parts.iter().filter(|part| !shared(part)).collect();
+        let own = if own.is_empty() { parts.iter().collect() } else { own };
+        let plain = own.into_iter().fold(true, |plain, part| {
+            let specimen = heading::is_specimen(part);
+            numbered |= specimen;
+            let named = !heading::directions(part).is_empty() || !heading::tests(part).is_empty();
+            plain && (specimen || named)
+        });
+        plain && numbered
+    })
 }
 
 fn list(series: &[Series]) -> String {
@@ -418,7 +437,7 @@ fn join(numbers: &[usize]) -> String {
 }
 
 /// Returns the decimal sign of the numbers of a series; refuses them where it cannot be told.
-fn decimal(series: &Series, layout: &Layout) -> Result<Decimal, Diagnostics> {
+pub(crate) fn decimal(series: &Series, layout: &Layout) -> Result<Decimal, Diagnostics> {
     if let Some(declared) = layout.decimal {
         return Ok(declared);
     }

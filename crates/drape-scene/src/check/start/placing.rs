@@ -182,30 +182,39 @@ impl<'a> Solids<'a> {
         heights.map(|y| ASIDE.map(|part| [middle[0], y, middle[2] + part * STEP])).collect()
     }
 
-    /// Returns the shift, in m, to the lowest place at which a garment does not slide down.
+    /// Returns the shift, in m, to the lowest place at which a garment does not slide down: where it
+    /// goes round the body without a stretch, or else with one.
     fn place_at_waist(&self, points: &[[f64; 3]], girths: &Girths<'_>) -> Option<[f64; 3]> {
+        let places = self.places(points);
+        let fits: Vec<Fit> = places.iter().map(|own| girths.fit(own[own.len() / 2])).collect();
+        [Fit::Wide, Fit::Stretched].into_iter().find_map(|wanted| {
+            let held = places.iter().zip(&fits).filter(|(_, fit)| **fit == wanted);
+            let mut held = held.filter(|(places, _)| {
+                let middle = places[places.len() / 2];
+                let lower = girths.fit([middle[0], middle[1] - SLIDE, middle[2]]);
+                lower == Fit::Narrow || (lower == Fit::Stretched && wanted == Fit::Wide)
+            });
+            held.find_map(|(places, _)| self.clear_place(points, places))
+        })
+    }
+
+    /// Returns a shift, in m, among some to one height or near them, at which points are clear of the
+    /// bodies.
+    fn clear_place(&self, points: &[[f64; 3]], places: &[[f64; 3]]) -> Option<[f64; 3]> {
         let samples = samples(points, SAMPLES_COARSE);
-        for places in self.places(points) {
-            let middle = places[places.len() / 2];
-            let lower = [middle[0], middle[1] - SLIDE, middle[2]];
-            let is_held = girths.fit(middle) == Fit::Wide && girths.fit(lower) != Fit::Wide;
-            if !is_held {
-                continue;
-            }
-            let clear = places
-                .into_iter()
-                .filter(|&place| self.is_clear(points, place) && self.is_around(points, place));
-            let costed = clear.map(|place| (self.cost(&samples, place), place));
-            if let Some((_, place)) = costed.min_by(|a, b| a.0.total_cmp(&b.0)) {
-                return Some(self.refine(points, place, Search { axes: &[0, 2], clear: true }));
-            }
-            // A close garment is clear of the body at one place only.
-            let place = self.refine(points, middle, Search { axes: &[0, 1, 2], clear: false });
-            if self.is_clear(points, place) && self.is_around(points, place) {
-                return Some(place);
-            }
+        let is_free =
+            |place: &[f64; 3]| self.is_clear(points, *place) && self.is_around(points, *place);
+        let costed = places.iter().map(|&place| (self.cost(&samples, place), place));
+        let mut costed: Vec<(f64, [f64; 3])> = costed.collect();
+        costed.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let all = costed.iter().map(|(_, place)| *place);
+        if let Some(place) = all.clone().find(is_free) {
+            return Some(self.refine(points, place, Search { axes: &[0, 2], clear: true }));
         }
-        None
+        // A close garment is clear of the body at one place only.
+        let near = all.take(2);
+        let search = Search { axes: &[0, 1, 2], clear: false };
+        near.map(|place| self.refine(points, place, search)).find(is_free)
     }
 
     /// Returns the shift, in m, to the place at which a garment is nearest to the bodies, fits, and

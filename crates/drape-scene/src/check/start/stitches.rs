@@ -19,6 +19,10 @@ const DEPTH: f64 = 0.03;
 /// Fraction of the stitches of a seam that lead through a body, from which on it is told.
 const PART: f64 = 0.2;
 
+/// Number of stitches through a panel that are told: an edge of a spacing or two, which is sewn at its
+/// ends, follows its neighbours.
+const FEWEST: usize = 3;
+
 /// Number of points of a stitch that are looked at.
 const POINTS: u32 = 9;
 
@@ -124,7 +128,7 @@ fn through_panel(scene: &Scene, sheets: &[Sheet<'_>], seam: &Seam) -> Option<Str
         (sheet, crossing)
     });
     let (sheet, crossing) = crossed.max_by_key(|(_, crossing)| crossing.len())?;
-    if crossing.len() as f64 <= PART * all.len() as f64 {
+    if crossing.len() < FEWEST || crossing.len() as f64 <= PART * all.len() as f64 {
         return None;
     }
     let [from, to] = crossing[crossing.len() / 2];

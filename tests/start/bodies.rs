@@ -8,7 +8,7 @@ use assert_cmd::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-const FABRIC: &str = include_str!("fabrics/plain-weave.toml");
+const FABRIC: &str = include_str!("../fabrics/plain-weave.toml");
 
 /// Scene of a sheet at HEIGHT and the body of a file.
 const SCENE: &str = r#"spacing = 0.02
