@@ -367,7 +367,7 @@ fn normal_form(text: &str) -> String {
                 normal.to_lowercase()
             }
         }
-        _ => normal.replace("grf", "gf"),
+        _ => normal.replace("grf", "gf").replace("gfcm", "gf.cm"),
     }
 }
 

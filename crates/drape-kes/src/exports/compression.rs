@@ -57,7 +57,7 @@ pub(crate) fn columns(block: &Block) -> Option<[usize; 2]> {
 
 /// Returns the values of a compression curve; `Err` holds why it has none.
 pub(crate) fn values(series: &Series, columns: [usize; 2]) -> Result<Compression, String> {
-    let decimal = crate::tables::series::decimal(series, &Layout::default());
+    let decimal = crate::tables::find::decimal(series, &Layout::default());
     let decimal = decimal.map_err(|_| "its decimal sign cannot be told".to_owned())?;
     let points = points(&series.block, columns, decimal)?;
     let top = (0..points.len()).max_by(|&a, &b| points[a].pressure.total_cmp(&points[b].pressure));

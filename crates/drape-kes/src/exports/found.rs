@@ -9,11 +9,12 @@ use crate::exports::curve_draft::{CurveDraft, Key};
 use crate::exports::evidence::{Evidence, Told};
 use crate::sheets::axis::{AxisKeys, deformations, loads};
 use crate::tables::file::TableFile;
+use crate::tables::find::{Request, decimal, every, is_repeat};
 use crate::tables::grid::{Cell, Grid};
 use crate::tables::heading::{self, Kind};
 use crate::tables::layout::{Column, Layout, Take};
 use crate::tables::number::{Decimal, Evidence as Sign};
-use crate::tables::series::{Request, Series, decimal, every, is_repeat};
+use crate::tables::series::Series;
 use crate::tables::stated::{GAUGE, WIDTH, stated};
 use crate::test::{Direction, Test};
 
@@ -335,7 +336,7 @@ impl Group {
         if !grid.sheet.is_empty() {
             keys.push(Key::new("sheet", toml_string(&grid.sheet), ""));
         }
-        let specimens = self.items.iter().all(|item| item.series.label.starts_with("specimen "));
+        let specimens = self.items.iter().all(|item| item.series.label.contains("specimen "));
         let first = &self.items[0];
         let all = self.items.len() == first.of;
         let labels: Vec<String> =

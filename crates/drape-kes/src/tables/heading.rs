@@ -18,6 +18,8 @@ impl Heading {
     /// Load (N)   Load [N]   荷重（N）   Load / N   Load, N   Load in N   Load_N   Load N
     /// ```
     pub(crate) fn parse(cell: &str) -> Self {
+        // The half-width dot of Shift_JIS, in a file without another Japanese sign: gf･cm.
+        let cell = cell.replace('¥', "･");
         let cell = cell.trim().trim_matches('"').trim();
         let named = |name: &str, unit: &str| Self {
             name: name.trim().trim_end_matches([':', ',', '/', '-', '_']).trim().to_owned(),
