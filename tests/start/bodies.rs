@@ -174,7 +174,7 @@ fn the_t_shirt_at_the_feet_is_worn_at_the_centre_that_is_advised() {
         std::fs::write(folder.path().join("scene.toml"), text).expect("written");
         drape(folder.path(), &["check", "scene.toml"])
     };
-    let (code, _, said) = with("center = [0.01, -1.1, 0.02]");
+    let (code, _, said) = with("center = [0.01, -1.35, 0.02]");
     assert_eq!(code, Some(3), "{name}: {said}");
     assert!(said.contains("starts at the feet of the body"), "{name}: {said}");
     let advice = said.split("write ").nth(1).and_then(|rest| rest.split(" in its").next());
