@@ -1,5 +1,5 @@
-//! `drape convert`: patterns of others to TOML, and to drawings; what is asked for, and what is
-//! refused.
+//! `drape convert`: patterns of others to TOML, and to drawings; exports of instruments to sheets;
+//! what is asked for, and what is refused.
 
 use std::path::Path;
 use std::process::Output;
@@ -64,8 +64,10 @@ fn what_does_not_fit_is_refused_with_a_remedy() {
         (vec!["convert", &shirt, "-o", "a.svg", "--paper", "b9"], 2, "210x297"),
         (vec!["convert", &shirt, "-o", "a.svg", "--width", "5"], 2, "such as 900"),
         (vec!["convert", &shirt, "-o", "a.obj"], 2, "*.toml or *.svg"),
-        (vec!["convert", "."], 2, "name a *.json"),
-        (vec!["convert", &shirt, "d.svg"], 2, "one pattern at a time"),
+        (vec!["convert", "."], 3, "no file of the folder is a curve or a value: d.svg"),
+        (vec!["convert", ".", "--size", "M"], 2, "--size is for patterns"),
+        (vec!["convert", ".", "-o", "a.svg"], 2, "*.toml, or into a folder"),
+        (vec!["convert", &shirt, "d.svg"], 2, "one pattern or folder at a time"),
     ] {
         let output = drape(folder, &arguments);
         let said = text(&output.stderr);
@@ -74,4 +76,55 @@ fn what_does_not_fit_is_refused_with_a_remedy() {
     }
     let asked = drape(folder, &["convert", "d.svg", "--unit", "mm"]);
     assert!(text(&asked.stdout).contains("to = [300, 0]"), "{}", text(&asked.stdout));
+}
+
+/// Export of a strip in gf/cm, with its direction in a line above.
+fn export(direction: &str, stiffness: f64) -> String {
+    let way = (0..=40).chain((0..40).rev()).enumerate();
+    let row = |(index, step): (usize, i32)| {
+        let strain = 0.1 * f64::from(step);
+        let shape = if index > 40 { 0.25 * strain } else { 1.0 };
+        format!("{strain:.3};{:.5}\r\n", stiffness * strain * strain * shape).replace('.', ",")
+    };
+    let rows: String = way.map(row).collect();
+    format!("KES-FB1-A\r\nDirection;{direction}\r\n\r\nStrain (%);Force (gf/cm)\r\n{rows}")
+}
+
+#[test]
+fn a_folder_of_exports_goes_to_a_sheet_that_is_checked_and_fitted() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let exports = folder.join("exports");
+    std::fs::create_dir(&exports).expect("a folder");
+    for (name, direction, stiffness) in [("a.txt", "Warp", 31.0), ("b.txt", "Weft", 20.0)] {
+        std::fs::write(exports.join(name), export(direction, stiffness)).expect("written");
+    }
+    std::fs::write(exports.join("values.csv"), "Item,Unit,Value\nW,mg/cm2,12.4\nT0,mm,0.5\n")
+        .expect("written");
+    let run = |arguments: &[&str]| {
+        let output = drape(folder, arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let said = run(&["convert", "exports", "-o", "drafted/sheet.toml"]);
+    assert!(said.contains("2 curves, 2 values, 0 sections"), "{said}");
+    let hand = "name = \"exports\"\nW = 12.4\nT0 = 0.5\n\
+                [[curve]]\ntest = \"tensile\"\ndirection = \"warp\"\nfile = \"a.txt\"\n\
+                [[curve]]\ntest = \"tensile\"\ndirection = \"weft\"\nfile = \"b.txt\"\n";
+    std::fs::write(exports.join("sheet.toml"), hand).expect("written");
+    for sheet in ["drafted", "exports"] {
+        assert!(run(&["check", sheet]).contains("2 curves"), "{sheet}");
+        run(&["fit", sheet, "-o", &format!("{sheet}.toml")]);
+    }
+    let fabric = |name: &str| {
+        let text = std::fs::read_to_string(folder.join(name)).expect("a fabric");
+        let mut fabric: toml::Table = text.parse().expect("TOML");
+        fabric.remove("provenance");
+        fabric
+    };
+    assert_eq!(fabric("drafted.toml"), fabric("exports.toml"));
+    let again = drape(folder, &["convert", "exports", "-o", "drafted"]);
+    assert_eq!(again.status.code(), Some(2), "{}", text(&again.stderr));
+    run(&["convert", "exports", "-o", "drafted", "--force"]);
+    assert!(run(&["convert", "exports"]).contains("file = \"a.txt\""), "for the folder itself");
 }

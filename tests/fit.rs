@@ -22,7 +22,7 @@ fn a_fit_leaves_a_fabric_and_a_page_that_needs_nothing_else() {
     let output = command.assert().success().get_output().stdout.clone();
     let page: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     let laws = page["laws"].as_array().expect("laws");
-    assert_eq!(laws.len(), 6, "one for each curve");
+    assert_eq!(laws.len(), 7, "one for each curve, and the assumed one of shear");
     for law in &laws[..2] {
         let misfit = law["statistics"]["misfit"].as_f64().expect("a misfit");
         assert!(misfit < 0.011, "{}: {misfit}", law["title"]);
@@ -35,7 +35,7 @@ fn a_fit_leaves_a_fabric_and_a_page_that_needs_nothing_else() {
         let there = html.replace("http://www.w3.org/2000/svg", "").contains(outside);
         assert!(!there, "the page holds {outside}");
     }
-    assert_eq!(html.matches("<section class=\"law\"").count(), 6);
+    assert_eq!(html.matches("<section class=\"law\"").count(), 7);
 }
 
 #[test]
@@ -133,5 +133,81 @@ fn standard_errors_stand_under_the_keys_of_their_numbers() {
         assert!((0.005..=0.2).contains(&stretched), "{name}: {stretched}");
         // The cupro was bent in loops, whose curvature is no measure of the test.
         assert_eq!(of("warp.bending").is_some(), name == "tagawa-2003", "{name}");
+    }
+}
+
+#[test]
+fn a_page_of_values_has_loops_with_the_values_in_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (fabric, report) = (folder.path().join("a.toml"), folder.path().join("report"));
+    let mut command = drape();
+    command.arg("fit").arg(fabrics().join("matsudaira-a")).arg("-o").arg(&fabric);
+    command.arg("--report").arg(&report).arg("--json");
+    let output = command.assert().success().get_output().stdout.clone();
+    let page: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
+    let laws = page["laws"].as_array().expect("laws");
+    let titles: Vec<&str> = laws.iter().filter_map(|law| law["title"].as_str()).collect();
+    assert_eq!(
+        titles,
+        ["tensile, warp", "tensile, weft", "bending, warp", "bending, weft", "shear"]
+    );
+    let bending = &laws[2];
+    assert_eq!(bending["model"], "from the values of the sheet: B, 2HB");
+    let reason = |symbol: &str| {
+        let parameters = bending["parameters"].as_array().expect("parameters");
+        let found = parameters.iter().find(|parameter| parameter["symbol"] == symbol);
+        found.expect(symbol)["interval"]["fixed"]["reason"].to_string()
+    };
+    assert_eq!(reason("k_b"), "\"from B\"");
+    assert!(reason("x_f").contains("ASSUMED"), "{}", reason("x_f"));
+    assert!(laws[4]["model"].as_str().is_some_and(|model| model.starts_with("ASSUMED")));
+    // The loop passes the marks: its values are those of the sheet.
+    let plot = &bending["plots"][0];
+    let points: Vec<[f64; 2]> = plot["branches"]
+        .as_array()
+        .expect("branches")
+        .iter()
+        .flat_map(|branch| branch["points"].as_array().expect("points"))
+        .map(|point| ["deformation", "fitted"].map(|key| point[key].as_f64().expect("a number")))
+        .collect();
+    let largest = |axis: usize| points.iter().fold(0.0, |m: f64, point| m.max(point[axis].abs()));
+    let scale = [largest(0), largest(1)];
+    let marks = plot["marks"].as_array().expect("marks");
+    assert_eq!(marks.len(), 2, "2HB and B");
+    for mark in marks.iter().filter(|mark| mark["label"] == "2HB") {
+        for mark in mark["points"].as_array().expect("points") {
+            let away = |point: &[f64; 2]| {
+                let part = |axis: usize| {
+                    (point[axis] - mark[axis].as_f64().expect("a number")) / scale[axis]
+                };
+                part(0).hypot(part(1))
+            };
+            let nearest = points.iter().map(away).fold(f64::INFINITY, f64::min);
+            assert!(nearest < 0.01, "{mark} is {nearest} of the plot away from the loop");
+        }
+    }
+    let html = std::fs::read_to_string(report.join("matsudaira-a.html")).expect("a page");
+    assert!(html.contains("class=\"points mark\"") && html.contains("values of the sheet"));
+    let text = std::fs::read_to_string(&fabric).expect("a fabric");
+    for words in
+        ["# assumed: warp bending friction length", "# assumed: shear stiffness: not measured"]
+    {
+        assert!(text.contains(words), "{words} is missing in\n{text}");
+    }
+    drape().arg("check").arg(&fabric).assert().success();
+}
+
+#[test]
+fn a_fit_says_what_was_read_and_why_a_law_was_taken() {
+    let mut command = drape();
+    let folder = tempfile::tempdir().expect("a folder");
+    command.arg("fit").arg(fabrics().join("tagawa-2003")).arg("-o");
+    let output = command.arg(folder.path().join("f.toml")).assert().success().get_output().clone();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in
+        ["[Read] - tensile.csv:", "taken: ", "compared: ", "AICc", "at most 6 above the best"]
+    {
+        assert!(words.contains(said), "{said} is missing in\n{text}");
     }
 }

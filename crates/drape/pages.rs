@@ -15,4 +15,5 @@ pub(crate) mod validation;
 mod kes_value;
 mod loop_plot;
 mod quantity;
+mod value_law;
 mod version;

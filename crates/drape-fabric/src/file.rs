@@ -10,6 +10,7 @@ use drape_input::{
 };
 use serde::{Deserialize, Serialize};
 
+use crate::assumed;
 use crate::check::Problem;
 use crate::fabric::{Fabric, Provenance, SURFACE_FRICTION, YarnLaws};
 use crate::laws::bending::{BendingBackbone, BendingLaw};
@@ -192,10 +193,14 @@ impl Fabric {
     }
 
     /// Returns the fabric as TOML, which [`Fabric::read`] reads back exactly.
+    ///
+    /// What its provenance says to be assumed is a comment above the number or the law.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        toml::to_string_pretty(&FabricFile::from(self))
-            .expect("numbers, strings and tables always have a TOML form")
+        let text = toml::to_string_pretty(&FabricFile::from(self))
+            .expect("numbers, strings and tables always have a TOML form");
+        let assumed = self.provenance.as_ref().map_or(&[][..], |provenance| &provenance.assumed);
+        assumed::marked(&text, assumed)
     }
 }
 

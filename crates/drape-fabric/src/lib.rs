@@ -8,7 +8,8 @@
 //! * `laws`: the one-dimensional laws of traction, bending and shear, one connector at a time. They are
 //!   the definition; everything else is held to them by test.
 //! * `batch`: the same laws for many connectors side by side, in loops that are vectorised.
-//! * `fabric`, `check`, `file`: the fabric, the range of each of its numbers, its TOML.
+//! * `fabric`, `check`, `file`, `assumed`: the fabric, the range of each of its numbers, its TOML, and the
+//!   comments in it.
 //! * `breen`: the work curves of Breen, House & Wozny, derived from the laws.
 
 // The laws: for one connector, and for many side by side.
@@ -16,6 +17,7 @@ mod batch;
 mod laws;
 
 // The fabric and its file.
+mod assumed;
 mod check;
 mod fabric;
 mod file;

@@ -49,6 +49,8 @@ pub enum Quantity {
     ShearStiffness,
     /// Work per area, in J/m².
     WorkPerArea,
+    /// Pressure, in Pa.
+    Pressure,
     /// Mass per area, in kg/m².
     MassPerArea,
     /// Height of a surface, in metres.
@@ -82,6 +84,7 @@ impl Quantity {
             Self::BendingRigidity => "bending rigidity per width",
             Self::ShearStiffness => "shear stiffness",
             Self::WorkPerArea => "work per area",
+            Self::Pressure => "pressure",
             Self::MassPerArea => "mass per area",
             Self::Roughness => "roughness",
             Self::Time => "time",
@@ -197,6 +200,16 @@ impl Quantity {
                 ("N/m", 1.0),
                 ("mJ/m2", 1e-3),
             ],
+            Self::Pressure => &[
+                ("gf/cm2", 1e4 * GRAM_FORCE),
+                ("Pa", 1.0),
+                ("kPa", 1e3),
+                ("N/m2", 1.0),
+                ("cN/cm2", 1e2),
+                ("N/cm2", 1e4),
+                ("g/cm2", 1e4 * GRAM_FORCE),
+                ("kgf/cm2", 1e7 * GRAM_FORCE),
+            ],
             Self::Roughness => &[("um", 1e-6), ("mm", 1e-3), ("m", 1.0)],
             Self::MassPerArea => {
                 &[("mg/cm2", 1e-2), ("kg/m2", 1.0), ("g/m2", 1e-3), ("g/cm2", 10.0), ("gsm", 1e-3)]
@@ -271,7 +284,7 @@ pub fn parse_unit(text: &str, accepted: &[Quantity]) -> Result<Unit, UnitError> 
 /// Returns whether a text is a unit of measurement of a curve.
 #[must_use]
 pub fn is_unit(text: &str) -> bool {
-    const OF_CURVES: [Quantity; 8] = [
+    const OF_CURVES: [Quantity; 9] = [
         Quantity::Ratio,
         Quantity::Angle,
         Quantity::Length,
@@ -280,6 +293,7 @@ pub fn is_unit(text: &str) -> bool {
         Quantity::ForcePerWidth,
         Quantity::Moment,
         Quantity::MomentPerWidth,
+        Quantity::Pressure,
     ];
     const OTHERS: [&str; 14] = [
         "s", "sec", "min", "ms", "h", "MPa", "Pa", "kPa", "N/mm2", "J", "mJ", "C", "mm/min", "mm/s",
@@ -353,7 +367,7 @@ fn normal_form(text: &str) -> String {
                 normal.to_lowercase()
             }
         }
-        _ => normal.replace("grf", "gf"),
+        _ => normal.replace("grf", "gf").replace("gfcm", "gf.cm"),
     }
 }
 

@@ -10,6 +10,7 @@
 //! * `curves`: [`Curve`], its branches, and the KES values read off it at [`EvaluationPoints`].
 //! * `tables`: the files of instruments and spreadsheets, made into columns of numbers.
 //! * `sheets`: [`Sheet`], its TOML and table files, and the checks of what they say.
+//! * `exports`: [`SheetDraft`], a folder of files made into a sheet.
 
 mod error;
 // Tests, and the values that they give.
@@ -22,6 +23,8 @@ mod curves;
 mod sheets;
 // Tables of any instrument.
 mod tables;
+// Folders of exports, drafted as sheets.
+mod exports;
 
 pub use curves::branch::{Branch, reversals};
 pub use curves::curve::{Curve, Extent};
@@ -29,6 +32,7 @@ pub use curves::evaluation::{CurveValue, EvaluationPoints};
 pub use curves::loop_values::{BendingPoints, BendingValues, ShearPoints, ShearValues};
 pub use curves::tensile_values::TensileValues;
 pub use error::Error;
+pub use exports::draft::SheetDraft;
 pub use sheets::listed::SheetValue;
 pub use sheets::model::Model;
 pub use sheets::sheet::Sheet;

@@ -14,17 +14,19 @@
 //! * `number`, `grid`: cells, decimal signs, separators.
 //! * `heading`, `block`: names and units of columns, and the rows below them.
 //! * `layout`: what a sheet declares.
-//! * `columns`, `series`: deformation and load, repeats and cycles.
+//! * `columns`, `series`, `parts`, `find`: deformation and load, repeats and cycles.
 //! * `stated`: gauge and width in the lines above the numbers.
 
 pub(crate) mod block;
 pub(crate) mod columns;
 pub(crate) mod encoding;
 pub(crate) mod file;
+pub(crate) mod find;
 pub(crate) mod grid;
 pub(crate) mod heading;
 pub(crate) mod layout;
 pub(crate) mod number;
+pub(crate) mod parts;
 pub(crate) mod series;
 pub(crate) mod spreadsheet;
 pub(crate) mod stated;

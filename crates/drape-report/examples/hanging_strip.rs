@@ -71,5 +71,7 @@ fn measured_loop() -> LoopPlot {
         deformation: Axis::new("curvature", "1/cm", 100.0),
         load: Axis::new("moment per width", "gf·cm/cm", 9.80665e-3),
         branches: vec![branch(BranchKind::Loading, 2e-3), branch(BranchKind::Unloading, -2e-3)],
+        law: "fitted law".to_owned(),
+        marks: Vec::new(),
     }
 }

@@ -27,7 +27,7 @@ mod uncertainty;
 pub use axis::Axis;
 pub use correlation::{CorrelatedPair, Correlation, correlation_svg};
 pub use graph::{GraphPlot, GraphSeries, Look, graph_svg};
-pub use loop_plot::{Branch, BranchKind, LoopPlot, Point, loop_svg};
+pub use loop_plot::{Branch, BranchKind, LoopPlot, Mark, Point, loop_svg};
 pub use overlay::{OverlayPlot, Trace, overlay_svg};
 pub use strain_map::{StrainMap, strain_svg};
 pub use uncertainty::{UncertaintyPlot, uncertainty_svg};

@@ -103,11 +103,11 @@ fn the_text_reads_like_a_fitting_report() {
     let text = a_page().to_text().unwrap();
     for line in [
         "[bending, warp]  doubtful",
-        "  ! no 95 % interval for x_f",
+        "  ! no 95 % interval for x_f (bending rigidity)",
         "  misfit   1.23 % of the range (rms 0.00673 gf·cm/cm), R² 0.99870, 63 points",
         "  k_b        bending rigidity  0.1180 ± 0.0023  gf·cm²/cm  1.99 %  [0.1135, 0.1227]  1.157e-5  N·m",
         "    x_f: at its lower bound",
-        "    k_b, x_f: -0.830",
+        "    k_b (bending rigidity) and x_f (bending rigidity): -0.830",
         "  - thickness: 0.4 mm taken",
     ] {
         assert!(text.lines().any(|l| l == line), "no line\n{line}\nin\n{text}");

@@ -1,10 +1,12 @@
 //! `drape convert`: files of others to the project's own, and patterns to drawings.
 //!
+//! [`sheet`] makes the exports of instruments in a folder into a sheet.
 //! [`pattern`] converts patterns: GarmentCode, FreeSewing, SVG and DXF to TOML, and any of them to SVG for a
 //! plotter or for pages of paper. A further kind of file is a further module, chosen by what it is made from.
 
 mod arguments;
 mod pattern;
+mod sheet;
 
 pub(crate) use arguments::ConvertArguments;
 
@@ -13,11 +15,8 @@ use crate::failure::Failure;
 /// Executes `drape convert`.
 pub(crate) fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
     match &arguments.from[..] {
-        [one] if one.is_dir() => {
-            let message = format!("{} is a folder, and no pattern", one.display());
-            Err(Failure::Usage(format!("{message}; name a *.json, *.svg, *.dxf or *.toml in it")))
-        }
+        [one] if one.is_dir() => sheet::convert(one, arguments),
         [one] => pattern::convert(one, arguments),
-        _ => Err(Failure::Usage("one pattern at a time; each has its own -o".into())),
+        _ => Err(Failure::Usage("one pattern or folder at a time; each has its own -o".into())),
     }
 }

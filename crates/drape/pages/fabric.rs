@@ -4,7 +4,7 @@
 use drape::fabric::{
     BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
 };
-use drape::kes::{Direction, Sheet, Test};
+use drape::kes::{Curve, Direction, Sheet, Test};
 use drape::report::plot::OverlayPlot;
 use drape::report::{
     ComparePage, ComparedValue, FabricName, FitPage, Interval, LawReport, Parameter, Quantity,
@@ -74,8 +74,14 @@ pub(crate) fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
     }
 }
 
-fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
-    let curve = instrument::ideal(fabric, test, direction, POINTS);
+/// Returns the loop that an ideal instrument draws of a fabric.
+pub(crate) fn loop_of(fabric: &Fabric, test: Test, direction: Direction) -> Curve {
+    instrument::ideal(fabric, test, direction, POINTS)
+}
+
+/// Returns a law of a fabric, with its loop and its parameters.
+pub(crate) fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
+    let curve = loop_of(fabric, test, direction);
     let title = match test {
         Test::Shear => test.name().to_owned(),
         _ => format!("{}, {}", test.name(), direction.name()),
@@ -177,7 +183,7 @@ pub(crate) fn compare_page(fabrics: [&Fabric; 2]) -> ComparePage {
         let directions = directions(test);
         let trace_of = |fabric: &Fabric, direction: Direction| {
             let label = if test == Test::Shear { "shear" } else { direction.name() };
-            trace(label, &instrument::ideal(fabric, test, direction, POINTS))
+            trace(label, &loop_of(fabric, test, direction))
         };
         OverlayPlot {
             title: test.name().into(),

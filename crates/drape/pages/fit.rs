@@ -1,7 +1,7 @@
 //! Report of a fit: every law with its loop, its parameters and their intervals, and what was
 //! assumed.
 
-use drape::fit::{CurveFit, Estimate, Fit, Settings, Undetermined};
+use drape::fit::{Candidate, CurveFit, Estimate, Fit, Settings, Undetermined};
 use drape::kes::{Curve, Sheet, Test};
 use drape::lm::Stop;
 use drape::report::plot::{Correlation, LoopPlot};
@@ -12,6 +12,7 @@ use drape::report::{
 use super::kes_value::{self, SheetValues};
 use super::loop_plot::{Loads, loop_plot};
 use super::quantity;
+use super::value_law::value_laws;
 use super::version::VERSION;
 
 /// Returns the report of a fit: all that shows whether it can be trusted.
@@ -23,6 +24,7 @@ pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> FitPage
         origin: if value.is_some() { "sheet" } else { "assumed" }.into(),
     };
     let fabric = &fit.fabric;
+    let of_curves = sheet.curves.iter().zip(&fit.curves).map(|(c, f)| law(c, f));
     let SheetValues { values, warnings } = kes_value::of_sheet(sheet, fabric, settings);
     FitPage {
         name: sheet.name.clone(),
@@ -32,7 +34,8 @@ pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> FitPage
             given("mass per area", sheet.density(), fabric.density, quantity::mass()),
             given("thickness", sheet.thickness(), fabric.thickness, quantity::thickness()),
         ],
-        laws: sheet.curves.iter().zip(&fit.curves).map(|(c, f)| law(c, f)).collect(),
+        laws: of_curves.chain(value_laws(sheet, fit, settings)).collect(),
+        readings: sheet.readings().to_vec(),
         values,
         assumed: fit.assumed.clone(),
         warnings: sheet.warnings().iter().map(ToString::to_string).chain(warnings).collect(),
@@ -116,7 +119,7 @@ fn correlation(fit: &CurveFit) -> Option<Correlation> {
 const SYSTEMATIC: f64 = 0.5;
 
 fn notes(fit: &CurveFit) -> Vec<String> {
-    let mut notes = Vec::new();
+    let mut notes: Vec<String> = preference(fit).into_iter().collect();
     if fit.repeats > 0 {
         notes.push(format!(
             "the mean of {} repeats; their scatter is in the errors of the parameters",
@@ -134,6 +137,35 @@ fn notes(fit: &CurveFit) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// Returns why a law was taken before the others, with the figures that decided.
+fn preference(fit: &CurveFit) -> Option<String> {
+    let chosen = fit.candidates.get(fit.chosen)?;
+    let others = fit.candidates.iter().filter(|other| other.law != chosen.law);
+    let least = fit.candidates.iter().filter_map(|candidate| candidate.criterion);
+    let least = least.fold(f64::INFINITY, f64::min);
+    let figures = |candidate: &Candidate| {
+        let misfit = format!("misfit {:.2} %", 100.0 * candidate.misfit);
+        let criterion = candidate.criterion.map_or("no AICc".to_owned(), |criterion| {
+            format!("AICc {criterion:.1}, {:.1} above the best", criterion - least)
+        });
+        let prediction = candidate.prediction.map_or(String::new(), |error| {
+            format!(", last cycle predicted to {:.2} %", 100.0 * error)
+        });
+        let parameters = candidate.parameters;
+        format!("{} ({parameters} parameters, {misfit}, {criterion}{prediction})", candidate.law)
+    };
+    let others: Vec<String> = others.map(figures).collect();
+    (!others.is_empty()).then(|| {
+        format!(
+            "taken: {}; compared: {}. Of the laws in this order of preference the first is taken \
+             whose AICc is at most {} above the best, and a later one only if it predicts better too",
+            figures(chosen),
+            others.join("; "),
+            Candidate::LEAD
+        )
+    })
 }
 
 /// Returns the plot of the measured and the fitted loop.

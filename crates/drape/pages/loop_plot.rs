@@ -35,7 +35,8 @@ pub(crate) fn loop_plot(title: String, curve: &Curve, loads: impl Fn(usize) -> L
         points: branch.points.clone().map(point).collect(),
     };
     let branches = branches.iter().enumerate().map(branch).collect();
-    LoopPlot { title, deformation, load, branches }
+    let law = "fitted law".to_owned();
+    LoopPlot { title, deformation, load, branches, law, marks: Vec::new() }
 }
 
 /// Returns a curve as an overlay plot draws it.

@@ -10,12 +10,6 @@ use crate::regression::residuals::{ForwardModel, NamedParameter, Residuals};
 use crate::regression::search::{SearchResult, multistart};
 use crate::regression::uncertainty::Independence;
 
-/// Lead in Akaike's criterion that a law of lower preference must have.
-///
-/// A lead of four to seven leaves the other law considerably less support \[BA02, §2.6\]. The
-/// criterion alone selects a second friction element that is not there in one of six noisy loops,
-/// because its length is free to fit the noise; with this lead it is one in a hundred.
-const LEAD: f64 = 6.0;
 /// Root mean square residual, over the range of the load, that no instrument resolves.
 ///
 /// It is that of a converter with 24 bits. Below it, rounding would decide between laws.
@@ -44,6 +38,15 @@ pub struct Candidate {
     pub prediction: Option<f64>,
 }
 
+impl Candidate {
+    /// Lead in Akaike's criterion that a law of lower preference must have.
+    ///
+    /// A lead of four to seven leaves the other law considerably less support \[BA02, §2.6\]. The
+    /// criterion alone selects a second friction element that is not there in one of six noisy
+    /// loops, because its length is free to fit the noise; with this lead it is one in a hundred.
+    pub const LEAD: f64 = 6.0;
+}
+
 /// Law to try on a curve.
 pub(crate) struct CandidateModel<'a> {
     pub(crate) name: String,
@@ -64,7 +67,7 @@ pub(crate) struct Selection {
     pub(crate) evaluations: usize,
 }
 
-/// Fits every law and selects the first whose criterion is within [`LEAD`] of the smallest, of
+/// Fits every law and selects the first whose criterion is within [`Candidate::LEAD`] of the smallest, of
 /// those that predict better than all before them.
 pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Selection {
     let points = curve.load().len();
@@ -96,7 +99,8 @@ pub(crate) fn select(curve: &Curve, models: &[CandidateModel<'_>]) -> Selection 
     };
     let criterion = |i: usize| candidates[i].criterion.filter(|_| eligible(i));
     let least = (0..candidates.len()).filter_map(criterion).fold(f64::INFINITY, f64::min);
-    let supported = |i: &usize| criterion(*i).is_some_and(|criterion| criterion <= least + LEAD);
+    let supported =
+        |i: &usize| criterion(*i).is_some_and(|criterion| criterion <= least + Candidate::LEAD);
     // With too few points for any criterion, the law of highest preference.
     let chosen = (0..candidates.len()).find(supported).unwrap_or(0);
     let all: usize = results.iter().map(|result| result.evaluations).sum();

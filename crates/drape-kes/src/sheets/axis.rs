@@ -47,7 +47,8 @@ struct Form {
     accepted: &'static [Quantity],
 }
 
-/// Axis, as the sheet describes it, with its key paths for messages.
+/// Axis, as the sheet describes it, with its key paths for messages; nothing is declared in the default.
+#[derive(Default)]
 pub(crate) struct AxisKeys {
     pub(crate) columns: Vec<Column>,
     pub(crate) unit: Option<Unit>,
@@ -97,14 +98,10 @@ impl AxisKeys {
         let size_key = keys[2];
         let path = section.key(key);
         let mut read = Self {
-            columns: Vec::new(),
-            unit: None,
-            size: None,
-            zero: None,
-            reversed: None,
             unit_key: format!("{path}.unit"),
             size_key: format!("{path}.{size_key}"),
             key: path,
+            ..Self::default()
         };
         if !section.declares(key) {
             return Some(read);

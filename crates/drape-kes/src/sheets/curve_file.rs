@@ -16,10 +16,11 @@ use crate::sheets::suspect::{AxesAsWritten, Keys, examine};
 use crate::tables::block::Lines;
 use crate::tables::encoding;
 use crate::tables::file;
+use crate::tables::find::{Found, Request, find};
 use crate::tables::grid::Separator;
 use crate::tables::layout::Layout;
 use crate::tables::number::Decimal;
-use crate::tables::series::{Found, Request, Series, find};
+use crate::tables::series::Series;
 use crate::test::{Direction, Test};
 
 const CURVE_KEYS: [&str; 16] = [

@@ -98,10 +98,15 @@ impl Sheet {
         } else {
             Document::read(path)?
         };
+        Self::of_document(&document)
+    }
+
+    /// Reads a sheet from its text; the files of its curves are beside its path.
+    pub(crate) fn of_document(document: &Document) -> Result<Self, Error> {
         // Decoding into a plain table reports mistakes of grammar as for every other file.
         document.decode::<toml::Table>()?;
         let table = DeTable::parse(document.text()).expect("the text has just been decoded");
-        let mut findings = Findings::new(&document);
+        let mut findings = Findings::new(document);
         let sheet = Self::check(&Section::root(table.get_ref()), &mut findings);
         Diagnostics::check(findings.errors)?;
         Ok(Self { warnings: findings.warnings, readings: findings.readings, ..sheet })

@@ -85,6 +85,11 @@ pub(crate) fn blocks(grid: &Grid, lines: Lines) -> Blocks {
     let from = lines.header.unwrap_or(0).max(lines.skip + 1);
     for row in grid.rows.iter().filter(|row| row.line >= from) {
         let is_header = lines.header == Some(row.line);
+        if let [only] = &open.rows[..]
+            && has_units_in_place(row, only)
+        {
+            open.above.append(&mut open.rows);
+        }
         match part(row, open.rows.first(), is_header) {
             Part::Numbers => open.rows.push(row.clone()),
             Part::Statistics => found.statistics.push(row.line),
@@ -96,6 +101,15 @@ pub(crate) fn blocks(grid: &Grid, lines: Lines) -> Blocks {
     }
     open.finish(grid, lines, &mut found);
     found
+}
+
+/// Returns whether a row has a unit where the one before it, a date perhaps, has a number.
+fn has_units_in_place(row: &Row, before: &Row) -> bool {
+    row.numbers() >= 2
+        && row.filled().any(|(column, cell)| {
+            let number = before.cells.get(column).is_some_and(Cell::is_number);
+            number && !cell.is_number() && is_unit(&cell.text())
+        })
 }
 
 /// Rows of a block that may go on.
@@ -178,6 +192,7 @@ impl OpenBlock {
         if lines.header != Some(0) {
             take_header(&mut block, lines.header, grid.separator == Some(Separator::Space));
         }
+        take_unit_columns(&mut block);
         // A block below a title alone has the header of the one above it.
         if block.header_line.is_none()
             && let Some(before) = found.blocks.last()
@@ -238,6 +253,24 @@ fn take_header(block: &mut Block, declared: Option<usize>, spaced: bool) {
     }
 }
 
+/// Takes units that stand in a column of their own, behind each number: `12.5, N, 0.3, mm`.
+fn take_unit_columns(block: &mut Block) {
+    for column in 1..block.width() {
+        let mut cells = block.rows.iter().map(|row| row.cells.get(column));
+        let Some(Some(Cell::Text(unit))) = cells.next() else { continue };
+        let unit = unit.clone();
+        let same = |cell: Option<&Cell>| matches!(cell, Some(Cell::Text(text)) if *text == unit);
+        if !is_unit(&unit) || !cells.all(same) {
+            continue;
+        }
+        block.headings.resize(block.headings.len().max(block.width()), Heading::default());
+        let of_number = &mut block.headings[column - 1];
+        if of_number.unit.is_none() {
+            of_number.unit = Some(unit);
+        }
+    }
+}
+
 /// Joins words that blanks have parted: a name ends with its unit in brackets.
 fn rejoined(row: &Row) -> Row {
     let mut names: Vec<String> = vec![String::new()];
@@ -279,7 +312,8 @@ fn is_row_of_units(row: &Row) -> bool {
             let text = cell.text();
             let text = text.trim();
             // A closing bracket belongs to the unit where there is one within, as in gf/(cm.deg).
-            is_unit(text) || is_unit(unbracketed(text)) || text == "-" || text == "()"
+            let seconds = unbracketed(text).eq_ignore_ascii_case("sec");
+            is_unit(text) || is_unit(unbracketed(text)) || seconds || text == "-" || text == "()"
         })
 }
 

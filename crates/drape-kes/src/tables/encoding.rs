@@ -13,6 +13,8 @@ pub(crate) struct Decoded {
     pub(crate) text: String,
     /// Encoding, in words for the reading; empty for plain ASCII.
     pub(crate) reading: String,
+    /// Encoding; `None` for plain ASCII.
+    pub(crate) encoding: Option<&'static Encoding>,
 }
 
 /// Returns the encoding of a label, such as `Shift_JIS`.
@@ -34,14 +36,19 @@ pub(crate) fn decode(bytes: &[u8], declared: Option<&'static Encoding>) -> Resul
         let (marked, mark) = Encoding::for_bom(bytes).unwrap_or((encoding, 0));
         let rest = if marked == encoding { &bytes[mark..] } else { bytes };
         return strict(encoding, rest)
-            .map(|text| Decoded { text, reading: format!("{} as declared", encoding.name()) })
+            .map(|text| Decoded {
+                text,
+                reading: format!("{} as declared", encoding.name()),
+                encoding: Some(encoding),
+            })
             .ok_or_else(|| first_error(encoding, rest));
     }
     let taken = |encoding: &'static Encoding, bytes: &[u8], why: &str| {
         let (text, _) = encoding.decode_without_bom_handling(bytes);
-        let why =
-            if why.is_empty() { String::new() } else { format!("{} ({why})", encoding.name()) };
-        Ok(Decoded { text: text.into_owned(), reading: why })
+        let is_plain = why.is_empty();
+        let why = if is_plain { String::new() } else { format!("{} ({why})", encoding.name()) };
+        let encoding = (!is_plain).then_some(encoding);
+        Ok(Decoded { text: text.into_owned(), reading: why, encoding })
     };
     if let Some((encoding, mark)) = Encoding::for_bom(bytes) {
         return taken(encoding, &bytes[mark..], "by its byte-order mark");

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use drape_input::{Diagnostic, Diagnostics};
+use encoding_rs::Encoding;
 
 use crate::tables::encoding;
 use crate::tables::grid::{Grid, Separator, separator};
@@ -20,6 +21,8 @@ pub(crate) struct TableFile {
     pub(crate) grids: Vec<Grid>,
     /// Encoding and separator, in words; empty for ASCII with commas.
     pub(crate) reading: Vec<String>,
+    /// Encoding of a text file that is not plain ASCII.
+    pub(crate) encoding: Option<&'static Encoding>,
 }
 
 /// Reads a file.
@@ -44,7 +47,7 @@ pub(crate) fn parse(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableF
             Diagnostic::new(path, format!("not a spreadsheet that can be read: {reason}"))
                 .help("save it again as .xlsx, or each sheet as .csv")
         })?;
-        return Ok(TableFile { grids, reading: Vec::new() });
+        return Ok(TableFile { grids, reading: Vec::new(), encoding: None });
     }
     let decoded = encoding::decode(bytes, layout.encoding).map_err(|place| {
         let line = bytes[..place].iter().filter(|&&byte| byte == b'\n').count() + 1;
@@ -85,7 +88,7 @@ pub(crate) fn parse(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableF
         breaks_off: !text.is_empty() && !text.ends_with('\n'),
         separator: Some(taken),
     };
-    Ok(TableFile { grids: vec![grid], reading })
+    Ok(TableFile { grids: vec![grid], reading, encoding: decoded.encoding })
 }
 
 /// Returns the separator that the first line declares, as Excel writes it: `sep=;`.

@@ -226,22 +226,26 @@ const LINES_LOOKED_AT: usize = 2000;
 /// Returns the separator that splits most lines into numbers, and nothing but numbers.
 pub(crate) fn separator(text: &str) -> Separator {
     let end = text.match_indices('\n').nth(LINES_LOOKED_AT).map_or(text.len(), |(end, _)| end);
-    let score = |separator: Separator| -> f64 {
+    // Names with one number each, a table of results, count where no row has two numbers.
+    let score = |separator: Separator, least: usize| -> f64 {
         let rows = separator.split(&text[..end]).unwrap_or_default();
         let share = |row: &Row| {
-            let numbers = row.numbers();
-            if numbers < 2 { 0.0 } else { numbers as f64 / row.filled().count() as f64 }
+            let (numbers, filled) = (row.numbers(), row.filled().count());
+            if numbers < least || filled < 2 { 0.0 } else { numbers as f64 / filled as f64 }
         };
         rows.iter().map(share).sum()
     };
-    let mut best = (Separator::Comma, 0.0);
-    for separator in Separator::ALL {
-        let score = score(separator);
-        if score > best.1 * (1.0 + 1e-9) {
-            best = (separator, score);
+    let best = |least: usize| {
+        let mut best = (Separator::Comma, 0.0);
+        for separator in Separator::ALL {
+            let score = score(separator, least);
+            if score > best.1 * (1.0 + 1e-9) {
+                best = (separator, score);
+            }
         }
-    }
-    best.0
+        (best.1 > 0.0).then_some(best.0)
+    };
+    best(2).or_else(|| best(1)).unwrap_or(Separator::Comma)
 }
 
 #[cfg(test)]

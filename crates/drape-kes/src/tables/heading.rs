@@ -18,6 +18,8 @@ impl Heading {
     /// Load (N)   Load [N]   荷重（N）   Load / N   Load, N   Load in N   Load_N   Load N
     /// ```
     pub(crate) fn parse(cell: &str) -> Self {
+        // The half-width dot of Shift_JIS, in a file without another Japanese sign: gf･cm.
+        let cell = cell.replace('¥', "･");
         let cell = cell.trim().trim_matches('"').trim();
         let named = |name: &str, unit: &str| Self {
             name: name.trim().trim_end_matches([':', ',', '/', '-', '_']).trim().to_owned(),
@@ -310,6 +312,11 @@ const DIRECTIONS: [(Direction, &[&str]); 2] = [
             "たて",
             "タテ",
             "経",
+            "经",
+            "wale",
+            "lengthwise",
+            "machine direction",
+            "md",
         ],
     ),
     (
@@ -326,6 +333,12 @@ const DIRECTIONS: [(Direction, &[&str]); 2] = [
             "よこ",
             "ヨコ",
             "緯",
+            "纬",
+            "course",
+            "widthwise",
+            "crosswise",
+            "cross direction",
+            "cd",
         ],
     ),
 ];
@@ -334,10 +347,42 @@ const DIRECTIONS: [(Direction, &[&str]); 2] = [
 const TESTS: [(Test, &[&str]); 3] = [
     (
         Test::Tensile,
-        &["tensile", "tension", "fb1 tensile", "zug", "zugversuch", "traction", "引張", "引っ張り"],
+        &[
+            "tensile",
+            "tension",
+            "fb1 tensile",
+            "zug",
+            "zugversuch",
+            "traction",
+            "tens",
+            "extensibility",
+            "trazione",
+            "tracción",
+            "引張",
+            "引っ張り",
+            "拉伸",
+        ],
     ),
-    (Test::Shear, &["shear", "schub", "scher", "cisaillement", "せん断", "剪断"]),
-    (Test::Bending, &["bending", "pure bending", "fb2", "biege", "biegung", "flexion", "曲げ"]),
+    (
+        Test::Shear,
+        &["shear", "schub", "scher", "cisaillement", "taglio", "cizalla", "せん断", "剪断", "剪切"],
+    ),
+    (
+        Test::Bending,
+        &[
+            "bending",
+            "pure bending",
+            "fb2",
+            "biege",
+            "biegung",
+            "flexion",
+            "flessione",
+            "flexión",
+            "bend",
+            "曲げ",
+            "弯曲",
+        ],
+    ),
 ];
 
 /// Returns the directions that a label names.

@@ -103,6 +103,7 @@ fn render(page: &FitPage) -> String {
         List { title: "Warnings", class: "warn", texts: &page.warnings },
         List { title: "Assumed, not measured", class: "assumed", texts: &page.assumed },
         List { title: "Repaired", class: "repaired", texts: &page.repairs },
+        List { title: "Read", class: "read", texts: &page.readings },
     ];
     let view = View {
         page,

@@ -41,6 +41,8 @@ pub struct FitPage {
     pub laws: Vec<LawReport>,
     /// KES values, given and recomputed.
     pub values: Vec<KesValue>,
+    /// Curve files, each with what it was taken for and why.
+    pub readings: Vec<String>,
     /// Assumptions in place of measurements.
     pub assumed: Vec<String>,
     /// Warnings for the reader.
@@ -110,7 +112,7 @@ impl FitPage {
             return Err(Error::EmptyReport { name: self.name.clone() });
         }
         let head = [&self.name, &self.source, &self.provenance, &self.version];
-        let lists = [&self.assumed, &self.warnings, &self.repairs];
+        let lists = [&self.readings, &self.assumed, &self.warnings, &self.repairs];
         for text in head.into_iter().chain(lists.into_iter().flatten()) {
             check::text("a text of the report", text)?;
         }

@@ -32,6 +32,10 @@ fn render(page: &FitPage) -> String {
         lines.push(String::new());
         lines.extend(quantities(page));
     }
+    if !page.readings.is_empty() {
+        heading(&mut lines, "Read");
+        page.readings.iter().for_each(|text| wrap(&mut lines, "  - ", text));
+    }
     for law in &page.laws {
         lines.push(String::new());
         lines.extend(law_lines(law, &page.limits));
@@ -123,8 +127,8 @@ fn law_lines(law: &LawReport, limits: &Limits) -> Vec<String> {
         if !pairs.is_empty() {
             lines.push(format!("  correlations above {}", limits.correlation));
             for pair in pairs {
-                let [a, b] = pair.symbols;
-                lines.push(format!("    {a}, {b}: {:.3}", pair.correlation));
+                let [a, b] = pair.symbols.map(|symbol| law.named(symbol));
+                lines.push(format!("    {a} and {b}: {:.3}", pair.correlation));
             }
         }
     }

@@ -155,7 +155,7 @@ impl LawReport {
         let symbols = |unknown: &dyn Fn(&&Parameter) -> bool| -> Option<String> {
             let of_the_fabric = self.parameters.iter().filter(|parameter| !parameter.incidental);
             let found = of_the_fabric.filter(unknown);
-            let found: Vec<&str> = found.map(|parameter| parameter.symbol.as_str()).collect();
+            let found: Vec<String> = found.map(|parameter| self.named(&parameter.symbol)).collect();
             (!found.is_empty()).then(|| found.join(", "))
         };
         if let Some(symbols) = symbols(&|parameter| parameter.is_undetermined()) {
@@ -170,6 +170,15 @@ impl LawReport {
             against(Trust::Doubtful, format!("standard error above {limit} for {symbols}"));
         }
         Verdict { trust, reasons }
+    }
+
+    /// Returns a symbol with the name of its parameter, as in "k_b (bending rigidity)".
+    #[must_use]
+    pub fn named(&self, symbol: &str) -> String {
+        match self.parameters.iter().find(|parameter| parameter.symbol == symbol) {
+            Some(parameter) => format!("{symbol} ({})", parameter.name),
+            None => symbol.to_owned(),
+        }
     }
 
     /// Returns the unit in which loads are shown.

@@ -73,6 +73,19 @@ pub struct LoopPlot {
     pub load: Axis,
     /// History, branch by branch.
     pub branches: Vec<Branch>,
+    /// Law in the legend, as in "fitted law" or "assumed law".
+    pub law: String,
+    /// Numbers of a sheet, where the loop should pass.
+    pub marks: Vec<Mark>,
+}
+
+/// Number of a sheet as points that a loop should pass.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Mark {
+    /// Symbol, as in "2HB".
+    pub label: String,
+    /// Points, as deformation and load in SI.
+    pub points: Vec<[f64; 2]>,
 }
 
 impl LoopPlot {
@@ -82,6 +95,13 @@ impl LoopPlot {
     /// The first fault.
     pub fn check(&self) -> Result<(), Error> {
         check::text("the title of a plot", &self.title)?;
+        check::text("the law of a plot", &self.law)?;
+        for mark in &self.marks {
+            check::text("the label of a mark", &mark.label)?;
+            for number in mark.points.iter().flatten() {
+                check::number(|| format!("{}: the mark {}", self.title, mark.label), *number)?;
+            }
+        }
         self.deformation.check(&self.title)?;
         self.load.check(&self.title)?;
         let empty = |what: String| Error::EmptyPlot { plot: self.title.clone(), what };
@@ -145,6 +165,9 @@ const LEAST_RANGE: f64 = 1e-9;
 /// would show rounding only.
 const LEAST_RESIDUAL: f64 = 0.1;
 
+/// Distance of the label of a mark from its point, in px.
+const LABEL_GAP: f64 = 7.0;
+
 /// Opacity of the points of a cycle over that of the cycle before.
 const FADING: f64 = 0.72;
 
@@ -170,6 +193,15 @@ struct LoopFigure<'a> {
     fits: Vec<String>,
     points: Vec<Series>,
     residuals: Vec<Series>,
+    marks: Vec<DrawnMark<'a>>,
+}
+
+/// Drawn mark: its points, and the place of its label.
+struct DrawnMark<'a> {
+    label: &'a str,
+    data: String,
+    x: String,
+    y: String,
 }
 
 /// Draws a loop as an SVG file: measured points, fitted line, confidence band, and the residuals.
@@ -193,7 +225,11 @@ pub(crate) fn loop_figure(plot: &LoopPlot, placement: Placement) -> String {
         let drawn = point.measured.into_iter().chain(point.fitted);
         drawn.chain(point.band.into_iter().flatten())
     });
-    let deformations = plot.points().map(|point| point.deformation);
+    let marked = |axis: usize| {
+        plot.marks.iter().flat_map(move |mark| mark.points.iter().map(move |point| point[axis]))
+    };
+    let loads = loads.chain(marked(1));
+    let deformations = plot.points().map(|point| point.deformation).chain(marked(0));
     let plane = Plane::around(axes, deformations, loads, [top, bottom]);
 
     let range = plot.measured_range();
@@ -233,6 +269,7 @@ pub(crate) fn loop_figure(plot: &LoopPlot, placement: Placement) -> String {
         residual_frame,
         bands: bands(plot, &plane),
         fits: fits(plot, &plane),
+        marks: marks(plot, &plane),
         points,
         residuals,
         chart: Chart::new(Heading { title: &plot.title, axes, placement }, legend, end),
@@ -267,10 +304,13 @@ fn legend_items(plot: &LoopPlot) -> Vec<LegendItem> {
         add(Sign::Points, kind.name(), label);
     }
     if plot.points().any(|point| point.fitted.is_some()) {
-        add(Sign::Line, "fit", "fitted law".to_owned());
+        add(Sign::Line, "fit", plot.law.clone());
     }
     if plot.points().any(|point| point.band.is_some()) {
         add(Sign::Area, "band", "95 % band".to_owned());
+    }
+    if !plot.marks.is_empty() {
+        add(Sign::Points, "mark", "values of the sheet".to_owned());
     }
     items
 }
@@ -288,6 +328,21 @@ fn fits(plot: &LoopPlot, plane: &Plane<'_>) -> Vec<String> {
     }
     lines.retain(|data| !data.is_empty());
     lines
+}
+
+/// Returns the marks, each with its label beside its highest point.
+fn marks<'a>(plot: &'a LoopPlot, plane: &Plane<'_>) -> Vec<DrawnMark<'a>> {
+    let drawn = |mark: &'a Mark| {
+        let pixels: Vec<[f64; 2]> = mark.points.iter().map(|point| plane.pixel(*point)).collect();
+        let highest = pixels.iter().copied().reduce(|a, b| if b[1] < a[1] { b } else { a })?;
+        Some(DrawnMark {
+            label: &mark.label,
+            data: dots(pixels.into_iter()),
+            x: px(highest[0] - LABEL_GAP),
+            y: px(highest[1] - LABEL_GAP),
+        })
+    };
+    plot.marks.iter().filter_map(drawn).collect()
 }
 
 /// Returns the confidence bands as areas, one per branch.

@@ -40,6 +40,8 @@ pub fn a_loop() -> LoopPlot {
             branch(BranchKind::Unloading, 1, 250.0, -250.0, -2e-4),
             branch(BranchKind::Reversal, 2, -250.0, 250.0, 2e-4),
         ],
+        law: "fitted law".to_owned(),
+        marks: Vec::new(),
     }
 }
 

@@ -6,10 +6,12 @@ use clap::Args;
 
 #[derive(Args)]
 pub(crate) struct ConvertArguments {
-    /// Pattern: *.json of GarmentCode or FreeSewing, *.svg, *.dxf (AAMA, ASTM), or *.toml.
+    /// Pattern: *.json of GarmentCode or FreeSewing, *.svg, *.dxf (AAMA, ASTM), or *.toml; or a
+    /// folder with the exports of a laboratory's instruments.
     #[arg(required = true, value_name = "FROM")]
     pub(crate) from: Vec<PathBuf>,
-    /// File to write: *.toml, or *.svg for a drawing at true scale; without it, TOML on stdout.
+    /// File to write: *.toml, or *.svg for a drawing at true scale; for exports a sheet.toml, or its
+    /// folder; without it, TOML on stdout.
     #[arg(short, long, value_name = "TO")]
     pub(crate) output: Option<PathBuf>,
     /// Unit of the lengths of a drawing that does not state it.

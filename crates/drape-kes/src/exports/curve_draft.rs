@@ -1,0 +1,126 @@
+//! A `[[curve]]` as it is drafted: keys with their reasons, verified by the reader of sheets.
+
+use std::path::Path;
+
+use drape_input::{Diagnostics, Document, toml_string};
+
+use crate::curves::curve::Curve;
+use crate::error::Error;
+use crate::exports::evidence::Told;
+use crate::sheets::sheet::Sheet;
+use crate::test::{Direction, Test};
+
+/// Place of the comments behind keys.
+const COMMENTS: usize = 34;
+
+/// Key of a sheet with its value as TOML, and the reason for it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Key {
+    pub(crate) name: &'static str,
+    pub(crate) value: String,
+    pub(crate) why: String,
+}
+
+impl Key {
+    pub(crate) fn new(
+        name: &'static str,
+        value: impl Into<String>,
+        why: impl Into<String>,
+    ) -> Self {
+        Self { name, value: value.into(), why: why.into() }
+    }
+}
+
+/// Drafted `[[curve]]`.
+#[derive(Clone, Debug)]
+pub(crate) struct CurveDraft {
+    pub(crate) test: Told<Test>,
+    /// Direction, or the reason why none is known.
+    pub(crate) direction: Result<Told<Direction>, String>,
+    /// Files, from the folder of the sheet.
+    pub(crate) files: Vec<String>,
+    /// Keys of the layout.
+    pub(crate) layout: Vec<Key>,
+    /// Keys of the deformation and of the load.
+    pub(crate) axes: [Vec<Key>; 2],
+    /// Remarks above the section.
+    pub(crate) remarks: Vec<String>,
+}
+
+impl CurveDraft {
+    /// Returns the section as TOML.
+    pub(crate) fn to_toml(&self) -> String {
+        let mut text = String::from("[[curve]]\n");
+        self.remarks.iter().for_each(|remark| text += &format!("# {}\n", plain(remark)));
+        text += &line("test", &toml_string(self.test.value.name()), &self.test.why);
+        text += &match &self.direction {
+            Ok(told) => line("direction", &toml_string(told.value.name()), &told.why),
+            Err(reason) => {
+                let why = format!("or \"weft\": {reason}");
+                line("direction", &toml_string(Direction::Warp.name()), &why)
+            }
+        };
+        let files: Vec<String> = self.files.iter().map(|file| toml_string(file)).collect();
+        text += &match files.as_slice() {
+            [one] => line("file", one, ""),
+            several => {
+                let why = "taken for repeats: same test, same direction, same layout";
+                line("file", &format!("[{}]", several.join(", ")), why)
+            }
+        };
+        self.layout.iter().for_each(|key| text += &line(key.name, &key.value, &key.why));
+        for (name, keys) in ["deformation", "load"].into_iter().zip(&self.axes) {
+            if !keys.is_empty() {
+                text += &inline(name, keys);
+            }
+        }
+        text
+    }
+
+    /// Reads the section as a sheet beside the files would be read.
+    pub(crate) fn read(&self, folder: &Path) -> Result<Vec<Curve>, Diagnostics> {
+        read(&self.to_toml(), folder).map(|sheet| sheet.curves)
+    }
+
+    /// Returns the section as a comment.
+    pub(crate) fn to_comment(&self) -> String {
+        commented(&self.to_toml())
+    }
+}
+
+/// Returns lines as comments.
+pub(crate) fn commented(text: &str) -> String {
+    text.lines().map(|line| format!("# {line}\n")).collect()
+}
+
+/// Reads a part of a sheet that lies in a folder.
+pub(crate) fn read(text: &str, folder: &Path) -> Result<Sheet, Diagnostics> {
+    let text = format!("name = \"draft\"\n{text}");
+    let document = Document::new(folder.join("sheet.toml"), text);
+    Sheet::of_document(&document).map_err(|error| match error {
+        Error::Input(mistakes) => mistakes,
+        other => document.at("curve", other.to_string()).into(),
+    })
+}
+
+/// Returns `name = value   # why`.
+pub(crate) fn line(name: &str, value: &str, why: &str) -> String {
+    let key = format!("{name} = {value}");
+    let why = plain(why);
+    if why.is_empty() { key + "\n" } else { format!("{key:<COMMENTS$} # {why}\n") }
+}
+
+/// Returns an axis as an inline table, with the reasons of its keys in the lines above.
+fn inline(name: &str, keys: &[Key]) -> String {
+    let pairs: Vec<String> =
+        keys.iter().map(|key| format!("{} = {}", key.name, key.value)).collect();
+    let reasons = keys.iter().filter(|key| !key.why.is_empty());
+    let reasons: String =
+        reasons.map(|key| format!("# {}: {}\n", key.name, plain(&key.why))).collect();
+    format!("{reasons}{name} = {{ {} }}\n", pairs.join(", "))
+}
+
+/// Returns a text that may stand in a comment of TOML.
+pub(crate) fn plain(text: &str) -> String {
+    text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
+}

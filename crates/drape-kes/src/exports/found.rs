@@ -1,0 +1,450 @@
+//! Curves of one file: every table that has the columns of a test, drafted with what was detected.
+
+use std::path::Path;
+
+use drape_input::{Diagnostic, Quantity, parse_unit, toml_string};
+
+use crate::curves::curve::Curve;
+use crate::exports::curve_draft::{CurveDraft, Key};
+use crate::exports::evidence::{Evidence, Told};
+use crate::sheets::axis::{AxisKeys, deformations, loads};
+use crate::tables::file::TableFile;
+use crate::tables::find::{Request, decimal, every, is_repeat};
+use crate::tables::grid::{Cell, Grid};
+use crate::tables::heading::{self, Kind};
+use crate::tables::layout::{Column, Layout, Take};
+use crate::tables::number::{Decimal, Evidence as Sign};
+use crate::tables::series::Series;
+use crate::tables::stated::{GAUGE, WIDTH, stated};
+use crate::test::{Direction, Test};
+
+/// Tests whose curves are looked for.
+const TESTS: [Test; 3] = [Test::Tensile, Test::Shear, Test::Bending];
+/// Part of its largest value below zero from which on a length is no tensile extension.
+const BOTH_WAYS: f64 = 0.3;
+
+/// File of exports, with its name from the folder of the sheet.
+pub(crate) struct Export<'a> {
+    pub(crate) path: &'a Path,
+    pub(crate) name: String,
+    pub(crate) file: &'a TableFile,
+    /// Folder of the sheet.
+    pub(crate) folder: &'a Path,
+}
+
+/// Drafts of a file: those that the reader of sheets takes, and those that need a word.
+#[derive(Default)]
+pub(crate) struct Drafts {
+    pub(crate) good: Vec<CurveDraft>,
+    pub(crate) open: Vec<OpenDraft>,
+}
+
+/// Draft that needs a word, with the reason.
+pub(crate) struct OpenDraft {
+    pub(crate) draft: CurveDraft,
+    pub(crate) reason: String,
+}
+
+/// Series with its number among those of its test.
+#[derive(Clone)]
+struct Item {
+    test: Test,
+    number: usize,
+    of: usize,
+    series: Series,
+}
+
+/// Keys of gauge and width, with what is missing: those keys are to be filled in.
+struct Sizes {
+    axes: [Vec<Key>; 2],
+    missing: Option<String>,
+}
+
+/// Series of one test and direction in one sheet of a file.
+struct Group {
+    test: Result<Told<Test>, String>,
+    direction: Result<Told<Direction>, String>,
+    items: Vec<Item>,
+    is_kes: bool,
+}
+
+impl Export<'_> {
+    /// Drafts the curves of the file.
+    pub(crate) fn drafts(&self) -> Drafts {
+        let mut drafts = Drafts::default();
+        for grid in &self.file.grids {
+            for group in self.groups(grid) {
+                self.draft(grid, &group, &mut drafts);
+            }
+        }
+        drafts
+    }
+
+    fn layout(grid: &Grid) -> Layout {
+        let sheet = (!grid.sheet.is_empty()).then(|| Column::Name(grid.sheet.clone()));
+        Layout { sheet, table: Take::All, ..Layout::default() }
+    }
+
+    /// Finds the series of all tests in a sheet, by test and direction.
+    fn groups(&self, grid: &Grid) -> Vec<Group> {
+        let mut places: Vec<Vec<Item>> = Vec::new();
+        for test in TESTS {
+            let open = [AxisKeys::default(), AxisKeys::default()];
+            let request = Request {
+                test,
+                direction: Direction::Warp,
+                deformation: open[0].query("deformation", test),
+                load: open[1].query("load", test),
+            };
+            let Ok(found) = every(self.path, self.file, &Self::layout(grid), &request) else {
+                continue;
+            };
+            let of = found.series.len();
+            for (index, series) in found.series.into_iter().enumerate() {
+                let item = Item { test, number: index + 1, of, series };
+                match places.iter_mut().find(|place| place[0].is_at(&item)) {
+                    Some(place) => place.push(item),
+                    None => places.push(vec![item]),
+                }
+            }
+        }
+        let mut groups: Vec<Group> = Vec::new();
+        for place in places {
+            let group = self.group(place);
+            let same = |other: &&mut Group| {
+                let value = |group: &Group| group.direction.as_ref().ok().map(|told| told.value);
+                other.items[0].test == group.items[0].test
+                    && other.test.is_ok() == group.test.is_ok()
+                    && value(other) == value(&group)
+            };
+            match groups.iter_mut().find(same) {
+                Some(other) => other.items.extend(group.items),
+                None => groups.push(group),
+            }
+        }
+        groups
+    }
+
+    /// Tells test and direction of a series that has the columns of one test or several.
+    fn group(&self, place: Vec<Item>) -> Group {
+        let evidence = Evidence::of_series(&place[0].series, self.path);
+        let fits = |test: Test| place.iter().find(|item| item.test == test);
+        let first = place[0].test;
+        let (test, item) = match (evidence.test(), place.len()) {
+            (Some(told), _) => match fits(told.value) {
+                Some(item) => (Ok(told), item),
+                None => {
+                    let (named, test) = (told.value.name(), first.name());
+                    let reason = format!(
+                        "its columns are those of a {test} test, and {} it is {named}",
+                        told.why
+                    );
+                    (Err(reason), &place[0])
+                }
+            },
+            (None, 1) => {
+                let Told { value, why } = Told { value: first, why: place[0].series.columns() };
+                (Ok(Told { value, why: format!("by its columns, {why}") }), &place[0])
+            }
+            (None, _) => (place[0].series.tensile(), &place[0]),
+        };
+        let other = evidence.other_test().filter(|_| evidence.test().is_none());
+        let test = match other {
+            Some(other) if first != Test::Bending => Err(format!(
+                "{} it is a {} test, which a sheet takes as values",
+                other.why, other.value
+            )),
+            _ => test,
+        };
+        Group {
+            direction: evidence.direction(),
+            is_kes: evidence.is_kes,
+            items: vec![item.clone()],
+            test,
+        }
+    }
+
+    /// Drafts a group, and verifies the draft.
+    fn draft(&self, grid: &Grid, group: &Group, drafts: &mut Drafts) {
+        let first = &group.items[0];
+        let test = match &group.test {
+            Ok(told) => told.clone(),
+            Err(reason) => Told { value: first.test, why: reason.clone() },
+        };
+        let mut draft = CurveDraft {
+            test,
+            direction: group.direction.clone(),
+            files: vec![self.name.clone()],
+            layout: group.choice(grid),
+            axes: [Vec::new(), Vec::new()],
+            remarks: Vec::new(),
+        };
+        let mut reasons = Vec::new();
+        reasons.extend(group.test.as_ref().err().cloned());
+        reasons.extend(group.direction.as_ref().err().cloned());
+        reasons.extend(group.not_repeats());
+        let sizes = first.sizes(group.is_kes);
+        reasons.extend(sizes.missing);
+        draft.axes = sizes.axes;
+        let read = draft.read(self.folder);
+        match read {
+            Ok(curves) => draft = self.declared(draft, group, &curves),
+            Err(mistakes) if reasons.is_empty() => {
+                reasons.extend(mistakes.0.iter().map(in_words));
+            }
+            Err(_) => {}
+        }
+        if reasons.is_empty() {
+            drafts.good.push(draft);
+        } else {
+            drafts.open.push(OpenDraft { draft, reason: reasons.join("; ") });
+        }
+    }
+
+    /// Adds everything that was detected as keys, where that reads the same curves.
+    fn declared(&self, draft: CurveDraft, group: &Group, curves: &[Curve]) -> CurveDraft {
+        let item = &group.items[0];
+        let mut whole = draft.clone();
+        whole.layout.splice(0..0, self.characters(group));
+        whole.layout.extend(group.lines());
+        let alone = group.items.len() == 1 && !item.series.several;
+        whole.axes = item.axes(&draft.axes, alone);
+        let same = |draft: &CurveDraft| draft.read(self.folder).is_ok_and(|read| read == curves);
+        if whole.axes[0].iter().any(|key| key.name == "gauge") {
+            for zero in ["extension", "distance", "position"] {
+                let mut with_zero = whole.clone();
+                let why = "taken from its heading and where it begins";
+                with_zero.axes[0].push(Key::new("zero", toml_string(zero), why));
+                if same(&with_zero) {
+                    return with_zero;
+                }
+            }
+        }
+        if same(&whole) { whole } else { draft }
+    }
+
+    /// Returns the keys of encoding, separator and decimal sign of a text file.
+    fn characters(&self, group: &Group) -> Vec<Key> {
+        let mut keys = Vec::new();
+        if let Some(encoding) = self.file.encoding {
+            let why = self.file.reading.first().map_or("", String::as_str);
+            keys.push(Key::new("encoding", toml_string(encoding.name()), why));
+        }
+        let separator = self.file.grids.first().and_then(|grid| grid.separator);
+        if let Some(separator) = separator {
+            let why = "parts the lines into most numbers";
+            keys.push(Key::new("separator", toml_string(separator.name()), why));
+        }
+        let series = &group.items[0].series;
+        if let Ok(sign) = decimal(series, &Layout::default())
+            && let Some((line, text)) = series.fraction(sign)
+        {
+            let why = format!("\"{text}\" on line {line}");
+            keys.push(Key::new("decimal", toml_string(sign.name()), why));
+        }
+        keys
+    }
+}
+
+impl Item {
+    /// Returns whether another item is the same columns of the same rows.
+    fn is_at(&self, other: &Self) -> bool {
+        let place = |item: &Self| (item.series.block.first_line(), item.series.pair.load);
+        self.test != other.test && place(self) == place(other)
+    }
+
+    /// Returns the keys of gauge and width that must be there: stated ones need none; those of the
+    /// Kawabata instruments are assumed.
+    fn sizes(&self, is_kes: bool) -> Sizes {
+        let Self { test, series, .. } = self;
+        let quantity = |column: usize, accepted: &[Quantity]| {
+            let heading = series.block.headings.get(column)?;
+            Some(parse_unit(heading.unit.as_deref()?, accepted).ok()?.quantity)
+        };
+        let of_length =
+            quantity(series.pair.deformation, deformations(*test)) == Some(Quantity::Length);
+        let whole = quantity(series.pair.load, loads(*test)) == Some(loads(*test)[1]);
+        let mut axes = [Vec::new(), Vec::new()];
+        let mut missing = Vec::new();
+        let gauge =
+            (of_length && stated(&series.stated, &GAUGE).is_none()).then_some(("gauge", "5 cm"));
+        let width =
+            (whole && stated(&series.stated, &WIDTH).is_none()).then_some(("width", "20 cm"));
+        for (axis, needed) in [gauge, width].into_iter().enumerate() {
+            let Some((key, usual)) = needed else { continue };
+            let why = if is_kes {
+                format!(
+                    "ASSUMED: the file states none; {usual} is that of the Kawabata instruments"
+                )
+            } else {
+                missing.push(format!("the file does not state its {key}"));
+                "not in the file: write the right one".to_owned()
+            };
+            axes[axis].push(Key::new(key, toml_string(usual), why));
+        }
+        Sizes { axes, missing: (!missing.is_empty()).then(|| missing.join(" and ")) }
+    }
+
+    /// Returns all keys of both axes: columns, units, gauge, width.
+    fn axes(&self, assumed: &[Vec<Key>; 2], alone: bool) -> [Vec<Key>; 2] {
+        let Self { test, series, .. } = self;
+        let axis = |column: usize,
+                    accepted: &[Quantity],
+                    assumed: &[Key],
+                    words: &[&str],
+                    size: &'static str| {
+            let mut keys = Vec::new();
+            let heading = series.block.headings.get(column);
+            if alone {
+                keys.push(series.column_key(column));
+            }
+            let written = heading.and_then(|heading| heading.unit.as_deref());
+            let percent = series.is_percent(column).then_some("%");
+            let unit = written.or(percent).and_then(|unit| parse_unit(unit, accepted).ok());
+            if let Some(unit) = unit {
+                let why = match (written, series.block.units_line) {
+                    (None, _) => "the sign of percent in the cells".to_owned(),
+                    (_, Some(line)) => format!("of the units on line {line}"),
+                    _ => "of the heading".to_owned(),
+                };
+                keys.push(Key::new("unit", toml_string(unit.spelling), why));
+            }
+            let sized = unit.is_some_and(|unit| {
+                unit.quantity == Quantity::Length || Some(&unit.quantity) == accepted.get(1)
+            });
+            if let Some(found) =
+                stated(&series.stated, words).filter(|_| sized && assumed.is_empty())
+            {
+                let length = format!("{} mm", drape_input::figure(1e3 * found.length));
+                let why = format!("\"{}\" on line {}", found.name, found.line);
+                keys.push(Key::new(size, toml_string(&length), why));
+            }
+            keys.extend_from_slice(assumed);
+            keys
+        };
+        [
+            axis(series.pair.deformation, deformations(*test), &assumed[0], &GAUGE, "gauge"),
+            axis(series.pair.load, loads(*test), &assumed[1], &WIDTH, "width"),
+        ]
+    }
+}
+
+impl Group {
+    /// Returns the keys of sheet and tables.
+    fn choice(&self, grid: &Grid) -> Vec<Key> {
+        let mut keys = Vec::new();
+        if !grid.sheet.is_empty() {
+            keys.push(Key::new("sheet", toml_string(&grid.sheet), ""));
+        }
+        let specimens = self.items.iter().all(|item| item.series.label.contains("specimen "));
+        let first = &self.items[0];
+        let all = self.items.len() == first.of;
+        let labels: Vec<String> =
+            self.items.iter().map(|item| format!("\"{}\"", item.series.label)).collect();
+        if specimens && all && first.of > 1 {
+            keys.push(Key::new("specimen", "\"all\"", format!("repeats: {}", labels.join(", "))));
+        } else if first.of > 1 {
+            let numbers: Vec<String> =
+                self.items.iter().map(|item| item.number.to_string()).collect();
+            let value = match numbers.as_slice() {
+                [one] => one.clone(),
+                several => format!("[{}]", several.join(", ")),
+            };
+            keys.push(Key::new("table", value, format!("of {}: {}", first.of, labels.join(", "))));
+        }
+        keys
+    }
+
+    /// Returns why several tables are no repeats, as far as their titles say.
+    fn not_repeats(&self) -> Option<String> {
+        let labels: Vec<&str> = self.items.iter().map(|item| item.series.label.as_str()).collect();
+        if labels.len() < 2 || is_repeat(&labels) {
+            return None;
+        }
+        Some(format!(
+            "{} tables could be the curve; keep one number in `table`, or all where they are repeats",
+            labels.len()
+        ))
+    }
+
+    /// Returns the keys of header and cycles.
+    fn lines(&self) -> Vec<Key> {
+        let block = &self.items[0].series.block;
+        let mut keys = Vec::new();
+        let same = self.items.iter().all(|item| item.series.block.header_line == block.header_line);
+        match block.header_line.filter(|_| same) {
+            Some(line) => {
+                keys.push(Key::new("header", line.to_string(), "line of the names of the columns"));
+            }
+            None if same => keys.push(Key::new("header", "false", "no line names the columns")),
+            None => {}
+        }
+        let is_cycle = |column: &usize| {
+            let heading = block.headings.get(*column);
+            heading.and_then(|heading| heading::kind(&heading.name)) == Some(Kind::Cycle)
+        };
+        if let Some(column) = (0..block.width()).find(is_cycle) {
+            let why = format!("one history, by column {}; or 1, [1, 2]", block.column_name(column));
+            keys.push(Key::new("cycle", "\"all\"", why));
+        }
+        keys
+    }
+}
+
+impl Series {
+    /// Returns the names of the two columns.
+    fn columns(&self) -> String {
+        let [q, f] = [self.pair.deformation, self.pair.load].map(|c| self.block.column_name(c));
+        format!("{q} and {f}")
+    }
+
+    /// Takes a length with a force for a tensile test, unless it goes both ways.
+    fn tensile(&self) -> Result<Told<Test>, String> {
+        let value = |row: &crate::tables::grid::Row| {
+            let cell = row.cells.get(self.pair.deformation)?;
+            cell.number(Decimal::Comma).or(cell.number(Decimal::Point))
+        };
+        let numbers = || self.block.rows.iter().filter_map(value);
+        let (low, high) = (numbers().fold(0.0, f64::min), numbers().fold(0.0, f64::max));
+        if -low > BOTH_WAYS * high {
+            let reason = "a length with a force may be tensile or shear, and it goes both ways";
+            return Err(reason.to_owned());
+        }
+        let why = format!(
+            "ASSUMED: {} may be of shear too, but nothing says so and the length goes one way",
+            self.columns()
+        );
+        Ok(Told { value: Test::Tensile, why })
+    }
+
+    /// Returns a key that names a column: by its name where that is the only one, else by its number.
+    fn column_key(&self, column: usize) -> Key {
+        let heading = self.block.headings.get(column).filter(|heading| !heading.name.is_empty());
+        let number = || Key::new("column", (column + 1).to_string(), "");
+        let Some(heading) = heading else { return number() };
+        let same = self.block.headings.iter().filter(|other| other.is_named(&heading.name));
+        if same.count() == 1 {
+            Key::new("column", toml_string(&heading.name), "")
+        } else {
+            number()
+        }
+    }
+
+    /// Returns the first number that shows its decimal sign, with its line.
+    fn fraction(&self, sign: Decimal) -> Option<(usize, String)> {
+        let columns = [self.pair.deformation, self.pair.load];
+        self.block.rows.iter().find_map(|row| {
+            let cells = columns.iter().filter_map(|&column| row.cells.get(column));
+            let shows = |cell: &&Cell| cell.evidence() == Some(Sign::Of(sign));
+            cells.clone().find(shows).map(|cell| (row.line, cell.text()))
+        })
+    }
+}
+
+/// Returns a mistake with its remedy, on one line.
+pub(crate) fn in_words(mistake: &Diagnostic) -> String {
+    let line = mistake.line.filter(|_| !mistake.file.ends_with("sheet.toml"));
+    let line = line.map_or(String::new(), |line| format!("line {line}: "));
+    let help = mistake.help.as_deref().map_or(String::new(), |help| format!(" ({help})"));
+    format!("{line}{}{help}", mistake.message)
+}

@@ -1,0 +1,273 @@
+//! Folders of exports drafted as sheets: the same curves as by hand, and plain answers.
+
+use std::path::Path;
+
+use drape_kes::{Curve, Direction, Sheet, SheetDraft, Symbol, Test};
+
+/// Writes the files of a folder.
+fn folder(files: &[(&str, &[u8])]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, bytes) in files {
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().expect("a parent")).expect("made");
+        std::fs::write(path, bytes).expect("written");
+    }
+    folder
+}
+
+/// Drafts a folder, writes the sheet into it, and reads it.
+fn drafted(folder: &Path) -> (SheetDraft, Sheet) {
+    let draft = SheetDraft::of_folder(folder, folder).unwrap_or_else(|error| panic!("{error}"));
+    std::fs::write(folder.join("sheet.toml"), &draft.text).expect("written");
+    let sheet = Sheet::read(folder).unwrap_or_else(|error| panic!("{error}\n{}", draft.text));
+    assert_eq!(sheet.curves.len(), draft.curves, "{}", draft.text);
+    (draft, sheet)
+}
+
+/// Reads a sheet that is written by hand beside the files.
+fn by_hand(folder: &Path, text: &str) -> Sheet {
+    let path = folder.join("hand.toml");
+    std::fs::write(&path, format!("name = \"hand\"\n{text}")).expect("written");
+    Sheet::read(path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Compares curves point by point, without regard to their order.
+fn assert_same(found: &Sheet, wanted: &Sheet) {
+    let sorted = |sheet: &Sheet| -> Vec<Curve> {
+        let mut curves = sheet.curves.clone();
+        curves.sort_by_key(|curve| (curve.test, curve.direction));
+        curves
+    };
+    let (found, wanted) = (sorted(found), sorted(wanted));
+    assert_eq!(found.len(), wanted.len());
+    for (a, b) in found.iter().zip(&wanted) {
+        assert_eq!((a.test, a.direction, a.gauge), (b.test, b.direction, b.gauge));
+        assert_eq!((a.deformation(), a.load()), (b.deformation(), b.load()));
+        assert_eq!(a.repeats(), b.repeats());
+    }
+}
+
+/// Tensile test to 500 gf/cm and back: percent, gf/cm.
+fn tensile() -> Vec<[f64; 2]> {
+    let up = (0..=50).map(|i| f64::from(i) * 0.08).map(|e| [e, 31.25 * e * e]);
+    let down = (0..50).rev().map(|i| f64::from(i) * 0.08).map(|e| [e, 7.8125 * e * e * e]);
+    up.chain(down).collect()
+}
+
+/// Loop between plus and minus a largest deformation.
+fn looped(largest: f64, slope: f64, half_width: f64) -> Vec<[f64; 2]> {
+    let steps = |i: i32| largest * f64::from(i) / 40.0;
+    let up = (-40..=40).map(move |i| [steps(i), slope * steps(i) + half_width]);
+    let down = (-40..40).rev().map(move |i| [steps(i), slope * steps(i) - half_width]);
+    up.chain(down).collect()
+}
+
+fn scaled(points: &[[f64; 2]], factor: f64) -> Vec<[f64; 2]> {
+    points.iter().map(|[q, f]| [*q, factor * f]).collect()
+}
+
+fn rows(points: &[[f64; 2]], row: impl Fn(usize, [f64; 2]) -> String) -> String {
+    points.iter().enumerate().map(|(i, point)| row(i, *point) + "\r\n").collect()
+}
+
+fn comma(number: f64) -> String {
+    format!("{number:.6}").replace('.', ",")
+}
+
+/// File of the Kawabata program: conditions in Japanese above, Shift_JIS.
+fn kes_auto(test: &str, direction: &str, heads: &str, points: &[[f64; 2]]) -> Vec<u8> {
+    let text = format!(
+        "KES-FB-AUTO-A\r\n測定項目,{test}\r\n方向,{direction}\r\n試料幅,20,cm\r\n\r\n{heads}\r\n{}",
+        rows(points, |_, [q, f]| format!("{q:.5},{f:.6}"))
+    );
+    encoding_rs::SHIFT_JIS.encode(&text).0.into_owned()
+}
+
+#[test]
+fn text_exports_of_the_automatic_instruments() {
+    let strain = "ひずみ(%),荷重(gf/cm)";
+    let angle = "せん断角(deg),荷重(gf/cm)";
+    let curvature = "曲率(1/cm),曲げモーメント(gf・cm/cm)";
+    let [t, s, b] = [tensile(), looped(8.0, 0.6, 1.0), looped(2.5, 0.1, 0.04)];
+    let summary =
+        "Item,Unit,Warp,Weft\r\nLC,-,0.31\r\nT0,mm,0.62\r\nW,mg/cm2,14.2\r\nMIU,-,0.18,0.19\r\n";
+    let files: Vec<(&str, Vec<u8>)> = vec![
+        ("001-1.csv", kes_auto("引張り", "たて", strain, &t)),
+        ("001-2.csv", kes_auto("引張り", "よこ", strain, &scaled(&t, 0.7))),
+        ("002-1.csv", kes_auto("せん断", "たて", angle, &s)),
+        ("003-1.csv", kes_auto("純曲げ", "たて", curvature, &b)),
+        ("003-2.csv", kes_auto("純曲げ", "よこ", curvature, &scaled(&b, 0.8))),
+        ("results.csv", summary.into()),
+    ];
+    let files: Vec<(&str, &[u8])> = files.iter().map(|(name, b)| (*name, b.as_slice())).collect();
+    let folder = folder(&files);
+    let (draft, sheet) = drafted(folder.path());
+    assert_eq!((draft.curves, draft.open), (5, 0), "{}", draft.text);
+    let section = |test: &str, direction: &str, file: &str| {
+        format!("[[curve]]\ntest = \"{test}\"\ndirection = \"{direction}\"\nfile = \"{file}\"\n")
+    };
+    let hand = [
+        section("tensile", "warp", "001-1.csv"),
+        section("tensile", "weft", "001-2.csv"),
+        section("shear", "warp", "002-1.csv"),
+        section("bending", "warp", "003-1.csv"),
+        section("bending", "weft", "003-2.csv"),
+    ];
+    assert_same(&sheet, &by_hand(folder.path(), &hand.concat()));
+    assert_eq!((sheet.w, sheet.t0, sheet.lc), (Some(14.2), Some(0.62), Some(0.31)));
+    let miu = [Direction::Warp, Direction::Weft].map(|direction| sheet.values(direction).miu);
+    assert_eq!(miu, [Some(0.18), Some(0.19)], "{}", draft.text);
+    for words in [
+        "encoding = \"Shift_JIS\"",
+        "header = 6",
+        "unit = \"gf.cm/cm\"",
+        "# by line 3, \"方向 たて\"",
+        "# by line 2, \"測定項目 引張り\"",
+    ] {
+        assert!(draft.text.contains(words), "{words} is missing in\n{}", draft.text);
+    }
+}
+
+#[test]
+fn one_workbook_with_a_test_a_sheet() {
+    let mut book = rust_xlsxwriter::Workbook::new();
+    let tests = [
+        ("Tensile warp", "Strain (%)", "Force (gf/cm)", tensile()),
+        ("Tensile weft", "Strain (%)", "Force (gf/cm)", scaled(&tensile(), 0.5)),
+        ("Shear warp", "Shear angle (deg)", "Shear force (gf/cm)", looped(8.0, 0.6, 1.0)),
+        ("Bending warp", "Curvature (1/cm)", "Moment (gf.cm/cm)", looped(2.5, 0.1, 0.04)),
+    ];
+    for (name, q, f, points) in &tests {
+        let sheet = book.add_worksheet().set_name(*name).expect("a name");
+        sheet.write(0, 0, "cotton poplin").expect("written");
+        sheet.write(2, 1, *q).expect("written").write(2, 2, *f).expect("written");
+        for (row, [q, f]) in points.iter().enumerate() {
+            let row = row as u32 + 3;
+            sheet.write(row, 1, *q).expect("written").write(row, 2, *f).expect("written");
+        }
+    }
+    let sheet = book.add_worksheet().set_name("Compression").expect("a name");
+    sheet.write(0, 0, "Thickness (mm)").expect("written");
+    sheet.write(0, 1, "Pressure (gf/cm2)").expect("written");
+    let way: Vec<u32> = (0..=100).chain((0..100).rev()).collect();
+    for (row, step) in way.into_iter().enumerate() {
+        // A straight line: LC is 1, and all work is given back.
+        let pressure = 0.5 * f64::from(step);
+        let thickness = 0.6 - 0.2 * (pressure - 0.5) / 49.5;
+        let row = row as u32 + 1;
+        sheet.write(row, 0, thickness).expect("written").write(row, 1, pressure).expect("written");
+    }
+    let bytes = book.save_to_buffer().expect("a workbook");
+    let folder = folder(&[("poplin.xlsx", &bytes)]);
+    let (draft, sheet) = drafted(folder.path());
+    assert_eq!((draft.curves, draft.open), (4, 0), "{}", draft.text);
+    let hand = |test: &str, direction: &str, name: &str| {
+        format!(
+            "[[curve]]\ntest = \"{test}\"\ndirection = \"{direction}\"\nfile = \"poplin.xlsx\"\nsheet = \"{name}\"\n"
+        )
+    };
+    let hand = [
+        hand("tensile", "warp", "Tensile warp"),
+        hand("tensile", "weft", "Tensile weft"),
+        hand("shear", "warp", "Shear warp"),
+        hand("bending", "warp", "Bending warp"),
+    ];
+    assert_same(&sheet, &by_hand(folder.path(), &hand.concat()));
+    let near = |found: Option<f64>, wanted: f64| {
+        let found = found.unwrap_or(f64::NAN);
+        assert!((found / wanted - 1.0).abs() < 1e-4, "{found}, not {wanted}\n{}", draft.text);
+    };
+    near(sheet.t0, 0.6);
+    near(sheet.tm, 0.4);
+    // Half of the sum of 0.5 and 50 gf/cm2 over 0.02 cm.
+    near(sheet.wc, 0.505);
+    near(sheet.lc, 1.01);
+    near(sheet.rc, 100.0);
+}
+
+#[test]
+fn spreadsheet_of_a_laboratory_with_decimal_commas() {
+    let text = |factor: f64| {
+        format!(
+            "Prüfprotokoll;Köper\r\nEinspannlänge;50;mm\r\nProbenbreite;50;mm\r\n\r\nZeit;Weg;Kraft\r\ns;mm;N\r\n{}",
+            rows(&tensile(), |i, [e, f]| format!(
+                "{};{};{}",
+                comma(0.1 * i as f64),
+                comma(0.5 * e),
+                comma(factor * f * 0.980_665 * 0.05)
+            ))
+        )
+    };
+    let text = |factor| encoding_rs::WINDOWS_1252.encode(&text(factor)).0.into_owned();
+    let [a, b, weft] = [0.95, 1.05, 0.6].map(text);
+    let folder =
+        folder(&[("Zug Kette 1.csv", &a), ("Zug Kette 2.csv", &b), ("Zug Schuss 1.csv", &weft)]);
+    let (draft, sheet) = drafted(folder.path());
+    assert_eq!((draft.curves, draft.open), (2, 0), "{}", draft.text);
+    let hand = "[[curve]]\ntest = \"tensile\"\ndirection = \"warp\"\n\
+                file = [\"Zug Kette 1.csv\", \"Zug Kette 2.csv\"]\n\
+                deformation = { gauge = \"50 mm\" }\nload = { width = \"50 mm\" }\n\
+                [[curve]]\ntest = \"tensile\"\ndirection = \"weft\"\nfile = \"Zug Schuss 1.csv\"\n";
+    assert_same(&sheet, &by_hand(folder.path(), hand));
+    assert_eq!(sheet.curves[0].repeats().len(), 2);
+    for words in [
+        "decimal = \",\"",
+        "gauge = \"50 mm\", zero = \"extension\"",
+        "# width: \"Probenbreite\" on line 3",
+        "taken for repeats",
+    ] {
+        assert!(draft.text.contains(words), "{words} is missing in\n{}", draft.text);
+    }
+}
+
+#[test]
+fn what_cannot_be_told_is_a_comment_whose_remedy_works() {
+    let text = format!(
+        "Strain (%),Force (gf/cm)\n{}",
+        rows(&tensile(), |_, [q, f]| format!("{q:.5},{f:.6}"))
+    );
+    let folder = folder(&[("specimen.csv", text.as_bytes()), ("photo.jpg", b"\xff\xd8")]);
+    let (draft, sheet) = drafted(folder.path());
+    assert_eq!((draft.curves, draft.open, sheet.curves.len()), (0, 1, 0), "{}", draft.text);
+    assert!(draft.text.contains("say warp or weft"), "{}", draft.text);
+    assert!(draft.notes.iter().any(|note| note.contains("photo.jpg")), "{:?}", draft.notes);
+    let start = draft.text.find("# [[curve]]").expect("a section");
+    let end = draft.text.find("\n# Files").expect("the files that are left out");
+    let section: String =
+        draft.text[start..end].lines().map(|l| l[2..].to_owned() + "\n").collect();
+    let sheet = by_hand(folder.path(), &section);
+    assert_eq!(sheet.curves.len(), 1);
+    assert_eq!(sheet.curves[0].test, Test::Tensile);
+}
+
+#[test]
+fn a_folder_with_nothing_to_read_is_answered_with_every_file() {
+    let folder = folder(&[
+        ("notes.txt", b"washed twice\nironed\n"),
+        ("scan.pdf", b"%PDF"),
+        ("surface.csv", b"Distance (mm),MIU\n0,0.2\n1,0.21\n2,0.19\n"),
+    ]);
+    let error = SheetDraft::of_folder(folder.path(), folder.path()).expect_err("nothing is there");
+    let text = error.to_string();
+    for words in ["notes.txt: it has no rows", "scan.pdf: no table", "surface.csv", "MIU, MMD, SMD"]
+    {
+        assert!(text.contains(words), "{words:?} is missing in: {text}");
+    }
+    let empty = tempfile::tempdir().expect("a folder");
+    let error = SheetDraft::of_folder(empty.path(), empty.path()).expect_err("it is empty");
+    assert!(error.to_string().contains("holds no files"), "{error}");
+}
+
+#[test]
+fn tables_of_results_are_read_in_rows_and_in_columns() {
+    let columns = "Fabric;B (gf.cm2/cm);2HB (gf.cm/cm);G;2HG;2HG5\r\n\
+                   Warp;0,118;0,124;0,6;1,1;2,3\r\nWeft;0,1;0,09;0,5;1,0;2,0\r\n";
+    let rows = "Property\tmean\nEMT (%)\t4.5\nLT\t0.62\nRT (%)\t55\nW (g/m2)\t142\n";
+    let folder = folder(&[("a.csv", columns.as_bytes()), ("b.txt", rows.as_bytes())]);
+    let (draft, sheet) = drafted(folder.path());
+    let of = |direction: Direction, symbol: Symbol| sheet.values(direction).get(symbol);
+    assert_eq!(of(Direction::Warp, Symbol::B), Some(0.118), "{}", draft.text);
+    assert_eq!(of(Direction::Weft, Symbol::TwoHg5), Some(2.0), "{}", draft.text);
+    assert_eq!(of(Direction::Weft, Symbol::Em), Some(4.5), "{}", draft.text);
+    assert!(sheet.w.is_some_and(|w| (w - 14.2).abs() < 1e-12), "{}", draft.text);
+}
