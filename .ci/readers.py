@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Compares what programs read out of the files of `drape export` with the run itself.
 
     readers.py DRAPE RUN [READER ...]
@@ -57,13 +56,12 @@ class Run:
         (x, y), (u, v) = weft, material.T
         return np.stack([u * x - v * y, u * y + v * x], axis=1)
 
-    def rest(self, rate):
-        """Index of the frame that is nearest to each instant of a frame rate."""
-        since = self.times - self.times[0]
-        if np.all(np.abs(since * rate - np.arange(len(since))) <= 0.25):
-            return np.arange(len(since))
-        instants = np.arange(round(since[-1] * rate) + 1) / rate
-        return np.array([int(np.argmin(np.abs(since - instant))) for instant in instants])
+    def difference(self, seconds, positions):
+        """Largest difference of positions from the frame that is nearest to some seconds after the
+        first; of two as near, from the better."""
+        late = np.abs(self.times - self.times[0] - seconds)
+        near = np.flatnonzero(late <= late.min() + 1e-6)
+        return min(float(np.abs(positions - self.cloth[frame]).max()) for frame in near)
 
     def normals(self, frame):
         """Normals of the vertices of a frame, without those of twins."""
@@ -237,23 +235,26 @@ def read_numpy(run, export):
     apart("CSV: largest speed in m/s", table["largest_speed_ms"][1:], moved.max(axis=1), 1e-9)
 
 
+def read_mdd(export):
+    """Times and positions of an MDD file, by its definition."""
+    content = export("mdd").read_bytes()
+    frames, points = np.frombuffer(content, ">i4", 2)
+    times = np.frombuffer(content, ">f4", frames, 8)
+    return times, np.frombuffer(content, ">f4", offset=8 + 4 * frames).reshape(frames, points, 3)
+
+
 def read_cache(run, export):
-    """The caches by their definitions; what Blender makes of them is another reader."""
-    print("pc2, mdd: by their definitions")
-    rate = None
-    mdd = export("mdd").read_bytes()
-    frames, points = np.frombuffer(mdd, ">i4", 2)
-    times = np.frombuffer(mdd, ">f4", frames, 8)
-    rate = 1 / np.median(np.diff(times))
-    chosen = run.rest(round(rate) if abs(rate - round(rate)) < 1e-3 else rate)
-    positions = np.frombuffer(mdd, ">f4", offset=8 + 4 * frames).reshape(frames, points, 3)
-    apart("MDD: positions in m", positions, run.cloth[chosen], SINGLE)
+    print("pc2, mdd: by their definitions; Blender is another reader")
+    times, positions = read_mdd(export)
+    worst = max(run.difference(*pair) for pair in zip(times, positions))
+    apart("MDD: positions in m", worst, 0, SINGLE)
     pc2 = export("pc2").read_bytes()
     same("PC2: head", pc2[:12], b"POINTCACHE2\0")
-    same("PC2: version, points", tuple(np.frombuffer(pc2, "<i4", 2, 12)), (1, points))
-    frames, = np.frombuffer(pc2, "<i4", 1, 28)
-    positions = np.frombuffer(pc2, "<f4", offset=32).reshape(frames, points, 3)
-    apart("PC2: positions in m", positions, run.cloth[chosen], SINGLE)
+    same("PC2: version, points", np.frombuffer(pc2, "<i4", 2, 12).tolist(), [1, positions.shape[1]])
+    same("PC2: frames", int(np.frombuffer(pc2, "<i4", 1, 28)[0]), len(times))
+    positions = np.frombuffer(pc2, "<f4", offset=32).reshape(positions.shape)
+    worst = max(run.difference(*pair) for pair in zip(times, positions))
+    apart("PC2: positions in m", worst, 0, SINGLE)
 
 
 def read_obj(run, export):
@@ -274,7 +275,6 @@ def read_blender(run, export):
     import bpy
 
     print("Blender", bpy.app.version_string)
-    scene = bpy.context.scene
     for ending in ["pc2", "mdd"]:
         cache = export(ending)
         bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -287,25 +287,19 @@ def read_blender(run, export):
         modifier.cache_format = ending.upper()
         modifier.filepath = str(cache)
         modifier.frame_start = 0
-        size = cache.stat().st_size
-        chosen = None
-        frames = (size - 32) // (12 * run.cloth.shape[1]) if ending == "pc2" else np.frombuffer(cache.read_bytes()[:4], ">i4")[0]
-        since = run.times - run.times[0]
-        instants = np.linspace(0, since[-1], frames) if frames != len(since) else since
         worst = 0.0
         scene = bpy.context.scene
-        chosen = [int(np.argmin(np.abs(since - instant))) for instant in instants] if frames != len(since) else range(frames)
-        for number, index in enumerate(chosen):
+        times, _ = read_mdd(export)
+        for number, seconds in enumerate(times):
             scene.frame_set(number)
             evaluated = cloth.evaluated_get(bpy.context.evaluated_depsgraph_get())
             mesh = evaluated.to_mesh()
             found = np.empty(3 * len(mesh.vertices), dtype=np.float32)
             mesh.vertices.foreach_get("co", found)
-            difference = np.abs(found.reshape(-1, 3) - run.cloth[index]).max()
-            worst = max(worst, float(difference))
+            worst = max(worst, run.difference(seconds, found.reshape(-1, 3)))
             evaluated.to_mesh_clear()
         assert worst <= SINGLE, f"{ending}: {worst} m"
-        print(f"  {ending}: Mesh Cache, {len(list(chosen))} frames, {worst:.2g} m apart at most")
+        print(f"  {ending}: Mesh Cache, {len(times)} frames, {worst:.2g} m apart at most")
         # In the world z is up.
         world = np.array([cloth.matrix_world @ vertex.co for vertex in cloth.data.vertices])
         x, y, z = run.cloth[0].T
@@ -322,8 +316,10 @@ def read_blender(run, export):
         print(f"  {ending}: objects {sorted(thing.name for thing in meshes)}"[:110])
         points = np.concatenate([run.cloth[-1]] + ([run.body[-1]] if run.bodies else []))
         scene = bpy.context.scene
-        rate = scene.render.fps / scene.render.fps_base
-        end = (run.times[-1] - run.times[0]) * rate if ending == "glb" else scene.frame_end
+        # Frames of a USD file are its time codes; those of glTF are Blender's own.
+        own = np.load(export("npz"))["frames_per_second"]
+        rate = own if ending == "usda" else scene.render.fps / scene.render.fps_base
+        end = float((run.times[-1] - run.times[0]) * rate)
         scene.frame_set(int(end), subframe=end - int(end))
         graph = bpy.context.evaluated_depsgraph_get()
         found = []

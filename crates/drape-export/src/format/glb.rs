@@ -124,7 +124,7 @@ impl Document {
 
     /// Adds a panel or a body.
     fn add(&mut self, mesh: &Mesh, track: &Track, clip: &Clip) {
-        let (name, index) = (&mesh.name, self.meshes.len());
+        let index = self.meshes.len();
         let vertices = self.begin(Some(VERTICES), Some(12));
         let (base, others) = track.samples.split_last().expect("a clip has a frame");
         let base = spread(mesh, base);
@@ -165,7 +165,7 @@ impl Document {
         let mut primitive = json!({
             "attributes": attributes, "indices": self.accessors.len() - 1, "material": index, "mode": 4,
         });
-        let mut value = json!({ "name": name });
+        let mut value = json!({ "name": mesh.name });
         if !targets.is_empty() {
             value["weights"] = vec![0.0; targets.len()].into();
             let named = |number: &usize| format!("frame {number}");
@@ -175,21 +175,8 @@ impl Document {
         }
         value["primitives"] = json!([primitive]);
         self.meshes.push(value);
-        let [red, green, blue] = mesh.colour;
-        self.materials.push(json!({
-            "name": name, "doubleSided": matches!(mesh.kind, Kind::Panel(_)),
-            "pbrMetallicRoughness": {
-                "baseColorFactor": [red, green, blue, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9,
-            },
-        }));
-        let mut node = json!({ "name": name, "mesh": index });
-        node["extras"] = match mesh.kind {
-            Kind::Panel(_) => {
-                json!({ "name": mesh.part.name, "kind": "panel", "fabric": mesh.part.fabric })
-            }
-            Kind::Body(_) => json!({ "name": mesh.part.name, "kind": "body" }),
-        };
-        self.nodes.push(node);
+        self.materials.push(material(mesh));
+        self.nodes.push(node(mesh, index));
     }
 
     /// Adds the animation: at the time of a frame its target has the weight 1, at that of the last
@@ -234,6 +221,26 @@ impl Document {
         }
         document
     }
+}
+
+fn material(mesh: &Mesh) -> Value {
+    let [red, green, blue] = mesh.colour;
+    json!({
+        "name": mesh.name, "doubleSided": matches!(mesh.kind, Kind::Panel(_)),
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [red, green, blue, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9,
+        },
+    })
+}
+
+fn node(mesh: &Mesh, index: usize) -> Value {
+    let extras = match mesh.kind {
+        Kind::Panel(_) => {
+            json!({ "name": mesh.part.name, "kind": "panel", "fabric": mesh.part.fabric })
+        }
+        Kind::Body(_) => json!({ "name": mesh.part.name, "kind": "body" }),
+    };
+    json!({ "name": mesh.name, "mesh": index, "extras": extras })
 }
 
 /// View of bytes that is being written.

@@ -118,18 +118,37 @@ trait Number: Copy {
     fn put(self, bytes: &mut Vec<u8>);
 }
 
-macro_rules! number {
-    ($($kind:ty: $name:literal),*) => {
-        $(impl Number for $kind {
-            const NAME: &'static str = $name;
-            fn put(self, bytes: &mut Vec<u8>) {
-                bytes.extend(self.to_le_bytes());
-            }
-        })*
-    };
+impl Number for f64 {
+    const NAME: &'static str = "Float64";
+
+    fn put(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
 }
 
-number!(f64: "Float64", f32: "Float32", i64: "Int64", i32: "Int32");
+impl Number for f32 {
+    const NAME: &'static str = "Float32";
+
+    fn put(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
+
+impl Number for i64 {
+    const NAME: &'static str = "Int64";
+
+    fn put(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
+
+impl Number for i32 {
+    const NAME: &'static str = "Int32";
+
+    fn put(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
 
 /// Writes an array of rows.
 fn numbers<T: Number, const N: usize>(
