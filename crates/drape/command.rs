@@ -14,6 +14,7 @@ use crate::commands::run::{self, RunArguments};
 use crate::commands::shell::{self, CompletionsArguments, ManArguments};
 use crate::commands::test::{self, TestArguments};
 use crate::commands::validate::{self, ValidateArguments};
+use crate::commands::view::{self, ViewArguments};
 use crate::console::{Console, ProgressKind};
 use crate::failure::Failure;
 
@@ -83,6 +84,8 @@ enum Command {
     /// Converts patterns: GarmentCode, FreeSewing, SVG and DXF to TOML, and patterns to SVG at true
     /// scale, for a plotter or on pages of paper.
     Convert(ConvertArguments),
+    /// Shows runs in a page of HTML that turns, plays and measures them, and needs nothing else.
+    View(ViewArguments),
     /// Writes the frames of a run for other programs: OBJ, glTF, USD, point caches, VTK, NumPy, CSV.
     Export(ExportArguments),
     /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
@@ -119,6 +122,7 @@ impl Command {
             Self::Test(arguments) => test::test(arguments),
             Self::Check(arguments) => check::check(arguments),
             Self::Convert(arguments) => convert::convert(arguments),
+            Self::View(arguments) => view::view(arguments),
             Self::Export(arguments) => export::export(arguments),
             Self::Bench(arguments) => bench::bench(arguments),
             Self::Completions(arguments) => shell::completions(arguments, CommandLine::command()),

@@ -19,5 +19,6 @@ pub(crate) mod run;
 pub(crate) mod shell;
 pub(crate) mod test;
 pub(crate) mod validate;
+pub(crate) mod view;
 
 mod sheets;

@@ -1,6 +1,6 @@
 //! Pages and pictures: what a person is shown of results that the library gives.
 //!
-//! Each module fills in a type of `drape::report`, which draws it; the numbers come from
+//! Each module fills in a type of `drape::report` or `drape::export`, which draws it; the numbers come from
 //! `drape::fit`, `drape::validate` and `drape::scene` and are not computed again here. [`quantity`]
 //! has the name, the symbol and the units of every number, [`kes_value`] those of KES values. The
 //! commands call these modules and store the files; nothing here reads or writes one.
@@ -11,6 +11,7 @@ pub(crate) mod instruments;
 pub(crate) mod picture;
 pub(crate) mod strain_map;
 pub(crate) mod validation;
+pub(crate) mod viewer;
 
 mod kes_value;
 mod loop_plot;

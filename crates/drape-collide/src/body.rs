@@ -10,6 +10,7 @@
 
 mod inscribed;
 mod mesh;
+mod nearest_surface;
 mod pose;
 mod primitive;
 mod shape;
@@ -17,6 +18,7 @@ mod signed_distance;
 mod solid;
 
 pub use mesh::Mesh;
+pub use nearest_surface::NearestSurface;
 pub use pose::Pose;
 pub use shape::Shape;
 pub use signed_distance::SignedDistance;

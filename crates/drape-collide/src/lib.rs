@@ -15,7 +15,7 @@ mod barrier;
 mod particle;
 mod surface;
 
-pub use body::{Body, Mesh, Pose, Shape, SignedDistance};
+pub use body::{Body, Mesh, NearestSurface, Pose, Shape, SignedDistance};
 pub use error::Error;
 pub use mesh_io::{PointCache, Triangulation, read_mesh};
 pub use mesh_repair::{

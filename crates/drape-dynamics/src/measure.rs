@@ -9,7 +9,7 @@ mod fall;
 pub(crate) mod garment_parts;
 pub(crate) mod open_seam;
 mod openings;
-mod pressure;
+pub(crate) mod pressure;
 mod strain;
 mod vector;
 

@@ -10,6 +10,7 @@ use drape_scene::{Relaxation, Scene};
 use crate::error::Error;
 use crate::measure::garment_parts::GarmentParts;
 use crate::measure::open_seam::{OpenSeam, STRETCHED_MAX};
+use crate::measure::pressure::at_particles;
 use crate::measure::{fallen, measures, note_slides, warnings};
 use crate::record::frame::Frame;
 use crate::record::snapshot::Snapshot;
@@ -282,6 +283,12 @@ impl Simulation {
     /// particles that they hold; those of a pin that has let go are zero.
     pub fn pin_loads(&mut self) -> Vec<PinLoad> {
         self.world.pin_loads(self.stepping.time())
+    }
+
+    /// Returns the pressure of contact at each particle, in Pa, where surfaces are kept apart.
+    pub fn pressures(&mut self) -> Option<Vec<f64>> {
+        let positions = self.world.state.positions.clone();
+        at_particles(&mut self.world, &positions)
     }
 
     /// Returns the balance of the energy since the start, unless the scene does without.

@@ -6,7 +6,8 @@
 //! that writes a clip, or a frame of it.
 //!
 //! Layers, lowest first: `error`, `name`, `colour`, `normal`; `clip` chooses frames; `mesh` divides
-//! them into panels and bodies; `format` writes them.
+//! them into panels and bodies; `field` has numbers at their vertices; `format` and `view` write
+//! them.
 
 mod error;
 
@@ -17,13 +18,16 @@ mod normal;
 mod clip;
 mod mesh;
 
+mod field;
 mod format;
+mod view;
 
 #[cfg(test)]
 mod example;
 
 pub use clip::Clip;
 pub use error::Error;
+pub use field::{Field, Fields};
 pub use format::glb::{GLB_FRAMES_MAX, write_glb};
 pub use format::mdd::write_mdd;
 pub use format::npz::write_npz;
@@ -32,3 +36,4 @@ pub use format::pc2::write_pc2;
 pub use format::table::write_csv;
 pub use format::usda::write_usda;
 pub use format::vtk::{Listed, Surface, write_pvd, write_vtp};
+pub use view::{Named, View};

@@ -70,9 +70,14 @@ impl Expected<'_> {
             DType::Plain(number) => format!("{number}") == self.number,
             _ => false,
         };
-        let (true, Order::C, &[found, columns]) = (plain, header.order(), header.shape()) else {
-            let number = self.number;
-            return Err(self.malformed(format!("it is no table of numbers {number}, row by row")));
+        let [found, columns] = match (plain, header.order(), header.shape()) {
+            (true, Order::C, &[rows, columns]) => [rows, columns],
+            (true, _, &[rows]) => [rows, 1],
+            _ => {
+                let number = self.number;
+                let reason = format!("it is no table of numbers {number}, row by row");
+                return Err(self.malformed(reason));
+            }
         };
         if columns != N as u64 {
             return Err(self.malformed(format!("it has {columns} columns, and needs {N}")));
@@ -121,6 +126,16 @@ pub(crate) fn coordinates<const N: usize>(
             "row {row} (from 0) is {:?}, and coordinates are at most {COORDINATE_MAX} m",
             all[row]
         ))),
+    }
+}
+
+/// Reads a number for each vertex, which is finite.
+pub(crate) fn numbers(path: &Path, rows: usize) -> Result<Vec<f64>, Error> {
+    let expected = Expected { path, what: "vertices", rows, number: "<f8" };
+    let all = expected.read::<f64, 1>()?;
+    match all.iter().position(|[value]| !value.is_finite()) {
+        None => Ok(all.into_iter().flatten().collect()),
+        Some(row) => Err(expected.malformed(format!("row {row} (from 0) is no finite number"))),
     }
 }
 

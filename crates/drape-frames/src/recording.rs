@@ -8,7 +8,7 @@ use crate::index::{self, Entry};
 use crate::manifest::Manifest;
 use crate::text::read_text;
 use crate::topology::Topology;
-use crate::{array_frames, obj_frames};
+use crate::{array, array_frames, obj_frames};
 
 /// Folder of a run, whose frames are read one by one.
 ///
@@ -130,6 +130,18 @@ impl Recording {
             Frames::Arrays(entries) => {
                 array_frames::read(&self.folder, &self.manifest, entries[number])
             }
+        }
+    }
+    /// Reads the pressure of contact at each vertex of the cloth in the last frame, in Pa, where it was
+    /// stored.
+    ///
+    /// # Errors
+    /// The file is not as a run writes it.
+    pub fn pressure(&self) -> Result<Option<Vec<f64>>, Error> {
+        let path = self.folder.join("pressure.npy");
+        match path.exists() {
+            true => array::numbers(&path, self.manifest.cloth_counts().vertices).map(Some),
+            false => Ok(None),
         }
     }
 }

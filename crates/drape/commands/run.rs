@@ -21,6 +21,7 @@ use crate::console::note;
 use crate::failure::Failure;
 use crate::pages::picture::{self, Pictures};
 use crate::pages::strain_map::draw_strains;
+use crate::pages::viewer::{self, ViewerPage};
 use crate::progress::RunProgress;
 use crate::say::{say, say_json, say_written};
 use crate::{file, signal};
@@ -41,7 +42,7 @@ pub(crate) struct RunArguments {
     /// Replaces the results of an earlier run.
     #[arg(long)]
     pub(crate) force: bool,
-    /// Draws no picture and no map of strains.
+    /// Draws no picture, no map of strains and no view.
     #[arg(long)]
     pub(crate) no_picture: bool,
     /// Prints the summary as JSON, those of several scenes as a list.
@@ -106,8 +107,16 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
     let summary = simulation.run(&mut progress);
     progress.finish();
     let summary = summary?;
+    if let Some(pressures) = simulation.pressures() {
+        output.pressure(&pressures)?;
+    }
     output.summary(&summary)?;
-    save_last(&folder)?;
+    let recording = Recording::open(&folder)?;
+    save_last(&recording)?;
+    if !arguments.no_picture {
+        let page = ViewerPage::new(&[recording], viewer::SIZE_MAX)?;
+        file::write(&output.path("view.html"), page.html)?;
+    }
     if let (Some(frame), false) = (&progress.last, arguments.no_picture) {
         let shown = Snapshot { positions: frame.positions.clone(), ..simulation.snapshot() };
         let pictures = Pictures::new(&shown)?;
@@ -136,12 +145,11 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
 }
 
 /// Saves the last frame as `last.obj`, which any program opens.
-fn save_last(folder: &Path) -> Result<(), Failure> {
-    let recording = Recording::open(folder)?;
+fn save_last(recording: &Recording) -> Result<(), Failure> {
     let frame = recording.frame(recording.frames() - 1)?;
     let mut obj = Vec::new();
-    write_obj(&recording, &frame, &mut obj).map_err(|error| Failure::Output(error.to_string()))?;
-    file::write(&folder.join("last.obj"), obj)
+    write_obj(recording, &frame, &mut obj).map_err(|error| Failure::Output(error.to_string()))?;
+    file::write(&recording.folder().join("last.obj"), obj)
 }
 
 fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {

@@ -17,16 +17,23 @@ struct Touched {
     area: f64,
 }
 
-/// Area that is touched and pressures there, in Pa, where surfaces are kept apart and something
-/// touches.
-pub(crate) fn pressures(world: &mut World, positions: &[f64]) -> Option<Value> {
+/// Pressure of contact at each particle, in Pa, where surfaces are kept apart.
+pub(crate) fn at_particles(world: &mut World, positions: &[f64]) -> Option<Vec<f64>> {
     let surfaces = world.contact.surfaces_mut()?;
     let mut forces = vec![0.0; positions.len()];
     surfaces.contact.add_forces(positions, &mut forces);
     let areas = world.cloth.areas();
-    let forces =
-        forces.chunks_exact(3).map(|force| distance([force[0], force[1], force[2]], [0.0; 3]));
-    let touched = forces.zip(areas).map(|(force, &area)| Touched { pressure: force / area, area });
+    let size = |force: &[f64; 3]| distance(*force, [0.0; 3]);
+    let forces = forces.as_chunks::<3>().0.iter().map(size);
+    Some(forces.zip(areas).map(|(force, area)| force / area).collect())
+}
+
+/// Area that is touched and pressures there, in Pa, where surfaces are kept apart and something
+/// touches.
+pub(crate) fn pressures(world: &mut World, positions: &[f64]) -> Option<Value> {
+    let at_particles = at_particles(world, positions)?;
+    let touched = at_particles.into_iter().zip(world.cloth.areas());
+    let touched = touched.map(|(pressure, &area)| Touched { pressure, area });
     let mut touched: Vec<Touched> = touched.collect();
     touched.retain(|place| place.pressure > TOUCH);
     touched.sort_by(|a, b| a.pressure.total_cmp(&b.pressure));

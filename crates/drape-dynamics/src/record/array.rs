@@ -15,3 +15,12 @@ pub(crate) fn write<T: AutoSerialize + Copy, const N: usize>(
     array.extend(rows.iter().flatten().copied())?;
     array.finish()
 }
+
+/// Writes a column of numbers.
+pub(crate) fn write_column(to: &mut dyn Write, numbers: &[f64]) -> Result<()> {
+    let shape = [numbers.len() as u64];
+    let options = npyz::WriteOptions::new().default_dtype().shape(&shape);
+    let mut array = options.writer(to).begin_nd()?;
+    array.extend(numbers.iter().copied())?;
+    array.finish()
+}

@@ -30,6 +30,9 @@ const FRAMES: &str = "frames.csv";
 /// Names of the arrays of the topology.
 const ARRAYS: [&str; 3] = ["material.npy", "triangles.npy", "body-triangles.npy"];
 
+/// Name of the pressures of the last frame.
+const PRESSURE: &str = "pressure.npy";
+
 /// Name of the last frame in a form that any program opens.
 const LAST: &str = "last.obj";
 
@@ -81,7 +84,7 @@ pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, Error> {
 fn is_result(path: &Path) -> bool {
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     let numbered = name.starts_with("frame-") || name.starts_with("bodies-");
-    let whole = [SUMMARY, SURFACES, FRAMES, LAST].into_iter().chain(ARRAYS);
+    let whole = [SUMMARY, SURFACES, FRAMES, PRESSURE, LAST].into_iter().chain(ARRAYS);
     whole.into_iter().any(|own| own == name)
         || (numbered && [".npy", ".obj"].iter().any(|ending| name.ends_with(ending)))
 }
@@ -114,6 +117,14 @@ impl Output {
         let list = begin().map_err(|reason| Error::Write { path, reason })?;
         self.json(SURFACES, topology)?;
         Ok(Recorder { output: self, list, bodies: None })
+    }
+
+    /// Stores the pressures of contact at the last frame, in Pa, as `pressure.npy`.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub fn pressure(&self, pressures: &[f64]) -> Result<(), Error> {
+        self.write(&self.path(PRESSURE), |to| array::write_column(to, pressures))
     }
 
     /// Stores the summary as `summary.json`.

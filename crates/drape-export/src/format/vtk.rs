@@ -5,6 +5,8 @@
 
 use std::io::{self, Write};
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use drape_frames::{Frame, Part, Recording};
 
 use crate::error::Error;
@@ -194,21 +196,9 @@ fn owners(parts: &[Part]) -> Vec<[i32; 1]> {
         .collect()
 }
 
-/// Digits of base 64 (RFC 4648).
-const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
 /// Writes bytes by base 64.
 fn base64(bytes: &[u8], to: &mut impl Write) -> io::Result<()> {
-    let mut text = Vec::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let byte = |k: usize| u32::from(three.get(k).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for digit in 0..4 {
-            let value = bits >> (18 - 6 * digit) & 63;
-            text.push(if digit <= three.len() { DIGITS[value as usize] } else { b'=' });
-        }
-    }
-    to.write_all(&text)
+    to.write_all(STANDARD.encode(bytes).as_bytes())
 }
 
 /// Returns text as the value of an attribute.
@@ -240,18 +230,7 @@ mod tests {
     fn bytes(document: &Document, name: &str) -> Vec<u8> {
         let is_it = |node: &Node| node.attribute("Name") == Some(name);
         let text = document.descendants().find(is_it).and_then(|node| node.text()).unwrap();
-        let value = |digit: u8| DIGITS.iter().position(|other| *other == digit).unwrap_or(0) as u32;
-        let mut bytes: Vec<u8> = text
-            .as_bytes()
-            .as_chunks()
-            .0
-            .iter()
-            .flat_map(|four: &[u8; 4]| {
-                let bits = four.iter().fold(0, |bits, digit| bits << 6 | value(*digit));
-                [(bits >> 16) as u8, (bits >> 8) as u8, bits as u8]
-            })
-            .collect();
-        bytes.truncate(bytes.len() - text.bytes().filter(|digit| *digit == b'=').count());
+        let mut bytes = STANDARD.decode(text).unwrap();
         let length = u64::from_le_bytes(bytes[..8].try_into().unwrap());
         assert_eq!(length as usize, bytes.len() - 8, "{name}");
         bytes.split_off(8)

@@ -1,0 +1,122 @@
+// Exercises every control of the viewer's pages in a folder, and fails on any message of the console.
+import { chromium } from 'playwright-core';
+import assert from 'node:assert/strict';
+import path from 'node:path';
+
+const out = path.resolve(process.argv[2]);
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking'],
+});
+
+async function open(name, width, height) {
+  const page = await browser.newPage({ viewport: { width, height } });
+  page.said = [];
+  page.on('console', (message) => page.said.push(message.text()));
+  page.on('pageerror', (error) => page.said.push(error.message));
+  page.on('request', (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) page.said.push(`asked for ${request.url()}`);
+  });
+  await page.goto(`file://${out}/${name}.html`);
+  await page.waitForFunction(() => window.drapeViewer, null, { timeout: 60000 });
+  page.shot = (what) => page.screenshot({ path: `${out}/${name}-${width}-${what}.png` });
+  const loaded = await page.evaluate(() => window.drapeViewer.loaded);
+  console.log(`${name} at ${width} pixels: loaded in ${(loaded / 1000).toFixed(2)} s by the page's clock`);
+  return page;
+}
+
+// What the canvas shows, as a text to compare.
+const picture = async (page) => (await page.locator('#canvas').screenshot()).toString('base64');
+
+// Does something that must change the picture.
+async function changes(page, what, action) {
+  const before = await picture(page);
+  await action();
+  await page.waitForTimeout(250);
+  assert.notEqual(await picture(page), before, `${what} changes nothing`);
+}
+
+async function exercise(page) {
+  await page.shot('start');
+  const fields = await page.$$eval('#field option', (all) => all.map((own) => own.value));
+  for (const field of fields.filter(Boolean)) {
+    await page.selectOption('#field', field);
+    await page.waitForTimeout(150);
+    assert.ok(await page.isVisible('#legend'), field);
+    await page.shot(field);
+  }
+  await page.selectOption('#field', '');
+  for (const [id, what] of [['back', 'back'], ['flank', 'side'], ['top', 'top'], ['front', 'front'], ['lines', 'lines'],
+    ['lines', 'lines'], ['edges', 'triangles'], ['edges', 'triangles'], ['theme', 'theme']]) {
+    await changes(page, what, () => page.click(`#${id}`));
+  }
+  await page.shot('other-theme');
+  await page.click('#theme');
+  await changes(page, 'section', () => page.selectOption('#axis', 'x'));
+  await changes(page, 'place of the section', () => page.fill('#cut', '300'));
+  await changes(page, 'side of the section', () => page.check('#flip'));
+  await page.shot('section');
+  await page.selectOption('#axis', '');
+  for (const part of await page.$$('#parts input')) {
+    await changes(page, 'part', () => part.click());
+    await part.click();
+  }
+  await changes(page, 'time', () => page.fill('#scrub', '0'));
+  await page.shot('first');
+  await page.selectOption('#speed', '5');
+  await changes(page, 'play', () => page.click('#play'));
+  const box = await page.locator('#canvas').boundingBox();
+  const [x, y] = [box.x + box.width / 4, box.y + box.height / 2];
+  await changes(page, 'drag', async () => {
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 90, y + 20, { steps: 4 });
+    await page.mouse.up();
+  });
+  await changes(page, 'wheel', () => page.mouse.wheel(0, 400));
+  await page.click('#fit');
+  await page.waitForTimeout(600);
+  await page.mouse.click(x, y);
+  assert.match(await page.textContent('#picked'), /weft, warp, mm/);
+  await page.focus('#canvas');
+  for (const key of ['Space', 'Space', 'ArrowLeft', 'ArrowRight', 'm', 'l', 'l', 't', 't', '1', '2', '3', '4', 'f']) {
+    await page.keyboard.press(key);
+    await page.waitForTimeout(50);
+  }
+}
+
+async function framesPerSecond(page) {
+  return page.evaluate(async () => {
+    const { camera } = window.drapeViewer;
+    let frames = 0;
+    const start = performance.now();
+    while (performance.now() - start < 3000) {
+      camera.position.x += 0.002;
+      window.dispatchEvent(new Event('resize'));
+      await new Promise(requestAnimationFrame);
+      frames++;
+    }
+    return frames / 3;
+  });
+}
+
+for (const name of ['sphere', 'both']) {
+  const page = await open(name, 1280, 800);
+  await exercise(page);
+  console.log(`${name}: ${(await framesPerSecond(page)).toFixed(1)} frames per second while turning, drawn by the processor`);
+  assert.deepEqual(page.said, []);
+  await page.close();
+}
+const narrow = await open('sphere', 390, 844);
+await narrow.shot('start');
+await narrow.click('#drawer');
+await narrow.waitForTimeout(300);
+await narrow.shot('drawer');
+assert.ok(await narrow.isVisible('#play'));
+assert.deepEqual(narrow.said, []);
+const hostile = await open('hostile', 1280, 800);
+assert.equal(await hostile.evaluate(() => window.hostile), undefined);
+assert.match(await hostile.textContent('#parts'), /<\/script>/);
+assert.deepEqual(hostile.said, []);
+await browser.close();
+console.log('every control works, and the console is silent');

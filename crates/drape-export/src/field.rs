@@ -1,0 +1,245 @@
+//! Fields: quantities on the cloth, a number for each vertex.
+
+mod curvature;
+mod strain;
+
+use std::path::PathBuf;
+
+use drape_collide::NearestSurface;
+use drape_frames::{Error, Frame, Recording};
+use rayon::prelude::*;
+
+use self::curvature::curvatures;
+use self::strain::{RestTriangle, StrainOf};
+
+/// Quantity on the cloth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Field {
+    /// Strain along the warp, in %.
+    StrainWarp,
+    /// Strain along the weft, in %.
+    StrainWeft,
+    /// Shear angle, positive where warp and weft cross at less than a right angle, in °.
+    Shear,
+    /// Largest size of a principal curvature, in 1/m.
+    Curvature,
+    /// Pressure of contact, in Pa; known at the last frame.
+    Pressure,
+    /// Distance from the nearest body, in mm; 50 where it is more.
+    Distance,
+    /// Distance of the two sides of a seam, in mm; 0 elsewhere.
+    SeamGap,
+    /// Mean speed since the frame before, in m/s; 0 in the first frame.
+    Speed,
+}
+
+/// Largest distance from a body that is measured, in m.
+const DISTANCE_MAX: f64 = 0.05;
+
+impl Field {
+    /// All fields.
+    pub const ALL: [Field; 8] = [
+        Field::StrainWarp,
+        Field::StrainWeft,
+        Field::Shear,
+        Field::Curvature,
+        Field::Pressure,
+        Field::Distance,
+        Field::SeamGap,
+        Field::Speed,
+    ];
+
+    /// Returns the name in commands and files.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Field::StrainWarp => "strain-warp",
+            Field::StrainWeft => "strain-weft",
+            Field::Shear => "shear",
+            Field::Curvature => "curvature",
+            Field::Pressure => "pressure",
+            Field::Distance => "distance",
+            Field::SeamGap => "seam-gap",
+            Field::Speed => "speed",
+        }
+    }
+
+    /// Returns the name as a person reads it.
+    #[must_use]
+    pub fn label(self) -> &'static str {
+        match self {
+            Field::StrainWarp => "strain along the warp",
+            Field::StrainWeft => "strain along the weft",
+            Field::Shear => "shear angle",
+            Field::Curvature => "curvature",
+            Field::Pressure => "pressure",
+            Field::Distance => "distance to the body",
+            Field::SeamGap => "seam gap",
+            Field::Speed => "speed",
+        }
+    }
+
+    /// Returns the unit.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Field::StrainWarp | Field::StrainWeft => "%",
+            Field::Shear => "°",
+            Field::Curvature => "1/m",
+            Field::Pressure => "Pa",
+            Field::Distance | Field::SeamGap => "mm",
+            Field::Speed => "m/s",
+        }
+    }
+
+    /// Returns whether its values may be negative.
+    #[must_use]
+    pub fn is_signed(self) -> bool {
+        matches!(self, Field::StrainWarp | Field::StrainWeft | Field::Shear)
+    }
+}
+
+/// Fields of the frames of a recording.
+#[derive(Debug)]
+pub struct Fields<'a> {
+    recording: &'a Recording,
+    triangles: Vec<RestTriangle>,
+    /// Area of the triangles around each vertex at rest, in m².
+    areas: Vec<f64>,
+    pressure: Option<Vec<f64>>,
+    /// Bodies as they were last needed, with their file.
+    bodies: Option<(PathBuf, Vec<NearestSurface>)>,
+}
+
+impl<'a> Fields<'a> {
+    /// Prepares the fields of a recording.
+    ///
+    /// # Errors
+    /// A file of the run is not as it was written.
+    pub fn new(recording: &'a Recording) -> Result<Fields<'a>, Error> {
+        let topology = recording.topology();
+        let rest = |corners: &[u32; 3]| RestTriangle::new(*corners, &topology.material);
+        let triangles: Vec<RestTriangle> = topology.cloth.iter().map(rest).collect();
+        let mut areas = vec![0.0; topology.material.len()];
+        for triangle in &triangles {
+            triangle.corners.iter().for_each(|&corner| areas[corner as usize] += triangle.area);
+        }
+        let pressure = recording.pressure()?;
+        Ok(Fields { recording, triangles, areas, pressure, bodies: None })
+    }
+
+    /// Returns whether a recording has a field in some frame.
+    #[must_use]
+    pub fn has(&self, field: Field) -> bool {
+        let manifest = self.recording.manifest();
+        match field {
+            Field::Pressure => self.pressure.is_some(),
+            Field::Distance => !manifest.bodies.is_empty(),
+            Field::SeamGap => !manifest.seam_pairs.is_empty(),
+            Field::Speed => self.recording.frames() > 1,
+            _ => true,
+        }
+    }
+
+    /// Returns a field of a frame, a number for each vertex of the cloth, where it is known.
+    ///
+    /// `before` is an earlier frame, from which speeds are measured.
+    pub fn values(
+        &mut self,
+        field: Field,
+        frame: &Frame,
+        before: Option<&Frame>,
+    ) -> Option<Vec<f64>> {
+        match field {
+            Field::StrainWarp => Some(self.strains(frame, StrainOf::Warp)),
+            Field::StrainWeft => Some(self.strains(frame, StrainOf::Weft)),
+            Field::Shear => Some(self.strains(frame, StrainOf::Shear)),
+            Field::Curvature => Some(self.curvature(frame)),
+            Field::Pressure => {
+                let is_last = frame.number + 1 == self.recording.frames();
+                self.pressure.clone().filter(|_| is_last)
+            }
+            Field::Distance => self.distances(frame),
+            Field::SeamGap => self.has(field).then(|| self.seam_gaps(frame)),
+            Field::Speed => self.has(field).then(|| speeds(frame, before)),
+        }
+    }
+
+    /// Returns the mean over the triangles around each vertex, weighted by their areas at rest.
+    fn at_vertices(&self, values: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.areas.len()];
+        for (triangle, value) in self.triangles.iter().zip(values) {
+            let weighted = value * triangle.area;
+            triangle.corners.iter().for_each(|&corner| sums[corner as usize] += weighted);
+        }
+        sums.iter().zip(&self.areas).map(|(sum, area)| sum / area.max(f64::MIN_POSITIVE)).collect()
+    }
+
+    fn strains(&self, frame: &Frame, of: StrainOf) -> Vec<f64> {
+        let strain = |triangle: &RestTriangle| triangle.strain(&frame.cloth, of);
+        self.at_vertices(&self.triangles.iter().map(strain).collect::<Vec<f64>>())
+    }
+
+    fn curvature(&self, frame: &Frame) -> Vec<f64> {
+        let topology = self.recording.topology();
+        self.at_vertices(&curvatures(&frame.cloth, &topology.cloth))
+    }
+
+    /// Returns the distances of the vertices from the nearest body, in mm.
+    fn distances(&mut self, frame: &Frame) -> Option<Vec<f64>> {
+        let file = frame.bodies_file.as_ref()?;
+        if self.bodies.as_ref().is_none_or(|(of, _)| of != file) {
+            self.bodies = Some((file.clone(), surfaces(self.recording, frame)));
+        }
+        let (_, surfaces) = self.bodies.as_ref()?;
+        let distance = |point: &[f64; 3]| {
+            let nearest = |limit: f64, surface: &NearestSurface| {
+                surface.distance(*point, limit).unwrap_or(limit)
+            };
+            1e3 * surfaces.iter().fold(DISTANCE_MAX, nearest)
+        };
+        Some(frame.cloth.par_iter().map(distance).collect())
+    }
+
+    /// Returns the distances of vertices that are sewn together, in mm.
+    fn seam_gaps(&self, frame: &Frame) -> Vec<f64> {
+        let mut gaps = vec![0.0_f64; frame.cloth.len()];
+        for pair in &self.recording.manifest().seam_pairs {
+            let [a, b] = pair.map(|vertex| vertex as usize);
+            let gap = 1e3 * distance(frame.cloth[a], frame.cloth[b]);
+            [a, b].into_iter().for_each(|vertex| gaps[vertex] = gaps[vertex].max(gap));
+        }
+        gaps
+    }
+}
+
+/// Returns the surfaces of the bodies of a frame.
+fn surfaces(recording: &Recording, frame: &Frame) -> Vec<NearestSurface> {
+    let mut triangles = recording.topology().bodies.iter();
+    let (mut surfaces, mut first) = (Vec::new(), 0);
+    for body in &recording.manifest().bodies {
+        let own = triangles.by_ref().take(body.triangles);
+        let own: Vec<[u32; 3]> = own.map(|t| t.map(|corner| corner - first as u32)).collect();
+        let vertices = &frame.bodies[first..first + body.vertices];
+        // A body without triangles has no distance.
+        surfaces.extend(NearestSurface::new(vertices, &own));
+        first += body.vertices;
+    }
+    surfaces
+}
+
+/// Returns the mean speeds since an earlier frame, in m/s.
+fn speeds(frame: &Frame, before: Option<&Frame>) -> Vec<f64> {
+    let still = || vec![0.0; frame.cloth.len()];
+    let Some(before) = before else { return still() };
+    let seconds = match [frame.time, before.time] {
+        [Some(now), Some(then)] if now > then => now - then,
+        _ => return still(),
+    };
+    let pairs = frame.cloth.iter().zip(&before.cloth);
+    pairs.map(|(now, then)| distance(*now, *then) / seconds).collect()
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
+}

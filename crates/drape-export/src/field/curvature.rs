@@ -1,0 +1,134 @@
+//! Curvature of a surface of triangles, from the normals at its vertices \[Rus04\].
+
+type Vector = [f64; 3];
+
+/// Returns the largest size of a principal curvature of each triangle, in 1/m; 0 for one without
+/// area.
+///
+/// In the plane of a triangle the second fundamental form turns each edge into the difference of the
+/// normals at its ends. The three edges give six equations for its three coefficients, which are
+/// solved by least squares \[Rus04\].
+pub(super) fn curvatures(positions: &[Vector], triangles: &[[u32; 3]]) -> Vec<f64> {
+    let normals = normals(positions, triangles);
+    let of = |corners: &[u32; 3]| {
+        let places = corners.map(|corner| positions[corner as usize]);
+        let value = of_triangle(places, corners.map(|corner| normals[corner as usize]));
+        if value.is_finite() { value } else { 0.0 }
+    };
+    triangles.iter().map(of).collect()
+}
+
+fn of_triangle(places: [Vector; 3], normals: [Vector; 3]) -> f64 {
+    let along = unit(difference(places[1], places[0]));
+    let normal = unit(cross(difference(places[1], places[0]), difference(places[2], places[0])));
+    let across = cross(normal, along);
+    // Normal equations of the coefficients e, f, g: e u + f v = Δn·along, f u + g v = Δn·across.
+    let (mut uu, mut uv, mut vv) = (0.0, 0.0, 0.0);
+    let mut right = [0.0; 3];
+    for k in 0..3 {
+        let next = (k + 1) % 3;
+        let edge = difference(places[next], places[k]);
+        let turn = difference(normals[next], normals[k]);
+        let [u, v] = [along, across].map(|axis| dot(edge, axis));
+        let [p, q] = [along, across].map(|axis| dot(turn, axis));
+        uu += u * u;
+        uv += u * v;
+        vv += v * v;
+        right = [right[0] + u * p, right[1] + v * p + u * q, right[2] + v * q];
+    }
+    // The matrix is [[uu, uv, 0], [uv, uu + vv, uv], [0, uv, vv]].
+    let determinant = uu * ((uu + vv) * vv - uv * uv) - uv * uv * vv;
+    let [a, b, c] = right;
+    let e = (a * ((uu + vv) * vv - uv * uv) - uv * (b * vv - uv * c)) / determinant;
+    let f = (uu * (b * vv - c * uv) - a * uv * vv) / determinant;
+    let g = (uu * ((uu + vv) * c - uv * b) - uv * (uv * c) + a * uv * uv) / determinant;
+    let (mean, half) = (0.5 * (e + g), 0.5 * (e - g));
+    mean.abs() + half.hypot(f)
+}
+
+/// Returns the unit normals at the vertices, weighted by the areas of the triangles around them.
+fn normals(positions: &[Vector], triangles: &[[u32; 3]]) -> Vec<Vector> {
+    let mut normals = vec![[0.0; 3]; positions.len()];
+    for corners in triangles {
+        let [a, b, c] = corners.map(|corner| positions[corner as usize]);
+        let own = cross(difference(b, a), difference(c, a));
+        for &corner in corners {
+            let sum = &mut normals[corner as usize];
+            *sum = [sum[0] + own[0], sum[1] + own[1], sum[2] + own[2]];
+        }
+    }
+    normals.into_iter().map(unit).collect()
+}
+
+fn difference(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn unit(vector: Vector) -> Vector {
+    let length = dot(vector, vector).sqrt();
+    vector.map(|component| component / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Triangles of a grid of so many columns and rows of vertices.
+    fn grid([columns, rows]: [u32; 2]) -> Vec<[u32; 3]> {
+        let cells = (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| [column, row]));
+        let cell = |[column, row]: [u32; 2]| {
+            let a = row * columns + column;
+            [[a, a + 1, a + columns + 1], [a, a + columns + 1, a + columns]]
+        };
+        cells.flat_map(cell).collect()
+    }
+
+    #[test]
+    fn cylinders_have_one_over_their_radius_whichever_way_they_lie() {
+        let triangles = grid([40, 11]);
+        for (radius, turn) in [(0.05, 0.0_f64), (0.2, 0.7)] {
+            let place = |k: usize| {
+                let [across, along] = [(k % 40) as f64, (k / 40) as f64].map(|n| 0.1 * radius * n);
+                let (a, b) = (
+                    across * turn.cos() - along * turn.sin(),
+                    across * turn.sin() + along * turn.cos(),
+                );
+                let angle = a / radius;
+                [radius * angle.sin(), radius * angle.cos(), b]
+            };
+            let positions: Vec<Vector> = (0..440).map(place).collect();
+            let found = curvatures(&positions, &triangles);
+            // Normals at the border are those of one side.
+            let inner = (0..10).flat_map(|row| (2..37).map(move |column| 2 * (39 * row + column)));
+            for triangle in inner.filter(|t| (2 * 39 * 2..2 * 39 * 8).contains(t)) {
+                let error = found[triangle] * radius - 1.0;
+                assert!(error.abs() < 0.03, "radius {radius}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_sphere_and_a_plane() {
+        let triangles = grid([21, 21]);
+        let flat = |k: usize| [0.01 * (k % 21) as f64, 0.01 * (k / 21) as f64, 0.0];
+        let positions: Vec<Vector> = (0..441).map(flat).collect();
+        assert!(curvatures(&positions, &triangles).iter().all(|value| value.abs() < 1e-12));
+        let ball = |k: usize| unit([flat(k)[0] - 0.1, flat(k)[1] - 0.1, 0.5]).map(|c| 0.3 * c);
+        let positions: Vec<Vector> = (0..441).map(ball).collect();
+        let middle = curvatures(&positions, &triangles)[2 * (20 * 10 + 10)];
+        assert!((middle * 0.3 - 1.0).abs() < 0.01, "{middle}");
+    }
+
+    #[test]
+    fn a_triangle_without_area_has_none() {
+        assert_eq!(curvatures(&[[0.0; 3]; 3], &[[0, 1, 2]]), [0.0]);
+    }
+}

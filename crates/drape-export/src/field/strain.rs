@@ -1,0 +1,56 @@
+//! Strain of a triangle along warp and weft, and its shear.
+
+/// Component of a strain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum StrainOf {
+    /// Along the warp, in %.
+    Warp,
+    /// Along the weft, in %.
+    Weft,
+    /// Angle by which warp and weft are off a right one, in °.
+    Shear,
+}
+
+/// Triangle before deformation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct RestTriangle {
+    pub(super) corners: [u32; 3],
+    /// Edges from the first corner to the two others, in m: weft and warp.
+    edges: [[f64; 2]; 2],
+    /// Area, in m².
+    pub(super) area: f64,
+}
+
+impl RestTriangle {
+    /// Returns a triangle from the material coordinates of all vertices.
+    pub(super) fn new(corners: [u32; 3], material: &[[f64; 2]]) -> RestTriangle {
+        let [start, one, other] = corners.map(|corner| material[corner as usize]);
+        let edges = [one, other].map(|end| [end[0] - start[0], end[1] - start[1]]);
+        let [[u1, v1], [u2, v2]] = edges;
+        RestTriangle { corners, edges, area: 0.5 * (u1 * v2 - u2 * v1).abs() }
+    }
+
+    /// Returns a component of the strain at the positions of all vertices: of the derivatives of the
+    /// position along warp and weft, their lengths less one, and the angle between them; 0 for a
+    /// triangle without area.
+    pub(super) fn strain(&self, positions: &[[f64; 3]], of: StrainOf) -> f64 {
+        let [[u1, v1], [u2, v2]] = self.edges;
+        let twice = u1 * v2 - u2 * v1;
+        let [start, one, other] = self.corners.map(|corner| positions[corner as usize]);
+        let along = |a: f64, b: f64| -> [f64; 3] {
+            std::array::from_fn(|k| (a * (one[k] - start[k]) + b * (other[k] - start[k])) / twice)
+        };
+        let (weft, warp) = (along(v2, -v1), along(-u2, u1));
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let length = |vector| dot(vector, vector).sqrt();
+        let value = match of {
+            StrainOf::Warp => 100.0 * (length(warp) - 1.0),
+            StrainOf::Weft => 100.0 * (length(weft) - 1.0),
+            StrainOf::Shear => {
+                let sine = dot(weft, warp) / (length(weft) * length(warp));
+                sine.clamp(-1.0, 1.0).asin().to_degrees()
+            }
+        };
+        if value.is_finite() { value } else { 0.0 }
+    }
+}

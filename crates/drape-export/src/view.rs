@@ -1,0 +1,72 @@
+//! View: runs as one page of HTML that needs nothing else.
+//!
+//! The page has three.js, the runs' frames (positions as 16-bit fractions of a box, fields as 8-bit
+//! fractions of a range, both deflated), and the viewer's script. It is for looking: the frames of the
+//! run have the exact numbers.
+
+mod bits;
+mod measures;
+mod named;
+mod scene;
+
+use drape_frames::Error;
+
+pub use self::named::Named;
+use self::scene::Scene;
+
+const PAGE: &str = include_str!("../viewer/viewer.html");
+const STYLE: &str = include_str!("../viewer/viewer.css");
+const SCRIPT: &str = include_str!("../viewer/viewer.js");
+const THREE: &str = include_str!("../viewer/three.bundle.js");
+
+/// Page that shows runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    /// The page.
+    pub html: String,
+    /// Numbers of the frames that it shows, of each run.
+    pub frames: Vec<Vec<usize>>,
+}
+
+impl View {
+    /// Makes the page of some runs, which are shown side by side.
+    ///
+    /// Frames are left out, evenly but never the first and the last, until the page has at most
+    /// `size_max` bytes or each run has two frames.
+    ///
+    /// # Errors
+    /// A file of a run is not as it was written.
+    pub fn new(runs: &[Named<'_>], size_max: usize) -> Result<View, Error> {
+        let own = size_max.saturating_sub(PAGE.len() + STYLE.len() + SCRIPT.len() + THREE.len());
+        let share = own / runs.len().max(1);
+        let scenes: Result<Vec<Scene>, Error> =
+            runs.iter().map(|run| Scene::of_size(run, share)).collect();
+        let scenes = scenes?;
+        let names: Vec<&str> = runs.iter().map(|run| run.name).collect();
+        let data: String = scenes.iter().enumerate().map(|(k, scene)| scene.elements(k)).collect();
+        let parts = [
+            ("title", escape(&names.join(" | "))),
+            ("style", STYLE.to_owned()),
+            ("three", THREE.to_owned()),
+            ("data", data),
+            ("script", SCRIPT.to_owned()),
+        ];
+        let mut html = String::new();
+        let mut rest = PAGE;
+        for (name, content) in &parts {
+            let mark = format!("{{{{{name}}}}}");
+            let (before, after) = rest.split_once(&mark).unwrap_or((rest, ""));
+            html += before;
+            html += content;
+            rest = after;
+        }
+        html += rest;
+        let frames = scenes.into_iter().map(|scene| scene.frames).collect();
+        Ok(View { html, frames })
+    }
+}
+
+/// Returns text as HTML.
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

@@ -1,0 +1,272 @@
+//! Scene: one run as the elements of a page.
+
+use std::collections::BTreeSet;
+
+use drape_frames::{Error, Frame, Part, Recording};
+use serde_json::{Value, json};
+
+use super::bits::{Bounds, Differences, deflated, octet};
+use super::measures::rows;
+use super::named::Named;
+use crate::field::{Field, Fields};
+
+/// Most frames that are shown of a run.
+const FRAMES_MAX: usize = 600;
+
+/// Fraction of the values that the range of a field leaves out.
+const BEYOND: f64 = 0.005;
+
+/// Colours of the two sides of panels, by the number of their fabric.
+const COLOURS: [[&str; 2]; 6] = [
+    ["#96b6d6", "#e2c496"],
+    ["#d69a8f", "#e9d9c3"],
+    ["#a3c29b", "#e6dcc0"],
+    ["#c3a8d1", "#e7dccb"],
+    ["#dcbf78", "#cfd6d9"],
+    ["#8fc4c1", "#e6d3c0"],
+];
+
+/// Run as the elements of a page.
+pub(super) struct Scene {
+    /// Numbers of the frames that are shown.
+    pub(super) frames: Vec<usize>,
+    meta: Value,
+    data: String,
+}
+
+/// Field with its range and its values in the frames that are shown.
+struct Shown {
+    field: Field,
+    /// Values of each frame that is shown; of the last one only, where no other is known.
+    values: Vec<Vec<f64>>,
+    range: [f64; 2],
+}
+
+impl Scene {
+    /// Returns the scene of a run with so few frames that its elements have at most `size` bytes, or
+    /// with two.
+    pub(super) fn of_size(run: &Named<'_>, size: usize) -> Result<Scene, Error> {
+        let last = run.recording.frames() - 1;
+        let mut stride = last.div_ceil(FRAMES_MAX).max(1);
+        loop {
+            let scene = Scene::new(run, stride)?;
+            let is = scene.elements(0).len();
+            if is <= size || stride >= last {
+                return Ok(scene);
+            }
+            stride = (stride * is.div_ceil(size.max(1))).clamp(stride + 1, last);
+        }
+    }
+
+    fn new(run: &Named<'_>, stride: usize) -> Result<Scene, Error> {
+        let recording = run.recording;
+        let last = recording.frames() - 1;
+        let mut numbers: Vec<usize> = (0..last).step_by(stride).collect();
+        numbers.push(last);
+        let frames: Result<Vec<Frame>, Error> =
+            numbers.iter().map(|&number| recording.frame(number)).collect();
+        let frames = frames?;
+        let fields = shown_fields(recording, &frames)?;
+        let content = Content::new(recording, &frames, &fields);
+        let path = recording.folder().to_owned();
+        let unreadable = |reason: String| Error::Unreadable { path, reason };
+        let data = deflated(&content.bytes).map_err(|error| unreadable(error.to_string()))?;
+        let meta = meta(run, &frames, &fields, &content);
+        Ok(Scene { frames: numbers, meta, data })
+    }
+
+    /// Returns the elements of the page that hold the scene, with its number among the runs.
+    pub(super) fn elements(&self, number: usize) -> String {
+        // No text can end the element that holds it.
+        let meta = self.meta.to_string().replace('<', "\\u003c");
+        format!(
+            "<script type=\"application/json\" id=\"run-{number}\">{meta}</script>\n\
+             <script type=\"text/plain\" id=\"data-{number}\">{}</script>\n",
+            self.data
+        )
+    }
+}
+
+/// Returns the fields of the frames that are shown.
+fn shown_fields(recording: &Recording, frames: &[Frame]) -> Result<Vec<Shown>, Error> {
+    let mut all = Fields::new(recording)?;
+    let fields: Vec<Field> = Field::ALL.into_iter().filter(|field| all.has(*field)).collect();
+    let mut shown = Vec::new();
+    for field in fields {
+        let mut values = Vec::new();
+        for (k, frame) in frames.iter().enumerate() {
+            let before = k.checked_sub(1).map(|k| &frames[k]);
+            values.extend(all.values(field, frame, before));
+        }
+        if !values.is_empty() {
+            let range = range(field, &values);
+            shown.push(Shown { field, values, range });
+        }
+    }
+    Ok(shown)
+}
+
+/// Returns the range of a field: that of nearly all values, rounded up to 1, 2 or 5 times a power of
+/// ten; about zero for a signed field, from zero for another.
+fn range(field: Field, values: &[Vec<f64>]) -> [f64; 2] {
+    let mut sizes: Vec<f64> = values.iter().flatten().map(|value| value.abs()).collect();
+    let place = ((1.0 - BEYOND) * sizes.len() as f64) as usize;
+    let place = place.min(sizes.len().saturating_sub(1));
+    let size = match sizes.is_empty() {
+        true => 0.0,
+        false => *sizes.select_nth_unstable_by(place, f64::total_cmp).1,
+    };
+    let size = size.max(1e-6);
+    let power = 10.0_f64.powf(size.log10().floor());
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
+    let high = steps.into_iter().find(|step| *step >= size).unwrap_or(size);
+    [if field.is_signed() { -high } else { 0.0 }, high]
+}
+
+/// Numbers of a scene as bytes.
+struct Content {
+    bytes: Vec<u8>,
+    bounds: Bounds,
+    body_bounds: Vec<Bounds>,
+    /// State of the bodies in each frame.
+    body_states: Vec<usize>,
+}
+
+impl Content {
+    fn new(recording: &Recording, frames: &[Frame], fields: &[Shown]) -> Content {
+        let (topology, manifest) = (recording.topology(), recording.manifest());
+        let mut bytes = Vec::new();
+        let numbers = |all: &mut dyn Iterator<Item = u32>, bytes: &mut Vec<u8>| {
+            bytes.extend(all.flat_map(u32::to_le_bytes));
+        };
+        numbers(&mut topology.cloth.iter().flatten().copied(), &mut bytes);
+        let material = topology.material.iter().flatten();
+        bytes.extend(material.flat_map(|length| (*length as f32).to_le_bytes()));
+        numbers(&mut topology.bodies.iter().flatten().copied(), &mut bytes);
+        numbers(&mut manifest.seam_pairs.iter().flatten().copied(), &mut bytes);
+        let bounds = frames.iter().fold(Bounds::EMPTY, |all, frame| all.with(&frame.cloth));
+        let mut clothes = Differences::<u16>::new();
+        for frame in frames {
+            let words = frame.cloth.iter().flat_map(|point| bounds.words(*point)).collect();
+            clothes.add(words, &mut bytes);
+        }
+        let body_bounds = body_bounds(&manifest.bodies, frames);
+        let body_states = body_states(frames);
+        let mut bodies = Differences::<u16>::new();
+        for (k, frame) in frames.iter().enumerate() {
+            if k == 0 || body_states[k] != body_states[k - 1] {
+                bodies.add(body_words(&manifest.bodies, &body_bounds, frame), &mut bytes);
+            }
+        }
+        for shown in fields {
+            let mut octets = Differences::<u8>::new();
+            for values in &shown.values {
+                let all = values.iter().map(|value| octet(*value, shown.range)).collect();
+                octets.add(all, &mut bytes);
+            }
+        }
+        Content { bytes, bounds, body_bounds, body_states }
+    }
+}
+
+/// Returns the box of each body over all frames.
+fn body_bounds(bodies: &[Part], frames: &[Frame]) -> Vec<Bounds> {
+    let mut first = 0;
+    let of = |body: &Part| {
+        let own = first..first + body.vertices;
+        first = own.end;
+        frames.iter().fold(Bounds::EMPTY, |all, frame| all.with(&frame.bodies[own.clone()]))
+    };
+    bodies.iter().map(of).collect()
+}
+
+/// Returns the number of the state of the bodies in each frame: a new one where they have moved.
+fn body_states(frames: &[Frame]) -> Vec<usize> {
+    let mut states: Vec<usize> = Vec::new();
+    for (k, frame) in frames.iter().enumerate() {
+        let state = match k.checked_sub(1) {
+            None => 0,
+            Some(before) => {
+                let moved = frames[before].bodies_file != frame.bodies_file;
+                states[before] + usize::from(moved)
+            }
+        };
+        states.push(state);
+    }
+    states
+}
+
+fn body_words(bodies: &[Part], bounds: &[Bounds], frame: &Frame) -> Vec<u16> {
+    let mut vertices = frame.bodies.iter();
+    let mut words = Vec::new();
+    for (body, bounds) in bodies.iter().zip(bounds) {
+        let own = vertices.by_ref().take(body.vertices);
+        words.extend(own.flat_map(|point| bounds.words(*point)));
+    }
+    words
+}
+
+/// Returns what the page says of a run.
+fn meta(run: &Named<'_>, frames: &[Frame], fields: &[Shown], content: &Content) -> Value {
+    let (topology, manifest) = (run.recording.topology(), run.recording.manifest());
+    let fabrics: BTreeSet<&str> = manifest.panels.iter().map(|part| &part.fabric[..]).collect();
+    let panel = |part: &Part| {
+        let number = fabrics.iter().position(|fabric| *fabric == part.fabric);
+        let [front, back] = COLOURS[number.unwrap_or(0) % COLOURS.len()];
+        json!({
+            "name": part.name, "triangles": part.triangles, "fabric": part.fabric,
+            "colour": front, "back": back,
+        })
+    };
+    let panels: Vec<Value> = manifest.panels.iter().map(panel).collect();
+    let corners = |bounds: &Bounds| json!([bounds.low, bounds.high]);
+    let body = |(part, bounds): (&Part, &Bounds)| {
+        json!({
+            "name": part.name, "vertices": part.vertices, "triangles": part.triangles,
+            "box": corners(bounds),
+        })
+    };
+    let bodies = manifest.bodies.iter().zip(&content.body_bounds).map(body);
+    let frame = |(k, frame): (usize, &Frame)| {
+        json!({
+            "number": frame.number, "time": frame.time.unwrap_or(frame.number as f64),
+            "bodies": if manifest.bodies.is_empty() { -1 } else { content.body_states[k] as i64 },
+        })
+    };
+    let field = |shown: &Shown| {
+        json!({
+            "key": shown.field.key(), "label": shown.field.label(), "unit": shown.field.unit(),
+            "low": shown.range[0], "high": shown.range[1], "signed": shown.field.is_signed(),
+            "first": if shown.values.len() == frames.len() { 0 } else { -1 },
+        })
+    };
+    let last_state = content.body_states.last().copied();
+    let body_states = if manifest.bodies.is_empty() { 0 } else { last_state.map_or(0, |s| s + 1) };
+    let summary = std::fs::read_to_string(run.recording.folder().join("summary.json"));
+    let summary = summary.ok().and_then(|text| serde_json::from_str(&text).ok());
+    json!({
+        "name": run.name,
+        "note": note(run.recording, frames, &content.bounds),
+        "vertices": topology.material.len(), "triangles": topology.cloth.len(),
+        "bodyVertices": frames[0].bodies.len(), "bodyTriangles": topology.bodies.len(),
+        "bodyStates": body_states, "pairs": manifest.seam_pairs.len(),
+        "box": corners(&content.bounds),
+        "panels": panels,
+        "bodies": bodies.collect::<Vec<Value>>(),
+        "frames": frames.iter().enumerate().map(frame).collect::<Vec<Value>>(),
+        "fields": fields.iter().map(field).collect::<Vec<Value>>(),
+        "measures": rows(&summary.unwrap_or(Value::Null)),
+    })
+}
+
+/// Returns how many frames are shown, and how exactly.
+fn note(recording: &Recording, frames: &[Frame], bounds: &Bounds) -> String {
+    let size = (0..3).map(|axis| bounds.high[axis] - bounds.low[axis]).fold(0.0, f64::max);
+    let all = recording.frames();
+    let shown = match frames.len() {
+        count if count == all => format!("{all} frames"),
+        count => format!("{count} of {all} frames"),
+    };
+    let vertices = recording.topology().material.len();
+    format!("{vertices} particles, {shown}, positions to {:.0} µm", 1e6 * size / 65535.0)
+}

@@ -1,0 +1,114 @@
+//! The viewer's page: what it holds is the run, and no name of a part gets out of its place.
+
+use std::io::Read;
+
+use base64::Engine;
+use drape_export::{Named, View};
+use drape_frames::Recording;
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A name that would end the element that holds it, if it could.
+const HOSTILE: &str = "</script><script>alert('x')</script>&amp;\"";
+
+/// Returns the folder of a run of so many frames, in which a triangle rises 1 m.
+fn run(frames: usize) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let manifest = serde_json::json!({
+        "format": 1, "guarded": false, "bodies": [],
+        "panels": [{ "name": HOSTILE, "vertices": 3, "triangles": 1 }],
+    });
+    let write = |name: &str, text: String| {
+        std::fs::write(folder.path().join(name), text).expect("writes");
+    };
+    write("surfaces.json", format!("{manifest}\n"));
+    for number in 0..frames {
+        let height = number as f64 / frames.saturating_sub(1).max(1) as f64;
+        let text = format!(
+            "# metres, y up; t = {} s\nv 0 {height} 0\nv 1.01 {height} 0\nv 0 {height} 2\nvt 0 0\nvt 1 0\nvt 0 2\nf 1 2 3\n",
+            0.1 * number as f64
+        );
+        write(&format!("frame-{number:05}.obj"), text);
+    }
+    folder
+}
+
+fn page(folder: &TempDir, size: usize) -> View {
+    let recording = Recording::open(folder.path()).expect("a run");
+    let runs = [Named { name: HOSTILE, recording: &recording }];
+    View::new(&runs, size).expect("a page")
+}
+
+/// Returns what stands in the element of a page between its opening tag and its end.
+fn element<'a>(html: &'a str, id: &str) -> &'a str {
+    let (_, rest) = html.split_once(&format!("id=\"{id}\">")).expect("the element");
+    rest.split_once("</script>").expect("its end").0
+}
+
+#[test]
+fn positions_and_fields_come_back_to_the_fraction_that_is_said() {
+    let view = page(&run(5), 20_000_000);
+    assert_eq!(view.frames, [[0, 1, 2, 3, 4]]);
+    let meta: Value = serde_json::from_str(element(&view.html, "run-0")).expect("JSON");
+    let data = element(&view.html, "data-0");
+    let data = base64::engine::general_purpose::STANDARD.decode(data).expect("base64");
+    let mut bytes = Vec::new();
+    flate2::read::ZlibDecoder::new(&data[..]).read_to_end(&mut bytes).expect("deflated");
+    let corners: Vec<u32> =
+        bytes[..12].chunks(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+    assert_eq!(corners, [0, 1, 2]);
+    // Three vertices with two material coordinates of four bytes follow, then the frames.
+    let mut at = 12 + 24;
+    let mut words = [0_u16; 9];
+    for frame in 0..5 {
+        for (k, word) in words.iter_mut().enumerate() {
+            let difference = u16::from(bytes[at + k]) | u16::from(bytes[at + 9 + k]) << 8;
+            *word = word.wrapping_add(difference);
+        }
+        at += 18;
+        for vertex in 0..3 {
+            let axis = |k: usize| {
+                let end = |corner: usize| meta["box"][corner][k].as_f64().expect("a number");
+                end(0) + (end(1) - end(0)) * f64::from(words[3 * vertex + k]) / 65535.0
+            };
+            let expected = [[0.0, 0.0], [1.01, 0.0], [0.0, 2.0]][vertex];
+            assert!((axis(0) - expected[0]).abs() < 1e-5 && (axis(2) - expected[1]).abs() < 2e-5);
+            assert!((axis(1) - 0.25 * f64::from(frame)).abs() < 1e-5, "{frame}: {}", axis(1));
+        }
+    }
+    // Fields, in the order of their list, a byte for a vertex: the strain along the weft is 1 %.
+    let fields = meta["fields"].as_array().expect("fields");
+    let weft = fields.iter().position(|field| field["key"] == "strain-weft").expect("it is there");
+    let level = f64::from(bytes[at + weft * 5 * 3]);
+    let end = |name: &str| fields[weft][name].as_f64().expect("a number");
+    let value = end("low") + (end("high") - end("low")) * level / 255.0;
+    assert!((value - 1.0).abs() <= 0.5 * (end("high") - end("low")) / 255.0 + 1e-12, "{value}");
+    let speed = fields.iter().find(|field| field["key"] == "speed").expect("it is there");
+    assert_eq!((speed["unit"].as_str(), speed["high"].as_f64()), (Some("m/s"), Some(5.0)));
+}
+
+#[test]
+fn no_name_ends_its_element() {
+    let html = page(&run(2), 20_000_000).html;
+    assert!(!html.contains("alert('x')<") && !html.contains("<script>alert"));
+    let meta: Value = serde_json::from_str(element(&html, "run-0")).expect("JSON");
+    assert_eq!((&meta["name"], &meta["panels"][0]["name"]), (&HOSTILE.into(), &HOSTILE.into()));
+    // The page loads nothing.
+    assert!(!html.contains("src=\"http") && !html.contains("@import"));
+    assert!(!html.contains("{{"), "every place is filled");
+}
+
+#[test]
+fn frames_are_left_out_evenly_until_the_page_is_small_enough() {
+    let folder = run(41);
+    let all = page(&folder, 20_000_000);
+    assert_eq!(all.frames[0].len(), 41);
+    let few = page(&folder, 0);
+    assert_eq!(few.frames, [[0, 40]]);
+    assert!(few.html.len() < all.html.len() && few.html.contains("2 of 41 frames"));
+    let half = page(&folder, all.html.len() - 200);
+    let steps: Vec<usize> = half.frames[0].windows(2).map(|pair| pair[1] - pair[0]).collect();
+    assert!(half.frames[0].len() < 41 && half.html.len() < all.html.len(), "{steps:?}");
+    assert!(steps[..steps.len() - 1].iter().all(|step| *step == steps[0]), "{steps:?}");
+    assert_eq!(half.frames[0].last(), Some(&40));
+}
