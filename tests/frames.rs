@@ -1,4 +1,8 @@
-//! Frames that a run stores, and how `drape check` verifies them.
+//! Frames that a run stores, how `drape check` verifies them, and how `drape export` writes them for
+//! other programs.
+
+#[path = "frames/export.rs"]
+mod export;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

@@ -6,6 +6,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 use crate::commands::bench::{self, BenchArguments};
 use crate::commands::check::{self, CheckArguments};
 use crate::commands::convert::{self, ConvertArguments};
+use crate::commands::export::{self, ExportArguments};
 use crate::commands::fabric::{self, FabricCommand};
 use crate::commands::fit::{self, FitArguments};
 use crate::commands::new::{self, NewArguments};
@@ -30,9 +31,9 @@ Exit codes:
   7    a figure of the validation is beyond its limit
   130  interrupted (143: terminated); summary, last frame and picture are written
 
-Results that are there already, of a run, a fit or `new`, are replaced with --force only; pages and
-figures are replaced always. Data go to stdout, messages and progress to stderr; NO_COLOR=1 turns
-colours off.";
+Results that are there already, of a run, a fit, an export or `new`, are replaced with --force
+only; pages and figures are replaced always. Data go to stdout, messages and progress to stderr;
+NO_COLOR=1 turns colours off.";
 
 /// From measured fabric to moving cloth.
 #[derive(Parser)]
@@ -86,6 +87,8 @@ enum Command {
     Convert(ConvertArguments),
     /// Shows runs in a page of HTML that turns, plays and measures them, and needs nothing else.
     View(ViewArguments),
+    /// Writes the frames of a run for other programs: OBJ, glTF, USD, point caches, VTK, NumPy, CSV.
+    Export(ExportArguments),
     /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
     Bench(BenchArguments),
     /// Prints the JSON Schema of a kind of file, by which editors complete and check it.
@@ -123,6 +126,7 @@ impl Command {
             Self::Check(arguments) => check::check(arguments),
             Self::Convert(arguments) => convert::convert(arguments),
             Self::View(arguments) => view::view(arguments),
+            Self::Export(arguments) => export::export(arguments),
             Self::Bench(arguments) => bench::bench(arguments),
             Self::Schema(arguments) => schema::schema(arguments),
             Self::Completions(arguments) => shell::completions(arguments, CommandLine::command()),

@@ -12,6 +12,7 @@
 pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod convert;
+pub(crate) mod export;
 pub(crate) mod fabric;
 pub(crate) mod fit;
 pub(crate) mod new;

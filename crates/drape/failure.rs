@@ -112,6 +112,17 @@ impl From<drape::frames::Error> for Failure {
     }
 }
 
+impl From<drape::export::Error> for Failure {
+    fn from(error: drape::export::Error) -> Self {
+        use drape::export::Error;
+        match error {
+            Error::Frames(error) => Self::Frames(error),
+            Error::Write(_) => Self::Output(format!("cannot write: {error}")),
+            error => Self::Usage(error.to_string()),
+        }
+    }
+}
+
 impl From<drape::report::Error> for Failure {
     /// A name or a number of the input that cannot be shown.
     fn from(error: drape::report::Error) -> Self {

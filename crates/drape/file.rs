@@ -1,5 +1,7 @@
 //! Files that commands write: complete or not at all.
 
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use crate::failure::Failure;
@@ -13,6 +15,32 @@ pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failur
         .and_then(|()| std::fs::write(&temporary, content))
         .and_then(|()| std::fs::rename(&temporary, path));
     written.map_err(|error| Failure::Output(format!("cannot write {}: {error}", path.display())))
+}
+
+/// Writes a file likewise, whose content is made as it is written.
+pub(crate) fn write_by<E>(
+    path: &Path,
+    content: impl FnOnce(&mut BufWriter<File>) -> Result<(), E>,
+) -> Result<(), Failure>
+where
+    Failure: From<E>,
+{
+    let failed = |error: std::io::Error| {
+        Failure::Output(format!("cannot write {}: {error}", path.display()))
+    };
+    let temporary = path.with_extension("part");
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder).map_err(failed)?;
+    }
+    let mut file = BufWriter::new(File::create(&temporary).map_err(failed)?);
+    let written = content(&mut file).map_err(Failure::from).and_then(|()| {
+        file.flush().and_then(|()| std::fs::rename(&temporary, path)).map_err(failed)
+    });
+    if written.is_err() {
+        // What is left of it is of no use; the failure is told, not that of its removal.
+        let _ = std::fs::remove_file(&temporary);
+    }
+    written
 }
 
 /// Refuses to replace a file that is there already, unless that is allowed, with a remedy.

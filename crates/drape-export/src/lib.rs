@@ -1,9 +1,39 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! A [`Clip`] is what is written: frames of a recording with their times. Each format has a function
+//! that writes a clip, or a frame of it.
+//!
+//! Layers, lowest first: `error`, `name`, `colour`, `normal`; `clip` chooses frames; `mesh` divides
+//! them into panels and bodies; `field` has numbers at their vertices; `format` and `view` write
+//! them.
+
+mod error;
+
+mod colour;
+mod name;
+mod normal;
+
+mod clip;
+mod mesh;
 
 mod field;
-mod obj;
+mod format;
 mod view;
 
+#[cfg(test)]
+mod example;
+
+pub use clip::Clip;
+pub use error::Error;
 pub use field::{Field, Fields};
-pub use obj::write_obj;
+pub use format::glb::{GLB_FRAMES_MAX, write_glb};
+pub use format::mdd::write_mdd;
+pub use format::npz::write_npz;
+pub use format::obj::{write_obj, write_rest_obj};
+pub use format::pc2::write_pc2;
+pub use format::table::write_csv;
+pub use format::usda::write_usda;
+pub use format::vtk::{Listed, Surface, write_pvd, write_vtp};
 pub use view::{Named, View};

@@ -33,9 +33,11 @@ pub(crate) fn grammar_mistakes(text: &str) -> Vec<GrammarMistake> {
             break;
         };
         let line = line_at(&text, span.start);
-        // The next line, or the same: it follows from the last mistake.
-        let follows = !mistakes.is_empty() && line.start <= blanked.end + 1;
-        if follows || line.is_empty() {
+        // The next line, or one that was blanked: it follows from a mistake that was told. The parser
+        // does not find mistakes in the order of the text.
+        let next = (blanked.start..=blanked.end + 1).contains(&line.start);
+        let follows = !mistakes.is_empty() && next;
+        if follows || text[line.clone()].trim().is_empty() {
             if mistakes.is_empty() {
                 mistakes.push(told(&text, Some(span), error.message()));
             }

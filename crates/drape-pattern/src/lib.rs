@@ -46,4 +46,4 @@ pub use placement::Placement;
 #[cfg(feature = "schema")]
 pub use read::pattern_schema;
 pub use read::{Place, Request, SeamKeys, Unit};
-pub use write::{Page, Paper, figure};
+pub use write::{Page, Paper, figure, seam_colour};

@@ -1,0 +1,218 @@
+//! Clip: the frames of a run that are written, with their times.
+
+use std::ops::RangeInclusive;
+
+use drape_frames::{Frame, Recording};
+
+use crate::error::Error;
+
+/// Largest frame rate, in frames per second.
+const RATE_MAX: f64 = 1e5;
+
+/// Frame rate of a single frame, in frames per second: that of films.
+const RATE_OF_ONE: f64 = 24.0;
+
+/// Fraction of the distance of two frames by which a frame may come early or late and still counts
+/// as on time: no eye sees it, and times that are multiples of a step need it.
+const JITTER: f64 = 0.25;
+
+/// Frames of a run that are written, in the order of their times.
+#[derive(Debug, Clone)]
+pub struct Clip<'a> {
+    recording: &'a Recording,
+    frames: Vec<usize>,
+    times: Vec<f64>,
+    rate: f64,
+}
+
+impl<'a> Clip<'a> {
+    /// Takes the frames of some numbers, with a frame rate in frames per second; without one, that
+    /// of their times. Of frames of the same time the last is taken.
+    ///
+    /// # Errors
+    /// There are no such frames, the frames say no times and no rate is given, or a rate is none.
+    pub fn new(
+        recording: &'a Recording,
+        numbers: RangeInclusive<usize>,
+        rate: Option<f64>,
+    ) -> Result<Clip<'a>, Error> {
+        if let Some(rate) = rate.filter(|rate| !(*rate > 0.0 && *rate <= RATE_MAX)) {
+            return Err(Error::BadRate { rate, limit: RATE_MAX });
+        }
+        let (first, last) = (*numbers.start(), *numbers.end());
+        if first > last {
+            return Err(Error::NoFrames { first, last });
+        }
+        let (mut frames, mut times) = (Vec::new(), Vec::new());
+        for number in numbers {
+            let known = if number < recording.frames() { recording.time(number) } else { None };
+            let time = match known {
+                Some(time) => Some(time),
+                None => recording.frame(number)?.time,
+            };
+            let time = match (time, rate) {
+                (Some(time), _) => time,
+                (None, Some(rate)) => number as f64 / rate,
+                (None, None) if first == last => 0.0,
+                (None, None) => {
+                    return Err(Error::NoTimes { folder: recording.folder().to_owned() });
+                }
+            };
+            if times.last().is_some_and(|last| *last >= time) {
+                frames.pop();
+                times.pop();
+            }
+            frames.push(number);
+            times.push(time);
+        }
+        let rate = rate.unwrap_or_else(|| rate_of(&times));
+        Ok(Clip { recording, frames, times, rate })
+    }
+
+    /// Returns the run.
+    #[must_use]
+    pub fn recording(&self) -> &'a Recording {
+        self.recording
+    }
+
+    /// Returns the numbers of the frames.
+    #[must_use]
+    pub fn frames(&self) -> &[usize] {
+        &self.frames
+    }
+
+    /// Returns the times of the frames, in s, each later than the one before.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Returns the frame rate, in frames per second.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
+
+    /// Returns the number of frames, at least 1.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.frames.len()
+    }
+
+    /// Returns the times of the frames after the first, in s.
+    #[must_use]
+    pub fn seconds(&self) -> Vec<f64> {
+        self.times.iter().map(|time| time - self.times[0]).collect()
+    }
+
+    /// Returns whether the frames follow each other at the frame rate.
+    #[must_use]
+    pub fn is_even(&self) -> bool {
+        let late = |(index, seconds): (usize, f64)| (seconds * self.rate - index as f64).abs();
+        self.seconds().into_iter().enumerate().map(late).all(|late| late <= JITTER)
+    }
+
+    /// Returns the frames that are nearest to the instants of the frame rate, for formats that have
+    /// no times of their own; a frame may be there more than once.
+    #[must_use]
+    pub fn resampled(&self) -> Clip<'a> {
+        if self.is_even() {
+            return self.clone();
+        }
+        let seconds = self.seconds();
+        let instants = (seconds[seconds.len() - 1] * self.rate).round() as usize;
+        let nearest = |instant: usize| {
+            let at = instant as f64 / self.rate;
+            let after = seconds.partition_point(|time| *time < at).min(seconds.len() - 1);
+            let before = after.saturating_sub(1);
+            if at - seconds[before] < seconds[after] - at { before } else { after }
+        };
+        let frames = (0..=instants).map(|instant| self.frames[nearest(instant)]).collect();
+        let time = |instant: usize| self.times[0] + instant as f64 / self.rate;
+        Clip { frames, times: (0..=instants).map(time).collect(), ..self.clone() }
+    }
+
+    /// Returns so many of the frames at most, with the first and the last, evenly by number.
+    #[must_use]
+    pub fn thinned(&self, most: usize) -> Clip<'a> {
+        let count = self.count();
+        if count <= most {
+            return self.clone();
+        }
+        let steps = most.max(2) - 1;
+        let index = |step: usize| (step * (count - 1) + steps / 2) / steps;
+        let frames = (0..=steps).map(|step| self.frames[index(step)]).collect();
+        let times = (0..=steps).map(|step| self.times[index(step)]).collect();
+        Clip { frames, times, ..self.clone() }
+    }
+
+    /// Reads the frame of an index.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub(crate) fn read(&self, index: usize) -> Result<Frame, Error> {
+        Ok(self.recording.frame(self.frames[index])?)
+    }
+}
+
+/// Returns the frame rate of some times: a whole number if it is near, or if the times are irregular.
+fn rate_of(times: &[f64]) -> f64 {
+    let mut gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    if gaps.is_empty() {
+        return RATE_OF_ONE;
+    }
+    gaps.sort_by(f64::total_cmp);
+    let median = gaps[gaps.len() / 2];
+    // Times that are multiples of a step jump about their mean; a run that ends early has one gap
+    // that differs.
+    let near = |gap: &&f64| (**gap - median).abs() <= JITTER * median;
+    let (sum, count) = gaps.iter().filter(near).fold((0.0, 0), |(sum, n), gap| (sum + gap, n + 1));
+    let rate = f64::from(count) / sum;
+    let (whole, irregular) = (rate.round(), (count as usize) + 1 < gaps.len());
+    let is_near = (rate - whole).abs() <= 0.01 * rate;
+    let rate = if is_near || irregular && whole >= 1.0 { whole } else { rate };
+    rate.clamp(1.0 / RATE_MAX, RATE_MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+
+    #[test]
+    fn the_rate_is_that_of_the_times() {
+        assert_eq!(rate_of(&[0.0, 0.04, 0.08, 0.12]), 25.0);
+        // Multiples of a step of 5 ms, and a run that ends early.
+        assert_eq!(rate_of(&[0.0, 0.035, 0.065, 0.1, 0.135, 0.165, 0.2, 0.205]), 30.0);
+        assert_eq!(rate_of(&[0.0, 1.5]), 1.0 / 1.5);
+        assert_eq!(rate_of(&[0.0, 0.4, 0.8, 1.2]), 2.5);
+        assert_eq!(rate_of(&[0.0, 0.08, 0.16, 0.5, 0.59, 0.9]), 12.0, "no whole number is near");
+        assert_eq!(rate_of(&[3.0]), 24.0);
+    }
+
+    #[test]
+    fn irregular_times_are_resampled_to_the_nearest_frame() {
+        let folder = example::folder(&[0.0, 0.1, 0.2, 0.5, 0.5, 0.6]);
+        let recording = Recording::open(folder.path()).unwrap();
+        let clip = Clip::new(&recording, 0..=5, None).unwrap();
+        assert_eq!(clip.frames(), [0, 1, 2, 4, 5], "of two frames at 0.5 s the later");
+        assert_eq!(clip.rate(), 10.0);
+        assert!(!clip.is_even());
+        let even = clip.resampled();
+        assert_eq!(even.frames(), [0, 1, 2, 2, 4, 4, 5]);
+        assert!(even.is_even());
+        assert_eq!(clip.thinned(3).frames(), [0, 2, 5]);
+    }
+
+    #[test]
+    fn what_there_is_not_is_refused() {
+        let folder = example::folder(&[0.0, 0.1]);
+        let recording = Recording::open(folder.path()).unwrap();
+        let clip = |range, rate| Clip::new(&recording, range, rate).map(|clip| clip.count());
+        assert!(matches!(clip(0..=2, None), Err(Error::Frames(_))));
+        assert!(matches!(clip(0..=1, Some(0.0)), Err(Error::BadRate { .. })));
+        assert!(matches!(clip(0..=1, Some(f64::NAN)), Err(Error::BadRate { .. })));
+        let backwards = RangeInclusive::new(1, 0);
+        assert!(matches!(clip(backwards, None), Err(Error::NoFrames { first: 1, last: 0 })));
+    }
+}

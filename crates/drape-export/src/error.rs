@@ -1,0 +1,50 @@
+//! Error of frames that cannot be written in a format.
+
+use std::io;
+use std::path::PathBuf;
+
+/// Reason why frames cannot be written in a format.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The frames cannot be read.
+    #[error(transparent)]
+    Frames(#[from] drape_frames::Error),
+    /// The file cannot be written.
+    #[error("{0}")]
+    Write(#[from] io::Error),
+    /// The frames have no times, and no rate was given.
+    #[error("{} does not say when its frames were; give a number of frames per second", folder.display())]
+    NoTimes {
+        /// Folder of the frames.
+        folder: PathBuf,
+    },
+    /// The rate is none.
+    #[error("{rate} is no number of frames per second; give one above 0 and up to {limit}")]
+    BadRate {
+        /// The rate, in frames per second.
+        rate: f64,
+        /// Largest rate, in frames per second.
+        limit: f64,
+    },
+    /// There are no frames from the first to the last.
+    #[error("there are no frames {first}..{last}; the first is at most the last")]
+    NoFrames {
+        /// Number of the first frame.
+        first: usize,
+        /// Number of the last frame.
+        last: usize,
+    },
+    /// The format has no room for so much.
+    #[error("{format} has room for {limit} {what}, and these are {found}; give fewer frames")]
+    TooLarge {
+        /// The format.
+        format: &'static str,
+        /// What is counted, in words.
+        what: &'static str,
+        /// Their number.
+        found: usize,
+        /// Largest number that the format has room for.
+        limit: usize,
+    },
+}

@@ -1,0 +1,87 @@
+//! Example of a run, for the tests: two panels, one of an odd name, that fall beside a box.
+
+use std::fs;
+use std::path::Path;
+
+use drape_frames::Frame;
+use npyz::WriterBuilder;
+use serde_json::json;
+use tempfile::TempDir;
+
+/// Name that is not what a format expects.
+pub(crate) const HOSTILE: &str = "back \"</a>{}'\\ #1/袖;\u{e9}&amp;";
+
+/// Corners and triangles of a cube of a metre.
+pub(crate) fn cube() -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let corner = |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(f64::from);
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = faces.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    ((0..8).map(corner).collect(), triangles.collect())
+}
+
+/// Panels of some names.
+pub(crate) fn parts(names: &[&str]) -> Vec<drape_frames::Part> {
+    let part = |name| drape_frames::Part {
+        name,
+        vertices: 0,
+        triangles: 0,
+        half_activation_distance: 0.0,
+        half_min_separation: 0.0,
+        fabric: String::new(),
+        weft: [1.0, 0.0],
+    };
+    names.iter().map(|name| part((*name).to_owned())).collect()
+}
+
+/// Frame of some positions of the cloth.
+pub(crate) fn frame(cloth: &[[f64; 3]]) -> Frame {
+    let (cloth, bodies) = (cloth.to_vec(), Vec::new());
+    Frame { number: 0, file: "".into(), time: None, growth: 1.0, cloth, bodies_file: None, bodies }
+}
+
+/// Positions of the cloth at a time, in m.
+pub(crate) fn cloth(time: f64) -> Vec<[f64; 3]> {
+    let y = 1.0 - time / 3.0;
+    let front = [[0.0, y, 0.0], [0.1, y, 0.0], [0.0, y, 0.2], [0.1, y, 0.2]];
+    let back = [[0.0, y, 0.0], [0.0, y - 0.5, 0.0], [0.1, y, 0.0]];
+    [&front[..], &back].concat()
+}
+
+/// Folder of a run with frames of some times, in s.
+pub(crate) fn folder(times: &[f64]) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let weft = [0.0, 1.0];
+    let manifest = json!({
+        "format": 2, "guarded": true, "twins": [[0, 4], [1, 6]],
+        "panels": [
+            { "name": "front", "vertices": 4, "triangles": 2, "fabric": "wool" },
+            { "name": HOSTILE, "vertices": 3, "triangles": 1, "fabric": "wool", "weft": weft },
+        ],
+        "bodies": [{ "name": "box", "vertices": 8, "triangles": 12 }],
+    });
+    fs::write(at("surfaces.json"), format!("{manifest}\n")).unwrap();
+    let (corners, faces) = cube();
+    array(&at("triangles.npy"), &[[0_u32, 2, 1], [1, 2, 3], [4, 6, 5]]);
+    array(&at("body-triangles.npy"), &faces);
+    let front = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.2], [0.1, 0.2]];
+    array(&at("material.npy"), &[&front[..], &[[0.0, 0.0], [0.5, 0.0], [0.0, 0.25]]].concat());
+    array(&at("bodies-00000.npy"), &corners);
+    let mut list = "number,time,growth,bodies\n".to_owned();
+    for (number, time) in times.iter().enumerate() {
+        array(&at(&format!("frame-{number:05}.npy")), &cloth(*time));
+        list += &format!("{number},{time:?},1.0,0\n");
+    }
+    fs::write(at("frames.csv"), list).unwrap();
+    folder
+}
+
+fn array<T: npyz::AutoSerialize + Copy, const N: usize>(path: &Path, rows: &[[T; N]]) {
+    let file = fs::File::create(path).unwrap();
+    let shape = [rows.len() as u64, N as u64];
+    let options = npyz::WriteOptions::new().default_dtype().shape(&shape);
+    let mut writer = options.writer(file).begin_nd().unwrap();
+    writer.extend(rows.iter().flatten().copied()).unwrap();
+    writer.finish().unwrap();
+}

@@ -1,0 +1,301 @@
+//! VTK: files of ParaView and PyVista, one for each frame (`.vtp`), and the list of them with their
+//! times (`.pvd`).
+//!
+//! Arrays are in the XML, coded by base 64, so that any reader of XML can read them.
+
+use std::io::{self, Write};
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use drape_frames::{Frame, Part, Recording};
+
+use crate::error::Error;
+use crate::mesh;
+use crate::normal;
+
+/// Which surface of a frame is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Surface {
+    /// All panels.
+    Cloth,
+    /// All bodies.
+    Bodies,
+}
+
+/// Writes the cloth or the bodies of a frame as PolyData of VTK: positions in m with every bit, y up.
+///
+/// Points have normals and, of the cloth, pattern coordinates in m (`uv`). Triangles have the number
+/// of their panel or body (`part`), whose names are the field data `names`; of the field data,
+/// `TimeValue` is the time in s, and `units` and `up` are words.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_vtp(
+    recording: &Recording,
+    frame: &Frame,
+    surface: Surface,
+    mut to: impl Write,
+) -> io::Result<()> {
+    let (manifest, topology) = (recording.manifest(), recording.topology());
+    let (parts, positions, triangles) = match surface {
+        Surface::Cloth => (&manifest.panels, &frame.cloth, &topology.cloth),
+        Surface::Bodies => (&manifest.bodies, &frame.bodies, &topology.bodies),
+    };
+    writeln!(to, "<?xml version=\"1.0\"?>")?;
+    writeln!(
+        to,
+        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<FieldData>"
+    )?;
+    if let Some(time) = frame.time {
+        numbers("TimeValue", &[[time]], &mut to)?;
+    }
+    words("units", ["m"], &mut to)?;
+    words("up", ["y"], &mut to)?;
+    words("names", parts.iter().map(|part| &*part.name), &mut to)?;
+    let (points, polys) = (positions.len(), triangles.len());
+    writeln!(
+        to,
+        "</FieldData>\n<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{polys}\">"
+    )?;
+    match surface {
+        Surface::Cloth => {
+            writeln!(to, "<PointData Normals=\"Normals\" TCoords=\"uv\">")?;
+            numbers("Normals", &normal::of_cloth(frame, triangles, &manifest.seam_pairs), &mut to)?;
+            numbers("uv", &mesh::pattern(recording), &mut to)?;
+        }
+        Surface::Bodies => writeln!(to, "<PointData>")?,
+    }
+    writeln!(to, "</PointData>\n<CellData Scalars=\"part\">")?;
+    numbers("part", &owners(parts), &mut to)?;
+    writeln!(to, "</CellData>\n<Points>")?;
+    numbers("Points", positions, &mut to)?;
+    writeln!(to, "</Points>\n<Polys>")?;
+    let corners: Vec<[i64; 1]> =
+        triangles.iter().flatten().map(|corner| [i64::from(*corner)]).collect();
+    let ends: Vec<[i64; 1]> = (1..=polys as i64).map(|triangle| [3 * triangle]).collect();
+    numbers("connectivity", &corners, &mut to)?;
+    numbers("offsets", &ends, &mut to)?;
+    writeln!(to, "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>")
+}
+
+/// File of a list, with its time in s.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Listed {
+    /// Time, in s.
+    pub time: f64,
+    /// Path of the file, from the folder of the list, with slashes.
+    pub file: String,
+    /// What the file has.
+    pub surface: Surface,
+}
+
+/// Writes the list of the files of a clip, which ParaView opens as one thing that moves.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_pvd(files: &[Listed], mut to: impl Write) -> Result<(), Error> {
+    writeln!(to, "<?xml version=\"1.0\"?>")?;
+    writeln!(
+        to,
+        "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>"
+    )?;
+    for Listed { time, file, surface } in files {
+        let (part, name) = match surface {
+            Surface::Cloth => (0, "cloth"),
+            Surface::Bodies => (1, "bodies"),
+        };
+        let file = attribute(file);
+        writeln!(
+            to,
+            "<DataSet timestep=\"{time}\" group=\"\" part=\"{part}\" name=\"{name}\" file=\"{file}\"/>"
+        )?;
+    }
+    writeln!(to, "</Collection>\n</VTKFile>")?;
+    Ok(())
+}
+
+/// Number with a type of VTK.
+trait Number: Copy {
+    const NAME: &'static str;
+    fn put(self, bytes: &mut Vec<u8>);
+}
+
+impl Number for f64 {
+    const NAME: &'static str = "Float64";
+
+    fn put(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
+
+impl Number for f32 {
+    const NAME: &'static str = "Float32";
+
+    fn put(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
+
+impl Number for i64 {
+    const NAME: &'static str = "Int64";
+
+    fn put(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
+
+impl Number for i32 {
+    const NAME: &'static str = "Int32";
+
+    fn put(self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
+
+/// Writes an array of rows.
+fn numbers<T: Number, const N: usize>(
+    name: &str,
+    rows: &[[T; N]],
+    to: &mut impl Write,
+) -> io::Result<()> {
+    // The bytes of the numbers come first.
+    let mut bytes = Vec::with_capacity(8 + size_of_val(rows));
+    bytes.extend((size_of_val(rows) as u64).to_le_bytes());
+    rows.iter().flatten().for_each(|number| number.put(&mut bytes));
+    let (kind, count) = (T::NAME, rows.len());
+    write!(
+        to,
+        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{N}\" NumberOfTuples=\"{count}\" format=\"binary\">"
+    )?;
+    base64(&bytes, to)?;
+    writeln!(to, "</DataArray>")
+}
+
+/// Writes a list of words: each ends with a zero, so that one inside a word is replaced.
+fn words<'a>(
+    name: &str,
+    words: impl IntoIterator<Item = &'a str>,
+    to: &mut impl Write,
+) -> io::Result<()> {
+    let words: Vec<String> =
+        words.into_iter().map(|word| word.replace('\0', "\u{fffd}") + "\0").collect();
+    let (count, content) = (words.len(), words.concat());
+    let bytes = [&(content.len() as u64).to_le_bytes()[..], content.as_bytes()].concat();
+    write!(
+        to,
+        "<Array type=\"String\" Name=\"{name}\" NumberOfTuples=\"{count}\" format=\"binary\">"
+    )?;
+    base64(&bytes, to)?;
+    writeln!(to, "</Array>")
+}
+
+fn owners(parts: &[Part]) -> Vec<[i32; 1]> {
+    (0..)
+        .zip(parts)
+        .flat_map(|(index, part)| std::iter::repeat_n([index], part.triangles))
+        .collect()
+}
+
+/// Writes bytes by base 64.
+fn base64(bytes: &[u8], to: &mut impl Write) -> io::Result<()> {
+    to.write_all(STANDARD.encode(bytes).as_bytes())
+}
+
+/// Returns text as the value of an attribute.
+fn attribute(text: &str) -> String {
+    let mut escaped = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            '\t' | '\n' | '\r' => escaped += &format!("&#{};", u32::from(c)),
+            // XML has no other control characters.
+            c if c < ' ' => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use roxmltree::{Document, Node};
+
+    use super::*;
+    use crate::example;
+
+    /// Returns the bytes of an array of a file, without their length, which is checked.
+    fn bytes(document: &Document, name: &str) -> Vec<u8> {
+        let is_it = |node: &Node| node.attribute("Name") == Some(name);
+        let text = document.descendants().find(is_it).and_then(|node| node.text()).unwrap();
+        let mut bytes = STANDARD.decode(text).unwrap();
+        let length = u64::from_le_bytes(bytes[..8].try_into().unwrap());
+        assert_eq!(length as usize, bytes.len() - 8, "{name}");
+        bytes.split_off(8)
+    }
+
+    fn floats(document: &Document, name: &str) -> Vec<f64> {
+        bytes(document, name).as_chunks().0.iter().map(|eight| f64::from_le_bytes(*eight)).collect()
+    }
+
+    fn written(surface: Surface) -> String {
+        let folder = example::folder(&[0.3]);
+        let recording = Recording::open(folder.path()).unwrap();
+        let mut text = Vec::new();
+        write_vtp(&recording, &recording.frame(0).unwrap(), surface, &mut text).unwrap();
+        String::from_utf8(text).unwrap()
+    }
+
+    #[test]
+    fn the_cloth_has_its_points_with_every_bit() {
+        let text = written(Surface::Cloth);
+        let document = Document::parse(&text).unwrap();
+        assert_eq!(floats(&document, "Points"), example::cloth(0.3).concat());
+        assert_eq!(floats(&document, "TimeValue"), [0.3]);
+        assert_eq!(floats(&document, "uv")[8..], [0.0, 0.0, 0.0, 0.5, -0.25, 0.0]);
+        assert_eq!(
+            bytes(&document, "names"),
+            format!("front\0{}\0", example::HOSTILE).into_bytes()
+        );
+        assert_eq!(bytes(&document, "part").len(), 3 * 4);
+        let corners: Vec<u8> =
+            [0_i64, 2, 1, 1, 2, 3, 4, 6, 5].iter().flat_map(|c| c.to_le_bytes()).collect();
+        assert_eq!(bytes(&document, "connectivity"), corners);
+    }
+
+    #[test]
+    fn the_bodies_are_a_file_of_their_own() {
+        let text = written(Surface::Bodies);
+        let document = Document::parse(&text).unwrap();
+        assert_eq!(floats(&document, "Points"), example::cube().0.concat());
+        assert_eq!(bytes(&document, "names"), b"box\0");
+    }
+
+    #[test]
+    fn the_list_has_every_file_whatever_its_name() {
+        let name = "a \"b\" <&> 'c'\n袖/run-00000.vtp";
+        let files = [Surface::Cloth, Surface::Bodies].map(|surface| Listed {
+            time: 0.25,
+            file: name.to_owned(),
+            surface,
+        });
+        let mut text = Vec::new();
+        write_pvd(&files, &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let document = Document::parse(&text).unwrap();
+        let sets: Vec<Node> =
+            document.descendants().filter(|node| node.has_tag_name("DataSet")).collect();
+        assert_eq!(
+            sets.iter().map(|set| set.attribute("part")).collect::<Vec<_>>(),
+            [Some("0"), Some("1")]
+        );
+        for set in sets {
+            assert_eq!(
+                (set.attribute("file"), set.attribute("timestep")),
+                (Some(name), Some("0.25"))
+            );
+        }
+    }
+}

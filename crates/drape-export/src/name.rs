@@ -1,0 +1,61 @@
+//! Names of panels and bodies as the formats can have them.
+
+use std::collections::HashSet;
+
+use drape_frames::Part;
+
+/// Returns the names of parts, each once: a name that was there before gets a number.
+pub(crate) fn unique<'a>(parts: impl IntoIterator<Item = &'a Part>) -> Vec<String> {
+    let clean = |name: &str| name.replace(char::is_control, " ").trim().to_owned();
+    numbered(parts.into_iter().map(|part| clean(&part.name)), |name, n| format!("{name} ({n})"))
+}
+
+/// Returns identifiers for names, each once: letters, digits and underscores of ASCII.
+pub(crate) fn identifiers<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<String> {
+    numbered(names.into_iter().map(identifier), |name, n| format!("{name}_{n}"))
+}
+
+/// Gives a number to each name that was there before.
+fn numbered(
+    names: impl Iterator<Item = String>,
+    with_number: impl Fn(&str, usize) -> String,
+) -> Vec<String> {
+    let mut taken = HashSet::new();
+    let mut free = |name: String| {
+        let name = if name.is_empty() { "part".to_owned() } else { name };
+        let mut candidates =
+            std::iter::once(name.clone()).chain((2..).map(|n| with_number(&name, n)));
+        let free = candidates.find(|candidate| taken.insert(candidate.clone()));
+        free.expect("some number is free")
+    };
+    names.map(&mut free).collect()
+}
+
+fn identifier(name: &str) -> String {
+    let kept = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let name: String = name.chars().map(kept).collect();
+    match name.chars().next() {
+        Some(first) if first.is_ascii_digit() => format!("_{name}"),
+        _ => name,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example;
+
+    #[test]
+    fn names_are_unique_and_without_control_characters() {
+        let parts = example::parts(&["front", "front", "front (2)", "a\nb\u{0}", "", " "]);
+        let names = ["front", "front (2)", "front (2) (2)", "a b", "part", "part (2)"];
+        assert_eq!(unique(&parts), names);
+    }
+
+    #[test]
+    fn identifiers_are_unique_and_of_ascii() {
+        let names = ["Vorderteil", "Ärmel 1", "_rmel_1", "1/2", "\"}", "袖", "袖子", ""];
+        let expected = ["Vorderteil", "_rmel_1", "_rmel_1_2", "_1_2", "__", "_", "___2", "part"];
+        assert_eq!(identifiers(names), expected);
+    }
+}
