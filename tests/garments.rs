@@ -123,6 +123,20 @@ fn a_flounce_three_times_as_long_as_its_band_is_gathered() {
 }
 
 #[test]
+fn a_seam_that_is_too_short_at_a_coarse_spacing_is_sewn_stretched_and_says_why() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = changed("tshirt", &[("spacing = 0.01", "spacing = 0.06")], folder.path());
+    let one = run(&scene, 1);
+    assert_eq!((&one["status"], &one["settled"]), (&"ok".into(), &true.into()));
+    assert_eq!(one["contact"]["intersections"], 0);
+    assert!(number(&one["measures"]["seam_gap_max"]) <= 1e-4);
+    let warnings = one["warnings"].to_string();
+    for words in ["is sewn stretched", "too short to go round the body", "smaller spacing"] {
+        assert!(warnings.contains(words), "{words:?} is missing in {warnings}");
+    }
+}
+
+#[test]
 fn mistakes_in_a_garment_are_reported_with_their_place_and_a_remedy() {
     let folder = tempfile::tempdir().expect("a folder");
     let write =

@@ -1,4 +1,7 @@
-//! Scenes whose surfaces intersect at the start: they are refused, with a file of the triangles.
+//! Starts of scenes: those whose surfaces intersect are refused, with a file of the triangles.
+
+#[path = "start/bodies.rs"]
+mod bodies;
 
 use std::collections::BTreeSet;
 use std::path::Path;

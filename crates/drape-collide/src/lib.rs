@@ -27,4 +27,5 @@ pub use surface::{
     Gradient, Hessian, Intersection, Pair, PairDistance, PairKind, PinchPolicy, PinchedVertices,
     StepFraction, StepLimit, Surface, SurfaceContact, SurfaceMemory, SurfaceParts, SurfaceSettings,
     SurfaceStep, SurfaceSummary, Sweep, Truncation, equivalence_classes, intersections,
+    segment_meets_triangle,
 };

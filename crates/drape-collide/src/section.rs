@@ -3,6 +3,10 @@
 //! A garment that goes round a body is measured against the convex hull of the body's section: a
 //! string round it would not follow the hollows either.
 
+use std::collections::BTreeMap;
+
+use crate::equivalence_classes;
+use crate::mesh_io::Triangulation;
 use crate::vector::{Vector, cross, dot, norm, subtract};
 
 /// Plane with directions in it.
@@ -49,6 +53,12 @@ impl SectionPlane {
         Self { middle, ..*self }
     }
 
+    /// Returns the plane moved by a shift, in m.
+    #[must_use]
+    pub fn shifted(&self, shift: [f64; 3]) -> Self {
+        Self { middle: [0, 1, 2].map(|k| self.middle[k] + shift[k]), ..*self }
+    }
+
     /// Returns the height of its middle, in m.
     #[must_use]
     pub fn height(&self) -> f64 {
@@ -73,6 +83,38 @@ impl SectionPlane {
             })
         };
         (0..3).filter_map(cut).collect()
+    }
+
+    /// Returns the points in which the plane cuts a mesh, line by line: those of a closed mesh lie
+    /// on closed lines, one for each limb that it cuts.
+    #[must_use]
+    pub fn lines(&self, mesh: &Triangulation) -> Vec<Vec<[f64; 2]>> {
+        let height = |vertex: &[f64; 3]| dot(self.normal, subtract(*vertex, self.middle));
+        let is_below: Vec<bool> = mesh.vertices.iter().map(|v| height(v) < 0.0).collect();
+        let mut sides: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+        let mut pairs = Vec::new();
+        for triangle in &mesh.triangles {
+            let below = triangle.map(|corner| is_below[corner as usize]);
+            if below == [below[0]; 3] {
+                continue;
+            }
+            let cut = (0..3).filter(|&k| below[k] != below[(k + 1) % 3]).map(|k| {
+                let [a, b] = [triangle[k], triangle[(k + 1) % 3]];
+                let next = sides.len() as u32;
+                *sides.entry([a.min(b), a.max(b)]).or_insert(next)
+            });
+            // A triangle has no or two sides that are cut.
+            pairs.extend(<[u32; 2]>::try_from(&cut.collect::<Vec<u32>>()[..]));
+        }
+        let class = equivalence_classes(sides.len(), &pairs);
+        let mut lines: BTreeMap<u32, Vec<[f64; 2]>> = BTreeMap::new();
+        for (side, number) in sides {
+            let [a, b] = side.map(|corner| mesh.vertices[corner as usize]);
+            let (low, high) = (height(&a), height(&b));
+            let point = self.flat(between(a, b, low / (low - high)));
+            lines.entry(class[number as usize]).or_default().push(point);
+        }
+        lines.into_values().collect()
     }
 }
 
@@ -176,6 +218,26 @@ mod tests {
         assert_eq!(plane.cuts(across).len(), 2);
         assert!(plane.cuts(across.map(|[x, y, z]| [x, y + 1.0, z])).is_empty());
         assert!(SectionPlane::through(&[[0.0; 3], [1.0, 0.0, 0.0]]).is_none());
+    }
+
+    #[test]
+    fn a_plane_cuts_a_body_in_a_line_for_each_limb() {
+        // Two tetrahedra side by side.
+        let tetrahedron = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]];
+        let beside = tetrahedron.map(|[x, y, z]| [x + 2.0, y, z]);
+        let faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
+        let mesh = Triangulation {
+            vertices: [tetrahedron, beside].concat(),
+            triangles: [faces, faces.map(|face| face.map(|corner| corner + 4))].concat(),
+        };
+        let mut lines = SectionPlane::horizontal(0.5).lines(&mesh);
+        lines.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
+        assert_eq!(lines.len(), 2);
+        for (line, left) in lines.into_iter().zip([0.0, 2.0]) {
+            let corners = convex_hull(line);
+            assert_eq!(corners, [[left, 0.0], [left + 0.5, 0.0], [left, 0.5]]);
+        }
+        assert!(SectionPlane::horizontal(1.5).lines(&mesh).is_empty());
     }
 
     #[test]

@@ -37,7 +37,7 @@ pub use contact::{
 };
 pub use contact_surface::Surface;
 pub use detector::Detector;
-pub(crate) use exact::segment_meets_triangle;
+pub use exact::segment_meets_triangle;
 pub use exact::{Intersection, intersections};
 pub use friction::FrictionEnergy;
 pub use geometry::{ContactDistances, SurfaceParts, equivalence_classes};

@@ -9,7 +9,7 @@ mod fall;
 pub(crate) mod garment_parts;
 pub(crate) mod open_seam;
 mod openings;
-pub(crate) mod pressure;
+mod pressure;
 mod strain;
 mod vector;
 
@@ -21,6 +21,7 @@ use self::garment_parts::GarmentParts;
 use self::vector::distance;
 
 pub(crate) use self::fall::{fallen, note_slides};
+pub(crate) use self::pressure::at_particles;
 
 /// Measures of the garments of a world, if it has seams.
 pub(crate) fn measures(parts: &GarmentParts, world: &mut World) -> Map<String, Value> {

@@ -5,13 +5,12 @@
 //! phase, or the run, is over.
 
 use drape_implicit::{Report, Stop};
-use drape_scene::{Relaxation, Scene};
+use drape_scene::{Relaxation, Scene, Source};
 
 use crate::error::Error;
 use crate::measure::garment_parts::GarmentParts;
 use crate::measure::open_seam::{OpenSeam, STRETCHED_MAX};
-use crate::measure::pressure::at_particles;
-use crate::measure::{fallen, measures, note_slides, warnings};
+use crate::measure::{at_particles, fallen, measures, note_slides, warnings};
 use crate::record::frame::Frame;
 use crate::record::snapshot::Snapshot;
 use crate::record::state_hash::state_hash;
@@ -81,7 +80,7 @@ pub struct Simulation {
     frame_times: Vec<f64>,
     /// Smallest distance of particles before deformation, in m.
     spacing: f64,
-    scene_hash: String,
+    source: Source,
     stopwatch: Stopwatch,
 }
 
@@ -177,7 +176,7 @@ impl Simulation {
     pub fn with_scheme(scene: Scene, scheme: Scheme) -> Result<Self, Error> {
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
-        let (schedule, scene_hash) = (scene.schedule, scene.source.hash.clone());
+        let (schedule, source) = (scene.schedule, scene.source.clone());
         let parts = GarmentParts::new(&scene);
         let world = World::new(scene)?;
         let (name, steps) = match (parts.seams.is_empty(), schedule.relaxation) {
@@ -207,7 +206,7 @@ impl Simulation {
             },
             frame_times: Vec::new(),
             spacing,
-            scene_hash,
+            source,
             stopwatch: Stopwatch::start(),
         })
     }
@@ -409,7 +408,7 @@ impl Simulation {
             status: self.outcome.status.clone(),
             reason: self.outcome.reason.clone(),
             version: env!("CARGO_PKG_VERSION").into(),
-            scene_hash: self.scene_hash.clone(),
+            scene_hash: self.source.hash.clone(),
             particles: cloth.particles(),
             phases: self.phases.begun.clone(),
             steps: self.statistics.steps,
@@ -433,6 +432,7 @@ impl Simulation {
             imbalance: self.last.imbalance,
             state_hash: self.state_hash(),
             warnings: self.outcome.warnings.clone(),
+            contact_limits: self.source.contact_limits.clone(),
             measures: self.outcome.measures.clone(),
             place: self.outcome.place,
         }
@@ -444,7 +444,8 @@ impl Simulation {
         self.phases.begun.push(Phase { name, start, frame });
     }
 
-    /// Ends the sewing when the seams are closed, or when they do not close.
+    /// Ends the sewing when the seams are closed, or when they do not close. A seam that misses by
+    /// little is pulled harder first, so that merging its sides moves no cloth into a body.
     fn check_seams(&mut self) -> Result<(), drape_implicit::Error> {
         let Some(springs) = self.world.closing_springs() else { return Ok(()) };
         let positions = &self.world.state.positions;
@@ -454,8 +455,11 @@ impl Simulation {
             SeamState::Failed(gap) => {
                 let seam = OpenSeam::new(&self.parts, gap, positions);
                 if gap.width <= STRETCHED_MAX * self.spacing {
-                    let warning = seam.warn(springs.largest_force(positions));
-                    self.outcome.events.push(warning);
+                    let warning = seam.warn(self.spacing, springs.largest_force(positions));
+                    if self.world.stiffen_springs(self.stepping.time(), gap.width) {
+                        self.outcome.events.push(warning);
+                        return Ok(());
+                    }
                     return self.finish_sewing();
                 }
                 self.outcome.place = Some(seam.place);

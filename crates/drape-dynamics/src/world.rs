@@ -160,6 +160,12 @@ impl World {
         self.seams.springs.as_ref()
     }
 
+    /// Stiffens the springs that close the seams from a time on, in s, so far that a gap in m
+    /// closes; returns whether they were as usual before.
+    pub(crate) fn stiffen_springs(&mut self, time: f64, gap: f64) -> bool {
+        self.seams.springs.as_mut().is_some_and(|springs| springs.stiffen(time, gap))
+    }
+
     /// Ends the sewing at a time, in s, with the cloth at rest at some positions, in m.
     pub(crate) fn finish_sewing(&mut self, time: f64, positions: &[f64]) {
         self.seams.springs = None;

@@ -20,6 +20,7 @@ mod collapse;
 mod cut_pattern;
 mod cutter;
 mod lattice;
+mod merge;
 mod panel_cut;
 mod partition;
 mod quality;
@@ -28,7 +29,6 @@ mod rim;
 mod sampling;
 mod seam_nodes;
 mod simplify;
-mod weld;
 
 pub use cut_pattern::CutPattern;
 pub use cutter::Cutter;

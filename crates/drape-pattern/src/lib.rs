@@ -44,4 +44,4 @@ pub use panel::{Fold, Panel};
 pub use pattern::{EdgeId, Pattern, Seam};
 pub use placement::Placement;
 pub use read::{Place, Request, SeamKeys, Unit};
-pub use write::{Page, Paper, figure};
+pub use write::{Page, Paper, figure, seam_colour};

@@ -89,7 +89,7 @@ pub enum Note {
         "panel {panel}: edge {edge} is {}, under half the spacing ({}); its ends are one particle",
         Millimetres(*length), Millimetres(*spacing)
     )]
-    Welded {
+    Merged {
         /// The panel.
         panel: String,
         /// The edge.

@@ -11,6 +11,6 @@ mod svg;
 mod toml_text;
 mod xml;
 
-pub use figure::figure;
+pub use figure::{figure, seam_colour};
 pub(crate) use number::as_written;
 pub use pages::{Page, Paper};

@@ -6,7 +6,7 @@
 //!
 //! `axis` and `scale` map values to pixels, `margin`, `legend` and `chart` are the parts that all
 //! plots over two axes share; `loop_plot`, `graph` and `overlay` are these plots. `correlation`,
-//! `uncertainty` and `strain_map` have layouts of their own. `svg` writes path data, `style` holds
+//! `uncertainty`, `strain_map` and `seam_key` have layouts of their own. `svg` writes path data, `style` holds
 //! the style sheet. The templates are in `templates/plot`: pixel coordinates fill them, since plots
 //! need fractions of a pixel in print and classes that follow the colours of the page.
 
@@ -19,6 +19,7 @@ mod loop_plot;
 mod margin;
 mod overlay;
 mod scale;
+mod seam_key;
 mod strain_map;
 mod style;
 mod svg;
@@ -29,6 +30,7 @@ pub use correlation::{CorrelatedPair, Correlation, correlation_svg};
 pub use graph::{GraphPlot, GraphSeries, Look, graph_svg};
 pub use loop_plot::{Branch, BranchKind, LoopPlot, Mark, Point, loop_svg};
 pub use overlay::{OverlayPlot, Trace, overlay_svg};
+pub use seam_key::{SeamKey, seams_svg};
 pub use strain_map::{StrainMap, strain_svg};
 pub use uncertainty::{UncertaintyPlot, uncertainty_svg};
 

@@ -24,6 +24,7 @@ mod time;
 use std::collections::BTreeSet;
 
 use drape_cloth::{Breen, Cloth};
+use drape_collide::MeshInspection;
 use drape_input::{Diagnostics, Faults, Given, excerpt, figures};
 
 use crate::error::Error;
@@ -32,9 +33,11 @@ use crate::scene::garment::Garment;
 use crate::scene::material::Material;
 use crate::scene::model::Model;
 use crate::scene::panel::Panel;
-use crate::scene::{Environment, MovingBody, Output, Scene, Schedule, Source, Start, View};
+use crate::scene::{
+    Environment, MeshSource, MovingBody, Output, Scene, Schedule, Source, Start, View,
+};
 
-use self::body::CheckedBody;
+use self::body::{CheckedBody, MeshFile};
 use self::checker::Checker;
 use self::contact::ContactBounds;
 use self::documents::Documents;
@@ -129,7 +132,12 @@ pub(crate) fn check(
         panels: &panels,
         sewing: sewing.as_ref(),
     };
-    let source = Source { file: document.path().to_owned(), hash: content.hash(), notes };
+    let source = Source {
+        file: document.path().to_owned(),
+        hash: content.hash(),
+        notes,
+        contact_limits: Vec::new(),
+    };
     let mut scene = Scene {
         source,
         materials,
@@ -203,9 +211,17 @@ fn environment(checker: &mut Checker<'_>) -> Environment {
 /// Gives bodies without friction of their own the largest friction of a fabric.
 fn with_friction(bodies: Vec<CheckedBody>, materials: &[Material]) -> Vec<MovingBody> {
     let fallback = materials.iter().map(|m| m.fabric.surface_friction).fold(0.0, f64::max);
-    let with_friction = |CheckedBody { body, friction, motion }| MovingBody {
-        body: body.with_friction(friction.unwrap_or(fallback)),
-        motion,
+    let with_friction = |CheckedBody { body, friction, motion, file }| {
+        let outline = file.and_then(|file| Some((file, body.triangulate().ok()?)));
+        MovingBody {
+            body: body.with_friction(friction.unwrap_or(fallback)),
+            motion,
+            source: outline.map(|(MeshFile { path, scale }, outline)| MeshSource {
+                file: path,
+                scale,
+                inspection: MeshInspection::new(&outline),
+            }),
+        }
     };
     bodies.into_iter().map(with_friction).collect()
 }

@@ -25,6 +25,8 @@ pub use scene::pin::{HeldParticle, HoldUntil, Pin};
 pub use scene::relaxation::Relaxation;
 pub use scene::seam::{Seam, SeamConstraint, SeamPairs, SeamWeight};
 pub use scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
-pub use scene::{Environment, MovingBody, Output, Scene, Schedule, Source, Start, View};
+pub use scene::{
+    Environment, MeshSource, MovingBody, Output, Scene, Schedule, Source, Start, View,
+};
 pub use surfaces::StartSurfaces;
 pub use tangle::{Overlap, Tangle};

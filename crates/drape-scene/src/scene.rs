@@ -19,7 +19,7 @@ pub(crate) mod solver;
 use std::path::PathBuf;
 
 use drape_cloth::{Breen, Cloth};
-use drape_collide::{Body, ParticleContact};
+use drape_collide::{Body, MeshInspection, ParticleContact};
 
 use self::clock::Clock;
 use self::contact::ContactSettings;
@@ -118,8 +118,11 @@ pub struct Source {
     pub file: PathBuf,
     /// Hash of the scene and of all files it names.
     pub hash: String,
-    /// Notes for the user: on patterns, layers, and the cost of the simulation.
+    /// Notes for the user: on patterns, bodies, layers, and the cost of the simulation.
     pub notes: Vec<String>,
+    /// What contact cannot promise on the bodies, a sentence each: where a body passes through its
+    /// own surface.
+    pub contact_limits: Vec<String>,
 }
 
 /// State of the particles at the start.
@@ -138,6 +141,19 @@ pub struct MovingBody {
     pub body: Body,
     /// Motion; none if it stays.
     pub motion: Option<BodyMotion>,
+    /// Where it comes from, if it is a mesh.
+    pub source: Option<MeshSource>,
+}
+
+/// File of a body that is a mesh, and what was found in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshSource {
+    /// File.
+    pub file: PathBuf,
+    /// Length of a unit of its coordinates, in m.
+    pub scale: f64,
+    /// The mesh at its place at the start.
+    pub inspection: MeshInspection,
 }
 
 /// Surroundings of the cloth.

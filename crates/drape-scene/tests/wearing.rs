@@ -153,3 +153,44 @@ fn a_skirt_that_is_too_narrow_is_answered_with_what_is_missing() {
         "{notes}"
     );
 }
+
+/// Two panels side by side, sewn across a gap, and a third that stands in it.
+const GAP: &str = r#"length = "mm"
+[panel.left]
+grain = 0
+rectangle = [100, 60]
+origin = [-120, 0, 0]
+edges = ["hem", "side", "top", "fold"]
+[panel.right]
+grain = 0
+rectangle = [100, 60]
+origin = [20, 0, 0]
+edges = ["hem", "fold", "top", "side"]
+[panel.flap]
+grain = 0
+rectangle = [100, 60]
+origin = [0, HEIGHT, 50]
+turn = [0, 90, 0]
+[seam.middle]
+sides = [["left.side"], ["right.side"]]
+"#;
+
+#[test]
+fn stitches_through_another_panel_are_told() {
+    let notes = |height: &str| {
+        let pattern = GAP.replace("HEIGHT", height);
+        let documents = [Document::new("plain.toml", FABRIC), Document::new("gap.toml", pattern)];
+        let text = "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\n[[garment]]\n\
+                    pattern = \"gap.toml\"\nfabric = \"plain\"\n[time]\nstep = 0.005\nend = 1\n";
+        let scene = Scene::from_documents(&Document::new("scene.toml", text), &documents);
+        scene.unwrap().source.notes
+    };
+    let told = notes("0").join("\n");
+    assert!(
+        told.contains(
+            "seam \"middle\": 4 of 4 stitches lead through the panel \"flap\" at the start"
+        ) && told.contains("`drape check scene.toml --figure place.png`"),
+        "{told}"
+    );
+    assert_eq!(notes("200"), Vec::<String>::new());
+}

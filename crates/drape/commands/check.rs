@@ -1,14 +1,15 @@
 //! `drape check`: reads scenes, fabrics, sheets and patterns without simulating, and verifies the
 //! frames of runs.
 //!
-//! [`describe`] says in SI what a file holds, [`pattern`] how a pattern is cut, [`body`] what a
-//! mesh is and how it is repaired; [`frames`] reads
-//! the folders of runs by `drape::verify`, which shares no code with the simulation.
+//! [`describe`] says in SI what a file holds, [`pattern`] how a pattern is cut, [`start`] draws where
+//! a garment starts, [`body`] says what a mesh is and how it is repaired; [`frames`] reads the
+//! folders of runs by `drape::verify`, which shares no code with the simulation.
 
 mod body;
 mod describe;
 mod frames;
 mod pattern;
+mod start;
 
 use std::path::{Path, PathBuf};
 
@@ -28,8 +29,9 @@ pub(crate) struct CheckArguments {
     /// Scenes, fabrics, sheets, patterns, bodies (OBJ, STL, PLY), or folders of runs.
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
-    /// Draws the cut panels of a pattern, with the sides of a seam in one colour, as an SVG file.
-    #[arg(long, value_name = "SVG")]
+    /// Draws the cut panels of a pattern (SVG), or a scene at its start (SVG or PNG): both sides of a
+    /// seam in one colour, with a dot at the first stitch and an arrowhead in its direction.
+    #[arg(long, value_name = "SVG|PNG")]
     pub(crate) figure: Option<PathBuf>,
     /// Distance between the particles of a cut pattern, or of the cloth on a body, in mm.
     #[arg(long, value_name = "MM", default_value_t = 10.0)]
@@ -69,13 +71,16 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         return say(body::mend(mesh, measure, to)?.trim_end());
     }
     match (&arguments.figure, &files[..]) {
+        (Some(figure), [scene]) if describe::is_scene(scene) => {
+            checked.add(scene, start::draw(scene, figure)?)?;
+        }
         (Some(figure), [pattern]) => {
             let cut = CutOut::read(pattern, spacing)?;
             file::write(figure, cut.figure())?;
             checked.add(pattern, Ok(cut.describe()))?;
         }
         (Some(_), _) => {
-            return Err(Failure::Usage("--figure is for one pattern at a time".into()));
+            return Err(Failure::Usage("--figure is for one pattern or scene at a time".into()));
         }
         (None, files) => {
             for file in files {

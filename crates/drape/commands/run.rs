@@ -156,9 +156,9 @@ fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {
     picture.save(path).map_err(|error| Failure::Output(error.to_string()))
 }
 
-/// Prints the notes on the patterns of a scene.
+/// Prints the notes on a scene, and what contact cannot promise.
 fn notes(scene: &Scene) {
-    scene.source.notes.iter().for_each(note);
+    scene.source.notes.iter().chain(&scene.source.contact_limits).for_each(note);
 }
 
 /// Returns the folder for the results of a scene.

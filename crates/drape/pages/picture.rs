@@ -56,17 +56,30 @@ pub(crate) struct Pictures<'a> {
     /// Material coordinates, two per particle, in m.
     coordinates: Vec<f64>,
     sky: SkyLight,
+    /// Marks beside the cloth.
+    marks: Option<Surface<'a>>,
 }
 
 impl<'a> Pictures<'a> {
     /// Prepares the pictures of a snapshot.
     pub(crate) fn new(snapshot: &'a Snapshot) -> Result<Self, Failure> {
+        Self::with_marks(snapshot, None)
+    }
+
+    /// Prepares the pictures of a snapshot with marks beside its cloth.
+    pub(crate) fn with_marks(
+        snapshot: &'a Snapshot,
+        marks: Option<Surface<'a>>,
+    ) -> Result<Self, Failure> {
         let Snapshot { positions, triangles, coordinates, .. } = snapshot;
-        let sky = SkyLight::new(&scene(snapshot, Surface::cloth(positions, triangles)));
+        let mut shown = scene(snapshot, Surface::cloth(positions, triangles));
+        shown.cloths.extend(marks);
+        let sky = SkyLight::new(&shown);
         Ok(Self {
             snapshot,
             coordinates: coordinates.iter().flatten().copied().collect(),
             sky: sky.map_err(|error| Failure::Output(error.to_string()))?,
+            marks,
         })
     }
 
@@ -118,8 +131,9 @@ impl<'a> Pictures<'a> {
             height,
             ..standard
         };
-        render_lit(&scene(self.snapshot, cloth), &view, &self.sky)
-            .map_err(|error| Failure::Output(error.to_string()))
+        let mut scene = scene(self.snapshot, cloth);
+        scene.cloths.extend(self.marks);
+        render_lit(&scene, &view, &self.sky).map_err(|error| Failure::Output(error.to_string()))
     }
 }
 

@@ -10,6 +10,14 @@ use super::intersection::intersections;
 /// Number of places that are kept of each kind.
 const PLACES: usize = 5;
 
+/// Median of the lengths of edges over the spacing of cloth, below which triangles are too fine and
+/// above which they are too coarse.
+const FINE: f64 = 0.2;
+const COARSE: f64 = 5.0;
+
+/// Number of triangles above which a body is round: boxes have few, and their edges are meant.
+const ROUND: usize = 200;
+
 /// Places where a mesh has a fault.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Places {
@@ -146,6 +154,20 @@ impl MeshInspection {
     #[must_use]
     pub fn size(&self) -> [f64; 3] {
         std::array::from_fn(|axis| self.high[axis] - self.low[axis])
+    }
+
+    /// Returns whether its triangles are finer than cloth with a spacing in m can see.
+    #[must_use]
+    pub fn is_too_fine(&self, spacing: f64) -> bool {
+        let median = self.edge_lengths.median;
+        median > 0.0 && median < FINE * spacing
+    }
+
+    /// Returns whether its triangles are so large that cloth with a spacing in m shows their edges:
+    /// those of a round body, as its number of triangles tells.
+    #[must_use]
+    pub fn is_too_coarse(&self, spacing: f64) -> bool {
+        self.edge_lengths.median > COARSE * spacing && self.triangles > ROUND
     }
 
     /// Returns whether every edge has one triangle on each side, and all agree about the outside.

@@ -13,5 +13,5 @@ mod winding;
 
 pub(crate) use intersections::IntersectionTest;
 pub use intersections::{Intersection, intersections};
-pub(crate) use predicate::segment_meets_triangle;
+pub use predicate::segment_meets_triangle;
 pub(crate) use winding::encloses;

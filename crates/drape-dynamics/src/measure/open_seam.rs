@@ -42,13 +42,14 @@ impl<'a> OpenSeam<'a> {
         )
     }
 
-    /// Warns that it is sewn although it is open, held by a force in N.
-    pub(crate) fn warn(&self, force: f64) -> String {
+    /// Warns that it is sewn although it is open at a spacing in m, pulled by a force in N.
+    pub(crate) fn warn(&self, spacing: f64, force: f64) -> String {
         let Self { name, panels: [one, other], place: [x, y, z], gap } = self;
         format!(
-            "the seam \"{name}\" between \"{one}\" and \"{other}\" is sewn stretched: {:.2} mm were missing near \
-             ({x:.4}, {y:.4}, {z:.4}) m, against {force:.0} N at a stitch; widen the panels there, or choose a \
-             smaller spacing",
+            "the seam \"{name}\" between \"{one}\" and \"{other}\" is sewn stretched: its cloth is too short to go round \
+             the body near ({x:.4}, {y:.4}, {z:.4}) m in straight pieces of {:.0} mm, {:.2} mm were missing against {force:.0} N \
+             at a stitch; widen the panels there, or choose a smaller spacing",
+            1e3 * spacing,
             1e3 * gap.width
         )
     }

@@ -53,6 +53,8 @@ pub struct Summary {
     pub state_hash: String,
     /// Warnings about the result.
     pub warnings: Vec<String>,
+    /// What contact cannot promise on the bodies, a sentence each.
+    pub contact_limits: Vec<String>,
     /// Measures of garments.
     pub measures: serde_json::Map<String, serde_json::Value>,
     /// Place of the seam that was open when the run ended early, in m.

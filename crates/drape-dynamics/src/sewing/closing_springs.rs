@@ -11,6 +11,10 @@ const STIFFNESS: f64 = 1e5;
 /// leaves is a tenth of it.
 const CLOSED: f64 = 1e-4;
 
+/// Gap to which stiffened springs are to close a seam, in m. A wider one moves cloth by more than
+/// contact leaves to bodies when its sides are merged.
+const CLOSED_STRETCHED: f64 = 0.1 * CLOSED;
+
 /// Multiple of its length that the closing of the seams may take before the run fails.
 const PATIENCE: f64 = 2.0;
 
@@ -33,6 +37,19 @@ pub(crate) struct ClosingSprings {
     seconds: f64,
     /// Fraction of the gaps that remains at the end of this step.
     remaining: f64,
+    /// Stiffness of each in this step, in N/m.
+    stiffness: f64,
+    /// Increase of their stiffness, for a seam that they did not close.
+    stiffening: Option<Stiffening>,
+}
+
+/// Increase of the stiffness of closing springs, evenly within the time of the sewing.
+#[derive(Debug, Clone, Copy)]
+struct Stiffening {
+    /// Time at which it begins, in s.
+    start: f64,
+    /// Stiffness at its end over the usual one.
+    factor: f64,
 }
 
 /// State of the seams while they are closed.
@@ -61,7 +78,7 @@ impl ClosingSprings {
     pub(crate) fn new(pairs: &SeamPairs, positions: &[f64], seconds: f64) -> Self {
         let seams: Vec<SeamConstraint> = pairs.constraints().collect();
         let start_gaps = seams.iter().map(|seam| seam.gap(positions)).collect();
-        Self { seams, start_gaps, seconds, remaining: 1.0 }
+        Self { seams, start_gaps, seconds, remaining: 1.0, stiffness: STIFFNESS, stiffening: None }
     }
 
     /// Pairs of particles that the springs couple.
@@ -77,11 +94,27 @@ impl ClosingSprings {
     /// Opens a step that ends at a time, in s.
     pub(crate) fn begin(&mut self, end_time: f64) {
         self.remaining = (1.0 - end_time / self.seconds).max(0.0);
+        if let Some(Stiffening { start, factor }) = self.stiffening {
+            let part = ((end_time - start) / self.seconds).clamp(0.0, 1.0);
+            self.stiffness = STIFFNESS * (1.0 + part * (factor - 1.0));
+        }
+    }
+
+    /// Stiffens the springs from a time on, in s, so far that a gap closes which they left open;
+    /// returns whether they were as usual before.
+    pub(crate) fn stiffen(&mut self, time: f64, gap: f64) -> bool {
+        let is_usual = self.stiffening.is_none();
+        if is_usual {
+            let factor = (gap / CLOSED_STRETCHED).max(1.0);
+            self.stiffening = Some(Stiffening { start: time, factor });
+        }
+        is_usual
     }
 
     /// State of the seams at some positions and a time, in s, after a step that left an imbalance,
     /// over g.
     pub(crate) fn state(&self, positions: &[f64], time: f64, imbalance: f64) -> SeamState {
+        let time = time - self.stiffening.map_or(0.0, |stiffening| stiffening.start);
         if time < self.seconds {
             return SeamState::Open;
         }
@@ -107,14 +140,15 @@ impl ClosingSprings {
     /// Largest force of a spring at some positions, in N.
     pub(crate) fn largest_force(&self, positions: &[f64]) -> f64 {
         let squares = self.excess(positions).map(|e| e.iter().map(|x| x * x).sum::<f64>());
-        STIFFNESS * squares.fold(0.0, f64::max).sqrt()
+        self.stiffness * squares.fold(0.0, f64::max).sqrt()
     }
 
     pub(crate) fn add_forces(&self, positions: &[f64], forces: &mut [f64]) {
         for (seam, excess) in self.seams.iter().zip(self.excess(positions)) {
             for end in &seam.weights {
                 for (axis, excess) in excess.iter().enumerate() {
-                    forces[3 * end.particle as usize + axis] -= end.weight * STIFFNESS * excess;
+                    forces[3 * end.particle as usize + axis] -=
+                        end.weight * self.stiffness * excess;
                 }
             }
         }
@@ -122,7 +156,7 @@ impl ClosingSprings {
 
     pub(crate) fn potential(&self, positions: &[f64]) -> f64 {
         let squares = self.excess(positions).map(|e| e.iter().map(|x| x * x).sum::<f64>());
-        0.5 * STIFFNESS * squares.sum::<f64>()
+        0.5 * self.stiffness * squares.sum::<f64>()
     }
 
     pub(crate) fn add_stiffness(&self, matrix: &mut BlockMatrix) {
@@ -132,7 +166,7 @@ impl ClosingSprings {
         for seam in &self.seams {
             for (k, a) in seam.weights.iter().enumerate() {
                 for b in &seam.weights[k..] {
-                    let block = block(a.weight * b.weight * STIFFNESS);
+                    let block = block(a.weight * b.weight * self.stiffness);
                     matrix.add(a.particle as usize, b.particle as usize, &block);
                 }
             }

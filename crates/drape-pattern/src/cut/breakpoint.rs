@@ -4,7 +4,7 @@
 //! edge on the other side is sewn to. Between two breakpoints an outline is sampled at equal arcs;
 //! `simplify` removes breakpoints, `sampling` samples the arcs.
 
-use super::weld::Weld;
+use super::merge::Merge;
 use crate::edge::Edge;
 use crate::pattern::{EdgeId, Pattern, Seam};
 
@@ -58,7 +58,7 @@ pub(crate) struct Breakpoints {
     /// Breakpoints of each class.
     pub classes: Vec<Vec<usize>>,
     /// Breakpoints that are all of a collapsed piece.
-    pub welds: Vec<Weld>,
+    pub merges: Vec<Merge>,
     /// Distances along the outline at which the edges of each panel start, and its perimeter, in m.
     pub starts: Vec<Vec<f64>>,
     /// First breakpoint of each panel; the breakpoints at the starts of its edges follow.

@@ -6,7 +6,7 @@
 //! `simplify` for the pieces that cannot be joined with a smooth neighbour.
 
 use super::breakpoint::{Breakpoints, SeamPiece};
-use super::weld::Weld;
+use super::merge::Merge;
 
 /// Smallest number of breakpoints of an outline.
 const POINTS_MIN: usize = 3;
@@ -44,7 +44,7 @@ impl Breakpoints {
         }
         let points = both.map(|first| self.join_with_next(first));
         self.unite(points[0], points[1]);
-        self.welds.push(Weld { seam: piece.seam, points });
+        self.merges.push(Merge { seam: piece.seam, points });
         true
     }
 
@@ -68,8 +68,8 @@ impl Breakpoints {
         self.unite(kept, lost);
         self.points[lost].removed = true;
         let ends = self.pieces.iter_mut().flat_map(|piece| piece.ends.iter_mut().flatten());
-        let welded = self.welds.iter_mut().flat_map(|weld| &mut weld.points);
-        ends.chain(welded).filter(|end| **end == lost).for_each(|end| *end = kept);
+        let merged = self.merges.iter_mut().flat_map(|merge| &mut merge.points);
+        ends.chain(merged).filter(|end| **end == lost).for_each(|end| *end = kept);
         kept
     }
 }

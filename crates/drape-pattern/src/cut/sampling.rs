@@ -123,14 +123,14 @@ impl<'a> Sampler<'a> {
         for piece in self.breakpoints.pieces.iter().filter(|p| !p.removed) {
             self.sew(piece, outlines, &mut seams[piece.seam]);
         }
-        for weld in &self.breakpoints.welds {
+        for merge in &self.breakpoints.merges {
             let node = |point: usize| NodeId {
                 panel: self.breakpoints.points[point].panel,
                 node: self.first_node[point] as u32,
             };
-            let pair = weld.points.map(node);
-            if !seams[weld.seam].pairs.contains(&pair) {
-                seams[weld.seam].pairs.push(pair);
+            let pair = merge.points.map(node);
+            if !seams[merge.seam].pairs.contains(&pair) {
+                seams[merge.seam].pairs.push(pair);
             }
         }
         seams

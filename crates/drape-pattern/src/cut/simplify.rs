@@ -77,9 +77,9 @@ impl Simplifier<'_> {
                 }
             }
             if !changed {
-                let welded = self.weld(&short);
-                changed = !welded.is_empty();
-                notes.extend(welded);
+                let merged = self.collapse(&short);
+                changed = !merged.is_empty();
+                notes.extend(merged);
             }
             if !changed {
                 let mistakes = short.iter().map(|&(length, point)| {
@@ -93,7 +93,7 @@ impl Simplifier<'_> {
 
     /// Makes one breakpoint of the ends of short pieces, given with their lengths, in m, and the
     /// breakpoints before them; returns notes on those of which that could be done.
-    fn weld(&mut self, short: &[(f64, usize)]) -> Vec<Note> {
+    fn collapse(&mut self, short: &[(f64, usize)]) -> Vec<Note> {
         let mut notes = Vec::new();
         for &(length, point) in short {
             // An earlier one may have changed it.
@@ -104,7 +104,7 @@ impl Simplifier<'_> {
             }
             let EdgeName { panel, edge } = self.edge_after(point);
             if self.breakpoints.collapse(point) {
-                notes.push(Note::Welded { panel, edge, length, spacing: self.spacing });
+                notes.push(Note::Merged { panel, edge, length, spacing: self.spacing });
             }
         }
         notes
@@ -208,11 +208,11 @@ impl Simplifier<'_> {
     fn remove(&mut self, class: usize) {
         let points: Vec<usize> = self.class(class).collect();
         for point in points {
-            // The breakpoint on the other side may have merged the pieces already.
+            // The breakpoint on the other side may have joined the pieces already.
             if let (Some(before), Some(after)) = (self.end_at(point, 0), self.end_at(point, 1))
                 && before.piece != after.piece
             {
-                self.merge(before, after);
+                self.join(before, after);
             }
             let points = &mut self.breakpoints.points;
             let [before, after] = points[point].neighbours;
@@ -224,7 +224,7 @@ impl Simplifier<'_> {
 
     /// Makes one seam piece of two that end at a breakpoint. The longer one is extended: it keeps
     /// its seam, its sides and its sense.
-    fn merge(&mut self, one: PieceEnd, two: PieceEnd) {
+    fn join(&mut self, one: PieceEnd, two: PieceEnd) {
         let two_longer = self.piece_length(two.piece) > self.piece_length(one.piece);
         let (kept, lost) = if two_longer { (two, one) } else { (one, two) };
         let pieces = &mut self.breakpoints.pieces;

@@ -202,7 +202,9 @@ impl Drawing<'_> {
                 }
             }
             if !path.is_empty() {
-                let (colour, width) = (colour(number), 0.35 * self.sheet.letter);
+                let [red, green, blue] = seam_colour(number);
+                let colour = format!("#{red:02x}{green:02x}{blue:02x}");
+                let width = 0.35 * self.sheet.letter;
                 let _ = writeln!(
                     svg,
                     "<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width:.2}\"/>\n\
@@ -411,8 +413,9 @@ impl Label<'_> {
     }
 }
 
-/// Returns the colour of a seam by its number.
-fn colour(seam: usize) -> String {
+/// Returns the colour of a seam by its number in a drawing, as red, green and blue.
+#[must_use]
+pub fn seam_colour(seam: usize) -> [u8; 3] {
     // Hue in sixths of the circle; full saturation, and every other seam darker.
     let hue = (seam as f64 * HUE_STEP / 60.0).rem_euclid(6.0);
     let value = if seam.is_multiple_of(2) { 0.9 } else { 0.7 };
@@ -420,5 +423,5 @@ fn colour(seam: usize) -> String {
         let part = ((hue + shift).rem_euclid(6.0) - 3.0).abs() - 1.0;
         (255.0 * value * part.clamp(0.0, 1.0)).round() as u8
     };
-    format!("#{:02x}{:02x}{:02x}", channel(0.0), channel(4.0), channel(2.0))
+    [channel(0.0), channel(4.0), channel(2.0)]
 }

@@ -48,15 +48,15 @@ fn garments_are_cut_well_at_all_spacings() {
 #[test]
 fn an_edge_between_two_seams_that_is_too_short_becomes_one_particle() {
     let (particles, cut) = cut(&shipped("shirt.json"), 0.02);
-    let welded = cut.notes.iter().filter_map(|note| match note {
-        Note::Welded { panel, edge, length, .. } => {
+    let merged = cut.notes.iter().filter_map(|note| match note {
+        Note::Merged { panel, edge, length, .. } => {
             assert!((length - 0.0075).abs() < 1e-4, "{note}");
             Some(format!("{panel}.{edge}"))
         }
         _ => None,
     });
-    let welded: Vec<String> = welded.collect();
-    assert_eq!(welded, ["left_sleeve_b.2", "right_sleeve_b.3"]);
+    let merged: Vec<String> = merged.collect();
+    assert_eq!(merged, ["left_sleeve_b.2", "right_sleeve_b.3"]);
     assert!(cut.notes.iter().any(|note| note.to_string().contains("its ends are one particle")));
     assert!(particles > 1000, "{particles}");
 }

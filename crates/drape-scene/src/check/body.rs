@@ -2,7 +2,7 @@
 
 mod shape_files;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use drape_collide::{Body, Mesh, Pose, Shape};
 use drape_input::{Given, excerpt, figure, figure_below};
@@ -33,6 +33,21 @@ pub(crate) struct CheckedBody {
     pub(crate) friction: Option<f64>,
     /// Motion; none if it stays.
     pub(crate) motion: Option<BodyMotion>,
+    /// File, if it is a mesh.
+    pub(crate) file: Option<MeshFile>,
+}
+
+/// File of a mesh.
+pub(crate) struct MeshFile {
+    pub(crate) path: PathBuf,
+    /// Length of a unit of its coordinates, in m.
+    pub(crate) scale: f64,
+}
+
+impl MeshFile {
+    fn new(checker: &Checker<'_>, file: &MeshBodyFile) -> Self {
+        Self { path: checker.folder.join(&file.file), scale: scale(checker, file) }
+    }
 }
 
 /// Entry of a body in a scene.
@@ -155,7 +170,12 @@ fn rigid_body(checker: &mut Checker<'_>, entry: &Entry<'_>, shape: Shape) -> Che
     let key = format!("collider.{kind}[{index}].motion");
     let motion = common.motion.and_then(|motion| rigid_motion(checker, &key, motion, center));
     let body = Body::new(name, shape, rotate_pose(Pose::new(center), common.turn));
-    CheckedBody { body, friction: common.friction, motion: motion.map(BodyMotion::Rigid) }
+    CheckedBody {
+        body,
+        friction: common.friction,
+        motion: motion.map(BodyMotion::Rigid),
+        file: None,
+    }
 }
 
 /// Makes a rigid body of a mesh.
@@ -171,7 +191,8 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
                 check_size(checker, index, longest);
             }
             let entry = Entry { kind: "mesh", index, common: file.common() };
-            Some(rigid_body(checker, &entry, Shape::Mesh(mesh)))
+            let file = Some(MeshFile::new(checker, file));
+            Some(CheckedBody { file, ..rigid_body(checker, &entry, Shape::Mesh(mesh)) })
         }
         Err(error) => {
             let key = format!("collider.mesh[{index}].file");
@@ -227,6 +248,9 @@ const UNITS: [(&str, f64); 4] =
 /// Sizes of a body that wears a garment, in m: from a doll to a tall person.
 const WEARER: [f64; 2] = [0.15, 3.0];
 
+/// Height of a person, in m: the unit that gives it is the first that is advised.
+const PERSON: f64 = 1.7;
+
 /// Asks for the unit of a body that wears a garment and is as large as none does, where a unit would
 /// give it the size of one; returns whether there was nothing to ask.
 fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, longest: f64) -> bool {
@@ -235,9 +259,12 @@ fn check_unit(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile, long
         return true;
     }
     let in_file = longest / checker.unit;
-    let choices: Vec<String> = UNITS
+    let mut units: Vec<(&str, f64)> =
+        UNITS.into_iter().filter(|(_, unit)| wears(in_file * unit)).collect();
+    let unlike = |(_, unit): &(&str, f64)| (in_file * unit / PERSON).ln().abs();
+    units.sort_by(|a, b| unlike(a).total_cmp(&unlike(b)));
+    let choices: Vec<String> = units
         .iter()
-        .filter(|(_, unit)| wears(in_file * unit))
         .map(|(name, unit)| {
             format!("scale = {unit} if the file is in {name} ({:.2} m)", in_file * unit)
         })
@@ -313,7 +340,8 @@ fn changing_mesh(
             let name = common.name.map_or_else(|| format!("mesh {}", index + 1), str::to_owned);
             let body = Body::new(name, Shape::Mesh(shapes.mesh), Pose::default());
             let motion = Some(BodyMotion::Shapes(shapes.motion));
-            Some(CheckedBody { body, friction: common.friction, motion })
+            let file = Some(MeshFile::new(checker, file));
+            Some(CheckedBody { body, friction: common.friction, motion, file })
         }
         Err(ShapeError::File(error)) => {
             checker.fail_with(&key, &error);

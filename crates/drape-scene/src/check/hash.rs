@@ -29,7 +29,7 @@ impl Content<'_> {
         }
         let mut number = |value: f64| _ = hasher.update(&value.to_le_bytes());
         self.positions.iter().for_each(|&x| number(x));
-        for MovingBody { body, motion } in self.bodies {
+        for MovingBody { body, motion, .. } in self.bodies {
             if let Shape::Mesh(mesh) = &body.shape {
                 mesh.vertices().iter().flatten().for_each(|&x| number(x));
                 mesh.triangles().iter().flatten().for_each(|&corner| number(f64::from(corner)));

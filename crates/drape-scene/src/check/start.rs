@@ -1,7 +1,8 @@
 //! Start of a scene: whether its cloth is outside of its bodies, its surfaces apart, its layers in
 //! order.
 
-mod girth;
+mod bodies;
+pub(crate) mod girth;
 mod layers;
 mod place_key;
 pub(crate) mod placing;
@@ -19,16 +20,24 @@ use crate::scene::panel::Panel;
 use crate::surfaces::StartSurfaces;
 use crate::tangle::Tangle;
 
+use self::bodies::{body_notes, contact_limits};
 use self::girth::check_girths;
 use self::layers::check_layers;
 use self::place_key::place_key;
-use self::placing::check_places;
-use self::stitches::stitches_through_bodies;
+use self::placing::{Places, check_places};
+use self::stitches::{stitches_through_bodies, stitches_through_panels};
 use self::tangle::{Tangled, check_tangle};
 
 /// Checks the start of a scene that has no other mistakes, and returns the scene with notes on its
 /// layers.
 pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result<Scene, Error> {
+    let Places { notes, advised } = check_places(checker, &scene);
+    if advised {
+        // Where it is advised to be, it is clear of the bodies that it crosses where it is.
+        checker.finish()?;
+    }
+    scene.source.contact_limits = contact_limits(&scene);
+    scene.source.notes.extend([body_notes(&scene), notes].concat());
     let surfaces = scene.contact.surfaces.then(|| StartSurfaces::new(&scene)).transpose();
     let mut surfaces = surfaces.map_err(|error| mistake(checker, "contact.surfaces", &error))?;
     let tangle = surfaces.as_mut().and_then(|surfaces| check_tangle(checker, surfaces, &scene));
@@ -38,10 +47,13 @@ pub(crate) fn check_start(checker: &mut Checker<'_>, mut scene: Scene) -> Result
         (Some(surfaces), Some(_)) => check_panels_outside(checker, &surfaces.contact, &scene),
         _ => check_particles_outside(checker, &particles, &scene),
     }
-    let notes = check_places(checker, &scene);
-    scene.source.notes.extend(notes);
     if tangle.is_none() {
-        let notes = [stitches_through_bodies(&scene), check_girths(checker, &scene)].concat();
+        let notes = [
+            stitches_through_bodies(&scene),
+            stitches_through_panels(&scene),
+            check_girths(checker, &scene),
+        ]
+        .concat();
         scene.source.notes.extend(notes);
     }
     if tangle.is_none() {

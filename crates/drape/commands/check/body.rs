@@ -172,7 +172,7 @@ fn report(inspection: &MeshInspection, spacing: f64) -> String {
     ] {
         text.push_str(&places_line(places, what));
     }
-    if lengths.median > 0.0 && lengths.median < 0.2 * spacing {
+    if inspection.is_too_fine(spacing) {
         let _ = writeln!(
             text,
             "  note: its triangles are finer than cloth of this spacing can see; --repair thins \
@@ -180,7 +180,7 @@ fn report(inspection: &MeshInspection, spacing: f64) -> String {
             1e3 * RepairSettings::for_spacing(spacing).thinning_distance
         );
     }
-    if lengths.median > 5.0 * spacing && inspection.triangles > 200 {
+    if inspection.is_too_coarse(spacing) {
         text.push_str("  note: its triangles are large: cloth will show their edges\n");
     }
     text

@@ -3,9 +3,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use drape::collide::{MeshInspection, Shape};
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
 use drape::input::{Diagnostic, Diagnostics, Document};
-use drape::scene::{Error, Scene, is_fabric};
+use drape::scene::{Error, MovingBody, Scene, is_fabric};
 
 use super::pattern::CutOut;
 use crate::commands::sheets;
@@ -20,18 +21,11 @@ pub(crate) fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics>
     }
     let document = Document::read(file)?;
     let table: toml::Table = document.decode()?;
-    let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
-    // The panels of a pattern have names, those of a scene are in a row.
-    if matches!(table.get("panel"), Some(toml::Value::Table(_))) || has(&["from"]) {
+    if holds_pattern(&table) {
         return Ok(CutOut::read(file, spacing)?.describe());
     }
-    if has(&["panel", "garment", "time", "collider"]) {
-        let read = drape::read_scene(file).map_err(|error| match error {
-            Error::Input(mistakes) => mistakes,
-            Error::Tangled(tangle) => tangle.mistakes,
-            other => Diagnostic::new(file, other.to_string()).into(),
-        });
-        Ok(scene(&read?))
+    if holds_scene(&table) {
+        Ok(scene(&read_scene(file)?))
     } else if is_fabric(&document) {
         Ok(fabric(&Fabric::from_document(&document)?))
     } else {
@@ -39,7 +33,35 @@ pub(crate) fn describe(file: &Path, spacing: f64) -> Result<String, Diagnostics>
     }
 }
 
-fn scene(scene: &Scene) -> String {
+/// Returns whether a file is a scene, by its keys.
+pub(crate) fn is_scene(file: &Path) -> bool {
+    let is_toml = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    let document = is_toml.then(|| Document::read(file).ok()).flatten();
+    let table = document.and_then(|document| document.decode::<toml::Table>().ok());
+    table.is_some_and(|table| !holds_pattern(&table) && holds_scene(&table))
+}
+
+/// Returns whether a table is a pattern: its panels have names, those of a scene are in a row.
+fn holds_pattern(table: &toml::Table) -> bool {
+    matches!(table.get("panel"), Some(toml::Value::Table(_))) || table.contains_key("from")
+}
+
+/// Returns whether a table that is no pattern is a scene.
+fn holds_scene(table: &toml::Table) -> bool {
+    ["panel", "garment", "time", "collider"].iter().any(|key| table.contains_key(*key))
+}
+
+/// Reads a scene, or returns its mistakes.
+pub(crate) fn read_scene(file: &Path) -> Result<Scene, Diagnostics> {
+    drape::read_scene(file).map_err(|error| match error {
+        Error::Input(mistakes) => mistakes,
+        Error::Tangled(tangle) => tangle.mistakes,
+        other => Diagnostic::new(file, other.to_string()).into(),
+    })
+}
+
+/// Describes a scene.
+pub(crate) fn scene(scene: &Scene) -> String {
     let mass: f64 = scene.cloth.masses().iter().sum();
     let area: f64 = scene.cloth.areas().iter().sum();
     let mut text = format!(
@@ -80,11 +102,50 @@ fn scene(scene: &Scene) -> String {
             );
         }
     }
-    scene.source.notes.iter().for_each(|note| {
+    scene.bodies.iter().for_each(|moving| text += &body(moving));
+    scene.source.notes.iter().chain(&scene.source.contact_limits).for_each(|note| {
         let _ = writeln!(text, "  note: {note}");
     });
     scene.materials.iter().for_each(|material| text += &indent(&fabric(&material.fabric)));
     text
+}
+
+/// Describes a body in a line.
+fn body(moving: &MovingBody) -> String {
+    let name = &moving.body.name;
+    let kind = match &moving.body.shape {
+        Shape::Sphere { .. } => "sphere",
+        Shape::Box { .. } => "box",
+        Shape::Cylinder { .. } => "cylinder",
+        Shape::Plane => return format!("  body \"{name}\": plane\n"),
+        Shape::Mesh(_) => "mesh",
+        _ => "body",
+    };
+    let own;
+    let found = match &moving.source {
+        Some(source) => &source.inspection,
+        None => {
+            let outline = moving.body.triangulate();
+            own = outline.map(|outline| MeshInspection::new(&outline)).unwrap_or_default();
+            &own
+        }
+    };
+    let [x, y, z] = found.size();
+    let size = format!("{x:.3} × {y:.3} × {z:.3} m, {:.2} l", 1e3 * found.volume);
+    if moving.source.is_none() {
+        return format!("  body \"{name}\": {kind}, {size}\n");
+    }
+    let parts = if found.parts == 1 { "1 part".into() } else { format!("{} parts", found.parts) };
+    let crossing = match found.intersections.count {
+        0 => "nowhere through itself".into(),
+        1 => "through itself at 1 edge".into(),
+        count => format!("through itself at {count} edges"),
+    };
+    format!(
+        "  body \"{name}\": {kind}, {size}, {} triangles with edges of {:.1} mm, closed, {parts}, {crossing}\n",
+        found.triangles,
+        1e3 * found.edge_lengths.median
+    )
 }
 
 fn fabric(fabric: &Fabric) -> String {

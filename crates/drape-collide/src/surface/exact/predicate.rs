@@ -13,8 +13,9 @@ fn side(a: Vector, b: Vector, c: Vector, d: Vector) -> f64 {
 
 /// Returns whether a segment and a triangle have a point in common, exactly.
 ///
-/// Either may be degenerate to a shorter segment or a point.
-pub(crate) fn segment_meets_triangle([p, q]: [Vector; 2], [a, b, c]: [Vector; 3]) -> bool {
+/// Either may be degenerate to a shorter segment or a point. Coordinates are finite, in m.
+#[must_use]
+pub fn segment_meets_triangle([p, q]: [Vector; 2], [a, b, c]: [Vector; 3]) -> bool {
     if surely_apart([p, q], [a, b, c]) {
         return false;
     }

@@ -7,7 +7,7 @@
 //! G \ge (H + 2\pi d)\,\frac{n}{\pi}\tan\frac{\pi}{n}
 //! ```
 //!
-//! What is missing it has to stretch. A garment that would pull harder than the tensile test of a
+//! with the limbs of the body of which it encloses at least half. What is missing it has to stretch. A garment that would pull harder than the tensile test of a
 //! fabric does is refused; one that stretches less is told.
 
 use std::f64::consts::{PI, TAU};
@@ -34,9 +34,16 @@ const SLACK: f64 = 0.05;
 /// Distance of the heights at which garments are measured, in m, at least.
 const STEP_MIN: f64 = 0.01;
 
+/// Fraction of a limb's section from which on a ring is to go round it: flat panels beside the trunk
+/// enclose some of an arm at the start.
+const LIMB_MIN: f64 = 0.5;
+
+/// Number of the rings by which places are compared.
+const RINGS: usize = 12;
+
 /// Girth of a ring that is too short for its body.
-struct TightRing<'a> {
-    ring: &'a Ring,
+pub(crate) struct TightRing {
+    ring: Ring,
     /// Perimeter of the hull of the body, in m.
     hull: f64,
     /// Perimeter at the contact offset, in m.
@@ -45,33 +52,84 @@ struct TightRing<'a> {
     needed: f64,
 }
 
-impl TightRing<'_> {
+impl TightRing {
     fn stretch(&self) -> f64 {
         self.needed / self.ring.girth - 1.0
     }
 }
 
+/// Fit of a garment at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Fit {
+    /// It goes round the body.
+    Wide,
+    /// It goes round the body stretched.
+    Stretched,
+    /// It is too narrow.
+    Narrow,
+}
+
+/// Girths of a garment, and the bodies that it goes round.
+pub(crate) struct Girths<'a> {
+    scene: &'a Scene,
+    bodies: Vec<Triangulation>,
+    rings: Vec<Ring>,
+    /// Number of its openings, which are the first of the rings.
+    openings: usize,
+}
+
+impl<'a> Girths<'a> {
+    /// Measures a garment of a scene, by its number.
+    pub(crate) fn new(scene: &'a Scene, garment: usize) -> Self {
+        let solid = scene.bodies.iter().map(|moving| &moving.body);
+        let solid = solid.filter(|body| !matches!(body.shape, Shape::Plane));
+        let bodies = solid.filter_map(|body| body.triangulate().ok()).collect();
+        let particles = &scene.garments[garment].particles;
+        let own = |panel: usize| particles.contains(&scene.panels[panel].first);
+        let panels: Vec<usize> = (0..scene.panels.len()).filter(|&panel| own(panel)).collect();
+        let mut rings: Vec<Ring> =
+            openings(scene).into_iter().filter(|ring| own(ring.panel)).collect();
+        let count = rings.len();
+        let finder = RingFinder::new(scene);
+        rings.extend(heights(scene, &panels).flat_map(|height| finder.at_height(&panels, height)));
+        Self { scene, bodies, rings, openings: count }
+    }
+
+    /// Returns the ring that stretches most where the garment is moved by a shift, in m.
+    fn tightest(&self, rings: &[&Ring], shift: [f64; 3]) -> Option<TightRing> {
+        let tight =
+            rings.iter().filter_map(|ring| tight(self.scene, &self.bodies, ring.moved(shift)));
+        tight.max_by(|a, b| a.stretch().total_cmp(&b.stretch()))
+    }
+
+    /// Returns whether the garment is worn at the waist, as skirts with two openings and trousers
+    /// with three are; shirts have more.
+    pub(crate) fn is_worn_at_waist(&self) -> bool {
+        matches!(self.openings, 2 | 3)
+    }
+
+    /// Returns how the garment fits where it is moved by a shift, in m, by some of its rings.
+    pub(crate) fn fit(&self, shift: [f64; 3]) -> Fit {
+        let step = self.rings.len().div_ceil(RINGS).max(1);
+        let some: Vec<&Ring> = self.rings.iter().step_by(step).collect();
+        match self.tightest(&some, shift) {
+            None => Fit::Wide,
+            Some(worst) if pull(self.scene, &worst) <= PULL_MAX => Fit::Stretched,
+            Some(_) => Fit::Narrow,
+        }
+    }
+}
+
 /// Checks the girths of the garments of a scene; returns notes on those that stretch.
 pub(crate) fn check_girths(checker: &mut Checker<'_>, scene: &Scene) -> Vec<String> {
-    let solid = scene.bodies.iter().map(|moving| &moving.body);
-    let solid = solid.filter(|body| !matches!(body.shape, Shape::Plane));
-    let bodies: Vec<Triangulation> = solid.filter_map(|body| body.triangulate().ok()).collect();
     let mut notes = Vec::new();
-    if bodies.is_empty() || scene.sewing.is_none() {
+    if scene.sewing.is_none() {
         return notes;
     }
-    let finder = RingFinder::new(scene);
-    let openings = openings(scene);
     for (number, garment) in scene.garments.iter().enumerate() {
-        let own = |panel: usize| garment.particles.contains(&scene.panels[panel].first);
-        let panels: Vec<usize> = (0..scene.panels.len()).filter(|&panel| own(panel)).collect();
-        let cuts = heights(scene, &panels).flat_map(|height| finder.at_height(&panels, height));
-        let cuts: Vec<Ring> = cuts.collect();
-        let rings = openings.iter().filter(|ring| own(ring.panel)).chain(&cuts);
-        let tight = rings.filter_map(|ring| tight(scene, &bodies, ring));
-        let Some(worst) = tight.max_by(|a, b| a.stretch().total_cmp(&b.stretch())) else {
-            continue;
-        };
+        let girths = Girths::new(scene, number);
+        let all: Vec<&Ring> = girths.rings.iter().collect();
+        let Some(worst) = girths.tightest(&all, [0.0; 3]) else { continue };
         let pull = pull(scene, &worst);
         let fault = describe(&garment.name, &worst, pull);
         let help = remedy(&worst);
@@ -98,7 +156,7 @@ fn heights(scene: &Scene, panels: &[usize]) -> impl Iterator<Item = f64> {
 
 /// Returns the girths of a ring that is shorter than what it goes round, wherever near its place it
 /// lies.
-fn tight<'a>(scene: &Scene, bodies: &[Triangulation], ring: &'a Ring) -> Option<TightRing<'a>> {
+fn tight(scene: &Scene, bodies: &[Triangulation], ring: Ring) -> Option<TightRing> {
     let outline = convex_hull(ring.points.iter().map(|&point| ring.plane.flat(point)).collect());
     let mut hull = f64::INFINITY;
     for part in [0.0, -1.0, -0.5, 0.5, 1.0] {
@@ -117,23 +175,25 @@ fn tight<'a>(scene: &Scene, bodies: &[Triangulation], ring: &'a Ring) -> Option<
     })
 }
 
-/// Returns the perimeter of the hull of what a plane cuts of bodies inside an outline, in m.
+/// Returns the perimeter of the hull of the limbs that a plane cuts of bodies inside an outline, in
+/// m.
 fn hull_inside(
     bodies: &[Triangulation],
     outline: &[[f64; 2]],
     plane: &SectionPlane,
 ) -> Option<f64> {
-    let cuts = bodies.iter().flat_map(|body| {
-        let corners = |t: &[u32; 3]| t.map(|corner| body.vertices[corner as usize]);
-        body.triangles.iter().flat_map(move |triangle| plane.cuts(corners(triangle)))
-    });
-    let inside: Vec<[f64; 2]> = cuts.filter(|&point| encloses(outline, point)).collect();
-    (inside.len() > 2).then(|| perimeter(&convex_hull(inside)))
+    let is_inside = |limb: &Vec<[f64; 2]>| {
+        let inside = limb.iter().filter(|&&point| encloses(outline, point)).count();
+        inside as f64 >= LIMB_MIN * limb.len() as f64
+    };
+    let limbs = bodies.iter().flat_map(|body| plane.lines(body)).filter(is_inside);
+    let points: Vec<[f64; 2]> = limbs.flatten().collect();
+    (points.len() > 2).then(|| perimeter(&convex_hull(points)))
 }
 
 /// Returns the pull of the fabric of a ring that is stretched to what it needs, in N/m: along the
 /// softer of its yarns.
-fn pull(scene: &Scene, tight: &TightRing<'_>) -> f64 {
+fn pull(scene: &Scene, tight: &TightRing) -> f64 {
     let fabric = &scene.materials[scene.panels[tight.ring.panel].material].fabric;
     let stretch = tight.stretch();
     let laws = [&fabric.warp.traction, &fabric.weft.traction];
@@ -141,7 +201,7 @@ fn pull(scene: &Scene, tight: &TightRing<'_>) -> f64 {
 }
 
 /// Describes a garment that is too narrow.
-fn describe(garment: &str, tight: &TightRing<'_>, pull: f64) -> String {
+fn describe(garment: &str, tight: &TightRing, pull: f64) -> String {
     let TightRing { ring, hull, with_offset, needed } = tight;
     format!(
         "\"{garment}\" is too narrow at a height of {:.2} m: {} measure {:.0} mm round, and the body's hull {:.0} mm there, \
@@ -158,7 +218,7 @@ fn describe(garment: &str, tight: &TightRing<'_>, pull: f64) -> String {
 }
 
 /// Returns the remedy for a garment that is too narrow.
-fn remedy(tight: &TightRing<'_>) -> String {
+fn remedy(tight: &TightRing) -> String {
     let TightRing { ring, with_offset, needed, .. } = tight;
     let wider = (1e3 * (needed - ring.girth)).ceil();
     let coarse = match ring.girth > *with_offset {

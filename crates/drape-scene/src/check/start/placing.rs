@@ -1,9 +1,13 @@
 //! Places of garments: whether a garment starts about its body, and the shift that would bring it
 //! there.
 //!
-//! A garment is about a body where its horizontal outline goes round a part of it. The shift is the
-//! one at which its particles are nearest to the bodies on average, without being inside of them.
-//! Those at its top count for more: a garment hangs from there.
+//! A garment is about a body where its horizontal outline goes round a part of it. One that hangs
+//! from the waist, as its openings tell, is brought to the lowest place where it is wide enough and
+//! the body below is too wide for it. Others are brought to where their particles are nearest to the
+//! bodies on average, without being inside of them; those at the top count for more, since a garment
+//! hangs from there.
+
+use std::cmp::Ordering;
 
 use drape_collide::{Body, Shape, Triangulation};
 
@@ -11,6 +15,8 @@ use crate::check::checker::Checker;
 use crate::scene::Scene;
 use crate::scene::garment::Garment;
 use drape_collide::section::{SectionPlane, convex_hull, encloses};
+
+use super::girth::{Fit, Girths};
 
 /// Number of heights at which a garment is looked at.
 const HEIGHTS: usize = 24;
@@ -32,7 +38,8 @@ const TALL: f64 = 0.25;
 /// Fraction of its particles that may start inside a body before another place is looked for.
 const INSIDE_MAX: f64 = 0.002;
 
-/// Number of particles by which places are compared.
+/// Number of particles by which places are compared: of all that are tried, and near the best.
+const SAMPLES_COARSE: usize = 100;
 const SAMPLES: usize = 250;
 
 /// Distance from a body at which a garment is to start, in m: its surfaces are apart there.
@@ -50,8 +57,23 @@ const TOP: f64 = 0.1;
 const TOP_WEIGHT: f64 = 10.0;
 
 /// Step of the heights that are tried, in m, and the last step of the search around the best.
-const STEP: f64 = 0.02;
+const STEP: f64 = 0.04;
 const STEP_LAST: f64 = 0.004;
+
+/// Places to the back and to the front that are tried at each height, in steps.
+const ASIDE: [f64; 7] = [-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5];
+
+/// Way down on which a garment that is worn at the waist comes to where the body is too wide for it,
+/// in m.
+const SLIDE: f64 = 0.12;
+
+/// Distance from bodies that all particles of a garment have at a place that is advised, in m, and
+/// distance beyond which those are that the search around it need not look at.
+const CLEAR: f64 = 0.002;
+const NEAR: f64 = 0.12;
+
+/// Weight of the cost of a place where a garment has to stretch.
+const STRETCHED: f64 = 1.5;
 
 /// Bodies without floors.
 pub(crate) struct Solids<'a> {
@@ -133,57 +155,192 @@ impl<'a> Solids<'a> {
     }
 
     /// Returns the shift, in m, that brings a garment with particles at some points about a body,
-    /// if there is one.
-    pub(crate) fn shift(&self, points: &[[f64; 3]]) -> Option<[f64; 3]> {
-        let (all, points) = (points, samples(points));
+    /// if there is one: where it holds at the waist, if it is worn there by its girths, or else the
+    /// nearest place at which it fits and is clear of bodies.
+    pub(crate) fn shift(
+        &self,
+        points: &[[f64; 3]],
+        girths: Option<&Girths<'_>>,
+    ) -> Option<[f64; 3]> {
+        let waist = girths.filter(|girths| girths.is_worn_at_waist());
+        let waist = waist.and_then(|girths| self.place_at_waist(points, girths));
+        let place = waist.or_else(|| {
+            let near = self.place_near(points, girths)?;
+            Some(self.refine(points, near, Search { axes: &[0, 1, 2], clear: true }))
+        });
+        place.map(|place| place.map(|x| (1e3 * x).round() / 1e3))
+    }
+
+    /// Returns the shifts, in m, to a height, from the foot of the bodies to their top, and there to
+    /// the front and to the back.
+    fn places(&self, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 7]> {
         let [low, high] = extent(points.iter());
         let middle = [0, 1, 2].map(|k| 0.5 * (self.low[k] + self.high[k] - low[k] - high[k]));
-        let top = high[1] - TOP * (high[1] - low[1]);
-        let cost = |shift: [f64; 3]| {
-            let costs = points.iter().map(|point| {
-                let distance = self.distance([0, 1, 2].map(|k| point[k] + shift[k]));
-                let weight = if point[1] > top { TOP_WEIGHT } else { 1.0 };
-                let depth = (MARGIN - distance).max(0.0);
-                weight * distance.max(0.0) * (1.0 + CENTRING * distance) + DEPTH_WEIGHT * depth
-            });
-            costs.sum::<f64>() / points.len() as f64
-        };
-        // From the foot of the bodies to their top.
         let [first, last] = [self.low[1] - low[1], self.high[1] - high[1]];
         let count = ((last - first) / STEP).clamp(0.0, 1000.0) as usize;
         let heights = (0..=count).map(|k| first + k as f64 * STEP);
-        let starts = heights.map(|height| [middle[0], height, middle[2]]);
-        let starts = starts.map(|shift| (shift, cost(shift)));
-        let (mut best, mut least) = starts.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let mut step = 2.0 * STEP;
+        heights.map(|y| ASIDE.map(|part| [middle[0], y, middle[2] + part * STEP])).collect()
+    }
+
+    /// Returns the shift, in m, to the lowest place at which a garment does not slide down: where it
+    /// goes round the body without a stretch, or else with one.
+    fn place_at_waist(&self, points: &[[f64; 3]], girths: &Girths<'_>) -> Option<[f64; 3]> {
+        let places = self.places(points);
+        let fits: Vec<Fit> = places.iter().map(|own| girths.fit(own[own.len() / 2])).collect();
+        [Fit::Wide, Fit::Stretched].into_iter().find_map(|wanted| {
+            let held = places.iter().zip(&fits).filter(|(_, fit)| **fit == wanted);
+            let mut held = held.filter(|(places, _)| {
+                let middle = places[places.len() / 2];
+                let lower = girths.fit([middle[0], middle[1] - SLIDE, middle[2]]);
+                lower == Fit::Narrow || (lower == Fit::Stretched && wanted == Fit::Wide)
+            });
+            held.find_map(|(places, _)| self.clear_place(points, places))
+        })
+    }
+
+    /// Returns a shift, in m, among some to one height or near them, at which points are clear of the
+    /// bodies.
+    fn clear_place(&self, points: &[[f64; 3]], places: &[[f64; 3]]) -> Option<[f64; 3]> {
+        let samples = samples(points, SAMPLES_COARSE);
+        let is_free =
+            |place: &[f64; 3]| self.is_clear(points, *place) && self.is_around(points, *place);
+        let costed = places.iter().map(|&place| (self.cost(&samples, place), place));
+        let mut costed: Vec<(f64, [f64; 3])> = costed.collect();
+        costed.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let all = costed.iter().map(|(_, place)| *place);
+        if let Some(place) = all.clone().find(is_free) {
+            return Some(self.refine(points, place, Search { axes: &[0, 2], clear: true }));
+        }
+        // A close garment is clear of the body at one place only.
+        let near = all.take(2);
+        let search = Search { axes: &[0, 1, 2], clear: false };
+        near.map(|place| self.refine(points, place, search)).find(is_free)
+    }
+
+    /// Returns the shift, in m, to the place at which a garment is nearest to the bodies, fits, and
+    /// is clear of them.
+    fn place_near(&self, points: &[[f64; 3]], girths: Option<&Girths<'_>>) -> Option<[f64; 3]> {
+        let coarse = samples(points, SAMPLES_COARSE);
+        let places = self.places(points).into_iter().flatten();
+        let mut costed: Vec<(f64, [f64; 3])> =
+            places.map(|shift| (self.cost(&coarse, shift), shift)).collect();
+        costed.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut best: Option<Candidate> = None;
+        for (cost, shift) in costed {
+            let own = Candidate { fit: Fit::Wide, cost, shift };
+            if best.is_some_and(|best| best.compare(&own).is_lt()) {
+                break;
+            }
+            if self.is_clear(points, shift) && self.is_around(points, shift) {
+                let fit = girths.map_or(Fit::Wide, |girths| girths.fit(shift));
+                let own = Candidate { fit, ..own };
+                if best.is_none_or(|best| own.compare(&best).is_lt()) {
+                    best = Some(own);
+                }
+            }
+        }
+        best.map(|best| best.shift)
+    }
+
+    /// Returns whether all points are clear of the bodies where they are moved by a shift, in m.
+    fn is_clear(&self, points: &[[f64; 3]], shift: [f64; 3]) -> bool {
+        let moved = |point: &[f64; 3]| [0, 1, 2].map(|k| point[k] + shift[k]);
+        points.iter().all(|point| self.distance(moved(point)) > CLEAR)
+    }
+
+    /// Returns whether points go round a body where they are moved by a shift, in m.
+    fn is_around(&self, points: &[[f64; 3]], shift: [f64; 3]) -> bool {
+        let moved = |point: &[f64; 3]| [0, 1, 2].map(|k| point[k] + shift[k]);
+        self.fraction_around(&points.iter().map(moved).collect::<Vec<_>>()) >= AROUND_MIN
+    }
+
+    /// Returns how far a garment with particles at some points is from the bodies where it is moved
+    /// by a shift, in m.
+    fn cost(&self, points: &[[f64; 3]], shift: [f64; 3]) -> f64 {
+        let [low, high] = extent(points.iter());
+        let top = high[1] - TOP * (high[1] - low[1]);
+        let costs = points.iter().map(|point| {
+            let distance = self.distance([0, 1, 2].map(|k| point[k] + shift[k]));
+            let weight = if point[1] > top { TOP_WEIGHT } else { 1.0 };
+            let depth = (MARGIN - distance).max(0.0);
+            weight * distance.max(0.0) * (1.0 + CENTRING * distance) + DEPTH_WEIGHT * depth
+        });
+        costs.sum::<f64>() / points.len() as f64
+    }
+
+    /// Returns the shift near another, in m, at which points are nearest to the bodies.
+    fn refine(&self, points: &[[f64; 3]], start: [f64; 3], search: Search<'_>) -> [f64; 3] {
+        let samples = samples(points, SAMPLES);
+        let at_start =
+            |point: &&[f64; 3]| self.distance([0, 1, 2].map(|k| point[k] + start[k])) < NEAR;
+        let near: Vec<[f64; 3]> = points.iter().filter(at_start).copied().collect();
+        let (mut best, mut least) = (start, self.cost(&samples, start));
+        let mut step = 0.5 * STEP;
         while step > STEP_LAST {
             let mut moved = false;
-            for (axis, sign) in [0, 1, 2].into_iter().flat_map(|k| [(k, -1.0), (k, 1.0)]) {
+            for (axis, sign) in search.axes.iter().flat_map(|&k| [(k, -1.0), (k, 1.0)]) {
                 let mut shift = best;
                 shift[axis] += sign * step;
-                let own = cost(shift);
-                if own < least {
-                    (best, least, moved) = (shift, own, true);
+                let cost = self.cost(&samples, shift);
+                let is_here = (0..3).all(|k| (shift[k] - start[k]).abs() <= 0.5 * NEAR);
+                if cost < least && is_here && (!search.clear || self.is_clear(&near, shift)) {
+                    (best, least, moved) = (shift, cost, true);
                 }
             }
             if !moved {
                 step *= 0.5;
             }
         }
-        let rounded = best.map(|x| (1e3 * x).round() / 1e3);
-        let moved: Vec<[f64; 3]> =
-            all.iter().map(|point| [0, 1, 2].map(|k| point[k] + rounded[k])).collect();
-        let is_about =
-            self.fraction_around(&moved) >= AROUND_MIN && self.fraction_inside(&moved) == 0.0;
-        is_about.then_some(rounded)
+        best
     }
 }
 
-/// Checks the places of the garments of a scene; returns notes on those about the feet.
-pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> Vec<String> {
-    let mut notes = Vec::new();
+/// Search for the best place near another.
+#[derive(Clone, Copy)]
+struct Search<'a> {
+    /// Axes along which a garment is moved.
+    axes: &'a [usize],
+    /// Whether it stays clear of the bodies where it is so at the start of the search.
+    clear: bool,
+}
+
+/// Place of a garment that is looked at.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    fit: Fit,
+    /// Cost of the place, in m.
+    cost: f64,
+    /// Shift, in m.
+    shift: [f64; 3],
+}
+
+impl Candidate {
+    /// Compares two places, the better one first.
+    fn compare(&self, other: &Self) -> Ordering {
+        let rank = |own: &Self| match own.fit {
+            Fit::Wide => (false, own.cost),
+            Fit::Stretched => (false, STRETCHED * own.cost),
+            Fit::Narrow => (true, own.cost),
+        };
+        let ((narrow, cost), (other_narrow, other_cost)) = (rank(self), rank(other));
+        narrow.cmp(&other_narrow).then(cost.total_cmp(&other_cost))
+    }
+}
+
+/// What is said of the places of garments.
+#[derive(Default)]
+pub(crate) struct Places {
+    /// Notes on those about the feet.
+    pub(crate) notes: Vec<String>,
+    /// Whether one is wrong, and its garment has got another.
+    pub(crate) advised: bool,
+}
+
+/// Checks the places of the garments of a scene.
+pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> Places {
+    let mut places = Places::default();
     let Some(solids) = Solids::new(scene.bodies.iter().map(|moving| &moving.body)) else {
-        return notes;
+        return places;
     };
     for (number, garment) in scene.garments.iter().enumerate() {
         // What is held needs no body.
@@ -197,15 +354,18 @@ pub(crate) fn check_places(checker: &mut Checker<'_>, scene: &Scene) -> Vec<Stri
             continue;
         }
         let fault = describe(&garment.name, place, &points, &solids);
-        let help = remedy(checker, number, solids.shift(&points));
+        let girths = Girths::new(scene, number);
+        let shift = solids.shift(&points, Some(&girths));
+        let help = remedy(checker, number, shift);
         match place {
-            Place::Feet => notes.push(format!("{fault}; {help}")),
+            Place::Feet => places.notes.push(format!("{fault}; {help}")),
             _ => {
                 checker.fail(&format!("garment[{number}].pattern"), fault, &help);
+                places.advised |= shift.is_some();
             }
         }
     }
-    notes
+    places
 }
 
 /// Returns whether bodies grow at the start.
@@ -261,9 +421,9 @@ pub(crate) fn remedy(checker: &Checker<'_>, garment: usize, shift: Option<[f64; 
     )
 }
 
-/// Returns some of many points, evenly.
-fn samples(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    points.iter().step_by((points.len() / SAMPLES).max(1)).copied().collect()
+/// Returns about so many of many points, evenly.
+fn samples(points: &[[f64; 3]], count: usize) -> Vec<[f64; 3]> {
+    points.iter().step_by((points.len() / count).max(1)).copied().collect()
 }
 
 /// Returns the low and the high corner of the bounding box of points.

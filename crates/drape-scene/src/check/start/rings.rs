@@ -20,6 +20,7 @@ use drape_collide::section::{SectionPlane, between};
 const UPRIGHT: f64 = 0.86;
 
 /// Closed line of cloth.
+#[derive(Debug, Clone)]
 pub(crate) struct Ring {
     /// Edges of an opening, or panels of a cut.
     pub(crate) parts: Vec<String>,
@@ -30,6 +31,15 @@ pub(crate) struct Ring {
     /// Its points at the start, in m.
     pub(crate) points: Vec<[f64; 3]>,
     pub(crate) plane: SectionPlane,
+}
+
+impl Ring {
+    /// Returns the ring moved by a shift, in m.
+    pub(crate) fn moved(&self, shift: [f64; 3]) -> Self {
+        let moved = |point: &[f64; 3]| [0, 1, 2].map(|axis| point[axis] + shift[axis]);
+        let points = self.points.iter().map(moved).collect();
+        Self { points, plane: self.plane.shifted(shift), ..self.clone() }
+    }
 }
 
 /// Cloth of a scene, prepared to be cut.

@@ -2,7 +2,7 @@
 
 /// Two breakpoints that are all of a piece of a seam.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Weld {
+pub(crate) struct Merge {
     /// Number of the seam.
     pub seam: usize,
     /// Breakpoints of both sides.
