@@ -72,6 +72,20 @@ class Run:
             np.add.at(sums, self.triangles[:, corner], np.cross(b - a, c - a))
         return sums / np.linalg.norm(sums, axis=1)[:, None]
 
+    def warp_strain(self, frame):
+        """Mean strain along the warp at the vertices of a frame, weighted by areas at rest, in %."""
+        a, b, c = self.material[self.triangles].transpose(1, 0, 2)
+        rest = np.stack([b - a, c - a], axis=2)
+        a, b, c = self.cloth[frame][self.triangles].transpose(1, 0, 2)
+        gradient = np.stack([b - a, c - a], axis=2) @ np.linalg.inv(rest)
+        strain = 100 * (np.linalg.norm(gradient[:, :, 1], axis=1) - 1)
+        areas = np.abs(np.linalg.det(rest))
+        sums, weights = np.zeros((2, len(self.material)))
+        for corner in range(3):
+            np.add.at(sums, self.triangles[:, corner], areas * strain)
+            np.add.at(weights, self.triangles[:, corner], areas)
+        return sums / weights
+
     def sewn(self):
         pairs = self.manifest.get("twins", [])
         return np.unique(np.array(pairs, dtype=int).reshape(-1))
@@ -210,6 +224,11 @@ def read_vtk(run, export):
     apart("UV in m", cloth.active_texture_coordinates, run.pattern, 0)
     own = free(run)
     apart("normals away from seams", cloth.point_data["Normals"][own], run.normals(-1)[own], 1e-6)
+    moved = run.cloth[-1] - run.cloth[-2]
+    speed = np.linalg.norm(moved, axis=1) / (run.times[-1] - run.times[-2])
+    apart("speed in m/s", cloth.point_data["speed (m/s)"], speed, 1e-9)
+    warp = run.warp_strain(-1)
+    apart("strain along the warp in %", cloth.point_data["strain-warp (%)"], warp, 1e-9)
     same("triangles", bool(np.all(cloth.regular_faces == run.triangles)), True)
     counts = [part["triangles"] for part, _ in run.panels]
     same("panels of triangles", np.bincount(cloth.cell_data["part"]).tolist(), counts)

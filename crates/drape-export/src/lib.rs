@@ -35,5 +35,5 @@ pub use format::obj::{write_obj, write_rest_obj};
 pub use format::pc2::write_pc2;
 pub use format::table::write_csv;
 pub use format::usda::write_usda;
-pub use format::vtk::{Listed, Surface, write_pvd, write_vtp};
+pub use format::vtk::{Listed, PolyData, Surface, write_pvd, write_vtp};
 pub use view::{Named, View};

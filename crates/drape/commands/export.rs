@@ -9,10 +9,10 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use drape::export::{
-    Clip, GLB_FRAMES_MAX, Listed, Surface, write_csv, write_glb, write_mdd, write_npz, write_obj,
-    write_pc2, write_pvd, write_rest_obj, write_usda, write_vtp,
+    Clip, Field, Fields, GLB_FRAMES_MAX, Listed, PolyData, Surface, write_csv, write_glb,
+    write_mdd, write_npz, write_obj, write_pc2, write_pvd, write_rest_obj, write_usda, write_vtp,
 };
-use drape::frames::Recording;
+use drape::frames::{Frame, Recording};
 
 pub(crate) use self::arguments::ExportArguments;
 use self::arguments::Format;
@@ -159,9 +159,15 @@ impl Files<'_> {
     fn vtk(&self, clip: &Clip, one: bool) -> Result<(), Failure> {
         let (recording, has_bodies) =
             (clip.recording(), !clip.recording().manifest().bodies.is_empty());
-        let vtp = |path: &Path, number: usize, surface: Surface| {
+        let mut fields = Fields::new(recording)?;
+        let mut vtp = |path: &Path, number: usize, surface: Surface| {
             let frame = recording.frame(number)?;
-            let write = |to: &mut Writer| write_vtp(recording, &frame, surface, to);
+            let fields = match surface {
+                Surface::Cloth => values(&mut fields, recording, &frame)?,
+                Surface::Bodies => Vec::new(),
+            };
+            let data = PolyData { recording, frame: &frame, surface, fields: &fields };
+            let write = |to: &mut Writer| write_vtp(&data, to);
             file::write_by(path, |to| write(to).map_err(drape::export::Error::from))
         };
         if one {
@@ -200,4 +206,15 @@ impl Files<'_> {
         }
         file::write_by(&list, |to| write_pvd(&listed, to))
     }
+}
+
+/// Returns the fields of a frame that are known.
+fn values(
+    fields: &mut Fields,
+    recording: &Recording,
+    frame: &Frame,
+) -> Result<Vec<(Field, Vec<f64>)>, Failure> {
+    let before = frame.number.checked_sub(1).map(|number| recording.frame(number)).transpose()?;
+    let mut value = |field: Field| Some((field, fields.values(field, frame, before.as_ref())?));
+    Ok(Field::ALL.into_iter().filter_map(&mut value).collect())
 }

@@ -10,6 +10,7 @@ use base64::engine::general_purpose::STANDARD;
 use drape_frames::{Frame, Part, Recording};
 
 use crate::error::Error;
+use crate::field::Field;
 use crate::mesh;
 use crate::normal;
 
@@ -22,20 +23,29 @@ pub enum Surface {
     Bodies,
 }
 
+/// Cloth or bodies of a frame, with fields.
+#[derive(Debug, Clone, Copy)]
+pub struct PolyData<'a> {
+    /// The run.
+    pub recording: &'a Recording,
+    /// The frame.
+    pub frame: &'a Frame,
+    /// What of it is written.
+    pub surface: Surface,
+    /// Fields of the cloth, a number for each vertex.
+    pub fields: &'a [(Field, Vec<f64>)],
+}
+
 /// Writes the cloth or the bodies of a frame as PolyData of VTK: positions in m with every bit, y up.
 ///
-/// Points have normals and, of the cloth, pattern coordinates in m (`uv`). Triangles have the number
-/// of their panel or body (`part`), whose names are the field data `names`; of the field data,
-/// `TimeValue` is the time in s, and `units` and `up` are words.
+/// Points have normals and, of the cloth, pattern coordinates in m (`uv`) and fields, whose units are in
+/// their names. Triangles have the number of their panel or body (`part`), whose names are the field
+/// data `names`; of the field data, `TimeValue` is the time in s, and `units` and `up` are words.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_vtp(
-    recording: &Recording,
-    frame: &Frame,
-    surface: Surface,
-    mut to: impl Write,
-) -> io::Result<()> {
+pub fn write_vtp(data: &PolyData, mut to: impl Write) -> io::Result<()> {
+    let PolyData { recording, frame, surface, fields } = *data;
     let (manifest, topology) = (recording.manifest(), recording.topology());
     let (parts, positions, triangles) = match surface {
         Surface::Cloth => (&manifest.panels, &frame.cloth, &topology.cloth),
@@ -62,6 +72,10 @@ pub fn write_vtp(
             writeln!(to, "<PointData Normals=\"Normals\" TCoords=\"uv\">")?;
             numbers("Normals", &normal::of_cloth(frame, triangles, &manifest.seam_pairs), &mut to)?;
             numbers("uv", &mesh::pattern(recording), &mut to)?;
+            for (field, values) in fields {
+                let rows: Vec<[f64; 1]> = values.iter().map(|value| [*value]).collect();
+                numbers(&format!("{} ({})", field.key(), field.unit()), &rows, &mut to)?;
+            }
         }
         Surface::Bodies => writeln!(to, "<PointData>")?,
     }
@@ -243,8 +257,11 @@ mod tests {
     fn written(surface: Surface) -> String {
         let folder = example::folder(&[0.3]);
         let recording = Recording::open(folder.path()).unwrap();
+        let frame = recording.frame(0).unwrap();
+        let fields = [(Field::Shear, vec![0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5])];
+        let data = PolyData { recording: &recording, frame: &frame, surface, fields: &fields };
         let mut text = Vec::new();
-        write_vtp(&recording, &recording.frame(0).unwrap(), surface, &mut text).unwrap();
+        write_vtp(&data, &mut text).unwrap();
         String::from_utf8(text).unwrap()
     }
 
@@ -254,6 +271,7 @@ mod tests {
         let document = Document::parse(&text).unwrap();
         assert_eq!(floats(&document, "Points"), example::cloth(0.3).concat());
         assert_eq!(floats(&document, "TimeValue"), [0.3]);
+        assert_eq!(floats(&document, "shear (°)"), [0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5]);
         assert_eq!(floats(&document, "uv")[8..], [0.0, 0.0, 0.0, 0.5, -0.25, 0.0]);
         assert_eq!(
             bytes(&document, "names"),
