@@ -320,7 +320,7 @@ fn mistakes_of_standard_input_have_their_lines() {
     let folder = folder.path();
     std::fs::write(folder.join("a.toml"), "spacing = \"1 s\"\n[time]\nstep = 0.1\nend = 1\n")
         .expect("writes");
-    std::fs::write(folder.join("b.toml"), b"name = \"caf\xe9\"\n").expect("writes");
+    std::fs::write(folder.join("b.toml"), b"name = \"crep\xe9\"\n").expect("writes");
     for arguments in [["check", "-"], ["run", "-"]] {
         let output = piped(folder, &arguments, "a.toml");
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
