@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
+use drape::frames::Recording;
 use serde_json::Value;
 
 const FABRIC: &str = include_str!("fabrics/plain-weave.toml");
@@ -67,12 +68,9 @@ fn unsewn(folder: &Path) -> f64 {
     let output = folder.join("unsewn");
     let mut command = drape();
     command.arg("run").arg(&path).arg("-o").arg(&output).assert().success();
-    let frames = std::fs::read_dir(&output).expect("a folder");
-    let last = frames.map(|entry| entry.expect("a file").path());
-    let last = last.filter(|path| path.extension().is_some_and(|ending| ending == "obj")).max();
-    let text = std::fs::read_to_string(last.expect("frames")).expect("a frame");
-    let heights = text.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(1));
-    heights.map(|y| y.parse().expect("a number")).fold(f64::INFINITY, f64::min)
+    let recording = Recording::open(&output).expect("a run");
+    let last = recording.frame(recording.frames() - 1).expect("a frame");
+    last.cloth.iter().map(|[_, y, _]| *y).fold(f64::INFINITY, f64::min)
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use assert_cmd::Command;
+use drape::frames::Recording;
 use serde_json::Value;
 
 const FABRIC: &str = include_str!("fabrics/plain-weave.toml");
@@ -18,25 +19,10 @@ fn run(folder: &Path, scene: &str, fabric: &str) -> (Value, [Vec<[f64; 3]>; 2]) 
     command.arg("run").arg(folder.join("scene.toml")).arg("-o").arg(&output).arg("--json");
     let result = command.output().expect("it runs");
     assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
-    let files =
-        std::fs::read_dir(&output).expect("frames").map(|file| file.expect("a file").path());
-    let mut frames: Vec<_> = files
-        .filter(|path| {
-            path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("frame-"))
-        })
-        .collect();
-    frames.sort();
-    let read = |path: &Path| {
-        let text = std::fs::read_to_string(path).expect("a frame");
-        let place = |line: &str| {
-            let numbers: Vec<f64> =
-                line.strip_prefix("v ")?.split(' ').map(|x| x.parse().expect("a number")).collect();
-            numbers.try_into().ok()
-        };
-        text.lines().filter_map(place).collect()
-    };
+    let recording = Recording::open(&output).expect("a run");
+    let frame = |number| recording.frame(number).expect("a frame").cloth;
     let summary = serde_json::from_slice(&result.stdout).expect("a summary");
-    (summary, [&frames[0], &frames[frames.len() - 1]].map(|path| read(path)))
+    (summary, [0, recording.frames() - 1].map(frame))
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use assert_cmd::Command;
+use drape::frames::Recording;
 use serde_json::Value;
 
 /// Runs a shipped scene and returns its summary.
@@ -23,20 +24,9 @@ fn number(summary: &Value, key: &str) -> f64 {
 
 /// Returns the heights of the cloth's particles, row by row along the warp.
 fn heights(output: &Path) -> Vec<f64> {
-    let mut frames: Vec<_> = std::fs::read_dir(output)
-        .expect("the folder is there")
-        .map(|entry| entry.expect("it can be read").path())
-        .filter(|path| path.extension().is_some_and(|e| e == "obj"))
-        .collect();
-    frames.sort();
-    let last = std::fs::read_to_string(frames.last().expect("frames were written"));
-    last.expect("reads")
-        .lines()
-        .filter_map(|line| {
-            let mut numbers = line.strip_prefix("v ")?.split(' ');
-            numbers.nth(1)?.parse().ok()
-        })
-        .collect()
+    let recording = Recording::open(output).expect("a run");
+    let last = recording.frame(recording.frames() - 1).expect("a frame");
+    last.cloth.iter().map(|[_, y, _]| *y).collect()
 }
 
 #[test]

@@ -55,7 +55,9 @@ fn an_edge_between_two_seams_that_is_too_short_becomes_one_particle() {
         }
         _ => None,
     });
-    let merged: Vec<String> = merged.collect();
+    let mut merged: Vec<String> = merged.collect();
+    // They are mirror images, and rounding says which is shorter.
+    merged.sort();
     assert_eq!(merged, ["left_sleeve_b.2", "right_sleeve_b.3"]);
     assert!(cut.notes.iter().any(|note| note.to_string().contains("its ends are one particle")));
     assert!(particles > 1000, "{particles}");
