@@ -8,13 +8,12 @@ use crate::failure::Failure;
 
 /// Writes a file, through a temporary one so that no reader sees half of it; creates its folder.
 pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
-    let temporary = path.with_extension("part");
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let written = folder
-        .map_or(Ok(()), std::fs::create_dir_all)
-        .and_then(|()| std::fs::write(&temporary, content))
-        .and_then(|()| std::fs::rename(&temporary, path));
-    written.map_err(|error| Failure::Output(format!("cannot write {}: {error}", path.display())))
+    write_by(path, |to| to.write_all(content.as_ref()).map_err(|error| failed(path, &error)))
+}
+
+/// Returns the failure of a file that cannot be written.
+fn failed(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::Output(format!("cannot write {}: {error}", path.display()))
 }
 
 /// Writes a file likewise, whose content is made as it is written.
@@ -25,9 +24,7 @@ pub(crate) fn write_by<E>(
 where
     Failure: From<E>,
 {
-    let failed = |error: std::io::Error| {
-        Failure::Output(format!("cannot write {}: {error}", path.display()))
-    };
+    let failed = |error| failed(path, &error);
     let temporary = path.with_extension("part");
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder).map_err(failed)?;

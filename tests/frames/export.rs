@@ -1,10 +1,10 @@
 //! Runs that are exported for other programs: which files there are, and what is refused.
 
 use std::path::Path;
-use std::process::Output;
 
-use assert_cmd::Command;
 use tempfile::TempDir;
+
+use super::drape;
 
 /// Scene of a sheet that falls beside a box, with a frame every 20 ms and one more at the end.
 const SCENE: &str = r#"spacing = 0.05
@@ -25,11 +25,6 @@ end = 0.05
 every = 0.02
 folder = "run"
 "#;
-
-fn drape(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("drape").expect("the binary is built");
-    command.current_dir(folder).args(arguments).output().expect("it runs")
-}
 
 fn run() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");

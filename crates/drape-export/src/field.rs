@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use self::curvature::curvatures;
 use self::strain::{RestTriangle, StrainOf};
+use crate::vector::{difference, length};
 
 /// Quantity on the cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -206,7 +207,7 @@ impl<'a> Fields<'a> {
         let mut gaps = vec![0.0_f64; frame.cloth.len()];
         for pair in &self.recording.manifest().seam_pairs {
             let [a, b] = pair.map(|vertex| vertex as usize);
-            let gap = 1e3 * distance(frame.cloth[a], frame.cloth[b]);
+            let gap = 1e3 * length(difference(frame.cloth[a], frame.cloth[b]));
             [a, b].into_iter().for_each(|vertex| gaps[vertex] = gaps[vertex].max(gap));
         }
         gaps
@@ -237,9 +238,5 @@ fn speeds(frame: &Frame, before: Option<&Frame>) -> Vec<f64> {
         _ => return still(),
     };
     let pairs = frame.cloth.iter().zip(&before.cloth);
-    pairs.map(|(now, then)| distance(*now, *then) / seconds).collect()
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
+    pairs.map(|(now, then)| length(difference(*now, *then)) / seconds).collect()
 }

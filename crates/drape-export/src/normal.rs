@@ -9,6 +9,8 @@ use std::collections::HashMap;
 
 use drape_frames::Frame;
 
+use crate::vector::{area_vector, difference, dot, length, sum};
+
 /// Cosine of the angle between two triangles of a body beyond which their edge is a crease: 40°,
 /// more than the facets of a round body differ by, and less than the edges of a box.
 const CREASE: f64 = 0.766;
@@ -146,29 +148,6 @@ fn area_vectors(
         }
     }
     sums
-}
-
-/// Returns the vector across a triangle whose length is twice its area.
-pub(crate) fn area_vector(positions: &[[f64; 3]], corners: &[u32; 3]) -> [f64; 3] {
-    let [a, b, c] = corners.map(|corner| positions[corner as usize]);
-    let ([ux, uy, uz], [vx, vy, vz]) = (difference(b, a), difference(c, a));
-    [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx]
-}
-
-fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-pub(crate) fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(crate) fn length(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 fn unit(a: [f64; 3]) -> Normal {

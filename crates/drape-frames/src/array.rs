@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use npyz::{DType, Deserialize, NpyHeader, Order};
+use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order};
 
 use crate::error::Error;
 
@@ -52,8 +52,8 @@ impl Expected<'_> {
         Ok(content)
     }
 
-    /// Returns where the numbers begin.
-    fn header<const N: usize>(&self, content: &[u8]) -> Result<usize, Error> {
+    /// Returns the header, and where the numbers begin.
+    fn header<const N: usize>(&self, content: &[u8]) -> Result<(NpyHeader, usize), Error> {
         let no_header = || self.malformed("it has no header of NumPy, or is cut off in it");
         let [low, high] = content.get(8..PREAMBLE).ok_or_else(no_header)? else {
             return Err(no_header());
@@ -83,7 +83,7 @@ impl Expected<'_> {
             return Err(self.malformed(format!("it has {columns} columns, and needs {N}")));
         }
         match usize::try_from(found) {
-            Ok(rows) if rows == self.rows => Ok(start),
+            Ok(rows) if rows == self.rows => Ok((header, start)),
             _ => Err(Error::WrongCount {
                 path: self.path.to_owned(),
                 what: self.what,
@@ -96,7 +96,8 @@ impl Expected<'_> {
     fn read<T: Deserialize + Copy, const N: usize>(&self) -> Result<Vec<[T; N]>, Error> {
         let of_numbers = self.rows * N * size_of::<T>();
         let content = self.bytes(of_numbers)?;
-        let numbers = &content[self.header::<N>(&content)?..];
+        let (header, start) = self.header::<N>(&content)?;
+        let numbers = &content[start..];
         if numbers.len() != of_numbers {
             let found = numbers.len();
             return Err(self.malformed(format!(
@@ -104,7 +105,7 @@ impl Expected<'_> {
                 self.rows, self.what
             )));
         }
-        let read = npyz::NpyFile::new(&content[..]).and_then(npyz::NpyFile::into_vec::<T>);
+        let read = NpyFile::with_header(header, numbers).into_vec::<T>();
         let read = read.map_err(|error| self.malformed(error.to_string()))?;
         Ok(read.as_chunks::<N>().0.to_vec())
     }

@@ -10,7 +10,7 @@ use crate::error::Error;
 const FORMAT: u64 = 2;
 
 /// Largest number of vertices and triangles of all parts together; more is a fault of the file.
-pub(crate) const COUNT_MAX: usize = 1 << 27;
+const COUNT_MAX: usize = 1 << 27;
 
 /// Data that all frames of a run share: the content of `surfaces.json`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

@@ -1,6 +1,6 @@
 //! Files of format 1: frames as OBJ, each with its own triangles and material coordinates.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
@@ -28,7 +28,7 @@ pub(crate) fn numbers(folder: &Path) -> Result<Vec<usize>, Error> {
         let reason = error.to_string();
         Error::Unreadable { path: folder.to_owned(), reason }
     };
-    let mut frames = BTreeMap::new();
+    let mut frames = BTreeSet::new();
     for entry in std::fs::read_dir(folder).map_err(unreadable)? {
         let path = entry.map_err(unreadable)?.path();
         let file = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -36,10 +36,10 @@ pub(crate) fn numbers(folder: &Path) -> Result<Vec<usize>, Error> {
         if let Some(number) = number.and_then(|number| number.parse().ok())
             && file == name(number)
         {
-            frames.insert(number, ());
+            frames.insert(number);
         }
     }
-    Ok(frames.into_keys().collect())
+    Ok(frames.into_iter().collect())
 }
 
 /// Reads the topology of a folder from its first frame.

@@ -9,17 +9,20 @@ pub(crate) fn write<T: AutoSerialize + Copy, const N: usize>(
     to: &mut dyn Write,
     rows: &[[T; N]],
 ) -> Result<()> {
-    let shape = [rows.len() as u64, N as u64];
-    let options = npyz::WriteOptions::new().default_dtype().shape(&shape);
-    let mut array = options.writer(to).begin_nd()?;
-    array.extend(rows.iter().flatten().copied())?;
-    array.finish()
+    write_shape(to, &[rows.len() as u64, N as u64], rows.as_flattened())
 }
 
 /// Writes a column of numbers.
 pub(crate) fn write_column(to: &mut dyn Write, numbers: &[f64]) -> Result<()> {
-    let shape = [numbers.len() as u64];
-    let options = npyz::WriteOptions::new().default_dtype().shape(&shape);
+    write_shape(to, &[numbers.len() as u64], numbers)
+}
+
+fn write_shape<T: AutoSerialize + Copy>(
+    to: &mut dyn Write,
+    shape: &[u64],
+    numbers: &[T],
+) -> Result<()> {
+    let options = npyz::WriteOptions::new().default_dtype().shape(shape);
     let mut array = options.writer(to).begin_nd()?;
     array.extend(numbers.iter().copied())?;
     array.finish()

@@ -1,6 +1,6 @@
 //! Curvature of a surface of triangles, from the normals at its vertices \[Rus04\].
 
-type Vector = [f64; 3];
+use crate::vector::{Vector, area_vector, cross, difference, dot, length, sum};
 
 /// Returns the largest size of a principal curvature of each triangle, in 1/m; 0 for one without
 /// area.
@@ -50,30 +50,17 @@ fn of_triangle(places: [Vector; 3], normals: [Vector; 3]) -> f64 {
 fn normals(positions: &[Vector], triangles: &[[u32; 3]]) -> Vec<Vector> {
     let mut normals = vec![[0.0; 3]; positions.len()];
     for corners in triangles {
-        let [a, b, c] = corners.map(|corner| positions[corner as usize]);
-        let own = cross(difference(b, a), difference(c, a));
+        let own = area_vector(positions, corners);
         for &corner in corners {
-            let sum = &mut normals[corner as usize];
-            *sum = [sum[0] + own[0], sum[1] + own[1], sum[2] + own[2]];
+            let whole = &mut normals[corner as usize];
+            *whole = sum(*whole, own);
         }
     }
     normals.into_iter().map(unit).collect()
 }
 
-fn difference(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 fn unit(vector: Vector) -> Vector {
-    let length = dot(vector, vector).sqrt();
+    let length = length(vector);
     vector.map(|component| component / length)
 }
 

@@ -1,5 +1,7 @@
 //! Strain of a triangle along warp and weft, and its shear.
 
+use crate::vector::{dot, length};
+
 /// Component of a strain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum StrainOf {
@@ -41,8 +43,6 @@ impl RestTriangle {
             std::array::from_fn(|k| (a * (one[k] - start[k]) + b * (other[k] - start[k])) / twice)
         };
         let (weft, warp) = (along(v2, -v1), along(-u2, u1));
-        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        let length = |vector| dot(vector, vector).sqrt();
         let value = match of {
             StrainOf::Warp => 100.0 * (length(warp) - 1.0),
             StrainOf::Weft => 100.0 * (length(weft) - 1.0),

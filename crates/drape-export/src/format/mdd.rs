@@ -15,7 +15,7 @@ use crate::error::Error;
 /// [`write_rest_obj`](crate::write_rest_obj).
 ///
 /// # Errors
-/// Frames cannot be read, they are too many, or those of the writer.
+/// A frame cannot be read, there are too many frames for the format, or the writer fails.
 pub fn write_mdd(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     let clip = clip.resampled();
     let points = clip.recording().topology().material.len();

@@ -13,7 +13,7 @@ use crate::error::Error;
 /// second has. The object that it moves is that of [`write_rest_obj`](crate::write_rest_obj).
 ///
 /// # Errors
-/// Frames cannot be read, they are too many, or those of the writer.
+/// A frame cannot be read, there are too many frames for the format, or the writer fails.
 pub fn write_pc2(clip: &Clip, mut to: impl Write) -> Result<(), Error> {
     let clip = clip.resampled();
     let points = clip.recording().topology().material.len();

@@ -6,7 +6,7 @@ use drape_frames::Frame;
 
 use crate::clip::Clip;
 use crate::error::Error;
-use crate::normal::{area_vector, difference, length};
+use crate::vector::{area_vector, difference, length};
 
 /// Names of the columns, with their units.
 const COLUMNS: [&str; 7] = [

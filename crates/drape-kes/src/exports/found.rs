@@ -23,7 +23,7 @@ const TESTS: [Test; 3] = [Test::Tensile, Test::Shear, Test::Bending];
 /// Part of its largest value below zero from which on a length is no tensile extension.
 const BOTH_WAYS: f64 = 0.3;
 
-/// File of exports, with its name from the folder of the sheet.
+/// File of exports, and its path relative to the folder of the sheet.
 pub(crate) struct Export<'a> {
     pub(crate) path: &'a Path,
     pub(crate) name: String,
@@ -39,7 +39,7 @@ pub(crate) struct Drafts {
     pub(crate) open: Vec<OpenDraft>,
 }
 
-/// Draft that needs a word, with the reason.
+/// Draft of a section that a person has to complete, with the reason.
 pub(crate) struct OpenDraft {
     pub(crate) draft: CurveDraft,
     pub(crate) reason: String,

@@ -1,18 +1,11 @@
 //! Base64, for pictures inside a page.
 
-const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 
 /// Returns the base64 form of bytes (RFC 4648, section 4).
 pub(crate) fn encode(bytes: &[u8]) -> String {
-    let mut text = String::with_capacity(4 * bytes.len().div_ceil(3));
-    for group in bytes.chunks(3) {
-        let whole = (0..3).fold(0_u32, |sum, k| sum << 8 | u32::from(*group.get(k).unwrap_or(&0)));
-        for k in 0..4 {
-            let letter = LETTERS[(whole >> (18 - 6 * k) & 63) as usize];
-            text.push(if k <= group.len() { char::from(letter) } else { '=' });
-        }
-    }
-    text
+    STANDARD.encode(bytes)
 }
 
 #[cfg(test)]
