@@ -11,13 +11,14 @@
 //! The chapter knows words, units and numbers; it converts nothing, and knows no curve.
 //!
 //! * `encoding`, `spreadsheet`, `file`: bytes to grids.
-//! * `number`, `grid`: cells, decimal signs, separators.
+//! * `number`, `grid`, `channel_rows`: cells, decimal signs, separators, rows that are channels.
 //! * `heading`, `block`: names and units of columns, and the rows below them.
 //! * `layout`: what a sheet declares.
 //! * `columns`, `series`, `parts`, `find`: deformation and load, repeats and cycles.
 //! * `stated`: gauge and width in the lines above the numbers.
 
 pub(crate) mod block;
+pub(crate) mod channel_rows;
 pub(crate) mod columns;
 pub(crate) mod encoding;
 pub(crate) mod file;

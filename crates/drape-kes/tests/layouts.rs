@@ -210,17 +210,48 @@ fn bending_and_shear_in_the_signs_of_their_programs() {
 }
 
 #[test]
+fn channels_in_rows() {
+    let across = |of: usize| points().iter().map(|p| format!(",{:.6}", p[of])).collect::<String>();
+    let text = format!("Strain (%){}\nForce (gf/cm){}\n", across(0), across(1));
+    assert_read("two rows", &text, "");
+    let time = (0..points().len()).map(|k| format!(";{k}")).collect::<String>();
+    let of = |size: fn(f64) -> f64, of: usize| {
+        points()
+            .iter()
+            .map(|p| format!(";{:.7}", size(p[of])).replace('.', ","))
+            .collect::<String>()
+    };
+    let text = format!(
+        "Specimen label;22L.3\nTime;(sec){time}\nExtension;(mm){}\nLoad;(N){}\n",
+        of(mm, 0),
+        of(newtons, 1)
+    );
+    assert_read("settings above, units in a column, decimal commas", &text, SIZES);
+}
+
+#[test]
+fn units_in_the_cells() {
+    let text = format!("Strain,Force\n{}", rows(|_, [e, f]| format!("{e:.6} %,{f:.6} gf/cm")));
+    assert_read("blanks before the units", &text, "");
+    let text = format!(
+        "Gauge length;50 mm\nWidth;200 mm\n\nExtension;Load\n{}",
+        rows(|_, [e, f]| format!("{:.7}mm;{:.7}N", mm(e), newtons(f)).replace('.', ","))
+    );
+    assert_read("no blanks, settings above", &text, SIZES);
+}
+
+#[test]
+fn a_unit_that_changes_within_a_column_is_refused() {
+    let text = "Strain,Force\n0 %,0 gf/cm\n1 %,10 gf/cm\n2 %,0.4 N/cm\n1 %,5 gf/cm\n";
+    let Err(Error::Input(mistakes)) = read(text.as_bytes(), "") else { panic!("it is read") };
+    let told = mistakes.to_string();
+    let parts = ["strip.csv:4", "holds \"0.4 N/cm\", and its first cell is in gf/cm", "one unit"];
+    assert!(parts.iter().all(|part| told.contains(part)), "{told}");
+}
+
+#[test]
 fn layouts_that_are_not_read_are_answered() {
-    let across = |of: usize| points().iter().map(|p| format!(",{:.5}", p[of])).collect::<String>();
     let cases = [
-        (
-            "rows in place of columns",
-            format!("Strain (%){}\nForce (gf/cm){}\n", across(0), across(1)),
-        ),
-        (
-            "units in the cells",
-            format!("Strain,Force\n{}", rows(|_, [e, f]| format!("{e:.4} %,{f:.4} gf/cm"))),
-        ),
         ("a picture", "\u{89}PNG\r\n\u{1a}\n".to_owned()),
         ("only forces", format!("Force (gf/cm)\n{}", rows(|_, [_, f]| format!("{f:.5}")))),
     ];

@@ -299,11 +299,11 @@ impl Item {
                 keys.push(series.column_key(column));
             }
             let written = heading.and_then(|heading| heading.unit.as_deref());
-            let percent = series.is_percent(column).then_some("%");
-            let unit = written.or(percent).and_then(|unit| parse_unit(unit, accepted).ok());
+            let unit = written.or(series.cell_unit(column));
+            let unit = unit.and_then(|unit| parse_unit(unit, accepted).ok());
             if let Some(unit) = unit {
                 let why = match (written, series.block.units_line) {
-                    (None, _) => "the sign of percent in the cells".to_owned(),
+                    (None, _) => "in the cells".to_owned(),
                     (_, Some(line)) => format!("of the units on line {line}"),
                     _ => "of the heading".to_owned(),
                 };

@@ -220,7 +220,7 @@ fn numbers(
     let AxisColumn { series, column } = *of;
     let heading = series.block.headings.get(column);
     let of_header = heading.and_then(|heading| heading.unit.as_deref());
-    let of_cells = (series.is_percent(column) && of_header.is_none()).then_some("%");
+    let of_cells = series.cell_unit(column);
     let unit = match axis.unit {
         Some(unit) => unit,
         None => {

@@ -5,6 +5,7 @@ use std::path::Path;
 use drape_input::{Diagnostic, Diagnostics};
 use encoding_rs::Encoding;
 
+use crate::tables::channel_rows;
 use crate::tables::encoding;
 use crate::tables::grid::{Grid, Separator, separator};
 use crate::tables::layout::Layout;
@@ -42,6 +43,19 @@ pub(crate) fn read(path: &Path, layout: &Layout) -> Result<TableFile, Diagnostic
 
 /// Parses the bytes of a file; `path` is used in messages, and for the ending of its name.
 pub(crate) fn parse(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, Diagnostics> {
+    let mut file = as_written(path, bytes, layout)?;
+    // A declared header is a row of names.
+    if layout.lines.header.is_none() {
+        let lines: Vec<usize> = file.grids.iter_mut().flat_map(channel_rows::turn).collect();
+        if let (Some(first), Some(last)) = (lines.first(), lines.last()) {
+            file.reading.push(format!("channels as rows, on lines {first} to {last}"));
+        }
+    }
+    Ok(file)
+}
+
+/// Parses the bytes of a file into its rows.
+fn as_written(path: &Path, bytes: &[u8], layout: &Layout) -> Result<TableFile, Diagnostics> {
     if spreadsheet::is_spreadsheet(path, bytes) {
         let grids = spreadsheet::read(bytes).map_err(|reason| {
             Diagnostic::new(path, format!("not a spreadsheet that can be read: {reason}"))

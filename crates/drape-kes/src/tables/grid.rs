@@ -1,6 +1,7 @@
 //! Grid of cells: a text file split at its separators, or a sheet of a spreadsheet.
 
 use crate::tables::number::{self, Decimal, Evidence};
+use drape_input::is_unit;
 
 /// Cell of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,34 +26,56 @@ impl Cell {
         }
     }
 
-    /// Returns whether the cell is a number, whatever its decimal sign.
+    /// Returns whether the cell is a number, whatever its decimal sign, with a unit or without.
     pub(crate) fn is_number(&self) -> bool {
         match self {
-            Self::Text(text) => number::evidence(without_percent(text)).is_some(),
+            Self::Text(text) => number::evidence(parted(text).0).is_some(),
             Self::Number(_) => true,
         }
     }
 
-    /// Returns the number of the cell.
+    /// Returns the number of the cell, without its unit.
     pub(crate) fn number(&self, decimal: Decimal) -> Option<f64> {
         match self {
-            Self::Text(text) => number::parse(without_percent(text), decimal),
+            Self::Text(text) => number::parse(parted(text).0, decimal),
             Self::Number(number) => Some(*number),
+        }
+    }
+
+    /// Returns the unit behind the number of the cell; empty where there is none.
+    pub(crate) fn unit(&self) -> &str {
+        match self {
+            Self::Text(text) => parted(text).1,
+            Self::Number(_) => "",
         }
     }
 
     /// Returns the decimal sign that the cell speaks for.
     pub(crate) fn evidence(&self) -> Option<Evidence> {
         match self {
-            Self::Text(text) => number::evidence(without_percent(text)),
+            Self::Text(text) => number::evidence(parted(text).0),
             Self::Number(_) => None,
         }
     }
 }
 
-/// Returns a number without the sign of percent behind it.
-fn without_percent(text: &str) -> &str {
-    text.strip_suffix('%').unwrap_or(text)
+/// Parts a cell into its number and the unit behind it: `0.5 mm`, `12 %`. A text that is anything else
+/// stays whole, with an empty unit.
+fn parted(text: &str) -> (&str, &str) {
+    let is_figure = |letter: char| letter.is_numeric() && !"²³¹".contains(letter);
+    let starts =
+        text.trim_start().starts_with(|letter| is_figure(letter) || "+-−.,".contains(letter));
+    if !starts || number::evidence(text).is_some() {
+        return (text, "");
+    }
+    // Units have digits too, and an exponent has a letter: the shortest unit behind a number is taken.
+    let ends = text.char_indices().filter(|&(_, letter)| is_figure(letter) || letter == '.');
+    let split = |(place, letter): (usize, char)| {
+        let (number, unit) = text.split_at(place + letter.len_utf8());
+        let unit = unit.trim();
+        (number::evidence(number).is_some() && is_unit(unit)).then_some((number, unit))
+    };
+    ends.filter_map(split).next().unwrap_or((text, ""))
 }
 
 /// Row with its line in the file, or its row in the spreadsheet, from 1.
@@ -68,9 +91,16 @@ impl Row {
         self.cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty())
     }
 
-    /// Returns how many cells hold numbers.
+    /// Returns how many cells hold numbers. Those with a unit count in a row of nothing but numbers:
+    /// elsewhere they are a setting, such as `Gauge length; 50 mm`.
     pub(crate) fn numbers(&self) -> usize {
-        self.cells.iter().filter(|cell| cell.is_number()).count()
+        let filled = self.filled().count();
+        let numbers: Vec<&Cell> =
+            self.filled().map(|(_, cell)| cell).filter(|cell| cell.is_number()).collect();
+        if numbers.len() == filled {
+            return filled;
+        }
+        numbers.iter().filter(|cell| ["", "%"].contains(&cell.unit())).count()
     }
 }
 
@@ -182,7 +212,7 @@ fn blank_separated((index, line): (usize, &str)) -> Option<Row> {
     }
     let unquoted = |word: &str| word.trim_matches('"').to_owned();
     let words: Vec<String> = line.split_whitespace().map(unquoted).collect();
-    let is_number = |word: &String| number::evidence(without_percent(word)).is_some();
+    let is_number = |word: &String| number::evidence(parted(word).0).is_some();
     let numbers = words.iter().filter(|word| is_number(word)).count();
     let cells = if numbers >= 2 || 2 * numbers > words.len() {
         words

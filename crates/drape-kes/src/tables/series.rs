@@ -40,9 +40,33 @@ impl Series {
         let number =
             |row: &Row| match row.cells.get(column).and_then(|cell| cell.number(self.decimal)) {
                 Some(number) if number.is_finite() => Ok(number),
-                _ => Err(self.not_a_number(row, column).into()),
+                _ => Err(self.not_a_number(row, column)),
             };
-        self.block.rows.iter().map(number).collect()
+        let numbers = self.block.rows.iter().map(number).collect::<Result<_, _>>()?;
+        match self.other_unit(column) {
+            Some(row) => Err(self.changed_unit(row, column).into()),
+            None => Ok(numbers),
+        }
+    }
+
+    /// Returns the first row whose cell has another unit than the first cell of the column.
+    fn other_unit(&self, column: usize) -> Option<&Row> {
+        let unit = self.cell_unit(column).unwrap_or_default();
+        let other = |row: &&Row| row.cells.get(column).is_some_and(|cell| cell.unit() != unit);
+        self.block.rows.iter().find(other)
+    }
+
+    fn changed_unit(&self, row: &Row, column: usize) -> Diagnostic {
+        let name = self.block.column_name(column);
+        let cell = row.cells.get(column).map(Cell::text).unwrap_or_default();
+        let message = match self.cell_unit(column) {
+            Some(unit) => {
+                format!("column {name} holds \"{cell}\", and its first cell is in {unit}")
+            }
+            None => format!("column {name} holds \"{cell}\", and its first cell has no unit"),
+        };
+        let help = "write the whole column in one unit";
+        Diagnostic::new(&self.path, message).on_line(row.line).help(help)
     }
 
     fn not_a_number(&self, row: &Row, column: usize) -> Diagnostic {
@@ -59,9 +83,9 @@ impl Series {
         Diagnostic::new(&self.path, message).on_line(row.line).help(help)
     }
 
-    /// Returns whether the numbers of a column are written with the sign of percent.
-    pub(crate) fn is_percent(&self, column: usize) -> bool {
+    /// Returns the unit within the first cell of a column; `None` where there is none.
+    pub(crate) fn cell_unit(&self, column: usize) -> Option<&str> {
         let first = self.block.rows.first().and_then(|row| row.cells.get(column));
-        first.is_some_and(|cell| cell.text().ends_with('%'))
+        first.map(Cell::unit).filter(|unit| !unit.is_empty())
     }
 }
