@@ -117,6 +117,21 @@ fn the_shipped_schemas_are_those_that_the_program_prints() {
 }
 
 #[test]
+fn values_with_their_standard_deviations_are_accepted() {
+    let sheet = validator("sheet");
+    let of =
+        |value: &str| refusal(&sheet, &format!("name = \"poplin\"\n[warp]\nB = \"{value}\"\n"));
+    for value in
+        ["0.118 ± 0.006", "0.118 +/- 0.006 gf.cm2/cm", "(1.2e-5 ± 3e-7) N.m", "0.118 ± 5 %"]
+    {
+        assert_eq!(of(value), None, "{value}");
+    }
+    for value in ["0.118 ±", "± 0.006", "0.118 ± 0.006 ± 0.001", "0.118 about 0.006"] {
+        assert!(of(value).is_some(), "{value}");
+    }
+}
+
+#[test]
 fn every_shipped_file_is_accepted_and_names_its_schema() {
     let (patterns, scenes): (Vec<PathBuf>, Vec<PathBuf>) = files("scenes")
         .into_iter()

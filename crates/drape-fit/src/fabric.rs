@@ -5,8 +5,8 @@
 //! the fits of `curves` in parallel, fills the rest from `values`, and checks the fabric.
 //!
 //! * `laws`: each law from curves or values, with notes.
-//! * `keys`, `measured_range`: provenance: standard errors by key, and the largest measured
-//!   deformations.
+//! * `keys`, `scatter`, `measured_range`: provenance: standard errors by key, from curves and from
+//!   the scatter of values, and the largest measured deformations.
 //! * `identify`: one sheet; `batch`: many.
 
 pub(crate) mod batch;
@@ -15,3 +15,4 @@ pub(crate) mod identify;
 pub(crate) mod keys;
 pub(crate) mod laws;
 pub(crate) mod measured_range;
+pub(crate) mod scatter;

@@ -62,10 +62,13 @@ fn units_pattern(quantity: Quantity) -> String {
 }
 
 /// Returns the schema of a number in the unit of a laboratory, bare or in a text, or with another
-/// unit.
+/// unit; in a text with its standard deviation behind `±` or not.
 #[must_use]
 pub fn laboratory_schema(quantity: Quantity) -> Value {
-    let written = format!(r"^({}|\s*{NUMBER}\s*)$", quantity_pattern(quantity));
+    let unit = units_pattern(quantity);
+    let number = format!(r"\(?\s*{NUMBER}\s*({unit})?\s*");
+    let deviation = format!(r"(±|\+/-|\+-)\s*{NUMBER}\s*(%|{unit})?\s*\)?\s*({unit})?\s*");
+    let written = format!("^{number}({deviation})?$");
     json!({ "anyOf": [{ "type": "number" }, { "type": "string", "pattern": written }] })
 }
 

@@ -35,6 +35,7 @@ pub use error::Error;
 pub use exports::draft::SheetDraft;
 pub use sheets::listed::SheetValue;
 pub use sheets::model::Model;
+pub use sheets::scatter::Scatter;
 #[cfg(feature = "schema")]
 pub use sheets::schema::sheet_schema;
 pub use sheets::sheet::Sheet;

@@ -9,6 +9,9 @@ use drape::report::{Interval, LawReport};
 use super::fabric;
 use super::quantity::DIRECTIONS;
 
+/// Half width of the 95 % interval of a normal distribution, in standard deviations.
+const NORMAL_95: f64 = 1.96;
+
 /// Law of a test and direction, with the values that it comes from.
 struct ValueLaw<'a> {
     sheet: &'a Sheet,
@@ -72,13 +75,30 @@ impl ValueLaw<'_> {
             let measured = fabric::loop_of(&fit.fabric, self.test, self.direction);
             plot.marks = self.marks(&measured);
         }
+        let mut scatters = false;
         for parameter in &mut law.parameters {
-            parameter.interval = Interval::Fixed { reason: self.reason(&parameter.symbol) };
+            parameter.interval = match parameter.standard_error {
+                Some(error) => {
+                    scatters = true;
+                    let half = NORMAL_95 * error;
+                    Interval::Between {
+                        lower: parameter.value - half,
+                        upper: parameter.value + half,
+                    }
+                }
+                None => Interval::Fixed { reason: self.reason(&parameter.symbol) },
+            };
         }
         law.notes = fit.assumed.iter().filter(|note| self.concerns(note)).cloned().collect();
-        if !assumed {
+        if scatters {
             law.notes.push(
-                "no intervals: a single value of a sheet has no scatter, and curves of repeats give it"
+                "intervals: 1.96 standard errors, by the standard deviations that the sheet states"
+                    .into(),
+            );
+        } else if !assumed {
+            law.notes.push(
+                "no intervals: a value alone has no scatter; state it, as in B = \"0.118 ± 0.006\", \
+                 or give curves of repeats"
                     .into(),
             );
         }

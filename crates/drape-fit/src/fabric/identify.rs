@@ -6,9 +6,9 @@ use drape_fabric::{self as fabric, Fabric, Provenance, SURFACE_FRICTION};
 use drape_kes::{BendingValues, Direction, Sheet, SheetValue};
 
 use crate::error::Error;
-use crate::fabric::keys::standard_errors;
 use crate::fabric::laws::SheetLaws;
 use crate::fabric::measured_range::measured_range;
+use crate::fabric::{keys, scatter};
 use crate::regression::curve_fit::CurveFit;
 use crate::settings::Settings;
 use crate::values::assumed;
@@ -112,6 +112,16 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         notes.push(format!("shear beyond {degrees:.1}°: not measured, jamming before 60° taken"));
     }
     let fits = laws.into_fits();
+    let mut standard_errors = keys::standard_errors(&fits);
+    let identified = |sheet: &Sheet| identify_with(sheet, settings).ok().map(|fit| fit.fabric);
+    match scatter::standard_errors(sheet, &keys::laws(&fits), identified) {
+        Some(of_values) => standard_errors.extend(of_values),
+        None => notes.push(
+            "standard deviations of the values: not used, since values close by give laws of another \
+             form"
+                .into(),
+        ),
+    }
     let fabric = Fabric {
         name: sheet.name.clone(),
         source: sheet.source.trim().to_owned(),
@@ -128,7 +138,7 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
             digest: sheet.digest(),
             fitted_by: concat!("drape-fit ", env!("CARGO_PKG_VERSION")).to_owned(),
             assumed: notes.clone(),
-            standard_errors: standard_errors(&fits),
+            standard_errors,
             unused: unused(sheet),
             measured_range: measured_range(sheet),
         }),

@@ -29,6 +29,11 @@ pub(crate) fn standard_errors(fits: &[CurveFit]) -> BTreeMap<String, f64> {
     errors
 }
 
+/// Returns the key paths of the laws that curves give.
+pub(crate) fn laws(fits: &[CurveFit]) -> BTreeSet<String> {
+    fits.iter().map(law).collect()
+}
+
 /// Returns the key path of the law that a curve gives.
 fn law(fit: &CurveFit) -> String {
     let direction = fit.direction.name();

@@ -7,6 +7,7 @@ use drape_input::closest;
 use toml::de::{DeTable, DeValue};
 
 use crate::sheets::findings::Findings;
+use crate::sheets::scatter;
 use crate::sheets::spelling::{self, KEYS};
 use crate::tables::layout::{Column, Take};
 use crate::test::Direction;
@@ -28,6 +29,8 @@ pub(crate) struct Measured {
     pub(crate) si: f64,
     /// Value in the laboratory's unit.
     pub(crate) laboratory: f64,
+    /// Standard deviation that is stated with it, in SI.
+    pub(crate) deviation: Option<f64>,
     /// Number as written, whatever its unit.
     pub(crate) number: f64,
     /// Text as written.
@@ -345,14 +348,24 @@ impl<'t> Section<'t> {
         let own = quantity.laboratory();
         let (spelt, value) = self.spelt(key)?;
         let key = spelt;
+        let mut deviation = None;
         let (number, unit, written) = match value {
-            DeValue::String(text) => match parse_quantity(text, quantity) {
-                Ok(Written { number, unit }) => (number, unit, text.to_string()),
-                Err(error) => {
-                    findings.error(&self.key(key), error.message, error.help);
-                    return None;
+            DeValue::String(text) => {
+                let parsed = match scatter::parse(text, quantity) {
+                    None => parse_quantity(text, quantity),
+                    Some(parted) => parted.map(|parted| {
+                        deviation = Some(parted.deviation);
+                        parted.value
+                    }),
+                };
+                match parsed {
+                    Ok(Written { number, unit }) => (number, unit, text.to_string()),
+                    Err(error) => {
+                        findings.error(&self.key(key), error.message, error.help);
+                        return None;
+                    }
                 }
-            },
+            }
             value => {
                 let Some(number) = bare_number(value) else {
                     self.wrong_kind(key, "a number, or text with a number and its unit", findings);
@@ -366,9 +379,19 @@ impl<'t> Section<'t> {
             findings.error(&self.key(key), format!("{written} is not a finite number"), help);
             return None;
         }
+        if let Some(stated) = deviation.filter(|stated| !(stated.is_finite() && *stated >= 0.0)) {
+            let message =
+                format!("{written}: a standard deviation of {stated} is not zero or more");
+            findings.error(
+                &self.key(key),
+                message,
+                "write the value, ± and its standard deviation",
+            );
+            return None;
+        }
         let si = number * unit.factor;
         let laboratory = if unit == own { number } else { si / own.factor };
-        Some(Measured { si, laboratory, number, written, key: self.key(key) })
+        Some(Measured { si, laboratory, deviation, number, written, key: self.key(key) })
     }
 
     /// Returns a table inside this one, if the key is there.

@@ -9,6 +9,7 @@ use crate::curves::curve::Curve;
 use crate::error::Error;
 use crate::sheets::findings::Findings;
 use crate::sheets::model::Model;
+use crate::sheets::scatter::Scatter;
 use crate::sheets::section::{Choice, Measured, Section};
 use crate::sheets::value_keys::{DirectedValues, WholeValues};
 use crate::sheets::{curve_file, plausible};
@@ -80,6 +81,8 @@ pub struct Sheet {
     pub weft: Values,
     /// Symbols of the values that stand for both directions with one number.
     pub shared: Vec<&'static str>,
+    /// Standard deviations of the values, where the sheet states them.
+    pub scatter: Vec<Scatter>,
     /// Measured curves, in SI.
     pub curves: Vec<Curve>,
     warnings: Vec<Diagnostic>,
@@ -125,7 +128,7 @@ impl Sheet {
         if let Some(w) = &whole.w {
             plausible::density(w, findings);
         }
-        let DirectedValues { warp, weft, shared } =
+        let DirectedValues { warp, weft, shared, scatter } =
             DirectedValues::read(root, whole.w.as_ref(), findings);
         let curves = root
             .sections("curve", findings)
@@ -155,6 +158,7 @@ impl Sheet {
             warp,
             weft,
             shared,
+            scatter,
             curves,
             warnings: Vec::new(),
             readings: Vec::new(),
@@ -227,6 +231,10 @@ impl Sheet {
             value
                 .into_iter()
                 .for_each(|value| [index as f64, value].into_iter().for_each(&mut number));
+        }
+        for stated in &self.scatter {
+            let kinds = [stated.direction as u8, stated.symbol as u8].map(f64::from);
+            kinds.into_iter().chain([stated.deviation]).for_each(&mut number);
         }
         for repeat in self.curves.iter().flat_map(Curve::repeats) {
             let points = repeat.deformation().iter().chain(repeat.load());

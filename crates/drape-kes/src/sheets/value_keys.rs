@@ -2,8 +2,10 @@
 
 use crate::sheets::findings::Findings;
 use crate::sheets::plausible;
+use crate::sheets::scatter::{self, Scatter};
 use crate::sheets::section::{Measured, Section};
 use crate::sheets::spelling::KEYS;
+use crate::symbol::Symbol;
 use crate::test::Direction;
 use crate::values::Values;
 use drape_input::Quantity;
@@ -32,6 +34,9 @@ impl WholeValues {
         let wc = positive(root, "WC", Quantity::WorkPerArea, findings);
         let rc = percentage(root, "RC", findings);
         let fm = positive(root, "FM", Quantity::ForcePerWidth, findings);
+        for value in [&w, &t, &t0, &tm, &wc, &rc, &fm].into_iter().flatten() {
+            tell_unused_scatter(value, findings);
+        }
         Self { w, t, t0, tm, lc, wc, rc, fm }
     }
 }
@@ -42,6 +47,7 @@ pub(crate) struct DirectedValues {
     pub(crate) warp: Values,
     pub(crate) weft: Values,
     pub(crate) shared: Vec<&'static str>,
+    pub(crate) scatter: Vec<Scatter>,
 }
 
 impl DirectedValues {
@@ -72,6 +78,7 @@ impl DirectedValues {
                 mean: mean.as_ref(),
                 direction,
                 shared: &mut shared,
+                scatter: &mut read.scatter,
             };
             let values = values(&mut source, w, findings);
             match direction {
@@ -93,9 +100,25 @@ struct Source<'a, 't> {
     mean: Option<&'a Section<'t>>,
     direction: Direction,
     shared: &'a mut Vec<&'static str>,
+    scatter: &'a mut Vec<Scatter>,
 }
 
 impl<'t> Source<'_, 't> {
+    /// Reads a value that the laws come from, and keeps the standard deviation stated with it.
+    fn read(
+        &mut self,
+        symbol: Symbol,
+        read: impl FnOnce(&Section<'t>) -> Option<Measured>,
+    ) -> Option<Measured> {
+        let value = read(&self.find(symbol.name())?)?;
+        self.scatter.extend(value.deviation.map(|deviation| Scatter {
+            direction: self.direction,
+            symbol,
+            deviation: deviation / symbol.factor(),
+        }));
+        Some(value)
+    }
+
     /// Returns the table in which a value stands, and the key that it has there.
     fn find(&mut self, key: &'static str) -> Option<Section<'t>> {
         if let Some(own) = self.own.filter(|own| own.has_value(key, None)) {
@@ -120,31 +143,58 @@ fn values(
 ) -> Values {
     let laboratory = |value: Option<Measured>| value.map(|value| value.laboratory);
     let direction = source.direction;
-    let b = source.find("B").and_then(|section| {
+    let b = source.read(Symbol::B, |section| {
         let b = section.measured("B", Quantity::BendingRigidity, findings)?;
         Some(b).filter(|b| plausible::bending_rigidity(b, findings))
     });
     if let Some(b) = &b {
         plausible::bending(direction, b, w, findings);
     }
-    let mut at_least_zero = |key: &'static str, quantity| {
-        laboratory(source.find(key).and_then(|s| zero_or_more(&s, key, quantity, findings)))
+    let mut at_least_zero = |symbol: Symbol, quantity| {
+        let read = |s: &Section<'_>| zero_or_more(s, symbol.name(), quantity, findings);
+        laboratory(source.read(symbol, read))
     };
-    let two_hb = at_least_zero("2HB", Quantity::MomentPerWidth);
-    let two_hg = at_least_zero("2HG", Quantity::ForcePerWidth);
-    let two_hg5 = at_least_zero("2HG5", Quantity::ForcePerWidth);
-    let mut above_zero = |key: &'static str, quantity| {
-        laboratory(source.find(key).and_then(|s| positive(&s, key, quantity, findings)))
+    let two_hb = at_least_zero(Symbol::TwoHb, Quantity::MomentPerWidth);
+    let two_hg = at_least_zero(Symbol::TwoHg, Quantity::ForcePerWidth);
+    let two_hg5 = at_least_zero(Symbol::TwoHg5, Quantity::ForcePerWidth);
+    let mut above_zero = |symbol: Symbol, quantity| {
+        let read = |s: &Section<'_>| positive(s, symbol.name(), quantity, findings);
+        laboratory(source.read(symbol, read))
     };
-    let g = above_zero("G", Quantity::ShearStiffness);
-    let wt = above_zero("WT", Quantity::WorkPerArea);
-    let em = above_zero("EM", Quantity::Ratio);
-    let smd = above_zero("SMD", Quantity::Roughness);
-    let lt = source.find("LT").and_then(|section| LT.read(&section, findings));
-    let rt = laboratory(source.find("RT").and_then(|s| percentage(&s, "RT", findings)));
+    let g = above_zero(Symbol::G, Quantity::ShearStiffness);
+    let wt = above_zero(Symbol::Wt, Quantity::WorkPerArea);
+    let em = above_zero(Symbol::Em, Quantity::Ratio);
+    let lt = source.read(Symbol::Lt, |section| LT.measured(section, findings));
+    let rt = laboratory(source.read(Symbol::Rt, |s| percentage(s, "RT", findings)));
+    let smd = source.find("SMD").and_then(|s| positive(&s, "SMD", Quantity::Roughness, findings));
+    if let Some(smd) = &smd {
+        tell_unused_scatter(smd, findings);
+    }
     let miu = source.find("MIU").and_then(|section| MIU.read(&section, findings));
     let mmd = source.find("MMD").and_then(|section| MMD.read(&section, findings));
-    Values { b: laboratory(b), two_hb, g, two_hg, two_hg5, lt, wt, rt, em, miu, mmd, smd }
+    Values {
+        b: laboratory(b),
+        two_hb,
+        g,
+        two_hg,
+        two_hg5,
+        lt: lt.map(|lt| lt.si),
+        wt,
+        rt,
+        em,
+        miu,
+        mmd,
+        smd: laboratory(smd),
+    }
+}
+
+/// Tells that the standard deviation of a value has no use.
+fn tell_unused_scatter(value: &Measured, findings: &mut Findings<'_>) {
+    if value.deviation.is_some() {
+        let message = format!("{}: the standard deviation is not used", value.written);
+        let help = "those of B, 2HB, G, 2HG, 2HG5, LT, WT, RT and EM give intervals";
+        findings.warn(&value.key, message, help);
+    }
 }
 
 /// Value that is a ratio and not a percentage: a bare number is a ratio.
@@ -181,13 +231,24 @@ const MMD: Ratio = Ratio {
 };
 
 impl Ratio {
+    /// Reads the ratio, of which nothing but the number is used.
     fn read(&self, section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
+        let value = self.measured(section, findings)?;
+        tell_unused_scatter(&value, findings);
+        Some(value.si)
+    }
+
+    fn measured(&self, section: &Section<'_>, findings: &mut Findings<'_>) -> Option<Measured> {
         let Self { key, limit, help } = *self;
-        let value = positive(section, key, Quantity::Ratio, findings)?;
+        let mut value = positive(section, key, Quantity::Ratio, findings)?;
         // A bare number was parsed as a percentage, the laboratory's unit of every other ratio.
-        let ratio = if value.written.parse::<f64>().is_ok() { value.number } else { value.si };
-        if ratio < limit {
-            return Some(ratio);
+        if scatter::is_bare(&value.written) {
+            let percent = Quantity::Ratio.laboratory().factor;
+            value.si = value.number;
+            value.deviation = value.deviation.map(|deviation| deviation / percent);
+        }
+        if value.si < limit {
+            return Some(value);
         }
         findings.error(&value.key, format!("{} is not between 0 and {limit}", value.written), help);
         None

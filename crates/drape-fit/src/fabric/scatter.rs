@@ -1,0 +1,134 @@
+//! Standard errors of laws that come from values, by the standard deviations of the values.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use drape_fabric::{
+    BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone, YarnLaws,
+};
+use drape_kes::{Direction, Scatter, Sheet};
+
+/// Step by which a value is changed for a derivative, as a share of the value: above the tolerance to
+/// which laws meet their values, and small against what bends a law.
+const STEP: f64 = 0.01;
+
+/// Returns the standard errors of the numbers of a fabric by their key paths, where they come from
+/// values with a stated standard deviation.
+///
+/// ```text
+/// s(p)² = Σ (∂p/∂v · s(v))²
+/// ```
+///
+/// over the values `v`, taken as independent of each other; derivatives are central differences. Laws
+/// that a curve gives are left out. `None` where a value close by has no law, or one of another form.
+pub(crate) fn standard_errors(
+    sheet: &Sheet,
+    of_curves: &BTreeSet<String>,
+    identified: impl Fn(&Sheet) -> Option<Fabric>,
+) -> Option<BTreeMap<String, f64>> {
+    let mut squares: BTreeMap<String, f64> = BTreeMap::new();
+    let mut values = sheet.clone();
+    (values.curves, values.scatter) = (Vec::new(), Vec::new());
+    for stated in independent(sheet) {
+        for (key, effect) in effects(&values, stated, &identified)? {
+            *squares.entry(key).or_default() += effect * effect;
+        }
+    }
+    let is_of_curve = |key: &String| of_curves.iter().any(|law| key.starts_with(law));
+    let errors = squares.into_iter().filter(|(key, square)| *square > 0.0 && !is_of_curve(key));
+    Some(errors.map(|(key, square)| (key, square.sqrt())).collect())
+}
+
+/// Returns the stated deviations, one for a value that stands for both directions.
+fn independent(sheet: &Sheet) -> impl Iterator<Item = &Scatter> {
+    let is_shared = |stated: &Scatter| sheet.shared.contains(&stated.symbol.name());
+    sheet.scatter.iter().filter(move |s| !is_shared(s) || s.direction == Direction::Warp)
+}
+
+/// Returns by how much each number of the fabric changes with one standard deviation of a value;
+/// `None` where there is no law for the changed value.
+fn effects(
+    values: &Sheet,
+    stated: &Scatter,
+    identified: impl Fn(&Sheet) -> Option<Fabric>,
+) -> Option<Vec<(String, f64)>> {
+    let Scatter { direction, symbol, deviation } = *stated;
+    let is_shared = values.shared.contains(&symbol.name());
+    let value = values.values(direction).get(symbol)?;
+    let step = STEP * value.abs();
+    if step == 0.0 {
+        return None;
+    }
+    let changed = |by: f64| {
+        let mut sheet = values.clone();
+        let Sheet { warp, weft, .. } = &mut sheet;
+        for (own, values) in [(Direction::Warp, warp), (Direction::Weft, weft)] {
+            if own == direction || is_shared {
+                *values.get_mut(symbol) = Some(value + by);
+            }
+        }
+        identified(&sheet).map(|fabric| numbers(&fabric))
+    };
+    let (above, below) = (changed(step)?, changed(-step)?);
+    let pairs = above.into_iter().zip(below);
+    let effect = |((key, above), (other, below)): ((String, f64), (String, f64))| {
+        (key == other).then_some((key, deviation * (above - below) / (2.0 * step)))
+    };
+    pairs.map(effect).collect()
+}
+
+/// Returns the numbers of the laws by their key paths.
+fn numbers(fabric: &Fabric) -> Vec<(String, f64)> {
+    let mut numbers = Vec::new();
+    for (direction, laws) in [(Direction::Warp, &fabric.warp), (Direction::Weft, &fabric.weft)] {
+        of_yarns(laws).into_iter().for_each(|(key, number)| {
+            numbers.push((format!("{}.{key}", direction.name()), number));
+        });
+    }
+    let backbone = match fabric.shear.backbone {
+        ShearBackbone::Linear { stiffness } => vec![("stiffness".to_owned(), stiffness)],
+        ShearBackbone::Piecewise(law) => piecewise(&law),
+    };
+    let growth = ("growth".to_owned(), fabric.shear.growth);
+    let shear = backbone.into_iter().chain([growth]).chain(friction(&fabric.shear.friction));
+    numbers.extend(shear.map(|(key, number)| (format!("shear.{key}"), number)));
+    numbers
+}
+
+fn of_yarns(laws: &YarnLaws) -> Vec<(String, f64)> {
+    let traction = match laws.traction.backbone {
+        TractionBackbone::Primed(law) => vec![
+            ("primed.stiffness".to_owned(), law.stiffness),
+            ("primed.toe_ratio".to_owned(), law.toe_ratio),
+            ("primed.toe_strain".to_owned(), law.toe_strain),
+        ],
+        TractionBackbone::Polynomial(law) => vec![
+            ("polynomial.quadratic".to_owned(), law.quadratic),
+            ("polynomial.quartic".to_owned(), law.quartic),
+        ],
+    };
+    let bending = match laws.bending.backbone {
+        BendingBackbone::Linear { rigidity } => vec![("rigidity".to_owned(), rigidity)],
+        BendingBackbone::Piecewise(law) => piecewise(&law),
+    };
+    let traction = traction.into_iter().chain(friction(&laws.traction.friction));
+    let bending = bending.into_iter().chain(friction(&laws.bending.friction));
+    let named = |law: &'static str| move |(key, number)| (format!("{law}.{key}"), number);
+    traction.map(named("traction")).chain(bending.map(named("bending"))).collect()
+}
+
+fn piecewise(law: &Piecewise) -> Vec<(String, f64)> {
+    vec![
+        ("piecewise.slope".to_owned(), law.slope),
+        ("piecewise.intercept".to_owned(), law.intercept),
+        ("piecewise.knot".to_owned(), law.knot),
+    ]
+}
+
+fn friction(friction: &BlimanSorine) -> impl Iterator<Item = (String, f64)> {
+    friction.elements.iter().enumerate().flat_map(|(index, element)| {
+        [
+            (format!("friction[{index}].plateau"), element.plateau),
+            (format!("friction[{index}].length"), element.length),
+        ]
+    })
+}

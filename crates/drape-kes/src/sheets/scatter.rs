@@ -1,0 +1,109 @@
+//! Standard deviations that a sheet states behind its values: `"0.118 ± 0.006"`.
+
+use crate::symbol::Symbol;
+use crate::test::Direction;
+use drape_input::{Quantity, UnitError, Written, parse_quantity};
+
+/// Standard deviation of a value, as the sheet states it.
+///
+/// ```
+/// use drape_input::Document;
+/// use drape_kes::{Direction, Sheet};
+///
+/// let text = "name = \"poplin\"\n[warp]\nB = \"0.118 ± 0.006\"\n";
+/// let sheet = Sheet::from_document(&Document::new("sheet.toml", text))?;
+/// assert_eq!(sheet.warp.b, Some(0.118));
+/// assert_eq!((sheet.scatter[0].direction, sheet.scatter[0].deviation), (Direction::Warp, 0.006));
+/// # Ok::<(), drape_kes::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scatter {
+    /// Direction of the value.
+    pub direction: Direction,
+    /// Symbol of the value.
+    pub symbol: Symbol,
+    /// Standard deviation, in the laboratory's unit.
+    pub deviation: f64,
+}
+
+/// Signs between a value and its standard deviation.
+const SIGNS: [&str; 3] = ["±", "+/-", "+-"];
+
+/// Value and standard deviation of a text.
+pub(crate) struct Parted {
+    pub(crate) value: Written,
+    /// Standard deviation, in SI.
+    pub(crate) deviation: f64,
+}
+
+/// Parses a value with its standard deviation; `None` for a text without one.
+///
+/// ```text
+/// 0.118 ± 0.006    0.118 ± 0.006 gf.cm2/cm    (0.118 ± 0.006) gf.cm2/cm    1.2e-5 N.m ± 5 %
+/// ```
+pub(crate) fn parse(text: &str, quantity: Quantity) -> Option<Result<Parted, UnitError>> {
+    let (value, deviation) = SIGNS.iter().find_map(|sign| text.split_once(sign))?;
+    Some(parted(value, deviation, quantity))
+}
+
+/// Returns whether a text has numbers and no unit.
+pub(crate) fn is_bare(text: &str) -> bool {
+    let parts = SIGNS.iter().find_map(|sign| text.split_once(sign));
+    let (value, deviation) = parts.unwrap_or((text, "0"));
+    let is_number = |text: &str| text.trim_matches(['(', ')', ' ']).parse::<f64>().is_ok();
+    is_number(value) && is_number(deviation)
+}
+
+fn parted(value: &str, deviation: &str, quantity: Quantity) -> Result<Parted, UnitError> {
+    // One pair of brackets, around both numbers.
+    let value = value.trim().trim_start_matches('(').trim();
+    let deviation = deviation.replacen(')', " ", usize::from(!deviation.contains('(')));
+    let mut value = parse_quantity(value, quantity)?;
+    let share =
+        deviation.trim().strip_suffix('%').and_then(|share| share.trim().parse::<f64>().ok());
+    let deviation = match share.filter(|_| quantity != Quantity::Ratio) {
+        Some(percent) => 0.01 * percent * value.number * value.unit.factor,
+        None => {
+            let deviation = parse_quantity(&deviation, quantity)?;
+            // A unit behind both numbers is the unit of both.
+            if value.unit == quantity.laboratory() {
+                value.unit = deviation.unit;
+            }
+            let own =
+                if deviation.unit == quantity.laboratory() { value.unit } else { deviation.unit };
+            deviation.number * own.factor
+        }
+    };
+    Ok(Parted { value, deviation })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_unit_stands_where_laboratories_write_it() {
+        let b = Quantity::BendingRigidity;
+        let unit = b.laboratory().factor;
+        let cases = [
+            ("0.118 ± 0.006", 0.118 * unit, 0.006 * unit),
+            ("0.118 +/- 0.006 gf.cm2/cm", 0.118 * unit, 0.006 * unit),
+            ("(1.2e-5 ± 3e-7) N.m", 1.2e-5, 3e-7),
+            ("1.2e-5 N.m +- 3e-7 N.m", 1.2e-5, 3e-7),
+            ("1.2e-5 N.m ± 5 %", 1.2e-5, 6e-7),
+        ];
+        for (text, value, deviation) in cases {
+            let parted = parse(text, b).expect("a deviation").expect("it parses");
+            let found = parted.value.number * parted.value.unit.factor;
+            assert!((found / value - 1.0).abs() < 1e-12, "{text}: {found}");
+            assert!((parted.deviation / deviation - 1.0).abs() < 1e-12, "{text}");
+        }
+        let strain =
+            parse("4.5 ± 0.3 %", Quantity::Ratio).expect("a deviation").expect("it parses");
+        assert!((strain.value.number * strain.value.unit.factor - 0.045).abs() < 1e-15);
+        assert!((strain.deviation - 0.003).abs() < 1e-15);
+        assert!(parse("0.118", b).is_none());
+        assert!(is_bare("0.75 ± 0.02") && is_bare("0.75") && !is_bare("75 ± 2 %"));
+        assert!(parse("0.118 ± many", b).is_some_and(|parted| parted.is_err()));
+    }
+}
