@@ -71,7 +71,8 @@ fn section(table: &Table) -> String {
             section
         }
     };
-    section.push_str("\n| key | value, unit | range | default | meaning |\n|---|---|---|---|---|\n");
+    section
+        .push_str("\n| key | value, unit | range | default | meaning |\n|---|---|---|---|---|\n");
     for key in &table.keys {
         section.push_str(&row(key));
     }

@@ -113,7 +113,9 @@ impl<'a> Schema<'a> {
             return Some(opened(dotted, true, item, name));
         }
         let (value, name) = self.followed(&own["additionalProperties"]);
-        value["properties"].is_object().then(|| opened(format!("{dotted}.NAME"), false, value, name))
+        value["properties"]
+            .is_object()
+            .then(|| opened(format!("{dotted}.NAME"), false, value, name))
     }
 
     /// Reads a key of a table.
@@ -187,7 +189,11 @@ impl<'a> Schema<'a> {
     fn range(self, schema: &'a Value) -> String {
         let (own, _) = self.followed(schema);
         if let Some(words) = own["enum"].as_array() {
-            return words.iter().map(|word| format!("`{}`", toml_value(word))).collect::<Vec<_>>().join(", ");
+            return words
+                .iter()
+                .map(|word| format!("`{}`", toml_value(word)))
+                .collect::<Vec<_>>()
+                .join(", ");
         }
         if own["items"].is_object() {
             let count = match (own["minItems"].as_u64(), own["maxItems"].as_u64()) {
@@ -199,12 +205,17 @@ impl<'a> Schema<'a> {
         }
         // A reference may stand beside the limits.
         let limit = |key: &str| schema[key].as_f64().or(own[key].as_f64());
-        let least = limit("minimum").map(|x| ("≥", x)).or(limit("exclusiveMinimum").map(|x| (">", x)));
-        let most = limit("maximum").map(|x| ("≤", x)).or(limit("exclusiveMaximum").map(|x| ("<", x)));
+        let least =
+            limit("minimum").map(|x| ("≥", x)).or(limit("exclusiveMinimum").map(|x| (">", x)));
+        let most =
+            limit("maximum").map(|x| ("≤", x)).or(limit("exclusiveMaximum").map(|x| ("<", x)));
         match (least, most) {
-            (Some(("≥", least)), Some(("≤", most))) => format!("{} to {}", figure(least), figure(most)),
+            (Some(("≥", least)), Some(("≤", most))) => {
+                format!("{} to {}", figure(least), figure(most))
+            }
             (least, most) => {
-                let told = least.into_iter().chain(most).map(|(sign, x)| format!("{sign} {}", figure(x)));
+                let told =
+                    least.into_iter().chain(most).map(|(sign, x)| format!("{sign} {}", figure(x)));
                 told.collect::<Vec<_>>().join(", ")
             }
         }
@@ -255,19 +266,43 @@ fn split_default(description: &str) -> (String, Option<String>) {
 /// Returns the unit that a description states at the end of a sentence or a part of it.
 fn stated_unit(description: &str) -> Option<String> {
     const UNITS: [&str; 22] = [
-        "m", "s", "degrees", "degrees/s", "m/s", "m/s²", "kg/m²", "kg/m³", "N/m", "N/m³", "N·m", "N",
-        "1/m", "mm", "µm", "percent", "mg/cm²", "gf·cm/cm²", "gf/cm", "gf·cm/cm", "gf·cm²/cm",
+        "m",
+        "s",
+        "degrees",
+        "degrees/s",
+        "m/s",
+        "m/s²",
+        "kg/m²",
+        "kg/m³",
+        "N/m",
+        "N/m³",
+        "N·m",
+        "N",
+        "1/m",
+        "mm",
+        "µm",
+        "percent",
+        "mg/cm²",
+        "gf·cm/cm²",
+        "gf/cm",
+        "gf·cm/cm",
+        "gf·cm²/cm",
         "gf/(cm·deg)",
     ];
-    let places = description.match_indices(", in ").map(|(at, found)| &description[at + found.len()..]);
+    let places =
+        description.match_indices(", in ").map(|(at, found)| &description[at + found.len()..]);
     let units = places.filter_map(|rest| {
-        let rest = rest.strip_prefix("the unit of the file per second").map(|_| "unit of the file/s").or_else(
-            || UNITS.into_iter().find(|unit| {
-                rest.strip_prefix(unit).is_some_and(|after| {
-                    after.is_empty() || after.starts_with(['.', ',', ';', ':']) && !after.starts_with(".c")
+        let rest = rest
+            .strip_prefix("the unit of the file per second")
+            .map(|_| "unit of the file/s")
+            .or_else(|| {
+                UNITS.into_iter().find(|unit| {
+                    rest.strip_prefix(unit).is_some_and(|after| {
+                        after.is_empty()
+                            || after.starts_with(['.', ',', ';', ':']) && !after.starts_with(".c")
+                    })
                 })
-            }),
-        );
+            });
         rest.map(str::to_owned)
     });
     units.last()
@@ -275,7 +310,8 @@ fn stated_unit(description: &str) -> Option<String> {
 
 /// Returns what a key is where a file does not have it.
 fn default(table: &Value, name: &str, schema: &Value, missing: Option<String>) -> String {
-    let names = |list: &Value| list.as_array().is_some_and(|list| list.iter().any(|own| own == name));
+    let names =
+        |list: &Value| list.as_array().is_some_and(|list| list.iter().any(|own| own == name));
     if names(&table["required"]) {
         return "**required**".into();
     }
@@ -283,7 +319,11 @@ fn default(table: &Value, name: &str, schema: &Value, missing: Option<String>) -
         return missing;
     }
     let value = &schema["default"];
-    if !value.is_null() && *value != serde_json::json!([]) && *value != serde_json::json!({}) && value != "" {
+    if !value.is_null()
+        && *value != serde_json::json!([])
+        && *value != serde_json::json!({})
+        && value != ""
+    {
         let value = toml_value(value);
         return format!("`{value}`");
     }
