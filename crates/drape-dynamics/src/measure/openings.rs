@@ -1,4 +1,5 @@
-//! Openings of garments, such as a waist or a hem: how wide they are, and how much of that is ease.
+//! Openings of garments, such as a waist or a hem: how wide they are, how much of that is ease, and in
+//! how many folds they hang.
 
 use drape_collide::section::{SectionPlane, convex_hull, encloses, perimeter};
 use drape_collide::{Shape, equivalence_classes};
@@ -6,6 +7,10 @@ use serde_json::{Value, json};
 
 use crate::measure::garment_parts::{FreeEdge, GarmentParts};
 use crate::world::World;
+
+/// Depth within its convex hull from which an opening is in the hollow beside a fold, in m: the
+/// prominence of the nodes of a drapemeter's specimen.
+const HOLLOW: f64 = 3e-3;
 
 /// Closed row of free edges, such as a waist or a hem.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,10 +51,29 @@ pub(crate) fn measures(parts: &GarmentParts, world: &World) -> Value {
             "length": length,
             "relaxed": opening.relaxed,
             "body": girth,
+            "folds": folds(&ring),
             "ease": girth.map(|girth| length - girth),
         }))
     };
     Value::Array(openings(parts, world).iter().filter_map(measure).collect())
+}
+
+/// Number of the folds of a closed curve: of the hollows that part them, along each of which it lies
+/// within its convex hull.
+fn folds(ring: &[[f64; 2]]) -> usize {
+    let hull = convex_hull(ring.to_vec());
+    let depth = |&[x, y]: &[f64; 2]| {
+        let sides = hull.iter().zip(hull.iter().cycle().skip(1));
+        let distances = sides.map(|([ax, ay], [bx, by])| {
+            let (u, v) = (bx - ax, by - ay);
+            // The hull runs anticlockwise: its inside is on the left.
+            (u * (y - ay) - v * (x - ax)) / u.hypot(v)
+        });
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let is_hollow: Vec<bool> = ring.iter().map(|point| depth(point) > HOLLOW).collect();
+    let before = is_hollow.iter().cycle().skip(is_hollow.len().saturating_sub(1));
+    is_hollow.iter().zip(before).filter(|(here, before)| **here && !**before).count()
 }
 
 /// Free edges in closed rows.
@@ -98,4 +122,38 @@ fn openings(parts: &GarmentParts, world: &World) -> Vec<Opening> {
         }
     }
     openings
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    /// Closed curve of 400 points with waves of 20 mm about a radius of 300 mm.
+    fn waves(count: f64, width: f64) -> Vec<[f64; 2]> {
+        let at = |k: usize| {
+            let angle = TAU * k as f64 / 400.0;
+            let radius = 0.3 + 0.02 * (count * angle).cos();
+            [width * radius * angle.cos(), radius * angle.sin()]
+        };
+        (0..400).map(at).collect()
+    }
+
+    #[test]
+    fn waves_are_folds_and_an_ellipse_has_none() {
+        let counts =
+            [0.0, 5.0, 12.0].map(|count| [1.0, 1.6].map(|width| folds(&waves(count, width))));
+        assert_eq!(counts, [[0, 0], [5, 5], [12, 12]]);
+    }
+
+    #[test]
+    fn folds_are_the_same_from_any_first_point_and_in_either_direction() {
+        let mut ring = waves(7.0, 1.0);
+        for _ in 0..40 {
+            ring.rotate_left(11);
+            ring.reverse();
+            assert_eq!(folds(&ring), 7);
+        }
+    }
 }
