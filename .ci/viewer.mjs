@@ -63,6 +63,9 @@ async function exercise(page) {
   }
   await changes(page, 'time', () => page.fill('#scrub', '0'));
   await page.shot('first');
+  const plot = page.locator('.energy svg').first();
+  await plot.scrollIntoViewIfNeeded();
+  await changes(page, 'click on the plot of the energy', () => plot.click());
   await page.selectOption('#speed', '5');
   await changes(page, 'play', () => page.click('#play'));
   const box = await page.locator('#canvas').boundingBox();

@@ -233,6 +233,8 @@ impl Simulation {
             positions: self.world.state.positions.clone(),
             bodies: bodies.into_iter().flat_map(|body| body.vertices).flatten().collect(),
             growth_fraction: self.world.contact.growth_fraction(),
+            pressures: None,
+            energy: self.energy(),
         }
     }
 
@@ -389,7 +391,8 @@ impl Simulation {
 
     /// Hands the next frame to the watcher.
     fn emit_frame(&mut self, progress: &mut dyn Progress) -> Result<(), Error> {
-        progress.frame(&self.frame())?;
+        let pressures = self.pressures();
+        progress.frame(&Frame { pressures, ..self.frame() })?;
         self.frame_times.push(self.time());
         Ok(())
     }
