@@ -135,7 +135,7 @@ fn every_frame_has_its_pressures_and_its_energy() {
     assert!((largest(3) - told).abs() <= told / 2048.0, "{} of {told} Pa", largest(3));
     let energy = recording.energy().expect("reads").expect("the balance is kept");
     assert_eq!(energy.rows.len(), 4);
-    for (name, value) in energy.names.iter().zip(&energy.rows[3]) {
+    for (name, value) in energy.names.iter().zip(energy.rows[3].as_ref().expect("it is kept")) {
         assert_eq!(Some(*value), summary["energy"][name].as_f64(), "{name}");
     }
     // A frame takes 24 bytes for a vertex, and 2 more where something touches.

@@ -286,12 +286,6 @@ impl Simulation {
         self.world.pin_loads(self.stepping.time())
     }
 
-    /// Returns the pressure of contact at each particle, in Pa, where surfaces are kept apart.
-    pub fn pressures(&mut self) -> Option<Vec<f64>> {
-        let positions = self.world.state.positions.clone();
-        at_particles(&mut self.world, &positions)
-    }
-
     /// Returns the balance of the energy since the start, unless the scene does without.
     #[must_use]
     pub fn energy(&self) -> Option<Energy> {
@@ -391,7 +385,8 @@ impl Simulation {
 
     /// Hands the next frame to the watcher.
     fn emit_frame(&mut self, progress: &mut dyn Progress) -> Result<(), Error> {
-        let pressures = self.pressures();
+        let positions = self.world.state.positions.clone();
+        let pressures = at_particles(&mut self.world, &positions);
         progress.frame(&Frame { pressures, ..self.frame() })?;
         self.frame_times.push(self.time());
         Ok(())

@@ -17,9 +17,11 @@ function add(parent, name, attributes) {
 
 // Returns the element of the plot, and a function that shows a frame in it.
 return ({ names, rows }, times, seek) => {
-  const size = Math.max(...rows.flat().map(Math.abs));
+  // The balance of a garment begins when it is sewn.
+  const first = rows.findIndex(Boolean);
+  const size = Math.max(...rows.slice(first).flat().map(Math.abs));
   const [scale, unit] = UNITS.find(([own]) => size >= own) ?? UNITS.at(-1);
-  const series = names.map((name, k) => ({ name: name.replaceAll('_', ' '), values: rows.map((row) => row[k] / scale) }))
+  const series = names.map((name, k) => ({ name: name.replaceAll('_', ' '), values: rows.slice(first).map((row) => row[k] / scale) }))
     .filter(({ values }) => Math.max(...values.map(Math.abs)) > SMALL * size / scale);
   const all = series.flatMap(({ values }) => values);
   const low = Math.min(0, ...all), high = Math.max(low + 1e-12, ...all), end = Math.max(times.at(-1) - times[0], 1e-12);
@@ -36,7 +38,7 @@ return ({ names, rows }, times, seek) => {
   const list = document.createElement('ul');
   const cells = series.map(({ name, values }, k) => {
     const colour = COLOURS[k % COLOURS.length];
-    const points = values.map((value, frame) => `${x(times[frame]).toFixed(1)},${y(value).toFixed(1)}`);
+    const points = values.map((value, k) => `${x(times[first + k]).toFixed(1)},${y(value).toFixed(1)}`);
     add(svg, 'polyline', { points: points.join(' '), stroke: colour });
     const line = document.createElement('li');
     const chip = document.createElement('i');
@@ -54,7 +56,7 @@ return ({ names, rows }, times, seek) => {
   figure.append(caption, svg, list);
   const show = (frame) => {
     now.setAttribute('d', `M${x(times[frame])} 0V${HEIGHT}`);
-    series.forEach(({ values }, k) => { cells[k].textContent = values[frame].toPrecision(3); });
+    series.forEach(({ values }, k) => { cells[k].textContent = frame < first ? '' : values[frame - first].toPrecision(3); });
   };
   return { element: figure, show };
 };

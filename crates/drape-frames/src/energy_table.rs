@@ -13,8 +13,8 @@ const OF_FRAME: [&str; 2] = ["number", "time"];
 pub struct EnergyTable {
     /// Names of the entries of the balance.
     pub names: Vec<String>,
-    /// Entries of each frame, in J.
-    pub rows: Vec<Vec<f64>>,
+    /// Entries of each frame, in J; none for frames before the balance begins.
+    pub rows: Vec<Option<Vec<f64>>>,
 }
 
 impl EnergyTable {
@@ -29,21 +29,23 @@ impl EnergyTable {
             let reason = format!("it begins with other columns than {}", OF_FRAME.join(", "));
             return Err(malformed(1, reason));
         };
-        let mut rows = Vec::new();
-        for (number, row) in table.records().take(frames).enumerate() {
-            let line = number + 2;
+        let (mut rows, mut next) = (vec![None; frames], 0);
+        for (index, row) in table.records().enumerate() {
+            let line = index + 2;
             let row = row.map_err(|error| malformed(line, error.to_string()))?;
-            let values: Result<Vec<f64>, _> = row.iter().map(str::parse).collect();
+            let number: usize = row[0]
+                .parse()
+                .map_err(|_| malformed(line, format!("\"{}\" is no number of a frame", &row[0])))?;
+            let values: Result<Vec<f64>, _> = row.iter().skip(1).map(str::parse).collect();
             let values = values.map_err(|error| malformed(line, error.to_string()))?;
-            if values[0] != number as f64 || !values.iter().all(|value| value.is_finite()) {
-                let reason = format!("it is no row of finite numbers of frame {number}");
-                return Err(malformed(line, reason));
+            if number < next || !values.iter().all(|value| value.is_finite()) {
+                let reason = "it is no row of finite numbers of a later frame than the row before";
+                return Err(malformed(line, reason.to_owned()));
             }
-            rows.push(values[OF_FRAME.len()..].to_vec());
-        }
-        if rows.len() < frames {
-            let reason = format!("{frames} frames are there, and it has {} of them", rows.len());
-            return Err(malformed(rows.len() + 1, reason));
+            next = number + 1;
+            if let Some(own) = rows.get_mut(number) {
+                *own = Some(values[1..].to_vec());
+            }
         }
         Ok(EnergyTable { names: own.to_vec(), rows })
     }

@@ -47,7 +47,6 @@ fn new() -> Files {
     vec![
         ("surfaces.json", manifest(2).into()),
         ("frames.csv", b"number,time,growth,bodies,touched\n0,0.5,1.0,0,1\n".to_vec()),
-        ("energy.csv", ENERGY.into()),
         ("pressure-00000.npy", array(3, &[0.0, 4.5, 0.0].map(f16::from_f64))),
         ("material.npy", array(3, &[0.0, 0.0, 0.0, 1.0, 1.0, 0.0])),
         ("triangles.npy", array(1, &corners)),
@@ -93,7 +92,7 @@ fn a_file_cut_at_any_byte_is_an_error_that_names_it() {
             for end in 0..content.len() {
                 write(folder.path(), name, &content[..end]);
                 let error = read(folder.path()).unwrap_err().to_string();
-                // The lists of frames may end after any line; then frames are missing.
+                // The list of frames may end after any line; then its frames are missing.
                 let named = error.contains(name) || *name == "frames.csv";
                 assert!(named, "{name} cut at {end}: {error}");
             }
@@ -129,14 +128,18 @@ fn a_changed_byte_is_an_error_or_another_state_and_never_a_panic() {
 #[test]
 fn pressures_and_energy_are_those_of_their_frame() {
     let folder = folder(&new());
+    write(folder.path(), "energy.csv", ENERGY.as_bytes());
     let recording = Recording::open(folder.path()).unwrap();
     assert!(recording.has_pressures());
     assert_eq!(recording.frame(0).unwrap().pressures, Some(vec![0.0, 4.5, 0.0]));
     let EnergyTable { names, rows } = recording.energy().unwrap().unwrap();
     assert_eq!(
         (&names[..], &rows[..]),
-        (&["kinetic", "gravity"].map(str::to_owned)[..], &[vec![0.25, -0.125]][..])
+        (&["kinetic", "gravity"].map(str::to_owned)[..], &[Some(vec![0.25, -0.125])][..])
     );
+    // The balance begins later, and a killed run leaves a row cut.
+    write(folder.path(), "energy.csv", b"number,time,kinetic\n1,0.5,0.25\n2,0.");
+    assert_eq!(recording.energy().unwrap().unwrap().rows, [None]);
     let lists = [
         ("0", Some(vec![0.0; 3]), true, "nothing touches, and no file is needed"),
         ("", None, false, "surfaces are not kept apart"),
@@ -200,8 +203,8 @@ fn arrays_of_another_kind_are_refused_with_what_they_are() {
             array(3, &[0.0, -1.0, 0.0].map(f16::from_f64)),
             "row 1 (from 0) is -1",
         ),
-        ("energy.csv", b"number,time,kinetic\n1,0.5,0.0\n".to_vec(), "line 2: it is no row"),
-        ("energy.csv", b"number,time,kinetic\n".to_vec(), "1 frames are there, and it has 0"),
+        ("energy.csv", b"number,time,kinetic\n0,0.5,inf\n".to_vec(), "line 2: it is no row"),
+        ("energy.csv", b"number,time,kinetic\nx,0.5,0.0\n".to_vec(), "line 2: \"x\" is no number"),
         ("energy.csv", b"time,kinetic\n0.5,0.0\n".to_vec(), "other columns than number, time"),
     ];
     for (name, content, words) in cases {

@@ -16,7 +16,7 @@ use crate::mesh;
 /// the run has them, pressures of contact and the balance of the energy with the names of its entries.
 ///
 /// Lengths are in m, times in s, pressures in Pa, energies in J, y is up. Bodies that do not move have
-/// one frame. A pressure that was not stored is not a number.
+/// one frame. Pressures and energies that were not stored are not a number.
 ///
 /// # Errors
 /// Frames cannot be read, or those of the writer.
@@ -49,8 +49,10 @@ pub fn write_npz(clip: &Clip, to: impl Write + Seek) -> Result<(), Error> {
         })?;
     }
     if let Some(EnergyTable { names, rows }) = clip.recording().energy()? {
-        let own = clip.frames().iter().flat_map(|number| rows[*number].iter().copied());
-        archive.table("energy", &[frames, names.len()], own.collect())?;
+        let unknown = || vec![f64::NAN; names.len()];
+        let row = |number: &usize| rows[*number].clone().unwrap_or_else(unknown);
+        let own = clip.frames().iter().flat_map(row).collect();
+        archive.table("energy", &[frames, names.len()], own)?;
         archive.strings("energies", names.iter().map(|name| &**name))?;
     }
     if manifest.bodies.is_empty() {

@@ -53,8 +53,9 @@ pub fn write_csv(clip: &Clip, to: impl Write) -> Result<(), Error> {
         if with_pressure {
             values.extend(under_pressure(&frame));
         }
-        if let Some(EnergyTable { rows, .. }) = &energy {
-            values.extend(&rows[frame.number]);
+        if let Some(EnergyTable { names, rows }) = &energy {
+            let unknown = || vec![f64::NAN; names.len()];
+            values.extend(rows[frame.number].clone().unwrap_or_else(unknown));
         }
         let cell = |value: f64| if value.is_finite() { value.to_string() } else { String::new() };
         let mut cells = vec![frame.number.to_string()];

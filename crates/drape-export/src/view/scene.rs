@@ -192,7 +192,8 @@ fn meta(
     };
     let last_state = content.body_states.last().copied();
     let body_states = if manifest.bodies.is_empty() { 0 } else { last_state.map_or(0, |s| s + 1) };
-    let energy = run.recording.energy()?.map(|EnergyTable { names, rows }| {
+    let energy = run.recording.energy()?.filter(|own| own.rows.last().is_some_and(Option::is_some));
+    let energy = energy.map(|EnergyTable { names, rows }| {
         json!({ "names": names, "rows": frames.iter().map(|own| &rows[own.number]).collect::<Vec<_>>() })
     });
     let summary = std::fs::read_to_string(run.recording.folder().join("summary.json"));
