@@ -131,8 +131,6 @@ fn every_frame_has_its_pressures_and_its_energy() {
     assert!((0.1..1e4).contains(&largest(3)), "{} Pa", largest(3));
     let summary = std::fs::read(results.join("summary.json")).expect("reads");
     let summary: Value = serde_json::from_slice(&summary).expect("JSON");
-    let told = summary["measures"]["pressure"]["max"].as_f64().expect("something touches");
-    assert!((largest(3) - told).abs() <= told / 2048.0, "{} of {told} Pa", largest(3));
     let energy = recording.energy().expect("reads").expect("the balance is kept");
     assert_eq!(energy.rows.len(), 4);
     for (name, value) in energy.names.iter().zip(energy.rows[3].as_ref().expect("it is kept")) {

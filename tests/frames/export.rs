@@ -134,7 +134,7 @@ fn what_cannot_be_exported_is_refused_with_a_remedy_that_works() {
     refused(&["-o", "a.obj", "--frame", "7"], 3, "its frames are 0 to");
     refused(&["-o", "a.obj", "--fps", "0"], 2, "above 0");
     refused(&["-o", "a.svg", "--map", "colour"], 2, "take one of strain-warp, strain-weft, shear");
-    refused(&["-o", "a.svg", "--map", "pressure"], 2, "what is known is strain-warp");
+    refused(&["-o", "a.svg", "--map", "seam-gap"], 2, "what is known is strain-warp");
     refused(&["-o", "a.svg", "--frames", "0..1"], 2, "name it with --frame");
     export(folder.path(), &["-o", "a.svg", "--frame", "1"]);
     refused(&["-o", "a.glb", "--map", "shear"], 2, "leave it out");

@@ -19,8 +19,9 @@ use crate::mesh;
 use crate::name::{self, xml};
 use crate::scale;
 
-/// Number of bands of colour: more than an eye tells apart beside each other.
-const BANDS: usize = 24;
+/// Number of bands of colour: more than an eye tells apart beside each other, and odd, so that what is
+/// nearly zero has one colour.
+const BANDS: usize = 25;
 
 /// Whole numbers of which the longer side of the sheet has at least so many: the finer they are, the
 /// longer is the file.
@@ -125,6 +126,20 @@ fn anticlockwise([a, b, c]: [u32; 3], points: &[[f64; 2]]) -> [u32; 3] {
     let [p, q, r] = [a, b, c].map(|corner| points[corner as usize]);
     let twice = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     if twice < 0.0 { [a, c, b] } else { [a, b, c] }
+}
+
+/// Returns steps without those of no length, and with one for all that follow each other in one direction.
+fn merged(steps: impl Iterator<Item = [i64; 2]>) -> Vec<[i64; 2]> {
+    let mut merged: Vec<[i64; 2]> = Vec::new();
+    for step in steps.filter(|step| *step != [0, 0]) {
+        match merged.last_mut() {
+            Some([x, y]) if *x * step[1] == *y * step[0] && *x * step[0] + *y * step[1] > 0 => {
+                (*x, *y) = (*x + step[0], *y + step[1]);
+            }
+            _ => merged.push(step),
+        }
+    }
+    merged
 }
 
 /// Page with its measures, in mm.
@@ -239,13 +254,13 @@ impl Page {
         };
         let mut path = String::new();
         for outline in outlines {
-            let mut places: Vec<[i64; 2]> = outline.iter().map(place).collect();
-            places.dedup();
-            let mut before = places[0];
-            let _ = write!(path, "M{} {}l", before[0], before[1]);
-            for [x, y] in places.into_iter().skip(1) {
-                let _ = write!(path, "{} {} ", x - before[0], y - before[1]);
-                before = [x, y];
+            let places: Vec<[i64; 2]> = outline.iter().map(place).collect();
+            let steps =
+                merged(places.windows(2).map(|pair| [0, 1].map(|k| pair[1][k] - pair[0][k])));
+            let Some([x, y]) = places.first().filter(|_| !steps.is_empty()) else { continue };
+            let _ = write!(path, "M{x} {y}l");
+            for [x, y] in steps {
+                let _ = write!(path, "{x} {y} ");
             }
             path.pop();
             path.push('z');
@@ -367,9 +382,8 @@ mod tests {
             .filter_map(|node| node.attribute("d"))
             .collect();
         assert_eq!(bands.len(), BANDS);
-        // Half of the panel is above the middle of the range; its bound is at 200 mm.
-        assert!(bands[BANDS / 2].starts_with("M"), "{}", bands[BANDS / 2]);
-        assert!(bands[BANDS / 2].contains("2000"), "{}", bands[BANDS / 2]);
+        // The range ends at 1 m/s, so that the bound of the sixth band is at 80 mm.
+        assert_eq!(bands[5], "M8000 0l32000 0 0 40000 -32000 0 0 -40000z");
     }
 
     #[test]
