@@ -41,6 +41,12 @@ class Run:
         self.pattern = np.concatenate(
             [self.turned(self.material[own], panel["weft"]) for panel, own in self.panels]
         )
+        # Pressures where the frame has a file of them, in which something touches.
+        at = lambda n: self.folder / f"pressure-{n:05}.npy"
+        none = np.zeros(len(self.material), dtype="<f2")
+        self.pressure = np.stack([np.load(at(n)) if at(n).exists() else none for n in self.numbers])
+        energy = np.genfromtxt(self.folder / "energy.csv", delimiter=",", names=True)
+        self.energy = {name: energy[name][self.numbers] for name in energy.dtype.names[2:]}
         if self.bodies:
             files = [f"bodies-{int(table['bodies'][n]):05}.npy" for n in self.numbers]
             self.body = np.stack([load(file) for file in files])
@@ -227,6 +233,7 @@ def read_vtk(run, export):
     moved = run.cloth[-1] - run.cloth[-2]
     speed = np.linalg.norm(moved, axis=1) / (run.times[-1] - run.times[-2])
     apart("speed in m/s", cloth.point_data["speed (m/s)"], speed, 1e-9)
+    apart("pressure in Pa", cloth.point_data["pressure (Pa)"], run.pressure[-1], 0)
     warp = run.warp_strain(-1)
     apart("strain along the warp in %", cloth.point_data["strain-warp (%)"], warp, 1e-9)
     same("triangles", bool(np.all(cloth.regular_faces == run.triangles)), True)
@@ -243,10 +250,16 @@ def read_numpy(run, export):
     same("triangles", bool(np.all(npz["triangles"] == run.triangles)), True)
     same("names", npz["panels"].tolist(), [part["name"] for part, _ in run.panels])
     same("vertices of panels", np.bincount(npz["panel"]).tolist(), [part["vertices"] for part, _ in run.panels])
+    same("something touches", bool(run.pressure.max() > 0), True)
+    apart("pressure in Pa", npz["pressure"], run.pressure, 0)
+    same("entries of the energy", npz["energies"].tolist(), list(run.energy))
+    apart("energy in J", npz["energy"], np.stack(list(run.energy.values()), axis=1), 0)
     if run.bodies:
         apart("bodies in m", np.broadcast_to(npz["body_positions"], run.body.shape), run.body, 0)
     table = np.genfromtxt(export("csv"), delimiter=",", names=True)
     apart("CSV: lowest in m", table["lowest_m"], run.cloth[:, :, 1].min(axis=1), 0)
+    apart("CSV: largest pressure in Pa", table["largest_pressure_Pa"], run.pressure.max(axis=1), 0)
+    apart("CSV: kinetic energy in J", table["kinetic_J"], run.energy["kinetic"], 0)
     a, b, c = run.cloth[-1][run.triangles].transpose(1, 0, 2)
     area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
     apart("CSV: area in m2", table["area_m2"][-1], area, 1e-12)

@@ -1,6 +1,7 @@
 // Exercises every control of the viewer's pages in a folder, and fails on any message of the console.
 import { chromium } from 'playwright-core';
 import assert from 'node:assert/strict';
+import { statSync } from 'node:fs';
 import path from 'node:path';
 
 const out = path.resolve(process.argv[2]);
@@ -63,6 +64,9 @@ async function exercise(page) {
   }
   await changes(page, 'time', () => page.fill('#scrub', '0'));
   await page.shot('first');
+  const plot = page.locator('.energy svg').first();
+  await plot.scrollIntoViewIfNeeded();
+  await changes(page, 'click on the plot of the energy', () => plot.click());
   await page.selectOption('#speed', '5');
   await changes(page, 'play', () => page.click('#play'));
   const box = await page.locator('#canvas').boundingBox();
@@ -85,25 +89,59 @@ async function exercise(page) {
   }
 }
 
-async function framesPerSecond(page) {
-  return page.evaluate(async () => {
+// Draws for some seconds, while the camera turns or with another frame each time; returns the rate in
+// 1/s, and the time of the page's own script for each in ms, which a faster graphics card leaves as it is.
+async function draws(page, what) {
+  const client = await page.context().newCDPSession(page);
+  await client.send('Profiler.enable');
+  await client.send('Profiler.start');
+  const [count, seconds] = await page.evaluate(async (what) => {
     const { camera } = window.drapeViewer;
-    let frames = 0;
+    const scrub = document.getElementById('scrub');
     const start = performance.now();
+    let count = 0;
     while (performance.now() - start < 3000) {
-      camera.position.x += 0.002;
-      window.dispatchEvent(new Event('resize'));
+      if (what === 'turning') {
+        camera.position.x += 0.002;
+        window.dispatchEvent(new Event('resize'));
+      } else {
+        scrub.value = count % (+scrub.max + 1);
+        scrub.dispatchEvent(new Event('input'));
+      }
       await new Promise(requestAnimationFrame);
-      frames++;
+      count++;
     }
-    return frames / 3;
-  });
+    return [count, (performance.now() - start) / 1000];
+  }, what);
+  const { profile } = await client.send('Profiler.stop');
+  const others = profile.nodes.filter((node) => /^\((idle|program|root)\)$/.test(node.callFrame.functionName));
+  const ids = new Set(others.map((node) => node.id));
+  const script = profile.timeDeltas.reduce((sum, passed, k) => sum + (ids.has(profile.samples[k]) ? 0 : passed), 0);
+  return { rate: count / seconds, script: script / count / 1000 };
+}
+
+async function measure(page, name) {
+  for (const what of ['turning', 'playing']) {
+    const { rate, script } = await draws(page, what);
+    console.log(`${name}, ${what}: ${rate.toFixed(1)} frames per second, drawn by the processor; ${script.toFixed(1)} ms of script each`);
+  }
 }
 
 for (const name of ['sphere', 'both']) {
   const page = await open(name, 1280, 800);
   await exercise(page);
-  console.log(`${name}: ${(await framesPerSecond(page)).toFixed(1)} frames per second while turning, drawn by the processor`);
+  await measure(page, name);
+  assert.deepEqual(page.said, []);
+  await page.close();
+}
+for (const name of ['run-25000', 'run-40000']) {
+  const megabytes = statSync(path.join(out, `${name}.html`)).size / 1e6;
+  console.log(`${name}: ${megabytes.toFixed(1)} MB`);
+  assert.ok(megabytes <= 20, name);
+  const page = await open(name, 1280, 800);
+  assert.equal(await page.evaluate(() => window.drapeViewer.views[0].run.frames.length), 60);
+  await measure(page, name);
+  await page.shot('start');
   assert.deepEqual(page.said, []);
   await page.close();
 }

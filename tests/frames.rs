@@ -9,6 +9,7 @@ use std::process::Output;
 
 use assert_cmd::Command;
 use drape::collide::{ContactDistances, Surface, SurfaceParts, intersections};
+use drape::frames::{Frame, Recording};
 use drape::verify::Verifier;
 use serde_json::Value;
 use tempfile::TempDir;
@@ -115,6 +116,37 @@ fn frames_of_a_run_pass_with_the_bodies_where_they_were() {
     // With the table of the last frame, the first frame has an intersection.
     std::fs::copy(stored(3), stored(0)).expect("copies");
     assert_eq!(check(folder.path()).0, Some(4));
+}
+
+#[test]
+fn every_frame_has_its_pressures_and_its_energy() {
+    let folder = results();
+    let results = folder.path().join("results");
+    let recording = Recording::open(&results).expect("a run");
+    let frames: Vec<Frame> =
+        (0..recording.frames()).map(|number| recording.frame(number).expect("reads")).collect();
+    let pressures = |number: usize| frames[number].pressures.as_ref().expect("they are kept apart");
+    let largest = |number: usize| pressures(number).iter().copied().fold(0.0, f64::max);
+    // Sheets of a tenth of a kilogram per square metre press by a few pascals where they lie.
+    assert!((0.1..1e4).contains(&largest(3)), "{} Pa", largest(3));
+    let summary = std::fs::read(results.join("summary.json")).expect("reads");
+    let summary: Value = serde_json::from_slice(&summary).expect("JSON");
+    let energy = recording.energy().expect("reads").expect("the balance is kept");
+    assert_eq!(energy.rows.len(), 4);
+    for (name, value) in energy.names.iter().zip(energy.rows[3].as_ref().expect("it is kept")) {
+        assert_eq!(Some(*value), summary["energy"][name].as_f64(), "{name}");
+    }
+    // A frame takes 24 bytes for a vertex, and 2 more where something touches.
+    for (number, frame) in frames.iter().enumerate() {
+        let length = |kind: &str| {
+            let file = results.join(format!("{kind}-{number:05}.npy"));
+            std::fs::metadata(file).map_or(0, |found| found.len() as usize)
+        };
+        let count = frame.cloth.len();
+        assert_eq!(length("frame"), HEADER + 24 * count);
+        let touched = pressures(number).iter().any(|pressure| *pressure > 0.0);
+        assert_eq!(length("pressure"), if touched { HEADER + 2 * count } else { 0 });
+    }
 }
 
 #[test]

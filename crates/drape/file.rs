@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 
@@ -38,6 +38,16 @@ where
         let _ = std::fs::remove_file(&temporary);
     }
     written
+}
+
+/// Removes the files of a numbered sequence that are there, up to the first that is not.
+pub(crate) fn remove_following(paths: impl IntoIterator<Item = PathBuf>) -> Result<(), Failure> {
+    for path in paths.into_iter().take_while(|path| path.is_file()) {
+        std::fs::remove_file(&path).map_err(|error| {
+            Failure::Output(format!("cannot remove {}: {error}", path.display()))
+        })?;
+    }
+    Ok(())
 }
 
 /// Refuses to replace a file that is there already, unless that is allowed, with a remedy.

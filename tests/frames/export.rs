@@ -57,7 +57,7 @@ fn files(folder: &Path) -> Vec<String> {
 #[test]
 fn every_format_has_its_files() {
     let folder = run();
-    let rows: [(&[&str], &[&str]); 10] = [
+    let rows: [(&[&str], &[&str]); 11] = [
         (&["-o", "1/a.obj"], &["a.obj"]),
         (&["-o", "2/a.obj", "--frames", "1.."], &["a-00001.obj", "a-00002.obj", "a-00003.obj"]),
         (&["-o", "3/a.glb"], &["a.glb"]),
@@ -68,6 +68,7 @@ fn every_format_has_its_files() {
         (&["-o", "8/a.pvd"], &["a", "a.pvd"]),
         (&["-o", "9/a", "--format", "npz"], &["a"]),
         (&["-o", "10/a.CSV"], &["a.CSV"]),
+        (&["-o", "11/a.svg", "--map", "shear"], &["a.svg"]),
     ];
     for (number, (arguments, expected)) in (1..).zip(rows) {
         export(folder.path(), arguments);
@@ -79,6 +80,22 @@ fn every_format_has_its_files() {
         std::iter::once("bodies-00000.vtp".to_owned()).chain(cloth).collect();
     let found = files(&folder.path().join("8/a"));
     assert_eq!(found, expected);
+}
+
+#[test]
+fn a_shorter_sequence_leaves_no_file_of_a_longer_one() {
+    let folder = run();
+    for other in ["a-000003.obj", "a-00005.obj", "b-00002.obj", "a-00002.mtl"] {
+        std::fs::create_dir_all(folder.path().join("a")).expect("a folder");
+        std::fs::write(folder.path().join("a").join(other), "another's").expect("writes");
+    }
+    export(folder.path(), &["-o", "a/a.obj", "--frames", "0..3"]);
+    export(folder.path(), &["-o", "a/a.obj", "--frames", "0..1", "--force"]);
+    // What is not the next of the sequence is another's.
+    let others = ["a-00002.mtl", "a-000003.obj", "a-00005.obj", "b-00002.obj"];
+    let mut expected = [&["a-00000.obj", "a-00001.obj"][..], &others].concat();
+    expected.sort_unstable();
+    assert_eq!(files(&folder.path().join("a")), expected);
 }
 
 #[test]
@@ -116,6 +133,11 @@ fn what_cannot_be_exported_is_refused_with_a_remedy_that_works() {
     refused(&["-o", "a.obj", "--frames", "2..1"], 2, "the first is at most the last");
     refused(&["-o", "a.obj", "--frame", "7"], 3, "its frames are 0 to");
     refused(&["-o", "a.obj", "--fps", "0"], 2, "above 0");
+    refused(&["-o", "a.svg", "--map", "colour"], 2, "take one of strain-warp, strain-weft, shear");
+    refused(&["-o", "a.svg", "--map", "seam-gap"], 2, "what is known is strain-warp");
+    refused(&["-o", "a.svg", "--frames", "0..1"], 2, "name it with --frame");
+    export(folder.path(), &["-o", "a.svg", "--frame", "1"]);
+    refused(&["-o", "a.glb", "--map", "shear"], 2, "leave it out");
     refused(&["-o", "garment/a.obj"], 6, "cannot write");
     // Of the rest object too.
     export(folder.path(), &["-o", "a.obj"]);

@@ -233,6 +233,8 @@ impl Simulation {
             positions: self.world.state.positions.clone(),
             bodies: bodies.into_iter().flat_map(|body| body.vertices).flatten().collect(),
             growth_fraction: self.world.contact.growth_fraction(),
+            pressures: None,
+            energy: self.energy(),
         }
     }
 
@@ -282,12 +284,6 @@ impl Simulation {
     /// particles that they hold; those of a pin that has let go are zero.
     pub fn pin_loads(&mut self) -> Vec<PinLoad> {
         self.world.pin_loads(self.stepping.time())
-    }
-
-    /// Returns the pressure of contact at each particle, in Pa, where surfaces are kept apart.
-    pub fn pressures(&mut self) -> Option<Vec<f64>> {
-        let positions = self.world.state.positions.clone();
-        at_particles(&mut self.world, &positions)
     }
 
     /// Returns the balance of the energy since the start, unless the scene does without.
@@ -389,7 +385,9 @@ impl Simulation {
 
     /// Hands the next frame to the watcher.
     fn emit_frame(&mut self, progress: &mut dyn Progress) -> Result<(), Error> {
-        progress.frame(&self.frame())?;
+        let positions = self.world.state.positions.clone();
+        let pressures = at_particles(&mut self.world, &positions);
+        progress.frame(&Frame { pressures, ..self.frame() })?;
         self.frame_times.push(self.time());
         Ok(())
     }

@@ -35,6 +35,14 @@ pub enum Error {
         /// Number of the last frame.
         last: usize,
     },
+    /// There is no such field.
+    #[error("there is no field `{key}`; take one of {known}")]
+    UnknownField {
+        /// Name that was given.
+        key: String,
+        /// Names of the fields.
+        known: String,
+    },
     /// The format has no room for so much.
     #[error("{format} has room for {limit} {what}, and these are {found}; give fewer frames")]
     TooLarge {

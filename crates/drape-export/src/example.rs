@@ -5,6 +5,7 @@ use std::path::Path;
 
 use drape_frames::Frame;
 use npyz::WriterBuilder;
+use npyz::half::f16;
 use serde_json::json;
 use tempfile::TempDir;
 
@@ -37,7 +38,16 @@ pub(crate) fn parts(names: &[&str]) -> Vec<drape_frames::Part> {
 /// Frame of some positions of the cloth.
 pub(crate) fn frame(cloth: &[[f64; 3]]) -> Frame {
     let (cloth, bodies) = (cloth.to_vec(), Vec::new());
-    Frame { number: 0, file: "".into(), time: None, growth: 1.0, cloth, bodies_file: None, bodies }
+    Frame {
+        number: 0,
+        file: "".into(),
+        time: None,
+        growth: 1.0,
+        cloth,
+        bodies_file: None,
+        bodies,
+        pressures: None,
+    }
 }
 
 /// Positions of the cloth at a time, in m.
@@ -46,6 +56,27 @@ pub(crate) fn cloth(time: f64) -> Vec<[f64; 3]> {
     let front = [[0.0, y, 0.0], [0.1, y, 0.0], [0.0, y, 0.2], [0.1, y, 0.2]];
     let back = [[0.0, y, 0.0], [0.0, y - 0.5, 0.0], [0.1, y, 0.0]];
     [&front[..], &back].concat()
+}
+
+/// Pressure of contact at the third vertex in a frame after the first, in Pa.
+fn pressure(number: usize) -> f64 {
+    0.5 + number as f64
+}
+
+/// Folder of a run of one frame with one panel, which lies flat.
+pub(crate) fn folder_of_panel(material: &[[f64; 2]], triangles: &[[u32; 3]]) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let (vertices, count) = (material.len(), triangles.len());
+    let panel = json!({ "name": "sheet", "vertices": vertices, "triangles": count });
+    let manifest = json!({ "format": 2, "guarded": false, "panels": [panel], "bodies": [] });
+    fs::write(at("surfaces.json"), format!("{manifest}\n")).unwrap();
+    fs::write(at("frames.csv"), "number,time,growth,bodies\n0,0.0,1.0,\n").unwrap();
+    array(&at("triangles.npy"), triangles);
+    array(&at("material.npy"), material);
+    let flat: Vec<[f64; 3]> = material.iter().map(|[x, z]| [*x, 0.0, *z]).collect();
+    array(&at("frame-00000.npy"), &flat);
+    folder
 }
 
 /// Folder of a run with frames of some times, in s.
@@ -68,11 +99,21 @@ pub(crate) fn folder(times: &[f64]) -> TempDir {
     let front = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.2], [0.1, 0.2]];
     array(&at("material.npy"), &[&front[..], &[[0.0, 0.0], [0.5, 0.0], [0.0, 0.25]]].concat());
     array(&at("bodies-00000.npy"), &corners);
-    let mut list = "number,time,growth,bodies\n".to_owned();
+    let mut list = "number,time,growth,bodies,touched\n".to_owned();
+    let mut energy = "number,time,kinetic,gravity\n".to_owned();
     for (number, time) in times.iter().enumerate() {
         array(&at(&format!("frame-{number:05}.npy")), &cloth(*time));
-        list += &format!("{number},{time:?},1.0,0\n");
+        let touched = usize::from(number > 0);
+        if touched > 0 {
+            let mut pressures = [[f16::ZERO]; 7];
+            pressures[2] = [f16::from_f64(pressure(number))];
+            array(&at(&format!("pressure-{number:05}.npy")), &pressures);
+        }
+        list += &format!("{number},{time:?},1.0,0,{touched}\n");
+        energy +=
+            &format!("{number},{time:?},{},{}\n", 0.25 * (1 + number) as f64, -pressure(number));
     }
+    fs::write(at("energy.csv"), energy).unwrap();
     fs::write(at("frames.csv"), list).unwrap();
     folder
 }

@@ -4,13 +4,15 @@ mod curvature;
 mod strain;
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use drape_collide::NearestSurface;
-use drape_frames::{Error, Frame, Recording};
+use drape_frames::{Frame, Recording};
 use rayon::prelude::*;
 
 use self::curvature::curvatures;
 use self::strain::{RestTriangle, StrainOf};
+use crate::error::Error;
 use crate::vector::{difference, length};
 
 /// Quantity on the cloth.
@@ -24,7 +26,7 @@ pub enum Field {
     Shear,
     /// Largest size of a principal curvature, in 1/m.
     Curvature,
-    /// Pressure of contact, in Pa; known at the last frame.
+    /// Pressure of contact, in Pa; of older runs known at the last frame alone.
     Pressure,
     /// Distance from the nearest body, in mm; 50 where it is more.
     Distance,
@@ -100,6 +102,17 @@ impl Field {
     }
 }
 
+impl FromStr for Field {
+    type Err = Error;
+
+    fn from_str(key: &str) -> Result<Field, Error> {
+        Field::ALL.into_iter().find(|field| field.key() == key).ok_or_else(|| {
+            let known = Field::ALL.map(Field::key).join(", ");
+            Error::UnknownField { key: key.to_owned(), known }
+        })
+    }
+}
+
 /// Fields of the frames of a recording.
 #[derive(Debug)]
 pub struct Fields<'a> {
@@ -107,17 +120,14 @@ pub struct Fields<'a> {
     triangles: Vec<RestTriangle>,
     /// Area of the triangles around each vertex at rest, in m².
     areas: Vec<f64>,
-    pressure: Option<Vec<f64>>,
     /// Bodies as they were last needed, with their file.
     bodies: Option<(PathBuf, Vec<NearestSurface>)>,
 }
 
 impl<'a> Fields<'a> {
     /// Prepares the fields of a recording.
-    ///
-    /// # Errors
-    /// A file of the run is not as it was written.
-    pub fn new(recording: &'a Recording) -> Result<Fields<'a>, Error> {
+    #[must_use]
+    pub fn new(recording: &'a Recording) -> Fields<'a> {
         let topology = recording.topology();
         let rest = |corners: &[u32; 3]| RestTriangle::new(*corners, &topology.material);
         let triangles: Vec<RestTriangle> = topology.cloth.iter().map(rest).collect();
@@ -125,8 +135,7 @@ impl<'a> Fields<'a> {
         for triangle in &triangles {
             triangle.corners.iter().for_each(|&corner| areas[corner as usize] += triangle.area);
         }
-        let pressure = recording.pressure()?;
-        Ok(Fields { recording, triangles, areas, pressure, bodies: None })
+        Fields { recording, triangles, areas, bodies: None }
     }
 
     /// Returns whether a recording has a field in some frame.
@@ -134,7 +143,7 @@ impl<'a> Fields<'a> {
     pub fn has(&self, field: Field) -> bool {
         let manifest = self.recording.manifest();
         match field {
-            Field::Pressure => self.pressure.is_some(),
+            Field::Pressure => self.recording.has_pressures(),
             Field::Distance => !manifest.bodies.is_empty(),
             Field::SeamGap => !manifest.seam_pairs.is_empty(),
             Field::Speed => self.recording.frames() > 1,
@@ -156,10 +165,7 @@ impl<'a> Fields<'a> {
             Field::StrainWeft => Some(self.strains(frame, StrainOf::Weft)),
             Field::Shear => Some(self.strains(frame, StrainOf::Shear)),
             Field::Curvature => Some(self.curvature(frame)),
-            Field::Pressure => {
-                let is_last = frame.number + 1 == self.recording.frames();
-                self.pressure.clone().filter(|_| is_last)
-            }
+            Field::Pressure => frame.pressures.clone(),
             Field::Distance => self.distances(frame),
             Field::SeamGap => self.has(field).then(|| self.seam_gaps(frame)),
             Field::Speed => self.has(field).then(|| speeds(frame, before)),

@@ -5,6 +5,7 @@ pub(crate) mod mdd;
 pub(crate) mod npz;
 pub(crate) mod obj;
 pub(crate) mod pc2;
+pub(crate) mod svg;
 pub(crate) mod table;
 pub(crate) mod usda;
 pub(crate) mod vtk;

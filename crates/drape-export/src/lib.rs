@@ -5,7 +5,7 @@
 //! A [`Clip`] is what is written: frames of a recording with their times. Each format has a function
 //! that writes a clip, or a frame of it.
 //!
-//! Layers, lowest first: `error`, `name`, `colour`, `vector`; `normal`; `clip` chooses frames; `mesh` divides
+//! Layers, lowest first: `error`, `name`, `colour`, `scale`, `vector`; `normal`; `clip` chooses frames; `mesh` divides
 //! them into panels and bodies; `field` has numbers at their vertices; `format` and `view` write
 //! them.
 
@@ -14,6 +14,7 @@ mod error;
 mod colour;
 mod name;
 mod normal;
+mod scale;
 mod vector;
 
 mod clip;
@@ -34,7 +35,9 @@ pub use format::mdd::write_mdd;
 pub use format::npz::write_npz;
 pub use format::obj::{write_obj, write_rest_obj};
 pub use format::pc2::write_pc2;
+pub use format::svg::{PatternMap, write_svg};
 pub use format::table::write_csv;
 pub use format::usda::write_usda;
 pub use format::vtk::{Listed, PolyData, Surface, write_pvd, write_vtp};
+pub use scale::rounded_up;
 pub use view::{Named, View};

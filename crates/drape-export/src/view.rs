@@ -7,6 +7,7 @@
 mod bits;
 mod measures;
 mod named;
+mod samples;
 mod scene;
 
 use drape_frames::Error;
@@ -16,7 +17,8 @@ use self::scene::Scene;
 
 const PAGE: &str = include_str!("../viewer/viewer.html");
 const STYLE: &str = include_str!("../viewer/viewer.css");
-const SCRIPT: &str = include_str!("../viewer/viewer.js");
+const SCRIPT: &str =
+    concat!(include_str!("../viewer/energy.js"), include_str!("../viewer/viewer.js"));
 const THREE: &str = include_str!("../viewer/three.bundle.js");
 
 /// Page that shows runs.

@@ -5,8 +5,6 @@ const started = performance.now();
 const element = (id) => document.getElementById(id);
 const canvas = element('canvas');
 const LINE_SPACING = 0.05;
-const SEQUENTIAL = [[37, 35, 92], [32, 99, 141], [33, 153, 134], [122, 199, 82], [250, 228, 66]];
-const DIVERGING = [[33, 92, 172], [246, 246, 244], [186, 38, 48]];
 
 // ---- Data.
 
@@ -79,14 +77,19 @@ function scaleTexture(stops) {
   texture.needsUpdate = true;
   return texture;
 }
-const scales = { true: scaleTexture(DIVERGING), false: scaleTexture(SEQUENTIAL) };
+const scales = new Map();
+function scaleOf({ stops }) {
+  const key = JSON.stringify(stops);
+  if (!scales.has(key)) scales.set(key, scaleTexture(stops));
+  return scales.get(key);
+}
 
 // Material of cloth: the colour of a side or of a field, with lines along warp and weft.
 function clothMaterial(front, back) {
   const material = new THREE.MeshStandardMaterial({ side: THREE.DoubleSide, roughness: 0.85 });
   material.userData = {
     front: { value: new THREE.Color(front) }, back: { value: new THREE.Color(back) },
-    scale: { value: scales[false] }, mapped: { value: 0 }, lines: { value: 1 },
+    scale: { value: null }, mapped: { value: 0 }, lines: { value: 1 },
   };
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, material.userData);
@@ -189,7 +192,7 @@ class View {
     for (const mesh of this.clothes) {
       const uniforms = mesh.material.userData;
       uniforms.mapped.value = at ? 1 : 0;
-      if (field) uniforms.scale.value = scales[field.signed];
+      if (field) uniforms.scale.value = scaleOf(field);
       uniforms.lines.value = state.lines ? 1 : 0;
       mesh.material.wireframe = state.edges;
     }
@@ -299,7 +302,7 @@ function showLegend() {
   }));
   const context = element('legend-scale').getContext('2d');
   for (let x = 0; x < 256; x++) {
-    context.fillStyle = `rgb(${scaleColour(field.signed ? DIVERGING : SEQUENTIAL, x / 255)})`;
+    context.fillStyle = `rgb(${scaleColour(field.stops, x / 255)})`;
     context.fillRect(x, 0, 1, 12);
   }
 }
@@ -312,11 +315,18 @@ function showTime(index) {
     let frame = 0;
     view.run.frames.forEach((own, k) => { if (own.time <= at + 1e-12) frame = k; });
     view.show(frame);
+    view.plot?.show(frame);
   }
   element('scrub').value = index;
   element('clock').textContent = `${at.toFixed(3)} s, frame ${views.map((view) => view.run.frames[view.frame].number).join(' | ')}`;
   showLegend();
   needsDraw = true;
+}
+
+// Shows the last instant that is not after a time.
+function seek(time) {
+  play(false);
+  showTime(Math.max(times.findLastIndex((own) => own <= time), 0));
 }
 
 function fit() {
@@ -519,7 +529,14 @@ async function start() {
     if (!seen.has(field.key)) option(element('field'), field.key, `${field.label}, ${field.unit}`);
     seen.add(field.key);
   }
-  for (const run of runs) element('measures').append(table(runs.length > 1 ? run.name : '', run.measures));
+  for (const view of views) {
+    const { name, frames, measures, energy } = view.run;
+    if (energy) {
+      view.plot = energyPlot(energy, frames.map((frame) => frame.time), seek);
+      element('measures').append(view.plot.element);
+    }
+    element('measures').append(table(views.length > 1 ? name : '', measures));
+  }
   controls = new THREE.OrbitControls(camera, canvas);
   controls.enableDamping = true;
   controls.addEventListener('change', () => { needsDraw = true; });

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use npyz::half::f16;
 use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order};
 
 use crate::error::Error;
@@ -109,6 +110,18 @@ impl Expected<'_> {
         let read = read.map_err(|error| self.malformed(error.to_string()))?;
         Ok(read.as_chunks::<N>().0.to_vec())
     }
+
+    /// Returns numbers that are pressures: finite, and not below 0.
+    fn as_pressures(&self, numbers: Vec<f64>) -> Result<Vec<f64>, Error> {
+        let sound = |number: &f64| number.is_finite() && *number >= 0.0;
+        match numbers.iter().position(|number| !sound(number)) {
+            None => Ok(numbers),
+            Some(row) => Err(self.malformed(format!(
+                "row {row} (from 0) is {}, which is no pressure",
+                numbers[row]
+            ))),
+        }
+    }
 }
 
 /// Reads coordinates in m, which are finite.
@@ -130,14 +143,18 @@ pub(crate) fn coordinates<const N: usize>(
     }
 }
 
-/// Reads a number for each vertex, which is finite.
-pub(crate) fn numbers(path: &Path, rows: usize) -> Result<Vec<f64>, Error> {
+/// Reads a pressure in Pa for each vertex, in half precision.
+pub(crate) fn pressures(path: &Path, rows: usize) -> Result<Vec<f64>, Error> {
+    let expected = Expected { path, what: "vertices", rows, number: "<f2" };
+    let all = expected.read::<f16, 1>()?;
+    expected.as_pressures(all.into_iter().flatten().map(f64::from).collect())
+}
+
+/// Reads a pressure in Pa for each vertex, in double precision.
+pub(crate) fn exact_pressures(path: &Path, rows: usize) -> Result<Vec<f64>, Error> {
     let expected = Expected { path, what: "vertices", rows, number: "<f8" };
     let all = expected.read::<f64, 1>()?;
-    match all.iter().position(|[value]| !value.is_finite()) {
-        None => Ok(all.into_iter().flatten().collect()),
-        Some(row) => Err(expected.malformed(format!("row {row} (from 0) is no finite number"))),
-    }
+    expected.as_pressures(all.into_iter().flatten().collect())
 }
 
 /// Reads the corners of triangles, not yet checked against their vertices.

@@ -35,9 +35,17 @@ pub(crate) fn topology(folder: &Path, manifest: &Manifest) -> Result<Topology, E
 
 /// Reads a frame.
 pub(crate) fn read(folder: &Path, manifest: &Manifest, entry: Entry) -> Result<Frame, Error> {
-    let Entry { number, time, growth, bodies } = entry;
+    let Entry { number, time, growth, bodies, touched } = entry;
     let file = folder.join(name(number));
-    let cloth = array::coordinates(&file, "vertices", manifest.cloth_counts().vertices)?;
+    let count = manifest.cloth_counts().vertices;
+    let cloth = array::coordinates(&file, "vertices", count)?;
+    let pressures = match touched {
+        None => None,
+        Some(0) => Some(vec![0.0; count]),
+        Some(_) => {
+            Some(array::pressures(&folder.join(format!("pressure-{number:05}.npy")), count)?)
+        }
+    };
     let vertices = manifest.body_counts().vertices;
     let bodies_file = bodies.map(|number| folder.join(format!("bodies-{number:05}.npy")));
     let bodies = match &bodies_file {
@@ -52,5 +60,5 @@ pub(crate) fn read(folder: &Path, manifest: &Manifest, entry: Entry) -> Result<F
             });
         }
     };
-    Ok(Frame { number, file, time: Some(time), growth, cloth, bodies_file, bodies })
+    Ok(Frame { number, file, time: Some(time), growth, cloth, bodies_file, bodies, pressures })
 }

@@ -19,4 +19,6 @@ pub struct Frame {
     pub bodies_file: Option<PathBuf>,
     /// Positions of the vertices of the bodies, body after body, in m.
     pub bodies: Vec<[f64; 3]>,
+    /// Pressure of contact at each vertex of the cloth, in Pa, where it was stored.
+    pub pressures: Option<Vec<f64>>,
 }

@@ -18,6 +18,9 @@ pub(crate) struct Entry {
     pub(crate) growth: f64,
     /// Number of the frame whose file has the bodies; none without bodies.
     pub(crate) bodies: Option<usize>,
+    /// Number of vertices of the cloth under pressure of contact; none where it was not stored.
+    #[serde(default)]
+    pub(crate) touched: Option<usize>,
 }
 
 /// Reads the lines of `frames.csv` that are complete: a run that is killed leaves its last one cut.
@@ -29,7 +32,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Entry>, Error> {
     for (index, entry) in table.deserialize().enumerate() {
         let line = index + 2;
         let entry: Entry = entry.map_err(|error| malformed(line, error.to_string()))?;
-        let Entry { number, time, growth, bodies } = entry;
+        let Entry { number, time, growth, bodies, .. } = entry;
         if number != index || bodies.is_some_and(|bodies| bodies > number) {
             return Err(malformed(line, "the frames are not numbered one after the other".into()));
         }

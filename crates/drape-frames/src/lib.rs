@@ -5,9 +5,9 @@
 //! [`Recording`] opens a folder and reads a [`Frame`] of it. The [`Manifest`] names the panels and
 //! bodies, the [`Topology`] has their triangles.
 //!
-//! Layers, lowest first: `error`; `text`, `array` and `obj` read files; `manifest`, `topology` and
-//! `index` are what all frames share; `obj_frames` and `array_frames` read a frame of either format;
-//! `recording` ties them to a folder.
+//! Layers, lowest first: `error`; `text`, `array` and `obj` read files; `manifest`, `topology`, `index`
+//! and `energy_table` are what all frames share; `obj_frames` and `array_frames` read a frame of either
+//! format; `recording` ties them to a folder.
 
 mod error;
 
@@ -17,6 +17,7 @@ mod obj;
 mod text;
 
 // What all frames share.
+mod energy_table;
 mod index;
 mod manifest;
 mod topology;
@@ -27,6 +28,7 @@ mod frame;
 mod obj_frames;
 mod recording;
 
+pub use energy_table::EnergyTable;
 pub use error::Error;
 pub use frame::Frame;
 pub use manifest::{Manifest, Part};

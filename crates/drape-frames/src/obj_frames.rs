@@ -109,6 +109,7 @@ impl Stored {
             cloth: cloth.vertices,
             bodies_file: bodies_path,
             bodies: bodies.vertices,
+            pressures: None,
         })
     }
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::energy_table::EnergyTable;
 use crate::error::Error;
 use crate::frame::Frame;
 use crate::index::{self, Entry};
@@ -123,26 +124,44 @@ impl Recording {
             let (folder, last) = (self.folder.clone(), self.frames() - 1);
             return Err(Error::NoFrame { folder, number, last });
         }
-        match &self.frames {
+        let mut frame = match &self.frames {
             Frames::Obj(_) => {
-                obj_frames::read(&self.folder, &self.manifest, &self.topology, number)
+                obj_frames::read(&self.folder, &self.manifest, &self.topology, number)?
             }
             Frames::Arrays(entries) => {
-                array_frames::read(&self.folder, &self.manifest, entries[number])
+                array_frames::read(&self.folder, &self.manifest, entries[number])?
             }
+        };
+        let last = self.last_pressures();
+        if number + 1 == self.frames() && frame.pressures.is_none() && last.exists() {
+            let count = self.manifest.cloth_counts().vertices;
+            frame.pressures = Some(array::exact_pressures(&last, count)?);
         }
+        Ok(frame)
     }
-    /// Reads the pressure of contact at each vertex of the cloth in the last frame, in Pa, where it was
-    /// stored.
+
+    /// Returns whether the pressure of contact was stored for some frame.
+    #[must_use]
+    pub fn has_pressures(&self) -> bool {
+        let of_frames = match &self.frames {
+            Frames::Obj(_) => false,
+            Frames::Arrays(entries) => entries.iter().any(|entry| entry.touched.is_some()),
+        };
+        of_frames || self.last_pressures().exists()
+    }
+
+    /// Reads the energy at each frame, where the run kept its balance.
     ///
     /// # Errors
     /// The file is not as a run writes it.
-    pub fn pressure(&self) -> Result<Option<Vec<f64>>, Error> {
-        let path = self.folder.join("pressure.npy");
-        match path.exists() {
-            true => array::numbers(&path, self.manifest.cloth_counts().vertices).map(Some),
-            false => Ok(None),
-        }
+    pub fn energy(&self) -> Result<Option<EnergyTable>, Error> {
+        let path = self.folder.join("energy.csv");
+        path.exists().then(|| EnergyTable::read(&path, self.frames())).transpose()
+    }
+
+    /// Returns the file in which older runs have the pressures of the last frame.
+    fn last_pressures(&self) -> PathBuf {
+        self.folder.join("pressure.npy")
     }
 }
 

@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
-use drape_frames::{Error, Frame, Recording};
+use drape_frames::{EnergyTable, Error, Frame, Recording};
 use npyz::WriterBuilder;
+use npyz::half::f16;
 use tempfile::TempDir;
 
 const FRAME: &str = "# metres, y up; t = 0.5 s\n# bodies: bodies-00000.obj\nv 0 2e-4 0\nv 0 2e-4 1\n\
                      v 1 2e-4 0\nvt 0 0\nvt 0 1\nvt 1 0\nf 1/1 2/2 3/3\n";
+const ENERGY: &str = "number,time,kinetic,gravity\n0,0.5,0.25,-0.125\n";
 const BODIES: &str = "v 0 0 0\nv 0 0 1\nv 1 0 0\no b\nf 1 2 3\n";
 
 fn manifest(format: u8) -> String {
@@ -44,7 +46,8 @@ fn new() -> Files {
     let corners = [0_u32, 1, 2];
     vec![
         ("surfaces.json", manifest(2).into()),
-        ("frames.csv", b"number,time,growth,bodies\n0,0.5,1.0,0\n".to_vec()),
+        ("frames.csv", b"number,time,growth,bodies,touched\n0,0.5,1.0,0,1\n".to_vec()),
+        ("pressure-00000.npy", array(3, &[0.0, 4.5, 0.0].map(f16::from_f64))),
         ("material.npy", array(3, &[0.0, 0.0, 0.0, 1.0, 1.0, 0.0])),
         ("triangles.npy", array(1, &corners)),
         ("body-triangles.npy", array(1, &corners)),
@@ -63,8 +66,11 @@ fn write(folder: &Path, name: &str, content: &[u8]) {
     std::fs::write(folder.join(name), content).expect("writes");
 }
 
+/// Reads everything that a folder of one frame has.
 fn read(folder: &Path) -> Result<Frame, Error> {
-    Recording::open(folder)?.frame(0)
+    let recording = Recording::open(folder)?;
+    recording.energy()?;
+    recording.frame(0)
 }
 
 #[test]
@@ -120,6 +126,53 @@ fn a_changed_byte_is_an_error_or_another_state_and_never_a_panic() {
 }
 
 #[test]
+fn pressures_and_energy_are_those_of_their_frame() {
+    let folder = folder(&new());
+    write(folder.path(), "energy.csv", ENERGY.as_bytes());
+    let recording = Recording::open(folder.path()).unwrap();
+    assert!(recording.has_pressures());
+    assert_eq!(recording.frame(0).unwrap().pressures, Some(vec![0.0, 4.5, 0.0]));
+    let EnergyTable { names, rows } = recording.energy().unwrap().unwrap();
+    assert_eq!(
+        (&names[..], &rows[..]),
+        (&["kinetic", "gravity"].map(str::to_owned)[..], &[Some(vec![0.25, -0.125])][..])
+    );
+    // The balance begins later, and a killed run leaves a row cut.
+    write(folder.path(), "energy.csv", b"number,time,kinetic\n1,0.5,0.25\n2,0.");
+    assert_eq!(recording.energy().unwrap().unwrap().rows, [None]);
+    let lists = [
+        ("0", Some(vec![0.0; 3]), true, "nothing touches, and no file is needed"),
+        ("", None, false, "surfaces are not kept apart"),
+    ];
+    std::fs::remove_file(folder.path().join("pressure-00000.npy")).unwrap();
+    for (touched, pressures, is_known, case) in lists {
+        let list = format!("number,time,growth,bodies,touched\n0,0.5,1.0,0,{touched}\n");
+        write(folder.path(), "frames.csv", list.as_bytes());
+        let recording = Recording::open(folder.path()).unwrap();
+        assert_eq!(recording.frame(0).unwrap().pressures, pressures, "{case}");
+        assert_eq!(recording.has_pressures(), is_known, "{case}");
+    }
+}
+
+#[test]
+fn a_folder_of_an_older_version_has_the_pressures_of_its_last_frame() {
+    for files in [old(), new()] {
+        let folder = folder(&files);
+        write(folder.path(), "pressure.npy", &array(3, &[0.0, 0.1, 0.0]));
+        if files.iter().any(|(name, _)| *name == "frames.csv") {
+            let list = "number,time,growth,bodies\n0,0.4,1.0,0\n1,0.5,1.0,0\n";
+            write(folder.path(), "frames.csv", list.as_bytes());
+            write(folder.path(), "frame-00001.npy", &array(3, &[0.0; 9]));
+        }
+        let recording = Recording::open(folder.path()).unwrap();
+        let pressures = |number: usize| recording.frame(number).unwrap().pressures;
+        assert!(recording.has_pressures());
+        assert_eq!(pressures(recording.frames() - 1), Some(vec![0.0, 0.1, 0.0]));
+        assert!(recording.frames() == 1 || pressures(0).is_none());
+    }
+}
+
+#[test]
 fn what_a_killed_run_listed_is_read() {
     let folder = folder(&new());
     let list = "number,time,growth,bodies\n0,0.5,1.0,0\n1,0.6,1.";
@@ -135,7 +188,7 @@ fn what_a_killed_run_listed_is_read() {
 
 #[test]
 fn arrays_of_another_kind_are_refused_with_what_they_are() {
-    let cases: [(&str, Vec<u8>, &str); 8] = [
+    let cases: [(&str, Vec<u8>, &str); 13] = [
         ("frame-00000.npy", array(3, &[0.0_f32; 9]), "no table of numbers <f8"),
         ("frame-00000.npy", array(3, &[0.0; 6]), "2 columns, and needs 3"),
         ("frame-00000.npy", array(4, &[0.0; 12]), "4 vertices, and surfaces.json says 3"),
@@ -144,6 +197,15 @@ fn arrays_of_another_kind_are_refused_with_what_they_are() {
         ("triangles.npy", array(1, &[0_u32, 1, 1]), "two are the same"),
         ("triangles.npy", array(1, &[0_u32, 1, 3]), "not all are vertices of its part"),
         ("body-triangles.npy", array(1, &[0_i64, 1, 2]), "no table of numbers <u4"),
+        ("pressure-00000.npy", array(3, &[0.0; 3]), "no table of numbers <f2"),
+        (
+            "pressure-00000.npy",
+            array(3, &[0.0, -1.0, 0.0].map(f16::from_f64)),
+            "row 1 (from 0) is -1",
+        ),
+        ("energy.csv", b"number,time,kinetic\n0,0.5,inf\n".to_vec(), "line 2: it is no row"),
+        ("energy.csv", b"number,time,kinetic\nx,0.5,0.0\n".to_vec(), "line 2: \"x\" is no number"),
+        ("energy.csv", b"time,kinetic\n0.5,0.0\n".to_vec(), "other columns than number, time"),
     ];
     for (name, content, words) in cases {
         let folder = folder(&new());

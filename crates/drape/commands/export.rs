@@ -9,8 +9,9 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use drape::export::{
-    Clip, Field, Fields, GLB_FRAMES_MAX, Listed, PolyData, Surface, write_csv, write_glb,
-    write_mdd, write_npz, write_obj, write_pc2, write_pvd, write_rest_obj, write_usda, write_vtp,
+    Clip, Field, Fields, GLB_FRAMES_MAX, Listed, PatternMap, PolyData, Surface, write_csv,
+    write_glb, write_mdd, write_npz, write_obj, write_pc2, write_pvd, write_rest_obj, write_svg,
+    write_usda, write_vtp,
 };
 use drape::frames::{Frame, Recording};
 
@@ -27,6 +28,13 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let recording = Recording::open(&arguments.run)?;
     let numbers = numbers(arguments, format, recording.frames() - 1);
     let asked = numbers.clone().count();
+    if format != Format::Svg && arguments.map.is_some() {
+        return Err(Failure::Usage("--map: only svg shows a field; leave it out".to_owned()));
+    }
+    if format == Format::Svg && asked != 1 {
+        let reason = "--frames: svg shows one frame; name it with --frame";
+        return Err(Failure::Usage(reason.to_owned()));
+    }
     let clip = Clip::new(&recording, numbers, arguments.fps)?;
     if clip.count() < asked {
         let left_out = asked - clip.count();
@@ -66,6 +74,7 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
         Format::Vtp => files.vtk(&clip, one)?,
         Format::Npz => files.one(|to| write_npz(&clip, to))?,
         Format::Csv => files.one(|to| write_csv(&clip, to))?,
+        Format::Svg => files.pattern_map(&clip, arguments.map.unwrap_or(Field::StrainWarp))?,
     }
     let (count, output) = (clip.count(), arguments.output.display());
     match count {
@@ -89,7 +98,7 @@ fn numbers(arguments: &ExportArguments, format: Format, last: usize) -> RangeInc
     match (arguments.frame, arguments.frames) {
         (Some(number), _) => number..=number,
         (None, Some(range)) => range.numbers(last),
-        (None, None) if format == Format::Obj => last..=last,
+        (None, None) if matches!(format, Format::Obj | Format::Svg) => last..=last,
         (None, None) => 0..=last,
     }
 }
@@ -126,7 +135,26 @@ impl Files<'_> {
         file::write_by(self.output, content)
     }
 
-    /// Writes an OBJ file for each frame, with its number.
+    /// Writes a field of the first frame of a clip on the flat pattern.
+    fn pattern_map(&self, clip: &Clip, field: Field) -> Result<(), Failure> {
+        let recording = clip.recording();
+        let frame = recording.frame(clip.frames()[0])?;
+        let fields = values(&mut Fields::new(recording), recording, &frame)?;
+        let Some((_, values)) = fields.iter().find(|(own, _)| *own == field) else {
+            let known: Vec<&str> = fields.iter().map(|(own, _)| own.key()).collect();
+            return Err(Failure::Usage(format!(
+                "--map {}: it is not known in frame {}; what is known is {}",
+                field.key(),
+                frame.number,
+                known.join(", ")
+            )));
+        };
+        let map = PatternMap { recording, frame: &frame, field, values };
+        self.one(|to| write_svg(&map, to).map_err(drape::export::Error::from))
+    }
+
+    /// Writes an OBJ file for each frame, with its number, and removes those of a longer sequence that
+    /// was there.
     fn sequence(&self, clip: &Clip) -> Result<(), Failure> {
         let first = clip.frames()[0];
         let path = |index: usize| self.beside(&format!("-{:05}.obj", first + index));
@@ -136,6 +164,9 @@ impl Files<'_> {
             let frame = clip.recording().frame(*number)?;
             let write = |to: &mut Writer| write_obj(clip.recording(), &frame, to);
             file::write_by(path, |to| write(to).map_err(drape::export::Error::from))?;
+        }
+        if self.force {
+            file::remove_following((clip.count()..).map(path))?;
         }
         Ok(())
     }
@@ -159,7 +190,7 @@ impl Files<'_> {
     fn vtk(&self, clip: &Clip, one: bool) -> Result<(), Failure> {
         let (recording, has_bodies) =
             (clip.recording(), !clip.recording().manifest().bodies.is_empty());
-        let mut fields = Fields::new(recording)?;
+        let mut fields = Fields::new(recording);
         let mut vtp = |path: &Path, number: usize, surface: Surface| {
             let frame = recording.frame(number)?;
             let fields = match surface {

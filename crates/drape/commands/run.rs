@@ -108,9 +108,6 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
     let summary = simulation.run(&mut progress);
     progress.finish();
     let summary = summary?;
-    if let Some(pressures) = simulation.pressures() {
-        output.pressure(&pressures)?;
-    }
     output.summary(&summary)?;
     let recording = Recording::open(&folder)?;
     save_last(&recording)?;

@@ -2,6 +2,7 @@
 
 use drape::cloth::TriangleStrain;
 use drape::dynamics::Snapshot;
+use drape::export::rounded_up;
 use drape::report::plot::{StrainMap, strain_svg};
 use drape::report::{Colour, diverging};
 
@@ -66,12 +67,7 @@ fn limit(values: &[Weighted]) -> f64 {
         left <= 0.0
     });
     let size = first.map_or(0.0, |size| size.value).max(1e-6);
-    let power = 10.0_f64.powf(size.log10().floor());
-    [1.0, 2.0, 5.0, 10.0]
-        .map(|step| step * power)
-        .into_iter()
-        .find(|limit| *limit >= size)
-        .unwrap_or(size)
+    rounded_up(size)
 }
 
 /// Returns the mean at each particle of the triangles around it, weighted by their areas.

@@ -2,6 +2,7 @@
 
 use std::io::{Result, Write};
 
+use npyz::half::f16;
 use npyz::{AutoSerialize, WriterBuilder};
 
 /// Writes rows of `N` numbers.
@@ -12,8 +13,8 @@ pub(crate) fn write<T: AutoSerialize + Copy, const N: usize>(
     write_shape(to, &[rows.len() as u64, N as u64], rows.as_flattened())
 }
 
-/// Writes a column of numbers.
-pub(crate) fn write_column(to: &mut dyn Write, numbers: &[f64]) -> Result<()> {
+/// Writes a column of numbers in half precision.
+pub(crate) fn write_half(to: &mut dyn Write, numbers: &[f16]) -> Result<()> {
     write_shape(to, &[numbers.len() as u64], numbers)
 }
 

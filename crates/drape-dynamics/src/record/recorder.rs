@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use npyz::half::f16;
 use serde::Serialize;
 
 use crate::error::Error;
@@ -11,6 +12,7 @@ use crate::record::array;
 use crate::record::frame::Frame;
 use crate::record::summary::Summary;
 use crate::record::topology::Topology;
+use crate::world::Energy;
 
 /// Folder of a run, for its frames and its summary.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,8 +32,14 @@ const FRAMES: &str = "frames.csv";
 /// Names of the arrays of the topology.
 const ARRAYS: [&str; 3] = ["material.npy", "triangles.npy", "body-triangles.npy"];
 
-/// Name of the pressures of the last frame.
+/// Name of the balance of the energy at each frame.
+const ENERGY: &str = "energy.csv";
+
+/// Name of the pressures of the last frame in folders of older versions.
 const PRESSURE: &str = "pressure.npy";
+
+/// Kinds of the arrays that frames have, by which their names begin.
+const KINDS: [&str; 3] = ["frame", "bodies", "pressure"];
 
 /// Name of the last frame in a form that any program opens.
 const LAST: &str = "last.obj";
@@ -42,6 +50,8 @@ pub struct Recorder<'a> {
     output: &'a Output,
     /// List of the frames so far.
     list: fs::File,
+    /// Balance of the energy so far, once a frame has one.
+    energy: Option<fs::File>,
     /// Bodies that were stored last.
     bodies: Option<StoredBodies>,
 }
@@ -83,8 +93,9 @@ pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, Error> {
 /// Returns whether a file is one that a run writes and a later run would take for its own.
 fn is_result(path: &Path) -> bool {
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    let numbered = name.starts_with("frame-") || name.starts_with("bodies-");
-    let whole = [SUMMARY, SURFACES, FRAMES, PRESSURE, LAST].into_iter().chain(ARRAYS);
+    let of_kind = |kind: &str| name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('-'));
+    let numbered = KINDS.into_iter().any(of_kind);
+    let whole = [SUMMARY, SURFACES, FRAMES, ENERGY, PRESSURE, LAST].into_iter().chain(ARRAYS);
     whole.into_iter().any(|own| own == name)
         || (numbered && [".npy", ".obj"].iter().any(|ending| name.ends_with(ending)))
 }
@@ -111,20 +122,12 @@ impl Output {
         let path = self.path(FRAMES);
         let begin = || -> std::io::Result<fs::File> {
             let mut list = fs::File::create(&path)?;
-            list.write_all(b"number,time,growth,bodies\n")?;
+            list.write_all(b"number,time,growth,bodies,touched\n")?;
             Ok(list)
         };
         let list = begin().map_err(|reason| Error::Write { path, reason })?;
         self.json(SURFACES, topology)?;
-        Ok(Recorder { output: self, list, bodies: None })
-    }
-
-    /// Stores the pressures of contact at the last frame, in Pa, as `pressure.npy`.
-    ///
-    /// # Errors
-    /// When they cannot be written.
-    pub fn pressure(&self, pressures: &[f64]) -> Result<(), Error> {
-        self.write(&self.path(PRESSURE), |to| array::write_column(to, pressures))
+        Ok(Recorder { output: self, list, energy: None, bodies: None })
     }
 
     /// Stores the summary as `summary.json`.
@@ -160,8 +163,9 @@ impl Output {
 }
 
 impl Recorder<'_> {
-    /// Stores a frame as `frame-00012.npy` and, where they have moved, the bodies as
-    /// `bodies-00012.npy`; then it is listed in `frames.csv`.
+    /// Stores a frame as `frame-00012.npy`, the bodies where they have moved as `bodies-00012.npy`,
+    /// pressures as `pressure-00012.npy` where something touches, and a line of `energy.csv`; then it
+    /// is listed in `frames.csv`.
     ///
     /// # Errors
     /// When it cannot be written.
@@ -173,9 +177,16 @@ impl Recorder<'_> {
                 Some(StoredBodies { positions: frame.bodies.clone(), frame: frame.number });
         }
         self.positions("frame", frame.number, &frame.positions)?;
+        let touched = self.pressures(frame)?.map_or(String::new(), |count| count.to_string());
+        if let Some(energy) = &frame.energy {
+            let path = || self.output.path(ENERGY);
+            let written = energy_lines(frame, energy)
+                .and_then(|lines| append(&mut self.energy, &path(), lines));
+            written.map_err(|reason| Error::Write { path: path(), reason })?;
+        }
         let bodies = self.bodies.as_ref().map_or(String::new(), |own| own.frame.to_string());
-        let line =
-            format!("{},{:?},{:?},{bodies}\n", frame.number, frame.time, frame.growth_fraction);
+        let Frame { number, time, growth_fraction, .. } = frame;
+        let line = format!("{number},{time:?},{growth_fraction:?},{bodies},{touched}\n");
         let listed = self.list.write_all(line.as_bytes()).and_then(|()| self.list.sync_data());
         listed.map_err(|reason| Error::Write { path: self.output.path(FRAMES), reason })
     }
@@ -184,4 +195,46 @@ impl Recorder<'_> {
         let path = self.output.path(&format!("{kind}-{number:05}.npy"));
         self.output.write(&path, |to| array::write(to, positions.as_chunks::<3>().0))
     }
+
+    /// Stores pressures in half precision where any is above zero; returns how many are, where they
+    /// are known.
+    fn pressures(&self, frame: &Frame) -> Result<Option<usize>, Error> {
+        let Some(pressures) = &frame.pressures else { return Ok(None) };
+        let largest = f64::from(f16::MAX);
+        let half: Vec<f16> = pressures.iter().map(|p| f16::from_f64(p.min(largest))).collect();
+        let touched = half.iter().filter(|pressure| **pressure > f16::ZERO).count();
+        if touched > 0 {
+            let path = self.output.path(&format!("pressure-{:05}.npy", frame.number));
+            self.output.write(&path, |to| array::write_half(to, &half))?;
+        }
+        Ok(Some(touched))
+    }
+}
+
+/// Returns the line of the balance of a frame, and before it that of the names.
+fn energy_lines(frame: &Frame, energy: &Energy) -> std::io::Result<[String; 2]> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.serialize(energy).map_err(std::io::Error::from)?;
+    let bytes = table.into_inner().map_err(|error| error.into_error())?;
+    let text = String::from_utf8(bytes).map_err(std::io::Error::other)?;
+    let (names, entries) = text.split_once('\n').unwrap_or_default();
+    let Frame { number, time, .. } = frame;
+    Ok([format!("number,time,{names}\n"), format!("{number},{time:?},{entries}")])
+}
+
+/// Appends a line to a table; one that is not there yet begins with the names of its columns.
+fn append(
+    table: &mut Option<fs::File>,
+    path: &Path,
+    [names, line]: [String; 2],
+) -> std::io::Result<()> {
+    let file = match table {
+        Some(file) => file,
+        None => {
+            let mut file = fs::File::create(path)?;
+            file.write_all(names.as_bytes())?;
+            table.insert(file)
+        }
+    };
+    file.write_all(line.as_bytes())
 }

@@ -2,7 +2,7 @@
 
 use std::io::{Seek, Write};
 
-use drape_frames::{Frame, Part};
+use drape_frames::{EnergyTable, Frame, Part};
 use npyz::{AutoSerialize, DType, Serialize, TypeChar, TypeStr, WriterBuilder};
 use zip::CompressionMethod;
 use zip::write::SimpleFileOptions;
@@ -12,9 +12,11 @@ use crate::error::Error;
 use crate::mesh;
 
 /// Writes a clip as NPZ, which `numpy.load` opens: positions of cloth and bodies with every bit, times,
-/// triangles, pattern coordinates, and the panel of each vertex with the names of the panels.
+/// triangles, pattern coordinates, the panel of each vertex with the names of the panels, and, where
+/// the run has them, pressures of contact and the balance of the energy with the names of its entries.
 ///
-/// Lengths are in m, times in s, y is up. Bodies that do not move have one frame.
+/// Lengths are in m, times in s, pressures in Pa, energies in J, y is up. Bodies that do not move have
+/// one frame. Pressures and energies that were not stored are not a number.
 ///
 /// # Errors
 /// Frames cannot be read, or those of the writer.
@@ -23,7 +25,9 @@ pub fn write_npz(clip: &Clip, to: impl Write + Seek) -> Result<(), Error> {
     let mut archive = Archive { zip: zip::ZipWriter::new(to) };
     let frames = clip.count();
     let shape = [frames, topology.material.len(), 3];
-    archive.array("positions", &shape, |clip_index| Ok(clip.read(clip_index)?.cloth))?;
+    archive.array("positions", &shape, |clip_index| {
+        Ok(clip.read(clip_index)?.cloth.into_flattened())
+    })?;
     archive.table("times", &[frames], clip.times().to_vec())?;
     let numbers = clip.frames().iter().map(|number| *number as u64).collect();
     archive.table("frames", &[frames], numbers)?;
@@ -36,6 +40,21 @@ pub fn write_npz(clip: &Clip, to: impl Write + Seek) -> Result<(), Error> {
     archive.strings("fabrics", manifest.panels.iter().map(|panel| &*panel.fabric))?;
     archive.strings("units", ["m", "s"])?;
     archive.strings("up", ["y"])?;
+    if clip.recording().has_pressures() {
+        let vertices = topology.material.len();
+        archive.array("pressure", &[frames, vertices], |clip_index| {
+            let unknown = || vec![f32::NAN; vertices];
+            let single = |all: Vec<f64>| all.into_iter().map(|pressure| pressure as f32).collect();
+            Ok(clip.read(clip_index)?.pressures.map_or_else(unknown, single))
+        })?;
+    }
+    if let Some(EnergyTable { names, rows }) = clip.recording().energy()? {
+        let unknown = || vec![f64::NAN; names.len()];
+        let row = |number: &usize| rows[*number].clone().unwrap_or_else(unknown);
+        let own = clip.frames().iter().flat_map(row).collect();
+        archive.table("energy", &[frames, names.len()], own)?;
+        archive.strings("energies", names.iter().map(|name| &**name))?;
+    }
     if manifest.bodies.is_empty() {
         archive.zip.finish().map_err(std::io::Error::from)?;
         return Ok(());
@@ -43,7 +62,9 @@ pub fn write_npz(clip: &Clip, to: impl Write + Seek) -> Result<(), Error> {
     let owners = owners(&manifest.bodies);
     let moving = if bodies_move(clip)? { frames } else { 1 };
     let shape = [moving, owners.len(), 3];
-    archive.array("body_positions", &shape, |clip_index| Ok(clip.read(clip_index)?.bodies))?;
+    archive.array("body_positions", &shape, |clip_index| {
+        Ok(clip.read(clip_index)?.bodies.into_flattened())
+    })?;
     archive.rows("body_triangles", &topology.bodies)?;
     archive.table("body", &[owners.len()], owners)?;
     archive.strings("bodies", manifest.bodies.iter().map(|body| &*body.name))?;
@@ -83,19 +104,19 @@ impl<W: Write + Seek> Archive<W> {
         Ok(self.zip.start_file(name, options).map_err(std::io::Error::from)?)
     }
 
-    /// Writes an array of positions, frame by frame.
-    fn array(
+    /// Writes an array of numbers, frame by frame.
+    fn array<T: AutoSerialize>(
         &mut self,
         name: &str,
         shape: &[usize],
-        mut read: impl FnMut(usize) -> Result<Vec<[f64; 3]>, Error>,
+        mut read: impl FnMut(usize) -> Result<Vec<T>, Error>,
     ) -> Result<(), Error> {
         self.begin(name)?;
         let sizes: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
         let options = npyz::WriteOptions::new().default_dtype().shape(&sizes);
         let mut writer = options.writer(&mut self.zip).begin_nd()?;
         for index in 0..shape[0] {
-            writer.extend(read(index)?.into_iter().flatten())?;
+            writer.extend(read(index)?)?;
         }
         Ok(writer.finish()?)
     }
@@ -188,6 +209,11 @@ mod tests {
         assert_eq!(read::<String>(&npz, "units").1, ["m", "s"]);
         assert_eq!(read::<f64>(&npz, "uv").1[8..], [0.0, 0.0, 0.0, 0.5, -0.25, 0.0]);
         assert_eq!(read::<f64>(&npz, "body_positions").0, [1, 8, 3]);
+        let (shape, pressures) = read::<f32>(&npz, "pressure");
+        assert_eq!((shape, &pressures[..8]), (vec![2, 7], &[0., 0., 1.5, 0., 0., 0., 0., 0.][..]));
+        assert_eq!(pressures[9], 2.5);
+        assert_eq!(read::<f64>(&npz, "energy"), (vec![2, 2], vec![0.5, -1.5, 0.75, -2.5]));
+        assert_eq!(read::<String>(&npz, "energies").1, ["kinetic", "gravity"]);
         assert_eq!(read::<String>(&npz, "bodies").1, ["box"]);
     }
 }

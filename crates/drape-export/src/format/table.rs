@@ -1,14 +1,14 @@
-//! CSV: a line for each frame, with what can be said of it from positions alone.
+//! CSV: a line for each frame, with its measures.
 
 use std::io::Write;
 
-use drape_frames::Frame;
+use drape_frames::{EnergyTable, Frame, Recording};
 
 use crate::clip::Clip;
 use crate::error::Error;
 use crate::vector::{area_vector, difference, length};
 
-/// Names of the columns, with their units.
+/// Names of the columns of every run, with their units.
 const COLUMNS: [&str; 7] = [
     "frame",
     "time (s)",
@@ -19,44 +19,67 @@ const COLUMNS: [&str; 7] = [
     "largest speed (m/s)",
 ];
 
+/// Names of the columns of a run that has pressures.
+const OF_PRESSURE: [&str; 2] = ["largest pressure (Pa)", "vertices under pressure"];
+
 /// Writes a clip as CSV, a line for each frame: its number and time, heights of the lowest and the
 /// highest vertex of the cloth, its area, mean and largest speed of its vertices since the line
-/// before.
+/// before; where the run has them, the largest pressure and the number of vertices under pressure,
+/// and the entries of the balance of the energy. What is not known is left empty.
 ///
 /// # Errors
 /// Frames cannot be read, or those of the writer.
 pub fn write_csv(clip: &Clip, to: impl Write) -> Result<(), Error> {
+    let recording = clip.recording();
     let mut table = csv::Writer::from_writer(to);
     let failed = |error: csv::Error| Error::Write(error.into());
-    table.write_record(COLUMNS).map_err(failed)?;
+    let with_pressure = recording.has_pressures();
+    let energy = recording.energy()?;
+    let mut names: Vec<String> = COLUMNS.map(str::to_owned).to_vec();
+    if with_pressure {
+        names.extend(OF_PRESSURE.map(str::to_owned));
+    }
+    if let Some(EnergyTable { names: entries, .. }) = &energy {
+        names.extend(entries.iter().map(|entry| format!("{} (J)", entry.replace('_', " "))));
+    }
+    table.write_record(names).map_err(failed)?;
     let mut before: Option<(f64, Frame)> = None;
     for (index, &time) in clip.times().iter().enumerate() {
         let frame = clip.read(index)?;
-        let heights = || frame.cloth.iter().map(|position| position[1]);
-        let area: f64 = clip
-            .recording()
-            .topology()
-            .cloth
-            .iter()
-            .map(|corners| area_vector(&frame.cloth, corners))
-            .map(length)
-            .sum();
         let speeds = before.map(|(earlier, before)| speeds(&before, &frame, time - earlier));
-        let cell = |value: f64| if value.is_finite() { format!("{value}") } else { String::new() };
-        let speed = |k: usize| speeds.map_or(String::new(), |speeds| cell(speeds[k]));
-        let cells = [
-            clip.frames()[index].to_string(),
-            cell(time),
-            cell(heights().fold(f64::INFINITY, f64::min)),
-            cell(heights().fold(f64::NEG_INFINITY, f64::max)),
-            cell(0.5 * area),
-            speed(0),
-            speed(1),
-        ];
+        let mut values = vec![time];
+        values.extend(extent(recording, &frame));
+        values.extend(speeds.unwrap_or([f64::NAN; 2]));
+        if with_pressure {
+            values.extend(under_pressure(&frame));
+        }
+        if let Some(EnergyTable { names, rows }) = &energy {
+            let unknown = || vec![f64::NAN; names.len()];
+            values.extend(rows[frame.number].clone().unwrap_or_else(unknown));
+        }
+        let cell = |value: f64| if value.is_finite() { value.to_string() } else { String::new() };
+        let mut cells = vec![frame.number.to_string()];
+        cells.extend(values.into_iter().map(cell));
         table.write_record(cells).map_err(failed)?;
         before = Some((time, frame));
     }
     Ok(table.flush()?)
+}
+
+/// Returns the heights of the lowest and the highest vertex of the cloth in m, and its area in m².
+fn extent(recording: &Recording, frame: &Frame) -> [f64; 3] {
+    let heights = || frame.cloth.iter().map(|position| position[1]);
+    let triangles = recording.topology().cloth.iter();
+    let twice: f64 = triangles.map(|corners| length(area_vector(&frame.cloth, corners))).sum();
+    let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
+    [heights().fold(low, f64::min), heights().fold(high, f64::max), 0.5 * twice]
+}
+
+/// Returns the largest pressure in Pa, and the number of vertices under pressure.
+fn under_pressure(frame: &Frame) -> [f64; 2] {
+    let Some(pressures) = &frame.pressures else { return [f64::NAN; 2] };
+    let touched = pressures.iter().filter(|pressure| **pressure > 0.0).count();
+    [pressures.iter().copied().fold(0.0, f64::max), touched as f64]
 }
 
 /// Returns the mean and the largest speed of the vertices of the cloth between two frames, in m/s.
@@ -81,7 +104,9 @@ mod tests {
         let mut text = Vec::new();
         write_csv(&Clip::new(&recording, 0..=2, None).unwrap(), &mut text).unwrap();
         let mut reader = csv::Reader::from_reader(&text[..]);
-        assert_eq!(reader.headers().unwrap(), &csv::StringRecord::from(COLUMNS.to_vec()));
+        let energies = ["kinetic (J)", "gravity (J)"];
+        let names = [&COLUMNS[..], &OF_PRESSURE, &energies].concat();
+        assert_eq!(reader.headers().unwrap(), &csv::StringRecord::from(names));
         let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
         let row = |n: usize| {
             rows[n].iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect::<Vec<f64>>()
@@ -91,5 +116,7 @@ mod tests {
         let apart = row(2).iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(apart < 1e-12, "{:?}", row(2));
         assert_eq!([&rows[0][5], &rows[0][6]], ["", ""], "nothing is before the first");
+        assert_eq!(row(0)[7..], [0.0, 0.0, 0.25, -0.5]);
+        assert_eq!(row(2)[7..], [2.5, 1.0, 0.75, -2.5]);
     }
 }

@@ -12,6 +12,7 @@ use drape_frames::{Frame, Part, Recording};
 use crate::error::Error;
 use crate::field::Field;
 use crate::mesh;
+use crate::name::xml;
 use crate::normal;
 
 /// Which surface of a frame is written.
@@ -118,7 +119,7 @@ pub fn write_pvd(files: &[Listed], mut to: impl Write) -> Result<(), Error> {
             Surface::Cloth => (0, "cloth"),
             Surface::Bodies => (1, "bodies"),
         };
-        let file = attribute(file);
+        let file = xml(file);
         writeln!(
             to,
             "<DataSet timestep=\"{time}\" group=\"\" part=\"{part}\" name=\"{name}\" file=\"{file}\"/>"
@@ -213,24 +214,6 @@ fn owners(parts: &[Part]) -> Vec<[i32; 1]> {
 /// Writes bytes by base 64.
 fn base64(bytes: &[u8], to: &mut impl Write) -> io::Result<()> {
     to.write_all(STANDARD.encode(bytes).as_bytes())
-}
-
-/// Returns text as the value of an attribute.
-fn attribute(text: &str) -> String {
-    let mut escaped = String::new();
-    for c in text.chars() {
-        match c {
-            '&' => escaped += "&amp;",
-            '<' => escaped += "&lt;",
-            '>' => escaped += "&gt;",
-            '"' => escaped += "&quot;",
-            '\t' | '\n' | '\r' => escaped += &format!("&#{};", u32::from(c)),
-            // XML has no other control characters.
-            c if c < ' ' => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }
 
 #[cfg(test)]

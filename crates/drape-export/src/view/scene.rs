@@ -2,29 +2,18 @@
 
 use std::collections::BTreeSet;
 
-use drape_frames::{Error, Frame, Part, Recording};
+use drape_frames::{EnergyTable, Error, Frame, Part, Recording};
 use serde_json::{Value, json};
 
 use super::bits::{Bounds, Differences, deflated, octet};
 use super::measures::rows;
 use super::named::Named;
-use crate::field::{Field, Fields};
+use super::samples::{Chosen, Samples, Shown};
+use crate::{colour, scale};
 
-/// Most frames that are shown of a run.
-const FRAMES_MAX: usize = 600;
-
-/// Fraction of the values that the range of a field leaves out.
-const BEYOND: f64 = 0.005;
-
-/// Colours of the two sides of panels, by the number of their fabric.
-const COLOURS: [[&str; 2]; 6] = [
-    ["#96b6d6", "#e2c496"],
-    ["#d69a8f", "#e9d9c3"],
-    ["#a3c29b", "#e6dcc0"],
-    ["#c3a8d1", "#e7dccb"],
-    ["#dcbf78", "#cfd6d9"],
-    ["#8fc4c1", "#e6d3c0"],
-];
+/// Bytes of the page that a vertex of the cloth takes in a frame, at the least: a page of moving cloth
+/// has 7 to 12, and frames that cannot fit need not be read.
+const BYTES_OF_SAMPLE: usize = 4;
 
 /// Run as the elements of a page.
 pub(super) struct Scene {
@@ -34,22 +23,15 @@ pub(super) struct Scene {
     data: String,
 }
 
-/// Field with its range and its values in the frames that are shown.
-struct Shown {
-    field: Field,
-    /// Values of each frame that is shown; of the last one only, where no other is known.
-    values: Vec<Vec<f64>>,
-    range: [f64; 2],
-}
-
 impl Scene {
     /// Returns the scene of a run with so few frames that its elements have at most `size` bytes, or
     /// with two.
     pub(super) fn of_size(run: &Named<'_>, size: usize) -> Result<Scene, Error> {
-        let last = run.recording.frames() - 1;
-        let mut stride = last.div_ceil(FRAMES_MAX).max(1);
+        let samples = Samples::new(run.recording, size / BYTES_OF_SAMPLE)?;
+        let last = samples.frames.len() - 1;
+        let mut stride = 1;
         loop {
-            let scene = Scene::new(run, stride)?;
+            let scene = Scene::new(run, &samples, stride)?;
             let is = scene.elements(0).len();
             if is <= size || stride >= last {
                 return Ok(scene);
@@ -58,21 +40,19 @@ impl Scene {
         }
     }
 
-    fn new(run: &Named<'_>, stride: usize) -> Result<Scene, Error> {
+    /// Returns the scene of every so many of some frames, and of the last one.
+    fn new(run: &Named<'_>, samples: &Samples, stride: usize) -> Result<Scene, Error> {
         let recording = run.recording;
-        let last = recording.frames() - 1;
-        let mut numbers: Vec<usize> = (0..last).step_by(stride).collect();
-        numbers.push(last);
-        let frames: Result<Vec<Frame>, Error> =
-            numbers.iter().map(|&number| recording.frame(number)).collect();
-        let frames = frames?;
-        let fields = shown_fields(recording, &frames)?;
+        let last = samples.frames.len() - 1;
+        let mut chosen: Vec<usize> = (0..last).step_by(stride.max(1)).collect();
+        chosen.push(last);
+        let Chosen { frames, fields } = samples.chosen(&chosen);
         let content = Content::new(recording, &frames, &fields);
         let path = recording.folder().to_owned();
         let unreadable = |reason: String| Error::Unreadable { path, reason };
         let data = deflated(&content.bytes).map_err(|error| unreadable(error.to_string()))?;
-        let meta = meta(run, &frames, &fields, &content);
-        Ok(Scene { frames: numbers, meta, data })
+        let meta = meta(run, &frames, &fields, &content)?;
+        Ok(Scene { frames: frames.iter().map(|frame| frame.number).collect(), meta, data })
     }
 
     /// Returns the elements of the page that hold the scene, with its number among the runs.
@@ -87,42 +67,6 @@ impl Scene {
     }
 }
 
-/// Returns the fields of the frames that are shown.
-fn shown_fields(recording: &Recording, frames: &[Frame]) -> Result<Vec<Shown>, Error> {
-    let mut all = Fields::new(recording)?;
-    let fields: Vec<Field> = Field::ALL.into_iter().filter(|field| all.has(*field)).collect();
-    let mut shown = Vec::new();
-    for field in fields {
-        let mut values = Vec::new();
-        for (k, frame) in frames.iter().enumerate() {
-            let before = k.checked_sub(1).map(|k| &frames[k]);
-            values.extend(all.values(field, frame, before));
-        }
-        if !values.is_empty() {
-            let range = range(field, &values);
-            shown.push(Shown { field, values, range });
-        }
-    }
-    Ok(shown)
-}
-
-/// Returns the range of a field: that of nearly all values, rounded up to 1, 2 or 5 times a power of
-/// ten; about zero for a signed field, from zero for another.
-fn range(field: Field, values: &[Vec<f64>]) -> [f64; 2] {
-    let mut sizes: Vec<f64> = values.iter().flatten().map(|value| value.abs()).collect();
-    let place = ((1.0 - BEYOND) * sizes.len() as f64) as usize;
-    let place = place.min(sizes.len().saturating_sub(1));
-    let size = match sizes.is_empty() {
-        true => 0.0,
-        false => *sizes.select_nth_unstable_by(place, f64::total_cmp).1,
-    };
-    let size = size.max(1e-6);
-    let power = 10.0_f64.powf(size.log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
-    let high = steps.into_iter().find(|step| *step >= size).unwrap_or(size);
-    [if field.is_signed() { -high } else { 0.0 }, high]
-}
-
 /// Numbers of a scene as bytes.
 struct Content {
     bytes: Vec<u8>,
@@ -133,7 +77,7 @@ struct Content {
 }
 
 impl Content {
-    fn new(recording: &Recording, frames: &[Frame], fields: &[Shown]) -> Content {
+    fn new(recording: &Recording, frames: &[&Frame], fields: &[Shown<'_>]) -> Content {
         let (topology, manifest) = (recording.topology(), recording.manifest());
         let mut bytes = Vec::new();
         let numbers = |all: &mut dyn Iterator<Item = u32>, bytes: &mut Vec<u8>| {
@@ -161,7 +105,8 @@ impl Content {
         for shown in fields {
             let mut octets = Differences::<u8>::new();
             for values in &shown.values {
-                let all = values.iter().map(|value| octet(*value, shown.range)).collect();
+                let all =
+                    values.iter().map(|value| octet(f64::from(*value), shown.range)).collect();
                 octets.add(all, &mut bytes);
             }
         }
@@ -170,7 +115,7 @@ impl Content {
 }
 
 /// Returns the box of each body over all frames.
-fn body_bounds(bodies: &[Part], frames: &[Frame]) -> Vec<Bounds> {
+fn body_bounds(bodies: &[Part], frames: &[&Frame]) -> Vec<Bounds> {
     let mut first = 0;
     let of = |body: &Part| {
         let own = first..first + body.vertices;
@@ -181,7 +126,7 @@ fn body_bounds(bodies: &[Part], frames: &[Frame]) -> Vec<Bounds> {
 }
 
 /// Returns the number of the state of the bodies in each frame: a new one where they have moved.
-fn body_states(frames: &[Frame]) -> Vec<usize> {
+fn body_states(frames: &[&Frame]) -> Vec<usize> {
     let mut states: Vec<usize> = Vec::new();
     for (k, frame) in frames.iter().enumerate() {
         let state = match k.checked_sub(1) {
@@ -207,12 +152,17 @@ fn body_words(bodies: &[Part], bounds: &[Bounds], frame: &Frame) -> Vec<u16> {
 }
 
 /// Returns what the page says of a run.
-fn meta(run: &Named<'_>, frames: &[Frame], fields: &[Shown], content: &Content) -> Value {
+fn meta(
+    run: &Named<'_>,
+    frames: &[&Frame],
+    fields: &[Shown<'_>],
+    content: &Content,
+) -> Result<Value, Error> {
     let (topology, manifest) = (run.recording.topology(), run.recording.manifest());
     let fabrics: BTreeSet<&str> = manifest.panels.iter().map(|part| &part.fabric[..]).collect();
     let panel = |part: &Part| {
         let number = fabrics.iter().position(|fabric| *fabric == part.fabric);
-        let [front, back] = COLOURS[number.unwrap_or(0) % COLOURS.len()];
+        let [front, back] = colour::of_fabric(number.unwrap_or(0));
         json!({
             "name": part.name, "triangles": part.triangles, "fabric": part.fabric,
             "colour": front, "back": back,
@@ -227,7 +177,7 @@ fn meta(run: &Named<'_>, frames: &[Frame], fields: &[Shown], content: &Content) 
         })
     };
     let bodies = manifest.bodies.iter().zip(&content.body_bounds).map(body);
-    let frame = |(k, frame): (usize, &Frame)| {
+    let frame = |(k, frame): (usize, &&Frame)| {
         json!({
             "number": frame.number, "time": frame.time.unwrap_or(frame.number as f64),
             "bodies": if manifest.bodies.is_empty() { -1 } else { content.body_states[k] as i64 },
@@ -236,15 +186,19 @@ fn meta(run: &Named<'_>, frames: &[Frame], fields: &[Shown], content: &Content) 
     let field = |shown: &Shown| {
         json!({
             "key": shown.field.key(), "label": shown.field.label(), "unit": shown.field.unit(),
-            "low": shown.range[0], "high": shown.range[1], "signed": shown.field.is_signed(),
+            "stops": scale::stops(shown.field.is_signed()), "low": shown.range[0], "high": shown.range[1], "signed": shown.field.is_signed(),
             "first": if shown.values.len() == frames.len() { 0 } else { -1 },
         })
     };
     let last_state = content.body_states.last().copied();
     let body_states = if manifest.bodies.is_empty() { 0 } else { last_state.map_or(0, |s| s + 1) };
+    let energy = run.recording.energy()?.filter(|own| own.rows.last().is_some_and(Option::is_some));
+    let energy = energy.map(|EnergyTable { names, rows }| {
+        json!({ "names": names, "rows": frames.iter().map(|own| &rows[own.number]).collect::<Vec<_>>() })
+    });
     let summary = std::fs::read_to_string(run.recording.folder().join("summary.json"));
     let summary = summary.ok().and_then(|text| serde_json::from_str(&text).ok());
-    json!({
+    Ok(json!({
         "name": run.name,
         "note": note(run.recording, frames, &content.bounds),
         "vertices": topology.material.len(), "triangles": topology.cloth.len(),
@@ -256,11 +210,12 @@ fn meta(run: &Named<'_>, frames: &[Frame], fields: &[Shown], content: &Content) 
         "frames": frames.iter().enumerate().map(frame).collect::<Vec<Value>>(),
         "fields": fields.iter().map(field).collect::<Vec<Value>>(),
         "measures": rows(&summary.unwrap_or(Value::Null)),
-    })
+        "energy": energy,
+    }))
 }
 
 /// Returns how many frames are shown, and how exactly.
-fn note(recording: &Recording, frames: &[Frame], bounds: &Bounds) -> String {
+fn note(recording: &Recording, frames: &[&Frame], bounds: &Bounds) -> String {
     let size = (0..3).map(|axis| bounds.high[axis] - bounds.low[axis]).fold(0.0, f64::max);
     let all = recording.frames();
     let shown = match frames.len() {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
+use drape::export::Field;
 
 #[derive(Args)]
 pub(crate) struct ExportArguments {
@@ -22,13 +23,17 @@ pub(crate) struct ExportArguments {
     #[arg(long, value_name = "N", conflicts_with = "frames")]
     pub(crate) frame: Option<usize>,
     /// Frames from number A to number B, which is one of them; without A from the first, without B to
-    /// the last [default: all; of OBJ the last frame].
+    /// the last [default: all; of OBJ and SVG the last frame].
     #[arg(long, value_name = "A..B")]
     pub(crate) frames: Option<FrameRange>,
+    /// Field that svg shows: strain-warp, strain-weft, shear, curvature, pressure, distance, seam-gap or
+    /// speed [default: strain-warp].
+    #[arg(long, value_name = "FIELD")]
+    pub(crate) map: Option<Field>,
     /// Frames per second [default: that of the run].
     #[arg(long, value_name = "F")]
     pub(crate) fps: Option<f64>,
-    /// Replaces files that exist.
+    /// Replaces files that exist; of a sequence, those after its end are removed.
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -51,8 +56,10 @@ pub(crate) enum Format {
     Vtp,
     /// Arrays of NumPy in one file.
     Npz,
-    /// Table with a line for each frame: heights, area, speeds.
+    /// Table with a line for each frame: heights, area, speeds, pressure, energy.
     Csv,
+    /// Panels of one frame, flat on the pattern, with a field in colours.
+    Svg,
 }
 
 /// Numbers of frames as they are typed: `A..B`, `A..`, `..B`.

@@ -1,0 +1,398 @@
+//! SVG: the panels of a garment, flat on the pattern, with a field in colours.
+//!
+//! Colours come in bands, between whose bounds the field is linear in each triangle. A band is one
+//! path, of all places that are not below its lower bound, and lies on the band below: no light shows
+//! between two, and the file has outlines in place of triangles.
+
+mod region;
+mod sheet;
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+use drape_frames::{Frame, Part, Recording};
+
+use self::region::{Flat, Node};
+use self::sheet::{Extent, Sheet};
+use crate::field::Field;
+use crate::mesh;
+use crate::name::{self, xml};
+use crate::scale;
+
+/// Number of bands of colour: more than an eye tells apart beside each other, and odd, so that what is
+/// nearly zero has one colour.
+const BANDS: usize = 25;
+
+/// Whole numbers of which the longer side of the sheet has at least so many: the finer they are, the
+/// longer is the file.
+const UNITS_MIN: f64 = 5000.0;
+
+/// Largest number of letters of a panel's name.
+const LETTERS_MAX: usize = 40;
+
+/// Width of a letter over the height of the text, on average.
+const LETTER: f64 = 0.56;
+
+/// Field of a frame, to be drawn on the flat pattern.
+#[derive(Debug, Clone, Copy)]
+pub struct PatternMap<'a> {
+    /// The run.
+    pub recording: &'a Recording,
+    /// The frame.
+    pub frame: &'a Frame,
+    /// The field.
+    pub field: Field,
+    /// Values of the field, one for each vertex of the cloth.
+    pub values: &'a [f64],
+}
+
+/// Writes the panels of a garment as SVG, flat on the pattern, with a field in colours.
+///
+/// Lengths are in mm, and a scale bar shows one. A legend has the range of the colours with its unit;
+/// values beyond it have the colour of its end. An arrow beside the name of a panel points along the
+/// warp.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_svg(map: &PatternMap, mut to: impl Write) -> io::Result<()> {
+    let panels = flat_panels(map);
+    let area: f64 = panels.iter().map(|panel| panel.size[0] * panel.size[1]).sum();
+    let text = (0.022 * area.sqrt()).max(1e-6);
+    let extent = |panel: &FlatPanel| Extent {
+        width: panel.size[0].max(text * (2.0 + LETTER * panel.name.chars().count() as f64)),
+        height: panel.size[1],
+    };
+    let extents: Vec<Extent> = panels.iter().map(extent).collect();
+    let sheet = Sheet::new(&extents, 1.5 * text, 1.7 * text);
+    let page = Page::new(map, sheet.size, text);
+    page.head(&mut to)?;
+    for (panel, [x, y]) in panels.iter().zip(&sheet.corners) {
+        let corner = [page.margin + x, page.margin + page.title_height() + y];
+        page.panel(panel, corner, &mut to)?;
+    }
+    page.legend(&mut to)?;
+    page.scale_bar(&mut to)?;
+    writeln!(to, "</svg>")
+}
+
+/// Panel, flat.
+struct FlatPanel<'a> {
+    part: &'a Part,
+    name: String,
+    identifier: String,
+    /// Positions of its vertices, in mm from its left lower corner.
+    points: Vec<[f64; 2]>,
+    /// Width and height, in mm.
+    size: [f64; 2],
+    /// Its triangles, with its own vertices from 0, all anticlockwise.
+    triangles: Vec<[u32; 3]>,
+    values: &'a [f64],
+}
+
+/// Returns the panels of a run, flat.
+fn flat_panels<'a>(map: &PatternMap<'a>) -> Vec<FlatPanel<'a>> {
+    let panels = &map.recording.manifest().panels;
+    let names = name::unique(panels);
+    let identifiers = name::identifiers(names.iter().map(String::as_str));
+    let (pattern, mut triangles) =
+        (mesh::pattern(map.recording), map.recording.topology().cloth.iter());
+    let mut first = 0;
+    let mut flat = Vec::new();
+    for ((part, name), identifier) in panels.iter().zip(&names).zip(identifiers) {
+        let own = first..first + part.vertices;
+        let ends = |start: f64, pick: fn(f64, f64) -> f64| {
+            let points = pattern[own.clone()].iter();
+            points.fold([start; 2], |all, point| [pick(all[0], point[0]), pick(all[1], point[1])])
+        };
+        let (low, high) = (ends(f64::INFINITY, f64::min), ends(f64::NEG_INFINITY, f64::max));
+        let millimetres = |point: &[f64; 2]| [0, 1].map(|k| 1e3 * (point[k] - low[k]));
+        let points: Vec<[f64; 2]> = pattern[own.clone()].iter().map(millimetres).collect();
+        let corners = triangles.by_ref().take(part.triangles);
+        let corners = corners.map(|corners| corners.map(|corner| corner - first as u32));
+        let triangles = corners.map(|corners| anticlockwise(corners, &points)).collect();
+        let size = [0, 1].map(|k| (1e3 * (high[k] - low[k])).max(0.0));
+        let name: String = match name.chars().count() > LETTERS_MAX {
+            true => name.chars().take(LETTERS_MAX - 1).chain(['…']).collect(),
+            false => name.clone(),
+        };
+        let values = &map.values[own.clone()];
+        flat.push(FlatPanel { part, name, identifier, points, size, triangles, values });
+        first = own.end;
+    }
+    flat
+}
+
+fn anticlockwise([a, b, c]: [u32; 3], points: &[[f64; 2]]) -> [u32; 3] {
+    let [p, q, r] = [a, b, c].map(|corner| points[corner as usize]);
+    let twice = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    if twice < 0.0 { [a, c, b] } else { [a, b, c] }
+}
+
+/// Returns steps without those of no length, and with one for all that follow each other in one direction.
+fn merged(steps: impl Iterator<Item = [i64; 2]>) -> Vec<[i64; 2]> {
+    let mut merged: Vec<[i64; 2]> = Vec::new();
+    for step in steps.filter(|step| *step != [0, 0]) {
+        match merged.last_mut() {
+            Some([x, y]) if *x * step[1] == *y * step[0] && *x * step[0] + *y * step[1] > 0 => {
+                (*x, *y) = (*x + step[0], *y + step[1]);
+            }
+            _ => merged.push(step),
+        }
+    }
+    merged
+}
+
+/// Page with its measures, in mm.
+struct Page {
+    title: String,
+    /// Name of the field, with its unit.
+    label: String,
+    range: [f64; 2],
+    is_signed: bool,
+    /// Height of the text.
+    text: f64,
+    margin: f64,
+    width: f64,
+    height: f64,
+    /// Length that whole numbers of paths count.
+    unit: f64,
+}
+
+impl Page {
+    fn new(map: &PatternMap, sheet: [f64; 2], text: f64) -> Page {
+        let margin = 1.5 * text;
+        let label = format!("{}, {}", map.field.label(), map.field.unit());
+        let time = map.frame.time.map_or(String::new(), |time| format!(", {time:.3} s"));
+        let longest = sheet[0].max(sheet[1]).max(1e-3);
+        Page {
+            title: format!("{label}: frame {}{time}", map.frame.number),
+            label,
+            range: scale::range(map.values.iter().copied(), map.field.is_signed()),
+            is_signed: map.field.is_signed(),
+            text,
+            margin,
+            width: sheet[0].max(38.0 * text) + 2.0 * margin,
+            height: sheet[1] + 8.0 * text + 2.0 * margin,
+            unit: 10.0_f64.powf((longest / UNITS_MIN).log10().floor()),
+        }
+    }
+
+    fn title_height(&self) -> f64 {
+        2.0 * self.text
+    }
+
+    fn head(&self, to: &mut impl Write) -> io::Result<()> {
+        let Page { width, height, title, text, margin, .. } = self;
+        let title = xml(title);
+        writeln!(
+            to,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.3} {height:.3}\" \
+             font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\" font-size=\"{text:.3}\" fill=\"#24292f\">\n\
+             <title>{title}</title>\n<desc>Lengths are in mm.</desc>\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
+             <text x=\"{margin:.3}\" y=\"{:.3}\" font-size=\"{:.3}\">{title}</text>",
+            margin + 1.2 * text,
+            1.25 * text
+        )
+    }
+
+    /// Draws a panel with its name, its left upper corner at a place.
+    fn panel(&self, panel: &FlatPanel, [x, y]: [f64; 2], to: &mut impl Write) -> io::Result<()> {
+        let Page { text, unit, range: [low, high], .. } = *self;
+        let name = xml(&panel.name);
+        writeln!(to, "<g id=\"{}\"><title>{name}</title>", panel.identifier)?;
+        // SVG has y downwards, and turns clockwise.
+        let [weft, warp] = panel.part.pattern_point([0.0, 1.0]);
+        let angle = -warp.atan2(weft).to_degrees();
+        let half = 0.55 * text;
+        writeln!(
+            to,
+            "<path transform=\"translate({:.3} {:.3}) rotate({angle:.1})\" fill=\"none\" stroke=\"#24292f\" stroke-width=\"{:.3}\" \
+             d=\"M{:.3} 0H{half:.3}m{:.3} {:.3}l{:.3} {:.3} {:.3} {:.3}\"/>",
+            x + 0.6 * text,
+            y - 0.85 * text,
+            0.1 * text,
+            -half,
+            -0.4 * half,
+            -0.4 * half,
+            0.4 * half,
+            0.4 * half,
+            -0.4 * half,
+            0.4 * half
+        )?;
+        let name_x = x + 1.6 * text;
+        writeln!(to, "<text x=\"{name_x:.3}\" y=\"{:.3}\">{name}</text>", y - 0.5 * text)?;
+        writeln!(
+            to,
+            "<g transform=\"translate({x:.3} {:.3}) scale({unit} -{unit})\">",
+            y + panel.size[1]
+        )?;
+        let flat = Flat { triangles: &panel.triangles, values: panel.values };
+        for band in 0..BANDS {
+            let level = low + (high - low) * band as f64 / BANDS as f64;
+            let level = if band == 0 { f64::NEG_INFINITY } else { level };
+            let path = self.path(panel, &flat.outlines(level), level);
+            if !path.is_empty() {
+                writeln!(to, "<path fill=\"{}\" d=\"{path}\"/>", self.band_colour(band))?;
+            }
+        }
+        let outline = self.path(panel, &flat.outlines(f64::NEG_INFINITY), f64::NEG_INFINITY);
+        let width = 0.06 * text / unit;
+        writeln!(
+            to,
+            "<path fill=\"none\" stroke=\"#24292f\" stroke-width=\"{width:.3}\" d=\"{outline}\"/>\n</g></g>"
+        )
+    }
+
+    /// Returns outlines as the data of a path, in whole numbers.
+    fn path(&self, panel: &FlatPanel, outlines: &[Vec<Node>], level: f64) -> String {
+        let place = |&[one, other]: &Node| {
+            let [a, b] = [one, other].map(|vertex| panel.points[vertex as usize]);
+            let [low, high] = [one, other].map(|vertex| panel.values[vertex as usize]);
+            let part = if one == other { 0.0 } else { (level - low) / (high - low) };
+            [0, 1].map(|k| ((a[k] + part * (b[k] - a[k])) / self.unit).round() as i64)
+        };
+        let mut path = String::new();
+        for outline in outlines {
+            let places: Vec<[i64; 2]> = outline.iter().map(place).collect();
+            let steps =
+                merged(places.windows(2).map(|pair| [0, 1].map(|k| pair[1][k] - pair[0][k])));
+            let Some([x, y]) = places.first().filter(|_| !steps.is_empty()) else { continue };
+            let _ = write!(path, "M{x} {y}l");
+            for [x, y] in steps {
+                let _ = write!(path, "{x} {y} ");
+            }
+            path.pop();
+            path.push('z');
+        }
+        path
+    }
+
+    fn band_colour(&self, band: usize) -> String {
+        scale::colour((band as f64 + 0.5) / BANDS as f64, self.is_signed)
+    }
+
+    /// Draws the bands with their range.
+    fn legend(&self, to: &mut impl Write) -> io::Result<()> {
+        let Page { text, margin, height, range: [low, high], .. } = *self;
+        let (band_width, top) = (0.8 * text, height - margin - 2.4 * text);
+        let label = xml(&self.label);
+        writeln!(
+            to,
+            "<g id=\"legend\"><text x=\"{margin:.3}\" y=\"{:.3}\">{label}</text>",
+            top - 0.5 * text
+        )?;
+        for band in 0..BANDS {
+            writeln!(
+                to,
+                "<rect x=\"{:.3}\" y=\"{top:.3}\" width=\"{:.3}\" height=\"{text:.3}\" fill=\"{}\"/>",
+                margin + band_width * band as f64,
+                band_width * 1.02,
+                self.band_colour(band)
+            )?;
+        }
+        let ends = [("start", low), ("middle", 0.5 * (low + high)), ("end", high)];
+        for (k, (anchor, value)) in ends.into_iter().enumerate() {
+            let x = margin + 0.5 * k as f64 * band_width * BANDS as f64;
+            writeln!(
+                to,
+                "<text x=\"{x:.3}\" y=\"{:.3}\" text-anchor=\"{anchor}\">{}</text>",
+                top + 2.1 * text,
+                scale::digits(value)
+            )?;
+        }
+        writeln!(to, "</g>")
+    }
+
+    /// Draws a bar of a round length.
+    fn scale_bar(&self, to: &mut impl Write) -> io::Result<()> {
+        let Page { text, margin, width, height, .. } = *self;
+        // The round number that is not above a third of what is to the right of the legend.
+        let most = 12.0 * text;
+        let length = 1.0 / scale::rounded_up(1.0 / most);
+        let (x, y) = (width - margin - length, height - margin - 1.4 * text);
+        writeln!(
+            to,
+            "<g id=\"scale\"><path fill=\"none\" stroke=\"#24292f\" stroke-width=\"{:.3}\" d=\"M{x:.3} {:.3}v{:.3}h{length:.3}v{:.3}\"/>\
+             <text x=\"{:.3}\" y=\"{:.3}\" text-anchor=\"middle\">{} mm</text></g>",
+            0.12 * text,
+            y - 0.4 * text,
+            0.4 * text,
+            -0.4 * text,
+            x + 0.5 * length,
+            y + 1.1 * text,
+            scale::digits(length)
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use roxmltree::Document;
+
+    use super::*;
+    use crate::example;
+
+    /// Returns a recording of a square panel of so many vertices along a side, 10 mm apart.
+    fn lattice(side: usize) -> (tempfile::TempDir, Recording) {
+        let places: Vec<[usize; 2]> = (0..side * side).map(|k| [k % side, k / side]).collect();
+        let material: Vec<[f64; 2]> =
+            places.iter().map(|place| place.map(|k| 0.01 * k as f64)).collect();
+        let cell = |[x, y]: &[usize; 2]| {
+            let corner = |dx: usize, dy: usize| ((y + dy) * side + x + dx) as u32;
+            let is_cell = x + 1 < side && y + 1 < side;
+            let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
+            is_cell.then_some([[a, b, c], [c, b, d]])
+        };
+        let triangles: Vec<[u32; 3]> = places.iter().filter_map(cell).flatten().collect();
+        let folder = example::folder_of_panel(&material, &triangles);
+        let recording = Recording::open(folder.path()).unwrap();
+        (folder, recording)
+    }
+
+    fn written(recording: &Recording, field: Field, values: &[f64]) -> String {
+        let frame = recording.frame(0).unwrap();
+        let mut text = Vec::new();
+        write_svg(&PatternMap { recording, frame: &frame, field, values }, &mut text).unwrap();
+        String::from_utf8(text).unwrap()
+    }
+
+    #[test]
+    fn a_drawing_has_every_panel_by_name_and_says_range_and_length() {
+        let folder = example::folder(&[0.3]);
+        let recording = Recording::open(folder.path()).unwrap();
+        let text = written(&recording, Field::Shear, &[0.5, 1.0, 1.5, 2.0, -2.5, 3.0, 3.5]);
+        let document = Document::parse(&text).unwrap();
+        let words: Vec<&str> = document.descendants().filter_map(|node| node.text()).collect();
+        for word in ["front", example::HOSTILE, "shear angle, °", "-5.00", "5.00", "100 mm"] {
+            assert!(words.contains(&word), "{word}: {words:?}");
+        }
+        assert!(words.iter().any(|word| word.contains("frame 0, 0.300 s")), "{words:?}");
+    }
+
+    #[test]
+    fn a_linear_field_has_straight_bands_of_few_points() {
+        let (_folder, recording) = lattice(41);
+        let values: Vec<f64> = recording.topology().material.iter().map(|[u, _]| 2.5 * u).collect();
+        let text = written(&recording, Field::Speed, &values);
+        let document = Document::parse(&text).unwrap();
+        let bands: Vec<&str> = document
+            .descendants()
+            .filter(|node| node.has_tag_name("path") && node.attribute("stroke").is_none())
+            .filter_map(|node| node.attribute("d"))
+            .collect();
+        assert_eq!(bands.len(), BANDS);
+        // The range ends at 1 m/s, so that the bound of the sixth band is at 80 mm.
+        assert_eq!(bands[5], "M8000 0l32000 0 0 40000 -32000 0 0 -40000z");
+    }
+
+    #[test]
+    fn the_largest_file_has_10_megabytes() {
+        // Values that jump from vertex to vertex over the whole range, the worst there is.
+        let (_folder, recording) = lattice(200);
+        let jump = |k: usize| (k.wrapping_mul(2_654_435_761) % 1009) as f64 / 1009.0;
+        let values: Vec<f64> = (0..40_000).map(jump).collect();
+        let text = written(&recording, Field::Speed, &values);
+        assert!(text.len() < 10_000_000, "{} bytes", text.len());
+    }
+}

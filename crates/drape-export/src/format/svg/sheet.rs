@@ -1,0 +1,74 @@
+//! Sheet: the places of flat panels side by side, in rows.
+
+/// Room that a panel needs, in mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Extent {
+    pub(super) width: f64,
+    pub(super) height: f64,
+}
+
+/// Sheet with panels.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Sheet {
+    /// Place of the left upper corner of each panel, in mm from that of the sheet; y is down.
+    pub(super) corners: Vec<[f64; 2]>,
+    /// Width and height, in mm.
+    pub(super) size: [f64; 2],
+}
+
+/// Width over height of a sheet, about that of a screen.
+const ASPECT: f64 = 1.6;
+
+impl Sheet {
+    /// Sheet of some panels in their order, so far apart, in mm, and with so much room for a name above
+    /// each.
+    pub(super) fn new(panels: &[Extent], gap: f64, above: f64) -> Sheet {
+        let area = |panel: &Extent| (panel.width + gap) * (panel.height + gap + above);
+        let whole: f64 = panels.iter().map(area).sum();
+        let widest = panels.iter().map(|panel| panel.width).fold(0.0, f64::max);
+        let width_max = (ASPECT * whole).sqrt().max(widest);
+        let (mut x, mut y, mut row_height, mut width) = (0.0, 0.0, 0.0_f64, 0.0_f64);
+        let mut place = |panel: &Extent| {
+            if x > 0.0 && x + panel.width > width_max {
+                (x, y, row_height) = (0.0, y + row_height + gap, 0.0);
+            }
+            let corner = [x, y + above];
+            row_height = row_height.max(above + panel.height);
+            width = width.max(x + panel.width);
+            x += panel.width + gap;
+            corner
+        };
+        let corners = panels.iter().map(&mut place).collect();
+        Sheet { corners, size: [width, y + row_height] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panels_do_not_overlap() {
+        let extent = |k: usize| {
+            let [width, height] = [40.0 + 30.0 * (k % 3) as f64, 200.0 - 20.0 * (k % 5) as f64];
+            Extent { width, height }
+        };
+        let panels: Vec<Extent> = (0..11).map(extent).collect();
+        let Sheet { corners, size } = Sheet::new(&panels, 10.0, 8.0);
+        let ends = |k: usize| {
+            let [x, y] = corners[k];
+            [x + panels[k].width, y + panels[k].height]
+        };
+        for one in 0..11 {
+            assert!(ends(one)[0] <= size[0] && ends(one)[1] <= size[1] + 1e-9, "{one}");
+            for other in 0..one {
+                let apart = |k: usize| corners[one][k] >= ends(other)[k];
+                assert!(
+                    apart(0) || apart(1) || ends(one)[0] <= corners[other][0],
+                    "{one}, {other}"
+                );
+            }
+        }
+        assert!(size[0] / size[1] > 0.8 && size[0] / size[1] < 3.2, "{size:?}");
+    }
+}
