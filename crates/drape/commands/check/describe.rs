@@ -5,7 +5,7 @@ use std::path::Path;
 
 use drape::collide::{MeshInspection, Shape};
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
-use drape::input::{Diagnostic, Diagnostics};
+use drape::input::{Diagnostic, Diagnostics, figure};
 use drape::pattern::Pattern;
 use drape::scene::{Error, MovingBody, Scene, is_fabric};
 
@@ -157,7 +157,9 @@ fn body(moving: &MovingBody) -> String {
 fn fabric(fabric: &Fabric) -> String {
     let mut text = format!(
         "fabric \"{}\": {} kg/m², {} m thick\n",
-        fabric.name, fabric.density, fabric.thickness
+        fabric.name,
+        figure(fabric.density),
+        figure(fabric.thickness)
     );
     for (name, direction) in [("warp", &fabric.warp), ("weft", &fabric.weft)] {
         let stretch = match direction.traction.backbone {
