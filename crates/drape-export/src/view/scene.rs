@@ -11,8 +11,8 @@ use super::named::Named;
 use super::samples::{Chosen, Samples, Shown};
 use crate::{colour, scale};
 
-/// Bytes of the page that a vertex of the cloth takes in a frame, at the least: a page of moving cloth
-/// has 7 to 12, and frames that cannot fit need not be read.
+/// Bytes of the page that a vertex of the cloth takes in a frame, at the least: a page of cloth that
+/// waves has 7, and frames that cannot fit need not be read.
 const BYTES_OF_SAMPLE: usize = 4;
 
 /// Run as the elements of a page.
