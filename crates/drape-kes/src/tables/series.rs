@@ -40,9 +40,9 @@ impl Series {
         let number =
             |row: &Row| match row.cells.get(column).and_then(|cell| cell.number(self.decimal)) {
                 Some(number) if number.is_finite() => Ok(number),
-                _ => Err(self.not_a_number(row, column)),
+                _ => Err(self.not_a_number(row, column).into()),
             };
-        let numbers = self.block.rows.iter().map(number).collect::<Result<_, _>>()?;
+        let numbers = self.block.rows.iter().map(number).collect::<Result<_, Diagnostics>>()?;
         match self.other_unit(column) {
             Some(row) => Err(self.changed_unit(row, column).into()),
             None => Ok(numbers),
