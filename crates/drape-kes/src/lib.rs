@@ -5,8 +5,8 @@
 //! [`Sheet::read`] reads a laboratory's sheet with its [`Curve`]s and [`Values`];
 //! [`Curve::values`] computes KES values from a curve.
 //!
-//! * `test`, `symbol`, `values`: the KES values of one direction, in laboratory units and in
-//!   SI.
+//! * `test`, `symbol`, `values`, `scatter`: the KES values of one direction, in laboratory units and
+//!   in SI, and their standard deviations.
 //! * `curves`: [`Curve`], its branches, and the KES values read off it at [`EvaluationPoints`].
 //! * `tables`: the files of instruments and spreadsheets, made into columns of numbers.
 //! * `sheets`: [`Sheet`], its TOML and table files, and the checks of what they say.
@@ -14,6 +14,7 @@
 
 mod error;
 // Tests, and the values that they give.
+mod scatter;
 mod symbol;
 mod test;
 mod values;
@@ -33,9 +34,9 @@ pub use curves::loop_values::{BendingPoints, BendingValues, ShearPoints, ShearVa
 pub use curves::tensile_values::TensileValues;
 pub use error::Error;
 pub use exports::draft::SheetDraft;
+pub use scatter::Scatter;
 pub use sheets::listed::SheetValue;
 pub use sheets::model::Model;
-pub use sheets::scatter::Scatter;
 #[cfg(feature = "schema")]
 pub use sheets::schema::sheet_schema;
 pub use sheets::sheet::Sheet;

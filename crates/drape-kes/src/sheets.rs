@@ -11,7 +11,7 @@
 //!
 //! * `findings`: the list of errors and warnings.
 //! * `section`: typed access to a TOML table.
-//! * `spelling`, `value_keys`: the values; `scatter`: their standard deviations; `compression`: what those of KES-FB3 give together;
+//! * `spelling`, `value_keys`: the values; `compression`: what those of KES-FB3 give together;
 //!   `listed`: all of them, with their use.
 //! * `schema`: JSON Schema of all that.
 //! * `plausible`, `suspect`: values and curves that cannot be right.
@@ -25,7 +25,6 @@ pub(crate) mod findings;
 pub(crate) mod listed;
 pub(crate) mod model;
 pub(crate) mod plausible;
-pub(crate) mod scatter;
 #[cfg(feature = "schema")]
 pub(crate) mod schema;
 pub(crate) mod section;

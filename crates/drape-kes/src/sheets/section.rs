@@ -6,8 +6,8 @@
 use drape_input::closest;
 use toml::de::{DeTable, DeValue};
 
+use crate::scatter;
 use crate::sheets::findings::Findings;
-use crate::sheets::scatter;
 use crate::sheets::spelling::{self, KEYS};
 use crate::tables::layout::{Column, Take};
 use crate::test::Direction;

@@ -7,9 +7,9 @@ use toml::de::DeTable;
 
 use crate::curves::curve::Curve;
 use crate::error::Error;
+use crate::scatter::Scatter;
 use crate::sheets::findings::Findings;
 use crate::sheets::model::Model;
-use crate::sheets::scatter::Scatter;
 use crate::sheets::section::{Choice, Measured, Section};
 use crate::sheets::value_keys::{DirectedValues, WholeValues};
 use crate::sheets::{curve_file, plausible};
