@@ -159,28 +159,29 @@ fn ball(radius: f64, meridians: usize) -> String {
 }
 
 #[test]
-fn the_t_shirt_at_the_feet_is_worn_at_the_centre_that_is_advised() {
+fn garments_at_the_feet_are_worn_at_the_centre_that_is_advised() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let folder = tempfile::tempdir().expect("a folder");
-    let name = "tshirt";
-    let text = read_to_string(scenes.join(name).with_extension("toml")).expect("a scene");
-    let absolute = |path: &str| format!("\"{}/{path}/", scenes.display());
-    let text = text.replace("\"patterns/", &absolute("patterns"));
-    let text = text.replace("\"bodies/", &absolute("bodies"));
-    let text = text.replace("\"../fabrics/", &absolute("../fabrics"));
-    let text = text.replace("spacing = 0.01", "spacing = 0.02");
-    let with = |center: &str| {
-        let text = text.replace("fabric = \"wool\"", &format!("fabric = \"wool\"\n{center}"));
-        std::fs::write(folder.path().join("scene.toml"), text).expect("written");
-        drape(folder.path(), &["check", "scene.toml"])
-    };
-    let (code, _, said) = with("center = [0.01, -1.35, 0.02]");
-    assert_eq!(code, Some(3), "{name}: {said}");
-    assert!(said.contains("starts at the feet of the body"), "{name}: {said}");
-    let advice = said.split("write ").nth(1).and_then(|rest| rest.split(" in its").next());
-    let advice = advice.unwrap_or_else(|| panic!("{name}: no advice in {said}"));
-    let (code, _, said) = with(advice);
-    assert_eq!(code, Some(0), "{name} at {advice}: {said}");
+    for name in ["tshirt", "skirt", "trousers", "circle-skirt"] {
+        let text = read_to_string(scenes.join(name).with_extension("toml")).expect("a scene");
+        let absolute = |path: &str| format!("\"{}/{path}/", scenes.display());
+        let text = text.replace("\"patterns/", &absolute("patterns"));
+        let text = text.replace("\"bodies/", &absolute("bodies"));
+        let text = text.replace("\"../fabrics/", &absolute("../fabrics"));
+        let text = text.replace("spacing = 0.01", "spacing = 0.02");
+        let with = |center: &str| {
+            let text = text.replace("fabric = \"wool\"", &format!("fabric = \"wool\"\n{center}"));
+            std::fs::write(folder.path().join("scene.toml"), text).expect("written");
+            drape(folder.path(), &["check", "scene.toml"])
+        };
+        let (code, _, said) = with("center = [0.01, -1.35, 0.02]");
+        assert_eq!(code, Some(3), "{name}: {said}");
+        assert!(said.contains("starts at the feet of the body"), "{name}: {said}");
+        let advice = said.split("write ").nth(1).and_then(|rest| rest.split(" in its").next());
+        let advice = advice.unwrap_or_else(|| panic!("{name}: no advice in {said}"));
+        let (code, _, said) = with(advice);
+        assert_eq!(code, Some(0), "{name} at {advice}: {said}");
+    }
 }
 
 #[test]

@@ -72,6 +72,10 @@ const SLIDE: f64 = 0.12;
 const CLEAR: f64 = 0.002;
 const NEAR: f64 = 0.12;
 
+/// Number of the best places that are looked around where none is clear of the bodies: a close garment
+/// is clear at one place only.
+const CLOSE: usize = 4;
+
 /// Weight of the cost of a place where a garment has to stretch.
 const STRETCHED: f64 = 1.5;
 
@@ -211,8 +215,7 @@ impl<'a> Solids<'a> {
         if let Some(place) = all.clone().find(is_free) {
             return Some(self.refine(points, place, Search { axes: &[0, 2], clear: true }));
         }
-        // A close garment is clear of the body at one place only.
-        let near = all.take(2);
+        let near = all.take(CLOSE / 2);
         let search = Search { axes: &[0, 1, 2], clear: false };
         near.map(|place| self.refine(points, place, search)).find(is_free)
     }
@@ -226,7 +229,7 @@ impl<'a> Solids<'a> {
             places.map(|shift| (self.cost(&coarse, shift), shift)).collect();
         costed.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut best: Option<Candidate> = None;
-        for (cost, shift) in costed {
+        for &(cost, shift) in &costed {
             let own = Candidate { fit: Fit::Wide, cost, shift };
             if best.is_some_and(|best| best.compare(&own).is_lt()) {
                 break;
@@ -239,7 +242,12 @@ impl<'a> Solids<'a> {
                 }
             }
         }
-        best.map(|best| best.shift)
+        best.map(|best| best.shift).or_else(|| {
+            let near = costed.iter().take(CLOSE).map(|(_, shift)| *shift);
+            let search = Search { axes: &[0, 1, 2], clear: false };
+            let mut near = near.map(|shift| self.refine(points, shift, search));
+            near.find(|&shift| self.is_clear(points, shift) && self.is_around(points, shift))
+        })
     }
 
     /// Returns whether all points are clear of the bodies where they are moved by a shift, in m.
