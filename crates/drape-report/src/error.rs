@@ -11,15 +11,8 @@ pub enum Error {
     EmptyScene,
 
     /// The light was computed for other shapes.
-    #[error(
-        "the light is on {lit} points and the scene has {points}; compute the light of this scene"
-    )]
-    OtherShapes {
-        /// Number of lit points of the scene.
-        points: usize,
-        /// Number of points of the light.
-        lit: usize,
-    },
+    #[error("the scene has other shapes than the light was computed for; compute its own")]
+    OtherShapes,
 
     /// A list of a surface has a wrong length.
     #[error("{surface}: {what} has {length} numbers, not {expected}")]

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_report::{Picture, Scene, ScreenPoint, SkyLight, Surface, View, render, render_lit};
+use drape_report::{Extent, LitShapes, Picture, Scene, ScreenPoint, Surface, View, render};
 use std::f64::consts::{PI, TAU};
 
 type Shape = (Vec<f64>, Vec<[u32; 3]>);
@@ -229,8 +229,8 @@ fn the_same_scene_gives_the_same_bytes() {
     let reference = with_threads(1);
     assert!(with_threads(1) == reference, "a second run differs");
     assert!(with_threads(3) == reference, "three threads differ");
-    let light = SkyLight::new(&scene).unwrap();
-    let lit = render_lit(&scene, &SMALL, &light).unwrap().png().unwrap();
+    let shapes = LitShapes::new(&scene).unwrap();
+    let lit = shapes.draw(&scene, &SMALL.camera(&scene).unwrap()).unwrap().png().unwrap();
     assert!(lit == reference, "light computed beforehand differs");
 }
 

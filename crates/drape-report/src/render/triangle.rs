@@ -39,20 +39,18 @@ impl PlaneTriangle {
         span(self.corners.map(|c| c[1]), count)
     }
 
-    /// Visits the cells of some rows whose centres are inside, each with its column, its row and
-    /// its barycentric coordinates.
-    pub(crate) fn rasterize(
-        &self,
-        columns: usize,
-        rows: Range<usize>,
-        mut visit: impl FnMut(usize, usize, [f64; 3]),
-    ) {
+    /// Returns the change, from one column to the next, of a value that is linear in the triangle.
+    pub(crate) fn slope(&self, values: [f64; 3]) -> f64 {
+        let [a, b, c] = self.corners;
+        let rise = |p: [f64; 2], q: [f64; 2], value: f64| (p[1] - q[1]) * value;
+        (rise(b, c, values[0]) + rise(c, a, values[1]) + rise(a, b, values[2])) / self.area
+    }
+
+    /// Visits the rows of some rows in which the triangle has cells whose centres are inside.
+    pub(crate) fn spans(&self, columns: usize, rows: Range<usize>, mut visit: impl FnMut(Span)) {
         let across = span(self.corners.map(|c| c[0]), columns);
         // Barycentric coordinates are linear along a row.
-        let step = {
-            let (here, next) = (self.barycentric(0.0, 0.0), self.barycentric(1.0, 0.0));
-            [0, 1, 2].map(|k| next[k] - here[k])
-        };
+        let step = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|one| self.slope(one));
         for row in rows {
             let start = self.barycentric(across.start as f64 + 0.5, row as f64 + 0.5);
             // First and last column, counted from the left, in which no coordinate is below zero.
@@ -68,11 +66,27 @@ impl PlaneTriangle {
                 }
             }
             // The cast maps numbers below 0 to 0.
-            for offset in from.ceil() as usize..(to + 1.0).floor() as usize {
-                let coordinates = [0, 1, 2].map(|k| start[k] + offset as f64 * step[k]);
-                visit(across.start + offset, row, coordinates);
+            let (from, to) = (from.ceil() as usize, (to + 1.0).floor() as usize);
+            if from < to {
+                let first = [0, 1, 2].map(|k| start[k] + from as f64 * step[k]);
+                visit(Span { row, columns: across.start + from..across.start + to, first });
             }
         }
+    }
+}
+
+/// Cells of a row whose centres are in a triangle.
+pub(crate) struct Span {
+    pub(crate) row: usize,
+    pub(crate) columns: Range<usize>,
+    /// Barycentric coordinates of the first of them.
+    pub(crate) first: [f64; 3],
+}
+
+impl Span {
+    /// Returns the value at the first cell of a value that is linear in the triangle.
+    pub(crate) fn start(&self, values: [f64; 3]) -> f64 {
+        (0..3).map(|k| self.first[k] * values[k]).sum()
     }
 }
 
@@ -97,9 +111,11 @@ mod tests {
         let mut centers = 0.0;
         for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
             let triangle = PlaneTriangle::new([corners[a], corners[b], corners[c]]).unwrap();
-            triangle.rasterize(20, triangle.rows(20), |x, y, coordinates| {
-                count[20 * y + x] += 1;
-                centers += coordinates.iter().sum::<f64>();
+            triangle.spans(20, triangle.rows(20), |span| {
+                for (offset, column) in span.columns.clone().enumerate() {
+                    count[20 * span.row + column] += 1;
+                    centers += span.start([1.0; 3]) + offset as f64 * triangle.slope([1.0; 3]);
+                }
             });
         }
         assert!(count.iter().all(|n| *n <= 1), "a cell is covered twice");

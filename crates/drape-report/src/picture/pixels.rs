@@ -1,8 +1,8 @@
-//! Picture: pixels in sRGB, and their PNG file.
+//! Pixels: a picture in sRGB, and its PNG file.
 
 use std::path::Path;
 
-use super::colour::Colour;
+use crate::picture::Colour;
 use crate::error::Error;
 
 /// Picture: rows of pixels from the top, in sRGB.

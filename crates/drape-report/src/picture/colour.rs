@@ -1,5 +1,7 @@
 //! Colours: sRGB and linear light, and a diverging scale for signed values.
 
+use std::sync::LazyLock;
+
 /// Colour in sRGB: red, green, blue.
 pub type Colour = [u8; 3];
 
@@ -9,9 +11,21 @@ pub(crate) fn decode(value: u8) -> f64 {
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
+/// Number of steps of linear light in the table of sRGB values: a step is at most a fifth of an sRGB
+/// value, at the dark end.
+const STEPS: usize = 1 << 14;
+
+/// sRGB values of evenly spaced linear light; a power for each pixel would take longer than its light.
+static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    (0..=STEPS).map(|step| encode_exactly(step as f64 / STEPS as f64)).collect()
+});
+
 /// Returns the nearest sRGB value of linear light \[IEC61966\].
 pub(crate) fn encode(light: f64) -> u8 {
-    let light = light.clamp(0.0, 1.0);
+    ENCODED[(light.clamp(0.0, 1.0) * STEPS as f64 + 0.5) as usize]
+}
+
+fn encode_exactly(light: f64) -> u8 {
     let value =
         if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
     (255.0 * value).round() as u8
@@ -46,6 +60,12 @@ pub fn diverging(value: f64, limit: f64) -> Colour {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_colour_comes_back_from_its_light() {
+        assert!((0..=255).all(|value| encode(decode(value)) == value));
+        assert_eq!([encode(-1.0), encode(7.0), encode(f64::NAN)], [0, 255, 0]);
+    }
 
     #[test]
     fn zero_is_light_and_the_ends_are_kept() {
