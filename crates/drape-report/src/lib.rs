@@ -35,6 +35,4 @@ pub use page::{
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
 pub use picture::{Colour, Picture, diverging};
-pub use render::{
-    Camera, Extent, Ground, LitShapes, Scene, ScreenPoint, Surface, View, render,
-};
+pub use render::{Camera, Extent, Ground, LitShapes, Scene, ScreenPoint, Surface, View, render};

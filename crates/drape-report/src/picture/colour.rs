@@ -16,9 +16,8 @@ pub(crate) fn decode(value: u8) -> f64 {
 const STEPS: usize = 1 << 14;
 
 /// sRGB values of evenly spaced linear light; a power for each pixel would take longer than its light.
-static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    (0..=STEPS).map(|step| encode_exactly(step as f64 / STEPS as f64)).collect()
-});
+static ENCODED: LazyLock<Vec<u8>> =
+    LazyLock::new(|| (0..=STEPS).map(|step| encode_exactly(step as f64 / STEPS as f64)).collect());
 
 /// Returns the nearest sRGB value of linear light \[IEC61966\].
 pub(crate) fn encode(light: f64) -> u8 {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::picture::Colour;
 use crate::error::Error;
+use crate::picture::Colour;
 
 /// Picture: rows of pixels from the top, in sRGB.
 #[derive(Debug, Clone, PartialEq)]

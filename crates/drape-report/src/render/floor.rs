@@ -19,8 +19,8 @@ const MIDDLE: f64 = 0.3;
 
 /// Texels of the shadow along the radius of the scene, and width of its blur in texels, which is
 /// done so many times.
-const TEXELS: f64 = 260.0;
-const BLUR: usize = 7;
+const TEXELS: f64 = 200.0;
+const BLUR: usize = 5;
 const BLURS: usize = 3;
 
 /// Level plane below a scene.
@@ -46,7 +46,10 @@ impl Floor {
         };
         let [x, z] = self.center;
         let point = |j: usize, i: usize| [x + place(i), self.height, z + place(j)];
-        (0..=CELLS).flat_map(|j| (0..=CELLS).map(move |i| (j, i))).map(|(j, i)| point(j, i)).collect()
+        (0..=CELLS)
+            .flat_map(|j| (0..=CELLS).map(move |i| (j, i)))
+            .map(|(j, i)| point(j, i))
+            .collect()
     }
 
     /// Returns the point of the floor that a ray from a point in a direction meets, along x and z.
@@ -70,7 +73,9 @@ impl Floor {
             let root = ((MIDDLE * MIDDLE + 4.0 * bend * size).sqrt() - MIDDLE) / (2.0 * bend);
             0.5 * CELLS as f64 * (1.0 + root.copysign(part))
         };
-        bilinear([place(0), place(1)], [CELLS + 1; 2], |column, row| grid[row * (CELLS + 1) + column])
+        bilinear([place(0), place(1)], [CELLS + 1; 2], |column, row| {
+            grid[row * (CELLS + 1) + column]
+        })
     }
 }
 
@@ -151,11 +156,7 @@ fn blurred_across(table: &[f32], columns: usize, rows: usize) -> Vec<f32> {
 
 /// Returns the value between the values of a table at whole places; beyond its ends those of the
 /// ends.
-fn bilinear(
-    place: [f64; 2],
-    counts: [usize; 2],
-    value: impl Fn(usize, usize) -> f32,
-) -> f64 {
+fn bilinear(place: [f64; 2], counts: [usize; 2], value: impl Fn(usize, usize) -> f32) -> f64 {
     let cell = |k: usize| {
         let last = counts[k] - 1;
         let at = place[k].clamp(0.0, last as f64);
@@ -163,9 +164,8 @@ fn bilinear(
         (whole, (whole + 1).min(last), at - whole as f64)
     };
     let ((left, right, x), (above, below, y)) = (cell(0), cell(1));
-    let along = |row: usize| {
-        (1.0 - x) * f64::from(value(left, row)) + x * f64::from(value(right, row))
-    };
+    let along =
+        |row: usize| (1.0 - x) * f64::from(value(left, row)) + x * f64::from(value(right, row));
     (1.0 - y) * along(above) + y * along(below)
 }
 
@@ -194,7 +194,8 @@ mod tests {
         let floor = Floor::new(0.0, scene.bounds);
         let shadow = FloorShadow::new(&floor, &scene, [0.6, 0.8, 0.0]);
         // The light from +x throws it by 0.75 to −x.
-        for (x, expected) in [(-0.75, 1.0), (-0.22, 0.0), (-0.28, 1.0), (-1.22, 1.0), (-1.28, 0.0)] {
+        for (x, expected) in [(-0.75, 1.0), (-0.22, 0.0), (-0.28, 1.0), (-1.22, 1.0), (-1.28, 0.0)]
+        {
             let shade = shadow.at([x, 0.0]);
             assert!((shade - expected).abs() < 1e-3, "{shade} at {x}");
         }

@@ -118,8 +118,9 @@ impl Band {
                 let start = span.start(depths) as f32;
                 let first = (span.row - rows.start) * width;
                 let range = first + span.columns.start..first + span.columns.end;
-                let held = self.depths[range.clone()].iter_mut().zip(&mut self.items[range]);
-                for (offset, (depth, holder)) in held.enumerate() {
+                let (depths, holders) = (&mut self.depths[range.clone()], &mut self.items[range]);
+                // A counter of 32 bits, which is converted for several samples at a time.
+                for (offset, (depth, holder)) in (0_i32..).zip(depths.iter_mut().zip(holders)) {
                     let own = start + offset as f32 * slope;
                     let is_closer = own > *depth;
                     *depth = if is_closer { own } else { *depth };

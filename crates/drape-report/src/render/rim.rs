@@ -12,12 +12,7 @@ use super::vector::{self, Vector, cross, dot, scale, subtract, unit};
 const LEAST: f64 = 1.0 / 420.0;
 
 /// Adds the rims of the cloths of a scene with a radius, in m.
-pub(crate) fn add(
-    scene: &Scene,
-    radius: f64,
-    vertices: &mut Vec<Vertex>,
-    facets: &mut Vec<Facet>,
-) {
+pub(crate) fn add(scene: &Scene, radius: f64, vertices: &mut Vec<Vertex>, facets: &mut Vec<Facet>) {
     let mut outwards: HashMap<u32, Vector> = HashMap::new();
     let mut edges = Vec::new();
     for facet in facets.iter() {

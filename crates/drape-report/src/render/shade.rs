@@ -38,11 +38,11 @@ const KEY_AZIMUTH: f64 = 0.95;
 
 /// Texels along the shadow map of the key light, over the longer side of the picture, and their
 /// least and largest number: a texel is about a pixel.
-const KEY_TEXELS: f64 = 1.1;
+const KEY_TEXELS: f64 = 1.0;
 const KEY_TEXELS_WITHIN: [f64; 2] = [900.0, 3000.0];
 
 /// Radius of the filter of this map, in texels.
-const KEY_FILTER: i32 = 2;
+const KEY_FILTER: i32 = 1;
 
 /// Strength of the shadows on the floor; 1 would be as dark as on a white body.
 const FLOOR_SHADE: f64 = 0.75;
@@ -134,9 +134,7 @@ impl<'a> Shader<'a> {
             inks: INK.map(|ink| ink.map(decode)),
             sky: lit.sky,
             key: ShadowMap::new(tessellation, direction, texels as usize),
-            floor: lit
-                .floor
-                .map(|floor| (floor, FloorShadow::new(floor, tessellation, direction))),
+            floor: lit.floor.map(|floor| (floor, FloorShadow::new(floor, tessellation, direction))),
             ground: [scene.ground.top, scene.ground.bottom].map(|colour| colour.map(decode)),
             line_width: (LINE_WIDTH * f64::from(camera.height())).max(1.0),
         }
@@ -154,8 +152,8 @@ impl<'a> Shader<'a> {
         });
         let Some((floor, shadow, point, fade)) = floor else { return colour };
         let cosine = self.key.direction[1];
-        let lost = SKY * (1.0 - floor.value(&self.sky.floor, point))
-            + KEY * cosine * shadow.at(point);
+        let lost =
+            SKY * (1.0 - floor.value(&self.sky.floor, point)) + KEY * cosine * shadow.at(point);
         scale(colour, 1.0 - FLOOR_SHADE * fade * lost / (SKY + KEY * cosine))
     }
 
@@ -197,9 +195,9 @@ impl<'a> Shader<'a> {
             Part::Body(k) => self.colours[self.scene.cloths.len() + k],
         };
         let base = match (surface.tints, facet.part) {
-            (Some(_), _) => mix(facet
-                .corners
-                .map(|corner| self.tints[corner as usize].map(f64::from))),
+            (Some(_), _) => {
+                mix(facet.corners.map(|corner| self.tints[corner as usize].map(f64::from)))
+            }
             (None, Part::Rim(_)) => of_front,
             (None, _) if front => of_front,
             (None, _) => of_back,
@@ -231,7 +229,8 @@ impl<'a> Shader<'a> {
         let with_slope = |values: [f64; 3]| {
             let value = |weights: [f64; 3]| (0..3).map(|c| weights[c] * values[c]).sum::<f64>();
             let here = value(here);
-            (here, (value(right) - here).hypot(value(down) - here))
+            let [across, along] = [right, down].map(|there| value(there) - here);
+            (here, (across * across + along * along).sqrt())
         };
         let half = 0.5 * self.line_width;
         let cover = |pixels: f64| (half + 0.5 - pixels).clamp(0.0, 1.0);
@@ -264,7 +263,8 @@ impl<'a> Shader<'a> {
             if let Some(line) = number(corners[corner].border) {
                 // A dot closes the line where only a corner of this facet touches the border.
                 let [cx, cy] = item.pixels.corners[corner];
-                ink[line] = cover((x - cx).hypot(y - cy) - half).max(ink[line]);
+                let away = ((x - cx) * (x - cx) + (y - cy) * (y - cy)).sqrt();
+                ink[line] = cover(away - half).max(ink[line]);
             }
         }
         [0, 1, 2, 3].map(|k| INK_OPACITY[k] * ink[k])

@@ -44,12 +44,13 @@ impl ShadowMap {
         let [right, up] = perpendiculars(scale(direction, -1.0));
         let axes = [right, scale(up, -1.0)];
         let flat = |vertex: &Vertex| axes.map(|axis| dot(vertex.position, axis));
-        let (low, high) = scene.vertices.iter().map(flat).fold(
-            ([f64::MAX; 2], [f64::MIN; 2]),
-            |(low, high), p| {
+        let (low, high) = scene
+            .vertices
+            .iter()
+            .map(flat)
+            .fold(([f64::MAX; 2], [f64::MIN; 2]), |(low, high), p| {
                 ([0, 1].map(|k| p[k].min(low[k])), [0, 1].map(|k| p[k].max(high[k])))
-            },
-        );
+            });
         let longest = (high[0] - low[0]).max(high[1] - low[1]).max(f64::MIN_POSITIVE);
         let texel = longest / (texels as f64 - 2.0 * MARGIN);
         let count = |k: usize| ((high[k] - low[k]) / texel + 2.0 * MARGIN).ceil() as usize;
@@ -87,8 +88,9 @@ impl ShadowMap {
             triangle.spans(self.columns, triangle.rows(self.rows), |span| {
                 let start = span.start(heights) as f32;
                 let row = &mut self.heights[span.row * self.columns..][span.columns];
-                for (offset, held) in row.iter_mut().enumerate() {
-                    *held = held.max(start + offset as f32 * slope);
+                for (offset, held) in (0_i32..).zip(row) {
+                    let own = start + offset as f32 * slope;
+                    *held = if own > *held { own } else { *held };
                 }
             });
         }
@@ -106,15 +108,18 @@ impl ShadowMap {
     pub(crate) fn visibility(&self, point: Vector, normal: Vector, radius: i32) -> f64 {
         let offset = NORMAL_OFFSET * self.texel;
         let [x, y, height] = self.to_light(add(point, scale(normal, offset)));
-        let (column, row) = ((x - 0.5).floor(), (y - 0.5).floor());
-        let (right, down) = ((x - 0.5 - column) as f32, (y - 0.5 - row) as f32);
+        let (x, y) = (x - 0.5, y - 0.5);
+        // Rounded down: the casts round towards 0, and saturate in a scene without extent, in which
+        // texels have no size.
+        let whole = |at: f64| at as i64 - i64::from(at < 0.0);
+        let (column, row) = (whole(x), whole(y));
+        let (right, down) = ((x - column as f64) as f32, (y - row as f64) as f32);
         // Height of the surface's plane at other texels.
         let cosine = dot(normal, self.direction).max(LEAST_COSINE);
         let slope = |k: usize| (-self.texel * dot(normal, self.axes[k]) / cosine) as f32;
         let [across, along] = [slope(0), slope(1)];
-        // Beyond its border the map is as empty as on it. In a scene without extent texels have no
-        // size, and the casts saturate: the sums must saturate too.
-        let (column, row, height) = (column as i64, row as i64, height as f32);
+        // Beyond its border the map is as empty as on it.
+        let height = height as f32;
         let within = |at: i64, offset: i32, count: usize| {
             at.saturating_add(offset.into()).clamp(0, count as i64 - 1) as usize
         };

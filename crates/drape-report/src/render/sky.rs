@@ -18,9 +18,9 @@ const DIRECTIONS: usize = 64;
 
 /// Texels along the longer side of the shadow map of one direction.
 ///
-/// A texel is 0.4 % of the width of the scene: smaller ones would only sharpen single directions of
+/// A texel is 0.5 % of the width of the scene: smaller ones would only sharpen single directions of
 /// a light that is soft.
-const TEXELS: usize = 256;
+const TEXELS: usize = 200;
 
 /// Angle from one direction of the sky to the next, in rad, which distributes them evenly.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
@@ -105,10 +105,8 @@ mod tests {
     fn a_lid_takes_its_view_factor_of_the_sky() {
         // A disc of radius R at the height h hides R²/(R² + h²) of the light below its centre.
         let (radius, height) = (0.5, 0.5);
-        let discs = [
-            Disc { radius: 0.1, height: 0.0, pieces: 6 },
-            Disc { radius, height, pieces: 60 },
-        ];
+        let discs =
+            [Disc { radius: 0.1, height: 0.0, pieces: 6 }, Disc { radius, height, pieces: 60 }];
         let scene = scene(&discs, [0.0, 0.25, 0.0], 0.7);
         let light = SkyLight::on(&scene, None).at(&scene.facets[0], true)[0];
         let expected = 1.0 - radius * radius / (radius * radius + height * height);

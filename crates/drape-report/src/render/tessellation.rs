@@ -178,9 +178,10 @@ impl Builder {
         let weights = [0, 1].map(|i| 0.5 * (piece.weights[b][i] + piece.weights[c][i]));
         let ends = [b, c].map(|end| piece.corners[end]);
         let [one, other] = ends.map(|end| self.vertices[end as usize]);
-        let middle = *self.middles.entry([ends[0].min(ends[1]), ends[0].max(ends[1])]).or_insert(
-            self.vertices.len() as u32,
-        );
+        let middle = *self
+            .middles
+            .entry([ends[0].min(ends[1]), ends[0].max(ends[1])])
+            .or_insert(self.vertices.len() as u32);
         if middle as usize == self.vertices.len() {
             self.vertices.push(Vertex {
                 position: scale(add(one.position, other.position), 0.5),
@@ -235,8 +236,7 @@ mod tests {
         }
         assert!((hem - 10.0).abs() < 1e-12, "hem {hem}");
         for vertex in &tessellation.vertices {
-            let place =
-                vertex.source.value(&triangles, |corner| at(&positions, corner));
+            let place = vertex.source.value(&triangles, |corner| at(&positions, corner));
             let off = norm(subtract(place, vertex.position));
             let allowed = if vertex.part == Part::Cloth(0) { 1e-6 } else { 0.01 };
             assert!(off < allowed, "{off} from its source");

@@ -49,26 +49,37 @@ impl PlaneTriangle {
     /// Visits the rows of some rows in which the triangle has cells whose centres are inside.
     pub(crate) fn spans(&self, columns: usize, rows: Range<usize>, mut visit: impl FnMut(Span)) {
         let across = span(self.corners.map(|c| c[0]), columns);
-        // Barycentric coordinates are linear along a row.
-        let step = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|one| self.slope(one));
-        for row in rows {
-            let start = self.barycentric(across.start as f64 + 0.5, row as f64 + 0.5);
+        if across.is_empty() || rows.is_empty() {
+            return;
+        }
+        // Barycentric coordinates are linear along a row and from row to row.
+        let (left, top) = (across.start as f64 + 0.5, rows.start as f64 + 0.5);
+        let start = self.barycentric(left, top);
+        let [right, below] = [self.barycentric(left + 1.0, top), self.barycentric(left, top + 1.0)];
+        let step = [0, 1, 2].map(|k| right[k] - start[k]);
+        let down = [0, 1, 2].map(|k| below[k] - start[k]);
+        let run = step.map(|step| -1.0 / step);
+        let last = (across.end - across.start) as f64 - 1.0;
+        for (number, row) in rows.enumerate() {
+            let here = [0, 1, 2].map(|k| start[k] + number as f64 * down[k]);
             // First and last column, counted from the left, in which no coordinate is below zero.
-            let (mut from, mut to) = (0.0f64, (across.end - across.start) as f64 - 1.0);
+            let (mut from, mut to) = (0.0f64, last);
             for k in 0..3 {
-                let zero = -(start[k] + EDGE) / step[k];
+                let zero = (here[k] + EDGE) * run[k];
                 if step[k] > 0.0 {
                     from = from.max(zero);
                 } else if step[k] < 0.0 {
                     to = to.min(zero);
-                } else if start[k] < -EDGE {
+                } else if here[k] < -EDGE {
                     to = -1.0;
                 }
             }
-            // The cast maps numbers below 0 to 0.
-            let (from, to) = (from.ceil() as usize, (to + 1.0).floor() as usize);
+            // The cast rounds down, and maps numbers below 0 to 0.
+            let whole = from as usize;
+            let from = whole + usize::from(from > whole as f64);
+            let to = (to + 1.0) as usize;
             if from < to {
-                let first = [0, 1, 2].map(|k| start[k] + from as f64 * step[k]);
+                let first = [0, 1, 2].map(|k| here[k] + from as f64 * step[k]);
                 visit(Span { row, columns: across.start + from..across.start + to, first });
             }
         }
@@ -94,9 +105,10 @@ impl Span {
 fn span(values: [f64; 3], count: usize) -> Range<usize> {
     let low = values.iter().fold(f64::MAX, |low, v| low.min(*v));
     let high = values.iter().fold(f64::MIN, |high, v| high.max(*v));
-    // The cast maps numbers that are too large to the largest.
-    let first = (low - 0.5).ceil().max(0.0) as usize;
-    let last = (high + 0.5).floor().max(0.0) as usize;
+    // The casts round down, and map numbers that are too small or too large to the nearest.
+    let whole = (low - 0.5) as usize;
+    let first = whole + usize::from(low - 0.5 > whole as f64);
+    let last = (high + 0.5) as usize;
     first.min(count)..last.min(count)
 }
 
