@@ -66,6 +66,26 @@ pub enum Error {
         range: &'static str,
     },
 
+    /// A scale of colours has no range.
+    #[error("the range from {low} to {high} has no width; give a lower end and a higher one")]
+    NoRange {
+        /// Its lower end.
+        low: f64,
+        /// Its upper end.
+        high: f64,
+    },
+
+    /// The pictures of an animation are none, or differ in size.
+    #[error("an animation of {frames} pictures of {} x {} pixels got one of {} x {}", size[0], size[1], found[0], found[1])]
+    BadAnimation {
+        /// Number of pictures that it has.
+        frames: u32,
+        /// Width and height of its pictures, in pixels.
+        size: [u32; 2],
+        /// Width and height of the picture that does not fit.
+        found: [u32; 2],
+    },
+
     /// A report has no content.
     #[error("the report of {name} has neither curves nor values; give it what was fitted")]
     EmptyReport {

@@ -34,5 +34,5 @@ pub use page::{
     ValidationRow, Verdict,
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
-pub use picture::{Colour, Picture, diverging};
+pub use picture::{Animation, Colour, ColourScale, Legend, Picture, diverging};
 pub use render::{Camera, Extent, Ground, LitShapes, Scene, ScreenPoint, Surface, View, render};

@@ -32,7 +32,25 @@ fn encode_exactly(light: f64) -> u8 {
 
 /// Colours of the lower end, the middle and the upper end of the diverging scale: blue, nearly
 /// white, red.
-const STOPS: [Colour; 3] = [[33, 92, 172], [246, 246, 244], [186, 38, 48]];
+pub(crate) const DIVERGING: [Colour; 3] = [[33, 92, 172], [246, 246, 244], [186, 38, 48]];
+
+/// Colours of the scale from low to high: dark blue, green, yellow, evenly lighter.
+pub(crate) const SEQUENTIAL: [Colour; 5] =
+    [[37, 35, 92], [32, 99, 141], [33, 153, 134], [122, 199, 82], [250, 228, 66]];
+
+/// Returns the colour at a part, 0 to 1, of the way from the first of evenly spaced colours to the
+/// last.
+pub(crate) fn between<const N: usize>(stops: &[Colour; N], part: f64) -> Colour {
+    let place = part.clamp(0.0, 1.0) * (N - 1) as f64;
+    // The cast rounds down, and makes 0 of NaN.
+    let first = (place as usize).min(N.saturating_sub(2));
+    let share = place - first as f64;
+    std::array::from_fn(|channel| {
+        let [from, to] =
+            [stops[first], stops[(first + 1).min(N - 1)]].map(|c| f64::from(c[channel]));
+        (from + share * (to - from)).round() as u8
+    })
+}
 
 /// Returns the colour of a value on a diverging scale from minus to plus a limit.
 ///
@@ -49,11 +67,7 @@ const STOPS: [Colour; 3] = [[33, 92, 172], [246, 246, 244], [186, 38, 48]];
 #[must_use]
 pub fn diverging(value: f64, limit: f64) -> Colour {
     let fraction = if limit > 0.0 { (value / limit).clamp(-1.0, 1.0) } else { 0.0 };
-    let end = if fraction < 0.0 { STOPS[0] } else { STOPS[2] };
-    std::array::from_fn(|channel| {
-        let (middle, end) = (f64::from(STOPS[1][channel]), f64::from(end[channel]));
-        (middle + fraction.abs() * (end - middle)).round() as u8
-    })
+    between(&DIVERGING, 0.5 + 0.5 * fraction)
 }
 
 #[cfg(test)]
@@ -68,10 +82,10 @@ mod tests {
 
     #[test]
     fn zero_is_light_and_the_ends_are_kept() {
-        assert_eq!(diverging(0.0, 2.0), STOPS[1]);
-        assert_eq!([diverging(-2.0, 2.0), diverging(9.0, 2.0)], [STOPS[0], STOPS[2]]);
+        assert_eq!(diverging(0.0, 2.0), DIVERGING[1]);
+        assert_eq!([diverging(-2.0, 2.0), diverging(9.0, 2.0)], [DIVERGING[0], DIVERGING[2]]);
         let half = diverging(1.0, 2.0);
-        assert!(half[0] > half[1] && half[1] > STOPS[2][1], "{half:?}");
-        assert_eq!(diverging(1.0, 0.0), STOPS[1]);
+        assert!(half[0] > half[1] && half[1] > DIVERGING[2][1], "{half:?}");
+        assert_eq!(diverging(1.0, 0.0), DIVERGING[1]);
     }
 }

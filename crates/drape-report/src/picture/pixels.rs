@@ -68,6 +68,50 @@ impl Picture {
         row.get(x as usize).copied()
     }
 
+    /// Returns a pixel to change, counted from the top left; `None` outside the picture.
+    pub(crate) fn pixel_mut(&mut self, x: u32, y: u32) -> Option<&mut Colour> {
+        let (width, pixels) = (self.width, self.pixels.as_chunks_mut::<3>().0);
+        let is_inside = x < width && y < self.height;
+        is_inside.then(|| &mut pixels[y as usize * width as usize + x as usize])
+    }
+
+    /// Returns the picture with more rows below, of a colour.
+    pub(crate) fn extended(&self, rows: u32, colour: Colour) -> Picture {
+        let added = self.width as usize * rows as usize;
+        let pixels = [&self.pixels[..], &colour.repeat(added)].concat();
+        Picture { width: self.width, height: self.height + rows, pixels }
+    }
+
+    /// Returns the smallest rectangle outside of which a picture of the same size is the same: the
+    /// column and the row of its corner, its width and its height.
+    pub(crate) fn difference(&self, other: &Picture) -> Option<[u32; 4]> {
+        let [own, others] = [self, other].map(|picture| picture.pixels.as_chunks::<3>().0);
+        let width = self.width as usize;
+        let differs = |k: &usize| own[*k] != others[*k];
+        let (first, last) = ((0..own.len()).find(differs)?, (0..own.len()).rev().find(differs)?);
+        let rows = first / width..=last / width;
+        let (mut left, mut right) = (width, 0);
+        for row in rows.clone() {
+            let line = row * width..(row + 1) * width;
+            if let Some(column) = line.clone().find(differs) {
+                left = left.min(column % width);
+            }
+            if let Some(column) = line.rev().find(differs) {
+                right = right.max(column % width);
+            }
+        }
+        let size = [right + 1 - left, rows.end() + 1 - rows.start()];
+        Some([left, *rows.start(), size[0], size[1]].map(|number| number as u32))
+    }
+
+    /// Returns the pixels of a rectangle: column and row of its corner, width and height.
+    pub(crate) fn part(&self, [left, top, width, height]: [u32; 4]) -> Vec<u8> {
+        let lines = self.pixels.chunks_exact(3 * self.width.max(1) as usize);
+        let own = 3 * left as usize..3 * (left + width) as usize;
+        let lines = lines.skip(top as usize).take(height as usize);
+        lines.flat_map(|line| &line[own.clone()]).copied().collect()
+    }
+
     /// Returns the picture as a PNG file.
     ///
     /// # Errors
