@@ -34,6 +34,9 @@ pub enum Field {
     Speed,
 }
 
+/// Fraction of the values that the range of a field leaves out.
+const BEYOND: f64 = 0.005;
+
 /// Largest distance from a body that is measured, in m.
 const DISTANCE_MAX: f64 = 0.05;
 
@@ -97,6 +100,24 @@ impl Field {
     #[must_use]
     pub fn is_signed(self) -> bool {
         matches!(self, Field::StrainWarp | Field::StrainWeft | Field::Shear)
+    }
+
+    /// Returns the range of its values in some frames: that of nearly all of them, rounded up to 1, 2
+    /// or 5 times a power of ten; about zero for a signed field, from zero for another.
+    #[must_use]
+    pub fn range(self, frames: &[Vec<f64>]) -> [f64; 2] {
+        let mut sizes: Vec<f64> = frames.iter().flatten().map(|value| value.abs()).collect();
+        let place = ((1.0 - BEYOND) * sizes.len() as f64) as usize;
+        let place = place.min(sizes.len().saturating_sub(1));
+        let size = match sizes.is_empty() {
+            true => 0.0,
+            false => *sizes.select_nth_unstable_by(place, f64::total_cmp).1,
+        };
+        let size = size.max(1e-6);
+        let power = 10.0_f64.powf(size.log10().floor());
+        let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
+        let high = steps.into_iter().find(|step| *step >= size).unwrap_or(size);
+        [if self.is_signed() { -high } else { 0.0 }, high]
     }
 }
 

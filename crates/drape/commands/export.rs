@@ -4,6 +4,7 @@
 //! already, and what is said about them.
 
 mod arguments;
+mod pictures;
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -16,6 +17,7 @@ use drape::frames::{Frame, Recording};
 
 pub(crate) use self::arguments::ExportArguments;
 use self::arguments::Format;
+use self::pictures::{ANIMATED, ClipPictures};
 use crate::console::note;
 use crate::failure::Failure;
 use crate::file;
@@ -24,6 +26,12 @@ use crate::say::say_written;
 /// Executes `drape export`.
 pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let format = format(arguments)?;
+    let is_pictures = matches!(format, Format::Png | Format::Apng);
+    if let (false, Some(option)) = (is_pictures, arguments.look.given()) {
+        return Err(Failure::Usage(format!(
+            "{option} is for pictures; leave it out, or add --format png or apng"
+        )));
+    }
     let recording = Recording::open(&arguments.run)?;
     let numbers = numbers(arguments, format, recording.frames() - 1);
     let asked = numbers.clone().count();
@@ -35,7 +43,9 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let one = asked == 1;
     let rate = clip.rate();
     let clip = match format {
-        Format::Obj | Format::Pc2 | Format::Mdd if !clip.is_even() => {
+        Format::Obj | Format::Pc2 | Format::Mdd | Format::Png | Format::Apng
+            if !clip.is_even() && (!is_pictures || arguments.fps.is_some()) =>
+        {
             let resampled = clip.resampled();
             note(format_args!(
                 "the frames do not follow each other at {rate} frames per second; those nearest in time are taken, {}",
@@ -66,6 +76,10 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
         Format::Vtp => files.vtk(&clip, one)?,
         Format::Npz => files.one(|to| write_npz(&clip, to))?,
         Format::Csv => files.one(|to| write_csv(&clip, to))?,
+        Format::Png => ClipPictures::new(&clip, &arguments.look, None)?.sequence(&files)?,
+        Format::Apng => {
+            ClipPictures::new(&clip, &arguments.look, Some(ANIMATED))?.animation(&files)?;
+        }
     }
     let (count, output) = (clip.count(), arguments.output.display());
     match count {

@@ -13,9 +13,6 @@ use crate::field::{Field, Fields};
 /// Most frames that are shown of a run.
 const FRAMES_MAX: usize = 600;
 
-/// Fraction of the values that the range of a field leaves out.
-const BEYOND: f64 = 0.005;
-
 /// Colours of the two sides of panels, by the number of their fabric.
 const COLOURS: [[&str; 2]; 6] = [
     ["#96b6d6", "#e2c496"],
@@ -99,28 +96,11 @@ fn shown_fields(recording: &Recording, frames: &[Frame]) -> Result<Vec<Shown>, E
             values.extend(all.values(field, frame, before));
         }
         if !values.is_empty() {
-            let range = range(field, &values);
+            let range = field.range(&values);
             shown.push(Shown { field, values, range });
         }
     }
     Ok(shown)
-}
-
-/// Returns the range of a field: that of nearly all values, rounded up to 1, 2 or 5 times a power of
-/// ten; about zero for a signed field, from zero for another.
-fn range(field: Field, values: &[Vec<f64>]) -> [f64; 2] {
-    let mut sizes: Vec<f64> = values.iter().flatten().map(|value| value.abs()).collect();
-    let place = ((1.0 - BEYOND) * sizes.len() as f64) as usize;
-    let place = place.min(sizes.len().saturating_sub(1));
-    let size = match sizes.is_empty() {
-        true => 0.0,
-        false => *sizes.select_nth_unstable_by(place, f64::total_cmp).1,
-    };
-    let size = size.max(1e-6);
-    let power = 10.0_f64.powf(size.log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
-    let high = steps.into_iter().find(|step| *step >= size).unwrap_or(size);
-    [if field.is_signed() { -high } else { 0.0 }, high]
 }
 
 /// Numbers of a scene as bytes.

@@ -19,23 +19,26 @@ impl Picture {
         Picture { width, height, pixels }
     }
 
-    /// Returns pictures side by side on white, in rows of some columns, each in a field of the
-    /// largest size.
+    /// Returns pictures side by side on white, in rows of some columns, each column as wide as its
+    /// widest picture and each row as high as its highest.
     #[must_use]
     pub fn sheet(pictures: &[Picture], columns: usize) -> Picture {
         let columns = columns.clamp(1, pictures.len().max(1));
-        let largest = |size: fn(&Picture) -> u32| pictures.iter().map(size).max().unwrap_or(0);
-        let (field, rows) =
-            ([largest(Picture::width), largest(Picture::height)], pictures.len().div_ceil(columns));
-        let (width, height) = (field[0] * columns as u32, field[1] * rows as u32);
+        let rows = pictures.len().div_ceil(columns);
+        let (mut widths, mut heights) = (vec![0; columns], vec![0; rows]);
+        for (number, picture) in pictures.iter().enumerate() {
+            let (column, row) = (&mut widths[number % columns], &mut heights[number / columns]);
+            *column = picture.width.max(*column);
+            *row = picture.height.max(*row);
+        }
+        let [width, height] = [&widths, &heights].map(|sizes| sizes.iter().sum::<u32>());
         let mut pixels = vec![u8::MAX; 3 * width as usize * height as usize];
         for (number, picture) in pictures.iter().enumerate() {
-            let (column, row) = (number % columns, number / columns);
-            let left = column * field[0] as usize;
+            let left: u32 = widths[..number % columns].iter().sum();
+            let top: u32 = heights[..number / columns].iter().sum();
             let lines = picture.pixels.chunks(3 * picture.width.max(1) as usize);
             for (line, data) in lines.enumerate() {
-                let above = row * field[1] as usize + line;
-                let start = 3 * (above * width as usize + left);
+                let start = 3 * ((top as usize + line) * width as usize + left as usize);
                 pixels[start..start + data.len()].copy_from_slice(data);
             }
         }
@@ -147,15 +150,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_sheet_shows_every_picture_in_its_field() {
+    fn a_sheet_shows_every_picture_in_its_column_and_row() {
         let plain = |width: u32, height: u32, shade: u8| {
             Picture::new(width, height, vec![shade; 3 * (width * height) as usize])
         };
         let sheet = Picture::sheet(&[plain(3, 2, 10), plain(2, 2, 20), plain(3, 1, 30)], 2);
-        assert_eq!((sheet.width(), sheet.height()), (6, 4));
+        assert_eq!((sheet.width(), sheet.height()), (5, 3));
         let shade = |x, y| sheet.pixel(x, y).map(|[shade, ..]| shade);
         assert_eq!([shade(2, 1), shade(3, 0), shade(4, 1)], [10, 20, 20].map(Some));
-        assert_eq!([shade(0, 2), shade(0, 3), shade(5, 0)], [30, 255, 255].map(Some));
+        assert_eq!([shade(0, 2), shade(4, 2)], [30, 255].map(Some));
         assert_eq!(Picture::sheet(&[], 3).width(), 0);
     }
 }

@@ -280,7 +280,6 @@ pub(crate) mod samples {
     }
 
     /// Disc around the y axis, facing up, as a fan of triangles.
-    #[derive(Clone)]
     pub(crate) struct Disc {
         pub(crate) radius: f64,
         pub(crate) height: f64,

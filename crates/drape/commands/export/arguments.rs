@@ -6,6 +6,8 @@ use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 
+use crate::commands::show::look::LookArguments;
+
 #[derive(Args)]
 pub(crate) struct ExportArguments {
     /// Folder of a run.
@@ -31,6 +33,8 @@ pub(crate) struct ExportArguments {
     /// Replaces files that exist.
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) look: LookArguments,
 }
 
 /// Format of other programs.
@@ -53,6 +57,10 @@ pub(crate) enum Format {
     Npz,
     /// Table with a line for each frame: heights, area, speeds.
     Csv,
+    /// Pictures: one frame, or a numbered sequence.
+    Png,
+    /// Animated PNG, which loops with the times of the frames.
+    Apng,
 }
 
 /// Numbers of frames as they are typed: `A..B`, `A..`, `..B`.
