@@ -56,6 +56,10 @@ const INK: [Colour; 4] = [[34, 58, 110], [150, 54, 44], [40, 44, 52], [40, 44, 5
 /// Opacity of these lines.
 const INK_OPACITY: [f64; 4] = [0.72, 0.72, 0.5, 0.75];
 
+/// Linear light above which light is compressed, and the room above it.
+const SHOULDER: f64 = 0.6;
+const SHOULDER_ROOM: f64 = 1.0 - SHOULDER;
+
 /// Part of white in the colour of a rim.
 const RIM_WHITE: f64 = 0.25;
 
@@ -215,7 +219,7 @@ impl<'a> Shader<'a> {
             }
             _ => base,
         };
-        own.map(|channel| channel * light)
+        own.map(|channel| compressed(channel * light))
     }
 
     /// Returns the coverage of a point of a cloth by the warp lines, the weft lines, the hem and the
@@ -269,6 +273,13 @@ impl<'a> Shader<'a> {
         }
         [0, 1, 2, 3].map(|k| INK_OPACITY[k] * ink[k])
     }
+}
+
+/// Returns linear light as a picture can show it: bright light is compressed, so that folds of white
+/// cloth are seen.
+fn compressed(light: f64) -> f64 {
+    let above = light - SHOULDER;
+    if above > 0.0 { 1.0 - SHOULDER_ROOM * (-above / SHOULDER_ROOM).exp() } else { light }
 }
 
 /// Returns the surface that a part belongs to.

@@ -179,7 +179,8 @@ mod tests {
         let disc = Disc { radius: 0.5, height: 0.0, pieces: 60 };
         for sine in [0.99, 0.97, 0.7, 0.1] {
             let direction = [sine, (1.0f64 - sine * sine).sqrt(), 0.0];
-            let map = ShadowMap::new(&scene(std::slice::from_ref(&disc), [0.0; 3], 0.8), direction, 300);
+            let map =
+                ShadowMap::new(&scene(std::slice::from_ref(&disc), [0.0; 3], 0.8), direction, 300);
             for k in 0..40 {
                 let place = [0.02 * f64::from(k) - 0.4, 0.0, 0.011 * f64::from(k) - 0.2];
                 let lit = map.visibility(place, [0.0, 1.0, 0.0], 2);

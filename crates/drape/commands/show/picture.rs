@@ -18,7 +18,7 @@ const TURN: f64 = 6.0;
 
 /// Pixels of a turntable, and of each frame of a strip.
 const TURNTABLE: [u32; 2] = [600, 800];
-const FRAME: [u32; 2] = [400, 600];
+const FRAME: [u32; 2] = [400, 400];
 
 #[derive(Args)]
 pub(crate) struct PictureArguments {
