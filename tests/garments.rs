@@ -193,23 +193,23 @@ fn mistakes_in_a_garment_are_reported_with_their_place_and_a_remedy() {
 
 #[test]
 fn the_first_garment_of_the_documentation_is_sound() {
-    let text = std::fs::read_to_string(root().join("scenes/README.md")).expect("the page");
-    let blocks: Vec<String> = text
-        .split("   ```toml\n")
+    let page = root().join("crates/drape/guide/src/tutorials/skirt.md");
+    let text = std::fs::read_to_string(page).expect("the page");
+    let blocks: Vec<&str> = text
+        .split("```toml\n")
         .skip(1)
-        .map(|block| block.split("   ```").next().unwrap_or_default().to_owned())
+        .map(|block| block.split("```").next().unwrap_or_default())
         .collect();
-    let [pattern, scene] = &blocks[..] else { panic!("{} blocks", blocks.len()) };
+    let [pattern, scene] = blocks[..] else { panic!("{} blocks", blocks.len()) };
     let folder = tempfile::tempdir().expect("a folder");
-    let fabrics = format!("\"{}/", root().join("fabrics").display());
-    let scene = scene.replace("\"fabrics/", &fabrics);
-    for (name, text) in [("tube.toml", pattern), ("my-skirt.toml", &scene)] {
+    let scene = scene.replace("\"../", &format!("\"{}/", root().display()));
+    for (name, text) in [("skirt.toml", pattern), ("my-skirt.toml", &scene)] {
         std::fs::write(folder.path().join(name), text).expect("written");
         drape().arg("check").arg(folder.path().join(name)).assert().success();
     }
-    let figure = folder.path().join("tube.svg");
+    let figure = folder.path().join("skirt.svg");
     let mut command = drape();
-    command.arg("check").arg(folder.path().join("tube.toml")).arg("--figure").arg(&figure);
+    command.arg("check").arg(folder.path().join("skirt.toml")).arg("--figure").arg(&figure);
     command.assert().success();
     assert!(std::fs::read_to_string(figure).expect("a figure").starts_with("<svg"));
 }

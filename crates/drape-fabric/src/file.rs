@@ -36,11 +36,11 @@ struct FabricFile {
     /// Thickness under 49 Pa, in m.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-6, 0.02)))]
     thickness: Given<Length>,
-    /// Thickness under 4.9 kPa, in m.
+    /// Thickness under 4.9 kPa, in m; 0.7 of the thickness if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-6, 0.02)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pressed_thickness: Option<Given<Length>>,
-    /// Linearity of the compression curve, LC.
+    /// Linearity of the compression curve, LC; a straight line, 1, if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.02, 1.0)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     compression_linearity: Option<f64>,

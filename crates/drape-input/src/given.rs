@@ -42,6 +42,8 @@ pub trait Dimension {
     const BARE: f64 = 1.0;
     /// Token by which [`Document`](crate::Document) knows the dimension.
     const TOKEN: &'static str;
+    /// Unit of a bare number, in words.
+    const UNIT: &'static str;
     /// Values as they may be written: bare, and with a unit.
     const EXAMPLES: [&'static str; 2];
 }
@@ -50,7 +52,7 @@ pub trait Dimension {
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 macro_rules! dimensions {
-    ($($(#[$doc:meta])* $name:ident, $quantity:ident, $bare:expr, $examples:expr;)*) => {
+    ($($(#[$doc:meta])* $name:ident, $quantity:ident, $bare:expr, $unit:expr, $examples:expr;)*) => {
         $(
             $(#[$doc])*
             #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,6 +61,7 @@ macro_rules! dimensions {
             impl Dimension for $name {
                 const QUANTITY: Quantity = Quantity::$quantity;
                 const BARE: f64 = $bare;
+                const UNIT: &'static str = $unit;
                 const TOKEN: &'static str = concat!("$drape-input:", stringify!($name));
                 const EXAMPLES: [&'static str; 2] = $examples;
             }
@@ -76,35 +79,35 @@ macro_rules! dimensions {
 
 dimensions! {
     /// Length; bare in the unit of the file.
-    Length, Length, 1.0, ["0.01", "10 mm"];
+    Length, Length, 1.0, "the unit of the file", ["0.01", "10 mm"];
     /// Angle; bare in degrees.
-    Angle, Angle, DEGREE, ["45", "45 deg"];
+    Angle, Angle, DEGREE, "degrees", ["45", "45 deg"];
     /// Angular speed; bare in degrees per second.
-    AngularSpeed, AngularSpeed, DEGREE, ["90", "90 deg/s"];
+    AngularSpeed, AngularSpeed, DEGREE, "degrees/s", ["90", "90 deg/s"];
     /// Curvature; bare in 1/m.
-    Curvature, Curvature, 1.0, ["20", "0.2 1/cm"];
+    Curvature, Curvature, 1.0, "1/m", ["20", "0.2 1/cm"];
     /// Time; bare in s.
-    Time, Time, 1.0, ["0.5", "500 ms"];
+    Time, Time, 1.0, "s", ["0.5", "500 ms"];
     /// Speed; bare in m/s.
-    Speed, Speed, 1.0, ["0.002", "2 mm/s"];
+    Speed, Speed, 1.0, "m/s", ["0.002", "2 mm/s"];
     /// Acceleration; bare in m/s².
-    Acceleration, Acceleration, 1.0, ["9.81", "9.81 m/s2"];
+    Acceleration, Acceleration, 1.0, "m/s²", ["9.81", "9.81 m/s2"];
     /// Mass per area; bare in kg/m².
-    MassPerArea, MassPerArea, 1.0, ["0.15", "150 g/m2"];
+    MassPerArea, MassPerArea, 1.0, "kg/m²", ["0.15", "150 g/m2"];
     /// Density; bare in kg/m³.
-    Density, Density, 1.0, ["1.2", "1.2 kg/m3"];
+    Density, Density, 1.0, "kg/m³", ["1.2", "1.2 kg/m3"];
     /// Force per width, stiffness of a strip per width; bare in N/m.
-    ForcePerWidth, ForcePerWidth, 1.0, ["5000", "50 N/cm"];
+    ForcePerWidth, ForcePerWidth, 1.0, "N/m", ["5000", "50 N/cm"];
     /// Moment per width; bare in N.
-    MomentPerWidth, MomentPerWidth, 1.0, ["0.0005", "0.05 gf.cm/cm"];
+    MomentPerWidth, MomentPerWidth, 1.0, "N", ["0.0005", "0.05 gf.cm/cm"];
     /// Bending rigidity per width; bare in N·m.
-    BendingRigidity, BendingRigidity, 1.0, ["1.2e-5", "0.12 gf.cm2/cm"];
+    BendingRigidity, BendingRigidity, 1.0, "N·m", ["1.2e-5", "0.12 gf.cm2/cm"];
     /// Shear stiffness; bare in N/m, for a rad.
-    ShearStiffness, ShearStiffness, 1.0, ["35", "0.6 gf/(cm.deg)"];
+    ShearStiffness, ShearStiffness, 1.0, "N/m", ["35", "0.6 gf/(cm.deg)"];
     /// Pressure per distance; bare in N/m³.
-    PressurePerDistance, PressurePerDistance, 1.0, ["1e7", "10 kPa/mm"];
+    PressurePerDistance, PressurePerDistance, 1.0, "N/m³", ["1e7", "10 kPa/mm"];
     /// Ratio, such as a strain; bare as it is.
-    Ratio, Ratio, 1.0, ["0.01", "1 %"];
+    Ratio, Ratio, 1.0, "", ["0.01", "1 %"];
 }
 
 impl<D: Dimension> Given<D> {

@@ -24,8 +24,12 @@ impl<D: Dimension> JsonSchema for Given<D> {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         let quantity = D::QUANTITY;
         let [bare, unit] = D::EXAMPLES;
+        let bare_unit = match D::UNIT {
+            "" => String::new(),
+            words => format!(", bare in {words}"),
+        };
         json_schema!({
-            "description": format!("{}, such as {bare} or \"{unit}\"", capital(quantity.name())),
+            "description": format!("{}{bare_unit}, such as {bare} or \"{unit}\"", capital(quantity.name())),
             "anyOf": [
                 { "type": "number" },
                 { "type": "string", "pattern": format!("^{}$", quantity_pattern(quantity)) },

@@ -33,16 +33,21 @@ use self::run::{MotionPhaseFile, OutputFile, SettleFile, SolverFile, TimeFile};
 pub(crate) struct SceneFile {
     /// Name of the scene; that of the file if missing.
     pub(crate) name: Option<String>,
-    /// Model of the cloth: `kes`, yarns with friction, or `breen-1994`, interacting particles.
+    /// Model of the cloth: `kes`, yarn connectors with the laws of the fabric, or `breen-1994`, the
+    /// particles of Breen, House and Wozny, with the first branches of the curves, without
+    /// friction, and with repulsion of all particles closer than the spacing.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = "kes")))]
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["kes", "breen-1994"])))]
     pub(crate) model: Option<String>,
-    /// Unit of all lengths of the file that stand without one: `m`, `cm` or `mm`; `m` if missing.
+    /// Unit of all lengths of the file that stand without one.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = "m")))]
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["m", "cm", "mm"])))]
     pub(crate) length: Option<String>,
-    /// Distance between particles.
+    /// Distance between particles; 10 mm if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) spacing: Option<Given<Length>>,
     /// Acceleration of gravity along x, y and z, in m/s².
+    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, -9.81, 0.0])))]
     pub(crate) gravity: Option<[Given<Acceleration>; 3]>,
     /// Air that the cloth moves in.
     pub(crate) air: Option<AirFile>,
@@ -69,9 +74,11 @@ pub(crate) struct SceneFile {
     pub(crate) contact: ContactFile,
     /// Steps and the end of the run.
     pub(crate) time: TimeFile,
-    /// Run to rest, without momentum; in time if missing.
+    /// Run to rest, without momentum: the lengths of its steps are no durations, and the run ends
+    /// when the cloth is at rest; in time if missing.
     pub(crate) settle: Option<SettleFile>,
-    /// Phase that follows when the cloth has come to rest.
+    /// Phase that follows when the cloth has come to rest, with `[settle]` only; bodies and pins
+    /// move from the start if missing.
     pub(crate) motion: Option<MotionPhaseFile>,
     /// Solver of the steps.
     #[serde(default)]
@@ -86,10 +93,12 @@ pub(crate) struct SceneFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AirFile {
-    /// Density, in kg/m³.
+    /// Density, in kg/m³; 0 is a vacuum.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 1.2)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 100.0)))]
     pub(crate) density: Option<Given<Density>>,
-    /// Coefficient of drag of the cloth.
+    /// Coefficient of drag of the cloth, as of a plate across the flow.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 1.28)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     pub(crate) drag: Option<f64>,
 }
@@ -99,7 +108,8 @@ pub(crate) struct AirFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FabricFile {
-    /// Fabric, sheet, or folder of a sheet, relative to the folder of the scene.
+    /// Fabric, sheet, or folder of a sheet, relative to the folder of the scene. A sheet is fitted
+    /// first.
     pub(crate) file: String,
 }
 

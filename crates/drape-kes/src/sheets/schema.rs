@@ -57,7 +57,7 @@ const VALUES: [ValueKey; 20] = [
     ("SMD", Quantity::Roughness, Range::Positive, "Roughness of the surface, in µm."),
     ("T0", Quantity::Length, Range::Positive, "Thickness under 0.5 gf/cm², in mm."),
     ("TM", Quantity::Length, Range::Positive, "Thickness under 50 gf/cm², in mm."),
-    ("T", Quantity::Length, Range::Positive, "Thickness, in mm."),
+    ("T", Quantity::Length, Range::Positive, "Thickness where only one is known, in mm."),
     ("W", Quantity::MassPerArea, Range::Positive, "Mass per area, in mg/cm²."),
     (
         "FM",
@@ -180,28 +180,28 @@ fn curve() -> Value {
     };
     let files = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
     let properties = json!({
-        "name": text("Name of the curve."),
+        "name": text("Name of the curve; its test and direction if missing."),
         "test": choice(&TEST, "Test that it comes from."),
         "direction": choice(&DIRECTION, "Yarns along which the strip was cut."),
         "file": {
             "anyOf": [{ "type": "string" }, files],
             "description": "Table file beside the sheet, or several with repeats of the test.",
         },
-        "deformation": axis(&DEFORMATION_KEYS, "Column of the deformation."),
-        "load": axis(&LOAD_KEYS, "Column of the load."),
-        "slack": { "type": "boolean", "description": "Whether the strip hung slack at the start." },
+        "deformation": axis(&DEFORMATION_KEYS, "Column of the deformation; detected if missing."),
+        "load": axis(&LOAD_KEYS, "Column of the load; detected if missing."),
+        "slack": { "type": "boolean", "description": "Whether the strip hung slack at the start, so that the zeros of strain and force are fitted; `false` if missing." },
         "encoding": text("Encoding of the file; detected if missing."),
         "separator": choice(&SEPARATOR, "Sign between columns; detected if missing."),
         "decimal": choice(&DECIMAL, "Decimal sign; detected if missing."),
         "header": lines("Line of the header, from 1; false for none; detected if missing."),
-        "skip": lines("Number of lines to leave out at the start."),
+        "skip": lines("Number of lines to leave out at the start; detected if missing."),
         "sheet": {
             "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 0 }],
-            "description": "Sheet of a spreadsheet, by its name or its number from 1.",
+            "description": "Sheet of a spreadsheet, by its name or its number from 1; its only one if missing.",
         },
-        "table": take("Tables of the file that are repeats of the test, from 1."),
-        "specimen": take("Specimens that are repeats of the test."),
-        "cycle": take("Cycles that are taken, from 1."),
+        "table": take("Tables of the file that are repeats of the test, from 1; its only one if missing."),
+        "specimen": take("Specimens that are repeats of the test, by the numbers in their column; all if missing."),
+        "cycle": take("Cycles that are taken, from 1; all if missing."),
     });
     json!({
         "type": "object",
@@ -234,12 +234,12 @@ fn axis(keys: &[&str], description: &str) -> Value {
         schema
     };
     let properties = json!({
-        "column": described(columns, "Column, by its name or its place from 1, or a list of them."),
+        "column": described(columns, "Column, by its name or its place from 1, or a list of them with repeats; detected if missing."),
         "unit": { "type": "string", "description": "Unit of the column; that of its header if missing." },
-        "gauge": size("Length of the specimen with its unit, or the column with it."),
-        "width": size("Width of the specimen with its unit, or the column with it, for loads of a whole specimen."),
-        "zero": choice(&ZERO, "Zero of a length: an extension, the distance of the clamps, or a position."),
-        "reversed": { "type": "boolean", "description": "Whether the sign is the opposite one." },
+        "gauge": size("Length of the specimen with its unit, or the column with it; needed for a length only; that of the file if missing."),
+        "width": size("Width of the specimen with its unit, or the column with it, for loads of a whole specimen; that of the file if missing."),
+        "zero": choice(&ZERO, "Zero of a length: an extension, the distance of the clamps, or a position; detected if missing."),
+        "reversed": { "type": "boolean", "description": "Whether the sign is the opposite one; `false` if missing." },
     });
     json!({
         "type": "object",

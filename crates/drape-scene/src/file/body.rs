@@ -46,7 +46,7 @@ pub(crate) struct CommonFile<'a> {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SphereFile {
-    /// Name, for messages and measures.
+    /// Name, for messages and measures; its kind and number if missing.
     name: Option<String>,
     /// Radius.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
@@ -57,7 +57,7 @@ pub(crate) struct SphereFile {
     /// Coefficient of its friction with cloth; that of the fabric if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
-    /// Motion along keys; at rest if missing.
+    /// Rigid motion along keys, about its own middle; at rest if missing.
     motion: Option<MotionFile>,
 }
 
@@ -66,12 +66,12 @@ pub(crate) struct SphereFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BoxFile {
-    /// Name, for messages and measures.
+    /// Name, for messages and measures; its kind and number if missing.
     name: Option<String>,
     /// Lengths of the sides.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) size: [Given<Length>; 3],
-    /// Radius of its rounded edges.
+    /// Radius of its rounded edges; 0 is sharp.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     #[serde(default)]
     pub(crate) edge_radius: Given<Length>,
@@ -84,7 +84,7 @@ pub(crate) struct BoxFile {
     /// Coefficient of its friction with cloth; that of the fabric if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
-    /// Motion along keys; at rest if missing.
+    /// Rigid motion along keys, about its own middle; at rest if missing.
     motion: Option<MotionFile>,
 }
 
@@ -93,7 +93,7 @@ pub(crate) struct BoxFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CylinderFile {
-    /// Name, for messages and measures.
+    /// Name, for messages and measures; its kind and number if missing.
     name: Option<String>,
     /// Radius.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
@@ -101,7 +101,7 @@ pub(crate) struct CylinderFile {
     /// Height.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) height: Given<Length>,
-    /// Radius of its rounded edges.
+    /// Radius of its rounded edges; 0 is sharp.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     #[serde(default)]
     pub(crate) edge_radius: Given<Length>,
@@ -114,7 +114,7 @@ pub(crate) struct CylinderFile {
     /// Coefficient of its friction with cloth; that of the fabric if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
-    /// Motion along keys; at rest if missing.
+    /// Rigid motion along keys, about its own middle; at rest if missing.
     motion: Option<MotionFile>,
 }
 
@@ -123,7 +123,7 @@ pub(crate) struct CylinderFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaneFile {
-    /// Name, for messages and measures.
+    /// Name, for messages and measures; its kind and number if missing.
     name: Option<String>,
     /// Point of the plane.
     #[serde(default)]
@@ -134,7 +134,7 @@ pub(crate) struct PlaneFile {
     /// Coefficient of its friction with cloth; that of the fabric if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
-    /// Motion along keys; at rest if missing.
+    /// Rigid motion along keys, about its own middle; at rest if missing.
     motion: Option<MotionFile>,
 }
 
@@ -143,11 +143,11 @@ pub(crate) struct PlaneFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MeshBodyFile {
-    /// Name, for messages and measures.
+    /// Name, for messages and measures; its kind and number if missing.
     name: Option<String>,
-    /// Mesh, OBJ, STL or PLY, relative to the folder of the scene.
+    /// Closed surface of 2 mm to 100 m, OBJ, STL or PLY, relative to the folder of the scene.
     pub(crate) file: String,
-    /// Length of a unit of the file, in m.
+    /// Length of a unit of the file, in m; the unit of the scene if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-6, 1e3)))]
     pub(crate) scale: Option<Given<Length>>,
     /// Shift of its vertices.
@@ -159,14 +159,17 @@ pub(crate) struct MeshBodyFile {
     /// Coefficient of its friction with cloth; that of the fabric if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 10.0)))]
     friction: Option<f64>,
-    /// Motion along keys, or a file of shapes; at rest if missing.
+    /// Rigid motion along keys, or a point cache such as `"walk.pc2"` with the position of every
+    /// vertex in every frame, which needs `contact.surfaces`; at rest if missing.
     motion: Option<TextOr<MotionFile>>,
-    /// Mesh files, with a * for the number of the frame.
+    /// Mesh files with the same vertices and triangles, such as `"walk_*.obj"`, with a * for the
+    /// number of the frame, in place of a motion; none if missing.
     pub(crate) frames: Option<String>,
-    /// Frames per second.
+    /// Frames per second of a point cache or of mesh files, which need it; none if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-3, 1e5)))]
     pub(crate) rate: Option<f64>,
     /// Time at which the first frame is left, in s.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1e6)))]
     pub(crate) start: Option<Given<Time>>,
 }

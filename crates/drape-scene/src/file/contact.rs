@@ -8,27 +8,33 @@ use serde::Deserialize;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactFile {
-    /// Activation distance, at which surfaces begin to repel each other.
+    /// Activation distance, at which surfaces begin to repel each other; 1 mm if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) offset: Option<Given<Length>>,
-    /// Stiffness, in N/m³; of cloth on cloth by its thickness under pressure if missing.
+    /// Stiffness, in N/m³; 2e6, between layers from the thickness of the fabric under pressure, if
+    /// missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1.0, 1e12)))]
     pub(crate) stiffness: Option<Given<PressurePerDistance>>,
-    /// Speed below which particles stick, in m/s.
+    /// Speed below which particles on a body stick, in m/s.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.001)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-9, 1.0)))]
     pub(crate) slip_speed: Option<Given<Speed>>,
-    /// Whether surfaces are kept apart, and not particles out of bodies only; wherever that can be
-    /// if missing.
+    /// Whether surfaces are kept apart, so that cloth never passes through itself or bodies, and
+    /// not particles out of bodies only; `true`, but `false` with explicit steps and in the model
+    /// `breen-1994`, if missing.
     pub(crate) surfaces: Option<bool>,
-    /// Displacement of surfaces that stick, before they slide.
+    /// Displacement by which surfaces that stick give way before they slide; 5 µm if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) stick: Option<Given<Length>>,
-    /// `error`, `thin` or `release`: treatment of cloth that bodies close on.
+    /// Treatment of cloth that bodies close on: `error` ends the run, `thin` reduces the distance
+    /// that is kept there to a tenth, `release` lets the faster body pass through the cloth.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = "error")))]
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["error", "thin", "release"])))]
     pub(crate) pinch: Option<String>,
-    /// Room for cloth that starts in a body.
+    /// Room for cloth that starts in a body: bodies start smaller, and grow.
     pub(crate) inflate: Option<InflateFile>,
-    /// Time over which the distances that surfaces keep grow, in s, for cloth that starts nearer.
+    /// Time over which the distances that surfaces keep grow to their values, in s, for cloth that
+    /// starts nearer; they have their values at once if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) grow: Option<Given<Time>>,
 }
@@ -38,10 +44,11 @@ pub(crate) struct ContactFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InflateFile {
-    /// Depth by which bodies start smaller, along their normals.
+    /// Depth by which bodies start smaller, along their normals, less than half their thickness.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) depth: Given<Length>,
     /// Time until they have their size, in s.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.5)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) seconds: Option<Given<Time>>,
 }

@@ -13,10 +13,11 @@ use crate::file::panel::NoiseFile;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GarmentFile {
-    /// Name, which its panels have before theirs: `NAME.PANEL`; they keep the names of the pattern
-    /// if missing.
+    /// Name, which its panels have before theirs: `NAME.PANEL`; that of the file of the pattern,
+    /// and its panels have their names alone, if missing.
     pub(crate) name: Option<String>,
-    /// Pattern, relative to the folder of the scene.
+    /// Pattern, relative to the folder of the scene: TOML, GarmentCode or FreeSewing JSON, SVG or
+    /// DXF. It is cut at the spacing, placed and sewn.
     pub(crate) pattern: String,
     /// Fabric of the panels that name none.
     pub(crate) fabric: String,
@@ -26,12 +27,14 @@ pub(crate) struct GarmentFile {
     /// Shift of all panels.
     #[serde(default)]
     pub(crate) center: [Given<Length>; 3],
-    /// Layer in which it is worn; 0 if missing, which is next to the body.
+    /// Layer in which it is worn, from the inside out: for each layer a panel starts 20 mm farther
+    /// out.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     pub(crate) layer: Option<i64>,
     /// Random heights over the panels.
     pub(crate) noise: Option<NoiseFile>,
-    /// Keys of single panels.
+    /// Keys of single panels, in place of those of the pattern.
     #[serde(default)]
     pub(crate) panel: BTreeMap<String, GarmentPanelFile>,
     /// Seams that the pattern has not, or that take the place of its own of the same name.
@@ -52,10 +55,10 @@ pub(crate) struct GarmentPanelFile {
     pub(crate) grain: Option<Given<Angle>>,
     /// Origin of the panel's frame; that of the pattern if `center` and `turn` are missing.
     pub(crate) center: Option<[Given<Length>; 3]>,
-    /// Rotations about x, y and z, one after the other, in degrees.
+    /// Rotations about x, y and z, one after the other, in degrees; those of the pattern if
+    /// missing.
     pub(crate) turn: Option<[Given<Angle>; 3]>,
     /// Radius of the cylinder that it is bent to; that of the pattern if missing.
-    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) wrap: Option<Given<Length>>,
     /// Layer in which it is worn; that of its garment if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
@@ -67,13 +70,16 @@ pub(crate) struct GarmentPanelFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SewFile {
-    /// Time until the seams are to be closed.
+    /// Time until the seams are to be closed, in s.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 1.0)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-3, 1e3)))]
     pub(crate) seconds: Option<Given<Time>>,
     /// Bending stiffness of a seam over that of the fabric.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 3.0)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1e3)))]
     pub(crate) stiffness: Option<f64>,
-    /// Names of seams that are twisted or reversed on purpose.
+    /// Names of seams that are twisted or reversed on purpose; others are refused, with the order
+    /// that fits.
     #[serde(default)]
     pub(crate) twisted: Vec<String>,
 }

@@ -19,10 +19,11 @@ pub(crate) struct PanelFile {
     /// Diameter of a disc.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) disc: Option<Given<Length>>,
-    /// Diameter of the hole in a disc's middle.
+    /// Diameter of the hole in a disc's middle; no hole if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) hole: Option<Given<Length>>,
-    /// Angle from the panel's height to its warp, anticlockwise, in degrees.
+    /// Angle from the panel's height to its warp, anticlockwise on its right side, in degrees.
+    /// Particles stay on the yarns.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-180.0, 180.0)))]
     #[serde(default)]
     pub(crate) grain: Given<Angle>,
@@ -48,9 +49,9 @@ pub(crate) struct PanelFile {
     pub(crate) ripple: Option<RippleFile>,
     /// Random heights over the panel at the start.
     pub(crate) noise: Option<NoiseFile>,
-    /// Further panels like this one.
+    /// Copies of this panel, in a row.
     pub(crate) stack: Option<StackFile>,
-    /// Lines along which it is folded at rest.
+    /// Lines along which it is folded at rest. They need `settle.residual = 1e-5` or less.
     #[serde(default)]
     pub(crate) fold: Vec<FoldFile>,
 }
@@ -60,11 +61,12 @@ pub(crate) struct PanelFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FoldFile {
-    /// One end, a position on the panel as for a pin.
+    /// One end, a position on the panel as for a pin, which may lie outside.
     pub(crate) from: [Given<Length>; 2],
     /// The other end.
     pub(crate) to: [Given<Length>; 2],
-    /// Angle by which the panel is turned towards its right side, in degrees.
+    /// Angle by which the panel is turned towards its right side, in degrees, at most 140 either
+    /// way.
     pub(crate) angle: Given<Angle>,
 }
 
@@ -88,7 +90,7 @@ pub(crate) struct StackFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RippleFile {
-    /// Height of the waves.
+    /// Height of the waves, which run across the width.
     pub(crate) amplitude: Given<Length>,
     /// Length of the waves.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
@@ -103,7 +105,8 @@ pub(crate) struct NoiseFile {
     /// Largest height.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(0.0)))]
     pub(crate) amplitude: Given<Length>,
-    /// Length over which heights change.
+    /// Length over which heights change, the same at every spacing; every particle has a height of
+    /// its own if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) length: Option<Given<Length>>,
     /// Number that chooses the heights.

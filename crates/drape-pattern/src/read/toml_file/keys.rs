@@ -14,7 +14,7 @@ type Point = [Given<Length>; 2];
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PatternKeys {
-    /// Unit of all lengths of the file that stand without one: `mm`, `cm`, `m` or `in`.
+    /// Unit of all lengths of the file that stand without one.
     #[cfg_attr(feature = "schema", schemars(required, extend("enum" = ["mm", "cm", "m", "in"])))]
     pub(crate) length: Option<String>,
     /// Pattern of another format that the file adds to.
@@ -34,10 +34,10 @@ pub(crate) struct PatternKeys {
 pub(crate) struct FromKeys {
     /// Its file, relative to the folder of this one.
     pub(crate) file: String,
-    /// Unit of a drawing that states none.
+    /// Unit of a drawing that states none; that of the drawing if missing.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["mm", "cm", "m", "in", "pt", "px"])))]
     pub(crate) unit: Option<String>,
-    /// Size of a graded drawing.
+    /// Size of a graded drawing; its only one if missing.
     pub(crate) size: Option<String>,
 }
 
@@ -46,18 +46,21 @@ pub(crate) struct FromKeys {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PanelKeys {
-    /// Point where the first edge of the outline begins.
+    /// Point where the first edge of the outline begins; with `outline` only; no outline if
+    /// missing.
     pub(crate) start: Option<Point>,
     /// Edges, anticlockwise as seen from the right side of the cloth.
     pub(crate) outline: Option<Vec<EdgeKeys>>,
-    /// Width and height of a rectangle, with the edges bottom, right, top and left.
+    /// Width and height of a rectangle, with the edges bottom, right, top and left, in place of an
+    /// outline; no rectangle if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) rectangle: Option<Point>,
-    /// Outline as path data of SVG.
+    /// Outline as path data of SVG, in place of `outline`; none if missing.
     pub(crate) path: Option<String>,
-    /// Names of the edges of a path or a rectangle.
+    /// Names of the edges of a path or a rectangle; numbers from 1, of a rectangle `bottom`,
+    /// `right`, `top` and `left`, if missing.
     pub(crate) edges: Option<Vec<String>>,
-    /// Name of the panel that this one is a copy of.
+    /// Name of the panel that this one is a copy of; no copy if missing.
     pub(crate) copy_of: Option<String>,
     /// Whether the copy is mirrored.
     #[serde(default)]
@@ -65,7 +68,7 @@ pub(crate) struct PanelKeys {
     /// Whether the panel of the other file is left out.
     #[serde(default)]
     pub(crate) omit: bool,
-    /// Shift of the outline and the folds in the panel's frame.
+    /// Shift of the outline and the folds in the panel's frame; none if missing.
     pub(crate) shift: Option<Point>,
     /// Edges that are split, each with the ascending distances from its start.
     #[serde(default)]
@@ -75,14 +78,16 @@ pub(crate) struct PanelKeys {
     pub(crate) hems: BTreeMap<String, Given<Length>>,
     /// Fabric; that of the garment if missing.
     pub(crate) fabric: Option<String>,
-    /// Angle from the panel's y axis to its warp, anticlockwise, in degrees.
+    /// Angle from the panel's y axis to its warp, anticlockwise, in degrees; 0, with a note, or that
+    /// of the other file if missing.
     pub(crate) grain: Option<Given<Angle>>,
-    /// Place of the panel's point (0, 0) in the scene.
+    /// Place of the panel's point (0, 0) in the scene; that of the other file if missing.
     pub(crate) origin: Option<[Given<Length>; 3]>,
-    /// Rotations about x, y and z, one after the other, in degrees.
+    /// Rotations about x, y and z, one after the other, in degrees; those of the other file, or
+    /// none, if missing.
     pub(crate) turn: Option<[Given<Angle>; 3]>,
-    /// Radius of the cylinder that the panel is bent to; flat if missing.
-    #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
+    /// Radius of the cylinder, upright and behind x = 0, that the panel is bent to; in front of it
+    /// if negative; flat if missing.
     pub(crate) wrap: Option<Given<Length>>,
     /// Lines along which the panel is folded.
     #[serde(default)]
@@ -122,11 +127,11 @@ pub(crate) struct EdgeKeys {
     pub(crate) name: Option<String>,
     /// Point where it ends.
     pub(crate) to: Point,
-    /// Control point of a quadratic Bézier curve.
+    /// Control point of a quadratic Bézier curve; no such curve if missing.
     pub(crate) quadratic: Option<Point>,
-    /// Control points of a cubic Bézier curve.
+    /// Control points of a cubic Bézier curve; no such curve if missing.
     pub(crate) cubic: Option<[Point; 2]>,
-    /// Radius of an arc; one that turns to the right is negative.
+    /// Radius of an arc, negative if it turns to the right; no arc if missing.
     pub(crate) radius: Option<Given<Length>>,
     /// Whether the arc is the larger of the two.
     #[serde(default)]
