@@ -3,7 +3,7 @@
 //! [`render`] draws a [`Scene`] for a [`View`]; [`LitShapes`] draw pictures of the same shapes, each
 //! for a [`Camera`]:
 //! 1. `tessellation` subdivides the surfaces of the scene into facets with smooth normals
-//!    (`smooth`), with a band along each hem (`rim`).
+//!    (`smooth`); `rim` adds a band along each hem.
 //! 2. `sky` is the light of a uniform sky on them and on the floor (`floor`).
 //! 3. `camera` frames the scene, alone or as pictures that can be compared.
 //! 4. `shade` prepares the key light, with a shadow map (`shadow_map`).
@@ -89,7 +89,8 @@ impl LitShapes {
     /// A scene without triangles, bad lists or coordinates.
     pub fn new(scene: &Scene) -> Result<LitShapes, Error> {
         scene.check()?;
-        let tessellation = Tessellation::new(scene);
+        let mut tessellation = Tessellation::new(scene);
+        rim::add(scene, &mut tessellation);
         let floor = scene.floor.map(|height| Floor::new(height, tessellation.bounds));
         let sky = SkyLight::on(&tessellation, floor.as_ref());
         Ok(LitShapes { tessellation, floor, sky, counts: counts(scene) })

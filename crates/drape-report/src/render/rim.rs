@@ -4,15 +4,16 @@ use std::collections::HashMap;
 
 use super::scene::Scene;
 use super::smooth::Border;
-use super::tessellation::{Facet, Part, Vertex};
+use super::tessellation::{Facet, Part, Tessellation, Vertex};
 use super::vector::{self, Vector, cross, dot, scale, subtract, unit};
 
 /// Least width of the band over the radius of the scene: about a pixel in the usual pictures. A
 /// thinner one would break into dots.
 const LEAST: f64 = 1.0 / 420.0;
 
-/// Adds the rims of the cloths of a scene with a radius, in m.
-pub(crate) fn add(scene: &Scene, radius: f64, vertices: &mut Vec<Vertex>, facets: &mut Vec<Facet>) {
+/// Adds the rims of the cloths of a scene.
+pub(crate) fn add(scene: &Scene, tessellation: &mut Tessellation) {
+    let Tessellation { vertices, facets, bounds, .. } = tessellation;
     let mut outwards: HashMap<u32, Vector> = HashMap::new();
     let mut edges = Vec::new();
     for facet in facets.iter() {
@@ -35,7 +36,7 @@ pub(crate) fn add(scene: &Scene, radius: f64, vertices: &mut Vec<Vertex>, facets
     // Each end of an edge of the hem has a vertex on both sides of the cloth.
     let mut sides: HashMap<u32, u32> = HashMap::new();
     for (cloth, ends) in edges {
-        let width = scene.cloths[cloth].thickness.max(LEAST * radius);
+        let width = scene.cloths[cloth].thickness.max(LEAST * bounds.radius);
         let [a, b] = ends.map(|end| {
             *sides.entry(end).or_insert_with(|| {
                 let first = vertices.len() as u32;

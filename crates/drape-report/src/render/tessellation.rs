@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use super::rim;
 use super::scene::{Scene, Surface};
 use super::smooth::{self, Border, Smooth};
 use super::vector::{Bounds, Vector, add, at, cross, norm, scale, subtract, unit};
@@ -88,8 +87,7 @@ impl Tessellation {
         for (k, body) in scene.bodies.iter().enumerate() {
             builder.add(body, smooth::body(body), Part::Body(k));
         }
-        let Builder { mut vertices, mut facets, .. } = builder;
-        rim::add(scene, bounds.radius, &mut vertices, &mut facets);
+        let Builder { vertices, facets, .. } = builder;
         Tessellation { vertices, facets, bounds, body_depth_bias: scene.body_depth_bias }
     }
 

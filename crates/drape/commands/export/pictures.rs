@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use drape::export::Clip;
 use drape::report::{Animation, Picture};
 
-use super::Files;
+use super::files::Files;
 use crate::commands::show::look::LookArguments;
 use crate::failure::Failure;
 use crate::file;
