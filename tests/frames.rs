@@ -3,6 +3,8 @@
 
 #[path = "frames/export.rs"]
 mod export;
+#[path = "frames/picture.rs"]
+mod picture;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

@@ -13,9 +13,10 @@ use crate::commands::new::{self, NewArguments};
 use crate::commands::run::{self, RunArguments};
 use crate::commands::schema::{self, SchemaArguments};
 use crate::commands::shell::{self, CompletionsArguments, ManArguments};
+use crate::commands::show::picture::{self, PictureArguments};
+use crate::commands::show::view::{self, ViewArguments};
 use crate::commands::test::{self, TestArguments};
 use crate::commands::validate::{self, ValidateArguments};
-use crate::commands::view::{self, ViewArguments};
 use crate::console::{Console, ProgressKind};
 use crate::failure::Failure;
 
@@ -87,7 +88,10 @@ enum Command {
     Convert(ConvertArguments),
     /// Shows runs in a page of HTML that turns, plays and measures them, and needs nothing else.
     View(ViewArguments),
-    /// Writes the frames of a run for other programs: OBJ, glTF, USD, point caches, VTK, NumPy, CSV.
+    /// Draws pictures of a run: any frame, from any side, with a colour map, as a strip or turning.
+    Picture(PictureArguments),
+    /// Writes the frames of a run for other programs: OBJ, glTF, USD, point caches, VTK, NumPy, CSV,
+    /// pictures.
     Export(ExportArguments),
     /// Times the solver on this machine: a square metre, as a curtain and in a violent swing.
     Bench(BenchArguments),
@@ -126,6 +130,7 @@ impl Command {
             Self::Check(arguments) => check::check(arguments),
             Self::Convert(arguments) => convert::convert(arguments),
             Self::View(arguments) => view::view(arguments),
+            Self::Picture(arguments) => picture::picture(arguments),
             Self::Export(arguments) => export::export(arguments),
             Self::Bench(arguments) => bench::bench(arguments),
             Self::Schema(arguments) => schema::schema(arguments),

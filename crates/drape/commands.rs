@@ -6,8 +6,8 @@
 //! [`Failure`](crate::failure::Failure) into an exit code.
 //!
 //! [`sheets`] is shared by the commands that read sheets. Of the commands, [`test`] reads its
-//! fabric through [`fabric`], which stores its page through [`fit`], and [`new`] has the schemas of
-//! [`schema`]; no other knows another.
+//! fabric through [`fabric`], which stores its page through [`fit`], [`new`] has the schemas of
+//! [`schema`], and [`export`] the options of pictures of [`show`]; no other knows another.
 
 pub(crate) mod bench;
 pub(crate) mod check;
@@ -19,8 +19,8 @@ pub(crate) mod new;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod shell;
+pub(crate) mod show;
 pub(crate) mod test;
 pub(crate) mod validate;
-pub(crate) mod view;
 
 mod sheets;

@@ -9,6 +9,7 @@ pub(crate) mod fabric;
 pub(crate) mod fit;
 pub(crate) mod instruments;
 pub(crate) mod picture;
+pub(crate) mod run_picture;
 pub(crate) mod start;
 pub(crate) mod strain_map;
 pub(crate) mod validation;

@@ -26,7 +26,8 @@ every = 0.02
 folder = "run"
 "#;
 
-fn run() -> TempDir {
+/// Returns a folder with the run.
+pub(crate) fn run() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let fabric = include_str!("../fabrics/plain-weave.toml");
     std::fs::write(folder.path().join("plain.toml"), fabric).expect("writes");

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use self::curvature::curvatures;
 use self::strain::{RestTriangle, StrainOf};
 use crate::error::Error;
+use crate::scale;
 use crate::vector::{difference, length};
 
 /// Quantity on the cloth.
@@ -99,6 +100,13 @@ impl Field {
     #[must_use]
     pub fn is_signed(self) -> bool {
         matches!(self, Field::StrainWarp | Field::StrainWeft | Field::Shear)
+    }
+
+    /// Returns the range of its values in some frames: that of nearly all of them, rounded up to 1, 2
+    /// or 5 times a power of ten; about zero for a signed field, from zero for another.
+    #[must_use]
+    pub fn range(self, frames: &[Vec<f64>]) -> [f64; 2] {
+        scale::range(frames.iter().flatten().copied(), self.is_signed())
     }
 }
 

@@ -11,15 +11,8 @@ pub enum Error {
     EmptyScene,
 
     /// The light was computed for other shapes.
-    #[error(
-        "the light is on {lit} points and the scene has {points}; compute the light of this scene"
-    )]
-    OtherShapes {
-        /// Number of lit points of the scene.
-        points: usize,
-        /// Number of points of the light.
-        lit: usize,
-    },
+    #[error("the scene has other shapes than the light was computed for; compute its own")]
+    OtherShapes,
 
     /// A list of a surface has a wrong length.
     #[error("{surface}: {what} has {length} numbers, not {expected}")]
@@ -71,6 +64,26 @@ pub enum Error {
         value: f64,
         /// The range, in words.
         range: &'static str,
+    },
+
+    /// A scale of colours has no range.
+    #[error("the range from {low} to {high} has no width; give a lower end and a higher one")]
+    NoRange {
+        /// Its lower end.
+        low: f64,
+        /// Its upper end.
+        high: f64,
+    },
+
+    /// The pictures of an animation are none, or differ in size.
+    #[error("an animation of {frames} pictures of {} x {} pixels got one of {} x {}", size[0], size[1], found[0], found[1])]
+    BadAnimation {
+        /// Number of pictures that it has.
+        frames: u32,
+        /// Width and height of its pictures, in pixels.
+        size: [u32; 2],
+        /// Width and height of the picture that does not fit.
+        found: [u32; 2],
     },
 
     /// A report has no content.

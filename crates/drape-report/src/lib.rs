@@ -2,13 +2,14 @@
 //!
 //! # Tour
 //!
-//! [`render`] draws a [`Scene`] of [`Surface`]s for a [`View`] and returns a [`Picture`]. The
+//! [`render`] draws a [`Scene`] of [`Surface`]s for a [`View`] and returns a [`Picture`];
+//! [`LitShapes`] draw several of the same shapes. The
 //! functions of [`plot`] draw SVG figures of measured and fitted curves. [`FitPage`],
 //! [`ComparePage`] and [`ValidationPage`] are reports that become HTML pages and text; a
 //! [`Parameter`] is a number with its [`Units`] and its [`Interval`].
 //!
-//! Layers, lowest first: `error`, `check`, `text`, `parameter`; the chapters `render` and `plot`;
-//! `page`.
+//! Layers, lowest first: `error`, `check`, `text`, `parameter`, `picture`; the chapters `render`
+//! and `plot`; `page`.
 
 // Checks and texts.
 mod check;
@@ -17,6 +18,7 @@ mod parameter;
 mod text;
 
 // Pictures of cloth.
+mod picture;
 mod render;
 
 // Figures.
@@ -32,7 +34,5 @@ pub use page::{
     ValidationRow, Verdict,
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
-pub use render::{
-    Camera, Colour, Picture, Scene, ScreenPoint, SkyLight, Surface, View, diverging, render,
-    render_lit,
-};
+pub use picture::{Animation, Colour, ColourScale, Legend, Picture, diverging};
+pub use render::{Camera, Extent, Ground, LitShapes, Scene, ScreenPoint, Surface, View, render};

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_report::{Picture, Scene, ScreenPoint, SkyLight, Surface, View, render, render_lit};
+use drape_report::{Extent, Ground, LitShapes, Picture, Scene, ScreenPoint, Surface, View, render};
 use std::f64::consts::{PI, TAU};
 
 type Shape = (Vec<f64>, Vec<[u32; 3]>);
@@ -102,6 +102,60 @@ fn the_frame_holds_the_whole_cloth_and_little_else() {
             assert!((fill - 0.9).abs() < 1e-9, "{view:?} fills {fill}");
         }
     }
+}
+
+#[test]
+fn views_that_are_compared_have_one_scale_and_one_height() {
+    // A plate on edge, 0.2 m wide, 0.8 m high and 0.6 m deep: front and side differ in width.
+    let place = |k: u32| {
+        let [x, y, z] = [(0.2, k & 1), (0.8, k >> 1 & 1), (0.6, k >> 2)]
+            .map(|(size, side)| size * (f64::from(side) - 0.5));
+        [x, y + 1.0, z]
+    };
+    let positions: Vec<f64> = (0..8).flat_map(place).collect();
+    let scene = Scene {
+        cloths: vec![Surface::cloth(&positions, &[[0, 1, 2], [3, 4, 5], [5, 6, 7]])],
+        ..Scene::default()
+    };
+    let view = |azimuth_deg| View { azimuth_deg, elevation_deg: 5.0, ..SMALL };
+    let views = [0.0, 90.0, 180.0, 33.0].map(view);
+    let cameras = View::cameras(&views, &Extent::of(&scene)).unwrap();
+    let scales: Vec<f64> = cameras
+        .iter()
+        .map(|camera| {
+            let ends = [0.9, 1.1].map(|y| camera.project([0.0, y, 0.0]));
+            assert!((ends[0].x - 200.0).abs() < 1e-9, "off the middle: {ends:?}");
+            ends[0].y - ends[1].y
+        })
+        .collect();
+    let same = |scale: &f64| (scale / scales[0] - 1.0).abs() < 1e-12;
+    assert!(scales.iter().all(same), "{scales:?}");
+    // All corners are inside, and one is at the border.
+    let all = cameras.iter().flat_map(|camera| (0..8).map(|k| camera.project(place(k))));
+    let fill = all.fold(0.0, |fill: f64, ScreenPoint { x, y, .. }| {
+        fill.max((x / 200.0 - 1.0).abs()).max((y / 150.0 - 1.0).abs())
+    });
+    assert!((0.88..=0.9 + 1e-9).contains(&fill), "{fill}");
+}
+
+#[test]
+fn a_thin_cloth_has_a_rim_and_a_light_one_stands_out() {
+    let (shape, _) = square(0.5, 1.0, 10);
+    let mut white = cloth(&shape);
+    (white.front, white.back) = ([255; 3], [255; 3]);
+    let on = |ground, thickness| {
+        let cloths = vec![Surface { thickness, ..white }];
+        let scene = Scene { cloths, ground, ..Scene::default() };
+        render(&scene, &View { elevation_deg: 8.0, azimuth_deg: 0.0, ..SMALL }).unwrap()
+    };
+    let grey = on(Ground::GREY, 0.0);
+    let ground = grey.pixel(3, 3).unwrap();
+    assert!(ground.iter().all(|channel| (200..230).contains(channel)), "{ground:?}");
+    assert_ne!(grey.pixel(3, 296), Some(ground), "it passes into another colour");
+    // A thick cloth covers more of the picture, below its front hem.
+    let covered = |thickness| count(&on(Ground::WHITE, thickness), |pixel| pixel != [255; 3]);
+    let [thin, thick] = [1e-4, 0.02].map(covered);
+    assert!(thick > thin + 1000, "{thin} and {thick} pixels");
 }
 
 #[test]
@@ -229,8 +283,8 @@ fn the_same_scene_gives_the_same_bytes() {
     let reference = with_threads(1);
     assert!(with_threads(1) == reference, "a second run differs");
     assert!(with_threads(3) == reference, "three threads differ");
-    let light = SkyLight::new(&scene).unwrap();
-    let lit = render_lit(&scene, &SMALL, &light).unwrap().png().unwrap();
+    let shapes = LitShapes::new(&scene).unwrap();
+    let lit = shapes.draw(&scene, &SMALL.camera(&scene).unwrap()).unwrap().png().unwrap();
     assert!(lit == reference, "light computed beforehand differs");
 }
 

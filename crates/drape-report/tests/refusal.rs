@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use drape_report::{Error, Scene, SkyLight, Surface, View, render, render_lit};
+use drape_report::{Error, Extent, LitShapes, Scene, Surface, View, render};
 
 const SMALL: View =
     View { azimuth_deg: 25.0, elevation_deg: 30.0, field_deg: 24.0, width: 160, height: 120 };
@@ -68,9 +68,11 @@ fn invalid_scenes_and_views_are_refused() {
     let biased = Scene { body_depth_bias: -1.0, ..scene.clone() };
     let error = refused(&biased, &SMALL);
     assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
-    let light = SkyLight::new(&Scene { floor: Some(0.0), ..scene.clone() }).unwrap();
-    let error = render_lit(&scene, &SMALL, &light).expect_err("light of other shapes");
-    assert!(matches!(error, Error::OtherShapes { .. }), "{error}");
+    let shapes = LitShapes::new(&scene).unwrap();
+    let other = Scene { cloths: vec![Surface::cloth(&shape.0, &shape.1[1..])], ..Scene::default() };
+    let error = shapes.draw(&other, &SMALL.camera(&scene).unwrap()).expect_err("other shapes");
+    assert_eq!(error, Error::OtherShapes);
+    assert_eq!(View::cameras(&[SMALL], &Extent::default()).expect_err("none"), Error::EmptyScene);
     let picture = render(&scene, &SMALL).unwrap();
     let error = picture.save("no/such/folder/picture.png").expect_err("nowhere");
     assert!(error.to_string().contains("no/such/folder"), "{error}");

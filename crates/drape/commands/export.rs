@@ -1,36 +1,45 @@
 //! `drape export`: writes the frames of a run in the formats of other programs.
 //!
-//! The formats are those of `drape::export`; here are the files: their names, whether they are there
-//! already, and what is said about them.
+//! The formats are those of `drape::export`, and pictures; here are the frames that are written, and
+//! what is said about them.
 
 mod arguments;
+mod files;
+mod pictures;
 
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
 
 use drape::export::{
-    Clip, Field, Fields, GLB_FRAMES_MAX, Listed, PatternMap, PolyData, Surface, write_csv,
-    write_glb, write_mdd, write_npz, write_obj, write_pc2, write_pvd, write_rest_obj, write_svg,
-    write_usda, write_vtp,
+    Clip, Field, GLB_FRAMES_MAX, write_csv, write_glb, write_mdd, write_npz, write_obj, write_pc2,
+    write_usda,
 };
-use drape::frames::{Frame, Recording};
+use drape::frames::Recording;
 
 pub(crate) use self::arguments::ExportArguments;
 use self::arguments::Format;
+use self::files::Files;
+use self::pictures::{ANIMATED, ClipPictures};
 use crate::console::note;
 use crate::failure::Failure;
-use crate::file;
 use crate::say::say_written;
 
 /// Executes `drape export`.
 pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let format = format(arguments)?;
+    let is_pictures = matches!(format, Format::Png | Format::Apng);
+    let mut given = arguments.look.given();
+    if let Some(option) = given.find(|option| match format {
+        Format::Svg => *option != "--map",
+        _ => !is_pictures,
+    }) {
+        let formats = if option == "--map" { "png, apng or svg" } else { "png or apng" };
+        return Err(Failure::Usage(format!(
+            "{option} is for pictures; leave it out, or add --format {formats}"
+        )));
+    }
     let recording = Recording::open(&arguments.run)?;
     let numbers = numbers(arguments, format, recording.frames() - 1);
     let asked = numbers.clone().count();
-    if format != Format::Svg && arguments.map.is_some() {
-        return Err(Failure::Usage("--map: only svg shows a field; leave it out".to_owned()));
-    }
     if format == Format::Svg && asked != 1 {
         let reason = "--frames: svg shows one frame; name it with --frame";
         return Err(Failure::Usage(reason.to_owned()));
@@ -43,7 +52,9 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let one = asked == 1;
     let rate = clip.rate();
     let clip = match format {
-        Format::Obj | Format::Pc2 | Format::Mdd if !clip.is_even() => {
+        Format::Obj | Format::Pc2 | Format::Mdd | Format::Png | Format::Apng
+            if !clip.is_even() && (!is_pictures || arguments.fps.is_some()) =>
+        {
             let resampled = clip.resampled();
             note(format_args!(
                 "the frames do not follow each other at {rate} frames per second; those nearest in time are taken, {}",
@@ -74,7 +85,13 @@ pub(crate) fn export(arguments: &ExportArguments) -> Result<(), Failure> {
         Format::Vtp => files.vtk(&clip, one)?,
         Format::Npz => files.one(|to| write_npz(&clip, to))?,
         Format::Csv => files.one(|to| write_csv(&clip, to))?,
-        Format::Svg => files.pattern_map(&clip, arguments.map.unwrap_or(Field::StrainWarp))?,
+        Format::Png => ClipPictures::new(&clip, &arguments.look, None)?.sequence(&files)?,
+        Format::Apng => {
+            ClipPictures::new(&clip, &arguments.look, Some(ANIMATED))?.animation(&files)?;
+        }
+        Format::Svg => {
+            files.pattern_map(&clip, arguments.look.map().unwrap_or(Field::StrainWarp))?
+        }
     }
     let (count, output) = (clip.count(), arguments.output.display());
     match count {
@@ -101,151 +118,4 @@ fn numbers(arguments: &ExportArguments, format: Format, last: usize) -> RangeInc
         (None, None) if matches!(format, Format::Obj | Format::Svg) => last..=last,
         (None, None) => 0..=last,
     }
-}
-
-type Writer = std::io::BufWriter<std::fs::File>;
-
-/// Files of an export.
-struct Files<'a> {
-    output: &'a Path,
-    force: bool,
-}
-
-impl Files<'_> {
-    /// Returns a path beside the output, or in a folder of its name: its name with something added.
-    fn beside(&self, added: &str) -> PathBuf {
-        let mut name = self.output.file_stem().unwrap_or_default().to_owned();
-        name.push(added);
-        self.output.with_file_name(name)
-    }
-
-    /// Refuses to replace files.
-    fn free<'p>(&self, paths: impl IntoIterator<Item = &'p Path>) -> Result<(), Failure> {
-        let mut paths = paths.into_iter();
-        paths
-            .try_for_each(|path| file::refuse_existing(path, self.force, "replace it with --force"))
-    }
-
-    /// Writes the output itself.
-    fn one(
-        &self,
-        content: impl FnOnce(&mut Writer) -> Result<(), drape::export::Error>,
-    ) -> Result<(), Failure> {
-        self.free([self.output])?;
-        file::write_by(self.output, content)
-    }
-
-    /// Writes a field of the first frame of a clip on the flat pattern.
-    fn pattern_map(&self, clip: &Clip, field: Field) -> Result<(), Failure> {
-        let recording = clip.recording();
-        let frame = recording.frame(clip.frames()[0])?;
-        let fields = values(&mut Fields::new(recording), recording, &frame)?;
-        let Some((_, values)) = fields.iter().find(|(own, _)| *own == field) else {
-            let known: Vec<&str> = fields.iter().map(|(own, _)| own.key()).collect();
-            return Err(Failure::Usage(format!(
-                "--map {}: it is not known in frame {}; what is known is {}",
-                field.key(),
-                frame.number,
-                known.join(", ")
-            )));
-        };
-        let map = PatternMap { recording, frame: &frame, field, values };
-        self.one(|to| write_svg(&map, to).map_err(drape::export::Error::from))
-    }
-
-    /// Writes an OBJ file for each frame, with its number, and removes those of a longer sequence that
-    /// was there.
-    fn sequence(&self, clip: &Clip) -> Result<(), Failure> {
-        let first = clip.frames()[0];
-        let path = |index: usize| self.beside(&format!("-{:05}.obj", first + index));
-        let paths: Vec<PathBuf> = (0..clip.count()).map(path).collect();
-        self.free(paths.iter().map(PathBuf::as_path))?;
-        for (path, number) in paths.iter().zip(clip.frames()) {
-            let frame = clip.recording().frame(*number)?;
-            let write = |to: &mut Writer| write_obj(clip.recording(), &frame, to);
-            file::write_by(path, |to| write(to).map_err(drape::export::Error::from))?;
-        }
-        if self.force {
-            file::remove_following((clip.count()..).map(path))?;
-        }
-        Ok(())
-    }
-
-    /// Writes a point cache, and beside it the OBJ file that it moves, in its first frame.
-    fn cache(
-        &self,
-        clip: &Clip,
-        content: impl FnOnce(&mut Writer) -> Result<(), drape::export::Error>,
-    ) -> Result<(), Failure> {
-        let rest = self.output.with_extension("obj");
-        self.free([self.output, &rest])?;
-        let frame = clip.recording().frame(clip.frames()[0])?;
-        let write = |to: &mut Writer| write_rest_obj(clip.recording(), &frame, to);
-        file::write_by(&rest, |to| write(to).map_err(drape::export::Error::from))?;
-        file::write_by(self.output, content)
-    }
-
-    /// Writes files of VTK: of one frame the output itself, of more a list of files in a folder beside
-    /// it. Bodies have files of their own, one for each place where they are.
-    fn vtk(&self, clip: &Clip, one: bool) -> Result<(), Failure> {
-        let (recording, has_bodies) =
-            (clip.recording(), !clip.recording().manifest().bodies.is_empty());
-        let mut fields = Fields::new(recording);
-        let mut vtp = |path: &Path, number: usize, surface: Surface| {
-            let frame = recording.frame(number)?;
-            let fields = match surface {
-                Surface::Cloth => values(&mut fields, recording, &frame)?,
-                Surface::Bodies => Vec::new(),
-            };
-            let data = PolyData { recording, frame: &frame, surface, fields: &fields };
-            let write = |to: &mut Writer| write_vtp(&data, to);
-            file::write_by(path, |to| write(to).map_err(drape::export::Error::from))
-        };
-        if one {
-            let bodies = self.beside("-bodies.vtp");
-            self.free([self.output])?;
-            vtp(self.output, clip.frames()[0], Surface::Cloth)?;
-            if has_bodies {
-                self.free([&*bodies])?;
-                vtp(&bodies, clip.frames()[0], Surface::Bodies)?;
-            }
-            return Ok(());
-        }
-        let folder = self.beside("");
-        let list = self.output.with_extension("pvd");
-        self.free([&*folder, &list])?;
-        let name = folder.file_name().unwrap_or_default().to_string_lossy();
-        let (mut listed, mut bodies) = (Vec::new(), None);
-        for (number, &time) in clip.frames().iter().zip(clip.times()) {
-            let cloth = format!("cloth-{number:05}.vtp");
-            vtp(&folder.join(&cloth), *number, Surface::Cloth)?;
-            listed.push(Listed { time, file: format!("{name}/{cloth}"), surface: Surface::Cloth });
-            if has_bodies {
-                let source = recording.frame(*number)?.bodies_file;
-                let file = match bodies.take().filter(|(before, _)| *before == source) {
-                    Some((_, file)) => file,
-                    None => {
-                        let file = format!("bodies-{number:05}.vtp");
-                        vtp(&folder.join(&file), *number, Surface::Bodies)?;
-                        file
-                    }
-                };
-                bodies = Some((source, file.clone()));
-                let file = format!("{name}/{file}");
-                listed.push(Listed { time, file, surface: Surface::Bodies });
-            }
-        }
-        file::write_by(&list, |to| write_pvd(&listed, to))
-    }
-}
-
-/// Returns the fields of a frame that are known.
-fn values(
-    fields: &mut Fields,
-    recording: &Recording,
-    frame: &Frame,
-) -> Result<Vec<(Field, Vec<f64>)>, Failure> {
-    let before = frame.number.checked_sub(1).map(|number| recording.frame(number)).transpose()?;
-    let mut value = |field: Field| Some((field, fields.values(field, frame, before.as_ref())?));
-    Ok(Field::ALL.into_iter().filter_map(&mut value).collect())
 }

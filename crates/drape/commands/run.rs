@@ -109,14 +109,17 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
     progress.finish();
     let summary = summary?;
     output.summary(&summary)?;
+    let last = progress.last.take().filter(|_| !arguments.no_picture);
+    let shown = last.map(|frame| Snapshot { positions: frame.positions, ..simulation.snapshot() });
+    // Its memory is free for the page and the pictures.
+    drop(simulation);
     let recording = Recording::open(&folder)?;
     save_last(&recording)?;
     if !arguments.no_picture {
         let page = ViewerPage::new(&[recording], viewer::SIZE_MAX)?;
         file::write(&output.path("view.html"), page.html)?;
     }
-    if let (Some(frame), false) = (&progress.last, arguments.no_picture) {
-        let shown = Snapshot { positions: frame.positions.clone(), ..simulation.snapshot() };
+    if let Some(shown) = shown {
         let pictures = Pictures::new(&shown)?;
         let picture = match (garment, view) {
             (true, [None, None]) => pictures.draw_round()?,

@@ -1,7 +1,7 @@
 //! Pictures of cloth and bodies, with yarn lines or in a colour per particle.
 
 use drape::dynamics::Snapshot;
-use drape::report::{Colour, Picture, Scene, SkyLight, Surface, View, render_lit};
+use drape::report::{Camera, Colour, Extent, Ground, LitShapes, Picture, Scene, Surface, View};
 
 use crate::failure::Failure;
 
@@ -9,7 +9,7 @@ use crate::failure::Failure;
 const LINE_SPACING: f64 = 0.05;
 
 /// Depth of the floor below the lowest point of cloth and bodies, in m.
-const FLOOR: f64 = 0.01;
+const FLOOR: f64 = 0.002;
 
 /// Azimuths of the pictures of a garment: front, side and back, in degrees.
 const SIDES: [f64; 3] = [0.0, 90.0, 180.0];
@@ -50,12 +50,12 @@ fn keep_near(positions: &mut [f64], triangles: &mut Vec<[u32; 3]>, place: [f64; 
     corners.filter(|(_, is_used)| !is_used).for_each(|(corner, _)| corner.copy_from_slice(&place));
 }
 
-/// Pictures of one snapshot, which share the light of the sky.
+/// Pictures of one snapshot, which share their light.
 pub(crate) struct Pictures<'a> {
     snapshot: &'a Snapshot,
     /// Material coordinates, two per particle, in m.
     coordinates: Vec<f64>,
-    sky: SkyLight,
+    shapes: LitShapes,
     /// Marks beside the cloth.
     marks: Option<Surface<'a>>,
 }
@@ -74,11 +74,10 @@ impl<'a> Pictures<'a> {
         let Snapshot { positions, triangles, coordinates, .. } = snapshot;
         let mut shown = scene(snapshot, Surface::cloth(positions, triangles));
         shown.cloths.extend(marks);
-        let sky = SkyLight::new(&shown);
         Ok(Self {
             snapshot,
             coordinates: coordinates.iter().flatten().copied().collect(),
-            sky: sky.map_err(|error| Failure::Output(error.to_string()))?,
+            shapes: LitShapes::new(&shown).map_err(failed)?,
             marks,
         })
     }
@@ -88,41 +87,35 @@ impl<'a> Pictures<'a> {
         self.draw_from(&SIDES, None)
     }
 
-    /// Draws a garment from some azimuths, in degrees; with its yarn lines, or in a colour per
-    /// particle.
+    /// Draws a garment from some azimuths, in degrees, in one scale; with its yarn lines, or in a
+    /// colour per particle.
     pub(crate) fn draw_from(
         &self,
         sides: &[f64],
         tints: Option<&[Colour]>,
     ) -> Result<Picture, Failure> {
-        let side = |azimuth: &f64| {
-            let view = [Some(*azimuth), Some(ELEVATION)];
-            match tints {
-                Some(tints) => self.draw_cloth(self.cloth().with_tints(tints), view, UPRIGHT),
-                None => self.draw(view, UPRIGHT),
-            }
+        let scene = match tints {
+            Some(tints) => self.scene(self.cloth().with_tints(tints)),
+            None => self.scene_with_lines(),
         };
-        let pictures: Result<Vec<Picture>, Failure> = sides.iter().map(side).collect();
+        let [width, height] = UPRIGHT;
+        let view = |azimuth: &f64| View {
+            azimuth_deg: *azimuth,
+            elevation_deg: ELEVATION,
+            width,
+            height,
+            ..View::default()
+        };
+        let views: Vec<View> = sides.iter().map(view).collect();
+        let cameras = View::cameras(&views, &Extent::of(&scene)).map_err(failed)?;
+        let pictures: Result<Vec<Picture>, Failure> =
+            cameras.iter().map(|camera| self.draw_scene(&scene, camera)).collect();
         Ok(Picture::sheet(&pictures?, sides.len()))
     }
 
     /// Draws the snapshot, seen from an azimuth and an elevation in degrees, in so many pixels.
     pub(crate) fn draw(&self, view: [Option<f64>; 2], size: [u32; 2]) -> Result<Picture, Failure> {
-        let extent = self.coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
-        let spacing = LINE_SPACING * extent.max(0.1);
-        self.draw_cloth(self.cloth().with_lines(&self.coordinates, spacing), view, size)
-    }
-
-    fn cloth(&self) -> Surface<'_> {
-        Surface::cloth(&self.snapshot.positions, &self.snapshot.triangles)
-    }
-
-    fn draw_cloth(
-        &self,
-        cloth: Surface<'_>,
-        [azimuth, elevation]: [Option<f64>; 2],
-        [width, height]: [u32; 2],
-    ) -> Result<Picture, Failure> {
+        let ([azimuth, elevation], [width, height]) = (view, size);
         let standard = View::default();
         let view = View {
             azimuth_deg: azimuth.unwrap_or(standard.azimuth_deg),
@@ -131,10 +124,34 @@ impl<'a> Pictures<'a> {
             height,
             ..standard
         };
+        let scene = self.scene_with_lines();
+        self.draw_scene(&scene, &view.camera(&scene).map_err(failed)?)
+    }
+
+    fn cloth(&self) -> Surface<'_> {
+        Surface::cloth(&self.snapshot.positions, &self.snapshot.triangles)
+    }
+
+    fn scene_with_lines(&self) -> Scene<'_> {
+        let extent = self.coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
+        let spacing = LINE_SPACING * extent.max(0.1);
+        self.scene(self.cloth().with_lines(&self.coordinates, spacing))
+    }
+
+    fn scene<'s>(&'s self, cloth: Surface<'s>) -> Scene<'s> {
         let mut scene = scene(self.snapshot, cloth);
         scene.cloths.extend(self.marks);
-        render_lit(&scene, &view, &self.sky).map_err(|error| Failure::Output(error.to_string()))
+        scene
     }
+
+    fn draw_scene(&self, scene: &Scene<'_>, camera: &Camera) -> Result<Picture, Failure> {
+        self.shapes.draw(scene, camera).map_err(failed)
+    }
+}
+
+/// Returns the failure of a picture that cannot be drawn.
+fn failed(error: drape::report::Error) -> Failure {
+    Failure::Output(error.to_string())
 }
 
 /// Returns the scene of a snapshot: its cloth, bodies and a floor below them.
@@ -147,6 +164,7 @@ fn scene<'a>(snapshot: &'a Snapshot, cloth: Surface<'a>) -> Scene<'a> {
         cloths: vec![cloth],
         bodies: bodies.iter().map(|body| Surface::body(&body.positions, &body.triangles)).collect(),
         floor: Some(lowest - FLOOR),
+        ground: Ground::GREY,
         body_depth_bias: *spacing,
     }
 }

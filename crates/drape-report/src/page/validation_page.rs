@@ -5,8 +5,8 @@ use askama::Template;
 use super::assets::{PAGE_SCRIPT, PAGE_STYLE};
 use crate::check;
 use crate::error::Error;
+use crate::picture::Picture;
 use crate::plot::{GraphPlot, Placement, STYLE, graph_figure};
-use crate::render::Picture;
 use crate::text::base64::encode;
 
 /// Page of a validation: figures, plots and pictures, case by case.

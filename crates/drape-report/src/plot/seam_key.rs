@@ -4,7 +4,7 @@ use askama::Template;
 
 use crate::check;
 use crate::error::Error;
-use crate::render::{Colour, Picture};
+use crate::picture::{Colour, Picture};
 use crate::text::base64::encode;
 
 /// Width of the picture, height of a row of names, and room around the names, in px.

@@ -4,7 +4,7 @@ use askama::Template;
 
 use crate::check;
 use crate::error::Error;
-use crate::render::{Picture, diverging};
+use crate::picture::{Picture, diverging};
 use crate::text::base64::encode;
 
 /// Number of steps of a colour bar.

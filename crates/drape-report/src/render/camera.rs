@@ -4,6 +4,12 @@ use super::scene::{Scene, Surface, check_range};
 use super::vector::{Bounds, Vector, add, cross, dot, perpendiculars, scale, subtract};
 use crate::error::Error;
 
+/// Number of directions in which an extent keeps the farthest point of its shapes.
+const DIRECTIONS: usize = 160;
+
+/// Angle from one of these directions to the next, in rad, which distributes them evenly.
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+
 /// Fraction of the picture that the scene fills.
 const FILL: f64 = 0.9;
 
@@ -54,7 +60,58 @@ impl View {
     pub fn camera(&self, scene: &Scene) -> Result<Camera, Error> {
         self.check()?;
         scene.check()?;
-        Ok(Camera::framing(self, scene))
+        let axes = self.axes();
+        let eye = fit(&points(scene), axes, self.slopes());
+        Ok(Camera::new(self, axes, eye))
+    }
+
+    /// Returns the cameras of some views of the same size, in which shapes have one scale, and their
+    /// middle one place: pictures that can be compared.
+    ///
+    /// # Errors
+    /// A number of a view out of range, or an extent without points.
+    pub fn cameras(views: &[View], extent: &Extent) -> Result<Vec<Camera>, Error> {
+        views.iter().try_for_each(View::check)?;
+        if extent.points.is_empty() {
+            return Err(Error::EmptyScene);
+        }
+        let bounds = Bounds::of(extent.points.iter().copied());
+        // Distance of the camera from the middle at which a point is within the frame.
+        let distance = |view: &View, point: &Vector| {
+            let [right, up, forward] = view.axes();
+            let from = subtract(*point, bounds.center);
+            let sides = [right, up].into_iter().zip(view.slopes());
+            let least = sides.map(|(axis, slope)| dot(from, axis).abs() / slope);
+            least.fold(0.0, f64::max) - dot(from, forward)
+        };
+        let distances =
+            views.iter().flat_map(|view| extent.points.iter().map(|p| distance(view, p)));
+        let farthest = distances.fold(1e-3, f64::max);
+        let camera = |view: &View| {
+            let axes = view.axes();
+            Camera::new(view, axes, add(bounds.center, scale(axes[2], -farthest)))
+        };
+        Ok(views.iter().map(camera).collect())
+    }
+
+    /// Returns unit vectors to the right of the picture, up in it and along the line of sight.
+    fn axes(&self) -> [Vector; 3] {
+        let (sine, cosine) = self.azimuth_deg.to_radians().sin_cos();
+        let (rise, level) = self.elevation_deg.to_radians().sin_cos();
+        let forward = [-level * sine, -rise, -level * cosine];
+        let [mut right, mut up] = perpendiculars(forward);
+        if self.elevation_deg.abs() > 87.0 {
+            // Straight down or up, the azimuth still decides which direction is up in the picture.
+            right = [cosine, 0.0, -sine];
+            up = cross(right, forward);
+        }
+        [right, up, forward]
+    }
+
+    /// Returns the slopes of lines of sight to the sides and up, within which the scene is.
+    fn slopes(&self) -> [f64; 2] {
+        let slope = FILL * (0.5 * self.field_deg).to_radians().tan();
+        [slope * f64::from(self.width) / f64::from(self.height), slope]
     }
 
     /// Refuses numbers out of range.
@@ -82,6 +139,8 @@ pub struct Camera {
     focal: f64,
     /// Principal point, in pixels.
     middle: [f64; 2],
+    width: u32,
+    height: u32,
 }
 
 impl Camera {
@@ -103,29 +162,65 @@ impl Camera {
         }
     }
 
+    /// Width of the picture, in pixels.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height of the picture, in pixels.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
     /// Unit vector to the right of the picture.
     pub(crate) fn right(&self) -> Vector {
         self.right
     }
 
-    /// Returns the camera closest to the scene, in the direction of the view, that has all of it in the frame.
-    fn framing(view: &View, scene: &Scene) -> Camera {
-        let (sine, cosine) = view.azimuth_deg.to_radians().sin_cos();
-        let (rise, level) = view.elevation_deg.to_radians().sin_cos();
-        let forward = [-level * sine, -rise, -level * cosine];
-        let [mut right, mut up] = perpendiculars(forward);
-        if view.elevation_deg.abs() > 87.0 {
-            // Straight down or up, the azimuth still decides which direction is up in the picture.
-            right = [cosine, 0.0, -sine];
-            up = cross(right, forward);
-        }
-        let slope = (0.5 * view.field_deg).to_radians().tan();
-        let (width, height) = (f64::from(view.width), f64::from(view.height));
-        let middle = [0.5 * width, 0.5 * height];
-        let focal = middle[1] / slope;
-        let eye =
-            fit(points(scene), [right, up, forward], [FILL * slope * width / height, FILL * slope]);
-        Camera { eye, right, up, forward, focal, middle }
+    /// Direction of the line of sight through a point of the picture, in pixels.
+    pub(crate) fn ray(&self, [x, y]: [f64; 2]) -> Vector {
+        let [across, along] = [x - self.middle[0], self.middle[1] - y].map(|k| k / self.focal);
+        add(self.forward, add(scale(self.right, across), scale(self.up, along)))
+    }
+
+    /// Returns the camera of a view at a place.
+    fn new(view: &View, [right, up, forward]: [Vector; 3], eye: Vector) -> Camera {
+        let middle = [view.width, view.height].map(|size| 0.5 * f64::from(size));
+        let focal = middle[1] / (0.5 * view.field_deg).to_radians().tan();
+        let [width, height] = [view.width, view.height];
+        Camera { eye, right, up, forward, focal, middle, width, height }
+    }
+}
+
+/// What pictures of some scenes must show: cloths, and bodies as far as they are near.
+///
+/// Of the shapes those points are kept that are farthest in one of many directions.
+#[derive(Debug, Clone, Default)]
+pub struct Extent {
+    points: Vec<Vector>,
+}
+
+impl Extent {
+    /// Returns the extent of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Extent {
+        Extent::default().with(scene)
+    }
+
+    /// Returns the extent widened by that of another scene.
+    #[must_use]
+    pub fn with(self, scene: &Scene) -> Extent {
+        let all: Vec<Vector> = self.points.into_iter().chain(points(scene)).collect();
+        let farthest = |number: usize| {
+            let height = 1.0 - (2.0 * number as f64 + 1.0) / DIRECTIONS as f64;
+            let level = (1.0 - height * height).sqrt();
+            let (sine, cosine) = (number as f64 * GOLDEN_ANGLE).sin_cos();
+            let direction = [level * sine, height, level * cosine];
+            all.iter().copied().max_by(|a, b| dot(*a, direction).total_cmp(&dot(*b, direction)))
+        };
+        Extent { points: (0..DIRECTIONS).filter_map(farthest).collect() }
     }
 }
 
@@ -168,7 +263,7 @@ fn extreme(points: &[Vector], start: f64, choose: fn(f64, f64) -> f64) -> Vector
 /// In the axes of the camera a point `$(x, z)$` is within the slope `$t$` if `$|x - x_0| \le t\,(z - z_0)$`.
 /// The two sides give the largest `$x - tz$` and the largest `$-x - tz$`; half of their difference is
 /// `$x_0$`, and half of their sum over `$-t$` the closest `$z_0$`.
-fn fit(points: Vec<Vector>, [right, up, forward]: [Vector; 3], slopes: [f64; 2]) -> Vector {
+fn fit(points: &[Vector], [right, up, forward]: [Vector; 3], slopes: [f64; 2]) -> Vector {
     let mut eye = [0.0; 3];
     let mut closest = f64::MAX;
     for (axis, slope) in [right, up].into_iter().zip(slopes) {

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use super::colour::encode;
 use super::screen::{SAMPLES, ScreenFacet};
 use super::shade::Shader;
+use crate::picture::encode;
 
 /// Number of rows of pixels that are drawn at a time, which bounds the memory of the samples.
-pub(crate) const BAND: usize = 32;
+pub(crate) const BAND: usize = 16;
 
 /// Mark of a sample that shows no facet.
 const NONE: u32 = u32::MAX;
@@ -22,6 +22,30 @@ struct Fragment {
     /// Mean position of these samples in the pixel, 0 to 1.
     x: f64,
     y: f64,
+}
+
+/// Facets on the screen, with those of each band.
+pub(crate) struct Bands {
+    facets: Vec<ScreenFacet>,
+    /// Numbers of the facets that each band may show.
+    of_band: Vec<Vec<u32>>,
+}
+
+impl Bands {
+    /// Divides facets among the bands of a picture with some rows of pixels.
+    pub(crate) fn new(facets: Vec<ScreenFacet>, rows: usize) -> Bands {
+        let mut of_band = vec![Vec::new(); rows.div_ceil(BAND)];
+        for (facet, number) in facets.iter().zip(0..) {
+            let Some(samples) = facet.samples() else { continue };
+            let covered = samples.rows(rows * SAMPLES);
+            if !covered.is_empty() {
+                let height = BAND * SAMPLES;
+                let bands = covered.start / height..=(covered.end - 1) / height;
+                of_band[bands].iter_mut().for_each(|band: &mut Vec<u32>| band.push(number));
+            }
+        }
+        Bands { facets, of_band }
+    }
 }
 
 /// Buffers of the samples of a band.
@@ -48,55 +72,59 @@ impl Band {
         }
     }
 
-    /// Returns the pixels of some rows, three bytes each.
+    /// Paints the pixels of a band, three bytes each.
     pub(crate) fn paint(
         &mut self,
-        facets: &[ScreenFacet],
+        bands: &Bands,
         shader: &Shader,
-        rows: Range<usize>,
-    ) -> Vec<u8> {
-        self.resolve_visibility(facets, rows.start * SAMPLES..rows.end * SAMPLES);
+        number: usize,
+        pixels: &mut [u8],
+    ) {
         let columns = self.width / SAMPLES;
-        let mut pixels = Vec::with_capacity(3 * columns * rows.len());
-        for row in 0..rows.len() {
-            for column in 0..columns {
+        let top = number * BAND;
+        let rows = pixels.len() / (3 * columns);
+        self.resolve_visibility(bands, number, top * SAMPLES..(top + rows) * SAMPLES);
+        for (row, line) in pixels.chunks_exact_mut(3 * columns).enumerate() {
+            for (column, pixel) in line.as_chunks_mut::<3>().0.iter_mut().enumerate() {
                 let mut colour = [0.0; 3];
                 for &Fragment { item, count, x, y } in self.fragments(row, column) {
                     let share = count as f64 / (SAMPLES * SAMPLES) as f64;
-                    let part = if item == NONE {
-                        [1.0; 3]
-                    } else {
-                        let [x, y] = [column as f64 + x, (rows.start + row) as f64 + y];
-                        shader.colour(&facets[item as usize], x, y)
+                    let at = [column as f64 + x, (top + row) as f64 + y];
+                    let part = match item {
+                        NONE => shader.ground(at),
+                        _ => shader.colour(&bands.facets[item as usize], at),
                     };
                     for k in 0..3 {
                         colour[k] += share * part[k];
                     }
                 }
-                pixels.extend(colour.map(encode));
+                *pixel = colour.map(encode);
             }
         }
-        pixels
     }
 
     /// Finds the facet closest to the camera at each sample of some rows of samples.
-    fn resolve_visibility(&mut self, facets: &[ScreenFacet], rows: Range<usize>) {
+    fn resolve_visibility(&mut self, bands: &Bands, number: usize, rows: Range<usize>) {
         self.depths.fill(0.0);
         self.items.fill(NONE);
-        for (item, facet) in facets.iter().enumerate() {
-            let covered = facet.samples.rows(rows.end);
-            let covered = covered.start.max(rows.start)..covered.end;
-            if covered.is_empty() {
-                continue;
-            }
-            let depths = facet.biased_depths;
-            let width = self.width;
-            facet.samples.rasterize(width, covered, |x, y, coordinates| {
-                let depth = (0..3).map(|k| coordinates[k] * depths[k]).sum::<f64>() as f32;
-                let sample = (y - rows.start) * width + x;
-                if depth > self.depths[sample] {
-                    self.depths[sample] = depth;
-                    self.items[sample] = item as u32;
+        let width = self.width;
+        for &item in &bands.of_band[number] {
+            let facet = &bands.facets[item as usize];
+            let Some(samples) = facet.samples() else { continue };
+            let covered = samples.rows(rows.end);
+            let depths = facet.biased_depths();
+            let slope = samples.slope(depths) as f32;
+            samples.spans(width, covered.start.max(rows.start)..covered.end, |span| {
+                let start = span.start(depths) as f32;
+                let first = (span.row - rows.start) * width;
+                let range = first + span.columns.start..first + span.columns.end;
+                let (depths, holders) = (&mut self.depths[range.clone()], &mut self.items[range]);
+                // A counter of 32 bits, which is converted for several samples at a time.
+                for (offset, (depth, holder)) in (0_i32..).zip(depths.iter_mut().zip(holders)) {
+                    let own = start + offset as f32 * slope;
+                    let is_closer = own > *depth;
+                    *depth = if is_closer { own } else { *depth };
+                    *holder = if is_closer { item } else { *holder };
                 }
             });
         }
@@ -105,9 +133,17 @@ impl Band {
     /// Returns the facets that a pixel shows.
     fn fragments(&mut self, row: usize, column: usize) -> &[Fragment] {
         self.fragments.clear();
+        let line = |j: usize| {
+            let first = (row * SAMPLES + j) * self.width + column * SAMPLES;
+            &self.items[first..first + SAMPLES]
+        };
+        let item = line(0)[0];
+        if (0..SAMPLES).all(|j| line(j) == [item; SAMPLES]) {
+            self.fragments.push(Fragment { item, count: SAMPLES * SAMPLES, x: 0.5, y: 0.5 });
+            return &self.fragments;
+        }
         for j in 0..SAMPLES {
-            for i in 0..SAMPLES {
-                let item = self.items[(row * SAMPLES + j) * self.width + column * SAMPLES + i];
+            for (i, &item) in line(j).iter().enumerate() {
                 let (x, y) = ((i as f64 + 0.5) / SAMPLES as f64, (j as f64 + 0.5) / SAMPLES as f64);
                 match self.fragments.iter_mut().find(|fragment| fragment.item == item) {
                     Some(fragment) => {

@@ -1,8 +1,8 @@
 //! Scene of a picture: cloths, bodies and a floor, checked before anything is drawn.
 
-use super::colour::Colour;
 use super::vector::{Vector, at};
 use crate::error::Error;
+use crate::picture::Colour;
 
 /// Largest coordinate that can be drawn, in m; larger ones come from a failed simulation.
 const MAX_COORDINATE: f64 = 1e6;
@@ -43,6 +43,9 @@ pub struct Surface<'a> {
     pub front: Colour,
     /// Colour of the back.
     pub back: Colour,
+    /// Thickness of a cloth, in m: the width of its rim along the hem. The rim is not thinner than
+    /// can be seen.
+    pub thickness: f64,
 }
 
 impl<'a> Surface<'a> {
@@ -57,6 +60,7 @@ impl<'a> Surface<'a> {
             line_spacing: 0.05,
             front: FRONT,
             back: BACK,
+            thickness: 0.0,
         }
     }
 
@@ -112,6 +116,8 @@ impl<'a> Surface<'a> {
             let expected = format!("one for each of {vertices} vertices");
             return Err(bad_length("tints", tints.len(), expected));
         }
+        let what = "the thickness of the cloth (m)";
+        check_range(what, self.thickness, "from 0 to 1", (0.0..=1.0).contains(&self.thickness))?;
         for (triangle, indices) in self.triangles.iter().enumerate() {
             if let Some(&index) = indices.iter().find(|index| **index as usize >= vertices) {
                 return Err(Error::NoSuchVertex { surface: surface(), triangle, index, vertices });
@@ -154,6 +160,30 @@ pub(crate) fn check_range(
     Err(Error::OutOfRange { what, value, range })
 }
 
+/// Colours of a picture behind its scene, which pass into each other from the top to the bottom.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ground {
+    /// Colour at the top.
+    pub top: Colour,
+    /// Colour at the bottom.
+    pub bottom: Colour,
+}
+
+impl Ground {
+    /// White, as a page is.
+    pub const WHITE: Ground = Ground { top: [255; 3], bottom: [255; 3] };
+
+    /// Quiet grey, before which light and dark cloth stands out.
+    pub const GREY: Ground = Ground { top: [214, 218, 223], bottom: [233, 234, 235] };
+}
+
+impl Default for Ground {
+    /// Returns white.
+    fn default() -> Ground {
+        Ground::WHITE
+    }
+}
+
 /// Scene of a picture; y is up.
 #[derive(Debug, Clone, Default)]
 pub struct Scene<'a> {
@@ -163,6 +193,8 @@ pub struct Scene<'a> {
     pub bodies: Vec<Surface<'a>>,
     /// Height of a floor of which only the shadows show, in m.
     pub floor: Option<f64>,
+    /// Colours behind cloths and bodies.
+    pub ground: Ground,
     /// Depth bias of bodies: distance by which they are moved back behind cloth in depth tests, in
     /// m.
     ///

@@ -1,7 +1,7 @@
 //! Facets as the camera projects them.
 
 use super::camera::{Camera, ScreenPoint};
-use super::tessellation::{Facet, Part, Tessellation};
+use super::tessellation::{Facet, Tessellation};
 use super::triangle::PlaneTriangle;
 
 /// Number of samples along each side of a pixel.
@@ -14,46 +14,47 @@ pub(crate) const SAMPLES: usize = 4;
 const NEAREST: f64 = 1e-6;
 
 /// Facet on the screen.
-pub(crate) struct ScreenFacet<'a> {
-    pub(crate) facet: &'a Facet,
+pub(crate) struct ScreenFacet {
+    /// Number of the facet.
+    pub(crate) number: u32,
     /// Triangle in pixels.
     pub(crate) pixels: PlaneTriangle,
-    /// Triangle in samples.
-    pub(crate) samples: PlaneTriangle,
     /// Inverse depths of the corners, in 1/m, for perspective-correct interpolation.
-    pub(crate) inverse_depths: [f64; 3],
-    /// Inverse depths of the corners with the depth bias, in 1/m, for the depth test.
-    pub(crate) biased_depths: [f64; 3],
+    inverse_depths: [f64; 3],
+    /// Depth bias, in m.
+    bias: f64,
 }
 
-impl<'a> ScreenFacet<'a> {
-    /// Projects a facet; `None` if it is not visible.
-    pub(crate) fn project(
-        scene: &Tessellation,
-        facet: &'a Facet,
-        camera: &Camera,
-    ) -> Option<ScreenFacet<'a>> {
-        let corners = facet.corners.map(|corner| camera.project(corner.position));
-        // The camera is outside of the framed scene; facets that extend behind it are left out
-        // whole.
-        if corners.iter().any(|corner| corner.depth <= NEAREST) {
-            return None;
-        }
-        if facet.part == Part::Floor && camera.eye()[1] < facet.corners[0].position[1] {
-            // From below the floor would hide the scene.
-            return None;
-        }
-        let bias = scene.depth_bias(facet.part);
-        let in_pixels = |corner: ScreenPoint| [corner.x, corner.y];
-        let in_samples =
-            |corner: ScreenPoint| [corner.x * SAMPLES as f64, corner.y * SAMPLES as f64];
-        Some(ScreenFacet {
-            facet,
-            pixels: PlaneTriangle::new(corners.map(in_pixels))?,
-            samples: PlaneTriangle::new(corners.map(in_samples))?,
-            inverse_depths: corners.map(|corner| 1.0 / corner.depth),
-            biased_depths: corners.map(|corner| 1.0 / (corner.depth + bias)),
-        })
+impl ScreenFacet {
+    /// Projects the facets of a scene; those that cannot be seen are left out.
+    pub(crate) fn all(scene: &Tessellation, camera: &Camera) -> Vec<ScreenFacet> {
+        let points: Vec<ScreenPoint> =
+            scene.vertices.iter().map(|vertex| camera.project(vertex.position)).collect();
+        let project = |(facet, number): (&Facet, u32)| {
+            let corners = facet.corners.map(|corner| points[corner as usize]);
+            // The camera is outside of the framed scene; facets that extend behind it are left out
+            // whole.
+            if corners.iter().any(|corner| corner.depth <= NEAREST) {
+                return None;
+            }
+            Some(ScreenFacet {
+                number,
+                pixels: PlaneTriangle::new(corners.map(|corner| [corner.x, corner.y]))?,
+                inverse_depths: corners.map(|corner| 1.0 / corner.depth),
+                bias: scene.depth_bias(facet.part),
+            })
+        };
+        scene.facets.iter().zip(0..).filter_map(project).collect()
+    }
+
+    /// Returns the triangle in samples; `None` if it has no area there.
+    pub(crate) fn samples(&self) -> Option<PlaneTriangle> {
+        PlaneTriangle::new(self.pixels.corners.map(|corner| corner.map(|x| x * SAMPLES as f64)))
+    }
+
+    /// Returns the inverse depths of the corners with the depth bias, in 1/m, for the depth test.
+    pub(crate) fn biased_depths(&self) -> [f64; 3] {
+        self.inverse_depths.map(|inverse| inverse / (1.0 + self.bias * inverse))
     }
 
     /// Returns the barycentric coordinates in space at a point of the picture, in pixels.

@@ -39,40 +39,65 @@ impl PlaneTriangle {
         span(self.corners.map(|c| c[1]), count)
     }
 
-    /// Visits the cells of some rows whose centres are inside, each with its column, its row and
-    /// its barycentric coordinates.
-    pub(crate) fn rasterize(
-        &self,
-        columns: usize,
-        rows: Range<usize>,
-        mut visit: impl FnMut(usize, usize, [f64; 3]),
-    ) {
+    /// Returns the change, from one column to the next, of a value that is linear in the triangle.
+    pub(crate) fn slope(&self, values: [f64; 3]) -> f64 {
+        let [a, b, c] = self.corners;
+        let rise = |p: [f64; 2], q: [f64; 2], value: f64| (p[1] - q[1]) * value;
+        (rise(b, c, values[0]) + rise(c, a, values[1]) + rise(a, b, values[2])) / self.area
+    }
+
+    /// Visits the rows of some rows in which the triangle has cells whose centres are inside.
+    pub(crate) fn spans(&self, columns: usize, rows: Range<usize>, mut visit: impl FnMut(Span)) {
         let across = span(self.corners.map(|c| c[0]), columns);
-        // Barycentric coordinates are linear along a row.
-        let step = {
-            let (here, next) = (self.barycentric(0.0, 0.0), self.barycentric(1.0, 0.0));
-            [0, 1, 2].map(|k| next[k] - here[k])
-        };
-        for row in rows {
-            let start = self.barycentric(across.start as f64 + 0.5, row as f64 + 0.5);
+        if across.is_empty() || rows.is_empty() {
+            return;
+        }
+        // Barycentric coordinates are linear along a row and from row to row.
+        let (left, top) = (across.start as f64 + 0.5, rows.start as f64 + 0.5);
+        let start = self.barycentric(left, top);
+        let [right, below] = [self.barycentric(left + 1.0, top), self.barycentric(left, top + 1.0)];
+        let step = [0, 1, 2].map(|k| right[k] - start[k]);
+        let down = [0, 1, 2].map(|k| below[k] - start[k]);
+        let run = step.map(|step| -1.0 / step);
+        let last = (across.end - across.start) as f64 - 1.0;
+        for (number, row) in rows.enumerate() {
+            let here = [0, 1, 2].map(|k| start[k] + number as f64 * down[k]);
             // First and last column, counted from the left, in which no coordinate is below zero.
-            let (mut from, mut to) = (0.0f64, (across.end - across.start) as f64 - 1.0);
+            let (mut from, mut to) = (0.0f64, last);
             for k in 0..3 {
-                let zero = -(start[k] + EDGE) / step[k];
+                let zero = (here[k] + EDGE) * run[k];
                 if step[k] > 0.0 {
                     from = from.max(zero);
                 } else if step[k] < 0.0 {
                     to = to.min(zero);
-                } else if start[k] < -EDGE {
+                } else if here[k] < -EDGE {
                     to = -1.0;
                 }
             }
-            // The cast maps numbers below 0 to 0.
-            for offset in from.ceil() as usize..(to + 1.0).floor() as usize {
-                let coordinates = [0, 1, 2].map(|k| start[k] + offset as f64 * step[k]);
-                visit(across.start + offset, row, coordinates);
+            // The cast rounds down, and maps numbers below 0 to 0.
+            let whole = from as usize;
+            let from = whole + usize::from(from > whole as f64);
+            let to = (to + 1.0) as usize;
+            if from < to {
+                let first = [0, 1, 2].map(|k| here[k] + from as f64 * step[k]);
+                visit(Span { row, columns: across.start + from..across.start + to, first });
             }
         }
+    }
+}
+
+/// Cells of a row whose centres are in a triangle.
+pub(crate) struct Span {
+    pub(crate) row: usize,
+    pub(crate) columns: Range<usize>,
+    /// Barycentric coordinates of the first of them.
+    pub(crate) first: [f64; 3],
+}
+
+impl Span {
+    /// Returns the value at the first cell of a value that is linear in the triangle.
+    pub(crate) fn start(&self, values: [f64; 3]) -> f64 {
+        (0..3).map(|k| self.first[k] * values[k]).sum()
     }
 }
 
@@ -80,9 +105,10 @@ impl PlaneTriangle {
 fn span(values: [f64; 3], count: usize) -> Range<usize> {
     let low = values.iter().fold(f64::MAX, |low, v| low.min(*v));
     let high = values.iter().fold(f64::MIN, |high, v| high.max(*v));
-    // The cast maps numbers that are too large to the largest.
-    let first = (low - 0.5).ceil().max(0.0) as usize;
-    let last = (high + 0.5).floor().max(0.0) as usize;
+    // The casts round down, and map numbers that are too small or too large to the nearest.
+    let whole = (low - 0.5) as usize;
+    let first = whole + usize::from(low - 0.5 > whole as f64);
+    let last = (high + 0.5) as usize;
     first.min(count)..last.min(count)
 }
 
@@ -97,9 +123,11 @@ mod tests {
         let mut centers = 0.0;
         for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
             let triangle = PlaneTriangle::new([corners[a], corners[b], corners[c]]).unwrap();
-            triangle.rasterize(20, triangle.rows(20), |x, y, coordinates| {
-                count[20 * y + x] += 1;
-                centers += coordinates.iter().sum::<f64>();
+            triangle.spans(20, triangle.rows(20), |span| {
+                for (offset, column) in span.columns.clone().enumerate() {
+                    count[20 * span.row + column] += 1;
+                    centers += span.start([1.0; 3]) + offset as f64 * triangle.slope([1.0; 3]);
+                }
             });
         }
         assert!(count.iter().all(|n| *n <= 1), "a cell is covered twice");

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
-use drape::export::Field;
+
+use crate::commands::show::look::LookArguments;
 
 #[derive(Args)]
 pub(crate) struct ExportArguments {
@@ -26,16 +27,14 @@ pub(crate) struct ExportArguments {
     /// the last [default: all; of OBJ and SVG the last frame].
     #[arg(long, value_name = "A..B")]
     pub(crate) frames: Option<FrameRange>,
-    /// Field that svg shows: strain-warp, strain-weft, shear, curvature, pressure, distance, seam-gap or
-    /// speed [default: strain-warp].
-    #[arg(long, value_name = "FIELD")]
-    pub(crate) map: Option<Field>,
     /// Frames per second [default: that of the run].
     #[arg(long, value_name = "F")]
     pub(crate) fps: Option<f64>,
     /// Replaces files that exist; of a sequence, those after its end are removed.
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) look: LookArguments,
 }
 
 /// Format of other programs.
@@ -60,6 +59,10 @@ pub(crate) enum Format {
     Csv,
     /// Panels of one frame, flat on the pattern, with a field in colours.
     Svg,
+    /// Pictures: one frame, or a numbered sequence.
+    Png,
+    /// Animated PNG, which loops with the times of the frames.
+    Apng,
 }
 
 /// Numbers of frames as they are typed: `A..B`, `A..`, `..B`.

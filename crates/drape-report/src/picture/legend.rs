@@ -1,0 +1,120 @@
+//! Legend: a scale of colours with its name, its unit and its range, below a picture.
+
+use super::colour::Colour;
+use super::lettering::Lettering;
+use super::pixels::Picture;
+use super::scale::ColourScale;
+
+/// Width of the bar over that of the picture, and its least and largest width, in heights of a line.
+const BAR: f64 = 0.4;
+const BAR_WITHIN: [f64; 2] = [10.0, 28.0];
+
+/// Height of the strip that the legend takes, in heights of a line.
+const HEIGHT: f64 = 3.9;
+
+/// Scale of colours of a picture, with words.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Legend {
+    /// Name of the quantity.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// Colours of its values, in this unit.
+    pub scale: ColourScale,
+}
+
+impl Legend {
+    /// Returns the height that the legend of a picture takes, in pixels, of one that is so high with
+    /// it.
+    #[must_use]
+    pub fn height(whole: u32) -> u32 {
+        (HEIGHT * f64::from(Lettering::for_height(whole).height())) as u32
+    }
+
+    /// Returns a picture with the legend below it, on a strip of a colour.
+    #[must_use]
+    pub fn below(&self, picture: &Picture, ground: Colour) -> Picture {
+        // The height with the legend decides the size of the letters, which decides that height.
+        let letters = [16, 20, 24, 32].into_iter().find_map(|line| {
+            let whole = picture.height() + (HEIGHT * f64::from(line)) as u32;
+            let letters = Lettering::for_height(whole);
+            (letters.height() == line).then_some(letters)
+        });
+        let letters = letters.unwrap_or(Lettering::for_height(picture.height()));
+        let line = letters.height();
+        let height = (HEIGHT * f64::from(line)) as u32;
+        let mut whole = picture.extended(height, ground);
+        let [least, most] = BAR_WITHIN.map(|lines| lines * f64::from(line));
+        let bar = (BAR * f64::from(picture.width())).clamp(least, most) as u32;
+        let bar = bar.min(picture.width().saturating_sub(2 * line)).max(2);
+        let (left, top) = ((picture.width() - bar.min(picture.width())) / 2, picture.height());
+        let [low, high] = self.scale.range();
+        let middle = 0.5 * (low + high);
+        let centred = |text: &str, at: u32| {
+            let latest = picture.width().saturating_sub(letters.width(text));
+            at.saturating_sub(letters.width(text) / 2).min(latest)
+        };
+        let title = format!("{}, {}", self.name, self.unit);
+        letters.write(&title, [centred(&title, left + bar / 2), top + line / 3], &mut whole);
+        for column in 0..bar {
+            let part = (f64::from(column) + 0.5) / f64::from(bar);
+            let colour = self.scale.colour(low + part * (high - low));
+            for row in 0..line * 3 / 4 {
+                if let Some(pixel) = whole.pixel_mut(left + column, top + line * 3 / 2 + row) {
+                    *pixel = colour;
+                }
+            }
+        }
+        for (value, at) in [(low, left), (middle, left + bar / 2), (high, left + bar)] {
+            let text = number(value, high - low);
+            letters.write(&text, [centred(&text, at), top + line * 5 / 2], &mut whole);
+        }
+        whole
+    }
+}
+
+/// Returns a number of a range of some width, with as many digits as the width needs.
+fn number(value: f64, width: f64) -> String {
+    let digits = 2 - width.log10().floor() as i32;
+    let text = match digits {
+        ..=8 => format!("{value:.*}", digits.clamp(0, 8) as usize),
+        _ => format!("{value:.2e}"),
+    };
+    match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_of_the_range() {
+        let ends =
+            |low: f64, high: f64| [low, 0.5 * (low + high), high].map(|v| number(v, high - low));
+        assert_eq!(ends(-2.0, 2.0), ["-2", "0", "2"]);
+        assert_eq!(ends(0.0, 0.05), ["0", "0.025", "0.05"]);
+        assert_eq!(ends(0.0, 5000.0), ["0", "2500", "5000"]);
+        assert_eq!(ends(-0.5, 0.5), ["-0.5", "0", "0.5"]);
+        assert_eq!(ends(0.0, 1e-9)[2], "1.00e-9");
+    }
+
+    #[test]
+    fn a_legend_is_below_the_picture_with_the_colours_of_its_ends() {
+        let picture = Picture::new(600, 500, vec![9; 900_000]);
+        let scale = ColourScale::new([-2.0, 2.0], true).expect("a range");
+        let legend = Legend { name: "strain".into(), unit: "%".into(), scale };
+        let whole = legend.below(&picture, [240; 3]);
+        assert_eq!((whole.width(), whole.pixel(300, 499)), (600, Some([9; 3])));
+        assert_eq!(whole.height() - 500, Legend::height(whole.height()));
+        let near = |a: Colour, b: Colour| (0..3).all(|k| a[k].abs_diff(b[k]) < 3);
+        let found = |colour: Colour| {
+            let all = (0..600).flat_map(|x| (500..whole.height()).map(move |y| (x, y)));
+            all.filter_map(|(x, y)| whole.pixel(x, y)).any(|pixel| near(pixel, colour))
+        };
+        assert!([-2.0, 0.0, 2.0].iter().all(|value| found(scale.colour(*value))));
+        assert!((0..600).any(|x| whole.pixel(x, 510).is_some_and(|p| p[0] < 100)), "a title");
+    }
+}

@@ -1,0 +1,164 @@
+//! Pixels: a picture in sRGB, and its PNG file.
+
+use std::path::Path;
+
+use crate::error::Error;
+use crate::picture::Colour;
+
+/// Picture: rows of pixels from the top, in sRGB.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    width: u32,
+    height: u32,
+    pixels: Vec<u8>,
+}
+
+impl Picture {
+    /// Returns a picture of pixels with three bytes each.
+    pub(crate) fn new(width: u32, height: u32, pixels: Vec<u8>) -> Picture {
+        Picture { width, height, pixels }
+    }
+
+    /// Returns pictures side by side on white, in rows of some columns, each column as wide as its
+    /// widest picture and each row as high as its highest.
+    #[must_use]
+    pub fn sheet(pictures: &[Picture], columns: usize) -> Picture {
+        let columns = columns.clamp(1, pictures.len().max(1));
+        let rows = pictures.len().div_ceil(columns);
+        let (mut widths, mut heights) = (vec![0; columns], vec![0; rows]);
+        for (number, picture) in pictures.iter().enumerate() {
+            let (column, row) = (&mut widths[number % columns], &mut heights[number / columns]);
+            *column = picture.width.max(*column);
+            *row = picture.height.max(*row);
+        }
+        let [width, height] = [&widths, &heights].map(|sizes| sizes.iter().sum::<u32>());
+        let mut pixels = vec![u8::MAX; 3 * width as usize * height as usize];
+        for (number, picture) in pictures.iter().enumerate() {
+            let left: u32 = widths[..number % columns].iter().sum();
+            let top: u32 = heights[..number / columns].iter().sum();
+            let lines = picture.pixels.chunks(3 * picture.width.max(1) as usize);
+            for (line, data) in lines.enumerate() {
+                let start = 3 * ((top as usize + line) * width as usize + left as usize);
+                pixels[start..start + data.len()].copy_from_slice(data);
+            }
+        }
+        Picture { width, height, pixels }
+    }
+
+    /// Width, in pixels.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height, in pixels.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Pixels, three bytes each, row by row from the top.
+    #[must_use]
+    pub fn pixels(&self) -> &[u8] {
+        &self.pixels
+    }
+
+    /// Returns a pixel, counted from the top left; `None` outside the picture.
+    #[must_use]
+    pub fn pixel(&self, x: u32, y: u32) -> Option<Colour> {
+        let (pixels, _) = self.pixels.as_chunks::<3>();
+        let row = pixels.chunks(self.width as usize).nth(y as usize)?;
+        row.get(x as usize).copied()
+    }
+
+    /// Returns a pixel to change, counted from the top left; `None` outside the picture.
+    pub(crate) fn pixel_mut(&mut self, x: u32, y: u32) -> Option<&mut Colour> {
+        let (width, pixels) = (self.width, self.pixels.as_chunks_mut::<3>().0);
+        let is_inside = x < width && y < self.height;
+        is_inside.then(|| &mut pixels[y as usize * width as usize + x as usize])
+    }
+
+    /// Returns the picture with more rows below, of a colour.
+    pub(crate) fn extended(&self, rows: u32, colour: Colour) -> Picture {
+        let added = self.width as usize * rows as usize;
+        let pixels = [&self.pixels[..], &colour.repeat(added)].concat();
+        Picture { width: self.width, height: self.height + rows, pixels }
+    }
+
+    /// Returns the smallest rectangle outside of which a picture of the same size is the same: the
+    /// column and the row of its corner, its width and its height.
+    pub(crate) fn difference(&self, other: &Picture) -> Option<[u32; 4]> {
+        let [own, others] = [self, other].map(|picture| picture.pixels.as_chunks::<3>().0);
+        let width = self.width as usize;
+        let differs = |k: &usize| own[*k] != others[*k];
+        let (first, last) = ((0..own.len()).find(differs)?, (0..own.len()).rev().find(differs)?);
+        let rows = first / width..=last / width;
+        let (mut left, mut right) = (width, 0);
+        for row in rows.clone() {
+            let line = row * width..(row + 1) * width;
+            if let Some(column) = line.clone().find(differs) {
+                left = left.min(column % width);
+            }
+            if let Some(column) = line.rev().find(differs) {
+                right = right.max(column % width);
+            }
+        }
+        let size = [right + 1 - left, rows.end() + 1 - rows.start()];
+        Some([left, *rows.start(), size[0], size[1]].map(|number| number as u32))
+    }
+
+    /// Returns the pixels of a rectangle: column and row of its corner, width and height.
+    pub(crate) fn part(&self, [left, top, width, height]: [u32; 4]) -> Vec<u8> {
+        let lines = self.pixels.chunks_exact(3 * self.width.max(1) as usize);
+        let own = 3 * left as usize..3 * (left + width) as usize;
+        let lines = lines.skip(top as usize).take(height as usize);
+        lines.flat_map(|line| &line[own.clone()]).copied().collect()
+    }
+
+    /// Returns the picture as a PNG file.
+    ///
+    /// # Errors
+    /// A picture that cannot be encoded, such as one without pixels.
+    pub fn png(&self) -> Result<Vec<u8>, Error> {
+        let failed = |error: png::EncodingError| Error::Encoding { reason: error.to_string() };
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        let mut writer = encoder.write_header().map_err(failed)?;
+        writer.write_image_data(&self.pixels).map_err(failed)?;
+        writer.finish().map_err(failed)?;
+        Ok(bytes)
+    }
+
+    /// Writes the picture to a PNG file.
+    ///
+    /// # Errors
+    /// A picture that cannot be encoded, or a file that cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        let path = path.as_ref();
+        std::fs::write(path, self.png()?).map_err(|error| Error::Unwritable {
+            path: path.to_path_buf(),
+            reason: error.to_string(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sheet_shows_every_picture_in_its_column_and_row() {
+        let plain = |width: u32, height: u32, shade: u8| {
+            Picture::new(width, height, vec![shade; 3 * (width * height) as usize])
+        };
+        let sheet = Picture::sheet(&[plain(3, 2, 10), plain(2, 2, 20), plain(3, 1, 30)], 2);
+        assert_eq!((sheet.width(), sheet.height()), (5, 3));
+        let shade = |x, y| sheet.pixel(x, y).map(|[shade, ..]| shade);
+        assert_eq!([shade(2, 1), shade(3, 0), shade(4, 1)], [10, 20, 20].map(Some));
+        assert_eq!([shade(0, 2), shade(4, 2)], [30, 255].map(Some));
+        assert_eq!(Picture::sheet(&[], 3).width(), 0);
+    }
+}
