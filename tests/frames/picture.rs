@@ -137,13 +137,10 @@ fn what_cannot_be_drawn_is_refused_with_a_remedy_that_works() {
     refused(&picture(&[]), 3, "frame-00002.npy");
     succeeds(folder, &["run", "scene.toml", "--no-picture", "--force"]);
     let export = |arguments: &[&'static str]| [&["export", "run", "-o"], arguments].concat();
-    refused(&export(&["a.obj", "--map", "shear"]), 2, "add --format png or apng");
+    refused(&export(&["a.obj", "--map", "shear"]), 2, "add --format png, apng or svg");
+    refused(&export(&["a.obj", "--size", "90x130"]), 2, "add --format png or apng");
+    succeeds(folder, &export(&["a.svg", "--map", "shear"]));
     let large = ["a.png", "--size", "8000x8000", "--fps", "1000"];
     refused(&export(&large), 2, "a smaller --size, fewer --frames or a lower --fps");
     refused(&export(&["run/summary.json", "--format", "apng"]), 2, "replace it with --force");
-    // Pressure is known where contact was, at the last frame.
-    if folder.join("run/pressure.npy").exists() {
-        refused(&picture(&["--map", "pressure", "--frame", "0"]), 2, "at its last frame only, 3");
-        succeeds(folder, &picture(&["--map", "pressure", "--size", "200x200"]));
-    }
 }

@@ -239,9 +239,9 @@ impl<'a> RunPictures<'a> {
         let known = |field: &&Field| self.fields.has(**field);
         Err(Failure::Usage(match self.fields.has(field) {
             true => format!(
-                "--map {}: the run has it at its last frame only, {}; draw that frame alone",
+                "--map {}: the run has it, but not at frame {}; draw another frame",
                 field.key(),
-                self.recording.frames() - 1
+                frame.number
             ),
             false => {
                 let known = Field::ALL.iter().filter(known).map(|field| field.key());

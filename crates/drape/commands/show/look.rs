@@ -35,7 +35,8 @@ pub(crate) struct LookArguments {
         allow_hyphen_values = true
     )]
     views: Vec<Side>,
-    /// Colour map of a field, with a legend.
+    /// Colour map of a field, with a legend: strain-warp, strain-weft, shear, curvature, pressure,
+    /// distance, seam-gap or speed; of svg too [default of svg: strain-warp].
     #[arg(long, value_name = "FIELD")]
     map: Option<Field>,
     /// Ends of the colour map [default: those of nearly all values].
