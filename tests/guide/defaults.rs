@@ -8,7 +8,7 @@ use toml::{Table, Value};
 use crate::schema::Schema;
 
 /// Garment that no body wears.
-const SEWN: &str = r#"
+pub const SEWN: &str = r#"
 [fabric.plain]
 file = "tests/fabrics/plain-weave.toml"
 [[garment]]
@@ -22,7 +22,7 @@ end = 1.0
 "#;
 
 /// Scene with a table of each other kind whose keys have defaults.
-const CLOTH: &str = r#"
+pub const CLOTH: &str = r#"
 [fabric.plain]
 file = "tests/fabrics/plain-weave.toml"
 [[panel]]
@@ -69,7 +69,13 @@ fn read(text: &str) -> String {
     format!("{scene:?}")
 }
 
-/// Returns the tables at a path such as `panel.noise`, those of lists one by one.
+/// Returns the tables of a header such as `[panel.noise]`, those of lists one by one.
+pub fn headed<'a>(whole: &'a mut Value, header: &str) -> Vec<&'a mut Table> {
+    let path = header.trim_matches(['[', ']']).split('.').filter(|part| !part.is_empty());
+    tables(whole, &path.collect::<Vec<_>>())
+}
+
+/// Returns the tables at a path, those of lists one by one.
 fn tables<'a>(value: &'a mut Value, path: &[&str]) -> Vec<&'a mut Table> {
     match (value, path) {
         (Value::Array(items), _) => items.iter_mut().flat_map(|item| tables(item, path)).collect(),
@@ -89,14 +95,13 @@ fn with_defaults(scene: &str) -> (String, usize) {
         let headers = if table.headers.is_empty() { vec![String::new()] } else { table.headers };
         for (header, key) in headers.iter().flat_map(|h| table.keys.iter().map(move |key| (h, key)))
         {
-            let path = header.trim_matches(['[', ']']).split('.').filter(|part| !part.is_empty());
             let stated = key.default.strip_prefix('`').and_then(|text| text.strip_suffix('`'));
             // Words such as `out/` are no values.
             let value = stated.and_then(|stated| format!("x = {stated}").parse::<Table>().ok());
             let Some(value) = value.filter(|_| !OF_PICTURES.contains(&&*key.name)) else {
                 continue;
             };
-            for place in tables(&mut whole, &path.clone().collect::<Vec<_>>()) {
+            for place in headed(&mut whole, header) {
                 if !place.contains_key(&key.name) {
                     place.insert(key.name.clone(), value["x"].clone());
                     written += 1;

@@ -4,6 +4,7 @@
 mod commands_page;
 mod defaults;
 mod keys_page;
+mod ranges;
 mod schema;
 
 use std::path::{Path, PathBuf};

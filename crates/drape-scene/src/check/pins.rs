@@ -1,6 +1,6 @@
 //! Pins of a scene.
 
-use drape_input::{Given, closest, excerpt, figures};
+use drape_input::{Given, closest, excerpt, figure, figures};
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::check::motion::rigid_motion;
@@ -63,6 +63,16 @@ fn pin(
     if pin.rows.is_some() && pin.edge.is_none() {
         let help = "rows = 2 belongs to an edge";
         checker.fail(&format!("{key}.rows"), "there is no edge", help);
+    }
+    if let Some(radius) = pin.radius.map(Given::number) {
+        let key = format!("{key}.radius");
+        if pin.points.is_empty() {
+            let help = "leave it out; rows = 2 holds more of an edge";
+            checker.fail(&key, "there are no points", help);
+        } else if !(radius >= 0.0 && radius.is_finite()) {
+            let help = "the distance from its points, in the file's unit; or leave it out";
+            checker.fail(&key, format!("{} is no distance", figure(radius)), help);
+        }
     }
     particles.sort_unstable();
     particles.dedup();

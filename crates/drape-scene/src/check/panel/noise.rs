@@ -23,9 +23,14 @@ pub(crate) fn noise(
     file: Option<&NoiseFile>,
 ) -> Option<Noise> {
     let file = file?;
-    if !file.amplitude.number().is_finite() {
-        let help = "the greatest height, in the file's unit";
-        checker.fail(&format!("{key}.amplitude"), "is not finite", help);
+    let amplitude = file.amplitude.number();
+    if !(amplitude >= 0.0 && amplitude.is_finite()) {
+        let help = "the greatest height, in the file's unit; another seed gives other heights";
+        checker.fail(
+            &format!("{key}.amplitude"),
+            format!("{} is no height", figure(amplitude)),
+            help,
+        );
     }
     let length = file.length.map(Given::number);
     if let Some(length) = length.filter(|length| !(*length > 0.0 && length.is_finite())) {
