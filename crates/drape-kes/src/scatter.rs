@@ -42,39 +42,46 @@ pub(crate) struct Parted {
 /// 0.118 ± 0.006    0.118 ± 0.006 gf.cm2/cm    (0.118 ± 0.006) gf.cm2/cm    1.2e-5 N.m ± 5 %
 /// ```
 pub(crate) fn parse(text: &str, quantity: Quantity) -> Option<Result<Parted, UnitError>> {
-    let (value, deviation) = SIGNS.iter().find_map(|sign| text.split_once(sign))?;
+    let (value, deviation) = split(text)?;
     Some(parted(value, deviation, quantity))
 }
 
 /// Returns whether a text has numbers and no unit.
 pub(crate) fn is_bare(text: &str) -> bool {
-    let parts = SIGNS.iter().find_map(|sign| text.split_once(sign));
-    let (value, deviation) = parts.unwrap_or((text, "0"));
-    let is_number = |text: &str| text.trim_matches(['(', ')', ' ']).parse::<f64>().is_ok();
+    let (value, deviation) = split(text).unwrap_or((text, "0"));
     is_number(value) && is_number(deviation)
 }
 
+/// Splits a text at the sign between a value and its standard deviation.
+fn split(text: &str) -> Option<(&str, &str)> {
+    SIGNS.iter().find_map(|sign| text.split_once(sign))
+}
+
+/// Returns whether a text is a number without a unit, in brackets or not.
+fn is_number(text: &str) -> bool {
+    text.trim_matches(['(', ')', ' ']).parse::<f64>().is_ok()
+}
+
 fn parted(value: &str, deviation: &str, quantity: Quantity) -> Result<Parted, UnitError> {
+    let [bare_value, bare_deviation] = [value, deviation].map(is_number);
     // One pair of brackets, around both numbers.
     let value = value.trim().trim_start_matches('(').trim();
     let deviation = deviation.replacen(')', " ", usize::from(!deviation.contains('(')));
     let mut value = parse_quantity(value, quantity)?;
     let share =
         deviation.trim().strip_suffix('%').and_then(|share| share.trim().parse::<f64>().ok());
-    let deviation = match share.filter(|_| quantity != Quantity::Ratio) {
-        Some(percent) => 0.01 * percent * value.number * value.unit.factor,
-        None => {
-            let deviation = parse_quantity(&deviation, quantity)?;
-            // A unit behind both numbers is the unit of both.
-            if value.unit == quantity.laboratory() {
-                value.unit = deviation.unit;
-            }
-            let own =
-                if deviation.unit == quantity.laboratory() { value.unit } else { deviation.unit };
-            deviation.number * own.factor
-        }
-    };
-    Ok(Parted { value, deviation })
+    if let Some(percent) = share.filter(|_| quantity != Quantity::Ratio) {
+        let deviation = 0.01 * percent * value.number * value.unit.factor;
+        return Ok(Parted { value, deviation });
+    }
+    let mut deviation = parse_quantity(&deviation, quantity)?;
+    // A unit behind one of the numbers is the unit of both.
+    if bare_value {
+        value.unit = deviation.unit;
+    } else if bare_deviation {
+        deviation.unit = value.unit;
+    }
+    Ok(Parted { value, deviation: deviation.number * deviation.unit.factor })
 }
 
 #[cfg(test)]
@@ -91,6 +98,9 @@ mod tests {
             ("(1.2e-5 ± 3e-7) N.m", 1.2e-5, 3e-7),
             ("1.2e-5 N.m +- 3e-7 N.m", 1.2e-5, 3e-7),
             ("1.2e-5 N.m ± 5 %", 1.2e-5, 6e-7),
+            ("1.2e-5 N.m ± 3e-7", 1.2e-5, 3e-7),
+            ("1.2e-5 N.m ± 0.003 gf.cm2/cm", 1.2e-5, 0.003 * unit),
+            ("0.118 gf.cm2/cm ± 3e-7 N.m", 0.118 * unit, 3e-7),
         ];
         for (text, value, deviation) in cases {
             let parted = parse(text, b).expect("a deviation").expect("it parses");

@@ -231,7 +231,7 @@ const MMD: Ratio = Ratio {
 };
 
 impl Ratio {
-    /// Reads the ratio, of which nothing but the number is used.
+    /// Reads the ratio; a standard deviation that stands with it has no use.
     fn read(&self, section: &Section<'_>, findings: &mut Findings<'_>) -> Option<f64> {
         let value = self.measured(section, findings)?;
         tell_unused_scatter(&value, findings);
