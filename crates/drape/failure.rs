@@ -71,6 +71,11 @@ impl Failure {
 }
 
 impl Failure {
+    /// Returns the failure of a picture that cannot be drawn or encoded.
+    pub(crate) fn of_picture(error: drape::report::Error) -> Self {
+        Self::Output(error.to_string())
+    }
+
     /// Adds the sheet that the failure concerns, if it does not name one.
     pub(crate) fn of(self, sheet: &Path) -> Self {
         match self {

@@ -385,9 +385,9 @@ impl Simulation {
 
     /// Hands the next frame to the watcher.
     fn emit_frame(&mut self, progress: &mut dyn Progress) -> Result<(), Error> {
-        let positions = self.world.state.positions.clone();
-        let pressures = at_particles(&mut self.world, &positions);
-        progress.frame(&Frame { pressures, ..self.frame() })?;
+        let mut frame = self.frame();
+        frame.pressures = at_particles(&mut self.world, &frame.positions);
+        progress.frame(&frame)?;
         self.frame_times.push(self.time());
         Ok(())
     }

@@ -45,12 +45,7 @@ impl<'a> Clip<'a> {
         }
         let (mut frames, mut times) = (Vec::new(), Vec::new());
         for number in numbers {
-            let known = if number < recording.frames() { recording.time(number) } else { None };
-            let time = match known {
-                Some(time) => Some(time),
-                None => recording.frame(number)?.time,
-            };
-            let time = match (time, rate) {
+            let time = match (recording.read_time(number)?, rate) {
                 (Some(time), _) => time,
                 (None, Some(rate)) => number as f64 / rate,
                 (None, None) if first == last => 0.0,

@@ -33,6 +33,7 @@ pub use curves::tensile::identify_tensile;
 pub use error::Error;
 pub use fabric::batch::{FittedSheet, identify_all};
 pub use fabric::identify::{Fit, identify, identify_with};
+pub use fabric::keys::parameter_key;
 pub use regression::curve_fit::{CurveFit, Identified};
 pub use regression::estimate::{Estimate, Undetermined};
 pub use regression::selection::Candidate;

@@ -115,6 +115,17 @@ impl Recording {
         }
     }
 
+    /// Returns the time of a frame in s, where it is known; the frame is read if need be.
+    ///
+    /// # Errors
+    /// As for [`Recording::frame`].
+    pub fn read_time(&self, number: usize) -> Result<Option<f64>, Error> {
+        match self.time(number) {
+            Some(time) => Ok(Some(time)),
+            None => Ok(self.frame(number)?.time),
+        }
+    }
+
     /// Reads a frame.
     ///
     /// # Errors

@@ -4,6 +4,7 @@
 use drape::fabric::{
     BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
 };
+use drape::fit::parameter_key;
 use drape::kes::{Curve, Direction, Sheet, Test};
 use drape::report::plot::OverlayPlot;
 use drape::report::{
@@ -86,21 +87,16 @@ pub(crate) fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawRepor
         Test::Shear => test.name().to_owned(),
         _ => format!("{}, {}", test.name(), direction.name()),
     };
-    let law = match test {
-        Test::Tensile => format!("{}.traction", direction.name()),
-        Test::Bending | Test::LoopBending => format!("{}.bending", direction.name()),
-        Test::Shear => "shear".to_owned(),
-    };
     let errors = fabric.provenance.as_ref().map(|provenance| &provenance.standard_errors);
     let parameter = |parameter: NamedValue| {
         let named = quantity::parameter(test, parameter.name);
-        let key = format!("{law}.{}", parameter.key);
+        let key = parameter_key(test, direction, parameter.name);
         Parameter {
             name: named.words.into(),
             symbol: named.symbol.into(),
             value: parameter.value,
             units: named.units,
-            standard_error: errors.and_then(|errors| errors.get(&key).copied()),
+            standard_error: key.and_then(|key| errors?.get(&key).copied()),
             interval: Interval::Fixed { reason: String::new() },
             incidental: named.incidental,
         }
@@ -116,15 +112,14 @@ pub(crate) fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawRepor
     }
 }
 
-/// Parameter of a law under the name that a fit gives it, with its key in the law of a fabric file.
+/// Parameter of a law under the name that a fit gives it.
 struct NamedValue {
     name: &'static str,
-    key: &'static str,
     value: f64,
 }
 
-fn named<const N: usize>(values: [(&'static str, &'static str, f64); N]) -> Vec<NamedValue> {
-    values.map(|(name, key, value)| NamedValue { name, key, value }).into()
+fn named<const N: usize>(values: [(&'static str, f64); N]) -> Vec<NamedValue> {
+    values.map(|(name, value)| NamedValue { name, value }).into()
 }
 
 /// Returns the parameters of a law: of its backbone, then of its friction.
@@ -137,33 +132,30 @@ fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<NamedVal
         Test::Tensile => {
             let backbone = match laws.traction.backbone {
                 TractionBackbone::Primed(primed) => named([
-                    ("stiffness", "primed.stiffness", primed.stiffness),
-                    ("toe_ratio", "primed.toe_ratio", primed.toe_ratio),
-                    ("toe_strain", "primed.toe_strain", primed.toe_strain),
-                    ("toe_growth", "", primed.toe_strain_after / primed.toe_strain),
+                    ("stiffness", primed.stiffness),
+                    ("toe_ratio", primed.toe_ratio),
+                    ("toe_strain", primed.toe_strain),
+                    ("toe_growth", primed.toe_strain_after / primed.toe_strain),
                 ]),
-                TractionBackbone::Polynomial(p) => named([
-                    ("quadratic", "polynomial.quadratic", p.quadratic),
-                    ("quartic", "polynomial.quartic", p.quartic),
-                ]),
+                TractionBackbone::Polynomial(p) => {
+                    named([("quadratic", p.quadratic), ("quartic", p.quartic)])
+                }
             };
             (backbone, &laws.traction.friction)
         }
         Test::Bending | Test::LoopBending => {
             let backbone = match laws.bending.backbone {
-                BendingBackbone::Linear { rigidity } => named([("rigidity", "rigidity", rigidity)]),
+                BendingBackbone::Linear { rigidity } => named([("rigidity", rigidity)]),
                 BendingBackbone::Piecewise(p) => piecewise(&p),
             };
             (backbone, &laws.bending.friction)
         }
         Test::Shear => {
             let mut backbone = match fabric.shear.backbone {
-                ShearBackbone::Linear { stiffness } => {
-                    named([("stiffness", "stiffness", stiffness)])
-                }
+                ShearBackbone::Linear { stiffness } => named([("stiffness", stiffness)]),
                 ShearBackbone::Piecewise(p) => piecewise(&p),
             };
-            backbone.extend(named([("growth", "growth", fabric.shear.growth)]));
+            backbone.push(NamedValue { name: "growth", value: fabric.shear.growth });
             (backbone, &fabric.shear.friction)
         }
     };
@@ -172,26 +164,18 @@ fn parameters(fabric: &Fabric, test: Test, direction: Direction) -> Vec<NamedVal
 }
 
 fn piecewise(law: &Piecewise) -> Vec<NamedValue> {
-    named([
-        ("slope", "piecewise.slope", law.slope),
-        ("intercept", "piecewise.intercept", law.intercept),
-        ("knot", "piecewise.knot", law.knot),
-    ])
+    named([("slope", law.slope), ("intercept", law.intercept), ("knot", law.knot)])
 }
 
 /// Returns the elements of a friction; those of the second have names of their own.
 fn elements(friction: &BlimanSorine) -> Vec<NamedValue> {
-    let [first, second] = &friction.elements;
-    let first = named([
-        ("plateau", "friction[0].plateau", first.plateau),
-        ("length", "friction[0].length", first.length),
-    ]);
-    let second = named([
-        ("second plateau", "friction[1].plateau", second.plateau),
-        ("second length", "friction[1].length", second.length),
-    ]);
-    let elements = friction.elements.iter().zip([first, second]);
-    elements.filter(|(element, _)| element.plateau != 0.0).flat_map(|(_, named)| named).collect()
+    let names = [["plateau", "length"], ["second plateau", "second length"]];
+    let pairs = friction.elements.iter().zip(names).filter(|(element, _)| element.plateau != 0.0);
+    pairs
+        .flat_map(|(element, [plateau, length])| {
+            named([(plateau, element.plateau), (length, element.length)])
+        })
+        .collect()
 }
 
 /// Returns the page of two fabrics: their loops overlaid, their values side by side.

@@ -9,18 +9,18 @@ use crate::failure::Failure;
 const LINE_SPACING: f64 = 0.05;
 
 /// Depth of the floor below the lowest point of cloth and bodies, in m.
-const FLOOR: f64 = 0.002;
+pub(crate) const FLOOR: f64 = 0.002;
 
 /// Azimuths of the pictures of a garment: front, side and back, in degrees.
-const SIDES: [f64; 3] = [0.0, 90.0, 180.0];
+pub(crate) const SIDES: [f64; 3] = [0.0, 90.0, 180.0];
 
 /// Elevation of the pictures of a garment, in degrees.
-const ELEVATION: f64 = 6.0;
+pub(crate) const ELEVATION: f64 = 6.0;
 
-/// Pixels of each picture of a garment.
-const UPRIGHT: [u32; 2] = [600, 1000];
+/// Width and height of each picture of a garment, in pixels.
+pub(crate) const UPRIGHT: [u32; 2] = [600, 1000];
 
-/// Pixels of a picture that stands alone.
+/// Width and height of a picture that stands alone, in pixels.
 pub(crate) const SIZE: [u32; 2] = [1200, 900];
 
 /// Radius of what a picture of a place shows, in m.
@@ -77,7 +77,7 @@ impl<'a> Pictures<'a> {
         Ok(Self {
             snapshot,
             coordinates: coordinates.iter().flatten().copied().collect(),
-            shapes: LitShapes::new(&shown).map_err(failed)?,
+            shapes: LitShapes::new(&shown).map_err(Failure::of_picture)?,
             marks,
         })
     }
@@ -107,7 +107,7 @@ impl<'a> Pictures<'a> {
             ..View::default()
         };
         let views: Vec<View> = sides.iter().map(view).collect();
-        let cameras = View::cameras(&views, &Extent::of(&scene)).map_err(failed)?;
+        let cameras = View::cameras(&views, &Extent::of(&scene)).map_err(Failure::of_picture)?;
         let pictures: Result<Vec<Picture>, Failure> =
             cameras.iter().map(|camera| self.draw_scene(&scene, camera)).collect();
         Ok(Picture::sheet(&pictures?, sides.len()))
@@ -125,7 +125,7 @@ impl<'a> Pictures<'a> {
             ..standard
         };
         let scene = self.scene_with_lines();
-        self.draw_scene(&scene, &view.camera(&scene).map_err(failed)?)
+        self.draw_scene(&scene, &view.camera(&scene).map_err(Failure::of_picture)?)
     }
 
     fn cloth(&self) -> Surface<'_> {
@@ -133,8 +133,7 @@ impl<'a> Pictures<'a> {
     }
 
     fn scene_with_lines(&self) -> Scene<'_> {
-        let extent = self.coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
-        let spacing = LINE_SPACING * extent.max(0.1);
+        let spacing = line_spacing(&self.coordinates);
         self.scene(self.cloth().with_lines(&self.coordinates, spacing))
     }
 
@@ -145,13 +144,14 @@ impl<'a> Pictures<'a> {
     }
 
     fn draw_scene(&self, scene: &Scene<'_>, camera: &Camera) -> Result<Picture, Failure> {
-        self.shapes.draw(scene, camera).map_err(failed)
+        self.shapes.draw(scene, camera).map_err(Failure::of_picture)
     }
 }
 
-/// Returns the failure of a picture that cannot be drawn.
-fn failed(error: drape::report::Error) -> Failure {
-    Failure::Output(error.to_string())
+/// Returns the distance between the yarn lines of a cloth by its material coordinates, in m.
+pub(crate) fn line_spacing(coordinates: &[f64]) -> f64 {
+    let extent = coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
+    LINE_SPACING * extent.max(0.1)
 }
 
 /// Returns the scene of a snapshot: its cloth, bodies and a floor below them.

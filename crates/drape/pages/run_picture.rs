@@ -6,15 +6,10 @@ use drape::report::{
     Camera, Colour, ColourScale, Extent, Ground, Legend, LitShapes, Picture, Scene, Surface, View,
 };
 
+use super::picture::{FLOOR, line_spacing};
 use crate::failure::Failure;
 
-/// Distance between the yarn lines, in m, for a cloth of a metre.
-const LINE_SPACING: f64 = 0.05;
-
-/// Depth of the floor below the lowest point of cloth and bodies, in m.
-const FLOOR: f64 = 0.002;
-
-/// Most triangles of a body that has no end, a plane: it is not drawn, as the floor is.
+/// Largest number of triangles of a plane, which has no end and is not drawn: the floor is.
 const PLANE: usize = 2;
 
 /// Direction of a view: azimuth and elevation of the camera, in degrees.
@@ -44,10 +39,10 @@ pub(crate) struct Look {
 }
 
 /// Least width of a view, in pixels.
-const WIDTH_MIN: u32 = 64;
+pub(crate) const WIDTH_MIN: u32 = 64;
 
 impl Look {
-    /// Refuses views of no width; they are in so many pictures side by side, as words.
+    /// Refuses views below the least width; `within` says in words what they are views of.
     pub(crate) fn check(&self, within: &str) -> Result<(), Failure> {
         let Look { size: [width, height], columns, .. } = *self;
         if width / columns.max(1) >= WIDTH_MIN {
@@ -123,17 +118,17 @@ impl<'a> RunPictures<'a> {
                 // Alone, the picture is filled.
                 let view = pictures.view(*direction, 0);
                 let camera = view.camera(&pictures.scene(&shown, None));
-                pictures.cameras = vec![camera.map_err(failed)?];
+                pictures.cameras = vec![camera.map_err(Failure::of_picture)?];
             }
         }
         if pictures.cameras.is_empty() {
             let views = look.views.iter().zip(0..);
             let views: Vec<View> = views.map(|(view, k)| pictures.view(*view, k)).collect();
-            pictures.cameras = View::cameras(&views, &extent).map_err(failed)?;
+            pictures.cameras = View::cameras(&views, &extent).map_err(Failure::of_picture)?;
         }
         if let Some(field) = look.map {
             let range = look.range.unwrap_or_else(|| field.range(&values));
-            let scale = ColourScale::new(range, field.is_signed()).map_err(failed)?;
+            let scale = ColourScale::new(range, field.is_signed()).map_err(Failure::of_picture)?;
             let (name, unit) = (field.label().to_owned(), field.unit().to_owned());
             pictures.legend = Some(Legend { name, unit, scale });
         }
@@ -170,10 +165,10 @@ impl<'a> RunPictures<'a> {
             _ => None,
         };
         let scene = self.scene(&shown, tints.as_deref());
-        let shapes = LitShapes::new(&scene).map_err(failed)?;
+        let shapes = LitShapes::new(&scene).map_err(Failure::of_picture)?;
         self.cameras
             .iter()
-            .try_for_each(|camera| take(shapes.draw(&scene, camera).map_err(failed)?))
+            .try_for_each(|camera| take(shapes.draw(&scene, camera).map_err(Failure::of_picture)?))
     }
 
     /// Returns the legend of the map.
@@ -183,10 +178,7 @@ impl<'a> RunPictures<'a> {
 
     /// Returns the time of a frame as a caption.
     pub(crate) fn caption(&self, number: usize) -> Result<String, Failure> {
-        let time = match self.recording.time(number) {
-            Some(time) => Some(time),
-            None => self.recording.frame(number)?.time,
-        };
+        let time = self.recording.read_time(number)?;
         Ok(time.map_or_else(|| format!("frame {number}"), |time| format!("{time:.2} s")))
     }
 
@@ -253,11 +245,10 @@ impl<'a> RunPictures<'a> {
 
     /// Returns the scene of shapes, with yarn lines or in a colour per particle.
     fn scene<'s>(&'s self, shown: &'s Shown, tints: Option<&'s [Colour]>) -> Scene<'s> {
-        let extent = self.coordinates.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
         let mut cloth = Surface::cloth(&shown.positions, &self.recording.topology().cloth);
         cloth = match tints {
             Some(tints) => cloth.with_tints(tints),
-            None => cloth.with_lines(&self.coordinates, LINE_SPACING * extent.max(0.1)),
+            None => cloth.with_lines(&self.coordinates, line_spacing(&self.coordinates)),
         };
         if let Some([front, back]) = self.look.colours {
             cloth = Surface { front, back, ..cloth };
@@ -284,9 +275,4 @@ fn spacing(recording: &Recording) -> f64 {
         (a[0] - b[0]).hypot(a[1] - b[1])
     };
     edges.map(length).fold(f64::INFINITY, f64::min)
-}
-
-/// Returns the failure of a picture that cannot be drawn.
-fn failed(error: drape::report::Error) -> Failure {
-    Failure::Output(error.to_string())
 }

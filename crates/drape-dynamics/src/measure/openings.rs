@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use crate::measure::garment_parts::{FreeEdge, GarmentParts};
 use crate::world::World;
 
-/// Depth within its convex hull from which an opening is in the hollow beside a fold, in m: the
-/// prominence of the nodes of a drapemeter's specimen.
+/// Least depth of a hollow between two folds, from the convex hull of the opening, in m; nodes of a
+/// drapemeter's specimen are counted by the same prominence.
 const HOLLOW: f64 = 3e-3;
 
 /// Closed row of free edges, such as a waist or a hem.
@@ -58,8 +58,8 @@ pub(crate) fn measures(parts: &GarmentParts, world: &World) -> Value {
     Value::Array(openings(parts, world).iter().filter_map(measure).collect())
 }
 
-/// Number of the folds of a closed curve: of the hollows that part them, along each of which it lies
-/// within its convex hull.
+/// Returns the number of folds of a closed curve: that of the hollows between them, in each of which it
+/// is deeper than [`HOLLOW`] within its convex hull.
 fn folds(ring: &[[f64; 2]]) -> usize {
     let hull = convex_hull(ring.to_vec());
     let depth = |&[x, y]: &[f64; 2]| {

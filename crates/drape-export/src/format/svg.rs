@@ -23,8 +23,7 @@ use crate::scale;
 /// nearly zero has one colour.
 const BANDS: usize = 25;
 
-/// Whole numbers of which the longer side of the sheet has at least so many: the finer they are, the
-/// longer is the file.
+/// Least length of the longer side of the sheet, in units of the paths; finer units make a longer file.
 const UNITS_MIN: f64 = 5000.0;
 
 /// Largest number of letters of a panel's name.
@@ -154,7 +153,7 @@ struct Page {
     margin: f64,
     width: f64,
     height: f64,
-    /// Length that whole numbers of paths count.
+    /// Unit of the whole numbers in paths, in mm.
     unit: f64,
 }
 

@@ -5,7 +5,7 @@ use drape_frames::{Error, Frame, Recording};
 use crate::field::{Field, Fields};
 use crate::scale;
 
-/// Most frames that are shown of a run.
+/// Largest number of frames that are shown of a run.
 const FRAMES_MAX: usize = 600;
 
 /// Frames of a run, evenly chosen, with their fields; they are computed once, however many of them
@@ -36,7 +36,8 @@ pub(super) struct Shown<'a> {
 }
 
 impl Samples {
-    /// Reads frames whose vertices are at most so many in all, the first and the last among them.
+    /// Reads evenly chosen frames, the first and the last among them, with at most `vertices_max`
+    /// vertices in all.
     pub(super) fn new(recording: &Recording, vertices_max: usize) -> Result<Samples, Error> {
         let last = recording.frames() - 1;
         let most = vertices_max / recording.topology().material.len().max(1);

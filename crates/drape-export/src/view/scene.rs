@@ -11,8 +11,8 @@ use super::named::Named;
 use super::samples::{Chosen, Samples, Shown};
 use crate::{colour, scale};
 
-/// Bytes of the page that a vertex of the cloth takes in a frame, at the least: a page of cloth that
-/// waves has 7, and frames that cannot fit need not be read.
+/// Least number of bytes of a vertex of the cloth in a frame of the page; waving cloth has 7. Frames
+/// that cannot fit by it are not read.
 const BYTES_OF_SAMPLE: usize = 4;
 
 /// Run as the elements of a page.

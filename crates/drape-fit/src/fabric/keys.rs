@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use drape_kes::Test;
+use drape_kes::{Direction, Test};
 
 use crate::regression::curve_fit::CurveFit;
 
@@ -15,7 +15,7 @@ pub(crate) fn standard_errors(fits: &[CurveFit]) -> BTreeMap<String, f64> {
     let mut taken = BTreeSet::new();
     let arches = fits.iter().filter(|fit| fit.test == Test::LoopBending);
     for fit in fits.iter().filter(|fit| fit.test != Test::LoopBending).chain(arches) {
-        let law = law(fit);
+        let law = law(fit.test, fit.direction);
         if taken.insert(law.clone()) {
             let two_elements = fit.parameters.iter().any(|estimate| estimate.name == "ratio");
             for estimate in &fit.parameters {
@@ -31,13 +31,29 @@ pub(crate) fn standard_errors(fits: &[CurveFit]) -> BTreeMap<String, f64> {
 
 /// Returns the key paths of the laws that curves give.
 pub(crate) fn laws(fits: &[CurveFit]) -> BTreeSet<String> {
-    fits.iter().map(law).collect()
+    fits.iter().map(|fit| law(fit.test, fit.direction)).collect()
 }
 
-/// Returns the key path of the law that a curve gives.
-fn law(fit: &CurveFit) -> String {
-    let direction = fit.direction.name();
-    match fit.test {
+/// Key path of a parameter of a law in a fabric file, by the name that a fit gives it; `second plateau`
+/// and `second length` are those of the second element of a friction. `None` for parameters of the test
+/// and for those that enter two numbers.
+///
+/// ```
+/// use drape_fit::parameter_key;
+/// use drape_kes::{Direction, Test};
+///
+/// let key = parameter_key(Test::Bending, Direction::Warp, "plateau");
+/// assert_eq!(key.as_deref(), Some("warp.bending.friction[0].plateau"));
+/// ```
+#[must_use]
+pub fn parameter_key(test: Test, direction: Direction, parameter: &str) -> Option<String> {
+    key(test, parameter, false).map(|key| format!("{}.{key}", law(test, direction)))
+}
+
+/// Returns the key path of the law that a test and direction give.
+fn law(test: Test, direction: Direction) -> String {
+    let direction = direction.name();
+    match test {
         Test::Tensile => format!("{direction}.traction"),
         Test::Bending | Test::LoopBending => format!("{direction}.bending"),
         Test::Shear => "shear".into(),
@@ -63,6 +79,8 @@ fn key(test: Test, parameter: &str, two_elements: bool) -> Option<&'static str> 
         // Of two elements the fitted length is that of the second.
         (_, "length") if two_elements => "friction[1].length",
         (_, "length") => "friction[0].length",
+        (_, "second plateau") => "friction[1].plateau",
+        (_, "second length") => "friction[1].length",
         _ => return None,
     })
 }

@@ -25,6 +25,9 @@ pub(crate) fn standard_errors(
     of_curves: &BTreeSet<String>,
     identified: impl Fn(&Sheet) -> Option<Fabric>,
 ) -> Option<BTreeMap<String, f64>> {
+    if sheet.scatter.is_empty() {
+        return Some(BTreeMap::new());
+    }
     let mut squares: BTreeMap<String, f64> = BTreeMap::new();
     let mut values = sheet.clone();
     (values.curves, values.scatter) = (Vec::new(), Vec::new());
@@ -38,14 +41,14 @@ pub(crate) fn standard_errors(
     Some(errors.map(|(key, square)| (key, square.sqrt())).collect())
 }
 
-/// Returns the stated deviations, one for a value that stands for both directions.
+/// Returns the stated deviations that are independent: of a value for both directions, that of the warp.
 fn independent(sheet: &Sheet) -> impl Iterator<Item = &Scatter> {
     let is_shared = |stated: &Scatter| sheet.shared.contains(&stated.symbol.name());
     sheet.scatter.iter().filter(move |s| !is_shared(s) || s.direction == Direction::Warp)
 }
 
-/// Returns by how much each number of the fabric changes with one standard deviation of a value;
-/// `None` where there is no law for the changed value.
+/// Returns the change of each number of the fabric by one standard deviation of a value; `None` where
+/// the changed value has no law, or one of another form.
 fn effects(
     values: &Sheet,
     stated: &Scatter,

@@ -301,7 +301,8 @@ fn spread(row: &Row, width: usize) -> Vec<String> {
         .collect()
 }
 
-fn unbracketed(text: &str) -> &str {
+/// Returns a unit without the brackets around it.
+pub(crate) fn unbracketed(text: &str) -> &str {
     text.trim().trim_matches(['(', ')', '[', ']', '（', '）', '<', '>', '［', '］']).trim()
 }
 

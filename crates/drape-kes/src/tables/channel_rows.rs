@@ -1,10 +1,11 @@
 //! Channels of a test that stand in rows, turned into columns.
 
+use crate::tables::block::unbracketed;
 use crate::tables::grid::{Cell, Grid, Row};
 use crate::tables::heading::{self, Kind};
 use drape_input::is_unit;
 
-/// Numbers that a channel has at least. Names with fewer are rows of results, one cell a specimen.
+/// Least count of numbers in a channel; a shorter row holds results, a number for each specimen.
 const LEAST: usize = 20;
 
 /// Row of a channel: its heading, and where its numbers start.
@@ -33,8 +34,8 @@ pub(crate) fn turn(grid: &mut Grid) -> Vec<usize> {
         let names = rows.last().map_or(0, |before: &Row| before.filled().count());
         let has_header = 2 * names > row.numbers();
         let mut run = vec![(first, row)];
-        while let Some(next) = waiting.next_if(|row| channel(row).is_some()) {
-            run.extend(channel(&next).map(|channel| (channel, next)));
+        while let Some(next) = waiting.peek().and_then(channel) {
+            run.extend(waiting.next().map(|row| (next, row)));
         }
         if has_header || !is_test(&run) {
             rows.extend(run.into_iter().map(|(_, row)| row));
@@ -54,9 +55,9 @@ fn channel(row: &Row) -> Option<Channel> {
     let mut heading = name.text();
     let (mut start, second) = filled.next()?;
     if let Cell::Text(unit) = second
-        && is_unit(unit.trim_matches(['(', ')', '[', ']']))
+        && is_unit(unbracketed(unit))
     {
-        heading = format!("{heading} ({})", unit.trim_matches(['(', ')', '[', ']']));
+        heading = format!("{heading} ({})", unbracketed(unit));
         start += 1;
     } else if !second.is_number() {
         return None;

@@ -65,7 +65,11 @@ fn parted(text: &str) -> (&str, &str) {
     let is_figure = |letter: char| letter.is_numeric() && !"²³¹".contains(letter);
     let starts =
         text.trim_start().starts_with(|letter| is_figure(letter) || "+-−.,".contains(letter));
-    if !starts || number::evidence(text).is_some() {
+    // Most cells are bare numbers: without a sign or a letter of a unit there is nothing to part.
+    let of_unit = |letter: char| {
+        (letter.is_alphabetic() && !matches!(letter, 'e' | 'E')) || "%％°".contains(letter)
+    };
+    if !starts || !text.contains(of_unit) || number::evidence(text).is_some() {
         return (text, "");
     }
     // Units have digits too, and an exponent has a letter: the shortest unit behind a number is taken.
@@ -91,8 +95,8 @@ impl Row {
         self.cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty())
     }
 
-    /// Returns how many cells hold numbers. Those with a unit count in a row of nothing but numbers:
-    /// elsewhere they are a setting, such as `Gauge length; 50 mm`.
+    /// Returns the number of cells that hold numbers. A number with a unit counts where the row holds
+    /// numbers only; elsewhere it is a setting, such as `Gauge length; 50 mm`.
     pub(crate) fn numbers(&self) -> usize {
         let filled = self.filled().count();
         let numbers: Vec<&Cell> =

@@ -24,8 +24,7 @@ pub struct Legend {
 }
 
 impl Legend {
-    /// Returns the height that the legend of a picture takes, in pixels, of one that is so high with
-    /// it.
+    /// Returns the height of the legend of a picture, in pixels; `whole` is the height of both.
     #[must_use]
     pub fn height(whole: u32) -> u32 {
         (HEIGHT * f64::from(Lettering::for_height(whole).height())) as u32
@@ -34,13 +33,7 @@ impl Legend {
     /// Returns a picture with the legend below it, on a strip of a colour.
     #[must_use]
     pub fn below(&self, picture: &Picture, ground: Colour) -> Picture {
-        // The height with the legend decides the size of the letters, which decides that height.
-        let letters = [16, 20, 24, 32].into_iter().find_map(|line| {
-            let whole = picture.height() + (HEIGHT * f64::from(line)) as u32;
-            let letters = Lettering::for_height(whole);
-            (letters.height() == line).then_some(letters)
-        });
-        let letters = letters.unwrap_or(Lettering::for_height(picture.height()));
+        let letters = Lettering::for_extended(picture.height(), HEIGHT);
         let line = letters.height();
         let height = (HEIGHT * f64::from(line)) as u32;
         let mut whole = picture.extended(height, ground);

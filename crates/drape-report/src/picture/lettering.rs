@@ -32,6 +32,17 @@ impl Lettering {
         Lettering { size: size.map_or(RasterHeight::Size16, |(size, _)| size), ink: [44, 48, 56] }
     }
 
+    /// Returns the letters for a picture of a height, in pixels, to which a strip of some lines of them
+    /// is added.
+    pub(crate) fn for_extended(height: u32, lines: f64) -> Lettering {
+        let letters = SIZES.iter().rev().find_map(|(size, _)| {
+            let line = size.val() as u32;
+            let letters = Lettering::for_height(height + (lines * f64::from(line)) as u32);
+            (letters.height() == line).then_some(letters)
+        });
+        letters.unwrap_or(Lettering::for_height(height))
+    }
+
     /// Height of a line, in pixels.
     pub(crate) fn height(self) -> u32 {
         self.size.val() as u32

@@ -11,10 +11,10 @@ use crate::failure::Failure;
 use crate::file;
 use crate::pages::run_picture::{Look, RunPictures};
 
-/// Pixels of an animation of one view.
+/// Width and height of an animation of one view, in pixels.
 pub(super) const ANIMATED: [u32; 2] = [800, 600];
 
-/// Most pixels of all pictures together; so many take some ten minutes.
+/// Largest number of pixels of all pictures together, which take some ten minutes.
 const PIXELS_MAX: u64 = 1_500_000_000;
 
 /// Pictures of a clip.
@@ -24,7 +24,7 @@ pub(super) struct ClipPictures<'a> {
 }
 
 impl<'a> ClipPictures<'a> {
-    /// Returns the pictures of a clip as they are asked for; with a size where none is.
+    /// Returns the pictures of a clip; `size` is taken where the options have none.
     pub(super) fn new(
         clip: &'a Clip<'a>,
         look: &LookArguments,
@@ -70,7 +70,9 @@ impl<'a> ClipPictures<'a> {
         };
         let paths: Vec<PathBuf> = (0..self.clip.count()).map(path).collect();
         files.free(paths.iter().map(PathBuf::as_path))?;
-        self.each(|index, picture| file::write(&paths[index], picture.png().map_err(failed)?))?;
+        self.each(|index, picture| {
+            file::write(&paths[index], picture.png().map_err(Failure::of_picture)?)
+        })?;
         match self.clip.count() {
             1 => Ok(()),
             count => files.remove_following((count..).map(path)),
@@ -83,18 +85,14 @@ impl<'a> ClipPictures<'a> {
         let times = self.clip.times();
         file::write_by(files.output, |to| {
             let count = self.clip.count() as u32;
-            let mut animation = Animation::new(to, count, self.look.size).map_err(failed)?;
+            let mut animation =
+                Animation::new(to, count, self.look.size).map_err(Failure::of_picture)?;
             self.each(|index, picture| {
                 let until = times.get(index + 1);
                 let seconds = until.map_or(1.0 / self.clip.rate(), |next| next - times[index]);
-                animation.add(picture.clone(), seconds).map_err(failed)
+                animation.add(picture.clone(), seconds).map_err(Failure::of_picture)
             })?;
-            animation.finish().map_err(failed)
+            animation.finish().map_err(Failure::of_picture)
         })
     }
-}
-
-/// Returns the failure of a picture that cannot be drawn.
-fn failed(error: drape::report::Error) -> Failure {
-    Failure::Output(error.to_string())
 }

@@ -8,20 +8,11 @@ use drape::frames::Recording;
 use drape::report::Colour;
 
 use crate::failure::Failure;
-use crate::pages::run_picture::{Direction, Look};
+use crate::pages::picture::{ELEVATION, SIDES, SIZE, UPRIGHT};
+use crate::pages::run_picture::{Direction, Look, WIDTH_MIN};
 
-/// Elevation of a view that is named by its side, in degrees.
-const ELEVATION: f64 = 6.0;
-
-/// Pixels of a picture of one view, and of each of several.
-const SIZE: [u32; 2] = [1200, 900];
-const UPRIGHT: [u32; 2] = [600, 1000];
-
-/// Most pixels of a picture.
+/// Largest number of pixels of a picture.
 const PIXELS_MAX: u64 = 64_000_000;
-
-/// Least pixels along a side of a view.
-const SIDE_MIN: u32 = 64;
 
 #[derive(Args, Debug, Default)]
 #[command(next_help_heading = "Options of pictures")]
@@ -79,7 +70,7 @@ impl LookArguments {
         given.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name)
     }
 
-    /// Returns the look of pictures of a run; with a size for where none is given.
+    /// Returns the look of pictures of a run; `size` is taken where the options have none.
     pub(crate) fn look(
         &self,
         recording: &Recording,
@@ -87,7 +78,7 @@ impl LookArguments {
     ) -> Result<Look, Failure> {
         let is_garment = !recording.manifest().seam_pairs.is_empty();
         let views: Vec<Direction> = match (&self.views[..], is_garment) {
-            ([], true) => [0.0, 90.0, 180.0].map(level).into(),
+            ([], true) => SIDES.map(level).into(),
             ([], false) => vec![Direction { azimuth: 30.0, elevation: 28.0 }],
             (views, _) => views.iter().map(|view| view.0).collect(),
         };
@@ -180,8 +171,8 @@ impl FromStr for Size {
         });
         let fits = |[width, height]: &[u32; 2]| {
             let pixels = u64::from(*width) * u64::from(*height);
-            (SIDE_MIN..=16384).contains(width)
-                && (2 * SIDE_MIN..=16384).contains(height)
+            (WIDTH_MIN..=16384).contains(width)
+                && (2 * WIDTH_MIN..=16384).contains(height)
                 && pixels <= PIXELS_MAX
         };
         sides.filter(fits).map(Size).ok_or_else(|| {

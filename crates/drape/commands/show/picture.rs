@@ -16,7 +16,7 @@ use crate::say::say_written;
 /// Time in which a turntable turns once, in s.
 const TURN: f64 = 6.0;
 
-/// Pixels of a turntable, and of each frame of a strip.
+/// Width and height of a turntable, and of each frame of a strip, in pixels.
 const TURNTABLE: [u32; 2] = [600, 800];
 const FRAME: [u32; 2] = [400, 400];
 
@@ -98,10 +98,7 @@ fn number(arguments: &PictureArguments, recording: &Recording) -> Result<usize, 
     };
     let mut times = Vec::new();
     for number in 0..=last {
-        let time = match recording.time(number) {
-            Some(time) => Some(time),
-            None => recording.frame(number)?.time,
-        };
+        let time = recording.read_time(number)?;
         times.push(time.ok_or_else(|| {
             Failure::Usage(format!("--time {asked}: the frames have no times; give --frame"))
         })?);
@@ -131,12 +128,13 @@ fn turntable(
     let mut pictures = RunPictures::new(recording, &look, &[number])?;
     let path = path(arguments, "turntable.png");
     file::write_by(&path, |to| {
-        let mut animation = Animation::new(to, count as u32, look.size).map_err(failed)?;
+        let mut animation =
+            Animation::new(to, count as u32, look.size).map_err(Failure::of_picture)?;
         let legend = pictures.legend();
         pictures.draw_each(number, |picture| {
-            animation.add(legend.below(picture), TURN / count as f64).map_err(failed)
+            animation.add(legend.below(picture), TURN / count as f64).map_err(Failure::of_picture)
         })?;
-        animation.finish().map_err(failed)
+        animation.finish().map_err(Failure::of_picture)
     })?;
     say_written(format_args!("{count} views of frame {number} in {}", path.display()))
 }
@@ -168,11 +166,6 @@ fn path(arguments: &PictureArguments, name: &str) -> PathBuf {
 
 fn save(arguments: &PictureArguments, picture: &Picture, name: &str) -> Result<(), Failure> {
     let path = path(arguments, name);
-    file::write(&path, picture.png().map_err(failed)?)?;
+    file::write(&path, picture.png().map_err(Failure::of_picture)?)?;
     say_written(format_args!("picture in {}", path.display()))
-}
-
-/// Returns the failure of a picture that cannot be drawn.
-fn failed(error: drape::report::Error) -> Failure {
-    Failure::Output(error.to_string())
 }

@@ -20,8 +20,8 @@ pub(super) struct Sheet {
 const ASPECT: f64 = 1.6;
 
 impl Sheet {
-    /// Sheet of some panels in their order, so far apart, in mm, and with so much room for a name above
-    /// each.
+    /// Returns a sheet with panels in their order; `gap` is the distance between them, `above` the room
+    /// for the name above each, in mm.
     pub(super) fn new(panels: &[Extent], gap: f64, above: f64) -> Sheet {
         let area = |panel: &Extent| (panel.width + gap) * (panel.height + gap + above);
         let whole: f64 = panels.iter().map(area).sum();

@@ -72,9 +72,10 @@ const SLIDE: f64 = 0.12;
 const CLEAR: f64 = 0.002;
 const NEAR: f64 = 0.12;
 
-/// Number of the best places that are looked around where none is clear of the bodies: a close garment
-/// is clear at one place only.
+/// Number of the best places around which a search begins where none is clear of the bodies: of all
+/// heights, and of one.
 const CLOSE: usize = 4;
+const CLOSE_AT_HEIGHT: usize = 2;
 
 /// Weight of the cost of a place where a garment has to stretch.
 const STRETCHED: f64 = 1.5;
@@ -206,18 +207,26 @@ impl<'a> Solids<'a> {
     /// bodies.
     fn clear_place(&self, points: &[[f64; 3]], places: &[[f64; 3]]) -> Option<[f64; 3]> {
         let samples = samples(points, SAMPLES_COARSE);
-        let is_free =
-            |place: &[f64; 3]| self.is_clear(points, *place) && self.is_around(points, *place);
         let costed = places.iter().map(|&place| (self.cost(&samples, place), place));
         let mut costed: Vec<(f64, [f64; 3])> = costed.collect();
         costed.sort_by(|a, b| a.0.total_cmp(&b.0));
         let all = costed.iter().map(|(_, place)| *place);
-        if let Some(place) = all.clone().find(is_free) {
+        if let Some(place) = all.clone().find(|place| self.is_free(points, *place)) {
             return Some(self.refine(points, place, Search { axes: &[0, 2], clear: true }));
         }
-        let near = all.take(CLOSE / 2);
+        self.close_place(points, all.take(CLOSE_AT_HEIGHT))
+    }
+
+    /// Returns a shift, in m, near some others at which points are clear of the bodies and go round one:
+    /// a close garment is clear of the body at one place only.
+    fn close_place(
+        &self,
+        points: &[[f64; 3]],
+        places: impl Iterator<Item = [f64; 3]>,
+    ) -> Option<[f64; 3]> {
         let search = Search { axes: &[0, 1, 2], clear: false };
-        near.map(|place| self.refine(points, place, search)).find(is_free)
+        let mut near = places.map(|place| self.refine(points, place, search));
+        near.find(|place| self.is_free(points, *place))
     }
 
     /// Returns the shift, in m, to the place at which a garment is nearest to the bodies, fits, and
@@ -234,7 +243,7 @@ impl<'a> Solids<'a> {
             if best.is_some_and(|best| best.compare(&own).is_lt()) {
                 break;
             }
-            if self.is_clear(points, shift) && self.is_around(points, shift) {
+            if self.is_free(points, shift) {
                 let fit = girths.map_or(Fit::Wide, |girths| girths.fit(shift));
                 let own = Candidate { fit, ..own };
                 if best.is_none_or(|best| own.compare(&best).is_lt()) {
@@ -242,12 +251,14 @@ impl<'a> Solids<'a> {
                 }
             }
         }
-        best.map(|best| best.shift).or_else(|| {
-            let near = costed.iter().take(CLOSE).map(|(_, shift)| *shift);
-            let search = Search { axes: &[0, 1, 2], clear: false };
-            let mut near = near.map(|shift| self.refine(points, shift, search));
-            near.find(|&shift| self.is_clear(points, shift) && self.is_around(points, shift))
-        })
+        let near = costed.iter().take(CLOSE).map(|(_, shift)| *shift);
+        best.map(|best| best.shift).or_else(|| self.close_place(points, near))
+    }
+
+    /// Returns whether points are clear of the bodies and go round one where they are moved by a shift,
+    /// in m.
+    fn is_free(&self, points: &[[f64; 3]], shift: [f64; 3]) -> bool {
+        self.is_clear(points, shift) && self.is_around(points, shift)
     }
 
     /// Returns whether all points are clear of the bodies where they are moved by a shift, in m.
