@@ -169,6 +169,9 @@ impl World {
     /// Ends the sewing at a time, in s, with the cloth at rest at some positions, in m.
     pub(crate) fn finish_sewing(&mut self, time: f64, positions: &[f64]) {
         self.seams.springs = None;
+        if let Some(surfaces) = self.contact.surfaces_mut() {
+            surfaces.close_seams();
+        }
         self.gravity.start_ramp(time);
         if let Some(SewnCloth { cloth, bending }) = self.seams.sewn.take() {
             self.cloth = cloth;

@@ -34,7 +34,7 @@ const LEAST_SEPARATION: f64 = 0.05;
 /// Surfaces of a scene's panels and bodies at its start.
 #[derive(Debug)]
 pub struct StartSurfaces {
-    /// Contact of the surfaces, with bodies as small as they start.
+    /// Contact of the surfaces, with bodies as small as they start and seams open.
     pub contact: SurfaceContact,
     /// Names of the panels and, behind them, of the bodies: of the groups of the surface.
     pub names: Vec<String>,
@@ -141,7 +141,11 @@ impl StartSurfaces {
             Some(_) => start.iter().zip(&inward).map(|(place, inward)| place + inward).collect(),
             None => start.clone(),
         };
-        let contact = SurfaceContact::new(Surface::new(surface)?, settings, at_start)?;
+        let mut contact = SurfaceContact::new(Surface::new(surface)?, settings, at_start)?;
+        if let Some(seams) = sewn {
+            let positions = &scene.start.positions;
+            contact.open_seams(&seams.gaps_at_particles(positions), positions)?;
+        }
         let names = panels.iter().map(|panel| &panel.name);
         let names = names.chain(bodies.iter().map(|moving| &moving.body.name)).cloned().collect();
         let min_separation = thinnest.min_separation;

@@ -46,7 +46,7 @@ impl Closest {
 }
 
 /// Returns the closest points of a point and a segment: the foot of the perpendicular, or an end.
-fn point_segment(point: Point, [a, b]: [Point; 2]) -> Closest {
+pub(crate) fn point_segment(point: Point, [a, b]: [Point; 2]) -> Closest {
     let along = minus(b, a);
     let fraction = (dot(minus(point, a), along) / dot(along, along)).clamp(0.0, 1.0);
     let fraction = if fraction.is_nan() { 0.0 } else { fraction };

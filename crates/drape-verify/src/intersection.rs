@@ -111,6 +111,17 @@ pub(crate) fn segment_intersects([from, to]: [Point; 2], triangle: Corners) -> b
     }
 }
 
+/// Returns whether two triangles with a common edge lie on each other, given by the edge and the two
+/// corners that are not on it. Triangles without an area count as lying on each other.
+pub(crate) fn folded_flat([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    if volume([a, b, c], d) != 0 {
+        return false;
+    }
+    let Some(axis) = projection_axis([a, b, c]) else { return true };
+    let side = |apex| area(project(a, axis), project(b, axis), project(apex, axis));
+    side(c) == side(d)
+}
+
 /// Returns whether a triangle or a segment and a triangle in one plane have a point in common.
 ///
 /// Two convex figures are disjoint if and only if an edge of one has the other strictly beyond it.

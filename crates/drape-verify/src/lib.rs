@@ -6,11 +6,13 @@
 //! which [`ClosePair`]s of triangles intersect or lie closer than the run promises.
 //! [`triangles_intersect`] is the exact test by itself.
 //!
-//! Layers, lowest first: `mesh` numbers the triangles; `triangle` says which are joined,
-//! `intersection` and `distance` test a pair, `grid` finds the pairs; `verdict` looks at a frame;
-//! `verifier` ties frames to their folder.
+//! Layers, lowest first: `triangle` says which triangles are joined, `intersection` and `distance` test
+//! a pair, `grid` finds the pairs; `joints` says which vertices are one point, `mesh` numbers the
+//! triangles; `inside` finds cloth in bodies, `verdict` looks at a frame; `verifier` ties frames to
+//! their folder.
 
 // The triangles of a frame.
+mod joints;
 mod mesh;
 mod triangle;
 
@@ -20,10 +22,12 @@ mod grid;
 mod intersection;
 
 // The result.
+mod inside;
 mod verdict;
 mod verifier;
 
 pub use drape_frames::Error;
+pub use inside::EnclosedPiece;
 pub use intersection::triangles_intersect;
 pub use mesh::{Mesh, PartNumber};
 pub use verdict::{ClosePair, Verdict};

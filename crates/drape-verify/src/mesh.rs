@@ -1,9 +1,8 @@
 //! Triangles of a run with the parts to which they belong and the vertices that are sewn together.
 
-use std::collections::BTreeMap;
-
 use drape_frames::{Manifest, Part, Topology};
 
+use crate::joints::{Joints, Sewn};
 use crate::triangle::Vertex;
 
 /// Panel or body to which a triangle belongs, by its number.
@@ -29,10 +28,10 @@ pub struct Mesh {
     panels: usize,
     /// Fraction of the minimum separation of cloth and bodies that holds where bodies pinch the cloth.
     pub(crate) pinch_fraction: f64,
-    /// Smallest of the vertices that are sewn to each vertex: the representative of its class.
-    class: Vec<u32>,
-    /// Classes of the two ends of the edge to which a vertex is tied, by the class of the vertex.
-    between: BTreeMap<u32, [u32; 2]>,
+    /// Vertices that the run sews.
+    pub(crate) sewn: Sewn,
+    /// Joints once all seams are closed.
+    closed: Joints,
     /// Material coordinates of the vertices of the cloth, in m: its rest shape.
     material: Vec<[f64; 2]>,
 }
@@ -52,15 +51,11 @@ impl Mesh {
             part.extend(std::iter::repeat_n(number as u32, own.triangles));
         }
         let vertices = parts.iter().map(|part| part.vertices).sum();
-        let class = classes(vertices, &manifest.seam_pairs);
-        let tie = |tie: &[u32; 3]| {
-            let [own, a, b] = tie.map(|vertex| class[vertex as usize]);
-            (own, [a, b])
-        };
-        let between = manifest.ties.iter().map(tie).collect();
+        let sewn = Sewn { pairs: manifest.seam_pairs.clone(), ties: manifest.ties.clone() };
+        let closed = sewn.closed(vertices);
         let panels = manifest.panels.len();
         let pinch_fraction = manifest.pinch_fraction;
-        Mesh { triangles, part, first, parts, panels, pinch_fraction, class, between, material }
+        Mesh { triangles, part, first, parts, panels, pinch_fraction, sewn, closed, material }
     }
 
     /// Number of triangles.
@@ -80,12 +75,9 @@ impl Mesh {
         self.part[triangle] as usize >= self.panels
     }
 
-    /// Returns the vertices of a triangle; vertices that are sewn together have the same number.
-    pub(crate) fn vertices(&self, triangle: usize) -> [Vertex; 3] {
-        self.triangles[triangle].map(|vertex| {
-            let number = self.class[vertex as usize];
-            Vertex { number, between: self.between.get(&number).copied() }
-        })
+    /// Returns the vertices of a triangle as they are once all seams are closed.
+    pub(crate) fn sewn_vertices(&self, triangle: usize) -> [Vertex; 3] {
+        self.triangles[triangle].map(|vertex| self.closed.vertex(vertex))
     }
 
     /// Returns the part of a triangle, and its number in that part.
@@ -96,6 +88,32 @@ impl Mesh {
             Some(body) => PartNumber::Body(body),
         };
         Location { part: number, triangle: triangle - self.first[part] }
+    }
+
+    /// Number of vertices of the cloth.
+    pub(crate) fn cloth_vertices(&self) -> usize {
+        self.material.len()
+    }
+
+    /// Returns the vertices of the triangles of the cloth.
+    pub(crate) fn cloth_triangles(&self) -> &[[u32; 3]] {
+        &self.triangles[..self.first.get(self.panels).copied().unwrap_or(self.triangles.len())]
+    }
+
+    /// Returns the number of the panel of a vertex of the cloth.
+    pub(crate) fn panel_of_vertex(&self, vertex: usize) -> usize {
+        let mut end = 0;
+        let ends = self.parts[..self.panels].iter().map(|panel| {
+            end += panel.vertices;
+            end
+        });
+        ends.take_while(|&end| end <= vertex).count()
+    }
+
+    /// Returns the vertices of the triangles of each body.
+    pub(crate) fn bodies(&self) -> impl Iterator<Item = &[[u32; 3]]> {
+        let own = self.parts.iter().zip(&self.first).skip(self.panels);
+        own.map(|(part, &first)| &self.triangles[first..first + part.triangles])
     }
 
     /// Returns the corners of a triangle of the cloth at rest, in m.
@@ -112,21 +130,4 @@ impl Mesh {
 pub(crate) struct Location {
     pub(crate) part: PartNumber,
     pub(crate) triangle: usize,
-}
-
-/// Returns for each vertex the smallest vertex to which it is sewn, directly or through others.
-fn classes(vertices: usize, seam_pairs: &[[u32; 2]]) -> Vec<u32> {
-    let mut class: Vec<u32> = (0..vertices as u32).collect();
-    loop {
-        let mut settled = true;
-        for &[a, b] in seam_pairs {
-            let [a, b] = [a as usize, b as usize];
-            let least = class[a].min(class[b]);
-            settled &= class[a] == least && class[b] == least;
-            (class[a], class[b]) = (least, least);
-        }
-        if settled {
-            return class;
-        }
-    }
 }

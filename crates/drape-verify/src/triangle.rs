@@ -17,6 +17,21 @@ pub(crate) struct Triangle {
     pub(crate) vertices: [Vertex; 3],
 }
 
+impl Triangle {
+    /// Returns the corners of two triangles that are not on the edge that they share; `None` if they share
+    /// none.
+    pub(crate) fn apexes(&self, other: &Triangle) -> Option<[usize; 2]> {
+        let shares = |vertex: &Vertex, of: &Triangle| {
+            of.vertices.iter().any(|other| other.number == vertex.number)
+        };
+        let apex = |of: &Triangle, with: &Triangle| {
+            let mut alone = (0..3).filter(|&k| !shares(&of.vertices[k], with));
+            alone.next().filter(|_| alone.next().is_none())
+        };
+        Some([apex(self, other)?, apex(other, self)?])
+    }
+}
+
 /// Edges of a triangle, by the numbers of its corners.
 pub(crate) const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 

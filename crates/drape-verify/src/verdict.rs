@@ -8,7 +8,9 @@ use serde::Serialize;
 
 use crate::distance::triangle_distance;
 use crate::grid::{Aabb, Grid};
-use crate::intersection::{has_area, segment_intersects, triangles_intersect};
+use crate::inside::{EnclosedPiece, enclosed};
+use crate::intersection::{folded_flat, has_area, segment_intersects, triangles_intersect};
+use crate::joints::Joints;
 use crate::mesh::{Mesh, PartNumber};
 use crate::triangle::{EDGES, Triangle, joined};
 
@@ -53,8 +55,11 @@ pub struct Verdict {
     pub triangles: usize,
     /// Number of pairs whose bounding boxes overlap; all others are disjoint.
     pub pairs: usize,
-    /// Number of pairs that intersect where they are not joined. Touching counts.
+    /// Number of pairs that intersect where they are not joined. Touching counts, and so do the two sides
+    /// of a seam that is open.
     pub intersections: usize,
+    /// Pieces of cloth that lie wholly inside a body.
+    pub enclosed: Vec<EnclosedPiece>,
     /// Number of triangles without an area.
     pub degenerate: usize,
     /// Number of pairs closer than the minimum separation.
@@ -83,10 +88,12 @@ pub struct ClosePair {
 }
 
 impl Verdict {
-    /// Returns whether no pair intersects or is too close, and no triangle is degenerate.
+    /// Returns whether no pair intersects or is too close, no triangle is degenerate, and no piece of
+    /// cloth is inside a body.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.intersections == 0 && self.degenerate == 0 && self.too_near == 0
+        let faults = self.intersections + self.degenerate + self.too_near;
+        faults == 0 && self.enclosed.is_empty()
     }
 }
 
@@ -130,6 +137,8 @@ impl Found {
 struct State<'a> {
     mesh: &'a Mesh,
     positions: &'a [[f64; 3]],
+    /// Vertices that are one point.
+    joints: Joints,
     /// Growth fraction of the minimum separation, 0 to 1.
     growth: f64,
 }
@@ -144,7 +153,9 @@ struct Limits {
 pub(crate) fn verify(mesh: &Mesh, frame: Frame) -> Verdict {
     let Frame { number, file, time, growth, cloth, bodies, .. } = frame;
     let positions = [cloth, bodies].concat();
-    let found = State { mesh, positions: &positions, growth }.search();
+    let joints = mesh.sewn.joined_at(&positions);
+    let enclosed = enclosed(mesh, &joints, &positions);
+    let found = State { mesh, positions: &positions, joints, growth }.search();
     Verdict {
         number,
         file,
@@ -153,6 +164,7 @@ pub(crate) fn verify(mesh: &Mesh, frame: Frame) -> Verdict {
         triangles: mesh.triangles(),
         pairs: found.pairs,
         intersections: found.intersections,
+        enclosed,
         degenerate: found.degenerate,
         too_near: found.too_near,
         min_distance: found.min_distance,
@@ -193,7 +205,7 @@ impl State<'_> {
         found.pairs += 1;
         let triangles = pair.map(|triangle| Triangle {
             corners: self.corners(triangle),
-            vertices: self.mesh.vertices(triangle),
+            vertices: self.mesh.triangles[triangle].map(|vertex| self.joints.vertex(vertex)),
         });
         if intersect(triangles) {
             found.intersections += 1;
@@ -221,6 +233,11 @@ impl State<'_> {
         };
         if pair.iter().any(|&triangle| self.mesh.is_body(triangle)) {
             limits.min_separation *= self.mesh.pinch_fraction;
+        }
+        let sewn = pair.map(|triangle| self.mesh.sewn_vertices(triangle));
+        if joined(&sewn[0], &sewn[1]) && !joined(&one.vertices, &other.vertices) {
+            // The sides of a seam that closes come as near to each other as it is open.
+            limits.min_separation = 0.0;
         }
         if !(distance < limits.activation_distance) {
             return;
@@ -261,11 +278,14 @@ impl State<'_> {
 }
 
 /// Returns whether two triangles intersect elsewhere than where they are joined.
-///
-/// Two that share an edge can do so only if they lie in one plane; their distance then shows it.
 fn intersect([one, other]: [Triangle; 2]) -> bool {
     if !joined(&one.vertices, &other.vertices) {
         return triangles_intersect(one.corners, other.corners);
+    }
+    // Two that share an edge do so only if they lie on each other in one plane.
+    if let Some([apex, of_other]) = one.apexes(&other) {
+        let edge = EDGES[(apex + 1) % 3].map(|k| one.corners[k]);
+        return folded_flat(edge, [one.corners[apex], other.corners[of_other]]);
     }
     // Where they are not joined, an edge of one of them intersects the other.
     [(one, other), (other, one)].into_iter().any(|(triangle, of)| {

@@ -14,6 +14,7 @@
 mod active_pairs;
 mod growth;
 mod obstacles;
+mod open_seams;
 mod pinch;
 mod settings;
 mod summary;

@@ -30,7 +30,7 @@ pub struct Pair {
     pub activation_distance: f64,
     /// Minimum separation `$\xi$`, in m.
     pub min_separation: f64,
-    /// Area of contact `$A$`, in m².
+    /// Area of contact `$A$`, in m²; at an open seam larger as the range of contact is shorter.
     pub area: f64,
     /// Threshold `$\epsilon$` of `$|e_1 \times e_2|^2$` below which two edges count as parallel, in
     /// m⁴; 0 for a vertex and a triangle.

@@ -7,9 +7,12 @@ use drape_scene::{SeamConstraint, SeamPairs};
 /// enough. The gaps that it leaves, some micrometres, go when the particles are merged.
 const STIFFNESS: f64 = 1e5;
 
-/// Widest gap at which the two sides of a seam are merged, in m. The gap that a closing spring
-/// leaves is a tenth of it.
+/// Widest gap at which the two sides of a seam are merged, in m.
 const CLOSED: f64 = 1e-4;
+
+/// Gap to which the springs close a seam, in m: the two sides are two cloths until they are merged.
+/// What a spring misses it by is less.
+const CLOSING: f64 = 0.2 * CLOSED;
 
 /// Gap to which stiffened springs are to close a seam, in m. A wider one moves cloth by more than
 /// contact leaves to bodies when its sides are merged.
@@ -26,21 +29,39 @@ pub(crate) const TOLERANCE: f64 = 0.3;
 /// Springs between the two sides of the seams.
 ///
 /// Each keeps the gap between its ends, a vector, near the gap at the start times a fraction that
-/// falls evenly from 1 to 0. So the ends are drawn together along straight lines, and the energy is
-/// quadratic.
+/// falls evenly from 1 to nearly 0. So the ends are drawn together along straight lines, and the energy
+/// is quadratic.
 #[derive(Debug, Clone)]
 pub(crate) struct ClosingSprings {
     seams: Vec<SeamConstraint>,
     /// Gap of each at the start, in m.
-    start_gaps: Vec<[f64; 3]>,
+    start_gaps: Vec<StartGap>,
     /// Time until the gaps are to be closed, in s.
     seconds: f64,
-    /// Fraction of the gaps that remains at the end of this step.
+    /// Fraction of the time for it that remains at the end of this step.
     remaining: f64,
+    /// Gap at each particle that is wanted at the end of this step, in m; infinite without a seam.
+    gaps: Vec<f64>,
     /// Stiffness of each in this step, in N/m.
     stiffness: f64,
     /// Increase of their stiffness, for a seam that they did not close.
     stiffening: Option<Stiffening>,
+}
+
+/// Gap of a closing spring at the start.
+#[derive(Debug, Clone, Copy)]
+struct StartGap {
+    /// Gap, in m.
+    gap: [f64; 3],
+    /// Its width, in m.
+    width: f64,
+}
+
+impl StartGap {
+    /// Fraction of the gap that is wanted when some of the time remains.
+    fn fraction(&self, remaining: f64) -> f64 {
+        if self.width > CLOSING { remaining.max(CLOSING / self.width) } else { 1.0 }
+    }
 }
 
 /// Increase of the stiffness of closing springs, evenly within the time of the sewing.
@@ -77,8 +98,19 @@ impl ClosingSprings {
     /// a time, in s.
     pub(crate) fn new(pairs: &SeamPairs, positions: &[f64], seconds: f64) -> Self {
         let seams: Vec<SeamConstraint> = pairs.constraints().collect();
-        let start_gaps = seams.iter().map(|seam| seam.gap(positions)).collect();
-        Self { seams, start_gaps, seconds, remaining: 1.0, stiffness: STIFFNESS, stiffening: None }
+        let start_gap = |seam: &SeamConstraint| StartGap {
+            gap: seam.gap(positions),
+            width: seam.width(positions),
+        };
+        Self {
+            start_gaps: seams.iter().map(start_gap).collect(),
+            gaps: pairs.gaps_at_particles(positions),
+            seams,
+            seconds,
+            remaining: 1.0,
+            stiffness: STIFFNESS,
+            stiffening: None,
+        }
     }
 
     /// Pairs of particles that the springs couple.
@@ -94,10 +126,19 @@ impl ClosingSprings {
     /// Opens a step that ends at a time, in s.
     pub(crate) fn begin(&mut self, end_time: f64) {
         self.remaining = (1.0 - end_time / self.seconds).max(0.0);
+        self.gaps.fill(f64::INFINITY);
+        for (seam, start) in self.seams.iter().zip(&self.start_gaps) {
+            seam.narrow(start.fraction(self.remaining) * start.width, &mut self.gaps);
+        }
         if let Some(Stiffening { start, factor }) = self.stiffening {
             let part = ((end_time - start) / self.seconds).clamp(0.0, 1.0);
             self.stiffness = STIFFNESS * (1.0 + part * (factor - 1.0));
         }
+    }
+
+    /// Gap at each particle that is wanted at the end of this step, in m; infinite without a seam.
+    pub(crate) fn gaps(&self) -> &[f64] {
+        &self.gaps
     }
 
     /// Stiffens the springs from a time on, in s, so far that a gap closes which they left open;
@@ -173,11 +214,12 @@ impl ClosingSprings {
         }
     }
 
-    /// Differences between the gaps and the remaining fractions of the gaps at the start.
+    /// Differences between the gaps and those that are wanted.
     fn excess(&self, positions: &[f64]) -> impl Iterator<Item = [f64; 3]> {
         self.seams.iter().zip(&self.start_gaps).map(move |(seam, start)| {
             let now = seam.gap(positions);
-            [0, 1, 2].map(|axis| now[axis] - self.remaining * start[axis])
+            let fraction = start.fraction(self.remaining);
+            [0, 1, 2].map(|axis| now[axis] - fraction * start.gap[axis])
         })
     }
 }

@@ -6,6 +6,7 @@ use drape_implicit::{BlockMatrix, Sparsity, StepFilter, StepLimit, Stiffness, Sy
 use super::World;
 use super::contact::{Contact, ContactStep};
 use super::energy_balance::StepEnergy;
+use crate::sewing::closing_springs::ClosingSprings;
 
 impl System for World {
     fn particles(&self) -> usize {
@@ -38,6 +39,7 @@ impl System for World {
             motion_end,
             relaxes: self.momentum.is_active(),
             with_energy: self.balance.is_some(),
+            seam_gaps: self.seams.springs.as_ref().map(ClosingSprings::gaps),
         });
         if let (Some(balance), Some(energy)) = (&mut self.balance, energy) {
             balance.begin(energy);

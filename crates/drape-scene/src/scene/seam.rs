@@ -65,6 +65,17 @@ impl SeamPairs {
         self.ties.iter().map(|&Tie { particle, ends: [a, b], .. }| [particle, a, b]).collect()
     }
 
+    /// Returns the gap at each particle for positions of all, in m: the narrowest that is to vanish
+    /// there, infinite where none is.
+    #[must_use]
+    pub fn gaps_at_particles(&self, positions: &[f64]) -> Vec<f64> {
+        let mut gaps = vec![f64::INFINITY; positions.len() / 3];
+        for constraint in self.constraints() {
+            constraint.narrow(constraint.width(positions), &mut gaps);
+        }
+        gaps
+    }
+
     /// Returns the widths of the gaps at positions of all particles, in m, one for each constraint.
     pub fn gaps(&self, positions: &[f64]) -> impl Iterator<Item = f64> {
         self.constraints().map(|constraint| constraint.width(positions))
@@ -82,6 +93,16 @@ impl SeamConstraint {
             }
         }
         gap
+    }
+
+    /// Lowers the gaps of the particles that are to meet, both of a pair or the tied one, to a width,
+    /// all in m.
+    pub fn narrow(&self, width: f64, gaps: &mut [f64]) {
+        let whole = self.weights.iter().filter(|own| own.weight.abs() == 1.0);
+        for &SeamWeight { particle, .. } in whole {
+            let gap = &mut gaps[particle as usize];
+            *gap = gap.min(width);
+        }
     }
 
     /// Returns the width of the gap at positions of all particles, in m.

@@ -94,6 +94,7 @@ fn headline(folder: &Path, recording: &Recording) -> String {
 }
 
 fn describe(recording: &Recording, verdict: &Verdict) -> String {
+    let manifest = recording.manifest();
     let millimetres = |distance: f64| format!("{:.4} mm", 1e3 * distance);
     let mut text = format!(
         "frame {:>5}{}: {} triangles, {} pairs, {} intersections, smallest distance {}",
@@ -114,6 +115,11 @@ fn describe(recording: &Recording, verdict: &Verdict) -> String {
         if count > 0 {
             text += &format!(", {count} {what}");
         }
+    }
+    for piece in &verdict.enclosed {
+        let [panel, body] = [&manifest.panels[piece.panel].name, &manifest.bodies[piece.body].name];
+        let [x, y, z] = piece.point;
+        text += &format!("\n  \"{panel}\" lies inside \"{body}\" near ({x:.5}, {y:.5}, {z:.5}) m");
     }
     let shown = if verdict.holds() { 1 } else { verdict.worst.len() };
     for place in verdict.worst.iter().take(shown) {

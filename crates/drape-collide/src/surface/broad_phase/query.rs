@@ -2,7 +2,7 @@
 
 use super::sweep::Sweep;
 use super::tree::Bounds;
-use crate::surface::geometry::{Primitives, Separations};
+use crate::surface::geometry::{ContactDistances, Primitives, Separations};
 use crate::surface::pair::{Pair, PairKind, closest, distance};
 use crate::vector::{Vector, add, at, subtract};
 
@@ -74,16 +74,18 @@ impl Query<'_> {
         let same_group = groups[0] == groups[1];
         let points = vertices.map(|vertex| at(self.positions, vertex as usize));
         let distance = distance(&closest(kind, points));
-        let mut approach = 0.0;
-        let limit = match self.limit {
-            Limit::Margin { margin, sweep } => {
-                approach = sweep.largest_approach(kind, vertices);
-                distances.activation_distance + margin + approach
-            }
-            Limit::Rest if same_group => 2.0 * distances.activation_distance,
+        let approach = match self.limit {
+            Limit::Margin { sweep, .. } => sweep.largest_approach(kind, vertices),
+            Limit::Rest if same_group => 0.0,
             Limit::Rest => return None,
         };
-        if !(distance < limit) {
+        let is_near = |distances: ContactDistances| match self.limit {
+            Limit::Margin { margin, .. } => {
+                distance < distances.activation_distance + margin + approach
+            }
+            Limit::Rest => distance < 2.0 * distances.activation_distance,
+        };
+        if !is_near(distances) {
             return None;
         }
         if same_group
@@ -91,11 +93,18 @@ impl Query<'_> {
             && let Some(close) = separations.of_close_pair(&(kind, features))
         {
             distances = close;
-            if let Limit::Margin { margin, .. } = self.limit
-                && !(distance < distances.activation_distance + margin + approach)
-            {
-                return None;
-            }
+        }
+        // The sides of a seam repel each other as strongly as others do, within a shorter range.
+        let mut strengthening = 1.0;
+        if !separations.seam_gaps.is_empty()
+            && let Some(open) = self.of_open_seam(kind, vertices)
+        {
+            let range = distances.range();
+            distances = distances.least(open);
+            strengthening = range / distances.range();
+        }
+        if !is_near(distances) {
+            return None;
         }
         distances.min_separation *= separations.pinch_fraction(primitives, &vertices)?;
         let [a, b] = features.map(|feature| feature as usize);
@@ -112,9 +121,20 @@ impl Query<'_> {
             vertices,
             activation_distance: distances.activation_distance,
             min_separation: distances.min_separation,
-            area,
+            area: strengthening * area,
             parallel,
             distance: distance - approach,
         })
+    }
+
+    /// Returns the distances of the sides of an open seam for two primitives that it joins.
+    fn of_open_seam(&self, kind: PairKind, vertices: [u32; 4]) -> Option<ContactDistances> {
+        let seams = &self.primitives.seams;
+        let classes = vertices.map(|vertex| seams.class(vertex));
+        let (one, other) = classes.split_at(match kind {
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
+        });
+        self.separations.of_open_seam(seams, [one, other])
     }
 }

@@ -92,9 +92,13 @@ impl Chunk {
         let class = array(run.count, 0, |k| primitives.seams.class(vertex(k)));
         self.near.iter_mut().for_each(Vec::clear);
         let order = &primitives.triangle_order;
+        let (separations, seams) = (query.separations, &primitives.seams);
         tree.visit(order, &probe, |k, slot| {
-            if !primitives.seams.exempt(&[class[k]], &primitives.triangle_classes[slot]) {
-                self.near[k].push(order.items[slot]);
+            let triangle = order.items[slot];
+            let corners = &primitives.triangles[triangle as usize];
+            let classes = [&[class[k]][..], &primitives.triangle_classes[slot]];
+            if !separations.exempt(seams, [&[vertex(k)], corners], classes) {
+                self.near[k].push(triangle);
             }
         });
         for (k, near) in self.near[..run.count].iter_mut().enumerate() {
@@ -120,11 +124,15 @@ impl Chunk {
         let classes = array(run.count, [0; 2], |k| ends(k).map(|end| primitives.seams.class(end)));
         self.near.iter_mut().for_each(Vec::clear);
         let order = &primitives.edge_order;
+        let (separations, seams) = (query.separations, &primitives.seams);
         tree.visit(order, &probe, |k, slot| {
             let other = order.items[slot];
-            if other > edge(k)
-                && !primitives.seams.exempt(&classes[k], &primitives.edge_classes[slot])
-            {
+            if other <= edge(k) {
+                return;
+            }
+            let vertices = [&ends(k)[..], &primitives.edges[other as usize]];
+            let classes = [&classes[k][..], &primitives.edge_classes[slot]];
+            if !separations.exempt(seams, vertices, classes) {
                 self.near[k].push(other);
             }
         });

@@ -3,6 +3,7 @@
 use super::active_pairs::{ActivePair, ActivePairs};
 use super::growth::Growth;
 use super::obstacles::Obstacles;
+use super::open_seams::OpenSeams;
 use super::pinch::{Pinch, PinchedVertices, vertices_of};
 use super::settings::{PinchPolicy, SurfaceSettings};
 use super::summary::{PairDistance, SurfaceSummary};
@@ -37,6 +38,9 @@ pub struct SurfaceContact {
     intersection_test: IntersectionTest,
     pinch: Pinch,
     growth: Growth,
+    open_seams: OpenSeams,
+    /// Buffer for the gaps of the open seams, in m.
+    seam_gaps: Vec<f64>,
     /// Positions of all vertices at which an evaluation is asked for, in m.
     trial: Vec<f64>,
 }
@@ -84,6 +88,8 @@ impl SurfaceContact {
             intersection_test: IntersectionTest::default(),
             pinch: Pinch::new(pinch),
             growth: Growth::NONE,
+            open_seams: OpenSeams::default(),
+            seam_gaps: Vec::new(),
             trial: Vec::new(),
         })
     }
@@ -408,6 +414,45 @@ impl SurfaceContact {
             self.update(start);
         }
         self.growth.work = self.active.energy(self.stiffness) - before;
+    }
+
+    /// Opens the seams at the free vertices' positions, in m, with the gap at each of these, in m: 0
+    /// where its seam is one point, infinite without a seam.
+    ///
+    /// The two sides of an open seam are two cloths: they repel each other below half of the gap,
+    /// and keep a tenth of it, or what surfaces keep elsewhere where that is less.
+    ///
+    /// # Errors
+    /// Positions that are not finite, or too many pairs.
+    ///
+    /// # Panics
+    /// If there is not a gap for each free vertex.
+    pub fn open_seams(&mut self, gaps: &[f64], positions: &[f64]) -> Result<(), Error> {
+        assert_eq!(gaps.len(), self.surface.free_count(), "a gap for each free vertex");
+        self.open_seams.open(&self.surface);
+        self.set_seam_gaps(gaps);
+        self.summary_at(positions)?;
+        self.open_seams.limit(&self.surface, self.active.iter());
+        self.set_seam_gaps(gaps);
+        Ok(())
+    }
+
+    /// Sets the gaps of the open seams at the free vertices in the step that is then to be opened, in
+    /// m; they only become narrower.
+    pub fn set_seam_gaps(&mut self, gaps: &[f64]) {
+        self.open_seams.write_gaps(&self.surface, gaps, &mut self.seam_gaps);
+        if self.seam_gaps != self.surface.separations.seam_gaps {
+            self.surface.separations.seam_gaps.clone_from(&self.seam_gaps);
+            self.active.invalidate();
+            self.tracked.clear();
+        }
+    }
+
+    /// Closes the seams: vertices that they join or tie are where they are to be, and primitives with
+    /// them are exempt from contact with each other.
+    pub fn close_seams(&mut self) {
+        self.open_seams.close();
+        self.set_seam_gaps(&[]);
     }
 
     /// Fraction of its minimum separation from bodies that cloth keeps where they pinch it.

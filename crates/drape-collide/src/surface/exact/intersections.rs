@@ -23,8 +23,8 @@ pub struct Intersection {
 
 /// Returns all edges that meet a triangle at flat positions, sorted: exact, and touching counts.
 ///
-/// Edges that share a vertex with the triangle, directly or through a seam, and pairs without a
-/// free vertex are left out. Of two triangles without a common vertex that meet, an edge of one
+/// Edges that share a vertex with the triangle, directly or through a closed seam, and pairs without
+/// a free vertex are left out. Of two triangles without a common vertex that meet, an edge of one
 /// always meets the other. The result is exact for the positions as they are rounded (\[She97\], by
 /// the crate `robust`), unless coordinates differ from each other by less than 1e-60 m but not at
 /// all.
@@ -75,8 +75,9 @@ impl IntersectionTest {
                 tree.visit(order, &probe, |k, slot| {
                     let triangle = order.items[slot];
                     let corners = primitives.triangles[triangle as usize].map(point);
-                    let other = &primitives.triangle_classes[slot];
-                    let exempt = primitives.seams.exempt(&classes[k], other);
+                    let vertices = [&ends(k)[..], &primitives.triangles[triangle as usize]];
+                    let classes = [&classes[k][..], &primitives.triangle_classes[slot]];
+                    let exempt = surface.separations.exempt(&primitives.seams, vertices, classes);
                     if !exempt && segment_meets_triangle(segment(k), corners) {
                         found.push(Intersection { edge: run.first + k as u32, triangle });
                     }

@@ -16,6 +16,21 @@ pub struct ContactDistances {
     pub min_separation: f64,
 }
 
+impl ContactDistances {
+    /// Returns the range of contact, the activation distance less the minimum separation, in m.
+    pub(crate) fn range(self) -> f64 {
+        self.activation_distance - self.min_separation
+    }
+
+    /// Returns the smaller of each of two distances.
+    pub(crate) fn least(self, other: ContactDistances) -> ContactDistances {
+        ContactDistances {
+            activation_distance: self.activation_distance.min(other.activation_distance),
+            min_separation: self.min_separation.min(other.min_separation),
+        }
+    }
+}
+
 /// Parts of a [`Surface`](crate::Surface): vertices, of which the first are cloth, and triangles.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SurfaceParts {
@@ -35,10 +50,10 @@ pub struct SurfaceParts {
     /// prescribed. Pairs without a free vertex are left out.
     pub free_vertices: usize,
     /// Vertices that a seam joins in pairs: primitives that share a vertex by them are exempt from
-    /// contact.
+    /// contact once the seam is closed.
     pub seam_pairs: Vec<[u32; 2]>,
-    /// Vertices that a seam ties to a point between two others, each with these: such a vertex is
-    /// exempt from contact with primitives that have both.
+    /// Vertices that a seam ties to a point between two others, each with these: once the seam is
+    /// closed, such a vertex is exempt from contact with primitives that have both.
     pub ties: Vec<[u32; 3]>,
 }
 

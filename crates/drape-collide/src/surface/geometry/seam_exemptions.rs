@@ -1,4 +1,4 @@
-//! Pairs that are exempt from contact because a seam joins them.
+//! Pairs that a seam joins: exempt from contact once it is closed.
 
 use super::topology::equivalence_classes;
 
@@ -40,21 +40,34 @@ impl SeamExemptions {
         self.class[vertex as usize]
     }
 
-    /// Returns whether two primitives, given by the classes of their vertices, are exempt: they
+    /// Returns whether two primitives, given by the classes of their vertices, are joined: they
     /// share a vertex, or one has a vertex that is tied to two of the other.
     #[inline]
-    pub(crate) fn exempt(&self, one: &[u32], other: &[u32]) -> bool {
+    pub(crate) fn join(&self, one: &[u32], other: &[u32]) -> bool {
         one.iter().any(|class| other.contains(class))
             || !self.ties.is_empty() && (self.is_tied(one, other) || self.is_tied(other, one))
     }
 
+    /// Returns the classes at which two primitives are joined, each from one or two sides.
+    pub(crate) fn joints<'a>(
+        &'a self,
+        one: &'a [u32],
+        other: &'a [u32],
+    ) -> impl Iterator<Item = u32> + 'a {
+        let shared = one.iter().filter(|class| other.contains(class));
+        let tied = one.iter().filter(|class| self.lies_on(class, other));
+        let tied = tied.chain(other.iter().filter(|class| self.lies_on(class, one)));
+        shared.chain(tied).copied()
+    }
+
     #[cold]
     fn is_tied(&self, one: &[u32], other: &[u32]) -> bool {
-        let ends = |class: &u32| {
-            let place = self.ties.binary_search_by_key(class, |tie| tie.own).ok()?;
-            Some(self.ties[place].ends)
-        };
-        let on = |class| ends(class).is_some_and(|ends| ends.iter().all(|end| other.contains(end)));
-        one.iter().any(on)
+        one.iter().any(|class| self.lies_on(class, other))
+    }
+
+    /// Returns whether the vertices of a class are tied to two of a primitive's.
+    fn lies_on(&self, class: &u32, primitive: &[u32]) -> bool {
+        let Ok(place) = self.ties.binary_search_by_key(class, |tie| tie.own) else { return false };
+        self.ties[place].ends.iter().all(|end| primitive.contains(end))
     }
 }

@@ -1,12 +1,20 @@
 //! Distances of pairs: those of their groups, less where pairs are close at rest, where distances
-//! grow and where bodies pinch.
+//! grow, where bodies pinch and at seams that close.
 
 use super::parts::ContactDistances;
 use super::primitives::Primitives;
+use super::seam_exemptions::SeamExemptions;
 use crate::surface::pair::PairKey;
 
 /// Fraction of the minimum separation from bodies of cloth that is thinned.
 pub(crate) const THINNED_FRACTION: f64 = 0.1;
+
+/// Activation distance of the sides of an open seam over its gap: sides that lie as far from each
+/// other as they are to be do not repel each other.
+const OPEN_ACTIVATION: f64 = 0.5;
+
+/// Minimum separation of the sides of an open seam over its gap.
+const OPEN_SEPARATION: f64 = 0.1;
 
 /// Contact of a vertex of cloth with bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -39,12 +47,21 @@ pub(crate) struct Separations {
     pub(crate) pinch: Vec<PinchState>,
     /// Fraction of all distances that is kept, 0 to 1.
     pub(crate) growth_fraction: f64,
+    /// Gap of the open seam at the vertices of each class, in m: 0 where they are one point,
+    /// infinite without a seam; empty if all seams are closed.
+    pub(crate) seam_gaps: Vec<f64>,
 }
 
 impl Separations {
     /// Separations of groups alone.
     pub(crate) fn new(groups: Vec<ContactDistances>) -> Separations {
-        Separations { groups, close_at_rest: Vec::new(), pinch: Vec::new(), growth_fraction: 1.0 }
+        Separations {
+            groups,
+            close_at_rest: Vec::new(),
+            pinch: Vec::new(),
+            growth_fraction: 1.0,
+            seam_gaps: Vec::new(),
+        }
     }
 
     /// Distances of a pair of groups, whatever its distance at rest.
@@ -67,6 +84,48 @@ impl Separations {
             activation_distance: self.growth_fraction * activation_distance,
             min_separation: self.growth_fraction * min_separation,
         })
+    }
+
+    /// Returns whether two primitives, given by their vertices and by the classes of these, are
+    /// exempt from contact: they share a vertex, or a closed seam joins them.
+    #[inline]
+    pub(crate) fn exempt(
+        &self,
+        seams: &SeamExemptions,
+        [one, other]: [&[u32]; 2],
+        classes: [&[u32]; 2],
+    ) -> bool {
+        seams.join(classes[0], classes[1])
+            && (self.seam_gaps.is_empty()
+                || one.iter().any(|vertex| other.contains(vertex))
+                || self.seam_gap(seams, classes) == 0.0)
+    }
+
+    /// Returns the narrowest gap of the open seams that join two primitives, given by the classes of
+    /// their vertices, in m; infinite if none does.
+    fn seam_gap(&self, seams: &SeamExemptions, [one, other]: [&[u32]; 2]) -> f64 {
+        let gaps = seams.joints(one, other).map(|class| self.seam_gaps[class as usize]);
+        gaps.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the largest distances that the sides of an open seam keep from each other, for two
+    /// primitives given by the classes of their vertices; none if no open seam joins them.
+    pub(crate) fn of_open_seam(
+        &self,
+        seams: &SeamExemptions,
+        classes: [&[u32]; 2],
+    ) -> Option<ContactDistances> {
+        let gap = self.seam_gap(seams, classes);
+        (gap < f64::INFINITY).then_some(ContactDistances {
+            activation_distance: OPEN_ACTIVATION * gap,
+            min_separation: OPEN_SEPARATION * gap,
+        })
+    }
+
+    /// Returns the widest gap of an open seam whose sides do not repel each other at a distance,
+    /// both in m.
+    pub(crate) fn widest_seam_gap(distance: f64) -> f64 {
+        distance / OPEN_ACTIVATION
     }
 
     /// Fraction of its minimum separation that a pair keeps; none if it is released.

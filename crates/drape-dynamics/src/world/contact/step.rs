@@ -16,6 +16,8 @@ pub(crate) struct ContactStep<'a> {
     pub(crate) relaxes: bool,
     /// Whether energies are asked for.
     pub(crate) with_energy: bool,
+    /// Gap of the open seams at each particle, in m, while a garment is sewn.
+    pub(crate) seam_gaps: Option<&'a [f64]>,
 }
 
 /// Energy of contact at the start of a step, in J.

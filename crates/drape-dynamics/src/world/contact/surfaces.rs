@@ -145,6 +145,9 @@ impl Surfaces {
 
     /// Opens a step and returns the energy of contact at its start if that is asked for.
     pub(crate) fn begin(&mut self, step: &ContactStep<'_>) -> Option<ContactEnergy> {
+        if let Some(gaps) = step.seam_gaps {
+            self.contact.set_seam_gaps(gaps);
+        }
         if let Some(growth) = self.growth {
             let more = (1.0 - self.start_growth_fraction) * step.dt / growth.seconds;
             self.contact.grow_distances(step.positions, more);
@@ -163,6 +166,11 @@ impl Surfaces {
             friction: 0.0,
             body_work: self.contact.growth_work(),
         })
+    }
+
+    /// Ends the sewing: seams are closed from now on.
+    pub(crate) fn close_seams(&mut self) {
+        self.contact.close_seams();
     }
 
     /// Limits a step to a fraction that keeps all surfaces apart.

@@ -1,0 +1,61 @@
+//! Open seams: their two sides are two cloths, which keep less from each other the nearer they come.
+
+use super::active_pairs::ActivePair;
+use crate::surface::contact_surface::Surface;
+use crate::surface::geometry::Separations;
+
+/// Least gap at which the sides of a seam are two cloths, in m: nearer ones are one point.
+///
+/// It is a thousand times the rounding of coordinates of 1 m.
+const LEAST: f64 = 1e-12;
+
+/// Widest gap that counts at each open seam: of sides that lie nearer to each other at the start than
+/// their gap, what they are apart.
+#[derive(Debug, Default)]
+pub(super) struct OpenSeams {
+    /// Widest gap of each class of vertices, in m; empty if no seam is open.
+    widest: Vec<f64>,
+}
+
+impl OpenSeams {
+    /// Opens the seams of a surface without limits.
+    pub(super) fn open(&mut self, surface: &Surface) {
+        self.widest.clear();
+        self.widest.resize(surface.vertex_count(), f64::INFINITY);
+    }
+
+    /// Closes all seams.
+    pub(super) fn close(&mut self) {
+        self.widest.clear();
+    }
+
+    /// Limits the gaps to what the sides of the seams are apart, so that none repels the other.
+    pub(super) fn limit<'a>(
+        &mut self,
+        surface: &Surface,
+        active: impl Iterator<Item = &'a ActivePair>,
+    ) {
+        let seams = &surface.primitives().seams;
+        for ActivePair { pair, gap } in active {
+            let classes = pair.vertices.map(|vertex| seams.class(vertex));
+            let (one, other) = classes.split_at(pair.first_vertices());
+            let widest = Separations::widest_seam_gap(gap.distance()).max(LEAST);
+            for class in seams.joints(one, other) {
+                let own = &mut self.widest[class as usize];
+                *own = own.min(widest);
+            }
+        }
+    }
+
+    /// Writes the gap of each class from those at the free vertices, in m.
+    pub(super) fn write_gaps(&self, surface: &Surface, gaps: &[f64], of_classes: &mut Vec<f64>) {
+        of_classes.clear();
+        of_classes.resize(self.widest.len(), f64::INFINITY);
+        let seams = &surface.primitives().seams;
+        for (vertex, &gap) in gaps.iter().enumerate() {
+            let class = seams.class(vertex as u32) as usize;
+            let gap = if gap < LEAST { 0.0 } else { gap.min(self.widest[class]) };
+            of_classes[class] = of_classes[class].min(gap);
+        }
+    }
+}
