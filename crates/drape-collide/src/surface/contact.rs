@@ -2,7 +2,8 @@
 //!
 //! In a step of time the solver calls, on a [`SurfaceContact`]:
 //!
-//! 1. `grow_distances`, if surfaces started nearer than their distances,
+//! 1. `set_seam_gaps`, while seams are open, and `grow_distances`, if surfaces started nearer than
+//!    their distances,
 //! 2. `begin`: bodies get their positions at the end of the step, friction its normal forces,
 //! 3. `set_obstacle_time`, `add_forces`, `potential`, `add_stiffness` at trial positions, and
 //!    `limit_step` before each of them is taken,

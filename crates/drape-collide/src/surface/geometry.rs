@@ -7,8 +7,9 @@
 //! \hat d_{ij} = \hat d_i + \hat d_j, \qquad \xi_{ij} = \xi_i + \xi_j
 //! ```
 //!
-//! or less where two primitives lie close at rest, where distances still grow and where bodies
-//! pinch. Primitives that share a vertex, or are joined by a seam, are exempt.
+//! or less where two primitives lie close at rest, where distances still grow, where bodies pinch and
+//! between the sides of an open seam. Primitives that share a vertex, or are joined by a closed seam,
+//! are exempt.
 //!
 //! The broad phase reads all of this. This chapter uses vectors, errors and
 //! [`mesh_io`](crate::mesh_io).

@@ -12,6 +12,7 @@ mod exact;
 mod exactness;
 mod layers;
 mod oracle;
+mod planted_faults;
 mod sheets;
 mod stiffness;
 mod surfaces;

@@ -47,9 +47,12 @@ impl OpenSeams {
         }
     }
 
-    /// Writes the gap of each class from those at the free vertices, in m.
+    /// Writes the gap of each class from those at the free vertices, in m; none if all seams are closed.
     pub(super) fn write_gaps(&self, surface: &Surface, gaps: &[f64], of_classes: &mut Vec<f64>) {
         of_classes.clear();
+        if self.widest.is_empty() {
+            return;
+        }
         of_classes.resize(self.widest.len(), f64::INFINITY);
         let seams = &surface.primitives().seams;
         for (vertex, &gap) in gaps.iter().enumerate() {

@@ -438,7 +438,7 @@ impl SurfaceContact {
     }
 
     /// Sets the gaps of the open seams at the free vertices in the step that is then to be opened, in
-    /// m; they only become narrower.
+    /// m; they only become narrower. Nothing happens once the seams are closed.
     pub fn set_seam_gaps(&mut self, gaps: &[f64]) {
         self.open_seams.write_gaps(&self.surface, gaps, &mut self.seam_gaps);
         if self.seam_gaps != self.surface.separations.seam_gaps {

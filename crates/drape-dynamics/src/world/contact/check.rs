@@ -1,5 +1,7 @@
 //! Safeguards of contact, taken away one by one: what is missing shows in the run or in its frames.
 
+use std::path::Path;
+
 use drape_input::Document;
 use drape_scene::Scene;
 use drape_verify::Verifier;
@@ -53,8 +55,14 @@ impl Progress for Film<'_> {
 }
 
 fn run(text: &str, omitted: Omitted, stiffness: Option<f64>) -> End {
-    let fabric = Document::new("plain.toml", FABRIC);
-    let scene = Scene::from_documents(&Document::new("scene.toml", text), &[fabric]);
+    run_in(Path::new(""), text, omitted, stiffness)
+}
+
+/// Runs a scene as if it were in a folder.
+fn run_in(folder: &Path, text: &str, omitted: Omitted, stiffness: Option<f64>) -> End {
+    let fabric = Document::new(folder.join("plain.toml"), FABRIC);
+    let scene = Document::new(folder.join("scene.toml"), text);
+    let scene = Scene::from_documents(&scene, &[fabric]);
     let mut scene = scene.expect("a right scene");
     scene.contact.stiffness = stiffness.or(scene.contact.stiffness);
     let mut simulation = Simulation::new(scene).expect("a solver");
@@ -88,11 +96,15 @@ fn with_all_of_it_no_step_crosses() {
 
 #[test]
 fn without_the_filter_steps_cross_and_are_taken_back() {
-    let end = run(THROWN, Omitted { step_filter: true, intersection_test: false }, None);
+    let end = run(THROWN, Omitted { step_filter: true, ..Omitted::default() }, None);
     holds(&end);
     assert!(end.contact.intersections_found > 0, "{end:?}");
     // What takes them back is the exact test and nothing else.
-    let end = run(THROWN, Omitted { step_filter: true, intersection_test: true }, None);
+    let end = run(
+        THROWN,
+        Omitted { step_filter: true, intersection_test: true, ..Omitted::default() },
+        None,
+    );
     assert!(end.intersections > 0, "{end:?}");
 }
 
@@ -102,4 +114,18 @@ fn without_a_barrier_pairs_freeze() {
     holds(&end);
     assert_eq!(end.status, Status::SolverFailed, "{end:?}");
     assert_eq!(end.contact.intersections_found, 0, "{end:?}");
+}
+
+#[test]
+fn sides_of_a_seam_that_are_exempt_before_they_meet_cross() {
+    let scenes = Path::new("../../scenes");
+    let skirt = std::fs::read_to_string(scenes.join("skirt.toml")).expect("a scene");
+    let skirt = skirt
+        .replace("spacing = 0.01", "spacing = 0.045")
+        .replace("../fabrics/matsudaira-b/sheet.toml", "plain.toml")
+        .replace("end = 60", "end = 1.1\n[output]\nevery = 0.05");
+    let run = |omitted| run_in(scenes, &skirt, omitted, None);
+    holds(&run(Omitted::default()));
+    let end = run(Omitted { open_seams: true, ..Omitted::default() });
+    assert!(end.intersections > 0, "{end:?}");
 }

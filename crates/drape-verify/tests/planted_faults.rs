@@ -1,0 +1,236 @@
+//! Faults that are planted in frames: each is found, and the same frame without it holds.
+
+#![allow(clippy::unwrap_used)]
+
+use std::fmt::Write;
+use std::path::Path;
+
+use drape_verify::{Verdict, Verifier};
+
+type Point = [f64; 3];
+
+/// Mesh of a part: vertices, in m, and triangles.
+#[derive(Clone)]
+struct Shape {
+    vertices: Vec<Point>,
+    triangles: Vec<[usize; 3]>,
+}
+
+impl Shape {
+    fn triangle(corners: [Point; 3]) -> Shape {
+        Shape { vertices: corners.to_vec(), triangles: vec![[0, 1, 2]] }
+    }
+
+    /// Ball about the origin: an octahedron whose triangles are divided, with vertices on the sphere.
+    fn ball(radius: f64) -> Shape {
+        let axis = |k: usize, sign: f64| [0, 1, 2].map(|j| if j == k { sign } else { 0.0 });
+        let mut faces: Vec<[Point; 3]> = Vec::new();
+        for [x, y, z] in [[1.0, 1.0, 1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0], [1.0, -1.0, -1.0]]
+        {
+            faces.push([axis(0, x), axis(1, y), axis(2, z)]);
+            faces.push([axis(0, -x), axis(2, -z), axis(1, -y)]);
+        }
+        for _ in 0..3 {
+            let middle = |a: Point, b: Point| [0, 1, 2].map(|k| a[k] + b[k]);
+            faces = faces
+                .into_iter()
+                .flat_map(|[a, b, c]| {
+                    let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+                    [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+                })
+                .collect();
+            for corner in faces.iter_mut().flatten() {
+                let length = corner.iter().map(|x| x * x).sum::<f64>().sqrt();
+                *corner = corner.map(|x| x / length);
+            }
+        }
+        let mut ball = Shape { vertices: Vec::new(), triangles: Vec::new() };
+        for face in faces {
+            let numbers = face.map(|corner| {
+                let place = corner.map(|x| radius * x);
+                ball.vertices.iter().position(|other| *other == place).unwrap_or_else(|| {
+                    ball.vertices.push(place);
+                    ball.vertices.len() - 1
+                })
+            });
+            ball.triangles.push(numbers);
+        }
+        ball
+    }
+
+    /// Square of two triangles at a height, whose front looks up.
+    fn square(half: f64, height: f64) -> Shape {
+        let corner = |x: f64, z: f64| [half * x, height, half * z];
+        let vertices =
+            vec![corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)];
+        Shape { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]] }
+    }
+
+    fn text(&self, material: bool) -> String {
+        let mut text = String::new();
+        // All digits: the last bit counts.
+        for [x, y, z] in &self.vertices {
+            writeln!(text, "v {x:?} {y:?} {z:?}").unwrap();
+        }
+        if material {
+            for (k, _) in self.vertices.iter().enumerate() {
+                let along = k as f64;
+                writeln!(text, "vt {along} {}", along * along).unwrap();
+            }
+        }
+        for corners in &self.triangles {
+            let [a, b, c] = corners.map(|corner| corner + 1);
+            writeln!(text, "f {a} {b} {c}").unwrap();
+        }
+        text
+    }
+}
+
+/// Frame with planted faults.
+#[derive(Default)]
+struct Planted {
+    panels: Vec<Shape>,
+    body: Option<Shape>,
+    twins: &'static str,
+    /// Half of the minimum separation, in m.
+    separation: f64,
+}
+
+impl Planted {
+    /// Writes the frame as a run writes it, and verifies it.
+    fn verify(&self) -> Verdict {
+        let folder = tempfile::tempdir().unwrap();
+        self.write(folder.path());
+        Verifier::open(folder.path()).unwrap().verify(0).unwrap()
+    }
+
+    fn write(&self, folder: &Path) {
+        let part = |shape: &Shape| {
+            let (vertices, triangles) = (shape.vertices.len(), shape.triangles.len());
+            let (reach, separation) = (4.0 * self.separation, self.separation);
+            format!(
+                r#"{{ "name": "part", "vertices": {vertices}, "triangles": {triangles}, "reach": {reach}, "separation": {separation} }}"#
+            )
+        };
+        let panels: Vec<String> = self.panels.iter().map(part).collect();
+        let bodies: Vec<String> = self.body.iter().map(part).collect();
+        let (panels, bodies, twins) = (panels.join(", "), bodies.join(", "), self.twins);
+        let manifest = format!(
+            r#"{{ "format": 1, "guarded": true, "panels": [{panels}], "bodies": [{bodies}], "twins": [{twins}] }}"#
+        );
+        std::fs::write(folder.join("surfaces.json"), manifest + "\n").unwrap();
+        let mut all = Shape { vertices: Vec::new(), triangles: Vec::new() };
+        for panel in &self.panels {
+            let first = all.vertices.len();
+            all.vertices.extend(&panel.vertices);
+            let shifted = panel.triangles.iter().map(|corners| corners.map(|k| k + first));
+            all.triangles.extend(shifted);
+        }
+        let mut frame = all.text(true);
+        if let Some(body) = &self.body {
+            frame.insert_str(0, "# bodies: bodies-00000.obj\n");
+            std::fs::write(folder.join("bodies-00000.obj"), body.text(false)).unwrap();
+        }
+        std::fs::write(folder.join("frame-00000.obj"), frame).unwrap();
+    }
+}
+
+#[test]
+fn a_vertex_is_found_a_millimetre_a_micrometre_and_a_rounding_inside() {
+    let height = 0.1_f64;
+    let with_corner_at = |y: f64| {
+        let corners = [[0.02, y, 0.03], [0.04, 0.2, 0.03], [0.02, 0.2, 0.05]];
+        let body = Some(Shape::square(0.5, height));
+        Planted { panels: vec![Shape::triangle(corners)], body, ..Planted::default() }.verify()
+    };
+    for inside in [height - 1e-3, height - 1e-6, height.next_down(), height] {
+        let verdict = with_corner_at(inside);
+        assert!(verdict.intersections > 0 && !verdict.holds(), "{verdict:?}");
+    }
+    for outside in [height.next_up(), height + 1e-6] {
+        let verdict = with_corner_at(outside);
+        assert!(verdict.holds() && verdict.intersections == 0, "{verdict:?}");
+    }
+}
+
+#[test]
+fn a_sheet_inside_a_ball_or_under_a_floor_is_found() {
+    let sheet = |half: f64, height: f64| Shape::square(half, height);
+    let inside = |shape: &Shape, body: &Shape| {
+        let panels = vec![sheet(0.6, 3.0), shape.clone()];
+        Planted { panels, body: Some(body.clone()), ..Planted::default() }.verify()
+    };
+    let ball = Shape::ball(0.2);
+    for (half, height) in [(0.05, 0.0), (0.01, 0.19), (0.1, -0.1)] {
+        let verdict = inside(&sheet(half, height), &ball);
+        assert_eq!((verdict.intersections, verdict.enclosed.len()), (0, 1), "{verdict:?}");
+        assert_eq!((verdict.enclosed[0].panel, verdict.enclosed[0].body), (1, 0));
+        assert!(!verdict.holds());
+    }
+    for (half, height) in [(0.05, 0.21), (0.6, -0.21), (0.01, 0.2001)] {
+        let verdict = inside(&sheet(half, height), &ball);
+        assert!(verdict.holds(), "{verdict:?}");
+    }
+    let floor = Shape::square(50.0, 0.0);
+    assert_eq!(inside(&sheet(0.1, -0.5), &floor).enclosed.len(), 1);
+    assert!(inside(&sheet(0.1, 0.5), &floor).holds());
+    // An open bowl has no inside.
+    let mut bowl = ball.clone();
+    let upper = |corners: &[usize; 3]| corners.iter().all(|&k| bowl.vertices[k][1] >= 0.0);
+    let lower: Vec<_> = ball.triangles.iter().filter(|corners| !upper(corners)).copied().collect();
+    bowl.triangles = lower;
+    assert!(inside(&sheet(0.05, 0.0), &bowl).holds());
+}
+
+#[test]
+fn triangles_on_each_other_in_one_plane_are_found() {
+    let at = |x: f64| [[x, 0.1, 0.0], [x, 0.1, 0.1], [x + 0.1, 0.1, 0.0]];
+    let with = |x: f64| {
+        let panels = vec![Shape::triangle(at(0.0)), Shape::triangle(at(x))];
+        Planted { panels, ..Planted::default() }.verify()
+    };
+    for over in [0.0, 0.05, 0.1] {
+        assert_eq!(with(over).intersections, 1, "{over}");
+    }
+    assert!(with(0.1_f64.next_up()).holds());
+}
+
+#[test]
+fn a_flat_fold_is_found() {
+    let folded = |apex: Point| {
+        let vertices = vec![[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.05, 0.0, 0.1], apex];
+        let panel = Shape { vertices, triangles: vec![[0, 1, 2], [1, 0, 3]] };
+        Planted { panels: vec![panel], ..Planted::default() }.verify()
+    };
+    for flat in [[0.05, 0.0, 0.1], [0.03, 0.0, 0.05], [0.2, 0.0, 0.3]] {
+        assert_eq!(folded(flat).intersections, 1, "{flat:?}");
+    }
+    for open in [[0.05, f64::MIN_POSITIVE, 0.1], [0.05, 0.0, -0.1], [0.05, 1e-3, 0.1]] {
+        assert!(folded(open).holds(), "{open:?}");
+    }
+}
+
+#[test]
+fn sides_of_an_open_seam_that_cross_are_found() {
+    // The lower edge of the second panel is sewn to the upper edge of the first.
+    let first = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.05, -0.1, 0.0]];
+    let sewn = |edge: [Point; 2], apex: Point| {
+        let second = [edge[0], edge[1], apex];
+        let panels = vec![Shape::triangle(first), Shape::triangle(second)];
+        Planted { panels, twins: "[0, 3], [1, 4]", separation: 1e-3, ..Planted::default() }.verify()
+    };
+    let apart = |y: f64, z: f64| [[0.0, y, z], [0.1, y, z]];
+    // Closed, and open by 8 mm or by a hundredth of the separation.
+    assert!(sewn(apart(0.0, 0.0), [0.05, 0.1, 0.0]).holds());
+    for gap in [8e-3, 2e-5] {
+        assert!(sewn(apart(gap, 0.0), [0.05, 0.1, 0.0]).holds(), "{gap}");
+    }
+    // The second panel goes through the first, 8 mm or one rounding beyond.
+    for depth in [8e-3, 1e-6, f64::MIN_POSITIVE] {
+        let verdict = sewn(apart(-0.05, -depth), [0.05, -0.05, 0.1]);
+        assert_eq!(verdict.intersections, 1, "{depth}: {verdict:?}");
+    }
+    // One pair of twins has met, and the other side goes through.
+    let verdict = sewn([[0.0, 0.0, 0.0], [0.06, -0.05, -0.01]], [0.05, -0.04, 0.1]);
+    assert_eq!(verdict.intersections, 1, "{verdict:?}");
+}
