@@ -4,7 +4,23 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::record::recorder::{ARRAYS, ENERGY, FRAMES, KINDS, SUMMARY, SURFACES};
+/// Name of the file of the summary, which marks a folder as one of results.
+pub(crate) const SUMMARY: &str = "summary.json";
+
+/// Name of the file of the topology.
+pub(crate) const SURFACES: &str = "surfaces.json";
+
+/// Name of the list of frames.
+pub(crate) const FRAMES: &str = "frames.csv";
+
+/// Names of the arrays of the topology.
+pub(crate) const ARRAYS: [&str; 3] = ["material.npy", "triangles.npy", "body-triangles.npy"];
+
+/// Name of the balance of the energy at each frame.
+pub(crate) const ENERGY: &str = "energy.csv";
+
+/// Kinds of the arrays that frames have, by which their names begin.
+const KINDS: [&str; 3] = ["frame", "bodies", "pressure"];
 
 /// Files that a run has once: those of older versions and those of the command line among them.
 const SINGLE: [&str; 10] = [

@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::record::array;
 use crate::record::frame::Frame;
-use crate::record::manifest;
+use crate::record::manifest::{self, ARRAYS, ENERGY, FRAMES, SUMMARY, SURFACES};
 use crate::record::summary::Summary;
 use crate::record::topology::Topology;
 use crate::world::Energy;
@@ -20,24 +20,6 @@ use crate::world::Energy;
 pub struct Output {
     folder: PathBuf,
 }
-
-/// Name of the file of the summary, which marks a folder as one of results.
-pub(crate) const SUMMARY: &str = "summary.json";
-
-/// Name of the file of the topology.
-pub(crate) const SURFACES: &str = "surfaces.json";
-
-/// Name of the list of frames.
-pub(crate) const FRAMES: &str = "frames.csv";
-
-/// Names of the arrays of the topology.
-pub(crate) const ARRAYS: [&str; 3] = ["material.npy", "triangles.npy", "body-triangles.npy"];
-
-/// Name of the balance of the energy at each frame.
-pub(crate) const ENERGY: &str = "energy.csv";
-
-/// Kinds of the arrays that frames have, by which their names begin.
-pub(crate) const KINDS: [&str; 3] = ["frame", "bodies", "pressure"];
 
 /// Writer of the frames of a run.
 #[derive(Debug)]
