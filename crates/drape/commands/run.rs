@@ -5,6 +5,7 @@
 //! the triangles.
 
 mod report;
+pub(crate) mod space;
 
 use std::path::{Path, PathBuf};
 
@@ -99,6 +100,7 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
     }
     let folder = folder(path, arguments, scene.output.folder.as_ref());
     check_place(&folder, path, arguments)?;
+    space::check(&scene, path, &folder)?;
     let output = prepare_folder(&folder, arguments.force)?;
     let view = [scene.output.view.azimuth, scene.output.view.elevation];
     let garment = scene.sewing.is_some();
