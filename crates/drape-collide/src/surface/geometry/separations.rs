@@ -1,6 +1,8 @@
 //! Distances of pairs: those of their groups, less where pairs are close at rest, where distances
 //! grow and where bodies pinch.
 
+use serde::{Deserialize, Serialize};
+
 use super::parts::ContactDistances;
 use super::primitives::Primitives;
 use crate::surface::pair::PairKey;
@@ -9,7 +11,7 @@ use crate::surface::pair::PairKey;
 pub(crate) const THINNED_FRACTION: f64 = 0.1;
 
 /// Contact of a vertex of cloth with bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) enum PinchState {
     /// Usual contact.
     #[default]
