@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use drape_input::{Diagnostic, Diagnostics, Document, Faults, closest, excerpt, figure, tidy};
 
@@ -58,6 +58,17 @@ impl<'a> Checker<'a> {
     /// Document of the file.
     pub(crate) fn document(&self) -> &'a Document {
         self.document
+    }
+
+    /// Returns the path of a file that the scene names at a key; adds a mistake where the path leads
+    /// out of the folders of the scene.
+    pub(crate) fn locate(&mut self, key: &str, name: &str) -> Option<PathBuf> {
+        let path = self.folder.join(name);
+        if self.given(&path).is_some() {
+            return Some(path);
+        }
+        let located = self.document.beside(name);
+        located.map_err(|misplaced| self.fail(key, misplaced.to_string(), &misplaced.help())).ok()
     }
 
     /// Document given along with the scene for a path.
