@@ -21,6 +21,16 @@ pub enum Error {
         /// What does not fit, in words.
         reason: String,
     },
+    /// Frames that a checkpoint counts are missing: take an earlier one, or run the scene anew.
+    #[error("{} has {found} frames, of {frames} that the checkpoint counts; run the scene anew with --force", path.display())]
+    LostFrames {
+        /// The list of frames.
+        path: PathBuf,
+        /// Number of those that are listed.
+        found: usize,
+        /// Number of those that there should be.
+        frames: usize,
+    },
     /// The folder for the results is there already: give another one, or allow it to be replaced.
     #[error("{} holds results already; give another folder, or allow it with --force", folder.display())]
     Occupied {

@@ -15,7 +15,7 @@ mod record;
 
 pub use error::Error;
 pub use record::frame::Frame;
-pub use record::recorder::{Output, Recorder, prepare_folder};
+pub use record::recorder::{Output, Recorder, SavedRecorder, prepare_folder};
 pub use record::snapshot::{Body, Snapshot};
 pub use record::summary::{Contacts, Phase, PhaseName, Solver, Status, Strain, Summary};
 pub use record::topology::{Part, Topology};
