@@ -43,6 +43,20 @@ struct Numbered {
     path: PathBuf,
 }
 
+impl Found {
+    /// Removes those that are damaged, so that they are not among the two that are kept.
+    ///
+    /// # Errors
+    /// When one cannot be removed.
+    pub fn remove_damaged(&self) -> Result<(), Error> {
+        for Damaged { path, .. } in &self.damaged {
+            let fail = |reason| Error::Write { path: path.clone(), reason };
+            fs::remove_file(path).map_err(fail)?;
+        }
+        Ok(())
+    }
+}
+
 impl Store {
     /// Store in a folder, which need not be there before the first checkpoint is written.
     #[must_use]

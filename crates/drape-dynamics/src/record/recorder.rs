@@ -82,6 +82,12 @@ fn remove_left(path: &Path) -> io::Result<()> {
 }
 
 impl Output {
+    /// Folder of a run that goes on.
+    #[must_use]
+    pub fn of_run(folder: &Path) -> Self {
+        Self { folder: folder.to_owned() }
+    }
+
     /// Path of a file in the folder.
     #[must_use]
     pub fn path(&self, name: &str) -> PathBuf {
@@ -274,11 +280,7 @@ fn energy_lines(frame: &Frame, energy: &Energy) -> io::Result<[String; 2]> {
 }
 
 /// Appends a line to a table; one that is not there yet begins with the names of its columns.
-fn append(
-    table: &mut Option<fs::File>,
-    path: &Path,
-    [names, line]: [String; 2],
-) -> io::Result<()> {
+fn append(table: &mut Option<fs::File>, path: &Path, [names, line]: [String; 2]) -> io::Result<()> {
     let file = match table {
         Some(file) => file,
         None => {

@@ -41,9 +41,8 @@ impl Content<'_> {
     /// Returns the digests of the text, of each fabric, of the cloth at its start and of each body.
     pub(crate) fn parts(&self) -> Vec<SourcePart> {
         let part = |name: String, digest: blake3::Hash| SourcePart { name, digest: digest.into() };
-        let file = self.document.path().display();
         let mut parts =
-            vec![part(format!("the scene {file}"), blake3::hash(self.document.text().as_bytes()))];
+            vec![part("the scene".into(), blake3::hash(self.document.text().as_bytes()))];
         for Material { name, fabric, .. } in self.materials {
             let digest = blake3::hash(fabric.to_toml().as_bytes());
             parts.push(part(format!("the fabric \"{name}\""), digest));
