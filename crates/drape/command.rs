@@ -12,7 +12,7 @@ use crate::commands::export::{self, ExportArguments};
 use crate::commands::fabric::{self, FabricCommand};
 use crate::commands::fit::{self, FitArguments};
 use crate::commands::new::{self, NewArguments};
-use crate::commands::resume::{self, ResumeArguments};
+use crate::commands::run::resume::{self, ResumeArguments};
 use crate::commands::run::{self, RunArguments};
 use crate::commands::schema::{self, SchemaArguments};
 use crate::commands::shell::{self, CompletionsArguments, ManArguments};

@@ -7,8 +7,7 @@
 //!
 //! [`sheets`] is shared by the commands that read sheets. Of the commands, [`test`] reads its
 //! fabric through [`fabric`], which stores its page through [`fit`], [`new`] has the schemas of
-//! [`schema`], [`export`] the options of pictures of [`show`], and [`resume`] goes on with the jobs
-//! of [`run`]; no other knows another.
+//! [`schema`], [`export`] the options of pictures of [`show`], no other knows another.
 
 pub(crate) mod bench;
 pub(crate) mod check;
@@ -17,7 +16,6 @@ pub(crate) mod export;
 pub(crate) mod fabric;
 pub(crate) mod fit;
 pub(crate) mod new;
-pub(crate) mod resume;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod shell;

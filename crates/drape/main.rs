@@ -34,6 +34,7 @@ const PANICKED: &str = "error: this is a mistake of the program, not of its inpu
      the lines above. A run goes on from its last checkpoint with `drape resume FOLDER`";
 
 fn main() -> ExitCode {
+    signal::let_large_files_fail();
     let command = command::CommandLine::parse();
     // A panic has told where it was; what the command wrote until then is whole.
     match catch_unwind(AssertUnwindSafe(|| command.execute())) {

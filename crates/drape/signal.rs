@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::sync::{Arc, LazyLock, Once, OnceLock};
 use std::time::{Duration, Instant};
 
+use rustix::process::Signal;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
@@ -25,6 +26,13 @@ static GIVE_UP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 static RECEIVED: AtomicU8 = AtomicU8::new(0);
 
 static WATCH: Once = Once::new();
+
+/// Lets a file beyond the limit of its size fail as one on a full disk does, instead of ending the
+/// program.
+pub(crate) fn let_large_files_fail() {
+    // Where that is not possible, the signal ends the program as before.
+    let _ = signal_hook::flag::register(Signal::XFSZ.as_raw(), Arc::new(AtomicBool::new(false)));
+}
 
 /// Begins to note signals instead of ending at once. Where they cannot be watched, they end the
 /// program as before.

@@ -14,6 +14,7 @@ pub(crate) mod documents;
 mod fabrics;
 mod garment;
 mod hash;
+pub(crate) mod memory;
 mod motion;
 mod panel;
 mod pins;

@@ -6,6 +6,8 @@
 
 pub(crate) mod job;
 pub(crate) mod report;
+pub(crate) mod resume;
+pub(crate) mod space;
 
 use std::path::{Path, PathBuf};
 
@@ -113,6 +115,7 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
              anew with --force"
         )));
     }
+    space::check(&scene, path, &folder)?;
     let lock = Lock::take(&folder)?;
     let output = prepare_folder(&folder, arguments.force)?;
     let every = arguments.checkpoint_every;

@@ -71,6 +71,13 @@ pub(crate) fn garments(
             }
         }
         first += garment.panels.iter().map(|own| own.positions.len() / 3).sum::<usize>();
+        if first > checker.particles_max {
+            let message = format!(
+                "the scene has {first} particles with it, and there is memory for {}",
+                checker.particles_max
+            );
+            checker.fail(&format!("{key}.pattern"), message, "write a larger spacing");
+        }
         garments.push(garment);
     }
     let seams = garments.iter().flat_map(|garment| &garment.seams);
