@@ -1,5 +1,5 @@
-//! What keeps a run: its lock, what was asked for, checkpoints, limits, and its status for whoever
-//! watches.
+//! What keeps a run: its lock, what was asked for, checkpoints, limits, signals that end it, and its
+//! status for whoever watches.
 //!
 //! A run keeps in its folder, beside its results, `run.json` (what was asked for), `status.json` (how
 //! far it is), two checkpoints, and the file of its lock. [`Keeper`] writes them as the run goes.
@@ -8,6 +8,7 @@ mod keeper;
 mod limits;
 mod lock;
 mod request;
+pub(crate) mod signal;
 mod status;
 
 pub(crate) use keeper::{Keeper, Kept};

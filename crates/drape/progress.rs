@@ -10,8 +10,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
 use crate::console::{Console, ProgressKind, tell};
+use crate::keep::signal;
 use crate::keep::{Advance, Keeper};
-use crate::signal;
 
 /// Returns a progress bar on stderr, silent where that is no terminal or none is asked for, with a
 /// template of indicatif for the text beside it.

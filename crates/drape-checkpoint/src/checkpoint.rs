@@ -12,7 +12,7 @@ use crate::identity::Identity;
 const MAGIC: &[u8; 8] = b"DRAPECKP";
 
 /// Version of the format.
-pub(crate) const VERSION: u32 = 1;
+const VERSION: u32 = 1;
 
 /// Name of the section of the identity, which is the first.
 const IDENTITY: &str = "identity";
@@ -130,7 +130,7 @@ impl Checkpoint {
         }
         let version = u32::from_le_bytes(rest.array()?);
         if version != VERSION {
-            return Err(Damage::Version { found: version });
+            return Err(Damage::Version { found: version, known: VERSION });
         }
         let count = u32::from_le_bytes(rest.array()?);
         let mut sections = Vec::new();
@@ -222,7 +222,7 @@ mod tests {
         assert_eq!(Checkpoint::decode(b"solid cube\nfacet normal 0 0 1"), Err(Damage::Magic));
         let mut later = bytes();
         later[8] = 2;
-        assert_eq!(Checkpoint::decode(&later), Err(Damage::Version { found: 2 }));
+        assert_eq!(Checkpoint::decode(&later), Err(Damage::Version { found: 2, known: 1 }));
     }
 
     #[test]

@@ -48,10 +48,12 @@ pub enum Damage {
     #[error("it is no checkpoint")]
     Magic,
     /// The file is of another version of the format.
-    #[error("it has version {found} of the format, not {}", crate::checkpoint::VERSION)]
+    #[error("it has version {found} of the format, not {known}")]
     Version {
         /// Version of the file.
         found: u32,
+        /// Version that is known.
+        known: u32,
     },
     /// The file ends too early, or goes on behind its end.
     #[error("it is cut off, or goes on behind its end")]

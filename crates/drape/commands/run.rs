@@ -20,9 +20,9 @@ use serde_json::json;
 use self::job::{Job, RunOptions};
 use self::report::outcome;
 use crate::failure::Failure;
-use crate::keep::{Keeper, Lock, RunRequest};
+use crate::keep::{Keeper, Lock, RunRequest, signal};
 use crate::say::{say, say_json};
-use crate::{file, input, signal};
+use crate::{file, input};
 
 #[derive(Args)]
 pub(crate) struct RunArguments {

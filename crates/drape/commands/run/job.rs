@@ -13,13 +13,13 @@ use drape::scene::Scene;
 use super::report::describe;
 use crate::console::note;
 use crate::failure::Failure;
-use crate::keep::{Keeper, Kept, Limits, Lock};
+use crate::file;
+use crate::keep::{Keeper, Kept, Limits, Lock, signal};
 use crate::pages::picture::{self, Pictures};
 use crate::pages::strain_map::draw_strains;
 use crate::pages::viewer::{self, ViewerPage};
 use crate::progress::RunProgress;
 use crate::say::{say, say_written};
-use crate::{file, signal};
 
 /// Time after a signal up to which a picture of the last frame is still drawn.
 const PICTURE_MAX: Duration = Duration::from_millis(700);

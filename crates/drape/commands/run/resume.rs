@@ -13,9 +13,9 @@ use crate::commands::run::job::{Job, Resumption, RunOptions};
 use crate::commands::run::report::outcome;
 use crate::console::tell;
 use crate::failure::Failure;
-use crate::keep::{Keeper, Kept, Lock, RunRequest, positive, status_of};
+use crate::input;
+use crate::keep::{Keeper, Kept, Lock, RunRequest, positive, signal, status_of};
 use crate::say::say_json;
-use crate::{input, signal};
 
 #[derive(Args)]
 pub(crate) struct ResumeArguments {
