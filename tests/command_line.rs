@@ -1,6 +1,9 @@
 //! The command line: files to start from, results that are there already, several scenes, signals,
 //! completions and manual pages.
 
+#[path = "command_line/resume.rs"]
+mod resume;
+
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -156,7 +159,9 @@ fn an_interrupted_run_leaves_a_summary_the_last_frame_and_a_picture() {
 fn shells_and_man_know_every_command() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     succeeds(folder.path(), &["man", "-o", "man"]);
-    for name in ["new", "fit", "fabric", "run", "validate", "test", "check", "bench", "schema"] {
+    for name in
+        ["new", "fit", "fabric", "run", "resume", "validate", "test", "check", "bench", "schema"]
+    {
         let page = std::fs::read_to_string(folder.path().join(format!("man/drape-{name}.1")));
         assert!(page.expect("a page").contains(".SH"), "drape-{name}.1");
         for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
@@ -165,7 +170,7 @@ fn shells_and_man_know_every_command() {
         }
     }
     let help = succeeds(folder.path(), &["--help"]);
-    for code in ["0 ", "2 ", "3 ", "4 ", "5 ", "6 ", "7 ", "130"] {
+    for code in ["0 ", "2 ", "3 ", "4 ", "5 ", "6 ", "7 ", "8 ", "70", "130"] {
         assert!(help.contains(&format!("\n  {code}")), "exit code {code}");
     }
 }

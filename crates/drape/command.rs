@@ -12,6 +12,7 @@ use crate::commands::export::{self, ExportArguments};
 use crate::commands::fabric::{self, FabricCommand};
 use crate::commands::fit::{self, FitArguments};
 use crate::commands::new::{self, NewArguments};
+use crate::commands::run::resume::{self, ResumeArguments};
 use crate::commands::run::{self, RunArguments};
 use crate::commands::schema::{self, SchemaArguments};
 use crate::commands::shell::{self, CompletionsArguments, ManArguments};
@@ -33,7 +34,9 @@ Exit codes:
   5    the solver failed, or the cloth did not come to rest
   6    a file could not be read or written
   7    a figure of the validation is beyond its limit
-  130  interrupted (143: terminated); summary, last frame and picture are written
+  8    a run came to --max-wall, --max-memory or --max-disk; `drape resume` goes on
+  70   the program failed in a way that it should not
+  130  interrupted (143: terminated); `drape resume` goes on
 
 Results that are there already, of a run, a fit, an export or `new`, are replaced with --force
 only; pages and figures are replaced always. Data go to stdout, messages and progress to stderr;
@@ -82,6 +85,9 @@ enum Command {
     Fabric(FabricCommand),
     /// Simulates scenes: frames, a picture and summary.json of each.
     Run(RunArguments),
+    /// Goes on with a run that was interrupted, from its last checkpoint, to the results that it would
+    /// have had; or with one that has ended, beyond its end.
+    Resume(ResumeArguments),
     /// Compares simulations with exact solutions and measurements.
     Validate(ValidateArguments),
     /// Tests specimens of a fabric in simulated KES instruments and compares the loops with its
@@ -133,6 +139,7 @@ impl Command {
             Self::Fit(arguments) => fit::fit(arguments),
             Self::Fabric(command) => fabric::fabric(command),
             Self::Run(arguments) => run::run(arguments),
+            Self::Resume(arguments) => resume::resume(arguments),
             Self::Validate(arguments) => validate::validate(arguments),
             Self::Test(arguments) => test::test(arguments),
             Self::Check(arguments) => check::check(arguments),

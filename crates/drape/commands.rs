@@ -7,7 +7,7 @@
 //!
 //! [`sheets`] is shared by the commands that read sheets. Of the commands, [`test`] reads its
 //! fabric through [`fabric`], which stores its page through [`fit`], [`new`] has the schemas of
-//! [`schema`], and [`export`] the options of pictures of [`show`]; no other knows another.
+//! [`schema`], [`export`] the options of pictures of [`show`], no other knows another.
 
 pub(crate) mod bench;
 pub(crate) mod check;

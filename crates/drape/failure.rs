@@ -28,6 +28,8 @@ pub(crate) enum Failure {
     Solver(String),
     /// Exit code 7: a figure is beyond its limit.
     Limit(String),
+    /// Exit code 8: a run came to a limit that the user set.
+    Stopped(String),
     /// Exit code 128 and the number of the signal: the program was asked to end.
     Interrupted { signal: u8, message: String },
     /// The code of the first failure of several, each of which was reported.
@@ -52,6 +54,7 @@ impl Failure {
             Self::Solver(_) => 5,
             Self::Output(_) => 6,
             Self::Limit(_) => 7,
+            Self::Stopped(_) => 8,
             Self::Interrupted { signal, .. } => 128 + signal,
             Self::Several { code } => *code,
         }
@@ -101,6 +104,7 @@ impl fmt::Display for Failure {
             | Self::Solver(message)
             | Self::Output(message)
             | Self::Limit(message)
+            | Self::Stopped(message)
             | Self::Interrupted { message, .. } => f.write_str(message),
             Self::Several { .. } => f.write_str("not all scenes could be run"),
             Self::Input(mistakes) => mistakes.fmt(f),

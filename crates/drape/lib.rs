@@ -46,6 +46,7 @@ pub use drape_implicit as implicit;
 pub use drape_scene as scene;
 
 // Results.
+pub use drape_checkpoint as checkpoint;
 pub use drape_export as export;
 pub use drape_frames as frames;
 pub use drape_report as report;

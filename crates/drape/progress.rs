@@ -2,13 +2,16 @@
 
 use std::time::Duration;
 
-use drape::dynamics::{Error, Frame, PhaseName, Progress, Recorder, Simulation, Step};
+use drape::dynamics::{
+    Error, Frame, PhaseName, Progress, Recorder, SavedSimulation, Simulation, Step,
+};
 use drape::scene::Relaxation;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
 use crate::console::{Console, ProgressKind, tell};
-use crate::signal;
+use crate::keep::signal;
+use crate::keep::{Advance, Keeper};
 
 /// Returns a progress bar on stderr, silent where that is no terminal or none is asked for, with a
 /// template of indicatif for the text beside it.
@@ -32,6 +35,7 @@ pub(crate) struct RunProgress<'a> {
     /// Latest frame.
     pub(crate) last: Option<Frame>,
     goal: Goal,
+    pub(crate) keeper: Keeper,
 }
 
 /// Goal of a run: a time, or rest.
@@ -116,12 +120,13 @@ fn phase_name(phase: PhaseName) -> &'static str {
 }
 
 impl<'a> RunProgress<'a> {
-    /// Starts the progress of a simulation, with a name, a length of its steps in s, and a recorder.
+    /// Starts the progress of a simulation, with a name and a length of its steps in s, for which a
+    /// recorder and a keeper write.
     pub(crate) fn new(
-        name: &'a str,
+        (name, step): (&'a str, f64),
         simulation: &Simulation,
-        step: f64,
         recorder: Recorder<'a>,
+        keeper: Keeper,
     ) -> Self {
         let bar = bar(PARTS as u64, "{percent} %  {msg}");
         bar.enable_steady_tick(Duration::from_millis(250));
@@ -132,7 +137,7 @@ impl<'a> RunProgress<'a> {
             phase: PhaseName::Simulate,
             farthest: 1.0,
         };
-        Self { name, bar, recorder, last: None, goal }
+        Self { name, bar, recorder, last: None, goal, keeper }
     }
 
     pub(crate) fn finish(&self) {
@@ -146,6 +151,7 @@ impl Progress for RunProgress<'_> {
             self.bar.suspend(|| tell(format_args!("warning: {event}")));
         });
         let done = self.goal.done(step, ticks);
+        self.keeper.step(Advance { phase: step.phase, done, time: step.time });
         let console = Console::get();
         if console.progress == ProgressKind::Json {
             tell(json!({
@@ -168,7 +174,15 @@ impl Progress for RunProgress<'_> {
         Ok(())
     }
 
+    fn is_checkpoint_due(&self) -> bool {
+        self.keeper.is_due()
+    }
+
+    fn checkpoint(&mut self, saved: &SavedSimulation) -> Result<(), Error> {
+        self.keeper.keep(saved, &self.recorder.save()?)
+    }
+
     fn is_interrupted(&self) -> bool {
-        signal::received().is_some()
+        signal::received().is_some() || self.keeper.reached().is_some()
     }
 }

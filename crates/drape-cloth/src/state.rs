@@ -1,6 +1,7 @@
 //! State of a cloth: positions, velocities and memories, all that changes in time.
 
 use drape_fabric::{Memories, Memory};
+use serde::{Deserialize, Serialize};
 
 use crate::kernel::memories::GridMemories;
 use crate::rim::memories::RimMemories;
@@ -12,7 +13,7 @@ use crate::rim::memories::RimMemories;
 ///
 /// Vectors are flat: particle `i` has the numbers `3i`, `3i + 1`, `3i + 2`. Only
 /// [`Cloth::commit`](crate::Cloth::commit) writes the memories.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Positions of the particles, in m.
     pub positions: Vec<f64>,
@@ -31,6 +32,18 @@ impl State {
     #[must_use]
     pub fn normals(&self) -> &[f64] {
         &self.normals
+    }
+
+    /// Returns whether this may follow another state of the same cloth: it has as many particles and
+    /// connectors, and positions, velocities and normals are finite.
+    #[must_use]
+    pub fn may_follow(&self, other: &Self) -> bool {
+        let vectors = |own: &Self| [&own.positions, &own.velocities, &own.normals].map(Vec::len);
+        let mut numbers = self.positions.iter().chain(&self.velocities).chain(&self.normals);
+        vectors(self) == vectors(other)
+            && numbers.all(|number| number.is_finite())
+            && self.grid.has_lengths_of(&other.grid)
+            && self.rim.has_lengths_of(&other.rim)
     }
 
     /// All memories, for hashing and comparing, in a fixed order; those of rims come last. Where

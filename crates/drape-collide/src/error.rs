@@ -260,6 +260,9 @@ pub enum Error {
         /// Largest drift that the pairs allow, in m.
         budget: f64,
     },
+    /// A state of contact that was saved has numbers that no contact has: take an earlier one.
+    #[error("the saved state of contact has numbers that no contact has")]
+    SavedContact,
 }
 
 /// Checks a number against its range.

@@ -15,10 +15,12 @@ mod record;
 
 pub use error::Error;
 pub use record::frame::Frame;
-pub use record::recorder::{Output, Recorder, prepare_folder};
+pub use record::recorder::{Output, Recorder, SavedRecorder, prepare_folder};
 pub use record::snapshot::{Body, Snapshot};
 pub use record::summary::{Contacts, Phase, PhaseName, Solver, Status, Strain, Summary};
 pub use record::topology::{Part, Topology};
-pub use simulation::{Progress, Simulation, Step};
+pub use simulation::run::Progress;
+pub use simulation::saved::SavedSimulation;
+pub use simulation::{Simulation, Step};
 pub use stepping::Scheme;
 pub use world::{Energy, PinLoad};

@@ -2,15 +2,23 @@
 //!
 //! A run has up to three phases: a garment is sewn, the cloth comes to rest, bodies and pins move.
 //! Steps are made by the chapter `stepping`; after each of them the simulation asks whether the
-//! phase, or the run, is over.
+//! phase, or the run, is over. `run.rs` makes them all, watched; `saved.rs` is what a run goes on
+//! from after it was interrupted.
+
+pub(crate) mod run;
+pub(crate) mod saved;
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use drape_implicit::{Report, Stop};
 use drape_scene::{Relaxation, Scene, Source};
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::measure::garment_parts::GarmentParts;
 use crate::measure::open_seam::{OpenSeam, STRETCHED_MAX};
-use crate::measure::{at_particles, fallen, measures, note_slides, warnings};
+use crate::measure::{fallen, note_slides};
 use crate::record::frame::Frame;
 use crate::record::snapshot::Snapshot;
 use crate::record::state_hash::state_hash;
@@ -85,7 +93,7 @@ pub struct Simulation {
 }
 
 /// Phases of a run.
-#[derive(Debug)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct Phases {
     begun: Vec<Phase>,
     /// Time for which bodies and pins move once the cloth is at rest, in s, until they do.
@@ -95,7 +103,7 @@ struct Phases {
 }
 
 /// Motion of the cloth after the last step.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct LastStep {
     /// Largest speed of a particle, in m/s.
     speed_max: f64,
@@ -137,27 +145,6 @@ pub struct Step {
     /// Whether the simulation is over.
     pub finished: bool,
 }
-
-/// Watcher of a running simulation. `()` watches nothing.
-pub trait Progress {
-    /// Is called after a step, with the time in ticks of the clock.
-    fn step(&mut self, _step: &Step, _ticks: usize) {}
-
-    /// Is called when a frame is due.
-    ///
-    /// # Errors
-    /// Whatever keeps the frame from being stored; the run then ends with it.
-    fn frame(&mut self, _frame: &Frame) -> Result<(), Error> {
-        Ok(())
-    }
-
-    /// Returns whether the run is to end after this step, as if it were asked to by a person.
-    fn is_interrupted(&self) -> bool {
-        false
-    }
-}
-
-impl Progress for () {}
 
 impl Simulation {
     /// Prepares a scene.
@@ -215,6 +202,11 @@ impl Simulation {
     #[must_use]
     pub fn ticks_to_do(&self) -> usize {
         self.stepping.clock().ticks_to_do()
+    }
+
+    /// Gives up the step in hand as soon as a flag is set, wherever the solver is in it.
+    pub fn give_up_when(&mut self, flag: Arc<AtomicBool>) {
+        self.world.cancel = Some(flag);
     }
 
     /// Returns the time so far, in s.
@@ -339,57 +331,6 @@ impl Simulation {
             phase: self.phase(),
             finished: self.is_at_rest() || self.outcome.status != Status::Ok || over,
         })
-    }
-
-    /// Runs to the end, to rest, or to a step that cannot be solved; the summary says how it ended.
-    ///
-    /// # Errors
-    /// Only those of the watcher.
-    pub fn run(&mut self, progress: &mut dyn Progress) -> Result<Summary, Error> {
-        self.emit_frame(progress)?;
-        let ticks_per_frame = self.stepping.clock().ticks_per_frame;
-        loop {
-            let frames = self.stepping.ticks() / ticks_per_frame;
-            let phases = self.phases.begun.len();
-            let step = match self.step() {
-                Ok(step) => step,
-                Err(error) => {
-                    self.fail(&error);
-                    break;
-                }
-            };
-            progress.step(&step, self.stepping.ticks());
-            let interrupted = !step.finished && progress.is_interrupted();
-            let due = self.stepping.ticks() / ticks_per_frame > frames;
-            if step.finished || interrupted || due || self.phases.begun.len() > phases {
-                self.emit_frame(progress)?;
-            }
-            if interrupted {
-                self.outcome.status = Status::Interrupted;
-                break;
-            }
-            if step.finished {
-                if self.outcome.status == Status::Ok && self.settles() && !self.has_settled() {
-                    self.outcome.status = Status::DidNotSettle;
-                    self.outcome.reason = self.parts.first_slide();
-                }
-                break;
-            }
-        }
-        self.outcome.measures = measures(&self.parts, &mut self.world);
-        self.outcome.warnings = self.outcome.events.clone();
-        self.outcome.warnings.extend(warnings(&self.parts, &self.world));
-        self.outcome.warnings.extend(self.unfinished_growth());
-        Ok(self.summary())
-    }
-
-    /// Hands the next frame to the watcher.
-    fn emit_frame(&mut self, progress: &mut dyn Progress) -> Result<(), Error> {
-        let mut frame = self.frame();
-        frame.pressures = at_particles(&mut self.world, &frame.positions);
-        progress.frame(&frame)?;
-        self.frame_times.push(self.time());
-        Ok(())
     }
 
     /// Returns the phase that the run is in.

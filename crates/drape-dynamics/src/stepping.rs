@@ -16,6 +16,7 @@
 mod accuracy;
 mod phase_steps;
 mod rest;
+pub(crate) mod saved;
 mod scheme;
 mod step_control;
 
@@ -64,7 +65,7 @@ pub(crate) struct MadeStep {
 }
 
 /// State of a world and its integrator, to which a step may be taken back.
-struct Checkpoint {
+struct StepStart {
     integrator: IntegratorState,
     cloth: State,
     balance: Option<EnergyBalance>,
@@ -158,7 +159,7 @@ impl Stepping {
                 self.ticks += ticks;
                 return Ok(MadeStep { ticks, report });
             }
-            let start = self.checkpoint(world);
+            let start = self.step_start(world);
             self.predict(world, dt);
             let report = self.integrate(world, dt)?;
             let error = self.estimate_error();
@@ -167,7 +168,7 @@ impl Stepping {
                 self.ticks += ticks;
                 return Ok(MadeStep { ticks, report });
             }
-            self.restore(world, start);
+            self.take_back(world, start);
             statistics.add_inexact(&report);
         }
     }
@@ -285,8 +286,8 @@ impl Stepping {
         }
     }
 
-    fn checkpoint(&self, world: &World) -> Checkpoint {
-        Checkpoint {
+    fn step_start(&self, world: &World) -> StepStart {
+        StepStart {
             integrator: self.state.clone(),
             cloth: world.state.clone(),
             balance: world.balance.clone(),
@@ -295,7 +296,7 @@ impl Stepping {
         }
     }
 
-    fn restore(&mut self, world: &mut World, start: Checkpoint) {
+    fn take_back(&mut self, world: &mut World, start: StepStart) {
         self.state = start.integrator;
         world.state = start.cloth;
         world.balance = start.balance;

@@ -26,7 +26,11 @@ mod internal_forces;
 mod momentum_removal;
 mod motion_clock;
 mod pins;
+pub(crate) mod saved;
 mod system;
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use drape_cloth::{Cloth, SeamBending, State};
 use drape_implicit::System;
@@ -66,6 +70,8 @@ pub(crate) struct World {
     pub(crate) balance: Option<EnergyBalance>,
     /// Whether the balance is asked for.
     with_balance: bool,
+    /// Flag that gives up the step in hand.
+    pub(crate) cancel: Option<Arc<AtomicBool>>,
 }
 
 /// Seams while a garment is sewn.
@@ -121,6 +127,7 @@ impl World {
             seams,
             balance: None,
             with_balance,
+            cancel: None,
         };
         world.set_relaxing(is_sewing || schedule.relaxation.is_some_and(|own| !own.inertia));
         // The balance of a garment begins when it is sewn.

@@ -96,6 +96,9 @@ pub enum Error {
          use Broyden's or Newton's method"
     )]
     UnfilteredMethod,
+    /// The system asked for the end of the step: take it back, or go on from the last sub-step.
+    #[error("the step was given up as asked")]
+    Cancelled,
     /// The sparse factorisation does not fit into memory; conjugate gradients need far less.
     #[error("no memory to factorise a matrix of {blocks} blocks; use conjugate gradients")]
     TooLarge {

@@ -68,6 +68,12 @@ pub trait System {
         0
     }
 
+    /// Whether the step in hand is to be given up. Asked in every iteration; the step then ends with
+    /// [`Error::Cancelled`](crate::Error::Cancelled).
+    fn is_cancelled(&self) -> bool {
+        false
+    }
+
     /// Ends an accepted (sub)step: the memory may advance to its end positions, in m, and
     /// velocities, in m/s.
     fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64);

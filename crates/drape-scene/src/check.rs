@@ -138,6 +138,7 @@ pub(crate) fn check(
     let source = Source {
         file: document.path().to_owned(),
         hash: content.hash(),
+        parts: content.parts(),
         notes,
         contact_limits: Vec::new(),
     };

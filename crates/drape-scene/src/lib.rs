@@ -28,7 +28,7 @@ pub use scene::relaxation::Relaxation;
 pub use scene::seam::{Seam, SeamConstraint, SeamPairs, SeamWeight};
 pub use scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
 pub use scene::{
-    Environment, MeshSource, MovingBody, Output, Scene, Schedule, Source, Start, View,
+    Environment, MeshSource, MovingBody, Output, Scene, Schedule, Source, SourcePart, Start, View,
 };
 pub use surfaces::StartSurfaces;
 pub use tangle::{Overlap, Tangle};

@@ -118,11 +118,23 @@ pub struct Source {
     pub file: PathBuf,
     /// Hash of the scene and of all files it names.
     pub hash: String,
+    /// The same part by part, by which a change is named: the text, each fabric, the cloth at its
+    /// start, each body.
+    pub parts: Vec<SourcePart>,
     /// Notes for the user: on patterns, bodies, layers, and the cost of the simulation.
     pub notes: Vec<String>,
     /// What contact cannot promise on the bodies, a sentence each: where a body passes through its
     /// own surface.
     pub contact_limits: Vec<String>,
+}
+
+/// Part of what a scene was read from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SourcePart {
+    /// What it is, in words.
+    pub name: String,
+    /// BLAKE3 digest of its content.
+    pub digest: [u8; 32],
 }
 
 /// State of the particles at the start.

@@ -1,32 +1,28 @@
 //! `drape run`: simulates a scene and stores its frames, a picture and `summary.json`.
 //!
-//! The scene is read and checked, its simulation records frames as it goes, and [`report`] puts the
-//! summary into words. A scene that starts with intersecting surfaces is refused, with a file of
+//! The scene is read and checked; [`job`] records frames and checkpoints as it goes, and [`report`]
+//! puts the summary into words. A scene that starts with intersecting surfaces is refused, with a file of
 //! the triangles.
 
-mod report;
+pub(crate) mod job;
+pub(crate) mod report;
+pub(crate) mod resume;
 pub(crate) mod space;
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use drape::dynamics::{Simulation, Snapshot, Summary, prepare_folder};
-use drape::export::write_obj;
-use drape::frames::Recording;
+use drape::dynamics::{Summary, prepare_folder};
 use drape::input::Places;
-use drape::report::Picture;
-use drape::scene::{Error, Scene};
+use drape::scene::Error;
 use serde_json::json;
 
-use self::report::{describe, outcome};
-use crate::console::note;
+use self::job::{Job, RunOptions};
+use self::report::outcome;
 use crate::failure::Failure;
-use crate::pages::picture::{self, Pictures};
-use crate::pages::strain_map::draw_strains;
-use crate::pages::viewer::{self, ViewerPage};
-use crate::progress::RunProgress;
-use crate::say::{say, say_json, say_written};
-use crate::{file, input, signal};
+use crate::keep::{Keeper, Lock, RunRequest, signal};
+use crate::say::{say, say_json};
+use crate::{file, input};
 
 #[derive(Args)]
 pub(crate) struct RunArguments {
@@ -44,33 +40,45 @@ pub(crate) struct RunArguments {
     /// Replaces the results of an earlier run.
     #[arg(long)]
     pub(crate) force: bool,
-    /// Draws no picture, no map of strains and no view.
-    #[arg(long)]
-    pub(crate) no_picture: bool,
-    /// Prints the summary as JSON, those of several scenes as a list.
-    #[arg(long)]
-    pub(crate) json: bool,
+    /// Time between two checkpoints, in seconds; there is one at the end of each phase, too.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
+    pub(crate) checkpoint_every: f64,
+    #[command(flatten)]
+    pub(crate) options: RunOptions,
+}
+
+/// Run that has ended.
+struct Ran {
+    summary: Summary,
+    folder: PathBuf,
+}
+
+/// Reads a time that is not negative.
+fn seconds(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "no number".to_owned())?;
+    let is_right = (0.0..=1e9).contains(&number);
+    if is_right { Ok(number) } else { Err("not a time from 0 to 1e9 s".into()) }
 }
 
 /// Executes `drape run`.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     signal::watch();
     if let [scene] = &arguments.scenes[..] {
-        let summary = run_scene(scene, arguments)?;
-        if arguments.json {
+        let Ran { summary, folder } = run_scene(scene, arguments)?;
+        if arguments.options.json {
             say_json(&summary)?;
         }
-        return outcome(summary);
+        return outcome(summary, &folder);
     }
     let mut summaries = Vec::new();
     let mut code = None;
     for scene in &arguments.scenes {
-        if !arguments.json {
+        if !arguments.options.json {
             say(format_args!("{}:", input::shown(scene).display()))?;
         }
-        let ended = run_scene(scene, arguments).and_then(|summary| {
+        let ended = run_scene(scene, arguments).and_then(|Ran { summary, folder }| {
             summaries.push(json!({ "scene": input::shown(scene), "summary": summary }));
-            outcome(summary)
+            outcome(summary, &folder)
         });
         if let Err(failure) = ended {
             failure.print();
@@ -81,14 +89,14 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
             }
         }
     }
-    if arguments.json {
+    if arguments.options.json {
         say_json(&summaries)?;
     }
     code.map_or(Ok(()), |code| Err(Failure::Several { code }))
 }
 
 /// Runs one scene, stores its results and says what came out; a run that fails has a summary too.
-fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> {
+fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
     let read = drape::scene_of(&input::document(path)?);
     let mut scene = read.map_err(|error| refuse(error, path, arguments))?;
     if let Some(end) = arguments.until {
@@ -100,70 +108,22 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
     }
     let folder = folder(path, arguments, scene.output.folder.as_ref());
     check_place(&folder, path, arguments)?;
+    if RunRequest::is_interrupted(&folder) && !arguments.force {
+        let place = folder.display();
+        return Err(Failure::Usage(format!(
+            "{place} holds a run that was interrupted; go on with `drape resume {place}`, or begin \
+             anew with --force"
+        )));
+    }
     space::check(&scene, path, &folder)?;
+    let lock = Lock::take(&folder)?;
     let output = prepare_folder(&folder, arguments.force)?;
-    let view = [scene.output.view.azimuth, scene.output.view.elevation];
-    let garment = scene.sewing.is_some();
-    notes(&scene);
-    let (name, step) = (scene.name.clone(), scene.schedule.clock.step);
-    let mut simulation = Simulation::new(scene)?;
-    let recorder = output.record(&simulation.topology())?;
-    let mut progress = RunProgress::new(&name, &simulation, step, recorder);
-    let summary = simulation.run(&mut progress);
-    progress.finish();
-    let summary = summary?;
-    output.summary(&summary)?;
-    let last = progress.last.take().filter(|_| !arguments.no_picture);
-    let shown = last.map(|frame| Snapshot { positions: frame.positions, ..simulation.snapshot() });
-    // Its memory is free for the page and the pictures.
-    drop(simulation);
-    let recording = Recording::open(&folder)?;
-    save_last(&recording)?;
-    if !arguments.no_picture {
-        let page = ViewerPage::new(&[recording], viewer::SIZE_MAX)?;
-        file::write(&output.path("view.html"), page.html)?;
-    }
-    if let Some(shown) = shown {
-        let pictures = Pictures::new(&shown)?;
-        let picture = match (garment, view) {
-            (true, [None, None]) => pictures.draw_round()?,
-            _ => pictures.draw(view, picture::SIZE)?,
-        };
-        save(&picture, &output.path("picture.png"))?;
-        if let Some(place) = summary.place {
-            let near = picture::near(&shown, place);
-            let picture = Pictures::new(&near)?.draw(view, picture::SIZE)?;
-            save(&picture, &output.path("place.png"))?;
-        }
-        if garment {
-            file::write(&output.path("strain.svg"), draw_strains(&shown, &pictures)?)?;
-        }
-    }
-    if !arguments.json {
-        say(describe(&summary))?;
-        for warning in &summary.warnings {
-            say(format_args!("warning: {warning}"))?;
-        }
-        say_written(format_args!("results in {}", folder.display()))?;
-    }
-    Ok(summary)
-}
-
-/// Saves the last frame as `last.obj`, which any program opens.
-fn save_last(recording: &Recording) -> Result<(), Failure> {
-    let frame = recording.frame(recording.frames() - 1)?;
-    let mut obj = Vec::new();
-    write_obj(recording, &frame, &mut obj).map_err(|error| Failure::Output(error.to_string()))?;
-    file::write(&recording.folder().join("last.obj"), obj)
-}
-
-fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {
-    file::write(path, picture.png().map_err(Failure::of_picture)?)
-}
-
-/// Prints the notes on a scene, and what contact cannot promise.
-fn notes(scene: &Scene) {
-    scene.source.notes.iter().chain(&scene.source.contact_limits).for_each(note);
+    let every = arguments.checkpoint_every;
+    RunRequest::new(path, arguments.until, every).write(&folder)?;
+    let options = &arguments.options;
+    let keeper = Keeper::new(&folder, &scene, every, options.limits.clone());
+    let job = Job { scene, folder: folder.clone(), output, keeper, lock, options };
+    Ok(Ran { summary: job.run(None)?, folder })
 }
 
 /// Returns the folder for the results of a scene.

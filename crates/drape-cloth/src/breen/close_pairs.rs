@@ -77,7 +77,13 @@ impl ClosePairs {
         &self.pairs
     }
 
-    fn list(&mut self, positions: &[f64]) {
+    /// Positions when the list was made, in m; none before.
+    pub(crate) fn listed(&self) -> &[f64] {
+        &self.listed
+    }
+
+    /// Makes the list at some positions, in m.
+    pub(crate) fn list(&mut self, positions: &[f64]) {
         self.listed.clear();
         self.listed.extend_from_slice(positions);
         self.pairs.clear();

@@ -122,6 +122,18 @@ impl Breen {
         self.close_pairs.find(positions)
     }
 
+    /// Positions at which the close pairs were listed, in m; none before they are asked for. The list
+    /// is kept while particles move little.
+    #[must_use]
+    pub fn listed_positions(&self) -> &[f64] {
+        self.close_pairs.listed()
+    }
+
+    /// Lists the close pairs at some positions, in m, as if they had been asked for there.
+    pub fn list_pairs(&mut self, positions: &[f64]) {
+        self.close_pairs.list(positions);
+    }
+
     /// Returns the energy of the particles, in J; its negative derivative is [`Breen::add_forces`].
     #[must_use]
     pub fn energy(&mut self, positions: &[f64]) -> f64 {

@@ -2,13 +2,14 @@
 //! about.
 
 use drape_fabric::{BatchLaw, Memories, MemoriesMut};
+use serde::{Deserialize, Serialize};
 
 use crate::layout::columns::VectorColumns;
 use crate::layout::grid::GridPanel;
 
 /// Memories of the connectors, and the normals at the last commit, in columns: panel after panel,
 /// each with its margins.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct GridMemories {
     /// Of the segments along warp and weft.
     pub(crate) traction: [Memories; 2],
@@ -53,6 +54,16 @@ impl GridMemories {
             }
         }
         memories
+    }
+
+    /// Returns whether others are of as many connectors.
+    pub(crate) fn has_lengths_of(&self, other: &Self) -> bool {
+        let pairs = self.traction.iter().zip(&other.traction);
+        let mut pairs = pairs
+            .chain(self.shear.iter().zip(&other.shear))
+            .chain(self.bending.iter().zip(&other.bending));
+        self.normals.has_lengths_of(&other.normals)
+            && pairs.all(|(own, other)| own.has_lengths_of(other))
     }
 
     /// Returns all memories from an index on, to write, and the normals.

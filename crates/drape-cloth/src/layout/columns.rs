@@ -4,12 +4,35 @@
 //! sees neither bounds nor aliases in the loops between.
 
 use drape_fabric::{LANES, Lanes};
+use serde::{Deserialize, Serialize};
 
 use crate::measure::vector::Vector;
 
 /// Columns that belong together, such as the coordinates of vectors.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(into = "Vec<Vec<f64>>", try_from = "Vec<Vec<f64>>")]
 pub(crate) struct Columns<const N: usize>(pub(crate) [Vec<f64>; N]);
+
+impl<const N: usize> From<Columns<N>> for Vec<Vec<f64>> {
+    fn from(columns: Columns<N>) -> Self {
+        columns.0.into()
+    }
+}
+
+impl<const N: usize> TryFrom<Vec<Vec<f64>>> for Columns<N> {
+    type Error = &'static str;
+
+    fn try_from(columns: Vec<Vec<f64>>) -> Result<Self, Self::Error> {
+        columns.try_into().map(Self).map_err(|_| "another number of columns")
+    }
+}
+
+impl<const N: usize> Columns<N> {
+    /// Returns whether others have the same lengths.
+    pub(crate) fn has_lengths_of(&self, other: &Self) -> bool {
+        self.0.iter().zip(&other.0).all(|(own, other)| own.len() == other.len())
+    }
+}
 
 /// Columns of the coordinates of vectors.
 pub(crate) type VectorColumns = Columns<3>;

@@ -1,12 +1,13 @@
 //! Memories of the connectors of the rims.
 
 use drape_fabric::{BatchLaw, Memories, MemoriesMut};
+use serde::{Deserialize, Serialize};
 
 use crate::layout::grid::GridPanel;
 use crate::rim::connectors::Rim;
 
 /// Memories of the connectors of the rims, rim after rim, each padded to a whole number of batches.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct RimMemories {
     /// Of the triangles along warp and weft.
     pub(crate) traction: [Memories; 2],
@@ -37,6 +38,15 @@ impl RimMemories {
             panel.shear.append_memories(&mut memories.shear, triangles);
         }
         memories
+    }
+
+    /// Returns whether others are of as many connectors.
+    pub(crate) fn has_lengths_of(&self, other: &Self) -> bool {
+        let pairs = self.traction.iter().zip(&other.traction);
+        let pairs = pairs.chain([(&self.shear, &other.shear)]);
+        pairs
+            .chain(self.bending.iter().zip(&other.bending))
+            .all(|(own, other)| own.has_lengths_of(other))
     }
 
     /// Returns all memories, to write.

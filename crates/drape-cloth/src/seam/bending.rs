@@ -1,6 +1,7 @@
 //! The seams of a cloth: their forces, stiffness and memory.
 
 use drape_fabric::{Fabric, Law, Memory};
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::measure::bending::BendingResponse;
@@ -62,13 +63,21 @@ pub struct SeamBending {
 }
 
 /// Memories of seams, and the normals at the last commit. Only [`SeamBending::commit`] writes it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SeamState {
     memories: Vec<Memory>,
     normals: Vec<Vector>,
 }
 
 impl SeamState {
+    /// Returns whether this may follow another state of the same seams: it has as many memories, and
+    /// normals that are finite.
+    #[must_use]
+    pub fn may_follow(&self, other: &Self) -> bool {
+        let lengths = |own: &Self| [own.memories.len(), own.normals.len()];
+        lengths(self) == lengths(other) && self.normals.iter().flatten().all(|x| x.is_finite())
+    }
+
     /// All memories, for hashing and comparing, in a fixed order.
     pub fn memories(&self) -> impl Iterator<Item = Memory> {
         self.memories.iter().copied()

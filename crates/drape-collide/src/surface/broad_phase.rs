@@ -23,7 +23,7 @@ mod sweep;
 mod tree;
 
 pub use candidates::CandidatePairs;
-pub(crate) use candidates::Detection;
+pub(crate) use candidates::{Detection, PastDetection};
 pub(crate) use margin::AdaptiveMargin;
 pub(crate) use query::{Limit, Query};
 pub(crate) use rest::close_at_rest;

@@ -26,4 +26,4 @@ mod thrown_sheet;
 pub use pinch::PinchedVertices;
 pub use settings::{PinchPolicy, SurfaceSettings};
 pub use summary::{PairDistance, SurfaceSummary};
-pub use surface_contact::{SurfaceContact, SurfaceMemory};
+pub use surface_contact::{SavedContact, SurfaceContact, SurfaceMemory};

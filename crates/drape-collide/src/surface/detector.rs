@@ -1,6 +1,6 @@
 //! Detector of candidate pairs: the broad phase with its lists.
 
-use super::broad_phase::{CandidatePairs, Detection, Limit, Query, Scan, Sweep};
+use super::broad_phase::{CandidatePairs, Detection, Limit, PastDetection, Query, Scan, Sweep};
 use super::contact_surface::Surface;
 use crate::error::{Error, check};
 
@@ -94,6 +94,13 @@ impl Detector {
     /// steps.
     pub fn follow_trajectories(&mut self, positions: &[f64]) {
         self.pairs.follow_trajectories(positions);
+    }
+
+    /// Detects the pairs of an earlier detection again.
+    pub(crate) fn repeat(&mut self, surface: &Surface, past: &PastDetection) -> Result<(), Error> {
+        self.detect_swept(surface, &past.start, past.sweep(), past.margin)?;
+        self.pairs.follow_to(past);
+        Ok(())
     }
 
     /// Drops the pairs, whose distances have changed.

@@ -17,6 +17,8 @@
 //! [`contact`](super::contact) opens the friction of a step, evaluates it at trial positions and
 //! keeps the stretches when the step is accepted.
 
+use serde::{Deserialize, Serialize};
+
 use super::barrier::{Gap, Gradient};
 use super::pair::{Pair, PairKey};
 use crate::vector::{
@@ -67,11 +69,19 @@ pub struct FrictionEnergy {
 }
 
 /// Elastic stretch of a pair between two steps.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Stretch {
     key: PairKey,
     /// Stretch, in m.
     vector: Vector,
+}
+
+impl Stretch {
+    /// Returns whether stretches are finite and sorted as the pairs are, each once.
+    pub(crate) fn are_right(stretches: &[Stretch]) -> bool {
+        stretches.is_sorted_by(|a, b| a.key < b.key)
+            && stretches.iter().flat_map(|own| own.vector).all(f64::is_finite)
+    }
 }
 
 impl SurfaceFriction {

@@ -1,10 +1,12 @@
 //! Pairs of primitives.
 
+use serde::{Deserialize, Serialize};
+
 use super::distance::{Closest, edge_edge, vertex_face};
 use crate::vector::{at, dot};
 
 /// Kind of a pair of primitives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum PairKind {
     /// A vertex and a triangle.
     VertexFace,

@@ -1,6 +1,8 @@
 //! Candidate pairs that are kept up to date while the vertices of a surface drift.
 
-use super::broad_phase::{AdaptiveMargin, CandidatePairs, Sweep};
+use serde::{Deserialize, Serialize};
+
+use super::broad_phase::{AdaptiveMargin, CandidatePairs, PastDetection, Sweep};
 use super::contact_surface::Surface;
 use super::detector::Detector;
 use crate::error::Error;
@@ -15,7 +17,43 @@ pub(crate) struct TrackedPairs {
     pub(crate) drift: Vec<f64>,
 }
 
+/// State of tracked pairs, from which they are made again. Steps that are truncated vertex by vertex
+/// depend on the pairs at hand, however far these are.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct TrackedMemory {
+    detection: PastDetection,
+    /// Margin of the next detection, in m.
+    margin: f64,
+}
+
+impl TrackedMemory {
+    /// Returns whether it is that of flat positions of a length, and numbers are finite.
+    pub(crate) fn is_of(&self, numbers: usize) -> bool {
+        self.margin.is_finite()
+            && (self.detection.start.is_empty() || self.detection.is_of(numbers))
+    }
+}
+
 impl TrackedPairs {
+    /// Returns the state.
+    pub(crate) fn memory(&self) -> TrackedMemory {
+        TrackedMemory { detection: self.pairs().detection(), margin: self.margin.value() }
+    }
+
+    /// Returns to an earlier state.
+    pub(crate) fn restore(
+        &mut self,
+        surface: &Surface,
+        memory: &TrackedMemory,
+    ) -> Result<(), Error> {
+        match memory.detection.start.is_empty() {
+            true => self.detector.clear(),
+            false => self.detector.repeat(surface, &memory.detection)?,
+        }
+        self.margin.set(memory.margin);
+        Ok(())
+    }
+
     /// No pairs yet, of surfaces with an activation distance and edges of a length, in m.
     pub(crate) fn new(activation_distance: f64, edge: f64) -> TrackedPairs {
         TrackedPairs {

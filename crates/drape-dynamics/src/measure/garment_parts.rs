@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use drape_collide::{Body, Shape};
 use drape_scene::{Garment, Material, Panel, Scene, Seam, SeamPairs};
+use serde::{Deserialize, Serialize};
 
 /// Parts of the cloth of a scene.
 #[derive(Debug)]
@@ -51,7 +52,7 @@ pub(crate) struct HungGarment {
 }
 
 /// Lowest and highest point, in m.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct VerticalExtent {
     pub(crate) low: f64,
     pub(crate) high: f64,

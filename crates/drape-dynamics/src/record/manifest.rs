@@ -23,7 +23,9 @@ pub(crate) const ENERGY: &str = "energy.csv";
 const KINDS: [&str; 3] = ["frame", "bodies", "pressure"];
 
 /// Files that a run has once: those of older versions and those of the command line among them.
-const SINGLE: [&str; 10] = [
+const SINGLE: [&str; 12] = [
+    "run.json",
+    "status.json",
     SUMMARY,
     SURFACES,
     FRAMES,
@@ -50,6 +52,19 @@ pub(crate) fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     });
     let paths = single.chain(numbered).map(|name| folder.join(name));
     Ok(paths.filter(|path| fs::symlink_metadata(path).is_ok()).collect())
+}
+
+/// Returns the files of the frames from a number on.
+pub(crate) fn frames_from(folder: &Path, first: u64) -> io::Result<Vec<PathBuf>> {
+    let numbers = numbers(folder)?.into_iter().filter(|number| *number >= first);
+    // The run may have listed none of those that it wrote last.
+    let numbers = numbers.chain([first, first.saturating_add(1)]);
+    let names =
+        numbers.flat_map(|number| KINDS.map(|kind| folder.join(format!("{kind}-{number:05}.npy"))));
+    let mut paths: Vec<PathBuf> = names.filter(|path| fs::symlink_metadata(path).is_ok()).collect();
+    paths.sort();
+    paths.dedup();
+    Ok(paths)
 }
 
 /// Removes the files of a run; of a link the link, not what it leads to.

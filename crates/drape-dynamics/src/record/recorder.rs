@@ -1,11 +1,12 @@
 //! Recorder: files of a run in a folder.
 
 use std::fs;
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use drape_checkpoint::Store;
 use npyz::half::f16;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::record::array;
@@ -31,10 +32,19 @@ pub struct Recorder<'a> {
     energy: Option<fs::File>,
     /// Bodies that were stored last.
     bodies: Option<StoredBodies>,
+    /// Frames so far.
+    frames: usize,
+}
+
+/// What a recorder needs to go on behind the frames that it has stored.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct SavedRecorder {
+    frames: usize,
+    bodies: Option<StoredBodies>,
 }
 
 /// Bodies in a file.
-#[derive(Debug)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct StoredBodies {
     /// Positions of their vertices, in m.
     positions: Vec<f64>,
@@ -52,9 +62,11 @@ pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, Error> {
     let fail = |reason| Error::Write { path: folder.to_owned(), reason };
     if folder.exists() {
         let files = manifest::files(folder).map_err(fail)?;
-        if !files.is_empty() && !replace {
+        let store = Store::new(folder);
+        if !(files.is_empty() && store.is_empty() || replace) {
             return Err(Error::Occupied { folder: folder.to_owned() });
         }
+        store.clear()?;
         manifest::remove(&files).map_err(|(path, reason)| Error::Write { path, reason })?;
     }
     fs::create_dir_all(folder).map_err(fail)?;
@@ -62,14 +74,20 @@ pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, Error> {
 }
 
 /// Removes the rest of a file that was not written to its end; a link itself, not what it leads to.
-fn remove_left(path: &Path) -> std::io::Result<()> {
+fn remove_left(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),
     }
 }
 
 impl Output {
+    /// Folder of a run that goes on.
+    #[must_use]
+    pub fn of_run(folder: &Path) -> Self {
+        Self { folder: folder.to_owned() }
+    }
+
     /// Path of a file in the folder.
     #[must_use]
     pub fn path(&self, name: &str) -> PathBuf {
@@ -89,14 +107,58 @@ impl Output {
             self.write(&of_bodies, |to| array::write(to, &topology.body_triangles))?;
         }
         let path = self.path(FRAMES);
-        let begin = || -> std::io::Result<fs::File> {
+        let begin = || -> io::Result<fs::File> {
             let mut list = fs::File::create_new(&path)?;
             list.write_all(b"number,time,growth,bodies,touched\n")?;
             Ok(list)
         };
         let list = begin().map_err(|reason| Error::Write { path, reason })?;
         self.json(SURFACES, topology)?;
-        Ok(Recorder { output: self, list, energy: None, bodies: None })
+        Ok(Recorder { output: self, list, energy: None, bodies: None, frames: 0 })
+    }
+
+    /// Returns a writer that goes on behind the frames of a checkpoint: later ones are removed, with
+    /// the summary.
+    ///
+    /// # Errors
+    /// When frames that the checkpoint counts are missing, or files cannot be written.
+    pub fn resume(&self, saved: SavedRecorder) -> Result<Recorder<'_>, Error> {
+        let SavedRecorder { frames, bodies } = saved;
+        let later = manifest::frames_from(&self.folder, frames as u64);
+        let later = later.map_err(|reason| Error::Write { path: self.folder.clone(), reason })?;
+        let ended = [SUMMARY, "last.obj"].map(|name| self.path(name));
+        let ended = ended.into_iter().filter(|path| path.exists());
+        let list = self.reopen(FRAMES, frames)?;
+        if list.lines != frames {
+            let path = self.path(FRAMES);
+            return Err(Error::LostFrames { path, found: list.lines, frames });
+        }
+        let energy = match self.path(ENERGY).exists() {
+            true => Some(self.reopen(ENERGY, frames)?).filter(|own| own.lines > 0),
+            false => None,
+        };
+        let all: Vec<PathBuf> = later.into_iter().chain(ended).collect();
+        manifest::remove(&all).map_err(|(path, reason)| Error::Write { path, reason })?;
+        let energy = energy.map(|own| own.file);
+        Ok(Recorder { output: self, list: list.file, energy, bodies, frames })
+    }
+
+    /// Opens a table to go on, with its heading and the whole lines of so many frames.
+    fn reopen(&self, name: &str, frames: usize) -> Result<Reopened, Error> {
+        let path = self.path(name);
+        let fail = |reason: io::Error| Error::Write { path: path.clone(), reason };
+        let text = fs::read_to_string(&path).map_err(fail)?;
+        let is_earlier = |line: &&str| {
+            let number = line.split(',').next().and_then(|number| number.parse().ok());
+            line.ends_with('\n') && number.is_some_and(|number: usize| number < frames)
+        };
+        let mut lines = text.split_inclusive('\n');
+        let heading = lines.next().unwrap_or_default();
+        let kept: Vec<&str> = lines.filter(is_earlier).collect();
+        let content = format!("{heading}{}", kept.concat());
+        self.write(&path, |to| to.write_all(content.as_bytes()))?;
+        let file = fs::OpenOptions::new().append(true).open(&path).map_err(fail)?;
+        Ok(Reopened { file, lines: kept.len() })
     }
 
     /// Stores the summary as `summary.json`.
@@ -118,10 +180,10 @@ impl Output {
     fn write(
         &self,
         path: &Path,
-        content: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Error> {
         let temporary = path.with_extension("part");
-        let write = || -> std::io::Result<()> {
+        let write = || -> io::Result<()> {
             remove_left(&temporary)?;
             let mut to = BufWriter::new(fs::File::create_new(&temporary)?);
             content(&mut to)?;
@@ -136,7 +198,27 @@ impl Output {
     }
 }
 
+/// Table that was opened to go on.
+struct Reopened {
+    file: fs::File,
+    /// Lines that it has, but the heading.
+    lines: usize,
+}
+
 impl Recorder<'_> {
+    /// Makes what has been stored outlast a loss of power, and returns what a recorder needs to go
+    /// on behind it.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn save(&self) -> Result<SavedRecorder, Error> {
+        let folder = || self.output.folder.clone();
+        let tables = [Some(&self.list), self.energy.as_ref()];
+        let synced = tables.into_iter().flatten().try_for_each(fs::File::sync_data);
+        synced.map_err(|reason| Error::Write { path: folder(), reason })?;
+        Ok(SavedRecorder { frames: self.frames, bodies: self.bodies.clone() })
+    }
+
     /// Stores a frame as `frame-00012.npy`, the bodies where they have moved as `bodies-00012.npy`,
     /// pressures as `pressure-00012.npy` where something touches, and a line of `energy.csv`; then it
     /// is listed in `frames.csv`.
@@ -161,6 +243,7 @@ impl Recorder<'_> {
         let bodies = self.bodies.as_ref().map_or(String::new(), |own| own.frame.to_string());
         let Frame { number, time, growth_fraction, .. } = frame;
         let line = format!("{number},{time:?},{growth_fraction:?},{bodies},{touched}\n");
+        self.frames = number + 1;
         let listed = self.list.write_all(line.as_bytes()).and_then(|()| self.list.sync_data());
         listed.map_err(|reason| Error::Write { path: self.output.path(FRAMES), reason })
     }
@@ -186,22 +269,18 @@ impl Recorder<'_> {
 }
 
 /// Returns the line of the balance of a frame, and before it that of the names.
-fn energy_lines(frame: &Frame, energy: &Energy) -> std::io::Result<[String; 2]> {
+fn energy_lines(frame: &Frame, energy: &Energy) -> io::Result<[String; 2]> {
     let mut table = csv::Writer::from_writer(Vec::new());
-    table.serialize(energy).map_err(std::io::Error::from)?;
+    table.serialize(energy).map_err(io::Error::from)?;
     let bytes = table.into_inner().map_err(|error| error.into_error())?;
-    let text = String::from_utf8(bytes).map_err(std::io::Error::other)?;
+    let text = String::from_utf8(bytes).map_err(io::Error::other)?;
     let (names, entries) = text.split_once('\n').unwrap_or_default();
     let Frame { number, time, .. } = frame;
     Ok([format!("number,time,{names}\n"), format!("{number},{time:?},{entries}")])
 }
 
 /// Appends a line to a table; one that is not there yet begins with the names of its columns.
-fn append(
-    table: &mut Option<fs::File>,
-    path: &Path,
-    [names, line]: [String; 2],
-) -> std::io::Result<()> {
+fn append(table: &mut Option<fs::File>, path: &Path, [names, line]: [String; 2]) -> io::Result<()> {
     let file = match table {
         Some(file) => file,
         None => {

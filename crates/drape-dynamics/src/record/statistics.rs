@@ -1,12 +1,13 @@
 //! Statistics of the steps of a run: work of the solver, and contact.
 
 use drape_implicit::Report;
+use serde::{Deserialize, Serialize};
 
 use crate::record::summary::{Contacts, Solver};
 use crate::world::{Contact, World};
 
 /// Sums and extremes over the steps of a run.
-#[derive(Debug)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Statistics {
     solver: Solver,
     /// Steps made.

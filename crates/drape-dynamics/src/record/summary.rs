@@ -1,6 +1,6 @@
 //! Summary of a run: the content of `summary.json`.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::world::Energy;
 
@@ -63,7 +63,7 @@ pub struct Summary {
 }
 
 /// Phase of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Phase {
     /// Its name.
     pub name: PhaseName,
@@ -74,7 +74,7 @@ pub struct Phase {
 }
 
 /// Name of a phase.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PhaseName {
     /// Seams are closed, without gravity.
@@ -115,7 +115,7 @@ pub enum Status {
 }
 
 /// Work of the solver.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Solver {
     /// Mean number of iterations per step.
     pub iterations_mean: f64,

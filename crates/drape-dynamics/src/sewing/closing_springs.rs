@@ -2,6 +2,7 @@
 
 use drape_implicit::BlockMatrix;
 use drape_scene::{SeamConstraint, SeamPairs};
+use serde::{Deserialize, Serialize};
 
 /// Stiffness of a closing spring, in N/m: some ten times that of a yarn of a usual weave, which is
 /// enough. The gaps that it leaves, some micrometres, go when the particles are merged.
@@ -65,8 +66,8 @@ impl StartGap {
 }
 
 /// Increase of the stiffness of closing springs, evenly within the time of the sewing.
-#[derive(Debug, Clone, Copy)]
-struct Stiffening {
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct Stiffening {
     /// Time at which it begins, in s.
     start: f64,
     /// Stiffness at its end over the usual one.
@@ -150,6 +151,16 @@ impl ClosingSprings {
             self.stiffening = Some(Stiffening { start: time, factor });
         }
         is_usual
+    }
+
+    /// Increase of the stiffness, if there is one.
+    pub(crate) fn stiffening(&self) -> Option<Stiffening> {
+        self.stiffening
+    }
+
+    /// Returns to an increase of the stiffness, or to none.
+    pub(crate) fn restore(&mut self, stiffening: Option<Stiffening>) {
+        self.stiffening = stiffening;
     }
 
     /// State of the seams at some positions and a time, in s, after a step that left an imbalance,

@@ -121,6 +121,10 @@ impl System for ReducedSystem<'_> {
         self.reduction.sparsity.clone()
     }
 
+    fn is_cancelled(&self) -> bool {
+        self.world.is_cancelled()
+    }
+
     fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {
         let mut all = std::mem::take(&mut self.reduction.values);
         self.reduction.prolong(velocities, &mut all);

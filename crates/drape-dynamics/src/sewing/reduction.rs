@@ -99,6 +99,11 @@ impl Reduction {
         })
     }
 
+    /// Number of independent particles.
+    pub(crate) fn particles(&self) -> usize {
+        self.masses.len()
+    }
+
     /// Values of the independent particles from those of all.
     pub(crate) fn restrict(&self, values: &[f64]) -> Vec<f64> {
         let mut own = vec![0.0; 3 * self.masses.len()];

@@ -2,6 +2,7 @@
 
 use drape_implicit::{Integrator, Method, Settings};
 use drape_scene::Relaxation;
+use serde::{Deserialize, Serialize};
 
 use crate::sewing::closing_springs;
 use crate::stepping::scheme::Scheme;
@@ -30,7 +31,7 @@ const NEAR_REST: f64 = 2.0;
 const FORCING: f64 = 0.03;
 
 /// Accuracy of a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Accuracy {
     /// Root-mean-square error of the acceleration that it may leave, over g.
     pub(crate) tolerance: f64,

@@ -37,6 +37,16 @@ impl RestDetector {
         Self { criteria, quiet_ticks: 0 }
     }
 
+    /// Time for which the cloth has been slow, in ticks of the clock.
+    pub(crate) fn quiet_ticks(&self) -> usize {
+        self.quiet_ticks
+    }
+
+    /// Detector that goes on from a time for which the cloth has been slow, in ticks.
+    pub(crate) fn resumed(criteria: Option<Relaxation>, quiet_ticks: usize) -> Self {
+        Self { criteria, quiet_ticks }
+    }
+
     /// Takes a step into account.
     pub(crate) fn update(&mut self, step: &StepMotion) {
         let Some(criteria) = self.criteria else { return };

@@ -2,6 +2,7 @@
 //! displacements.
 
 use drape_scene::{Clock, Relaxation};
+use serde::{Deserialize, Serialize};
 
 /// Fraction of the length that the error estimate would allow which is taken: estimates lag by a
 /// step, and a step that fails is made twice.
@@ -26,7 +27,28 @@ pub(crate) struct StepControl {
     exact: usize,
 }
 
+/// What a control remembers between two steps.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct SavedControl {
+    relaxation: Option<Relaxation>,
+    wanted: usize,
+    exact: usize,
+}
+
 impl StepControl {
+    /// Returns what is remembered between two steps.
+    pub(crate) fn saved(&self) -> SavedControl {
+        let Self { relaxation, wanted, exact, .. } = *self;
+        SavedControl { relaxation, wanted, exact }
+    }
+
+    /// Control that goes on from what was remembered.
+    pub(crate) fn resumed(clock: Clock, order: f64, saved: SavedControl) -> Self {
+        let SavedControl { relaxation, wanted, exact } = saved;
+        let wanted = wanted.clamp(1, clock.ticks_max.max(1));
+        Self { clock, relaxation, order, wanted, exact }
+    }
+
     /// Control that begins with the first step of the clock.
     pub(crate) fn new(clock: Clock, relaxation: Option<Relaxation>, order: f64) -> Self {
         Self { clock, relaxation, order, wanted: clock.ticks_per_step, exact: usize::MAX }

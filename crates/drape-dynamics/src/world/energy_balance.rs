@@ -6,14 +6,14 @@
 //! they agree.
 
 use drape_implicit::Report;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::contact::ContactEnergy;
 
 /// Balance of the energy since the start, in J: the energy put in is stored, or lost to friction in
 /// the fabric, to friction with bodies and of cloth on cloth, to the air, to the integrator, or to the rotation of the
 /// cloth.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// Kinetic energy.
     pub kinetic: f64,
@@ -48,14 +48,16 @@ pub struct Energy {
 }
 
 /// Sums of the energy over the steps.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(crate) struct EnergyBalance {
     /// Energy stored by the internal forces now, in J.
     stored: f64,
     /// Energy of contact at the start of the step.
+    #[serde(skip)]
     contact: ContactEnergy,
     /// Potential of the internal forces when it was first and last asked for in this step, in J.
     /// With the balance on, the integrator does so at the start and at the end.
+    #[serde(skip)]
     internal: Option<FirstAndLast>,
     /// Kinetic energy at the start, in J.
     kinetic_at_start: f64,

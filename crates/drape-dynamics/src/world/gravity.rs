@@ -24,6 +24,11 @@ impl Gravity {
         self.ramp_start = time;
     }
 
+    /// Time at which the ramp begins, in s.
+    pub(crate) fn ramp_start(&self) -> f64 {
+        self.ramp_start
+    }
+
     /// Time at which the ramp ends, in s.
     pub(crate) fn ramp_end(&self) -> f64 {
         self.ramp_start + self.ramp

@@ -7,6 +7,7 @@
 
 use drape_cloth::{Breen, Cloth, SeamBending, SeamState, State, Trial, Workspace};
 use drape_implicit::{BlockMatrix, Sparsity};
+use serde::{Deserialize, Serialize};
 
 /// Internal forces of a cloth.
 #[derive(Debug)]
@@ -16,12 +17,30 @@ pub(crate) struct InternalForces {
     breen: Option<Breen>,
     /// Bending across the seams, once they are closed.
     seams: Option<BentSeams>,
+    /// Pairs of Breen's particles that the sparsity has.
+    close: Vec<[u32; 2]>,
     /// Pairs of particles that act on each other.
     sparsity: Sparsity,
     /// Number of times that these pairs have changed.
     version: u64,
     /// Matrix of the connectors alone, where the sparsity has more pairs.
     scatter: Option<Scatter>,
+}
+
+/// What internal forces remember between two steps, apart from the state of the cloth.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct SavedForces {
+    seams: Option<SeamState>,
+    breen: Option<SavedPairs>,
+}
+
+/// Pairs of Breen's particles that are at hand. The order of the solver's sums depends on them.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct SavedPairs {
+    /// Positions at which they were listed, in m.
+    listed: Vec<f64>,
+    /// Those that the sparsity has.
+    close: Vec<[u32; 2]>,
 }
 
 /// Bending across seams, and its memory.
@@ -75,6 +94,7 @@ impl InternalForces {
             workspace: cloth.workspace(),
             breen,
             seams: None,
+            close: Vec::new(),
             scatter: (!springs.is_empty()).then(|| Scatter::new(cloth.sparsity(), &sparsity)),
             sparsity,
             version: 0,
@@ -115,6 +135,41 @@ impl InternalForces {
         }
     }
 
+    /// Returns what is remembered between two steps.
+    pub(crate) fn saved(&self) -> SavedForces {
+        let pairs = |breen: &Breen| SavedPairs {
+            listed: breen.listed_positions().to_vec(),
+            close: self.close.clone(),
+        };
+        SavedForces { seams: self.seam_state().cloned(), breen: self.breen.as_ref().map(pairs) }
+    }
+
+    /// Returns to what was remembered; false if it is that of other forces.
+    pub(crate) fn resume(&mut self, cloth: &Cloth, saved: SavedForces) -> bool {
+        match (&mut self.seams, saved.seams) {
+            (None, None) => {}
+            (Some(own), Some(state)) if state.may_follow(&own.state) => own.state = state,
+            _ => return false,
+        }
+        match (&mut self.breen, saved.breen) {
+            (None, None) => true,
+            (Some(breen), Some(SavedPairs { listed, close })) => {
+                let particles = cloth.particles();
+                let known = |pair: &[u32; 2]| pair.iter().all(|&p| (p as usize) < particles);
+                let finite = listed.iter().all(|x| x.is_finite());
+                if listed.len() != 3 * particles || !finite || !close.iter().all(known) {
+                    return false;
+                }
+                breen.list_pairs(&listed);
+                self.sparsity = sparsity(cloth.sparsity(), &close);
+                self.close = close;
+                self.version += 1;
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// Takes the pairs of Breen's particles that have come near each other into the sparsity. Those
     /// that have left stay until then.
     fn update_sparsity(&mut self, cloth: &Cloth, positions: &[f64]) {
@@ -122,6 +177,7 @@ impl InternalForces {
         let near = breen.close_pairs(positions);
         let known = |&[a, b]: &[u32; 2]| self.sparsity.slot(a as usize, b as usize).is_some();
         if !near.iter().all(known) {
+            self.close = near.to_vec();
             self.sparsity = sparsity(cloth.sparsity(), near);
             self.version += 1;
         }

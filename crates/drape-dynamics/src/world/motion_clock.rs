@@ -23,6 +23,11 @@ impl MotionClock {
         self.start = time;
     }
 
+    /// Time of the simulation at which it starts, in s; infinite as long as it stands still.
+    pub(crate) fn start_time(&self) -> f64 {
+        self.start
+    }
+
     /// Time on this clock at a time of the simulation, in s.
     pub(crate) fn time(&self, time: f64) -> f64 {
         (time - self.start).max(0.0)

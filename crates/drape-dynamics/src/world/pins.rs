@@ -46,6 +46,21 @@ impl Pins {
         self.pins.iter_mut().for_each(|pin| pin.release_at(event, time));
     }
 
+    /// Times of the releases of the pins, in s.
+    pub(crate) fn releases(&self) -> Vec<f64> {
+        self.pins.iter().map(|pin| pin.release).collect()
+    }
+
+    /// Returns to times of releases, in s, and to held particles; false if they are not as many.
+    pub(crate) fn restore(&mut self, releases: &[f64], held: &[bool]) -> bool {
+        if releases.len() != self.pins.len() || held.len() != self.held.len() {
+            return false;
+        }
+        self.pins.iter_mut().zip(releases).for_each(|(pin, release)| pin.release = *release);
+        self.held.copy_from_slice(held);
+        true
+    }
+
     /// Time of the last release after a time, in s, or that time if none is.
     pub(crate) fn last_release(&self, time: f64) -> f64 {
         let releases = self.pins.iter().map(|pin| pin.release);

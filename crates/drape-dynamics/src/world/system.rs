@@ -1,6 +1,8 @@
 //! World as the system and the step filter of `drape-implicit`: the adapter between cloth, contact
 //! and solver.
 
+use std::sync::atomic::Ordering;
+
 use drape_implicit::{BlockMatrix, Sparsity, StepFilter, StepLimit, Stiffness, System, TrialStep};
 
 use super::World;
@@ -95,6 +97,10 @@ impl System for World {
 
     fn sparsity_version(&self) -> u64 {
         self.internal.sparsity_version()
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.cancel.as_ref().is_some_and(|cancel| cancel.load(Ordering::Relaxed))
     }
 
     fn accept(&mut self, positions: &[f64], velocities: &[f64], dt: f64) {

@@ -1,5 +1,7 @@
 //! Memories of many connectors, in columns of numbers, and views of a batch of them.
 
+use serde::{Deserialize, Serialize};
+
 use crate::batch::lanes::{LANES, Lanes};
 use crate::laws::law::Memory;
 
@@ -15,7 +17,7 @@ const TOE: [usize; 2] = [4, 5];
 ///
 /// [`BatchLaw::memories`](crate::BatchLaw::memories) makes them, and
 /// [`BatchLaw::commit`](crate::BatchLaw::commit) writes them.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Memories([Vec<f64>; COLUMNS]);
 
 /// Memories of [`LANES`] neighbouring connectors, to read.
@@ -75,6 +77,12 @@ impl Memories {
         for (column, value) in self.0.iter_mut().zip(memory) {
             column[index] = value;
         }
+    }
+
+    /// Returns whether others are as many, in columns of the same lengths.
+    #[must_use]
+    pub fn has_lengths_of(&self, other: &Self) -> bool {
+        self.0.iter().zip(&other.0).all(|(own, other)| own.len() == other.len())
     }
 
     /// Returns one of the memories.

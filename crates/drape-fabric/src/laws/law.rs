@@ -1,11 +1,12 @@
 //! The interface of every law, the memory of a connector, and a law driven along a path.
 
 use drape_hysteresis::{Loads, Response};
+use serde::{Deserialize, Serialize};
 
 /// Memory of a connector: what a law needs to know of the deformation path so far.
 ///
 /// The unit of the deformation is the law's (a ratio for traction and shear, 1/m for bending).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Memory {
     /// Deformation at the last commit, in the unit of the deformation.
     pub position: f64,

@@ -92,6 +92,9 @@ impl Explicit {
         }
         let (count, origin) = (wanted as usize, state.time);
         for step in 1..=count {
+            if system.is_cancelled() {
+                return Err(Error::Cancelled);
+            }
             let end = origin + dt * (step as f64 / count as f64);
             let span = Span { start: state.time, end, dt: dt / count as f64 };
             let energy = self.sub_step(system, state, span)?;

@@ -1,5 +1,7 @@
 //! State that the integrator advances: positions, velocities, time, and the past of the formula.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::Error;
 
 /// Positions, velocities and time, with the past that a second-order formula needs.
@@ -16,7 +18,7 @@ use crate::error::Error;
 /// state.velocities[1] = -2.0;
 /// state.restart();
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct IntegratorState {
     /// Time, in s.
     ///
@@ -33,7 +35,7 @@ pub struct IntegratorState {
 }
 
 /// State one sub-step earlier.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PreviousState {
     /// Length of the sub-step since then, in s.
     pub dt: f64,
@@ -64,7 +66,10 @@ impl IntegratorState {
     }
 
     /// Checks that all lists have three numbers per particle, and that the past has a length.
-    pub(crate) fn check(&self, particles: usize) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// [`Error::Dimension`] and [`Error::StepLength`].
+    pub fn check(&self, particles: usize) -> Result<(), Error> {
         check_length("positions", 3 * particles, self.positions.len())?;
         check_length("velocities", 3 * particles, self.velocities.len())?;
         if let Some(previous) = &self.previous {

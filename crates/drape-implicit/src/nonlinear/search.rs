@@ -2,6 +2,7 @@
 
 use super::equations::{Iterate, StepEquations};
 use super::halt::Halt;
+use crate::error::Error;
 use crate::linear::vector::add_scaled;
 use crate::report::Stop;
 
@@ -33,12 +34,15 @@ impl Search {
         }
     }
 
-    /// Counts an iteration, if one is left of the number allowed.
+    /// Counts an iteration, if one is left of the number allowed and the step is not given up.
     pub(crate) fn count_iteration(
         &mut self,
         equations: &mut StepEquations<'_, '_>,
         max_iterations: usize,
     ) -> Result<(), Halt> {
+        if equations.system.system().is_cancelled() {
+            return Err(Halt::Fatal(Error::Cancelled));
+        }
         if self.iterations == max_iterations {
             return Err(Halt::Stop(Stop::Iterations));
         }

@@ -1,7 +1,9 @@
 //! Relaxation: how the cloth comes to rest, and when it is at rest.
 
+use serde::{Deserialize, Serialize};
+
 /// Relaxation of the cloth, and criteria of rest.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Relaxation {
     /// Largest speed of a particle at rest, in m/s.
     pub speed: f64,

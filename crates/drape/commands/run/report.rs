@@ -1,9 +1,11 @@
 //! Result of a run in words: what came out, and what failed with its remedy.
 
+use std::path::Path;
+
 use drape::dynamics::{Contacts, Energy, PhaseName, Status, Summary};
 
 use crate::failure::Failure;
-use crate::signal;
+use crate::keep::signal;
 
 /// Describes a run in a few lines.
 pub(crate) fn describe(summary: &Summary) -> String {
@@ -86,7 +88,8 @@ fn balance(energy: &Energy) -> String {
 }
 
 /// Returns the failure that a run ended with, if any, and its remedy.
-pub(crate) fn outcome(summary: Summary) -> Result<(), Failure> {
+pub(crate) fn outcome(summary: Summary, folder: &Path) -> Result<(), Failure> {
+    let place = folder.display();
     match summary.status {
         Status::Ok => Ok(()),
         Status::DidNotSettle if summary.reason.is_some() => Err(Failure::Solver(format!(
@@ -123,10 +126,15 @@ pub(crate) fn outcome(summary: Summary) -> Result<(), Failure> {
              good state was written",
             summary.simulated_seconds
         ))),
+        Status::Interrupted if summary.reason.is_some() => Err(Failure::Stopped(format!(
+            "ended at {:.4} s by {}; go on with `drape resume {place}`",
+            summary.simulated_seconds,
+            summary.reason.unwrap_or_default()
+        ))),
         Status::Interrupted => Err(Failure::Interrupted {
             signal: signal::received().unwrap_or_default(),
             message: format!(
-                "interrupted at {:.4} s; the summary, the last frame and a picture were written",
+                "interrupted at {:.4} s; go on with `drape resume {place}`",
                 summary.simulated_seconds
             ),
         }),

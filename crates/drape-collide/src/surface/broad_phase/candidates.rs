@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
+
 use super::sweep::{Sweep, nearest_fraction};
 use crate::surface::pair::Pair;
 
@@ -34,7 +36,59 @@ pub(crate) struct Detection<'a> {
     pub(crate) free: usize,
 }
 
+/// Detection of candidate pairs, from which it can be made again: its positions, its trajectories and
+/// how far these were followed.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct PastDetection {
+    /// Positions of the detection, in m; empty if there is none.
+    pub(crate) start: Vec<f64>,
+    /// Displacements along the trajectories, in m; empty if there are none.
+    pub(crate) displacements: Vec<f64>,
+    /// Whether all vertices move by a common fraction of their displacements.
+    common: bool,
+    /// Reference positions, in m.
+    reference: Vec<f64>,
+    pub(crate) margin: f64,
+}
+
+impl PastDetection {
+    /// Trajectories.
+    pub(crate) fn sweep(&self) -> Sweep<'_> {
+        match (self.displacements.is_empty(), self.common) {
+            (true, _) => Sweep::Still,
+            (false, true) => Sweep::Common(&self.displacements),
+            (false, false) => Sweep::Individual(&self.displacements),
+        }
+    }
+
+    /// Returns whether lists have the length of flat positions, and numbers are finite.
+    pub(crate) fn is_of(&self, numbers: usize) -> bool {
+        let Self { start, displacements, reference, .. } = self;
+        let fits = |list: &Vec<f64>| list.len() == numbers && list.iter().all(|x| x.is_finite());
+        let swept = displacements.is_empty() || fits(displacements);
+        fits(start) && fits(reference) && swept && self.margin > 0.0 && self.margin.is_finite()
+    }
+}
+
 impl CandidatePairs {
+    /// Returns the detection of the pairs.
+    pub(crate) fn detection(&self) -> PastDetection {
+        let start = if self.start.is_empty() { &self.positions } else { &self.start };
+        PastDetection {
+            start: start.clone(),
+            displacements: self.displacements.clone(),
+            common: self.common,
+            reference: self.positions.clone(),
+            margin: self.margin,
+        }
+    }
+
+    /// Moves the reference positions to where they were when a detection was told.
+    pub(crate) fn follow_to(&mut self, past: &PastDetection) {
+        self.positions.clone_from(&past.reference);
+        self.common = past.common;
+    }
+
     /// Pairs, sorted by kind and features.
     #[must_use]
     pub fn as_slice(&self) -> &[Pair] {

@@ -42,6 +42,11 @@ impl AdaptiveMargin {
         self.value
     }
 
+    /// Sets the margin of the next detection to one that is told, in m, within its limits.
+    pub(crate) fn set(&mut self, value: f64) {
+        self.value = value.clamp(self.least, self.most);
+    }
+
     /// Adapts to a detection that found so many pairs of so many vertices.
     pub(crate) fn adapt(&mut self, pairs: usize, vertices: usize) {
         let crowd = pairs as f64 / vertices as f64;

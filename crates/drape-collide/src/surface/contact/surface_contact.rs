@@ -1,5 +1,7 @@
 //! Contact of a surface with itself and with bodies.
 
+use serde::{Deserialize, Serialize};
+
 use super::active_pairs::{ActivePair, ActivePairs};
 use super::growth::Growth;
 use super::obstacles::Obstacles;
@@ -13,7 +15,7 @@ use crate::surface::exact::{Intersection, IntersectionTest, encloses, intersecti
 use crate::surface::friction::{ActiveGap, FrictionEnergy, Stretch, SurfaceFriction};
 use crate::surface::geometry::PinchState;
 use crate::surface::step_filter::{StepLimiter, SurfaceStep};
-use crate::surface::tracked_pairs::TrackedPairs;
+use crate::surface::tracked_pairs::{TrackedMemory, TrackedPairs};
 use crate::vector::{Matrix, at, outer};
 
 /// Contact of a surface with itself and with bodies: barrier and friction, their forces and
@@ -47,12 +49,42 @@ pub struct SurfaceContact {
 
 /// State of a [`SurfaceContact`] between two steps: stretches of friction, positions of the bodies,
 /// pinched vertices and the fraction of distances that is kept.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceMemory {
     stretches: Vec<Stretch>,
     bodies: Vec<f64>,
     pinch: Vec<PinchState>,
     growth_fraction: f64,
+}
+
+/// All that the next steps of a [`SurfaceContact`] depend on between two steps, to be written to a
+/// file: its memory, and the pairs at hand.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SavedContact {
+    memory: SurfaceMemory,
+    tracked: TrackedMemory,
+}
+
+impl SurfaceMemory {
+    /// Checks that this is the memory of a contact.
+    fn check(&self, contact: &SurfaceContact) -> Result<(), Error> {
+        let Self { stretches, bodies, pinch, growth_fraction } = self;
+        let needed = contact.obstacles.start.len();
+        if bodies.len() != needed {
+            let (what, found) = ("coordinates of bodies", bodies.len());
+            return Err(Error::WrongLength { what, found, needed });
+        }
+        let free = contact.surface.free_count();
+        if !pinch.is_empty() && pinch.len() != free {
+            let (what, found) = ("pinch states", pinch.len());
+            return Err(Error::WrongLength { what, found, needed: free });
+        }
+        let finite = bodies.iter().all(|x| x.is_finite()) && Stretch::are_right(stretches);
+        if !finite || !(*growth_fraction > 0.0 && *growth_fraction <= 1.0) {
+            return Err(Error::SavedContact);
+        }
+        Ok(())
+    }
 }
 
 impl SurfaceContact {
@@ -174,6 +206,33 @@ impl SurfaceContact {
         self.set_pinch(pinch);
         self.set_growth_fraction(*growth_fraction);
         self.obstacles.restore(bodies);
+    }
+
+    /// Returns all that the next steps depend on, to be written to a file.
+    #[must_use]
+    pub fn saved(&self) -> SavedContact {
+        SavedContact { memory: self.memory(), tracked: self.tracked.memory() }
+    }
+
+    /// Returns to a state that was saved with the free vertices at these positions, in m: from here
+    /// on every number is what it would have been.
+    ///
+    /// # Errors
+    /// A state of another surface, or numbers that no contact has.
+    pub fn resume(&mut self, positions: &[f64], saved: &SavedContact) -> Result<(), Error> {
+        let SavedContact { memory, tracked } = saved;
+        memory.check(self)?;
+        let (needed, found) = (3 * self.surface.free_count(), positions.len());
+        if found != needed {
+            return Err(Error::WrongLength { what: "positions", found, needed });
+        }
+        if !tracked.is_of(3 * self.surface.vertex_count()) {
+            return Err(Error::SavedContact);
+        }
+        self.restore(memory);
+        self.active.invalidate();
+        self.summary_at(positions)?;
+        self.tracked.restore(&self.surface, tracked)
     }
 
     /// Adds the forces on the free vertices, in N; NaN if positions are not finite.

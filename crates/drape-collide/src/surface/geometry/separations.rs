@@ -1,6 +1,8 @@
 //! Distances of pairs: those of their groups, less where pairs are close at rest, where distances
 //! grow, where bodies pinch and at seams that close.
 
+use serde::{Deserialize, Serialize};
+
 use super::parts::ContactDistances;
 use super::primitives::Primitives;
 use super::seam_exemptions::SeamExemptions;
@@ -17,7 +19,7 @@ const OPEN_ACTIVATION: f64 = 0.5;
 const OPEN_SEPARATION: f64 = 0.1;
 
 /// Contact of a vertex of cloth with bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) enum PinchState {
     /// Usual contact.
     #[default]

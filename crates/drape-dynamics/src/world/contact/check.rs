@@ -10,7 +10,8 @@ use crate::error::Error;
 use crate::record::frame::Frame;
 use crate::record::recorder::{Recorder, prepare_folder};
 use crate::record::summary::{Contacts, Status};
-use crate::simulation::{Progress, Simulation};
+use crate::simulation::Simulation;
+use crate::simulation::run::Progress;
 use crate::world::check::FABRIC;
 use crate::world::contact::surfaces::Omitted;
 

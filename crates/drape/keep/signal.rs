@@ -1,8 +1,8 @@
-//! Signals that ask the program to end: the first one ends a run at its next step, a later one ends
-//! the program at once.
+//! Signals that ask the program to end: the first one ends a run at its next step, or gives up the
+//! step in hand if that takes long; a later one ends the program at once.
 
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
-use std::sync::{Arc, Once};
+use std::sync::{Arc, LazyLock, Once, OnceLock};
 use std::time::{Duration, Instant};
 
 use rustix::process::Signal;
@@ -12,6 +12,15 @@ use signal_hook::iterator::Signals;
 /// Time after the first signal in which others count as the same one, since shells and wrappers
 /// send it to a process and to its group.
 const SAME: Duration = Duration::from_millis(500);
+
+/// Time after the first signal in which a step may still end by itself.
+const PATIENCE: Duration = Duration::from_millis(700);
+
+/// Time of the first signal.
+static FIRST: OnceLock<Instant> = OnceLock::new();
+
+/// Flag that gives up the step in hand.
+static GIVE_UP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 
 /// Number of the first signal that was received; 0 for none.
 static RECEIVED: AtomicU8 = AtomicU8::new(0);
@@ -37,6 +46,11 @@ pub(crate) fn watch() {
                 let since = *first.get_or_insert_with(Instant::now);
                 if RECEIVED.load(Ordering::Relaxed) == 0 {
                     RECEIVED.store(number, Ordering::Relaxed);
+                    let _ = FIRST.set(Instant::now());
+                    std::thread::spawn(|| {
+                        std::thread::sleep(PATIENCE);
+                        GIVE_UP.store(true, Ordering::Relaxed);
+                    });
                 } else if since.elapsed() > SAME {
                     std::process::exit(128 + signal);
                 }
@@ -48,4 +62,14 @@ pub(crate) fn watch() {
 /// Returns the number of the signal that was received.
 pub(crate) fn received() -> Option<u8> {
     Some(RECEIVED.load(Ordering::Relaxed)).filter(|signal| *signal > 0)
+}
+
+/// Returns the time since the first signal.
+pub(crate) fn since() -> Option<Duration> {
+    FIRST.get().map(Instant::elapsed)
+}
+
+/// Returns the flag that gives up the step in hand, some time after the first signal.
+pub(crate) fn give_up_flag() -> Arc<AtomicBool> {
+    GIVE_UP.clone()
 }

@@ -1,0 +1,18 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! A [`Checkpoint`] has an [`Identity`] and sections; a [`Store`] writes it to a folder and reads the
+//! newest one that is intact, as [`Found`].
+//!
+//! Layers, lowest first: `error`, `identity`, `checkpoint` (sections and their bytes), `store` (files).
+
+mod checkpoint;
+mod error;
+mod identity;
+mod store;
+
+pub use checkpoint::Checkpoint;
+pub use error::{Damage, Error};
+pub use identity::{Digest, Identity};
+pub use store::{Damaged, Found, Store};

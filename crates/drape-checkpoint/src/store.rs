@@ -1,0 +1,239 @@
+//! Store: checkpoints in a folder, written whole or not at all; the last two are kept.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+
+use crate::checkpoint::Checkpoint;
+use crate::error::{Damage, Error};
+
+/// Checkpoints that are kept: if the last one is damaged, the one before it is taken.
+const KEPT: usize = 2;
+
+/// Name of the file that a checkpoint is written to before it has its own.
+const TEMPORARY: &str = "checkpoint.part";
+
+/// Folder with checkpoints.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Store {
+    folder: PathBuf,
+}
+
+/// Checkpoints of a folder.
+#[derive(Debug)]
+pub struct Found {
+    /// Newest one that is intact.
+    pub newest: Option<Checkpoint>,
+    /// Newer ones that are not, the newest first.
+    pub damaged: Vec<Damaged>,
+}
+
+/// Checkpoint that is not as it was written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Damaged {
+    /// File.
+    pub path: PathBuf,
+    /// Fault.
+    pub fault: Damage,
+}
+
+/// File of a checkpoint.
+struct Numbered {
+    number: u32,
+    path: PathBuf,
+}
+
+impl Found {
+    /// Removes those that are damaged, so that they are not among the two that are kept.
+    ///
+    /// # Errors
+    /// When one cannot be removed.
+    pub fn remove_damaged(&self) -> Result<(), Error> {
+        for Damaged { path, .. } in &self.damaged {
+            let fail = |reason| Error::Write { path: path.clone(), reason };
+            fs::remove_file(path).map_err(fail)?;
+        }
+        Ok(())
+    }
+}
+
+impl Store {
+    /// Store in a folder, which need not be there before the first checkpoint is written.
+    #[must_use]
+    pub fn new(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into() }
+    }
+
+    /// Writes a checkpoint as the newest one, and then removes all but the last two. When it
+    /// returns, the checkpoint outlasts a loss of power.
+    ///
+    /// # Errors
+    /// When a file cannot be written; the checkpoints before it are then as they were.
+    pub fn write(&self, checkpoint: &Checkpoint) -> Result<(), Error> {
+        let mut files = self.files()?;
+        let number = files.first().map_or(0, |newest| newest.number).saturating_add(1);
+        let path = self.folder.join(format!("checkpoint-{number:08}.bin"));
+        let temporary = self.folder.join(TEMPORARY);
+        let write = || -> io::Result<()> {
+            let mut to = BufWriter::new(File::create(&temporary)?);
+            checkpoint.encode(&mut to)?;
+            to.into_inner().map_err(|error| error.into_error())?.sync_all()?;
+            fs::rename(&temporary, &path)?;
+            sync_folder(&self.folder)
+        };
+        if let Err(reason) = write() {
+            // The failure is told, not that of the removal.
+            let _ = fs::remove_file(&temporary);
+            return Err(Error::Write { path, reason });
+        }
+        files.insert(0, Numbered { number, path });
+        for Numbered { path, .. } in files.into_iter().skip(KEPT) {
+            fs::remove_file(&path).map_err(|reason| Error::Write { path, reason })?;
+        }
+        Ok(())
+    }
+
+    /// Reads the newest checkpoint that is intact.
+    ///
+    /// # Errors
+    /// When the folder cannot be read.
+    pub fn read(&self) -> Result<Found, Error> {
+        let mut damaged = Vec::new();
+        for Numbered { path, .. } in self.files()? {
+            let bytes = fs::read(&path);
+            let unreadable = |error: io::Error| Damage::Unreadable { reason: error.to_string() };
+            match bytes.map_err(unreadable).and_then(|bytes| Checkpoint::decode(&bytes)) {
+                Ok(newest) => return Ok(Found { newest: Some(newest), damaged }),
+                Err(fault) => damaged.push(Damaged { path, fault }),
+            }
+        }
+        Ok(Found { newest: None, damaged })
+    }
+
+    /// Returns whether there is no checkpoint, intact or not.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.files().is_ok_and(|files| files.is_empty())
+    }
+
+    /// Removes all checkpoints, and what is left of one that was not finished.
+    ///
+    /// # Errors
+    /// When a file cannot be removed.
+    pub fn clear(&self) -> Result<(), Error> {
+        let files = self.files()?.into_iter().map(|file| file.path);
+        for path in files.chain([self.folder.join(TEMPORARY)]) {
+            match fs::remove_file(&path) {
+                Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
+                    return Err(Error::Write { path, reason });
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the files of checkpoints, the newest first.
+    fn files(&self) -> Result<Vec<Numbered>, Error> {
+        let fail = |reason| Error::Read { path: self.folder.clone(), reason };
+        let entries = match fs::read_dir(&self.folder) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+            other => other.map_err(fail)?,
+        };
+        let mut files = Vec::new();
+        for entry in entries {
+            let path = entry.map_err(fail)?.path();
+            files.extend(number_of(&path).map(|number| Numbered { number, path }));
+        }
+        files.sort_by_key(|file| std::cmp::Reverse(file.number));
+        Ok(files)
+    }
+}
+
+/// Returns the number in the name of a checkpoint.
+fn number_of(path: &Path) -> Option<u32> {
+    let name = path.file_name()?.to_str()?;
+    let digits = name.strip_prefix("checkpoint-")?.strip_suffix(".bin")?;
+    (digits.len() == 8).then(|| digits.parse().ok())?
+}
+
+/// Makes the names of a folder outlast a loss of power.
+#[cfg(unix)]
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    File::open(folder)?.sync_all()
+}
+
+#[cfg(not(unix))]
+fn sync_folder(_: &Path) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identity::Identity;
+
+    fn numbered(number: u64) -> Checkpoint {
+        let mut checkpoint = Checkpoint::new(Identity::new("test"));
+        checkpoint.put("number", &number).expect("it is encoded");
+        checkpoint
+    }
+
+    fn newest(store: &Store) -> Option<u64> {
+        let found = store.read().expect("the folder is read");
+        found.newest.map(|own| own.get("number").expect("a number"))
+    }
+
+    #[test]
+    fn the_last_two_are_kept_and_the_last_is_read() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let store = Store::new(folder.path());
+        assert!(store.is_empty() && newest(&store).is_none());
+        for number in 1..=5 {
+            store.write(&numbered(number)).expect("it is written");
+            assert_eq!(newest(&store), Some(number));
+        }
+        let mut names: Vec<_> = fs::read_dir(folder.path())
+            .expect("a folder")
+            .map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"))
+            .collect();
+        names.sort();
+        assert_eq!(names, ["checkpoint-00000004.bin", "checkpoint-00000005.bin"]);
+        store.clear().expect("it is cleared");
+        assert!(store.is_empty());
+    }
+
+    #[test]
+    fn damage_and_a_write_that_was_cut_off_lead_to_the_one_before() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let store = Store::new(folder.path());
+        store.write(&numbered(1)).expect("it is written");
+        store.write(&numbered(2)).expect("it is written");
+        fs::write(folder.path().join(TEMPORARY), b"DRAPECK").expect("it is written");
+        assert_eq!(newest(&store), Some(2));
+        let last = folder.path().join("checkpoint-00000002.bin");
+        let mut bytes = fs::read(&last).expect("it is read");
+        let middle = bytes.len() / 2;
+        bytes[middle] ^= 16;
+        fs::write(&last, &bytes).expect("it is written");
+        let found = store.read().expect("the folder is read");
+        assert_eq!(found.damaged.len(), 1);
+        assert_eq!(found.damaged[0].path, last);
+        assert_eq!(newest(&store), Some(1));
+        // The next one is newer than both.
+        store.write(&numbered(3)).expect("it is written");
+        assert_eq!(newest(&store), Some(3));
+        assert!(folder.path().join("checkpoint-00000003.bin").exists());
+    }
+
+    #[test]
+    fn a_folder_in_place_of_a_checkpoint_is_told() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let store = Store::new(folder.path());
+        store.write(&numbered(1)).expect("it is written");
+        fs::create_dir(folder.path().join("checkpoint-00000002.bin")).expect("it is made");
+        let found = store.read().expect("the folder is read");
+        assert!(matches!(found.damaged[0].fault, Damage::Unreadable { .. }));
+        assert_eq!(newest(&store), Some(1));
+    }
+}

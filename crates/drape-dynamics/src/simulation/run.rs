@@ -1,0 +1,159 @@
+//! Run: all steps of a simulation, from its start or from where it was left, watched.
+
+use std::time::{Duration, Instant};
+
+use super::saved::SavedSimulation;
+use super::{Simulation, Step};
+use crate::error::Error;
+use crate::measure::{at_particles, measures, warnings};
+use crate::record::frame::Frame;
+use crate::record::summary::{Status, Summary};
+
+/// Time that a step must take for the next one to be begun with a copy of the state, to which it
+/// can be taken back when it is given up: a copy takes less than a hundredth of it.
+const LONG_STEP: Duration = Duration::from_millis(200);
+
+/// Watcher of a running simulation. `()` watches nothing.
+pub trait Progress {
+    /// Is called after a step, with the time in ticks of the clock.
+    fn step(&mut self, _step: &Step, _ticks: usize) {}
+
+    /// Is called when a frame is due.
+    ///
+    /// # Errors
+    /// Whatever keeps the frame from being stored; the run then ends with it.
+    fn frame(&mut self, _frame: &Frame) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Returns whether a checkpoint is wanted after this step. One is made at the end of each phase,
+    /// when the run is interrupted, and at its end.
+    fn is_checkpoint_due(&self) -> bool {
+        false
+    }
+
+    /// Is called with what the run can go on from.
+    ///
+    /// # Errors
+    /// Whatever keeps it from being stored; the run then ends with it.
+    fn checkpoint(&mut self, _saved: &SavedSimulation) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Returns whether the run is to end after this step, as if it were asked to by a person.
+    fn is_interrupted(&self) -> bool {
+        false
+    }
+}
+
+impl Progress for () {}
+
+/// What has been counted before a step.
+#[derive(Debug, Clone, Copy)]
+struct Before {
+    /// Intervals of frames that are over.
+    intervals: usize,
+    phases: usize,
+}
+
+impl Simulation {
+    /// Runs to the end, to rest, or to a step that cannot be solved; the summary says how it ended.
+    ///
+    /// # Errors
+    /// Only those of the watcher.
+    pub fn run(&mut self, progress: &mut dyn Progress) -> Result<Summary, Error> {
+        if self.frame_times.is_empty() {
+            self.emit_frame(progress)?;
+        }
+        let mut is_long = false;
+        loop {
+            let before =
+                Before { intervals: self.frame_intervals(), phases: self.phases.begun.len() };
+            let start = (is_long && self.world.cancel.is_some()).then(|| self.saved());
+            let began = Instant::now();
+            let step = match self.step() {
+                Ok(step) => step,
+                Err(drape_implicit::Error::Cancelled) => {
+                    self.give_up(start, progress)?;
+                    break;
+                }
+                Err(error) => {
+                    self.fail(&error);
+                    break;
+                }
+            };
+            is_long = began.elapsed() >= LONG_STEP;
+            progress.step(&step, self.stepping.ticks());
+            if self.end_step(&step, before, progress)? {
+                break;
+            }
+        }
+        self.outcome.measures = measures(&self.parts, &mut self.world);
+        self.outcome.warnings = self.outcome.events.clone();
+        self.outcome.warnings.extend(warnings(&self.parts, &self.world));
+        self.outcome.warnings.extend(self.unfinished_growth());
+        Ok(self.summary())
+    }
+
+    /// Hands frames and checkpoints of a step to the watcher; returns whether it was the last one.
+    fn end_step(
+        &mut self,
+        step: &Step,
+        before: Before,
+        progress: &mut dyn Progress,
+    ) -> Result<bool, Error> {
+        let is_interrupted = !step.finished && progress.is_interrupted();
+        let phase_ended = self.phases.begun.len() > before.phases;
+        let is_due = self.frame_intervals() > before.intervals;
+        if step.finished || is_due || phase_ended {
+            self.emit_frame(progress)?;
+        }
+        let ended_well = step.finished && self.outcome.status == Status::Ok;
+        if is_interrupted || phase_ended || ended_well || progress.is_checkpoint_due() {
+            progress.checkpoint(&self.saved())?;
+        }
+        if is_interrupted {
+            // A run that goes on from the checkpoint does not have this frame.
+            if !(is_due || phase_ended) {
+                self.emit_frame(progress)?;
+            }
+            self.outcome.status = Status::Interrupted;
+            return Ok(true);
+        }
+        if step.finished && ended_well && self.settles() && !self.has_settled() {
+            self.outcome.status = Status::DidNotSettle;
+            self.outcome.reason = self.parts.first_slide();
+        }
+        Ok(step.finished)
+    }
+
+    /// Ends the run in a step that was given up: takes it back to its start, if there is a copy of
+    /// that. Without one the last checkpoint stands.
+    fn give_up(
+        &mut self,
+        start: Option<SavedSimulation>,
+        progress: &mut dyn Progress,
+    ) -> Result<(), Error> {
+        if let Some(start) = start {
+            progress.checkpoint(&start)?;
+            self.resume(start)?;
+            self.emit_frame(progress)?;
+        }
+        self.outcome.status = Status::Interrupted;
+        Ok(())
+    }
+
+    /// Intervals of frames that are over.
+    fn frame_intervals(&self) -> usize {
+        self.stepping.ticks() / self.stepping.clock().ticks_per_frame
+    }
+
+    /// Hands the next frame to the watcher.
+    fn emit_frame(&mut self, progress: &mut dyn Progress) -> Result<(), Error> {
+        let mut frame = self.frame();
+        frame.pressures = at_particles(&mut self.world, &frame.positions);
+        progress.frame(&frame)?;
+        self.frame_times.push(self.time());
+        Ok(())
+    }
+}

@@ -1,0 +1,147 @@
+//! Saved simulation: all that a run needs to go on, between two steps.
+//!
+//! A simulation is made again from its scene and then returns to what was saved. From there on
+//! every number is, to the last bit, what it would have been: that is why the pairs of contact and
+//! the copies of the integrator are saved too, which could be found again.
+
+use drape_checkpoint::Checkpoint;
+use drape_scene::Relaxation;
+use serde::{Deserialize, Serialize};
+
+use super::{LastStep, Phases, Simulation};
+use crate::error::Error;
+use crate::measure::garment_parts::VerticalExtent;
+use crate::record::statistics::Statistics;
+use crate::record::stopwatch::{PastTime, Stopwatch};
+use crate::record::summary::Status;
+use crate::stepping::RestDetector;
+use crate::stepping::saved::SavedStepping;
+use crate::world::saved::SavedWorld;
+
+/// Names of the sections of a checkpoint.
+const SECTIONS: [&str; 3] = ["world", "stepping", "run"];
+
+/// All that a run needs to go on, between two steps.
+#[derive(Debug, Clone)]
+pub struct SavedSimulation {
+    world: SavedWorld,
+    stepping: SavedStepping,
+    run: SavedRun,
+}
+
+/// What a run has come to, apart from world and stepping.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct SavedRun {
+    criteria: Option<Relaxation>,
+    quiet_ticks: usize,
+    phases: Phases,
+    garments: Vec<SavedGarment>,
+    statistics: Statistics,
+    last: LastStep,
+    events: Vec<String>,
+    frame_times: Vec<f64>,
+    time: PastTime,
+}
+
+/// Where a garment was when it began to hang, and when it left its place, in s.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+struct SavedGarment {
+    hung: VerticalExtent,
+    slid: Option<f64>,
+}
+
+impl SavedSimulation {
+    /// Number of frames so far.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.run.frame_times.len()
+    }
+
+    /// Puts the sections into a checkpoint.
+    ///
+    /// # Errors
+    /// None that is known: every value can be written.
+    pub fn write(&self, to: &mut Checkpoint) -> Result<(), Error> {
+        let [world, stepping, run] = SECTIONS;
+        to.put(world, &self.world)?;
+        to.put(stepping, &self.stepping)?;
+        Ok(to.put(run, &self.run)?)
+    }
+
+    /// Takes the sections from a checkpoint.
+    ///
+    /// # Errors
+    /// Sections that are missing or have other values.
+    pub fn read(from: &Checkpoint) -> Result<Self, Error> {
+        let [world, stepping, run] = SECTIONS;
+        Ok(Self { world: from.get(world)?, stepping: from.get(stepping)?, run: from.get(run)? })
+    }
+}
+
+impl Simulation {
+    /// Returns all that the run needs to go on.
+    #[must_use]
+    pub fn saved(&self) -> SavedSimulation {
+        let garments = self.parts.garments.iter();
+        SavedSimulation {
+            world: self.world.saved(),
+            stepping: self.stepping.saved(),
+            run: SavedRun {
+                criteria: self.rest.criteria,
+                quiet_ticks: self.rest.quiet_ticks(),
+                phases: self.phases.clone(),
+                garments: garments
+                    .map(|own| SavedGarment { hung: own.hung, slid: own.slid })
+                    .collect(),
+                statistics: self.statistics.clone(),
+                last: self.last,
+                events: self.outcome.events.clone(),
+                frame_times: self.frame_times.clone(),
+                time: self.stopwatch.time(),
+            },
+        }
+    }
+
+    /// Returns to what was saved. The simulation is one of the same scene, just made, or the one
+    /// that was saved.
+    ///
+    /// # Errors
+    /// [`Error::Unfit`], and errors of the solver for the scene; the simulation is then of no use.
+    pub fn resume(&mut self, saved: SavedSimulation) -> Result<(), Error> {
+        let SavedSimulation { world, stepping, run } = saved;
+        let unfit = |reason: String| Error::Unfit { reason };
+        if run.garments.len() != self.parts.garments.len() {
+            return Err(unfit("the garments are others".into()));
+        }
+        if run.frame_times.is_empty() || run.phases.begun.is_empty() {
+            return Err(unfit("it has no frame or no phase".into()));
+        }
+        let is_sewn = !world.is_sewing && !self.parts.seams.is_empty();
+        self.world.resume(world).map_err(unfit)?;
+        if is_sewn {
+            self.stepping.reduce(&self.world, &self.parts.seams)?;
+        }
+        self.stepping.resume(&mut self.world, stepping).map_err(unfit)?;
+        for (garment, SavedGarment { hung, slid }) in
+            self.parts.garments.iter_mut().zip(run.garments)
+        {
+            (garment.hung, garment.slid) = (hung, slid);
+        }
+        self.rest = RestDetector::resumed(run.criteria, run.quiet_ticks);
+        (self.phases, self.statistics, self.last) = (run.phases, run.statistics, run.last);
+        self.outcome.status = Status::Ok;
+        (self.outcome.events, self.frame_times) = (run.events, run.frame_times);
+        self.stopwatch = Stopwatch::resumed(run.time);
+        Ok(())
+    }
+
+    /// Lets the run go on for so many seconds beyond its end. Returns false, and changes nothing,
+    /// if the cloth is at rest, by which the run is over.
+    pub fn extend(&mut self, seconds: f64) -> bool {
+        let goes_on = !self.is_at_rest();
+        if goes_on {
+            self.stepping.extend(seconds);
+        }
+        goes_on
+    }
+}

@@ -1,0 +1,67 @@
+//! Saved stepping: all of the integration in time that its next steps depend on.
+
+use drape_implicit::{IntegratorState, System};
+use serde::{Deserialize, Serialize};
+
+use super::Stepping;
+use super::accuracy::{Accuracy, relaxation_scheme};
+use super::scheme::Scheme;
+use super::step_control::{SavedControl, StepControl};
+use crate::world::World;
+
+/// All of the integration in time that its next steps depend on.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct SavedStepping {
+    integrator: IntegratorState,
+    accuracy: Accuracy,
+    control: SavedControl,
+    /// End of the run at the latest, in s.
+    end: f64,
+    /// Largest number of ticks of a step.
+    ticks_max: usize,
+    /// Time so far, in ticks.
+    ticks: usize,
+}
+
+impl Stepping {
+    /// Returns all that the next steps depend on.
+    pub(crate) fn saved(&self) -> SavedStepping {
+        SavedStepping {
+            integrator: self.state.clone(),
+            accuracy: self.accuracy,
+            control: self.control.saved(),
+            end: self.clock.end,
+            ticks_max: self.clock.ticks_max,
+            ticks: self.ticks,
+        }
+    }
+
+    /// Returns to what was saved, for a world that has returned to it.
+    ///
+    /// # Errors
+    /// What does not fit, in words.
+    pub(crate) fn resume(&mut self, world: &mut World, saved: SavedStepping) -> Result<(), String> {
+        let SavedStepping { integrator, accuracy, control, end, ticks_max, ticks } = saved;
+        let particles = self.reduction.as_ref().map_or(world.particles(), |own| own.particles());
+        integrator.check(particles).map_err(|error| error.to_string())?;
+        let mut clock = self.clock;
+        (clock.end, clock.ticks_max) = (end, ticks_max);
+        if !(end > 0.0 && end.is_finite()) || ticks_max == 0 || ticks > clock.ticks_to_do() {
+            return Err("its clock is wrong".into());
+        }
+        let scheme = match &self.scheme {
+            Scheme::Implicit(settings) if world.relaxes() => relaxation_scheme(settings, accuracy),
+            scheme => scheme.clone(),
+        };
+        self.control = StepControl::resumed(clock, self.scheme.order(), control);
+        (self.clock, self.ticks, self.accuracy, self.state) = (clock, ticks, accuracy, integrator);
+        self.set_up(world, &scheme).map_err(|error| error.to_string())
+    }
+
+    /// Lets the run go on for so many seconds beyond its end.
+    pub(crate) fn extend(&mut self, seconds: f64) {
+        self.clock.end += seconds;
+        let saved = self.control.saved();
+        self.control = StepControl::resumed(self.clock, self.scheme.order(), saved);
+    }
+}

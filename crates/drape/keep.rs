@@ -1,0 +1,18 @@
+//! What keeps a run: its lock, what was asked for, checkpoints, limits, signals that end it, and its
+//! status for whoever watches.
+//!
+//! A run keeps in its folder, beside its results, `run.json` (what was asked for), `status.json` (how
+//! far it is), two checkpoints, and the file of its lock. [`Keeper`] writes them as the run goes.
+
+mod keeper;
+mod limits;
+mod lock;
+mod request;
+pub(crate) mod signal;
+mod status;
+
+pub(crate) use keeper::{Keeper, Kept};
+pub(crate) use limits::{Limits, positive};
+pub(crate) use lock::Lock;
+pub(crate) use request::{RunRequest, status_of};
+pub(crate) use status::Advance;

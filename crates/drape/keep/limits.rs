@@ -1,0 +1,92 @@
+//! Limits that a user sets to a run: time, memory, disk.
+
+use std::path::Path;
+use std::time::Instant;
+
+use clap::Args;
+
+/// Limits of a run. One that is reached ends it with a checkpoint.
+#[derive(Args, Clone, Default)]
+pub(crate) struct Limits {
+    /// Ends the run with a checkpoint after this time, in seconds (exit code 8).
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub(crate) max_wall: Option<f64>,
+    /// Ends the run with a checkpoint when the program takes more memory, in MB (exit code 8).
+    #[arg(long, value_name = "MB", value_parser = positive)]
+    pub(crate) max_memory: Option<f64>,
+    /// Ends the run with a checkpoint when its results take more of the disk, in MB (exit code 8).
+    #[arg(long, value_name = "MB", value_parser = positive)]
+    pub(crate) max_disk: Option<f64>,
+}
+
+/// Bytes of a MB.
+const MEGABYTE: f64 = 1e6;
+
+/// Reads a number above 0.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "no number".to_owned())?;
+    if number > 0.0 && number.is_finite() {
+        return Ok(number);
+    }
+    Err("not a number above 0".into())
+}
+
+impl Limits {
+    /// Returns the limit that is reached, in words: by a run that began at a time and writes to a
+    /// folder.
+    pub(crate) fn reached(&self, begin: Instant, folder: &Path) -> Option<String> {
+        let over = |limit: Option<f64>, now: Option<f64>| {
+            limit.zip(now).filter(|(limit, now)| now >= limit)
+        };
+        if let Some((limit, now)) = over(self.max_wall, Some(begin.elapsed().as_secs_f64())) {
+            return Some(format!("--max-wall: it has taken {now:.0} s, of {limit} s"));
+        }
+        let memory = || resident_bytes().map(|bytes| bytes / MEGABYTE);
+        if let Some((limit, now)) = over(self.max_memory, self.max_memory.and_then(|_| memory())) {
+            return Some(format!("--max-memory: it takes {now:.0} MB, of {limit} MB"));
+        }
+        let disk = || Some(bytes_in(folder) / MEGABYTE);
+        if let Some((limit, now)) = over(self.max_disk, self.max_disk.and_then(|_| disk())) {
+            return Some(format!("--max-disk: its results take {now:.0} MB, of {limit} MB"));
+        }
+        None
+    }
+}
+
+/// Memory that the program takes, in bytes, where the system tells.
+fn resident_bytes() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let kilobytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024.0 * kilobytes)
+}
+
+/// Bytes of the files of a folder.
+fn bytes_in(folder: &Path) -> f64 {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.filter_map(|entry| entry.metadata().ok()).map(|found| found.len() as f64).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_that_is_reached_is_named() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        std::fs::write(folder.path().join("frame"), vec![0; 3_000_000]).expect("written");
+        let reached = |limits: Limits| limits.reached(Instant::now(), folder.path());
+        assert_eq!(reached(Limits::default()), None);
+        let disk = |max_disk| Limits { max_disk: Some(max_disk), ..Limits::default() };
+        assert_eq!(reached(disk(4.0)), None);
+        assert!(reached(disk(2.0)).expect("reached").contains("--max-disk"));
+        let wall = Limits { max_wall: Some(1e-9), ..Limits::default() };
+        assert!(reached(wall).expect("reached").contains("--max-wall"));
+        #[cfg(target_os = "linux")]
+        {
+            let memory = |max_memory| Limits { max_memory: Some(max_memory), ..Limits::default() };
+            assert_eq!(reached(memory(1e6)), None);
+            assert!(reached(memory(0.1)).expect("reached").contains("--max-memory"));
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Request of a run: what was asked for, from which `drape resume` makes the run again.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::failure::Failure;
+use crate::{file, input};
+
+/// Name of its file.
+const NAME: &str = "run.json";
+
+/// What was asked for.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct RunRequest {
+    /// Scene, as a whole path, or `-` for standard input.
+    pub(crate) scene: PathBuf,
+    /// End of the run, in s, if it is not that of the scene.
+    pub(crate) until: Option<f64>,
+    /// Time between two checkpoints, in s.
+    pub(crate) checkpoint_every: f64,
+}
+
+impl RunRequest {
+    /// Makes the request of a scene.
+    pub(crate) fn new(scene: &Path, until: Option<f64>, checkpoint_every: f64) -> Self {
+        let whole = std::path::absolute(scene).ok().filter(|_| !input::is_standard(scene));
+        Self { scene: whole.unwrap_or_else(|| scene.to_owned()), until, checkpoint_every }
+    }
+
+    /// Writes it to a folder.
+    pub(crate) fn write(&self, folder: &Path) -> Result<(), Failure> {
+        let text = serde_json::to_string_pretty(self)
+            .map_err(|error| Failure::Output(error.to_string()))?;
+        file::write(&folder.join(NAME), text + "\n")
+    }
+
+    /// Reads that of a folder.
+    pub(crate) fn read(folder: &Path) -> Result<Self, Failure> {
+        let fail = |reason: String| {
+            Failure::Usage(format!(
+                "{}: {reason}; a folder that `drape run` has begun has it",
+                folder.join(NAME).display()
+            ))
+        };
+        let text = std::fs::read(folder.join(NAME)).map_err(|error| fail(error.to_string()))?;
+        serde_json::from_slice(&text).map_err(|error| fail(error.to_string()))
+    }
+
+    /// Returns whether a folder holds a run that was begun and has not ended.
+    pub(crate) fn is_interrupted(folder: &Path) -> bool {
+        let ended = status_of(folder).is_some_and(|status| status != "interrupted");
+        folder.join(NAME).is_file() && !ended
+    }
+}
+
+/// Returns the status in the summary of a run, if there is one.
+pub(crate) fn status_of(folder: &Path) -> Option<String> {
+    let text = std::fs::read(folder.join("summary.json")).ok()?;
+    let summary: serde_json::Value = serde_json::from_slice(&text).ok()?;
+    Some(summary["status"].as_str()?.to_owned())
+}
