@@ -29,6 +29,11 @@ impl OpenSeams {
         self.widest.clear();
     }
 
+    /// Returns whether these may be gaps of the classes, in m: none if all seams are closed.
+    pub(super) fn may_have(&self, gaps: &[f64]) -> bool {
+        gaps.len() == self.widest.len() && gaps.iter().all(|gap| *gap >= 0.0)
+    }
+
     /// Limits the gaps to what the sides of the seams are apart, so that none repels the other.
     pub(super) fn limit<'a>(
         &mut self,

@@ -58,10 +58,11 @@ pub struct SurfaceMemory {
 }
 
 /// All that the next steps of a [`SurfaceContact`] depend on between two steps, to be written to a
-/// file: its memory, and the pairs at hand.
+/// file: its memory, the gaps of its open seams and the pairs at hand.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SavedContact {
     memory: SurfaceMemory,
+    seam_gaps: Vec<f64>,
     tracked: TrackedMemory,
 }
 
@@ -211,7 +212,11 @@ impl SurfaceContact {
     /// Returns all that the next steps depend on, to be written to a file.
     #[must_use]
     pub fn saved(&self) -> SavedContact {
-        SavedContact { memory: self.memory(), tracked: self.tracked.memory() }
+        SavedContact {
+            memory: self.memory(),
+            seam_gaps: self.surface.separations.seam_gaps.clone(),
+            tracked: self.tracked.memory(),
+        }
     }
 
     /// Returns to a state that was saved with the free vertices at these positions, in m: from here
@@ -220,15 +225,17 @@ impl SurfaceContact {
     /// # Errors
     /// A state of another surface, or numbers that no contact has.
     pub fn resume(&mut self, positions: &[f64], saved: &SavedContact) -> Result<(), Error> {
-        let SavedContact { memory, tracked } = saved;
+        let SavedContact { memory, seam_gaps, tracked } = saved;
         memory.check(self)?;
         let (needed, found) = (3 * self.surface.free_count(), positions.len());
         if found != needed {
             return Err(Error::WrongLength { what: "positions", found, needed });
         }
-        if !tracked.is_of(3 * self.surface.vertex_count()) {
+        let vertices = self.surface.vertex_count();
+        if !tracked.is_of(3 * vertices) || !self.open_seams.may_have(seam_gaps) {
             return Err(Error::SavedContact);
         }
+        self.surface.separations.seam_gaps.clone_from(seam_gaps);
         self.restore(memory);
         self.active.invalidate();
         self.summary_at(positions)?;
