@@ -122,8 +122,8 @@ pub struct Settings {
     /// as quasi-static relaxation, whose forces are small at the start however far it has to go.
     /// Default false.
     pub begin_at_prediction: bool,
-    /// Whether the report has the energy balance, at the cost of two potentials per sub-step.
-    /// Default false.
+    /// Whether the report has the energy balance, at the cost of two potentials and an evaluation of
+    /// the forces per sub-step, and of more where contact or friction sets in. Default false.
     pub energy_balance: bool,
 }
 
