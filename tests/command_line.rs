@@ -261,11 +261,12 @@ fn a_body_in_centimetres_is_asked_for_its_unit() {
         .replace("bodies/body.obj", "body.obj")
         .replace("spacing = 0.01", "spacing = 0.03");
     std::fs::write(folder.join("skirt.toml"), &scene).expect("writes");
-    let refused = fails(folder, &["check", "skirt.toml"], 3);
+    let check = ["check", "skirt.toml", "--allow-path", root.to_str().expect("text")];
+    let refused = fails(folder, &check, 3);
     assert!(refused.contains("scale = 0.01"), "{refused}");
     let mended = scene.replace("file = \"body.obj\"", "file = \"body.obj\"\nscale = 0.01");
     std::fs::write(folder.join("skirt.toml"), mended).expect("writes");
-    succeeds(folder, &["check", "skirt.toml"]);
+    succeeds(folder, &check);
     let report = succeeds(folder, &["check", "body.obj"]);
     assert!(report.contains("centimetres") && report.contains("closed"), "{report}");
 }

@@ -1,6 +1,8 @@
 //! The command line: which commands there are, and the options that all of them have. Their own
 //! arguments stand with them, in the modules of [`commands`](crate::commands).
 
+use std::path::PathBuf;
+
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use crate::commands::bench::{self, BenchArguments};
@@ -19,6 +21,7 @@ use crate::commands::test::{self, TestArguments};
 use crate::commands::validate::{self, ValidateArguments};
 use crate::console::{Console, ProgressKind};
 use crate::failure::Failure;
+use crate::input;
 
 /// Codes that the program exits with, for the end of the help.
 const EXIT_CODES: &str = "\
@@ -62,6 +65,10 @@ struct Options {
     /// Progress on stderr.
     #[arg(long, global = true, value_enum, default_value = "auto", value_name = "KIND")]
     progress: ProgressKind,
+    /// Lets scenes and sheets name this file, or those in this folder, too; may be given several
+    /// times [default: those in their own folder and in the working folder].
+    #[arg(long, global = true, value_name = "PATH")]
+    allow_path: Vec<PathBuf>,
 }
 
 #[derive(Subcommand)]
@@ -107,7 +114,8 @@ impl CommandLine {
     /// Executes the command on a thread of the pool: work that comes from another thread is handed
     /// over each time.
     pub(crate) fn execute(&self) -> Result<(), Failure> {
-        let Options { threads, quiet, verbose, progress } = self.options;
+        let Options { threads, quiet, verbose, progress, ref allow_path } = self.options;
+        input::allow(allow_path);
         Console { quiet, verbose, progress }.install();
         let bench = matches!(self.command, Command::Bench(_)).then_some(1);
         if let Some(threads) = threads.or(bench) {

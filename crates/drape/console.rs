@@ -5,7 +5,7 @@
 
 use std::borrow::Cow;
 use std::fmt::Display;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::OnceLock;
 
 use clap::ValueEnum;
@@ -59,15 +59,14 @@ pub(crate) fn is_coloured() -> bool {
 }
 
 /// Writes a message to stderr.
-#[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
 pub(crate) fn tell(text: impl Display) {
-    eprintln!("{}", printable(&text.to_string()));
+    tell_coloured(printable(&text.to_string()));
 }
 
 /// Writes a message to stderr that may hold colours; what came from the input was made printable.
-#[expect(clippy::print_stderr, reason = "messages of the program go to stderr")]
 pub(crate) fn tell_coloured(text: impl Display) {
-    eprintln!("{text}");
+    // Where stderr takes nothing, there is nobody to tell; the exit code says the rest.
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
 /// Writes a note to stderr, unless the user asked for quiet.

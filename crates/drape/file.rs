@@ -1,7 +1,7 @@
 //! Files that commands write: complete or not at all.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::fs::{File, OpenOptions};
+use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
@@ -29,7 +29,8 @@ where
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
-    let mut file = BufWriter::new(File::create(&temporary).map_err(failed)?);
+    refuse_irregular(path)?;
+    let mut file = BufWriter::new(create_anew(&temporary).map_err(failed)?);
     let written = content(&mut file).map_err(Failure::from).and_then(|()| {
         file.flush().and_then(|()| std::fs::rename(&temporary, path)).map_err(failed)
     });
@@ -38,6 +39,26 @@ where
         let _ = std::fs::remove_file(&temporary);
     }
     written
+}
+
+/// Creates a file that is not there; what is there is removed first, a link itself and not what it
+/// leads to.
+fn create_anew(path: &Path) -> std::io::Result<File> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => OpenOptions::new().write(true).create_new(true).open(path),
+    }
+}
+
+/// Refuses to put a file in the place of a folder, a pipe or a device.
+fn refuse_irregular(path: &Path) -> Result<(), Failure> {
+    match std::fs::metadata(path) {
+        Ok(found) if !found.is_file() => {
+            let message = format!("cannot write {}: it is there and is no file", path.display());
+            Err(Failure::Output(message))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Removes the files of a numbered sequence that are there, up to the first that is not.

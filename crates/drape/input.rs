@@ -5,7 +5,7 @@
 
 use std::borrow::Cow;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use drape::input::{Diagnostic, Diagnostics, Document};
@@ -19,6 +19,19 @@ const LARGEST: u64 = 1 << 24;
 /// Text of standard input, or why there is none.
 static TEXT: OnceLock<Result<String, String>> = OnceLock::new();
 
+/// Files and folders that the user allows input to name beside those of its own folder.
+static ALLOWED: OnceLock<Vec<PathBuf>> = OnceLock::new();
+
+/// Allows input to name these files, and those in these folders; the first call stays.
+pub(crate) fn allow(paths: &[PathBuf]) {
+    let _ = ALLOWED.set(paths.to_vec());
+}
+
+/// Returns what the user allows input to name.
+pub(crate) fn allowed() -> &'static [PathBuf] {
+    ALLOWED.get().map_or(&[], Vec::as_slice)
+}
+
 /// Returns whether a path stands for standard input or output.
 pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
@@ -27,10 +40,10 @@ pub(crate) fn is_standard(path: &Path) -> bool {
 /// Reads a file, or standard input.
 pub(crate) fn document(path: &Path) -> Result<Document, Diagnostics> {
     if !is_standard(path) {
-        return Document::read(path);
+        return Ok(Document::read(path)?.allowing(allowed()));
     }
     match TEXT.get_or_init(read) {
-        Ok(text) => Ok(Document::new(NAME, text)),
+        Ok(text) => Ok(Document::new(NAME, text).allowing(allowed())),
         Err(message) => {
             let help = "pipe a file in UTF-8 into it, or name the file in place of -";
             Err(Diagnostic::new(NAME, message).help(help).into())
@@ -54,7 +67,8 @@ pub(crate) fn source(path: &Path) -> Option<Cow<'static, str>> {
         let text = TEXT.get().and_then(|text| text.as_ref().ok());
         return text.map(|text| Cow::Borrowed(text.as_str()));
     }
-    std::fs::read_to_string(path).ok().map(Cow::Owned)
+    let is_file = std::fs::metadata(path).is_ok_and(|found| found.is_file());
+    is_file.then(|| std::fs::read_to_string(path).ok()).flatten().map(Cow::Owned)
 }
 
 /// Returns the path by which messages name a file.

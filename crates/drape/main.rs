@@ -27,6 +27,7 @@ mod say;
 mod signal;
 
 fn main() -> ExitCode {
+    signal::let_large_files_fail();
     let command = command::CommandLine::parse();
     match command.execute() {
         Ok(()) => ExitCode::SUCCESS,

@@ -33,7 +33,7 @@ pub fn scene_of(document: &Document) -> Result<Scene, drape_scene::Error> {
 /// # Errors
 /// The mistakes of the file, or the reason why a sheet gives no fabric.
 pub fn scene_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
-    fabric_of(&Document::read(request.file)?, request.model)
+    fabric_of(&Document::read(request.file)?.allowing(request.allowed), request.model)
 }
 
 /// Makes the fabric of a document: of a `fabric.toml`, or fitted to a `sheet.toml`.

@@ -1,10 +1,11 @@
 //! Signals that ask the program to end: the first one ends a run at its next step, a later one ends
 //! the program at once.
 
-use std::sync::Once;
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use std::sync::{Arc, Once};
 use std::time::{Duration, Instant};
 
+use rustix::process::Signal;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
@@ -16,6 +17,13 @@ const SAME: Duration = Duration::from_millis(500);
 static RECEIVED: AtomicU8 = AtomicU8::new(0);
 
 static WATCH: Once = Once::new();
+
+/// Lets a file beyond the limit of its size fail as one on a full disk does, instead of ending the
+/// program.
+pub(crate) fn let_large_files_fail() {
+    // Where that is not possible, the signal ends the program as before.
+    let _ = signal_hook::flag::register(Signal::XFSZ.as_raw(), Arc::new(AtomicBool::new(false)));
+}
 
 /// Begins to note signals instead of ending at once. Where they cannot be watched, they end the
 /// program as before.

@@ -160,7 +160,8 @@ fn ball(radius: f64, meridians: usize) -> String {
 
 #[test]
 fn garments_at_the_feet_are_worn_at_the_centre_that_is_advised() {
-    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let root = env!("CARGO_MANIFEST_DIR");
+    let scenes = Path::new(root).join("scenes");
     let folder = tempfile::tempdir().expect("a folder");
     for name in ["tshirt", "skirt", "trousers", "circle-skirt"] {
         let text = read_to_string(scenes.join(name).with_extension("toml")).expect("a scene");
@@ -172,7 +173,7 @@ fn garments_at_the_feet_are_worn_at_the_centre_that_is_advised() {
         let with = |center: &str| {
             let text = text.replace("fabric = \"wool\"", &format!("fabric = \"wool\"\n{center}"));
             std::fs::write(folder.path().join("scene.toml"), text).expect("written");
-            drape(folder.path(), &["check", "scene.toml"])
+            drape(folder.path(), &["check", "scene.toml", "--allow-path", root])
         };
         let (code, _, said) = with("center = [0.01, -1.35, 0.02]");
         assert_eq!(code, Some(3), "{name}: {said}");
@@ -186,11 +187,13 @@ fn garments_at_the_feet_are_worn_at_the_centre_that_is_advised() {
 
 #[test]
 fn a_garment_is_drawn_at_its_start_with_its_seams() {
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/seam-strip.toml");
+    let root = env!("CARGO_MANIFEST_DIR");
+    let scene = Path::new(root).join("scenes/seam-strip.toml");
     let folder = tempfile::tempdir().expect("a folder");
     let scene = scene.display().to_string();
     for name in ["start.svg", "start.png"] {
-        let (code, _, said) = drape(folder.path(), &["check", &scene, "--figure", name]);
+        let (code, _, said) =
+            drape(folder.path(), &["check", &scene, "--figure", name, "--allow-path", root]);
         assert_eq!(code, Some(0), "{said}");
     }
     let svg = read_to_string(folder.path().join("start.svg")).expect("a figure");

@@ -7,6 +7,7 @@
 
 mod array;
 pub(crate) mod frame;
+mod manifest;
 pub(crate) mod recorder;
 pub(crate) mod snapshot;
 pub(crate) mod state_hash;

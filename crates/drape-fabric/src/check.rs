@@ -23,23 +23,24 @@ pub struct Problem {
     pub help: String,
 }
 
+/// Asks for a unit of a thousandth in which a number would be within its range.
+fn asked(value: f64, range: &RangeInclusive<f64>, unit: &str) -> Option<String> {
+    let meant = range.contains(&(1e-3 * value));
+    meant.then(|| format!("did you mean \"{} {unit}\"?", figure(value)))
+}
+
 impl Fabric {
     /// Returns every number outside its admissible range: none for a usable fabric.
     #[must_use]
     pub fn problems(&self) -> Vec<Problem> {
         let mut check = Check(Vec::new());
-        check.within(
-            "density",
-            self.density,
-            0.005..=5.0,
-            "mass per area in kg/m²: 0.12, or \"120 g/m2\" with its unit",
-        );
-        check.within(
-            "thickness",
-            self.thickness,
-            1e-6..=0.02,
-            "in m: 0.0003, or \"0.3 mm\" with its unit",
-        );
+        let (range, help) =
+            (0.005..=5.0, "mass per area in kg/m²: 0.12, or \"120 g/m2\" with its unit");
+        let help = asked(self.density, &range, "g/m2").unwrap_or_else(|| help.to_owned());
+        check.within("density", self.density, range, &help);
+        let (range, help) = (1e-6..=0.02, "in m: 0.0003, or \"0.3 mm\" with its unit");
+        let help = asked(self.thickness, &range, "mm").unwrap_or_else(|| help.to_owned());
+        check.within("thickness", self.thickness, range, &help);
         if let Some(pressed) = self.pressed_thickness {
             let help = "in m, under 4.9 kPa: no more than the thickness";
             check.within("pressed_thickness", pressed, 1e-6..=self.thickness, help);

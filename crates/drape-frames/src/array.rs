@@ -1,6 +1,5 @@
 //! Array: a table of numbers in the format of NumPy (`.npy`).
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -8,6 +7,7 @@ use npyz::half::f16;
 use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order};
 
 use crate::error::Error;
+use crate::text::open;
 
 /// Bytes before the text of a header: the magic string, the version and the length of the text.
 const PREAMBLE: usize = 10;
@@ -42,7 +42,7 @@ impl Expected<'_> {
             let reason = error.to_string();
             Error::Unreadable { path: self.path.to_owned(), reason }
         };
-        let file = File::open(self.path).map_err(unreadable)?;
+        let file = open(self.path).map_err(unreadable)?;
         let limit = (HEADER_MAX + of_numbers) as u64;
         let bytes = file.metadata().map_err(unreadable)?.len();
         if bytes > limit {

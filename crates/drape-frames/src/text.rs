@@ -26,12 +26,20 @@ pub(crate) fn read_complete_lines(path: &Path) -> Result<String, Error> {
     Ok(text)
 }
 
+/// Opens a regular file: a pipe would wait for its writer, and a device may never end.
+pub(crate) fn open(path: &Path) -> std::io::Result<File> {
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(std::io::Error::other("it is no regular file"));
+    }
+    File::open(path)
+}
+
 fn read(path: &Path) -> Result<String, Error> {
     let fail = |error: std::io::Error| {
         let reason = error.to_string();
         Error::Unreadable { path: path.to_owned(), reason }
     };
-    let file = File::open(path).map_err(fail)?;
+    let file = open(path).map_err(fail)?;
     let bytes = file.metadata().map_err(fail)?.len();
     if bytes > BYTES_MAX {
         return Err(Error::TooLarge { path: path.to_owned(), bytes, limit: BYTES_MAX });

@@ -14,6 +14,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::figure::cut;
 use crate::grammar::{GrammarMistake, grammar_mistakes};
 use crate::node::{Node, Value};
+use crate::places::{Misplaced, Places};
 use crate::spelling::closest;
 
 /// Largest TOML file that is read, in bytes.
@@ -38,6 +39,8 @@ const KEY_MAX: usize = 120;
 pub struct Document {
     path: PathBuf,
     text: String,
+    /// Files and folders that it may name beside those of its own folder and the working folder.
+    allowed: Vec<PathBuf>,
     content: OnceLock<Content>,
     lines: OnceLock<Lines>,
 }
@@ -48,7 +51,43 @@ impl Document {
     pub fn new(path: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         let text: String = text.into();
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-        Self { path: path.into(), text, content: OnceLock::new(), lines: OnceLock::new() }
+        let (content, lines) = (OnceLock::new(), OnceLock::new());
+        Self { path: path.into(), text, allowed: Vec::new(), content, lines }
+    }
+
+    /// Returns the document, which may name other files and those in other folders too.
+    #[must_use]
+    pub fn allowing(mut self, allowed: &[PathBuf]) -> Self {
+        self.allowed = allowed.to_vec();
+        self
+    }
+
+    /// Returns the files and folders that it may name beside those of its own and the working folder.
+    #[must_use]
+    pub fn allowed(&self) -> &[PathBuf] {
+        &self.allowed
+    }
+
+    /// Returns the path of a file that the document names, which is seen from its folder.
+    ///
+    /// # Errors
+    /// The file is not below its folder, the working folder or a folder that is allowed.
+    pub fn beside(&self, name: impl AsRef<Path>) -> Result<PathBuf, Misplaced> {
+        let path = self.folder().join(name);
+        self.permit(&path)?;
+        Ok(path)
+    }
+
+    /// Checks a path, seen from the working folder, as [`beside`](Self::beside) does.
+    ///
+    /// # Errors
+    /// As for [`beside`](Self::beside).
+    pub fn permit(&self, path: &Path) -> Result<(), Misplaced> {
+        Places::new(self.folder(), &self.allowed).check(path)
+    }
+
+    fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
     }
 
     /// Reads a file.

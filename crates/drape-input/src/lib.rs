@@ -10,6 +10,7 @@
 //! * `diagnostic`: [`Diagnostic`], one mistake with its place and remedy, and [`Diagnostics`], the
 //!   error type of this crate: all mistakes of an input.
 //! * `spelling`: [`closest`], the known word nearest to a misspelt one.
+//! * `places`: [`Places`], the folders below which the files lie that a document may name.
 //! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML.
 //! * `schema`: JSON Schema of such numbers, with the feature of that name.
 //! * `figure`: [`figure`](fn@figure), [`excerpt`] and others, numbers and texts in messages.
@@ -21,6 +22,7 @@ mod figure;
 mod given;
 mod grammar;
 mod node;
+mod places;
 mod quoting;
 #[cfg(feature = "schema")]
 mod schema;
@@ -36,6 +38,7 @@ pub use given::{
     ForcePerWidth, Given, Length, MassPerArea, MomentPerWidth, PressurePerDistance, Ratio,
     ShearStiffness, Speed, TextOr, Time,
 };
+pub use places::{Misplaced, Places};
 pub use quoting::{toml_key, toml_string};
 #[cfg(feature = "schema")]
 pub use schema::{at_least, laboratory_schema, one_of, positive, schema_of, unit_schema, within};

@@ -14,6 +14,7 @@ pub(crate) mod documents;
 mod fabrics;
 mod garment;
 mod hash;
+pub(crate) mod memory;
 mod motion;
 mod panel;
 mod pins;
@@ -100,6 +101,8 @@ pub(crate) fn check(
     let contact = contact::contact(checker, bounds);
     let pins = pins::pins(checker, &placed);
     let sewing = sewing_settings(checker, seams.is_empty());
+    let folder = file.output.folder.as_ref();
+    let folder = folder.and_then(|folder| checker.locate("output.folder", folder));
     // Seams and the start need sound panels.
     checker.finish()?;
 
@@ -154,7 +157,7 @@ pub(crate) fn check(
         schedule: Schedule { clock, relaxation, motion_seconds },
         solver,
         output: Output {
-            folder: file.output.folder.as_ref().map(|folder| checker.folder.join(folder)),
+            folder,
             view: View {
                 azimuth: file.output.azimuth.map(Given::value),
                 elevation: file.output.elevation.map(Given::value),

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 // Values
+mod needs;
 mod scene;
 mod surfaces;
 mod tangle;
@@ -14,6 +15,7 @@ mod read;
 pub use error::Error;
 #[cfg(feature = "schema")]
 pub use file::schema::scene_schema;
+pub use needs::Needs;
 pub use scene::clock::Clock;
 pub use scene::contact::{ContactSettings, DistanceGrowth, Inflation};
 pub use scene::garment::{Garment, Sewing};

@@ -5,6 +5,7 @@
 //! the triangles.
 
 mod report;
+pub(crate) mod space;
 
 use std::path::{Path, PathBuf};
 
@@ -12,6 +13,7 @@ use clap::Args;
 use drape::dynamics::{Simulation, Snapshot, Summary, prepare_folder};
 use drape::export::write_obj;
 use drape::frames::Recording;
+use drape::input::Places;
 use drape::report::Picture;
 use drape::scene::{Error, Scene};
 use serde_json::json;
@@ -97,6 +99,8 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Summary, Failure> 
         scene.schedule.clock.end = end;
     }
     let folder = folder(path, arguments, scene.output.folder.as_ref());
+    check_place(&folder, path, arguments)?;
+    space::check(&scene, path, &folder)?;
     let output = prepare_folder(&folder, arguments.force)?;
     let view = [scene.output.view.azimuth, scene.output.view.elevation];
     let garment = scene.sewing.is_some();
@@ -154,7 +158,7 @@ fn save_last(recording: &Recording) -> Result<(), Failure> {
 }
 
 fn save(picture: &Picture, path: &Path) -> Result<(), Failure> {
-    picture.save(path).map_err(|error| Failure::Output(error.to_string()))
+    file::write(path, picture.png().map_err(Failure::of_picture)?)
 }
 
 /// Prints the notes on a scene, and what contact cannot promise.
@@ -172,6 +176,18 @@ fn folder(scene: &Path, arguments: &RunArguments, of_scene: Option<&PathBuf>) ->
     }
 }
 
+/// Refuses a place that the user did not name and that a link takes elsewhere.
+fn check_place(place: &Path, scene: &Path, arguments: &RunArguments) -> Result<(), Failure> {
+    if arguments.output.is_some() {
+        return Ok(());
+    }
+    let places = Places::new(scene.parent().unwrap_or(Path::new("")), input::allowed());
+    places.check(place).map_err(|misplaced| {
+        let (place, help) = (place.display(), misplaced.help());
+        Failure::Usage(format!("{place}: {misplaced}; {help}, or name a folder with -o"))
+    })
+}
+
 /// Returns the failure for a scene that is refused. Triangles that intersect at the start are
 /// written to a file beside the folder that the results would have.
 fn refuse(error: Error, scene: &Path, arguments: &RunArguments) -> Failure {
@@ -182,8 +198,11 @@ fn refuse(error: Error, scene: &Path, arguments: &RunArguments) -> Failure {
     let path = folder.with_file_name(name);
     let mut content = Vec::new();
     let written = tangle.write_ply(&mut content).map_err(|error| error.to_string());
-    let written =
-        written.and_then(|()| file::write(&path, content).map_err(|failure| failure.to_string()));
+    let written = written.and_then(|()| {
+        let checked = check_place(&path, scene, arguments);
+        let written = checked.and_then(|()| file::write(&path, content));
+        written.map_err(|failure| failure.to_string())
+    });
     let told = match (written, tangle.overlaps.len()) {
         (Ok(()), count) if count < tangle.total => {
             format!(

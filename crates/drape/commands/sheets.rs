@@ -76,9 +76,9 @@ pub(crate) fn of(path: &Path) -> Option<&Path> {
 
 /// Reads a sheet.
 pub(crate) fn read(path: &Path) -> Result<Sheet, Diagnostics> {
-    let sheet = match input::is_standard(path) {
-        true => Sheet::from_document(&input::document(path)?),
-        false => Sheet::read(path),
+    let sheet = match path.is_dir() {
+        true => Sheet::from_document(&input::document(&path.join(SHEET_FILE))?),
+        false => Sheet::from_document(&input::document(path)?),
     };
     sheet.map_err(|error| match error {
         drape::kes::Error::Input(diagnostics) => diagnostics,

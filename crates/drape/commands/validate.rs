@@ -120,6 +120,9 @@ fn earlier(path: &Path) -> Result<Vec<Outcome>, Failure> {
         let help = "give a file that `drape validate --json` printed";
         Failure::Input(Diagnostic::new(path, message).help(help).into())
     };
+    if !path.is_file() {
+        return Err(mistake("it is no file".to_owned()));
+    }
     let text = std::fs::read_to_string(path).map_err(|error| mistake(error.to_string()))?;
     let outcomes: Vec<Outcome> =
         serde_json::from_str(&text).map_err(|error| mistake(error.to_string()))?;

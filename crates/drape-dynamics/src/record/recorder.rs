@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::record::array;
 use crate::record::frame::Frame;
+use crate::record::manifest::{self, ARRAYS, ENERGY, FRAMES, SUMMARY, SURFACES};
 use crate::record::summary::Summary;
 use crate::record::topology::Topology;
 use crate::world::Energy;
@@ -19,30 +20,6 @@ use crate::world::Energy;
 pub struct Output {
     folder: PathBuf,
 }
-
-/// Name of the file of the summary, which marks a folder as one of results.
-const SUMMARY: &str = "summary.json";
-
-/// Name of the file of the topology.
-const SURFACES: &str = "surfaces.json";
-
-/// Name of the list of frames.
-const FRAMES: &str = "frames.csv";
-
-/// Names of the arrays of the topology.
-const ARRAYS: [&str; 3] = ["material.npy", "triangles.npy", "body-triangles.npy"];
-
-/// Name of the balance of the energy at each frame.
-const ENERGY: &str = "energy.csv";
-
-/// Name of the pressures of the last frame in folders of older versions.
-const PRESSURE: &str = "pressure.npy";
-
-/// Kinds of the arrays that frames have, by which their names begin.
-const KINDS: [&str; 3] = ["frame", "bodies", "pressure"];
-
-/// Name of the last frame in a form that any program opens.
-const LAST: &str = "last.obj";
 
 /// Writer of the frames of a run.
 #[derive(Debug)]
@@ -65,7 +42,8 @@ struct StoredBodies {
     frame: usize,
 }
 
-/// Makes the folder for a run, emptied of the frames of an earlier one if `replace` allows it.
+/// Makes the folder for a run, emptied of the files of an earlier one if `replace` allows it; files
+/// that no run has written stay.
 ///
 /// # Errors
 /// When it holds results and `replace` is false, or cannot be made.
@@ -73,31 +51,22 @@ pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, Error> {
     let output = Output { folder: folder.to_owned() };
     let fail = |reason| Error::Write { path: folder.to_owned(), reason };
     if folder.exists() {
-        let frames: Vec<PathBuf> = fs::read_dir(folder)
-            .map_err(fail)?
-            .flatten()
-            .map(|entry| entry.path())
-            .filter(|path| is_result(path))
-            .collect();
-        if !frames.is_empty() && !replace {
+        let files = manifest::files(folder).map_err(fail)?;
+        if !files.is_empty() && !replace {
             return Err(Error::Occupied { folder: folder.to_owned() });
         }
-        for path in frames {
-            fs::remove_file(&path).map_err(|reason| Error::Write { path, reason })?;
-        }
+        manifest::remove(&files).map_err(|(path, reason)| Error::Write { path, reason })?;
     }
     fs::create_dir_all(folder).map_err(fail)?;
     Ok(output)
 }
 
-/// Returns whether a file is one that a run writes and a later run would take for its own.
-fn is_result(path: &Path) -> bool {
-    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    let of_kind = |kind: &str| name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('-'));
-    let numbered = KINDS.into_iter().any(of_kind);
-    let whole = [SUMMARY, SURFACES, FRAMES, ENERGY, PRESSURE, LAST].into_iter().chain(ARRAYS);
-    whole.into_iter().any(|own| own == name)
-        || (numbered && [".npy", ".obj"].iter().any(|ending| name.ends_with(ending)))
+/// Removes the rest of a file that was not written to its end; a link itself, not what it leads to.
+fn remove_left(path: &Path) -> std::io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
 }
 
 impl Output {
@@ -121,7 +90,7 @@ impl Output {
         }
         let path = self.path(FRAMES);
         let begin = || -> std::io::Result<fs::File> {
-            let mut list = fs::File::create(&path)?;
+            let mut list = fs::File::create_new(&path)?;
             list.write_all(b"number,time,growth,bodies,touched\n")?;
             Ok(list)
         };
@@ -153,12 +122,17 @@ impl Output {
     ) -> Result<(), Error> {
         let temporary = path.with_extension("part");
         let write = || -> std::io::Result<()> {
-            let mut to = BufWriter::new(fs::File::create(&temporary)?);
+            remove_left(&temporary)?;
+            let mut to = BufWriter::new(fs::File::create_new(&temporary)?);
             content(&mut to)?;
             to.into_inner().map_err(|e| e.into_error())?.sync_all()?;
             fs::rename(&temporary, path)
         };
-        write().map_err(|reason| Error::Write { path: path.to_owned(), reason })
+        write().map_err(|reason| {
+            // Half a file is of no use; the failure is told, not that of its removal.
+            let _ = fs::remove_file(&temporary);
+            Error::Write { path: path.to_owned(), reason }
+        })
     }
 }
 
@@ -231,7 +205,7 @@ fn append(
     let file = match table {
         Some(file) => file,
         None => {
-            let mut file = fs::File::create(path)?;
+            let mut file = fs::File::create_new(path)?;
             file.write_all(names.as_bytes())?;
             table.insert(file)
         }

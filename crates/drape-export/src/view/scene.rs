@@ -196,8 +196,10 @@ fn meta(
     let energy = energy.map(|EnergyTable { names, rows }| {
         json!({ "names": names, "rows": frames.iter().map(|own| &rows[own.number]).collect::<Vec<_>>() })
     });
-    let summary = std::fs::read_to_string(run.recording.folder().join("summary.json"));
-    let summary = summary.ok().and_then(|text| serde_json::from_str(&text).ok());
+    let summary = run.recording.folder().join("summary.json");
+    // A pipe in its place would wait for its writer.
+    let summary = summary.is_file().then(|| std::fs::read_to_string(summary).ok());
+    let summary = summary.flatten().and_then(|text| serde_json::from_str(&text).ok());
     Ok(json!({
         "name": run.name,
         "note": note(run.recording, frames, &content.bounds),

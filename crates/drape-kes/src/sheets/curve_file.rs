@@ -212,8 +212,13 @@ impl CurveKeys {
 
     /// Returns the path of a table file, which is beside the sheet.
     fn locate(&self, file: &str, findings: &mut Findings<'_>) -> Option<PathBuf> {
-        let sheet = findings.document.path();
-        let path = sheet.parent().map_or_else(|| PathBuf::from(file), |folder| folder.join(file));
+        let path = match findings.document.beside(file) {
+            Ok(path) => path,
+            Err(misplaced) => {
+                findings.error(&self.paths.file, misplaced.to_string(), misplaced.help());
+                return None;
+            }
+        };
         if path.is_file() {
             return Some(path);
         }

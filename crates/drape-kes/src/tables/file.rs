@@ -32,7 +32,12 @@ pub(crate) fn read(path: &Path, layout: &Layout) -> Result<TableFile, Diagnostic
         Diagnostic::new(path, format!("cannot read the file: {error}"))
             .help("check the path and that the file can be read")
     };
-    let size = std::fs::metadata(path).map_err(unreadable)?.len();
+    let found = std::fs::metadata(path).map_err(unreadable)?;
+    // Asked before it is opened: opening a pipe would wait for its writer.
+    if !found.is_file() {
+        return Err(Diagnostic::new(path, "this is not a file").help("name a table").into());
+    }
+    let size = found.len();
     if size > LARGEST {
         return Err(Diagnostic::new(path, format!("the file has {size} bytes"))
             .help("a curve has some thousand lines: is this the right file?")

@@ -183,7 +183,7 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
     if !check_scale(checker, index, file) {
         return None;
     }
-    let path = checker.folder.join(&file.file);
+    let path = checker.locate(&format!("collider.mesh[{index}].file"), &file.file)?;
     match Mesh::load(path, scale(checker, file)) {
         Ok(mesh) => {
             let longest = longest(&mesh);
@@ -329,12 +329,13 @@ fn changing_mesh(
     if !check_scale(checker, index, file) {
         return None;
     }
+    checker.locate(&format!("collider.mesh[{index}].file"), &file.file)?;
     let (unit, scale) = (checker.unit, scale(checker, file));
     let place = |point: [f64; 3]| {
         let arm = rotate(point.map(|x| scale * x), common.turn);
         [0, 1, 2].map(|axis| common.center[axis] * unit + arm[axis])
     };
-    match read_shapes(file, checker.folder, Sampling { rate, start }, place) {
+    match read_shapes(file, checker.document(), Sampling { rate, start }, place) {
         Ok(shapes) => {
             check_size(checker, index, longest(&shapes.mesh));
             let name = common.name.map_or_else(|| format!("mesh {}", index + 1), str::to_owned);
@@ -345,6 +346,10 @@ fn changing_mesh(
         }
         Err(ShapeError::File(error)) => {
             checker.fail_with(&key, &error);
+            None
+        }
+        Err(ShapeError::Misplaced(misplaced)) => {
+            checker.fail(&key, misplaced.to_string(), &misplaced.help());
             None
         }
         Err(ShapeError::Mismatch(message)) => {

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use drape_input::{Diagnostic, Diagnostics, Document, Faults, closest, excerpt, figure, tidy};
 
 use crate::check::documents::Documents;
+use crate::check::memory::particles_max;
 use crate::file::SceneFile;
 
 /// File of a scene that is being checked, with the mistakes found so far.
@@ -17,6 +18,8 @@ pub(crate) struct Checker<'a> {
     pub(crate) folder: &'a Path,
     /// Fabrics and patterns given along with the scene, by the paths by which it names them.
     pub(crate) documents: &'a [Document],
+    /// Number of particles for which there is memory.
+    pub(crate) particles_max: usize,
     /// Unit of the lengths of the file, in m.
     pub(crate) unit: f64,
     document: &'a Document,
@@ -44,6 +47,7 @@ impl<'a> Checker<'a> {
             file,
             folder: document.path().parent().unwrap_or(Path::new("")),
             documents: documents.others,
+            particles_max: particles_max(),
             unit: 1.0,
             document,
             faults,
@@ -58,6 +62,17 @@ impl<'a> Checker<'a> {
     /// Document of the file.
     pub(crate) fn document(&self) -> &'a Document {
         self.document
+    }
+
+    /// Returns the path of a file that the scene names at a key; adds a mistake where the path leads
+    /// out of the folders of the scene.
+    pub(crate) fn locate(&mut self, key: &str, name: &str) -> Option<PathBuf> {
+        let path = self.folder.join(name);
+        if self.given(&path).is_some() {
+            return Some(path);
+        }
+        let located = self.document.beside(name);
+        located.map_err(|misplaced| self.fail(key, misplaced.to_string(), &misplaced.help())).ok()
     }
 
     /// Document given along with the scene for a path.

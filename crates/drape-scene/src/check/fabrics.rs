@@ -20,17 +20,22 @@ pub(crate) fn materials(
         checker.fail_file("the scene has no fabric", help);
     }
     let read = |(name, entry): (&String, &crate::file::FabricFile)| {
-        let path = checker.folder.join(&entry.file);
+        let key = format!("fabric.{}.file", toml_key(name));
+        let path = checker.locate(&key, &entry.file)?;
         let (file, fabric) = if let Some(document) = checker.given(&path) {
             (path, Fabric::from_document(document))
         } else if path.exists() {
-            let file = if path.is_dir() { path.join("sheet.toml") } else { path };
-            let fabric = reader(FabricRequest { file: &file, model });
+            let file = match path.is_dir() {
+                true => checker.locate(&key, &format!("{}/sheet.toml", entry.file))?,
+                false => path,
+            };
+            let allowed = checker.document().allowed();
+            let fabric = reader(FabricRequest { file: &file, model, allowed });
             (file, fabric)
         } else {
             let message = format!("there is no file {}", path.display());
             let help = nearest_file(&path);
-            checker.fail(&format!("fabric.{}.file", toml_key(name)), message, &help);
+            checker.fail(&key, message, &help);
             return None;
         };
         let fabric = fabric.map_err(|mistakes| checker.extend(mistakes)).ok()?;

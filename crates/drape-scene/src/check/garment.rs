@@ -58,8 +58,9 @@ pub(crate) fn garments(
     let mut garments = Vec::new();
     for (index, entry) in file.garment.iter().enumerate() {
         let key = format!("garment[{index}]");
-        let path = checker.folder.join(&entry.pattern);
-        let Some(pattern) = pattern(checker, &key, &path) else { continue };
+        let named = format!("{key}.pattern");
+        let Some(path) = checker.locate(&named, &entry.pattern) else { continue };
+        let Some(pattern) = pattern(checker, &named, &path) else { continue };
         let Some(pattern) = changed(checker, &key, entry, pattern) else { continue };
         let Some(garment) = cut(checker, &key, entry, Numbered { pattern: &pattern, first }) else {
             continue;
@@ -70,6 +71,13 @@ pub(crate) fn garments(
             }
         }
         first += garment.panels.iter().map(|own| own.positions.len() / 3).sum::<usize>();
+        if first > checker.particles_max {
+            let message = format!(
+                "the scene has {first} particles with it, and there is memory for {}",
+                checker.particles_max
+            );
+            checker.fail(&format!("{key}.pattern"), message, "write a larger spacing");
+        }
         garments.push(garment);
     }
     let seams = garments.iter().flat_map(|garment| &garment.seams);
@@ -81,13 +89,13 @@ pub(crate) fn garments(
     garments
 }
 
-/// Reads the pattern of a garment.
+/// Reads the pattern of a garment, which a key names.
 fn pattern(checker: &mut Checker<'_>, key: &str, path: &Path) -> Option<Pattern> {
     let given = checker.given(path);
     if given.is_none() && !path.exists() {
         let message = format!("there is no file {}", path.display());
         let help = nearest_file(path);
-        checker.fail(&format!("{key}.pattern"), message, &help);
+        checker.fail(key, message, &help);
         return None;
     }
     let read = match given {

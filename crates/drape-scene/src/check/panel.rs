@@ -12,6 +12,7 @@ use drape_input::{Given, Length, excerpt, figure, figure_below, tidy};
 
 use crate::check::checker::Checker;
 use crate::check::fabrics::{check_thickness, material_index};
+use crate::check::memory::PARTICLES_MAX;
 use crate::file::panel::{FoldFile, PanelFile};
 use crate::scene::material::Material;
 use crate::scene::panel::Panel;
@@ -22,9 +23,6 @@ use self::placement::Placement;
 
 /// Distance between particles when the scene gives none, in m.
 pub(crate) const SPACING: f64 = 0.01;
-
-/// Largest number of particles of a stack of panels.
-const PARTICLES_MAX: usize = 4_000_000;
 
 /// Shortest and longest sides of panels, in m: others have the wrong unit.
 const SIZES: RangeInclusive<f64> = 1e-4..=1e3;
@@ -121,12 +119,13 @@ fn copies(checker: &mut Checker<'_>, key: &str, entry: &PanelFile, particles: us
         let help = "step is in the file's unit";
         checker.fail(&format!("{key}.stack"), "is not finite", help);
     }
-    let most = PARTICLES_MAX / particles;
+    let limit = checker.particles_max;
+    let most = (limit / particles.max(1)).max(1);
     if (1..=most).contains(&stack.count) {
         return stack.count;
     }
     let message = format!("{} panels of {particles} particles", stack.count);
-    let help = format!("from 1 panel to {most}, for {PARTICLES_MAX} particles in all");
+    let help = format!("from 1 panel to {most}, for {limit} particles in all");
     checker.fail(&format!("{key}.stack.count"), message, &help);
     1
 }
@@ -197,15 +196,17 @@ fn lattice(
         (None, None) => ("rectangle", [1.0; 2]),
     };
     let count = check_size(checker, &format!("{key}.{shape}"), &sides, spacing)?;
-    if before as f64 + count > PARTICLES_MAX as f64 {
+    let limit = checker.particles_max as f64;
+    if before as f64 + count > limit {
         let message = format!(
-            "a spacing of {} m makes {:.1e} particles with panel \"{}\", more than {:.0e}",
+            "a spacing of {} m makes {:.1e} particles with panel \"{}\", more than {:.0e}{}",
             figure(spacing),
             before as f64 + count,
             excerpt(&entry.name),
-            PARTICLES_MAX as f64
+            limit,
+            if limit < PARTICLES_MAX as f64 { ", for which there is memory" } else { "" }
         );
-        let least = (sides[0] * sides[1] / (0.9 * (PARTICLES_MAX as f64 - before as f64))).sqrt();
+        let least = (sides[0] * sides[1] / (0.9 * (limit - before as f64))).sqrt();
         let help = match least.is_finite() {
             true => {
                 format!("write spacing = \"{:.2} mm\" or more; is the unit right?", 1e3 * least)
@@ -255,7 +256,13 @@ fn lattice(
                     figure(spacing),
                     figure(size)
                 ),
-                format!("write spacing = \"{} mm\" or less; {unit}", figure_below(500.0 * size)),
+                match (1.0..500.0 * size).contains(&spacing) {
+                    true => format!("did you mean spacing = \"{} mm\"? {unit}", figure(spacing)),
+                    false => {
+                        let most = figure_below(500.0 * size);
+                        format!("write spacing = \"{most} mm\" or less; {unit}")
+                    }
+                },
             ),
             error => (tidy(&error.to_string()), unit.to_owned()),
         };

@@ -25,6 +25,8 @@ pub struct FabricRequest<'a> {
     pub file: &'a Path,
     /// Model whose laws the fabric is to have.
     pub model: Model,
+    /// Files and folders that the file may name beside those of its own and the working folder.
+    pub allowed: &'a [PathBuf],
 }
 
 /// Function that answers a scene's requests for fabrics.
@@ -36,7 +38,7 @@ pub type FabricReader<'a> = &'a dyn Fn(FabricRequest<'_>) -> Result<Fabric, Diag
 /// The mistakes of the file; for one without laws, such as a sheet of measurements, advice how to
 /// make a fabric of it.
 pub fn read_fabric(request: FabricRequest<'_>) -> Result<Fabric, Diagnostics> {
-    let document = Document::read(request.file)?;
+    let document = Document::read(request.file)?.allowing(request.allowed);
     if is_fabric(&document) {
         return Fabric::from_document(&document);
     }

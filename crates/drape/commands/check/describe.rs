@@ -10,6 +10,7 @@ use drape::pattern::Pattern;
 use drape::scene::{Error, MovingBody, Scene, is_fabric};
 
 use super::pattern::CutOut;
+use crate::commands::run::space;
 use crate::commands::sheets;
 use crate::input;
 
@@ -109,6 +110,7 @@ pub(crate) fn scene(scene: &Scene) -> String {
         }
     }
     scene.bodies.iter().for_each(|moving| text += &body(moving));
+    let _ = writeln!(text, "  {}", space::describe(&scene.needs()));
     scene.source.notes.iter().chain(&scene.source.contact_limits).for_each(|note| {
         let _ = writeln!(text, "  note: {note}");
     });

@@ -20,9 +20,10 @@ pub(crate) fn draw(path: &Path, figure: &Path) -> Result<Result<String, Diagnost
     let seams = scene.sewing.as_ref().map_or_else(Vec::new, |sewing| sewing.seams.clone());
     let snapshot = Simulation::new(scene)?.snapshot();
     match figure.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-        true => draw_start(&snapshot, &seams)?
-            .save(figure)
-            .map_err(|error| Failure::Output(error.to_string()))?,
+        true => {
+            let picture = draw_start(&snapshot, &seams)?;
+            file::write(figure, picture.png().map_err(Failure::of_picture)?)?;
+        }
         false => file::write(figure, start_svg(&snapshot, &seams)?)?,
     }
     Ok(Ok(text))

@@ -6,6 +6,7 @@ use drape::input::{Diagnostic, Diagnostics};
 use drape::pattern::{Error, Paper, Pattern, Request, Unit};
 
 use super::arguments::ConvertArguments;
+use crate::console::tell;
 use crate::failure::Failure;
 use crate::say::say;
 use crate::{file, input};
@@ -136,7 +137,6 @@ fn unit(arguments: &ConvertArguments) -> Result<Option<Unit>, Failure> {
 }
 
 /// Prints the notes of a pattern, which are in the TOML too.
-#[expect(clippy::print_stderr, reason = "notes go to stderr, the pattern may go to stdout")]
 fn notes(pattern: &Pattern) {
-    pattern.notes().iter().for_each(|note| eprintln!("note: {note}"));
+    pattern.notes().iter().for_each(|note| tell(format_args!("note: {note}")));
 }

@@ -7,6 +7,7 @@ use drape::kes::{Error, SheetDraft};
 
 use super::arguments::ConvertArguments;
 use crate::commands::sheets::SHEET_FILE;
+use crate::console::tell;
 use crate::failure::Failure;
 use crate::say::say;
 use crate::{file, input};
@@ -59,7 +60,6 @@ fn target(arguments: &ConvertArguments) -> Result<Option<PathBuf>, Failure> {
 }
 
 /// Prints the notes of a draft, which are in the sheet too.
-#[expect(clippy::print_stderr, reason = "notes go to stderr, the sheet may go to stdout")]
 fn notes(draft: &SheetDraft) {
-    draft.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    draft.notes.iter().for_each(|note| tell(format_args!("note: {note}")));
 }

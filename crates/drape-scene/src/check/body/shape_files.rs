@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use drape_collide::{Mesh, PointCache, Triangulation, read_mesh};
+use drape_input::{Document, Misplaced};
 
 use crate::file::body::MeshBodyFile;
 use crate::scene::motion::ShapeMotion;
@@ -23,8 +24,16 @@ const VERTICES_MAX: usize = 1 << 24;
 pub(crate) enum ShapeError {
     /// A file cannot be read.
     File(drape_collide::Error),
+    /// A file is not below the folders of the scene.
+    Misplaced(Misplaced),
     /// Files do not fit together.
     Mismatch(String),
+}
+
+impl From<Misplaced> for ShapeError {
+    fn from(misplaced: Misplaced) -> Self {
+        Self::Misplaced(misplaced)
+    }
 }
 
 impl From<drape_collide::Error> for ShapeError {
@@ -61,19 +70,19 @@ struct Frames {
 /// world, in m.
 pub(crate) fn read_shapes(
     file: &MeshBodyFile,
-    folder: &Path,
+    scene: &Document,
     sampling: Sampling,
     place: impl Fn([f64; 3]) -> [f64; 3],
 ) -> Result<Shapes, ShapeError> {
-    let of_mesh = read_mesh(folder.join(&file.file))?;
+    let of_mesh = read_mesh(scene.beside(&file.file)?)?;
     let frames = match (file.point_cache(), &file.frames) {
         (Some(cache), None) => {
-            let path = folder.join(cache);
+            let path = scene.beside(cache)?;
             let cache = PointCache::read(&path)?;
             let paths = vec![path; cache.samples.len()];
             Frames { stride: cache.frames_per_sample, paths, samples: cache.samples }
         }
-        (None, Some(pattern)) => sequence(folder, pattern, &of_mesh)?,
+        (None, Some(pattern)) => sequence(scene, pattern, &of_mesh)?,
         _ => {
             let message = "give either motion = \"….pc2\" or frames = \"…_*.obj\"".to_owned();
             return Err(ShapeError::Mismatch(message));
@@ -112,8 +121,12 @@ pub(crate) fn read_shapes(
 }
 
 /// Reads the meshes of a sequence of files, `*` in whose name stands for their numbers.
-fn sequence(folder: &Path, pattern: &str, of_mesh: &Triangulation) -> Result<Frames, ShapeError> {
-    let pattern = folder.join(pattern);
+fn sequence(
+    scene: &Document,
+    pattern: &str,
+    of_mesh: &Triangulation,
+) -> Result<Frames, ShapeError> {
+    let pattern = scene.beside(pattern)?;
     let name = pattern.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let Some((before, after)) = name.split_once('*') else {
         let message = format!("\"{name}\" has no * for the number of the frame");
@@ -151,6 +164,7 @@ fn sequence(folder: &Path, pattern: &str, of_mesh: &Triangulation) -> Result<Fra
     }
     let mut samples = Vec::new();
     for (_, path) in &numbered {
+        scene.permit(path)?;
         let frame = read_mesh(path)?;
         if frame.vertices.len() == of_mesh.vertices.len() && frame.triangles != of_mesh.triangles {
             let message = format!("{} has other triangles than the body", path.display());

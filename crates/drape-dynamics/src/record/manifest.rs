@@ -1,0 +1,115 @@
+//! Manifest: the files of a run in its folder, by its list of frames.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// Name of the file of the summary, which marks a folder as one of results.
+pub(crate) const SUMMARY: &str = "summary.json";
+
+/// Name of the file of the topology.
+pub(crate) const SURFACES: &str = "surfaces.json";
+
+/// Name of the list of frames.
+pub(crate) const FRAMES: &str = "frames.csv";
+
+/// Names of the arrays of the topology.
+pub(crate) const ARRAYS: [&str; 3] = ["material.npy", "triangles.npy", "body-triangles.npy"];
+
+/// Name of the balance of the energy at each frame.
+pub(crate) const ENERGY: &str = "energy.csv";
+
+/// Kinds of the arrays that frames have, by which their names begin.
+const KINDS: [&str; 3] = ["frame", "bodies", "pressure"];
+
+/// Files that a run has once: those of older versions and those of the command line among them.
+const SINGLE: [&str; 10] = [
+    SUMMARY,
+    SURFACES,
+    FRAMES,
+    ENERGY,
+    "pressure.npy",
+    "last.obj",
+    "picture.png",
+    "place.png",
+    "strain.svg",
+    "view.html",
+];
+
+/// Longest list of frames that is read, in bytes.
+const LIST_MAX: u64 = 1 << 26;
+
+/// Returns the files of a run that are in a folder: those that it has once, and those of the frames
+/// that it lists, with the one that was being written. No other file is one of them, whatever its
+/// name.
+pub(crate) fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let single = SINGLE.into_iter().chain(ARRAYS).map(str::to_owned);
+    let numbered = numbers(folder)?.into_iter().flat_map(|number| {
+        let arrays = KINDS.into_iter().map(move |kind| format!("{kind}-{number:05}.npy"));
+        arrays.chain([format!("frame-{number:05}.obj")])
+    });
+    let paths = single.chain(numbered).map(|name| folder.join(name));
+    Ok(paths.filter(|path| fs::symlink_metadata(path).is_ok()).collect())
+}
+
+/// Removes the files of a run; of a link the link, not what it leads to.
+pub(crate) fn remove(files: &[PathBuf]) -> Result<(), (PathBuf, io::Error)> {
+    // The list goes last: what was not removed is found by it.
+    let (list, others): (Vec<_>, Vec<_>) =
+        files.iter().partition(|path| path.file_name().is_some_and(|name| name == FRAMES));
+    let mut all = others.into_iter().chain(list);
+    all.try_for_each(|path| fs::remove_file(path).map_err(|reason| (path.clone(), reason)))
+}
+
+/// Returns the numbers of the frames of a run, and the one after them.
+fn numbers(folder: &Path) -> io::Result<Vec<u64>> {
+    let path = folder.join(FRAMES);
+    // A link or a pipe in its place is removed, not read.
+    if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_file()) {
+        // Older versions have no list.
+        let there = |number: &u64| folder.join(format!("frame-{number:05}.obj")).is_file();
+        return Ok((0..).take_while(there).collect());
+    }
+    let mut text = Vec::new();
+    fs::File::open(&path)?.take(LIST_MAX).read_to_end(&mut text)?;
+    let text = String::from_utf8_lossy(&text);
+    let first = |line: &str| line.split(',').next().and_then(|number| number.parse().ok());
+    let mut numbers: Vec<u64> = text.lines().filter_map(first).collect();
+    numbers.push(numbers.last().map_or(0, |last| last.saturating_add(1)));
+    Ok(numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_files_of_the_run_are_its_own() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let at = |name: &str| folder.path().join(name);
+        let own = ["frames.csv", "frame-00000.npy", "bodies-00000.npy", "frame-00001.npy"];
+        let others = ["frame-mine.npy", "frame-00007.npy", "notes.txt", "pressure-a.npy"];
+        for name in own.into_iter().chain(others) {
+            fs::write(at(name), "").expect("written");
+        }
+        fs::write(at("frames.csv"), "number,time\n0,0.0\n").expect("written");
+        remove(&files(folder.path()).expect("listed")).expect("removed");
+        for (names, there) in [(&own, false), (&others, true)] {
+            for name in names {
+                assert_eq!(at(name).exists(), there, "{name}");
+            }
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn of_a_link_the_link_is_removed() {
+        let folders = [(); 2].map(|()| tempfile::tempdir().expect("a temporary folder"));
+        let kept = folders[1].path().join("kept.csv");
+        fs::write(&kept, "0,0\n").expect("written");
+        let link = folders[0].path().join("frames.csv");
+        std::os::unix::fs::symlink(&kept, &link).expect("linked");
+        remove(&files(folders[0].path()).expect("listed")).expect("removed");
+        assert!(kept.exists() && fs::symlink_metadata(&link).is_err());
+    }
+}
