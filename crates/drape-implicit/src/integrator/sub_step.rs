@@ -1,7 +1,7 @@
 //! Attempt at one sub-step: prediction, solution, velocities and energy balance.
 
 use super::formula::Formula;
-use super::path_work::{Path, PathWork};
+use super::path_work::{Path, PathWork, Work, is_sampled};
 use super::state::{IntegratorState, Span, check_length};
 use crate::error::Quantity;
 use crate::linear::block::triples;
@@ -37,6 +37,8 @@ pub(crate) struct SubStepper {
 #[derive(Clone, Copy)]
 struct Opening {
     formula: Formula,
+    /// Whether the loss is found by itself.
+    is_sampled: bool,
     /// Kinetic energy, in J.
     kinetic: f64,
     /// Potential, in J.
@@ -85,6 +87,7 @@ impl SubStepper {
             system.set_obstacle_time(0.0);
             Opening {
                 formula,
+                is_sampled: is_sampled(span.start, self.settings.energy_sampling),
                 kinetic: self.kinetic(&state.velocities),
                 potential: system.system().potential(&state.positions),
             }
@@ -216,7 +219,7 @@ impl SubStepper {
         self.held[k / 3] && self.solver.search.current.positions[k] != state.positions[k]
     }
 
-    /// Energy balance of the sub-step, whose entries are found each by itself.
+    /// Energy balance of the sub-step, whose entries are found each by itself where it is sampled.
     ///
     /// With the acceleration `$a$` of the formula, the residual `$\phi = M a - f(x_1)$` that the
     /// solver leaves, `$\Delta x = x_1 - x_0$` and the work `$W$` of the forces along the way, the
@@ -253,7 +256,15 @@ impl SubStepper {
             end_work: ends.forces,
             exchanged,
         };
-        let work = self.path_work.measure(system, &path, report);
+        let work = match opening.is_sampled {
+            true => self.path_work.measure(system, &path, report),
+            false => {
+                let obstacles = system.obstacle_work(end);
+                let forces =
+                    ends.forces + ends.residual + ends.held + obstacles - ends.inertia + fall;
+                Work { forces, obstacles, unproved: 0.0 }
+            }
+        };
         Energy {
             kinetic,
             potential: -fall,

@@ -1,5 +1,6 @@
 //! Safeguards of contact, taken away one by one: what is missing shows in the run or in its frames.
 
+use drape_implicit::Settings;
 use drape_input::Document;
 use drape_scene::Scene;
 use drape_verify::Verifier;
@@ -9,6 +10,7 @@ use crate::record::frame::Frame;
 use crate::record::recorder::{Recorder, prepare_folder};
 use crate::record::summary::{Contacts, Status};
 use crate::simulation::{Progress, Simulation};
+use crate::stepping::Scheme;
 use crate::world::check::FABRIC;
 use crate::world::contact::surfaces::Omitted;
 
@@ -132,7 +134,11 @@ fn the_balance_opens_without_the_work_of_a_body_that_moves() {
     let open = |omitted: Omitted| {
         let fabric = Document::new("plain.toml", FABRIC);
         let scene = Scene::from_documents(&Document::new("scene.toml", LIFTED), &[fabric]);
-        let mut simulation = Simulation::new(scene.expect("a right scene")).expect("a solver");
+        let scene = scene.expect("a right scene");
+        // Every sub-step, not a sample.
+        let settings = Settings { tolerance: 1e-6, energy_balance: true, ..Settings::default() };
+        let simulation = Simulation::with_scheme(scene, Scheme::Implicit(settings));
+        let mut simulation = simulation.expect("a solver");
         simulation.world.contact.surfaces_mut().expect("surfaces").omitted = omitted;
         let summary = simulation.run(&mut ()).expect("nothing is written");
         assert_eq!(summary.status, Status::Ok);
