@@ -54,6 +54,8 @@ pub(super) struct Omitted {
     pub(super) intersection_test: bool,
     /// Whether the sides of a seam are exempt from contact before they meet.
     pub(super) open_seams: bool,
+    /// Whether the work of bodies that move is left out of the balance of the energy.
+    pub(super) body_work: bool,
 }
 
 /// Bodies that start smaller than they are.
@@ -197,6 +199,16 @@ impl Surfaces {
             true => StepLimit::Whole,
             false => StepLimit::Shortened { obstacle_advance },
         }
+    }
+
+    /// Work of the bodies over their whole motion in the step with their forces at some positions
+    /// and at the present obstacle time, in J.
+    pub(crate) fn body_work(&mut self, positions: &[f64]) -> f64 {
+        #[cfg(test)]
+        if self.omitted.body_work {
+            return 0.0;
+        }
+        self.contact.body_work(positions)
     }
 
     /// Whether no surface intersects another at some positions.
