@@ -51,7 +51,7 @@ fn a_measured_fabric_comes_to_rest_on_a_cube() {
     }
     assert!(energy("kinetic") < 1e-6 * -energy("gravity"), "at rest: {} J", energy("kinetic"));
     let open = energy("remainder").abs() / -energy("gravity");
-    assert!(open < 1e-9, "{open:e} of the energy is not accounted for");
+    assert!(open < 1e-6, "{open:e} of the energy is not accounted for");
 
     // Four corners hang, each below the middle of its sides; the fabric is anisotropic, so the
     // corners agree with their opposites better than with their neighbours.
@@ -92,7 +92,7 @@ fn breens_particles_come_to_rest_on_a_cube_and_keep_apart() {
     assert_eq!(summary["contact"]["intersections"], 0);
     assert_eq!(number(&summary, "energy.friction_dissipated"), 0.0);
     let open = number(&summary, "energy.remainder").abs() / -number(&summary, "energy.gravity");
-    assert!(open < 1e-9, "{open:e} of the energy is not accounted for");
+    assert!(open < 1e-6, "{open:e} of the energy is not accounted for");
     // The weight of a metre stretches the yarns by 1 % and compresses none by as much; a quarter of
     // the cloth hangs from the corners.
     let most = number(&summary, "strain.traction_max");

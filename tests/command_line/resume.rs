@@ -186,7 +186,17 @@ fn signals_and_limits_leave_a_run_that_goes_on() {
     let out = folder.path().join("limited");
     let place = out.to_str().unwrap();
     let message = ran(
-        &["run", case.scene, "--until", case.until, "-o", place, "--no-picture", "--max-disk", "0.001"],
+        &[
+            "run",
+            case.scene,
+            "--until",
+            case.until,
+            "-o",
+            place,
+            "--no-picture",
+            "--max-disk",
+            "0.001",
+        ],
         8,
     );
     assert!(message.contains("--max-disk"), "{message}");

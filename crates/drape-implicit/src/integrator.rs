@@ -18,6 +18,7 @@
 pub(crate) mod error_estimate;
 pub(crate) mod explicit;
 pub(crate) mod formula;
+pub(crate) mod path_work;
 pub(crate) mod state;
 pub(crate) mod step_control;
 pub(crate) mod stepper;

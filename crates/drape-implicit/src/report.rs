@@ -68,7 +68,8 @@ impl AddAssign<&Report> for Report {
     }
 }
 
-/// Energy balance over accepted sub-steps: `work = kinetic + potential + numerical_dissipation`.
+/// Energy balance over accepted sub-steps. Every entry is found by itself; they close,
+/// `work = kinetic + potential + numerical_dissipation`, if the forces are those of the potential.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
     /// Growth of the kinetic energy, in J.
@@ -76,10 +77,23 @@ pub struct Energy {
     /// Growth of the incremental potential, work against friction included, in J.
     pub potential: f64,
     /// Work of the forces that move the held particles, by their values at the end of each
-    /// sub-step, in J.
+    /// sub-step, and of obstacles, along each sub-step, in J.
     pub work: f64,
-    /// Energy that the formula of the step lost, in J.
+    /// Energy that the formula of the step lost, and the residual that the solver left, in J: by
+    /// differences of velocities, and by the work of the forces along each sub-step.
     pub numerical_dissipation: f64,
+    /// Energy exchanged in sub-steps whose straight path leads through an obstacle, in J: there
+    /// forces have no work along it, and the loss is what the other entries leave.
+    pub unproved: f64,
+}
+
+impl Energy {
+    /// Energy that the entries leave open, in J: the error of the quadrature along the sub-steps,
+    /// or of the forces.
+    #[must_use]
+    pub fn open(&self) -> f64 {
+        self.work - self.kinetic - self.potential - self.numerical_dissipation
+    }
 }
 
 impl AddAssign for Energy {
@@ -88,6 +102,7 @@ impl AddAssign for Energy {
         self.potential += other.potential;
         self.work += other.work;
         self.numerical_dissipation += other.numerical_dissipation;
+        self.unproved += other.unproved;
     }
 }
 

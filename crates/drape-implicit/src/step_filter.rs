@@ -113,6 +113,13 @@ pub trait StepFilter: System {
     /// [`begin`](System::begin) it is 1.
     fn set_obstacle_time(&mut self, time: f64);
 
+    /// Work of the obstacles over their whole motion in this (sub)step, with their forces at some
+    /// positions and at the present obstacle time, in J: what the potential gains by their motion
+    /// alone. Asked for with the energy balance only.
+    fn obstacle_work(&mut self, _positions: &[f64]) -> f64 {
+        0.0
+    }
+
     /// Whether positions, in m, are free of intersections. A solution that is not is rejected, and
     /// its (sub)step tried again in halves.
     fn is_intersection_free(&mut self, positions: &[f64]) -> bool;
@@ -153,6 +160,13 @@ impl SystemRef<'_> {
     pub(crate) fn set_obstacle_time(&mut self, time: f64) {
         if let Self::Filtered(filter) = self {
             filter.set_obstacle_time(time);
+        }
+    }
+
+    pub(crate) fn obstacle_work(&mut self, positions: &[f64]) -> f64 {
+        match self {
+            Self::Free(_) => 0.0,
+            Self::Filtered(filter) => filter.obstacle_work(positions),
         }
     }
 

@@ -157,6 +157,10 @@ impl StepFilter for ReducedSystem<'_> {
         self.world.set_obstacle_time(time);
     }
 
+    fn obstacle_work(&mut self, positions: &[f64]) -> f64 {
+        self.at(positions, World::obstacle_work)
+    }
+
     fn is_intersection_free(&mut self, positions: &[f64]) -> bool {
         self.at(positions, World::is_intersection_free)
     }

@@ -6,6 +6,10 @@ use drape_implicit::{
 };
 use drape_scene::SolverSettings;
 
+/// Sub-steps of which one has its loss found by itself. All of them took 2.6 times as long where
+/// surfaces touch, half as long again in a swing.
+const ENERGY_SAMPLING: u64 = 32;
+
 /// Scheme by which a scene is integrated in time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Scheme {
@@ -42,6 +46,7 @@ impl Scheme {
             linear_solver,
             tolerance: solver.tolerance,
             energy_balance: solver.energy_balance,
+            energy_sampling: ENERGY_SAMPLING,
             ..Settings::default()
         })
     }

@@ -147,4 +147,6 @@ fn the_loss_of_backward_euler_is_what_its_formula_says() {
     let formula = kinetic + work / f64::from(count) - end;
     let miss = (loss / formula - 1.0).abs();
     assert!(loss > 0.0 && miss < 1e-4, "{loss:e} J against {formula:e} J");
+    let energy = report.energy.expect("asked for");
+    assert!(energy.open().abs() < 1e-5 * loss && energy.unproved == 0.0, "{energy:?}");
 }

@@ -132,6 +132,11 @@ impl StepFilter for World {
         }
     }
 
+    fn obstacle_work(&mut self, positions: &[f64]) -> f64 {
+        let surfaces = self.contact.surfaces_mut();
+        surfaces.map_or(0.0, |surfaces| surfaces.body_work(positions))
+    }
+
     fn is_intersection_free(&mut self, positions: &[f64]) -> bool {
         let surfaces = self.contact.surfaces_mut();
         surfaces.is_none_or(|surfaces| surfaces.is_intersection_free(positions))
@@ -165,7 +170,6 @@ impl World {
                 let lost = friction.dissipated;
                 StepEnergy {
                     contact: potential - lost - before.contact + before.body_work,
-                    body_friction_work: contact.body_work(positions),
                     body_friction_loss: lost,
                     cloth_friction_loss: friction.dissipated_on_cloth,
                     body_friction_potential: lost,

@@ -91,7 +91,7 @@ fn the_energy_of_surfaces_is_accounted_for() {
     let energy = simulation.energy().unwrap();
     // The ball lifts the middle of a sheet of 8 g by some centimetres.
     assert!(energy.work_in > 0.5 * energy.gravity && energy.gravity > 1e-4, "{energy:?}");
-    assert!(energy.residual.abs() < 1e-9 * energy.work_in, "{energy:?}");
+    assert!(energy.residual.abs() < 1e-6 * energy.work_in, "{energy:?}");
     assert!(energy.body_dissipated > 0.0 && energy.numerical_dissipated > 0.0, "{energy:?}");
 }
 
@@ -194,7 +194,7 @@ fn a_body_that_grows_takes_the_cloth_that_starts_in_it_along() {
     assert!((highest(&frame.bodies) - 0.006).abs() < 1e-12, "{}", highest(&frame.bodies));
     assert!((0.006..0.008).contains(&highest(&frame.positions)), "{}", highest(&frame.positions));
     let energy = simulation.energy().unwrap();
-    assert!(energy.work_in > 0.0 && energy.residual.abs() < 1e-9 * energy.work_in, "{energy:?}");
+    assert!(energy.work_in > 0.0 && energy.residual.abs() < 1e-6 * energy.work_in, "{energy:?}");
     // What is wholly inside would stay there.
     let mut small = scene("inflate = { depth = 0.01, seconds = 0.3 }");
     small.side = 0.02;
@@ -254,7 +254,7 @@ fn sheets_that_start_too_near_come_to_keep_their_whole_distances() {
     }
     // What keeps growing works on the cloth, and the balance counts it.
     let energy = simulation.energy().unwrap();
-    assert!(energy.work_in > 0.0 && energy.residual.abs() < 1e-9 * energy.work_in, "{energy:?}");
+    assert!(energy.work_in > 0.0 && energy.residual.abs() < 1e-6 * energy.work_in, "{energy:?}");
     assert_eq!(simulation.state_hash(), grown(2).state_hash());
 }
 

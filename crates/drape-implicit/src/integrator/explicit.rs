@@ -1,10 +1,12 @@
 //! Explicit steps, as a cross-check of the implicit ones. They use nothing of the solver.
 
+use super::path_work::{Path, PathWork};
 use super::state::{IntegratorState, Span};
 use crate::error::{Error, Quantity};
 use crate::linear::block_matrix::BlockMatrix;
 use crate::linear::vector::first_not_finite;
 use crate::report::{Energy, Report};
+use crate::step_filter::SystemRef;
 use crate::system::{Stiffness, System};
 
 /// Fraction of the largest stable step that is taken: the bound holds for the stiffness at the
@@ -39,6 +41,7 @@ pub struct Explicit {
     forces: Vec<f64>,
     /// Sums of magnitudes in the rows of the stiffness, in N/m.
     row_sums: Vec<f64>,
+    path_work: PathWork,
 }
 
 impl Explicit {
@@ -54,6 +57,7 @@ impl Explicit {
             velocities: vec![0.0; length],
             forces: vec![0.0; length],
             row_sums: vec![0.0; length],
+            path_work: PathWork::new(length),
         }
     }
 
@@ -97,12 +101,12 @@ impl Explicit {
             }
             let end = origin + dt * (step as f64 / count as f64);
             let span = Span { start: state.time, end, dt: dt / count as f64 };
-            let energy = self.sub_step(system, state, span)?;
+            let energy = self.sub_step(system, state, span, &mut report)?;
             *report.energy.get_or_insert_default() += energy;
         }
         report.sub_steps = count;
-        report.force_evaluations = count;
-        report.potential_evaluations = 2 * count;
+        report.force_evaluations += count;
+        report.potential_evaluations += 2 * count;
         Ok(report)
     }
 
@@ -155,9 +159,10 @@ impl Explicit {
         system: &mut dyn System,
         state: &mut IntegratorState,
         span: Span,
+        report: &mut Report,
     ) -> Result<Energy, Error> {
         let Span { start: time, end, dt } = span;
-        let Self { positions, velocities, forces, .. } = self;
+        let Self { positions, velocities, forces, path_work, .. } = self;
         positions.copy_from_slice(&state.positions);
         system.begin(end, dt, &state.positions, positions);
         let before = system.potential(&state.positions);
@@ -173,21 +178,36 @@ impl Explicit {
             return Err(Error::NotFinite { quantity: Quantity::Force, particle, time, dt });
         }
         let mut energy = Energy::default();
+        let [mut inertia_work, mut end_work] = [0.0; 2];
         for (particle, (mass, held)) in system.masses().iter().zip(system.held()).enumerate() {
             let range = 3 * particle..3 * particle + 3;
             for k in range.clone() {
                 let start = state.velocities[k];
                 let moved = positions[k] - state.positions[k];
                 velocities[k] = if *held { moved / dt } else { start + dt * forces[k] / mass };
+                let inertia = mass * (velocities[k] - start) / dt * moved;
+                inertia_work += inertia;
+                end_work += forces[k] * moved;
                 if *held {
-                    energy.work += (mass * (velocities[k] - start) / dt - forces[k]) * moved;
+                    energy.work += inertia - forces[k] * moved;
                 }
             }
             let speed = |v: &[f64]| v[range.clone()].iter().map(|v| v * v).sum::<f64>();
             energy.kinetic += 0.5 * mass * (speed(velocities) - speed(&state.velocities));
         }
-        energy.potential = system.potential(positions) - before;
-        energy.numerical_dissipation = energy.work - energy.kinetic - energy.potential;
+        let after = system.potential(positions);
+        energy.potential = after - before;
+        let formula_loss = inertia_work - energy.kinetic;
+        let exchanged = energy.kinetic.abs() + energy.potential.abs() + energy.work.abs();
+        let path = Path {
+            start: &state.positions,
+            end: positions,
+            potentials: [before, after],
+            end_work,
+            exchanged: exchanged + formula_loss.abs(),
+        };
+        let work = path_work.measure(&mut SystemRef::Free(system), &path, report);
+        energy.numerical_dissipation = formula_loss + work.forces - end_work;
         system.accept(positions, velocities, dt);
         state.advance(span, positions, velocities);
         Ok(energy)

@@ -1,6 +1,7 @@
 //! Attempt at one sub-step: prediction, solution, velocities and energy balance.
 
 use super::formula::Formula;
+use super::path_work::{Path, PathWork, Work, is_sampled};
 use super::state::{IntegratorState, Span, check_length};
 use crate::error::Quantity;
 use crate::linear::block::triples;
@@ -11,7 +12,6 @@ use crate::nonlinear::solver::NonlinearSolver;
 use crate::report::{Energy, Report, Stop};
 use crate::settings::Settings;
 use crate::step_filter::SystemRef;
-use crate::system::System;
 
 /// Solver and work space of a sub-step.
 #[derive(Debug)]
@@ -30,18 +30,25 @@ pub(crate) struct SubStepper {
     base: Vec<f64>,
     /// Velocities at the end of the sub-step, in m/s.
     velocities: Vec<f64>,
+    path_work: PathWork,
 }
 
-/// Energies at the start of a sub-step, in J.
+/// Start of a sub-step for its energy balance.
 #[derive(Clone, Copy)]
-struct StartEnergy {
+struct Opening {
+    formula: Formula,
+    /// Whether the loss is found by itself.
+    is_sampled: bool,
+    /// Kinetic energy, in J.
     kinetic: f64,
+    /// Potential, in J.
     potential: f64,
 }
 
 impl SubStepper {
     pub(crate) fn new(particles: usize, solver: NonlinearSolver, settings: Settings) -> Self {
         let zeros = || vec![0.0; 3 * particles];
+        let balanced = if settings.energy_balance { 3 * particles } else { 0 };
         Self {
             settings,
             solver,
@@ -52,6 +59,7 @@ impl SubStepper {
             past_velocities: zeros(),
             base: zeros(),
             velocities: zeros(),
+            path_work: PathWork::new(balanced),
         }
     }
 
@@ -77,7 +85,9 @@ impl SubStepper {
             report.potential_evaluations += 1;
             // Obstacles are at the end of the sub-step, the particles at its start.
             system.set_obstacle_time(0.0);
-            StartEnergy {
+            Opening {
+                formula,
+                is_sampled: is_sampled(span.start, self.settings.energy_sampling),
                 kinetic: self.kinetic(&state.velocities),
                 potential: system.system().potential(&state.positions),
             }
@@ -99,13 +109,7 @@ impl SubStepper {
 
         self.set_velocities(formula);
         if let Some(start) = start {
-            let mut work = 0.0;
-            if self.held_move(state) {
-                report.force_evaluations += 1;
-                work = self.work_on_held(system.system(), state, formula);
-            }
-            let energy = self.balance(system.system(), start, work);
-            report.potential_evaluations += 1;
+            let energy = self.balance(system, state, start, report);
             *report.energy.get_or_insert_default() += energy;
         }
         let end = &mut self.solver.search.current;
@@ -215,33 +219,109 @@ impl SubStepper {
         self.held[k / 3] && self.solver.search.current.positions[k] != state.positions[k]
     }
 
-    /// Work of the forces that move the held particles, those at the end of the sub-step, in J.
-    fn work_on_held(
+    /// Energy balance of the sub-step, whose entries are found each by itself where it is sampled.
+    ///
+    /// With the acceleration `$a$` of the formula, the residual `$\phi = M a - f(x_1)$` that the
+    /// solver leaves, `$\Delta x = x_1 - x_0$` and the work `$W$` of the forces along the way, the
+    /// formula loses
+    ///
+    /// ```math
+    /// \bigl(a^T M \Delta x - \Delta K\bigr) + \bigl(W - f(x_1)^T \Delta x\bigr) - \phi^T \Delta x
+    /// ```
+    ///
+    /// The first part follows from positions and velocities alone. For backward Euler it is
+    /// `$\tfrac12 |\Delta v|_M^2$`; for BDF2 with even steps, with the mean velocity `$\bar v$` of
+    /// the ends and `$\bar u = \Delta x/\mathrm{dt}$`, it is
+    /// `$\tfrac12\, \delta^2 v^T M \bar u + \Delta v^T M (\bar u - \bar v)$`. The second is what
+    /// forces that are taken at the end do less than along the way.
+    fn balance(
         &mut self,
-        system: &mut dyn System,
+        system: &mut SystemRef<'_>,
+        state: &IntegratorState,
+        opening: Opening,
+        report: &mut Report,
+    ) -> Energy {
+        let kinetic = self.kinetic(&self.velocities) - opening.kinetic;
+        let ends = self.end_work(system, state, opening.formula, report);
+        report.potential_evaluations += 1;
+        let end = &self.solver.search.current.positions;
+        let potential = system.system().potential(end);
+        let fall = opening.potential - potential;
+        let formula_loss = ends.inertia - kinetic;
+        let exchanged = kinetic.abs() + fall.abs() + formula_loss.abs() + ends.held.abs();
+        let path = Path {
+            start: &state.positions,
+            end,
+            potentials: [opening.potential, potential],
+            end_work: ends.forces,
+            exchanged,
+        };
+        let work = match opening.is_sampled {
+            true => self.path_work.measure(system, &path, report),
+            false => {
+                let obstacles = system.obstacle_work(end);
+                let forces =
+                    ends.forces + ends.residual + ends.held + obstacles - ends.inertia + fall;
+                Work { forces, obstacles, unproved: 0.0 }
+            }
+        };
+        Energy {
+            kinetic,
+            potential: -fall,
+            work: ends.held + work.obstacles,
+            numerical_dissipation: formula_loss + work.forces - ends.forces - ends.residual,
+            unproved: work.unproved,
+        }
+    }
+
+    /// Work of inertia, forces and residual at the end over the displacements of the sub-step.
+    fn end_work(
+        &mut self,
+        system: &mut SystemRef<'_>,
         state: &IntegratorState,
         formula: Formula,
-    ) -> f64 {
-        // The image is not in use any more.
+        report: &mut Report,
+    ) -> EndWork {
+        let held_move = self.held_move(state);
         let search = &mut self.solver.search;
-        system.forces(&search.current.positions, &mut search.image);
-        let mut work = 0.0;
-        for k in (0..state.positions.len()).filter(|&k| self.is_moved(state, k)) {
-            let search = &self.solver.search;
+        if held_move {
+            // The image is not in use any more.
+            report.force_evaluations += 1;
+            system.system().forces(&search.current.positions, &mut search.image);
+        }
+        let mut work = EndWork::default();
+        for (k, start) in state.positions.iter().enumerate() {
+            let particle = k / 3;
+            let moved = search.current.positions[k] - start;
             let acceleration = (self.velocities[k] - self.past_velocities[k]) / formula.beta_dt;
-            let pull = self.masses[k / 3] * acceleration - search.image[k];
-            work += pull * (search.current.positions[k] - state.positions[k]);
+            let inertia = self.masses[particle] * acceleration * moved;
+            work.inertia += inertia;
+            if !self.held[particle] {
+                let [residual, deviation] =
+                    [search.current.residual[k], search.current.deviation[k]];
+                work.residual += residual * moved;
+                work.forces += (self.inertia[particle] * deviation - residual) * moved;
+            } else if moved != 0.0 {
+                let force = search.image[k] * moved;
+                work.forces += force;
+                work.held += inertia - force;
+            }
         }
         work
     }
+}
 
-    /// Energy balance of the sub-step.
-    fn balance(&self, system: &mut dyn System, start: StartEnergy, work: f64) -> Energy {
-        let end = &self.solver.search.current;
-        let kinetic = self.kinetic(&self.velocities) - start.kinetic;
-        let potential = system.potential(&end.positions) - start.potential;
-        Energy { kinetic, potential, work, numerical_dissipation: work - kinetic - potential }
-    }
+/// Work at the end of a sub-step, over its displacements, in J.
+#[derive(Debug, Clone, Copy, Default)]
+struct EndWork {
+    /// Work that the accelerations of the formula stand for.
+    inertia: f64,
+    /// Work of the forces.
+    forces: f64,
+    /// Work of the residual that the solver leaves.
+    residual: f64,
+    /// Work of the forces that move the held particles.
+    held: f64,
 }
 
 /// Residual in units of the norm that tolerances refer to. With no free particle both are 0.

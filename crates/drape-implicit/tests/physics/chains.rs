@@ -175,7 +175,8 @@ fn a_swinging_sheet_loses_the_energy_that_is_reported_and_bdf2_a_fifth_of_it() {
         // Held at rest, so no work is done; released with no energy.
         assert_eq!(balance.work, 0.0);
         let gap = balance.numerical_dissipation + energy;
-        assert!(gap.abs() < 1e-12, "{integrator:?}: {gap} J unaccounted");
+        // The work of the springs along each step is found by quadrature.
+        assert!(gap.abs() < 1e-6 * -energy, "{integrator:?}: {gap} J unaccounted");
         -energy
     };
     let (first, second) = (loss(Integrator::BackwardEuler), loss(Integrator::Bdf2));

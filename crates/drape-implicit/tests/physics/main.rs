@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod accuracy;
+mod balance;
 mod chains;
 mod explicit;
 mod failures;

@@ -20,6 +20,8 @@ struct Floor {
     nearest: f64,
     /// Longest step whose solution is certified.
     certified: f64,
+    /// Whether the floor tells its work.
+    tells_work: bool,
     dt: f64,
     accepted: Vec<f64>,
 }
@@ -32,6 +34,7 @@ impl Floor {
             now: 0.0,
             nearest: f64::INFINITY,
             certified: f64::INFINITY,
+            tells_work: true,
             dt: 0.0,
             accepted: Vec::new(),
         }
@@ -127,6 +130,12 @@ impl StepFilter for Floor {
         self.now = if time == 1.0 { end } else { start + time * (end - start) };
     }
 
+    fn obstacle_work(&mut self, positions: &[f64]) -> f64 {
+        let gap = self.gap(positions);
+        let push = STIFFNESS * ACTIVATION_DISTANCE * (ACTIVATION_DISTANCE / gap - 1.0).max(0.0);
+        if self.tells_work { push * (self.ends[1] - self.ends[0]) } else { 0.0 }
+    }
+
     fn is_intersection_free(&mut self, _: &[f64]) -> bool {
         self.dt <= self.certified
     }
@@ -191,6 +200,28 @@ fn a_floor_that_rises_by_many_times_its_activation_distance_carries_the_particle
     assert!(floor.nearest > 0.0);
     // It flies at most as an elastic collision would throw it.
     assert!(state.velocities[1] <= 2.0 + 1e-9, "{:?}", state.velocities);
+}
+
+#[test]
+fn the_balance_closes_with_the_work_of_a_floor_that_rises_and_opens_without() {
+    for tells_work in [true, false] {
+        let mut floor = Floor { tells_work, ..Floor::new(0.05) };
+        let mut stepper = Stepper::new(&floor, settings()).unwrap();
+        let mut state = falling(0.9 * ACTIVATION_DISTANCE, 0.0);
+        let (mut open, mut work) = (0.0, 0.0);
+        for _ in 0..200 {
+            let report = stepper.advance_filtered(&mut floor, &mut state, 0.001).unwrap();
+            let energy = report.energy.unwrap();
+            open += energy.open();
+            work += energy.work;
+        }
+        println!("{open:e} J open, {work:e} J of work");
+        // The weight of 1 kg rises by 10 mm.
+        match tells_work {
+            true => assert!(open.abs() < 1e-6 * work && work > 0.09, "{open:e} of {work:e} J"),
+            false => assert!(work == 0.0 && open.abs() > 0.09, "{open:e} of {work:e} J"),
+        }
+    }
 }
 
 #[test]

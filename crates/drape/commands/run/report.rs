@@ -71,10 +71,16 @@ fn grown(contact: &Contacts) -> String {
 
 /// Describes the balance of the energy.
 fn balance(energy: &Energy) -> String {
+    let integration = energy.numerical_dissipated + energy.rotation_dissipated;
+    let given = (-energy.gravity).max(0.0) + energy.work_in.max(0.0);
+    let share = match given > 0.0 {
+        true => format!(", {:.1} % of what came in", 100.0 * integration / given),
+        false => String::new(),
+    };
     format!(
         "\nenergy: gravity gave {:.4} J; elastic {:+.4} J, kinetic {:.1e} J; lost in the fabric \
-         {:.4} J, on bodies {:.4} J, of cloth on cloth {:.4} J, to the air {:.4} J, in the integration {:.4} J; unaccounted \
-         for {:.0e} J",
+         {:.4} J, on bodies {:.4} J, of cloth on cloth {:.4} J, to the air {:.4} J, in the integration {:.4} J{share}; \
+         unaccounted for {:.0e} J",
         -energy.gravity,
         energy.elastic + energy.contact,
         energy.kinetic,
@@ -82,7 +88,7 @@ fn balance(energy: &Energy) -> String {
         energy.body_dissipated,
         energy.cloth_dissipated,
         energy.air_dissipated,
-        energy.numerical_dissipated + energy.rotation_dissipated,
+        integration,
         energy.residual,
     )
 }

@@ -249,9 +249,12 @@ impl SurfaceContact {
         self.friction.each_gradient(&self.active.positions, &mut add);
     }
 
-    /// Returns the work of the bodies in the open step if it ends at some positions, in J: the
-    /// forces on them there times their displacements.
+    /// Returns the work of the bodies in the open step with their forces at some positions and the
+    /// present obstacle time, in J: the forces on them there times their displacements.
     pub fn body_work(&mut self, positions: &[f64]) -> f64 {
+        if self.obstacles.start == self.obstacles.end {
+            return 0.0;
+        }
         self.update(positions);
         let free = 3 * self.surface.free_count();
         let Obstacles { start, end, .. } = &self.obstacles;

@@ -1,5 +1,6 @@
 //! Safeguards of contact, taken away one by one: what is missing shows in the run or in its frames.
 
+use drape_implicit::Settings;
 use drape_input::Document;
 use drape_scene::Scene;
 use drape_verify::Verifier;
@@ -10,6 +11,7 @@ use crate::record::recorder::{Recorder, prepare_folder};
 use crate::record::summary::{Contacts, Status};
 use crate::simulation::Simulation;
 use crate::simulation::run::Progress;
+use crate::stepping::Scheme;
 use crate::world::check::FABRIC;
 use crate::world::contact::surfaces::Omitted;
 
@@ -89,11 +91,12 @@ fn with_all_of_it_no_step_crosses() {
 
 #[test]
 fn without_the_filter_steps_cross_and_are_taken_back() {
-    let end = run(THROWN, Omitted { step_filter: true, intersection_test: false }, None);
+    let end = run(THROWN, Omitted { step_filter: true, ..Omitted::default() }, None);
     holds(&end);
     assert!(end.contact.intersections_found > 0, "{end:?}");
     // What takes them back is the exact test and nothing else.
-    let end = run(THROWN, Omitted { step_filter: true, intersection_test: true }, None);
+    let end =
+        run(THROWN, Omitted { step_filter: true, intersection_test: true, body_work: false }, None);
     assert!(end.intersections > 0, "{end:?}");
 }
 
@@ -103,4 +106,50 @@ fn without_a_barrier_pairs_freeze() {
     holds(&end);
     assert_eq!(end.status, Status::SolverFailed, "{end:?}");
     assert_eq!(end.contact.intersections_found, 0, "{end:?}");
+}
+
+/// A sheet that a plate lifts by 20 mm.
+const LIFTED: &str = r#"spacing = 0.01
+air.density = 0.0
+fabric.plain.file = "plain.toml"
+[[panel]]
+name = "sheet"
+fabric = "plain"
+rectangle = [0.1, 0.1]
+turn = [-90, 0, 0]
+center = [0, 0.0009, 0]
+[[collider.box]]
+name = "plate"
+size = [0.3, 0.02, 0.3]
+center = [0, -0.01, 0]
+[collider.box.motion]
+times = [0, 0.1]
+shift = [[0, 0, 0], [0, 0.02, 0]]
+[time]
+step = 0.002
+end = 0.1
+"#;
+
+#[test]
+fn the_balance_opens_without_the_work_of_a_body_that_moves() {
+    let open = |omitted: Omitted| {
+        let fabric = Document::new("plain.toml", FABRIC);
+        let scene = Scene::from_documents(&Document::new("scene.toml", LIFTED), &[fabric]);
+        let scene = scene.expect("a right scene");
+        // Every sub-step, not a sample.
+        let settings = Settings { tolerance: 1e-6, energy_balance: true, ..Settings::default() };
+        let simulation = Simulation::with_scheme(scene, Scheme::Implicit(settings));
+        let mut simulation = simulation.expect("a solver");
+        simulation.world.contact.surfaces_mut().expect("surfaces").omitted = omitted;
+        let summary = simulation.run(&mut ()).expect("nothing is written");
+        assert_eq!(summary.status, Status::Ok);
+        let energy = summary.energy.expect("a balance");
+        println!("{energy:?}");
+        assert!(energy.gravity > 2e-4 && energy.unproved == 0.0, "{energy:?}");
+        (energy.residual / energy.gravity).abs()
+    };
+    let right = open(Omitted::default());
+    assert!(right < 1e-6, "{right:e} is open");
+    let wrong = open(Omitted { body_work: true, ..Omitted::default() });
+    assert!(wrong > 0.9, "{wrong:e} is open");
 }

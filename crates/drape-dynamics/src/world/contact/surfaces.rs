@@ -52,6 +52,8 @@ pub(super) struct Omitted {
     pub(super) step_filter: bool,
     /// Whether steps are accepted without a test for intersections.
     pub(super) intersection_test: bool,
+    /// Whether the work of bodies that move is left out of the balance of the energy.
+    pub(super) body_work: bool,
 }
 
 /// Bodies that start smaller than they are.
@@ -183,6 +185,16 @@ impl Surfaces {
             true => StepLimit::Whole,
             false => StepLimit::Shortened { obstacle_advance },
         }
+    }
+
+    /// Work of the bodies over their whole motion in the step with their forces at some positions
+    /// and at the present obstacle time, in J.
+    pub(crate) fn body_work(&mut self, positions: &[f64]) -> f64 {
+        #[cfg(test)]
+        if self.omitted.body_work {
+            return 0.0;
+        }
+        self.contact.body_work(positions)
     }
 
     /// Whether no surface intersects another at some positions.
