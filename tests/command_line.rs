@@ -133,7 +133,7 @@ fn a_terminal_gets_no_control_characters_from_the_input() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_run_leaves_a_summary_the_last_frame_and_a_picture() {
+fn an_interrupted_run_leaves_a_summary_the_last_frame_and_a_checkpoint() {
     let folder = started();
     let out = folder.path().join("out/scene");
     let mut running = command(folder.path(), &["run", "scene.toml", "--threads", "1"]);
@@ -152,7 +152,7 @@ fn an_interrupted_run_leaves_a_summary_the_last_frame_and_a_picture() {
     assert_eq!(summary["status"], "interrupted");
     let last = summary["frames"].as_u64().expect("a count") - 1;
     assert!(out.join(format!("frame-{last:05}.npy")).exists());
-    assert!(out.join("picture.png").exists());
+    assert!(out.join("checkpoint-00000001.bin").exists());
 }
 
 #[test]

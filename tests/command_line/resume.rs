@@ -152,7 +152,7 @@ fn two_hundred_kills_lose_nothing() {
 #[test]
 fn signals_and_limits_leave_a_run_that_goes_on() {
     let folder = tempfile::tempdir().unwrap();
-    let case = Case { scene: "scenes/stack.toml", until: "0.2" };
+    let case = Case { scene: "scenes/stack.toml", until: "0.06" };
     let whole = folder.path().join("whole");
     assert!(case.begin(&whole, "1000").wait().unwrap().success());
     let expected = results(&whole);
@@ -160,8 +160,8 @@ fn signals_and_limits_leave_a_run_that_goes_on() {
         let out = folder.path().join(signal);
         let child = case.begin(&out, "1000");
         let deadline = Instant::now() + Duration::from_secs(60);
-        while !out.join("frame-00001.npy").exists() {
-            assert!(Instant::now() < deadline, "no frame after a minute");
+        while !out.join("status.json").exists() {
+            assert!(Instant::now() < deadline, "no step after a minute");
             std::thread::sleep(Duration::from_millis(2));
         }
         kill(&child, signal);
@@ -186,7 +186,17 @@ fn signals_and_limits_leave_a_run_that_goes_on() {
     let out = folder.path().join("limited");
     let place = out.to_str().unwrap();
     let message = ran(
-        &["run", case.scene, "--until", "0.2", "-o", place, "--no-picture", "--max-disk", "0.001"],
+        &[
+            "run",
+            case.scene,
+            "--until",
+            case.until,
+            "-o",
+            place,
+            "--no-picture",
+            "--max-disk",
+            "0.001",
+        ],
         8,
     );
     assert!(message.contains("--max-disk"), "{message}");
