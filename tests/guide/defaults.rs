@@ -65,7 +65,7 @@ fn read(text: &str) -> String {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let document = drape::input::Document::new(root.join("scene.toml"), text);
     let mut scene = Scene::from_documents(&document, &[]).expect("the scene is right");
-    scene.source = Source { hash: String::new(), ..scene.source };
+    scene.source = Source { hash: String::new(), parts: Vec::new(), ..scene.source };
     format!("{scene:?}")
 }
 

@@ -2,10 +2,11 @@
 
 #![allow(clippy::print_stdout)]
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use drape_fabric::{Law, TractionLaw};
 use drape_fit::{CurveFit, Settings, Toe, TractionModel, identify_loop_bending, identify_tensile};
+use drape_input::Document;
 use drape_kes::{Curve, Sheet, Test};
 
 /// Reads curves of the cupro weave, some of which its sheet does not use.
@@ -13,23 +14,17 @@ fn curves(test: &str, slack: bool, files: &[(&str, &str)]) -> Vec<Curve> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fabrics/cupro-weave");
     let mut text = String::from("name = \"cupro\"\n");
     for (file, direction) in files {
-        let path = folder.join(file);
         text.push_str(&format!(
-            "[[curve]]\nname = \"{file}\"\ntest = \"{test}\"\ndirection = \"{direction}\"\nfile = \"{}\"\n\
+            "[[curve]]\nname = \"{file}\"\ntest = \"{test}\"\ndirection = \"{direction}\"\nfile = \"{file}\"\n\
              deformation = {{ column = \"clamp_distance_m\", unit = \"m\", gauge = \"specimen_length_m\" }}\n\
-             load = {{ column = \"force_N\", unit = \"N\", width = \"clamp_width_m\" }}\n",
-            path.display()
+             load = {{ column = \"force_N\", unit = \"N\", width = \"clamp_width_m\" }}\n"
         ));
         if slack {
             text.push_str("slack = true\n");
         }
     }
-    let name = format!("gauges-{test}-{}", std::process::id());
-    let sheet = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name).with_extension("toml");
-    std::fs::write(&sheet, text).expect("a file");
-    let read = Sheet::read(&sheet).expect("a good sheet");
-    std::fs::remove_file(&sheet).expect("it was just written");
-    read.curves
+    let sheet = Document::new(folder.join("gauges.toml"), text);
+    Sheet::from_document(&sheet).expect("a good sheet").curves
 }
 
 fn print(fit: &CurveFit) {

@@ -256,19 +256,23 @@ fn lattice(
                     figure(spacing),
                     figure(size)
                 ),
-                match (1.0..500.0 * size).contains(&spacing) {
-                    true => format!("did you mean spacing = \"{} mm\"? {unit}", figure(spacing)),
-                    false => {
-                        let most = figure_below(500.0 * size);
-                        format!("write spacing = \"{most} mm\" or less; {unit}")
-                    }
-                },
+                format!("{}{unit}", spacing_help(spacing, size)),
             ),
             error => (tidy(&error.to_string()), unit.to_owned()),
         };
         checker.fail(&place, format!("panel \"{}\": {error}", excerpt(&entry.name)), &help);
     };
     lattice.map_err(report).ok()
+}
+
+/// Says which spacing suits a panel of a size, in m, in place of a spacing, in m.
+fn spacing_help(spacing: f64, size: f64) -> String {
+    let most = 500.0 * size;
+    let meant = match (1.0..most).contains(&spacing) {
+        true => format!("did you mean \"{} mm\"? ", figure(spacing)),
+        false => String::new(),
+    };
+    format!("write spacing = \"{} mm\" or less; {meant}", figure_below(most))
 }
 
 /// Checks the direction of the yarns in a panel; a grid whose place has no meaning is refused.

@@ -6,7 +6,7 @@ use crate::surface::geometry::Separations;
 
 /// Least gap at which the sides of a seam are two cloths, in m: nearer ones are one point.
 ///
-/// It is a thousand times the rounding of coordinates of 1 m.
+/// It is some thousand times the rounding of coordinates of 1 m.
 const LEAST: f64 = 1e-12;
 
 /// Widest gap that counts at each open seam: of sides that lie nearer to each other at the start than

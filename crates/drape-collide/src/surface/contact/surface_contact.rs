@@ -81,7 +81,7 @@ impl SurfaceMemory {
             return Err(Error::WrongLength { what, found, needed: free });
         }
         let finite = bodies.iter().all(|x| x.is_finite()) && Stretch::are_right(stretches);
-        if !finite || !(*growth_fraction > 0.0 && *growth_fraction <= 1.0) {
+        if !(finite && *growth_fraction > 0.0 && *growth_fraction <= 1.0) {
             return Err(Error::SavedContact);
         }
         Ok(())
