@@ -33,9 +33,10 @@ impl EnergyTable {
         for (index, row) in table.records().enumerate() {
             let line = index + 2;
             let row = row.map_err(|error| malformed(line, error.to_string()))?;
-            let number: usize = row[0]
-                .parse()
-                .map_err(|_| malformed(line, format!("\"{}\" is no number of a frame", &row[0])))?;
+            let number = row[0].parse().ok().filter(|number| *number < usize::MAX);
+            let number = number.ok_or_else(|| {
+                malformed(line, format!("\"{}\" is no number of a frame", &row[0]))
+            })?;
             let values: Result<Vec<f64>, _> = row.iter().skip(1).map(str::parse).collect();
             let values = values.map_err(|error| malformed(line, error.to_string()))?;
             if number < next || !values.iter().all(|value| value.is_finite()) {
