@@ -111,6 +111,8 @@ fn kills(case: &Case, times: usize, random: &mut Random) -> usize {
     let mut met = 0;
     while met < times {
         let out = folder.path().join(format!("killed-{met}"));
+        // One that ended before it was killed begins anew.
+        let _ = std::fs::remove_dir_all(&out);
         // Every step has a checkpoint, so that many kills come while one is written.
         let mut child = case.begin(&out, if met % 3 == 0 { "0" } else { "0.05" });
         std::thread::sleep(length.mul_f64(0.02 + 0.93 * random.next()));

@@ -33,7 +33,7 @@ impl EnergyTable {
         for (index, row) in table.records().enumerate() {
             let line = index + 2;
             let row = row.map_err(|error| malformed(line, error.to_string()))?;
-            let number = row[0].parse().ok().filter(|number| *number < usize::MAX);
+            let number = row[0].parse::<usize>().ok().filter(|number| *number < usize::MAX);
             let number = number.ok_or_else(|| {
                 malformed(line, format!("\"{}\" is no number of a frame", &row[0]))
             })?;
