@@ -28,13 +28,13 @@ end = 0.01
 /// Longest time that a command may take to refuse something.
 const PROMPT: Duration = Duration::from_secs(10);
 
-/// Folder with a scene in `own`, a working folder `work` and another, `other`.
+/// Folder with a scene in `own`, a working folder `current` and another, `other`.
 struct Folders(TempDir);
 
 impl Folders {
     fn new() -> Self {
         let folders = Self(tempfile::tempdir().expect("a temporary folder"));
-        for name in ["own", "work", "other"] {
+        for name in ["own", "current", "other"] {
             fs::create_dir(folders.at(name)).expect("made");
         }
         for folder in ["own", "other"] {
@@ -53,10 +53,10 @@ impl Folders {
         fs::write(self.at("own/towel.toml"), SCENE.replacen(from, to, 1)).expect("written");
     }
 
-    /// Runs a command in the folder `work`, which must end soon.
+    /// Runs a command in the folder `current`, which must end soon.
     fn drape(&self, arguments: &[&str]) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_drape"));
-        command.current_dir(self.at("work")).args(arguments);
+        command.current_dir(self.at("current")).args(arguments);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("it starts");
         let start = Instant::now();
@@ -106,8 +106,8 @@ fn outside(folders: &Folders, change: (&str, &str)) {
 fn a_scene_reads_below_its_folder_and_the_working_folder() {
     let folders = Folders::new();
     folders.succeeds(&RUN);
-    fs::copy(folders.at("own/plain.toml"), folders.at("work/near.toml")).expect("copied");
-    folders.scene(("plain.toml", "../work/near.toml"));
+    fs::copy(folders.at("own/plain.toml"), folders.at("current/near.toml")).expect("copied");
+    folders.scene(("plain.toml", "../current/near.toml"));
     folders.succeeds(&[&RUN[..], &["--force"]].concat());
 }
 
@@ -115,7 +115,7 @@ fn a_scene_reads_below_its_folder_and_the_working_folder() {
 fn what_a_scene_names_elsewhere_is_allowed_by_the_user_alone() {
     let folders = Folders::new();
     outside(&folders, ("\"plain.toml\"", "\"../other/plain.toml\""));
-    assert!(folders.at("work/out/towel/summary.json").exists());
+    assert!(folders.at("current/out/towel/summary.json").exists());
 }
 
 #[test]
@@ -155,7 +155,7 @@ fn results_of_a_scene_stay_below_its_folder() {
 #[test]
 fn a_link_does_not_lead_results_out() {
     let folders = Folders::new();
-    symlink(folders.at("other"), folders.at("work/out")).expect("linked");
+    symlink(folders.at("other"), folders.at("current/out")).expect("linked");
     let message = folders.fails(&RUN, 2);
     assert!(message.contains("-o"), "{message}");
     folders.succeeds(&[&RUN[..], &["-o", "elsewhere"]].concat());
@@ -165,7 +165,7 @@ fn a_link_does_not_lead_results_out() {
 fn replacing_results_touches_files_of_the_run_alone() {
     let folders = Folders::new();
     folders.succeeds(&RUN[..2]);
-    let results = folders.at("work/out/towel");
+    let results = folders.at("current/out/towel");
     let mine = ["notes.txt", "frame-mine.npy", "frame-00099.npy"];
     for name in mine {
         fs::write(results.join(name), "mine").expect("written");
@@ -234,7 +234,7 @@ fn what_is_no_file_is_refused_at_once() {
 fn frames_that_are_no_files_are_refused_at_once() {
     let folders = Folders::new();
     folders.succeeds(&RUN);
-    let results = folders.at("work/out/towel");
+    let results = folders.at("current/out/towel");
     for name in ["surfaces.json", "frames.csv", "frame-00000.npy", "triangles.npy"] {
         let (path, kept) = (results.join(name), results.join("kept"));
         fs::rename(&path, &kept).expect("moved");
@@ -253,11 +253,11 @@ fn frames_that_are_no_files_are_refused_at_once() {
 #[test]
 fn nothing_is_put_in_the_place_of_what_is_no_file() {
     let folders = Folders::new();
-    pipe(&folders.at("work/pipe.toml"));
-    fs::create_dir(folders.at("work/folder.toml")).expect("made");
+    pipe(&folders.at("current/pipe.toml"));
+    fs::create_dir(folders.at("current/folder.toml")).expect("made");
     folders.fails(&["new", "scene", "-o", "pipe.toml", "--force"], 6);
     folders.fails(&["new", "scene", "-o", "folder.toml", "--force"], 6);
-    assert!(!fs::metadata(folders.at("work/pipe.toml")).expect("there").is_file());
+    assert!(!fs::metadata(folders.at("current/pipe.toml")).expect("there").is_file());
     // A device is left as it is.
     let null = folders.drape(&["new", "scene", "-o", "/dev/null", "--force"]).status.code();
     assert_eq!(null, Some(6));

@@ -1,8 +1,8 @@
-//! What keeps a run: its lock, what was asked for, checkpoints, limits, signals that end it, and its
-//! status for whoever watches.
+//! Safety of a run: its lock, its request, checkpoints, limits, signals that end it, and its status
+//! for other programs.
 //!
-//! A run keeps in its folder, beside its results, `run.json` (what was asked for), `status.json` (how
-//! far it is), two checkpoints, and the file of its lock. [`Keeper`] writes them as the run goes.
+//! A run keeps in its folder, beside its results, `run.json` (its request), `status.json` (its
+//! progress), two checkpoints, and the file of its lock. [`Keeper`] writes them as the run goes.
 
 mod keeper;
 mod limits;

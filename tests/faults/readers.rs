@@ -71,7 +71,7 @@ pub fn scene(text: &str, fabric: &str) -> bool {
     scene.is_ok_and(simulate)
 }
 
-/// Reads a fabric, writes it, and lets a strip of it hang.
+/// Reads a fabric, writes it, and simulates a hanging strip of it.
 pub fn fabric(text: &str) -> bool {
     let Ok(fabric) = Fabric::from_document(&Document::new("plain.toml", text)) else {
         return false;

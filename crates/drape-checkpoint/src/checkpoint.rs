@@ -27,7 +27,7 @@ pub struct Checkpoint {
     sections: Vec<Section>,
 }
 
-/// Value by its name, encoded.
+/// Section: the name of a value and its encoded bytes.
 #[derive(Debug, Clone, PartialEq)]
 struct Section {
     name: String,
@@ -152,7 +152,7 @@ impl Checkpoint {
     }
 }
 
-/// Takes a section, if it is as it was written.
+/// Reads the next section and verifies its checksum.
 fn take_section(rest: &mut Rest<'_>, number: usize) -> Result<Section, Damage> {
     let start = rest.0;
     let length = u16::from_le_bytes(rest.array()?);

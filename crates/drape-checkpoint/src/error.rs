@@ -22,7 +22,7 @@ pub enum Error {
         /// Message of the system.
         reason: std::io::Error,
     },
-    /// A value cannot be put into a section.
+    /// Failure to encode the value of a section.
     #[error("the section \"{section}\" of a checkpoint cannot be written: {reason}")]
     Encode {
         /// Name of the section.
@@ -55,7 +55,7 @@ pub enum Damage {
         /// Version that is known.
         known: u32,
     },
-    /// The file ends too early, or goes on behind its end.
+    /// Wrong length: the file is truncated, or has bytes after its checksum.
     #[error("it is cut off, or goes on behind its end")]
     Length,
     /// A section is not as it was written.

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use crate::checkpoint::Checkpoint;
 use crate::error::{Damage, Error};
 
-/// Checkpoints that are kept: if the last one is damaged, the one before it is taken.
+/// Number of checkpoints that are kept: where the newest one is damaged, the one before it is read.
 const KEPT: usize = 2;
 
-/// Name of the file that a checkpoint is written to before it has its own.
+/// Name of the temporary file of a checkpoint, which is renamed once it is complete.
 const TEMPORARY: &str = "checkpoint.part";
 
 /// Folder with checkpoints.
@@ -28,7 +28,7 @@ pub struct Found {
     pub damaged: Vec<Damaged>,
 }
 
-/// Checkpoint that is not as it was written.
+/// Checkpoint whose bytes have changed since it was written, or that is incomplete.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Damaged {
     /// File.

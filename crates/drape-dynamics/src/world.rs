@@ -177,7 +177,7 @@ impl World {
     pub(crate) fn finish_sewing(&mut self, time: f64, positions: &[f64]) {
         self.seams.springs = None;
         if let Some(surfaces) = self.contact.surfaces_mut() {
-            surfaces.close_seams();
+            surfaces.contact.close_seams();
         }
         self.gravity.start_ramp(time);
         if let Some(SewnCloth { cloth, bending }) = self.seams.sewn.take() {

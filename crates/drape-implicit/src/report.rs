@@ -68,8 +68,8 @@ impl AddAssign<&Report> for Report {
     }
 }
 
-/// Energy balance over accepted sub-steps. Every entry is found by itself; they close,
-/// `work = kinetic + potential + numerical_dissipation`, if the forces are those of the potential.
+/// Energy balance over accepted sub-steps. In sampled sub-steps every entry is computed on its own; they
+/// close, `work = kinetic + potential + numerical_dissipation`, if the forces are those of the potential.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
     /// Growth of the kinetic energy, in J.

@@ -1,7 +1,7 @@
 //! Pieces of cloth that lie wholly inside a body: no triangle of theirs meets one of its.
 //!
-//! `verdict` asks for them in each frame. A piece that meets no surface of a body is inside of it with
-//! one of its vertices or with none.
+//! `verdict` asks for them in each frame. A piece that intersects no surface of a body is inside of it
+//! if one of its vertices is.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

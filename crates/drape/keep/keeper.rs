@@ -25,7 +25,7 @@ pub(crate) struct Keeper {
     status: StatusFile,
 }
 
-/// What a checkpoint holds.
+/// Content of a checkpoint: the states of simulation and recorder.
 pub(crate) struct Kept {
     pub(crate) simulation: SavedSimulation,
     pub(crate) recorder: SavedRecorder,

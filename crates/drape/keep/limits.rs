@@ -53,7 +53,7 @@ impl Limits {
     }
 }
 
-/// Memory that the program takes, in bytes, where the system tells.
+/// Returns the resident memory of the program, in bytes; `None` where the system does not report it.
 fn resident_bytes() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

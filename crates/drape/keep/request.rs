@@ -1,4 +1,4 @@
-//! Request of a run: what was asked for, from which `drape resume` makes the run again.
+//! Request of a run: its scene and options, with which `drape resume` creates the simulation again.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use crate::{file, input};
 /// Name of its file.
 const NAME: &str = "run.json";
 
-/// What was asked for.
+/// Options of a run: its scene, its end and the interval of its checkpoints.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct RunRequest {
     /// Scene, as a whole path, or `-` for standard input.
@@ -24,8 +24,12 @@ pub(crate) struct RunRequest {
 impl RunRequest {
     /// Makes the request of a scene.
     pub(crate) fn new(scene: &Path, until: Option<f64>, checkpoint_every: f64) -> Self {
-        let whole = std::path::absolute(scene).ok().filter(|_| !input::is_standard(scene));
-        Self { scene: whole.unwrap_or_else(|| scene.to_owned()), until, checkpoint_every }
+        Self { scene: whole_path(scene), until, checkpoint_every }
+    }
+
+    /// Gives the scene another place.
+    pub(crate) fn move_scene(&mut self, scene: &Path) {
+        self.scene = whole_path(scene);
     }
 
     /// Writes it to a folder.
@@ -54,7 +58,13 @@ impl RunRequest {
     }
 }
 
-/// Returns the status in the summary of a run, if there is one.
+/// Returns a path from the root of the file system; that of standard input stays.
+fn whole_path(scene: &Path) -> PathBuf {
+    let whole = std::path::absolute(scene).ok().filter(|_| !input::is_standard(scene));
+    whole.unwrap_or_else(|| scene.to_owned())
+}
+
+/// Returns the `status` of a run's summary; `None` without a summary.
 pub(crate) fn status_of(folder: &Path) -> Option<String> {
     let text = std::fs::read(folder.join("summary.json")).ok()?;
     let summary: serde_json::Value = serde_json::from_slice(&text).ok()?;

@@ -13,13 +13,13 @@ use signal_hook::iterator::Signals;
 /// send it to a process and to its group.
 const SAME: Duration = Duration::from_millis(500);
 
-/// Time after the first signal in which a step may still end by itself.
+/// Time after the first signal until which the current step may end; then it is cancelled.
 const PATIENCE: Duration = Duration::from_millis(700);
 
 /// Time of the first signal.
 static FIRST: OnceLock<Instant> = OnceLock::new();
 
-/// Flag that gives up the step in hand.
+/// Flag that cancels the current step.
 static GIVE_UP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 
 /// Number of the first signal that was received; 0 for none.

@@ -1,4 +1,4 @@
-//! Status of a run for whoever watches it: `status.json`, always whole.
+//! Status of a run for other programs: `status.json`, written atomically.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -11,7 +11,7 @@ use crate::file;
 /// Time between two updates.
 const EVERY: Duration = Duration::from_secs(1);
 
-/// How far a run is after a step.
+/// Progress of a run after a step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Advance {
     pub(crate) phase: PhaseName,

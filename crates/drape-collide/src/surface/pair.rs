@@ -14,6 +14,16 @@ pub enum PairKind {
     EdgeEdge,
 }
 
+impl PairKind {
+    /// Number of vertices of the first primitive: one, or two.
+    pub(crate) fn first_vertices(self) -> usize {
+        match self {
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
+        }
+    }
+}
+
 /// Kind and features of a pair: its place in a sorted list.
 pub(crate) type PairKey = (PairKind, [u32; 2]);
 
@@ -51,10 +61,7 @@ impl Pair {
     /// Number of vertices of the first primitive: one, or two.
     #[must_use]
     pub fn first_vertices(&self) -> usize {
-        match self.kind {
-            PairKind::VertexFace => 1,
-            PairKind::EdgeEdge => 2,
-        }
+        self.kind.first_vertices()
     }
 
     /// Returns the largest sum of two numbers of a list, of a vertex of each primitive.

@@ -93,7 +93,20 @@ fn a_flat_fold_is_nearer_than_the_minimum_separation() {
     assert!(nearest([0.02, 0.11, 0.02]) > 1.0);
 }
 
-/// The filter is asked for a step that ends beyond a sheet by so much, and for the rest of it.
+/// Moves vertices by what the step filter leaves of displacements.
+fn advance(contact: &mut SurfaceContact, positions: &mut [f64], displacements: &mut [f64]) {
+    let mut obstacle_advance = 1.0;
+    contact.limit_step(SurfaceStep {
+        start: positions,
+        displacements,
+        held: &[],
+        obstacle_time: 0.0,
+        obstacle_advance: &mut obstacle_advance,
+    });
+    positions.iter_mut().zip(displacements).for_each(|(x, step)| *x += *step);
+}
+
+/// Steps that would end beyond a sheet, or on it, are shortened again and again: none reaches it.
 #[test]
 fn the_step_filter_leads_to_no_planted_fault() {
     let start = flat(&[LOWER, over(0.105)]);
@@ -104,15 +117,7 @@ fn the_step_filter_leads_to_no_planted_fault() {
         for _ in 0..100 {
             let mut displacements = vec![0.0; positions.len()];
             displacements[10] = end - positions[10];
-            let mut obstacle_advance = 1.0;
-            contact.limit_step(SurfaceStep {
-                start: &positions,
-                displacements: &mut displacements,
-                held: &[],
-                obstacle_time: 0.0,
-                obstacle_advance: &mut obstacle_advance,
-            });
-            positions.iter_mut().zip(&displacements).for_each(|(x, step)| *x += step);
+            advance(&mut contact, &mut positions, &mut displacements);
         }
         let kept = positions[10] - 0.1;
         let least = 2.0 * DISTANCES.min_separation;
@@ -191,15 +196,7 @@ fn sides_of_an_open_seam_keep_a_tenth_of_its_gap_and_end_apart() {
         for _ in 0..200 {
             let mut displacements = vec![0.0; positions.len()];
             (3..6).for_each(|vertex| displacements[3 * vertex + 2] = -0.01);
-            let mut obstacle_advance = 1.0;
-            contact.limit_step(SurfaceStep {
-                start: &positions,
-                displacements: &mut displacements,
-                held: &[],
-                obstacle_time: 0.0,
-                obstacle_advance: &mut obstacle_advance,
-            });
-            positions.iter_mut().zip(&displacements).for_each(|(x, step)| *x += step);
+            advance(&mut contact, &mut positions, &mut displacements);
         }
         let kept = positions[3 * 3 + 2];
         let least = (2.0 * DISTANCES.min_separation).min(0.1 * gap);

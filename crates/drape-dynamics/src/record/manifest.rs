@@ -16,13 +16,13 @@ pub(crate) const FRAMES: &str = "frames.csv";
 /// Names of the arrays of the topology.
 pub(crate) const ARRAYS: [&str; 3] = ["material.npy", "triangles.npy", "body-triangles.npy"];
 
-/// Name of the balance of the energy at each frame.
+/// Name of the table of the energy balance at each frame.
 pub(crate) const ENERGY: &str = "energy.csv";
 
 /// Kinds of the arrays that frames have, by which their names begin.
 const KINDS: [&str; 3] = ["frame", "bodies", "pressure"];
 
-/// Files that a run has once: those of older versions and those of the command line among them.
+/// Files of which a run has one, with those of older versions and of the command line.
 const SINGLE: [&str; 12] = [
     "run.json",
     "status.json",
@@ -67,7 +67,7 @@ pub(crate) fn frames_from(folder: &Path, first: u64) -> io::Result<Vec<PathBuf>>
     Ok(paths)
 }
 
-/// Removes the files of a run; of a link the link, not what it leads to.
+/// Removes the files of a run. Of a symbolic link, the link itself is removed and not its target.
 pub(crate) fn remove(files: &[PathBuf]) -> Result<(), (PathBuf, io::Error)> {
     // The list goes last: what was not removed is found by it.
     let (list, others): (Vec<_>, Vec<_>) =

@@ -36,7 +36,7 @@ pub struct Recorder<'a> {
     frames: usize,
 }
 
-/// What a recorder needs to go on behind the frames that it has stored.
+/// State of a recorder: the number of its frames and the last bodies, from which it resumes.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct SavedRecorder {
     frames: usize,
@@ -73,7 +73,7 @@ pub fn prepare_folder(folder: &Path, replace: bool) -> Result<Output, Error> {
     Ok(output)
 }
 
-/// Removes the rest of a file that was not written to its end; a link itself, not what it leads to.
+/// Removes an incomplete temporary file. Of a symbolic link, the link itself is removed.
 fn remove_left(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -198,7 +198,7 @@ impl Output {
     }
 }
 
-/// Table that was opened to go on.
+/// Table that is opened again to append lines.
 struct Reopened {
     file: fs::File,
     /// Lines that it has, but the heading.

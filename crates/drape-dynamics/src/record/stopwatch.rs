@@ -18,7 +18,7 @@ pub(crate) struct Stopwatch {
 pub(crate) struct PastTime {
     /// Wall-clock time, in s.
     wall: f64,
-    /// Processor time, in s, where the system tells.
+    /// Processor time, in s; `None` where the system does not report it.
     processor: Option<f64>,
 }
 

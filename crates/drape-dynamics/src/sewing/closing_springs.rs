@@ -11,8 +11,8 @@ const STIFFNESS: f64 = 1e5;
 /// Widest gap at which the two sides of a seam are merged, in m.
 const CLOSED: f64 = 1e-4;
 
-/// Gap to which the springs close a seam, in m: the two sides are two cloths until they are merged.
-/// What a spring misses it by is less.
+/// Gap to which the springs close a seam, in m, above 0 because contact separates the two sides until
+/// they are merged. The deviation of a spring from it is smaller.
 const CLOSING: f64 = 0.2 * CLOSED;
 
 /// Gap to which stiffened springs are to close a seam, in m. A wider one moves cloth by more than

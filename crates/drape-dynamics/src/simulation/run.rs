@@ -1,4 +1,4 @@
-//! Run: all steps of a simulation, from its start or from where it was left, watched.
+//! Run: all steps of a simulation, from its start or from a checkpoint, with a watcher.
 
 use std::time::{Duration, Instant};
 
@@ -9,8 +9,8 @@ use crate::measure::{at_particles, measures, warnings};
 use crate::record::frame::Frame;
 use crate::record::summary::{Status, Summary};
 
-/// Time that a step must take for the next one to be begun with a copy of the state, to which it
-/// can be taken back when it is given up: a copy takes less than a hundredth of it.
+/// Duration of a step above which the state is copied before the next one, so that this can be
+/// rolled back when it is cancelled. The copy takes less than a hundredth of the step.
 const LONG_STEP: Duration = Duration::from_millis(200);
 
 /// Watcher of a running simulation. `()` watches nothing.
@@ -48,7 +48,7 @@ pub trait Progress {
 
 impl Progress for () {}
 
-/// What has been counted before a step.
+/// Counts before a step, by which the end of a phase or of a frame interval is noticed.
 #[derive(Debug, Clone, Copy)]
 struct Before {
     /// Intervals of frames that are over.

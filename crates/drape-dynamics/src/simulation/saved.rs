@@ -21,7 +21,7 @@ use crate::world::saved::SavedWorld;
 /// Names of the sections of a checkpoint.
 const SECTIONS: [&str; 3] = ["world", "stepping", "run"];
 
-/// All that a run needs to go on, between two steps.
+/// State of a run between two steps, from which it resumes.
 #[derive(Debug, Clone)]
 pub struct SavedSimulation {
     world: SavedWorld,
@@ -29,7 +29,7 @@ pub struct SavedSimulation {
     run: SavedRun,
 }
 
-/// What a run has come to, apart from world and stepping.
+/// State of a run apart from world and stepping: rest, phases, garments, statistics.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct SavedRun {
     criteria: Option<Relaxation>,
@@ -43,7 +43,7 @@ struct SavedRun {
     time: PastTime,
 }
 
-/// Where a garment was when it began to hang, and when it left its place, in s.
+/// State of a garment: its vertical extent when it began to hang, and the time at which it slid, in s.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct SavedGarment {
     hung: VerticalExtent,

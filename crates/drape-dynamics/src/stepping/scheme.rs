@@ -6,8 +6,9 @@ use drape_implicit::{
 };
 use drape_scene::SolverSettings;
 
-/// Sub-steps of which one has its loss found by itself. All of them took 2.6 times as long where
-/// surfaces touch, half as long again in a swing.
+/// Sampling of the energy balance: the loss of the integration is computed in one of so many sub-steps.
+/// Computed in all of them, it took 2.6 times as long where surfaces touch, half as long again in a
+/// swing.
 const ENERGY_SAMPLING: u64 = 32;
 
 /// Scheme by which a scene is integrated in time.

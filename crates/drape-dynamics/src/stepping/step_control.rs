@@ -27,7 +27,7 @@ pub(crate) struct StepControl {
     exact: usize,
 }
 
-/// What a control remembers between two steps.
+/// State of a step control between two steps.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct SavedControl {
     relaxation: Option<Relaxation>,

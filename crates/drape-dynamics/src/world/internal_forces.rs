@@ -27,7 +27,7 @@ pub(crate) struct InternalForces {
     scatter: Option<Scatter>,
 }
 
-/// What internal forces remember between two steps, apart from the state of the cloth.
+/// Memory of the internal forces between two steps, apart from the state of the cloth.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct SavedForces {
     seams: Option<SeamState>,

@@ -13,14 +13,14 @@
 use crate::report::Report;
 use crate::step_filter::SystemRef;
 
-/// Part of the energy that a sub-step exchanges by which the work of its forces may miss the fall of
-/// their potential before the quadrature looks closer.
+/// Tolerance of the quadrature: largest difference of the work of the forces and the decrease of their
+/// potential, over the energy that the sub-step exchanges.
 const CLOSED: f64 = 2e-7;
 
-/// Part of the potentials that is rounding.
+/// Relative rounding error of the potentials.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Pieces of a path at most.
+/// Largest number of pieces of a path.
 const MAX_PIECES: usize = 24;
 
 /// Points and weights of the rule of Gauss and Legendre on a piece from 0 to 1.
@@ -30,8 +30,8 @@ const GAUSS: [[f64; 2]; 3] = [
     [0.887_298_334_620_741_7, 5.0 / 18.0],
 ];
 
-/// Whether a sub-step that begins at a time, in s, is one of a sample of one in so many. A mixed
-/// time decides, so that nothing has to be counted from step to step.
+/// Returns whether a sub-step that begins at a time, in s, belongs to the sample, one of so many. A hash
+/// of the time decides, so that there is no counter.
 pub(crate) fn is_sampled(time: f64, sampling: u64) -> bool {
     let mut mixed = time.to_bits().wrapping_add(0x9e37_79b9_7f4a_7c15);
     mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

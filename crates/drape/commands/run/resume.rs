@@ -75,7 +75,7 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<(), Failure> {
         None => prepare_folder(folder, true)?,
     };
     if arguments.scene.is_some() {
-        request.scene = RunRequest::new(&path, None, 1.0).scene;
+        request.move_scene(&path);
     }
     request.write(folder)?;
     let job = Job { scene, folder: folder.clone(), output, keeper, lock, options };

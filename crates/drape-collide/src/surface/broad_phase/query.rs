@@ -65,10 +65,7 @@ impl Query<'_> {
         vertices: [u32; 4],
     ) -> Option<Pair> {
         let (primitives, separations) = (self.primitives, self.separations);
-        let other = match kind {
-            PairKind::VertexFace => vertices[1],
-            PairKind::EdgeEdge => vertices[2],
-        };
+        let other = vertices[kind.first_vertices()];
         let groups = [vertices[0], other].map(|vertex| primitives.group(vertex));
         let mut distances = separations.of_groups(groups);
         let same_group = groups[0] == groups[1];
@@ -131,10 +128,7 @@ impl Query<'_> {
     fn of_open_seam(&self, kind: PairKind, vertices: [u32; 4]) -> Option<ContactDistances> {
         let seams = &self.primitives.seams;
         let classes = vertices.map(|vertex| seams.class(vertex));
-        let (one, other) = classes.split_at(match kind {
-            PairKind::VertexFace => 1,
-            PairKind::EdgeEdge => 2,
-        });
+        let (one, other) = classes.split_at(kind.first_vertices());
         self.separations.of_open_seam(seams, [one, other])
     }
 }

@@ -9,12 +9,15 @@ use crate::surface::geometry::Separations;
 /// It is some thousand times the rounding of coordinates of 1 m.
 const LEAST: f64 = 1e-12;
 
-/// Widest gap that counts at each open seam: of sides that lie nearer to each other at the start than
-/// their gap, what they are apart.
+/// Open seams of a surface: the widest gap that contact may take each of them for.
+///
+/// It is limited where the sides lie nearer to each other at the start than the gap is wide.
 #[derive(Debug, Default)]
 pub(super) struct OpenSeams {
     /// Widest gap of each class of vertices, in m; empty if no seam is open.
     widest: Vec<f64>,
+    /// Gaps of the classes in the last step, in m.
+    gaps: Vec<f64>,
 }
 
 impl OpenSeams {
@@ -52,18 +55,21 @@ impl OpenSeams {
         }
     }
 
-    /// Writes the gap of each class from those at the free vertices, in m; none if all seams are closed.
-    pub(super) fn write_gaps(&self, surface: &Surface, gaps: &[f64], of_classes: &mut Vec<f64>) {
+    /// Returns the gap of each class from those at the free vertices, in m; none if all seams are
+    /// closed.
+    pub(super) fn gaps_of_classes(&mut self, surface: &Surface, gaps: &[f64]) -> &[f64] {
+        let Self { widest, gaps: of_classes } = self;
         of_classes.clear();
-        if self.widest.is_empty() {
-            return;
+        of_classes.resize(widest.len(), f64::INFINITY);
+        if widest.is_empty() {
+            return of_classes;
         }
-        of_classes.resize(self.widest.len(), f64::INFINITY);
         let seams = &surface.primitives().seams;
         for (vertex, &gap) in gaps.iter().enumerate() {
             let class = seams.class(vertex as u32) as usize;
-            let gap = if gap < LEAST { 0.0 } else { gap.min(self.widest[class]) };
+            let gap = if gap < LEAST { 0.0 } else { gap.min(widest[class]) };
             of_classes[class] = of_classes[class].min(gap);
         }
+        of_classes
     }
 }

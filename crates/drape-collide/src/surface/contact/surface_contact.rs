@@ -41,8 +41,6 @@ pub struct SurfaceContact {
     pinch: Pinch,
     growth: Growth,
     open_seams: OpenSeams,
-    /// Buffer for the gaps of the open seams, in m.
-    seam_gaps: Vec<f64>,
     /// Positions of all vertices at which an evaluation is asked for, in m.
     trial: Vec<f64>,
 }
@@ -122,7 +120,6 @@ impl SurfaceContact {
             pinch: Pinch::new(pinch),
             growth: Growth::NONE,
             open_seams: OpenSeams::default(),
-            seam_gaps: Vec::new(),
             trial: Vec::new(),
         })
     }
@@ -509,11 +506,10 @@ impl SurfaceContact {
     /// Sets the gaps of the open seams at the free vertices in the step that is then to be opened, in
     /// m; they only become narrower. Nothing happens once the seams are closed.
     pub fn set_seam_gaps(&mut self, gaps: &[f64]) {
-        self.open_seams.write_gaps(&self.surface, gaps, &mut self.seam_gaps);
-        if self.seam_gaps != self.surface.separations.seam_gaps {
-            self.surface.separations.seam_gaps.clone_from(&self.seam_gaps);
-            self.active.invalidate();
-            self.tracked.clear();
+        let gaps = self.open_seams.gaps_of_classes(&self.surface, gaps);
+        if gaps != self.surface.separations.seam_gaps {
+            gaps.clone_into(&mut self.surface.separations.seam_gaps);
+            self.drop_pairs();
         }
     }
 
@@ -573,8 +569,7 @@ impl SurfaceContact {
         if own.as_slice() != states {
             own.clear();
             own.extend_from_slice(states);
-            self.active.invalidate();
-            self.tracked.clear();
+            self.drop_pairs();
         }
     }
 
@@ -582,9 +577,14 @@ impl SurfaceContact {
     fn set_growth_fraction(&mut self, fraction: f64) {
         if self.surface.separations.growth_fraction != fraction {
             self.surface.separations.growth_fraction = fraction;
-            self.active.invalidate();
-            self.tracked.clear();
+            self.drop_pairs();
         }
+    }
+
+    /// Drops all pairs, whose distances have changed.
+    fn drop_pairs(&mut self) {
+        self.active.invalidate();
+        self.tracked.clear();
     }
 
     /// Finds the active pairs at the free vertices' positions.

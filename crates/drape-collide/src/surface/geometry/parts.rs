@@ -17,12 +17,12 @@ pub struct ContactDistances {
 }
 
 impl ContactDistances {
-    /// Returns the range of contact, the activation distance less the minimum separation, in m.
+    /// Returns the range of the barrier `$\hat d - \xi$`, in m.
     pub(crate) fn range(self) -> f64 {
         self.activation_distance - self.min_separation
     }
 
-    /// Returns the smaller of each of two distances.
+    /// Returns the smaller of two activation distances with the smaller of two minimum separations.
     pub(crate) fn least(self, other: ContactDistances) -> ContactDistances {
         ContactDistances {
             activation_distance: self.activation_distance.min(other.activation_distance),

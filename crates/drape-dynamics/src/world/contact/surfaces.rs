@@ -176,11 +176,6 @@ impl Surfaces {
         })
     }
 
-    /// Ends the sewing: seams are closed from now on.
-    pub(crate) fn close_seams(&mut self) {
-        self.contact.close_seams();
-    }
-
     /// Limits a step to a fraction that keeps all surfaces apart.
     pub(crate) fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {
         #[cfg(test)]

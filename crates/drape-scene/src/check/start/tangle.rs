@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use drape_collide::{PairDistance, PairKind, Surface, SurfaceContact};
+use drape_collide::{PairDistance, Surface, SurfaceContact};
 
 use crate::check::checker::Checker;
 use crate::check::start::place_key::place_key;
@@ -131,8 +131,7 @@ fn overlaps(contact: &mut SurfaceContact, positions: &[f64], names: &[String]) -
         Near { vertices: [edge, triangle], distance: 0.0 }
     });
     let near = contact.pairs_below_min_separation().map(|PairDistance { pair, distance }| {
-        let first = if pair.kind == PairKind::VertexFace { 1 } else { 2 };
-        let (one, other) = pair.vertices.split_at(first);
+        let (one, other) = pair.vertices.split_at(pair.first_vertices());
         Near { vertices: [one.to_vec(), other.to_vec()], distance }
     });
     let near: Vec<Near> = crossing.chain(near).collect();
