@@ -25,7 +25,7 @@ const UNSEEN: [&str; 19] = [
     "The spacing is larger than the panel allows",
     "The end comes before the first step",
     "Contact is too soft for the cloth",
-    "A body moves farther than a spacing in a step",
+    "A body moves faster than contact can stop it",
     "A motion has fewer places than times",
     "A panel starts inside a body",
     "Two panels cross",

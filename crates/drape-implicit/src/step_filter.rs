@@ -94,9 +94,10 @@ impl StepLimit {
 /// assert_eq!(displacements, [0.0, -0.9, 0.0]);
 /// ```
 pub trait StepFilter: System {
-    /// Whether everything that moves by prescription moves nearly straight from one time to
-    /// another, in s. A (sub)step in which it does not is halved before it is tried.
-    fn is_nearly_straight(&self, _start: f64, _end: f64) -> bool {
+    /// Whether a (sub)step from one time to another, in s, resolves the motion of everything that
+    /// moves by prescription: nothing moves far, and all of it nearly straight. A (sub)step that
+    /// does not is halved before it is tried.
+    fn resolves_motion(&self, _start: f64, _end: f64) -> bool {
         true
     }
 
@@ -143,10 +144,10 @@ impl SystemRef<'_> {
         matches!(self, Self::Filtered(_))
     }
 
-    pub(crate) fn is_nearly_straight(&self, start: f64, end: f64) -> bool {
+    pub(crate) fn resolves_motion(&self, start: f64, end: f64) -> bool {
         match self {
             Self::Free(_) => true,
-            Self::Filtered(filter) => filter.is_nearly_straight(start, end),
+            Self::Filtered(filter) => filter.resolves_motion(start, end),
         }
     }
 

@@ -19,6 +19,7 @@ mod motion;
 mod panel;
 mod pins;
 mod solver;
+mod speed;
 mod start;
 mod time;
 
@@ -28,6 +29,7 @@ use drape_cloth::{Breen, Cloth};
 use drape_collide::MeshInspection;
 use drape_input::{Diagnostics, Faults, Given, excerpt, figures};
 
+use crate::contact_stiffness::max_impact_speed;
 use crate::error::Error;
 use crate::file::SceneFile;
 use crate::scene::garment::Garment;
@@ -85,9 +87,6 @@ pub(crate) fn check(
     let environment = environment(checker);
     let bodies = body::bodies(checker);
     check_distance(checker, &placed[plain..], &bodies);
-    if file.keeps_surfaces_apart() && checker.is_sound("time.step") {
-        body::check_speeds(checker, &bodies, clock.step, spacing);
-    }
     let fabrics = || materials.iter().flatten().map(|material| &material.fabric);
     let density = fabrics().map(|fabric| fabric.density).fold(0.0, f64::max);
     let pull = environment.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
@@ -100,6 +99,11 @@ pub(crate) fn check(
     };
     let contact = contact::contact(checker, bounds);
     let pins = pins::pins(checker, &placed);
+    if file.keeps_surfaces_apart() {
+        let most = fabrics().map(max_impact_speed).fold(f64::INFINITY, f64::min);
+        speed::check_speeds(checker, &bodies, &pins, most);
+    }
+    let pins = pins.into_iter().map(|checked| checked.pin).collect();
     let sewing = sewing_settings(checker, seams.is_empty());
     let folder = file.output.folder.as_ref();
     let folder = folder.and_then(|folder| checker.locate("output.folder", folder));
@@ -168,6 +172,8 @@ pub(crate) fn check(
     };
     hold(&mut scene);
     let mut scene = start::check_start(checker, scene)?;
+    let note = scene.stiffness_note();
+    scene.source.notes.extend(note);
     if !scene.garments.is_empty() && relaxation.is_some() {
         scene.source.notes.extend(cost(scene.cloth.particles(), spacing));
     }
@@ -215,7 +221,7 @@ fn environment(checker: &mut Checker<'_>) -> Environment {
 /// Gives bodies without friction of their own the largest friction of a fabric.
 fn with_friction(bodies: Vec<CheckedBody>, materials: &[Material]) -> Vec<MovingBody> {
     let fallback = materials.iter().map(|m| m.fabric.surface_friction).fold(0.0, f64::max);
-    let with_friction = |CheckedBody { body, friction, motion, file }| {
+    let with_friction = |CheckedBody { body, friction, motion, file, .. }| {
         let outline = file.and_then(|file| Some((file, body.triangulate().ok()?)));
         MovingBody {
             body: body.with_friction(friction.unwrap_or(fallback)),

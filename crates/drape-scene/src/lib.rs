@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 // Values
+mod contact_stiffness;
 mod needs;
 mod scene;
 mod surfaces;
@@ -21,7 +22,7 @@ pub use scene::contact::{ContactSettings, DistanceGrowth, Inflation};
 pub use scene::garment::{Garment, Sewing};
 pub use scene::material::{FabricReader, FabricRequest, Material, is_fabric, read_fabric};
 pub use scene::model::Model;
-pub use scene::motion::{BodyMotion, MotionKey, RigidMotion, ShapeMotion};
+pub use scene::motion::{BodyMotion, MotionKey, MotionResolution, RigidMotion, ShapeMotion};
 pub use scene::panel::{Panel, PanelEdge};
 pub use scene::pin::{HeldParticle, HoldUntil, Pin};
 pub use scene::relaxation::Relaxation;

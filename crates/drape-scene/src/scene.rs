@@ -217,6 +217,12 @@ impl Scene {
         held
     }
 
+    /// Returns the smallest distance of neighbouring particles, in m.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.panels.iter().flat_map(|panel| panel.lattice.spacing).fold(f64::INFINITY, f64::min)
+    }
+
     /// Returns the index of the garment of a panel.
     pub(crate) fn garment_of(&self, panel: &Panel) -> Option<usize> {
         self.garments.iter().position(|garment| garment.particles.contains(&panel.first))

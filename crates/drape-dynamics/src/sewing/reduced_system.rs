@@ -134,8 +134,8 @@ impl System for ReducedSystem<'_> {
 }
 
 impl StepFilter for ReducedSystem<'_> {
-    fn is_nearly_straight(&self, start: f64, end: f64) -> bool {
-        self.world.is_nearly_straight(start, end)
+    fn resolves_motion(&self, start: f64, end: f64) -> bool {
+        self.world.resolves_motion(start, end)
     }
 
     fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {

@@ -7,7 +7,7 @@
 mod load;
 mod springs;
 
-use drape_scene::{HoldUntil, Pin};
+use drape_scene::{HoldUntil, MotionResolution, Pin};
 
 pub use self::load::PinLoad;
 pub(crate) use self::springs::PinSprings;
@@ -39,6 +39,13 @@ impl Pins {
                 false => self.springs.add(pin, motion_end),
             }
         }
+    }
+
+    /// Whether a step between two times on the clock of motions, in s, resolves the motions of all
+    /// pins.
+    pub(crate) fn are_resolved(&self, times: [f64; 2], resolution: MotionResolution) -> bool {
+        let motions = self.pins.iter().filter_map(|pin| Some((pin, pin.motion.as_ref()?)));
+        motions.into_iter().all(|(pin, motion)| motion.is_resolved(times, &pin.start, resolution))
     }
 
     /// Releases the pins that hold until an event, at its time, in s.

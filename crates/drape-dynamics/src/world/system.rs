@@ -116,9 +116,12 @@ impl System for World {
 }
 
 impl StepFilter for World {
-    fn is_nearly_straight(&self, start: f64, end: f64) -> bool {
+    fn resolves_motion(&self, start: f64, end: f64) -> bool {
         let times = [start, end].map(|time| self.clock.time(time));
-        self.contact.surfaces().is_none_or(|surfaces| surfaces.move_nearly_straight(times))
+        self.contact.surfaces().is_none_or(|surfaces| {
+            let resolution = surfaces.resolution();
+            surfaces.bodies_are_resolved(times) && self.pins.are_resolved(times, resolution)
+        })
     }
 
     fn limit_step(&mut self, step: TrialStep<'_>) -> StepLimit {

@@ -143,8 +143,8 @@ impl Stepper {
         self.check(system.system(), state, dt)?;
         let mut control = StepControl::new(self.settings(), state, dt);
         while !control.is_finished() {
-            let straight = |start, end| system.is_nearly_straight(start, end);
-            let span = control.next(state.time, straight);
+            let resolved = |start, end| system.resolves_motion(start, end);
+            let span = control.next(state.time, resolved);
             match self.sub_stepper.attempt(system, state, span, report) {
                 Ok(()) => {
                     report.sub_steps += 1;

@@ -19,6 +19,11 @@ const MAX_STEPS: usize = 12;
 /// Least fraction of the displacements left that one of these steps must cover.
 const MIN_STEP: f64 = 0.05;
 
+/// Fraction taken of an advance of the obstacles that the filter has shortened. The filter leaves a
+/// tenth of a gap, and a Newton step at most doubles one: the whole of it, again and again, closes
+/// the gap.
+const OBSTACLE_PART: f64 = 0.5;
+
 /// A particle that keeps less than this multiple of the largest fraction kept is near something,
 /// and stays there. Moved on, it would go into the last tenth of a gap again and again, from where
 /// no iteration brings it back soon.
@@ -67,7 +72,7 @@ pub(crate) fn advance_obstacles(
         *displacement = if held { left.map(|left| -left) } else { [0.0; 3] };
     }
     let done = search.current.obstacle_time;
-    take_step(search, equations, 1.0 - done);
+    take_step(search, equations, Advance { obstacles: 1.0 - done, part: OBSTACLE_PART });
     equations.evaluate(&mut search.trial);
     if !search.trial.norm.is_finite() || search.trial.obstacle_time < done + MIN_ADVANCE {
         return Err(Halt::Stop(Stop::Blocked));
@@ -91,7 +96,7 @@ fn move_to_prediction(search: &mut Search, equations: &mut StepEquations<'_, '_>
     for step in 0..MAX_STEPS {
         search.direction.copy_from_slice(&search.image);
         let left = 1.0 - search.current.obstacle_time;
-        let whole = take_step(search, equations, left);
+        let whole = take_step(search, equations, Advance { obstacles: left, part: 1.0 });
         core::mem::swap(&mut search.current, &mut search.trial);
         reached = whole && step == 0;
         if whole || subtract_step(search, equations.held) < MIN_STEP {
@@ -121,17 +126,28 @@ fn subtract_step(search: &mut Search, held: &[bool]) -> f64 {
     largest
 }
 
-/// Moves the trial iterate to the end of what the filter allows of the direction and of an advance
-/// of the obstacles, without evaluating it. Returns whether that is all of it.
-fn take_step(search: &mut Search, equations: &mut StepEquations<'_, '_>, advance: f64) -> bool {
-    let limit = equations.limit_step(&search.current, &mut search.direction, advance);
-    let done = search.current.obstacle_time;
-    search.move_trial(1.0);
+/// Advance of a step that the filter limits.
+#[derive(Debug, Clone, Copy)]
+struct Advance {
+    /// Advance of the obstacle time.
+    obstacles: f64,
+    /// Fraction taken of what the filter allows, where that is not all.
+    part: f64,
+}
+
+/// Moves the trial iterate along what the filter allows of the direction and of an advance of the
+/// obstacles, without evaluating it. Returns whether that is all of it.
+fn take_step(search: &mut Search, equations: &mut StepEquations<'_, '_>, advance: Advance) -> bool {
+    let limit = equations.limit_step(&search.current, &mut search.direction, advance.obstacles);
     // After a whole step the obstacles are exactly where they should be.
-    search.trial.obstacle_time = match limit {
-        StepLimit::Whole => done + advance,
-        StepLimit::Shortened { obstacle_advance } => done + obstacle_advance,
+    let (length, obstacles) = match limit {
+        StepLimit::Whole => (1.0, advance.obstacles),
+        StepLimit::Shortened { obstacle_advance } => {
+            (advance.part, advance.part * obstacle_advance)
+        }
     };
+    search.move_trial(length);
+    search.trial.obstacle_time = search.current.obstacle_time + obstacles;
     equations.place(&mut search.trial);
     limit.is_whole()
 }

@@ -5,7 +5,7 @@ mod shape_files;
 use std::path::{Path, PathBuf};
 
 use drape_collide::{Body, Mesh, Pose, Shape};
-use drape_input::{Given, excerpt, figure, figure_below};
+use drape_input::{Given, figure};
 
 use crate::check::checker::Checker;
 use crate::check::motion::rigid_motion;
@@ -33,6 +33,8 @@ pub(crate) struct CheckedBody {
     pub(crate) friction: Option<f64>,
     /// Motion; none if it stays.
     pub(crate) motion: Option<BodyMotion>,
+    /// Key of the motion.
+    pub(crate) motion_key: String,
     /// File, if it is a mesh.
     pub(crate) file: Option<MeshFile>,
 }
@@ -174,6 +176,7 @@ fn rigid_body(checker: &mut Checker<'_>, entry: &Entry<'_>, shape: Shape) -> Che
         body,
         friction: common.friction,
         motion: motion.map(BodyMotion::Rigid),
+        motion_key: key,
         file: None,
     }
 }
@@ -342,7 +345,7 @@ fn changing_mesh(
             let body = Body::new(name, Shape::Mesh(shapes.mesh), Pose::default());
             let motion = Some(BodyMotion::Shapes(shapes.motion));
             let file = Some(MeshFile::new(checker, file));
-            Some(CheckedBody { body, friction: common.friction, motion, file })
+            Some(CheckedBody { body, friction: common.friction, motion, motion_key: key, file })
         }
         Err(ShapeError::File(error)) => {
             checker.fail_with(&key, &error);
@@ -356,39 +359,6 @@ fn changing_mesh(
             let help = "export the body and its motion anew, with the same vertices";
             checker.fail(&key, message, help);
             None
-        }
-    }
-}
-
-/// Checks that no body moves farther than the spacing of particles, in m, in a step, in s: the
-/// cloth could not follow it.
-pub(crate) fn check_speeds(
-    checker: &mut Checker<'_>,
-    bodies: &[CheckedBody],
-    step: f64,
-    spacing: f64,
-) {
-    for CheckedBody { body, motion, .. } in bodies {
-        // The far corners of a floor are no bodies.
-        let (Some(motion), false) = (motion, matches!(body.shape, Shape::Plane)) else {
-            continue;
-        };
-        let Ok(outline) = body.triangulate() else { continue };
-        let speed = motion.max_speed(&outline.vertices);
-        if !(speed * step <= spacing) {
-            let message = format!(
-                "the body \"{}\" moves at {speed:.3} m/s, {:.2} mm in a step, and particles are {:.2} mm apart",
-                excerpt(&body.name),
-                1e3 * speed * step,
-                1e3 * spacing
-            );
-            let longest = spacing / speed;
-            let help = format!(
-                "cloth follows a body by a spacing in a step at most: write time.step = {}, or slow the body, or let \
-                 only particles meet it with contact.surfaces = false",
-                figure_below(longest)
-            );
-            checker.fail("time.step", message, &help);
         }
     }
 }

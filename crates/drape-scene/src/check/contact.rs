@@ -4,6 +4,7 @@ use drape_collide::{ParticleSettings, PinchPolicy, SurfaceSettings};
 use drape_input::{Given, figure};
 
 use crate::check::checker::Checker;
+use crate::contact_stiffness::STIFFNESS_MAX;
 use crate::scene::contact::{ContactSettings, DistanceGrowth, Inflation};
 
 /// Time over which bodies grow when the scene does not say, in s.
@@ -64,7 +65,7 @@ fn particles(checker: &mut Checker<'_>) -> ParticleSettings {
     }
     if let Some(stiffness) = file.stiffness.map(Given::value) {
         settings.stiffness = stiffness;
-        checker.within("contact.stiffness", stiffness, 1.0..=1e12, "in N/m³");
+        checker.within("contact.stiffness", stiffness, 1.0..=STIFFNESS_MAX, "in N/m³");
     }
     if let Some(speed) = file.slip_speed.map(Given::value) {
         settings.slip_speed = speed;

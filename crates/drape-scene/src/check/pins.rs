@@ -10,9 +10,15 @@ use crate::file::pin::PinFile;
 use crate::scene::panel::Panel;
 use crate::scene::pin::{HoldUntil, Pin};
 
+/// Pin of a scene, with the key of its motion.
+pub(crate) struct CheckedPin {
+    pub(crate) pin: Pin,
+    pub(crate) motion_key: String,
+}
+
 /// Checks the pins of placed panels. A pin of a panel that is known and was not placed, for it has
 /// mistakes, is not checked further.
-pub(crate) fn pins(checker: &mut Checker<'_>, panels: &[PlacedPanel]) -> Vec<Pin> {
+pub(crate) fn pins(checker: &mut Checker<'_>, panels: &[PlacedPanel]) -> Vec<CheckedPin> {
     let file = checker.file;
     let mut pins = Vec::new();
     for (index, entry) in file.pin.iter().enumerate() {
@@ -34,7 +40,7 @@ fn pin(
     index: usize,
     pin: &PinFile,
     panels: &[PlacedPanel],
-) -> Option<Pin> {
+) -> Option<CheckedPin> {
     let key = format!("pin[{index}]");
     let Some(placed) = panels.iter().find(|placed| placed.panel.name == pin.panel) else {
         if !is_left_out(checker, &pin.panel, panels) {
@@ -83,8 +89,9 @@ fn pin(
     let middle = std::array::from_fn(|axis| {
         start.iter().map(|place| place[axis]).sum::<f64>() / start.len() as f64
     });
+    let motion_key = format!("{key}.motion");
     let motion = match &pin.motion {
-        Some(motion) => Some(rigid_motion(checker, &format!("{key}.motion"), motion, middle)?),
+        Some(motion) => Some(rigid_motion(checker, &motion_key, motion, middle)?),
         None => None,
     };
     let release = pin.release.map_or(f64::INFINITY, Given::value);
@@ -94,7 +101,8 @@ fn pin(
     let choices = [("end", HoldUntil::End), ("sewn", HoldUntil::Sewn), ("rest", HoldUntil::Rest)];
     let until = checker.choice(&format!("{key}.until"), pin.until.as_deref(), &choices);
     let axes = axes(checker, &key, pin);
-    Some(Pin { particles, start, motion, release, until, axes })
+    let pin = Pin { particles, start, motion, release, until, axes };
+    Some(CheckedPin { pin, motion_key })
 }
 
 /// Returns whether a panel of a name may be one that has mistakes.

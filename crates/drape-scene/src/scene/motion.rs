@@ -7,6 +7,15 @@ pub use self::rigid::{MotionKey, RigidMotion};
 pub(crate) use self::rigid::{rotate, rotate_pose};
 pub use self::shape::ShapeMotion;
 
+/// Largest motion of a point within a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionResolution {
+    /// Length of its path, in m.
+    pub path: f64,
+    /// Deviation from a straight path, in m.
+    pub deviation: f64,
+}
+
 /// Motion of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BodyMotion {
@@ -32,13 +41,18 @@ impl BodyMotion {
         }
     }
 
-    /// Returns the largest deviation between two times, in s, of vertices that start at some
-    /// positions from straight paths, in m. From frame to frame vertices move straight.
+    /// Returns whether a step between two times, in s, resolves the motion of vertices that start
+    /// at some positions, in m. From frame to frame vertices move straight.
     #[must_use]
-    pub fn deviation_from_straight(&self, times: [f64; 2], start: &[[f64; 3]]) -> f64 {
+    pub fn is_resolved(
+        &self,
+        times: [f64; 2],
+        start: &[[f64; 3]],
+        resolution: MotionResolution,
+    ) -> bool {
         match self {
-            Self::Rigid(motion) => motion.deviation_from_straight(times, start),
-            Self::Shapes(_) => 0.0,
+            Self::Rigid(motion) => motion.is_resolved(times, start, resolution),
+            Self::Shapes(motion) => motion.path(times) <= resolution.path,
         }
     }
 

@@ -8,12 +8,12 @@ use std::ops::Range;
 
 use drape_collide::{Body, Error, PairDistance, Shape, SurfaceContact, SurfaceStep};
 use drape_implicit::{StepLimit, TrialStep};
-use drape_scene::{BodyMotion, DistanceGrowth, Inflation, Scene, StartSurfaces};
+use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
 
 use super::step::{ContactEnergy, ContactStep};
 
-/// Fraction of the distance that surfaces keep by which a body's vertex may deviate from a straight
-/// path within a step; bodies that turn faster are given more steps.
+/// Fraction of the distance that surfaces keep by which what moves by prescription may deviate from
+/// a straight path within a step; what turns faster is given more steps.
 const DEVIATION: f64 = 0.05;
 
 /// Multiple of its length that the growth of distances may take before the run fails.
@@ -33,8 +33,8 @@ pub(crate) struct Surfaces {
     /// Fraction of the distances that is kept at the start, 0 to 1.
     pub(crate) start_growth_fraction: f64,
     moving: Vec<MovingSurface>,
-    /// Largest deviation of a vertex of a body from a straight path within a step, in m.
-    deviation: f64,
+    /// Largest motion of a vertex of a body and of a held particle within a step.
+    resolution: MotionResolution,
     /// Number of intersections that were found after steps, which were then taken back.
     pub(crate) intersections_found: usize,
     held: Vec<usize>,
@@ -107,7 +107,10 @@ impl Surfaces {
             }),
             growth,
             moving: moving.collect(),
-            deviation: 2.0 * DEVIATION * min_separation,
+            resolution: MotionResolution {
+                path: scene.spacing(),
+                deviation: 2.0 * DEVIATION * min_separation,
+            },
             intersections_found: 0,
             held: (0..held.len()).filter(|&particle| held[particle]).collect(),
             ends: bodies.clone(),
@@ -122,13 +125,18 @@ impl Surfaces {
         &self.bodies
     }
 
-    /// Whether all bodies move nearly straight between two times on the clock of motions, in s, as
-    /// is assumed in a step.
-    pub(crate) fn move_nearly_straight(&self, times: [f64; 2]) -> bool {
+    /// Largest motion within a step of what moves by prescription.
+    pub(crate) fn resolution(&self) -> MotionResolution {
+        self.resolution
+    }
+
+    /// Whether a step between two times on the clock of motions, in s, resolves the motions of all
+    /// bodies.
+    pub(crate) fn bodies_are_resolved(&self, times: [f64; 2]) -> bool {
         let places = self.start.as_chunks::<3>().0;
         let bodies = self.moving.iter().filter(|moving| !moving.is_floor);
         bodies.into_iter().all(|MovingSurface { vertices, motion, .. }| {
-            motion.deviation_from_straight(times, &places[vertices.clone()]) <= self.deviation
+            motion.is_resolved(times, &places[vertices.clone()], self.resolution)
         })
     }
 

@@ -2,6 +2,8 @@
 
 use drape_collide::Pose;
 
+use super::MotionResolution;
+
 /// Rotation between two keys, in degrees, from which on a path does not count as straight, however
 /// small it is.
 const ROTATION_MAX: f64 = 90.0;
@@ -61,23 +63,53 @@ impl RigidMotion {
             let [from, time] = [pair[0].time, 1e-3 * (pair[1].time - pair[0].time)];
             let (before, after) = (self.transform(from), self.transform(from + time));
             for &place in start {
-                let (a, b) = (before(place), after(place));
-                let square: f64 = a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum();
-                most = most.max(square.sqrt() / time);
+                most = most.max(distance(before(place), after(place)) / time);
             }
         }
         most
     }
 
+    /// Returns whether a step between two times, in s, resolves the motion of points that start at
+    /// some positions, in m.
+    #[must_use]
+    pub fn is_resolved(
+        &self,
+        times: [f64; 2],
+        start: &[[f64; 3]],
+        resolution: MotionResolution,
+    ) -> bool {
+        self.path(times, start) <= resolution.path
+            && self.deviation_from_straight(times, start) <= resolution.deviation
+    }
+
+    /// Returns an upper bound of the length of the paths between two times, in s, of points that
+    /// start at some positions, in m: the sum over the keys of the longest chord between each two.
+    fn path(&self, [from, to]: [f64; 2], start: &[[f64; 3]]) -> f64 {
+        let mut length = 0.0;
+        let mut begin = from;
+        for end in self.times_inside([from, to]).chain([to]) {
+            let (before, after) = (self.transform(begin), self.transform(end));
+            length += start
+                .iter()
+                .map(|&place| distance(before(place), after(place)))
+                .fold(0.0, f64::max);
+            begin = end;
+        }
+        length
+    }
+
+    /// Returns the times of the keys between two times, in s.
+    fn times_inside(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
+        self.keys.iter().map(|key| key.time).filter(move |time| from < *time && *time < to)
+    }
+
     /// Returns the largest deviation from straight paths between two times, in s, of points that
     /// start at some positions, in m: that by which rotation bends their paths. Corners at keys do
     /// not count.
-    #[must_use]
-    pub fn deviation_from_straight(&self, [from, to]: [f64; 2], start: &[[f64; 3]]) -> f64 {
+    fn deviation_from_straight(&self, [from, to]: [f64; 2], start: &[[f64; 3]]) -> f64 {
         let mut most = 0.0_f64;
-        let inside = self.keys.iter().map(|key| key.time).filter(|time| from < *time && *time < to);
         let mut begin = from;
-        for end in inside.chain([to]) {
+        for end in self.times_inside([from, to]).chain([to]) {
             let Some(square) = self.squared_sagitta([begin, end], start) else {
                 return f64::INFINITY;
             };
@@ -121,6 +153,11 @@ impl RigidMotion {
         let shift = between(before.shift, after.shift);
         MotionKey { time, shift, turn: between(before.turn, after.turn) }
     }
+}
+
+/// Distance of two points, in m.
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum::<f64>().sqrt()
 }
 
 /// Rotates a point about the x, y and z axes, one after the other, by angles in degrees.
@@ -184,6 +221,26 @@ mod tests {
         assert_eq!(deviation([0.0, 1.0]), 0.0);
         assert!((deviation([0.5, 1.5]) - sagitta).abs() < 1e-15);
         assert_eq!(motion().deviation_from_straight([1.0, 2.0], &[[2.0, 1.0, 0.0]]), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_path_is_bounded_by_its_chords_from_key_to_key() {
+        let key = |time: f64, x: f64| MotionKey { time, shift: [x, 0.0, 0.0], turn: [0.0; 3] };
+        let back_and_forth = RigidMotion {
+            center: [0.0; 3],
+            keys: vec![key(1.0, 0.0), key(2.0, 0.5), key(3.0, 0.0)],
+        };
+        for (times, length) in
+            [([0.0, 1.0], 0.0), ([1.0, 2.0], 0.5), ([1.5, 2.5], 0.5), ([0.0, 9.0], 1.0)]
+        {
+            let path = back_and_forth.path(times, &[[2.0, 1.0, 0.0]]);
+            assert!((path - length).abs() < 1e-15, "{path} m between {times:?}");
+        }
+        let resolves = |path: f64| {
+            let resolution = MotionResolution { path, deviation: 0.0 };
+            back_and_forth.is_resolved([1.5, 2.5], &[[2.0, 1.0, 0.0]], resolution)
+        };
+        assert!(resolves(0.51) && !resolves(0.49));
     }
 
     #[test]

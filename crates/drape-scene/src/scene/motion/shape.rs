@@ -8,12 +8,23 @@ pub struct ShapeMotion {
     times: Vec<f64>,
     /// Three coordinates per vertex for each time, in m.
     positions: Vec<Vec<f64>>,
+    /// Largest speed of a vertex between each two times, in m/s.
+    speeds: Vec<f64>,
 }
 
 impl ShapeMotion {
     /// Motion through positions at rising times, at least one.
     pub(crate) fn new(times: Vec<f64>, positions: Vec<Vec<f64>>) -> Self {
-        Self { times, positions }
+        let pairs = positions.windows(2).zip(times.windows(2));
+        let speeds = pairs.map(|(places, times)| {
+            let [from, to] = [places[0].as_chunks::<3>().0, places[1].as_chunks::<3>().0];
+            let square = |(a, b): (&[f64; 3], &[f64; 3])| {
+                a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum::<f64>()
+            };
+            let distance = from.iter().zip(to).map(square).fold(0.0, f64::max).sqrt();
+            distance / (times[1] - times[0])
+        });
+        Self { speeds: speeds.collect(), times, positions }
     }
 
     /// Writes the positions of the vertices at a time, in s.
@@ -39,15 +50,38 @@ impl ShapeMotion {
     /// Returns the largest speed of a vertex, in m/s.
     #[must_use]
     pub fn max_speed(&self) -> f64 {
-        let mut most = 0.0_f64;
-        for (positions, times) in self.positions.windows(2).zip(self.times.windows(2)) {
-            let [from, to] = [positions[0].as_chunks::<3>().0, positions[1].as_chunks::<3>().0];
-            let square = |(a, b): (&[f64; 3], &[f64; 3])| {
-                a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum::<f64>()
-            };
-            let distance = from.iter().zip(to).map(square).fold(0.0, f64::max).sqrt();
-            most = most.max(distance / (times[1] - times[0]));
+        self.speeds.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Returns an upper bound of the length of the paths of the vertices between two times, in s,
+    /// in m.
+    pub(crate) fn path(&self, [from, to]: [f64; 2]) -> f64 {
+        let pieces = self.times.windows(2).zip(&self.speeds);
+        let length = |(piece, speed): (&[f64], &f64)| {
+            speed * (to.min(piece[1]) - from.max(piece[0])).max(0.0)
+        };
+        pieces.map(length).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_counts_each_frame_with_its_own_speed() {
+        // The second vertex moves by 3 m in 1 s, the first by 1 m in 2 s.
+        let frames = vec![
+            vec![0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+            vec![0.0, 0.0, 0.0, 0.0, 3.0, 0.0],
+            vec![1.0, 0.0, 0.0, 0.0, 3.0, 0.0],
+        ];
+        let motion = ShapeMotion::new(vec![1.0, 2.0, 4.0], frames);
+        assert_eq!(motion.max_speed(), 3.0);
+        for (times, length) in
+            [([0.0, 1.0], 0.0), ([1.0, 2.0], 3.0), ([1.5, 3.0], 2.0), ([0.0, 9.0], 4.0)]
+        {
+            assert_eq!(motion.path(times), length, "between {times:?}");
         }
-        most
     }
 }
