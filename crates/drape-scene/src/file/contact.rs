@@ -11,8 +11,8 @@ pub(crate) struct ContactFile {
     /// Activation distance, at which surfaces begin to repel each other; 1 mm if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) offset: Option<Given<Length>>,
-    /// Stiffness, in N/m³; if missing 2e6, between layers from the thickness of the fabric under
-    /// pressure and from the fastest motion of a body or a pin.
+    /// Stiffness, in N/m³; 2e6, between layers from the thickness of the fabric under pressure and
+    /// from the fastest motion of a body or a pin, if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1.0, 1e12)))]
     pub(crate) stiffness: Option<Given<PressurePerDistance>>,
     /// Speed below which particles on a body stick, in m/s.
