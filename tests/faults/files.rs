@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
+use drape::checkpoint::{Checkpoint, Store};
+use drape::dynamics::SavedSimulation;
 use tempfile::TempDir;
 
 use crate::guard::{Sweep, is_full};
-use crate::mutation::{cuts, mutated};
+use crate::mutation::{Random, cuts, mutated};
 use crate::readers;
 
 /// Reader of a file: whether it is accepted.
@@ -179,5 +181,41 @@ fn frames() {
         let file = at("run").join(name);
         let reader: Reader = |file| readers::frames(file.parent().expect("a folder"));
         try_file(name, file, reader);
+    }
+}
+
+/// Bytes of a checkpoint that a run leaves in its folder.
+fn checkpoint() -> Vec<u8> {
+    let folder = folder();
+    fs::write(folder.path().join("plain.toml"), readers::FABRIC).expect("written");
+    let scene = "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\n\
+                 panel = [{ name = \"a\", fabric = \"plain\", rectangle = [0.04, 0.04] }]\n\
+                 time = { step = 0.005, end = 0.01 }\n";
+    fs::write(folder.path().join("scene.toml"), scene).expect("written");
+    let mut run = Command::new(env!("CARGO_BIN_EXE_drape"));
+    run.current_dir(folder.path()).args(["run", "scene.toml", "-o", "run", "--no-picture"]);
+    let output = run.output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    fs::read(folder.path().join("run/checkpoint-00000001.bin")).expect("it is left")
+}
+
+#[test]
+fn checkpoints() {
+    let whole = checkpoint();
+    let reader: Reader = |file| {
+        let found = Store::new(file.parent().expect("a folder")).read().expect("it is read");
+        // What is no checkpoint is told, and nothing of it is used.
+        assert_eq!(found.newest.is_none(), found.damaged.len() == 1);
+        found.newest.is_some_and(|newest| SavedSimulation::read(&newest).is_ok())
+    };
+    try_bytes("checkpoint", ("checkpoint-00000001.bin", &whole), reader);
+    // Each of these bits is one that was written.
+    let bits = if is_full() { 10_000 } else { 100 };
+    let mut random = Random(1);
+    for _ in 0..bits {
+        let bit = random.below(8 * whole.len());
+        let mut flipped = whole.clone();
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        assert!(Checkpoint::decode(&flipped).is_err(), "bit {bit} is not missed");
     }
 }

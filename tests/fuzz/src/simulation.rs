@@ -1,32 +1,27 @@
-//! Simulations of a few particles from a seed: finite, and without a crossing in exact arithmetic.
+//! Simulations of a few particles from bytes: finite, and without a crossing in exact arithmetic.
 
 use drape::dynamics::Simulation;
 use drape::input::Document;
 use drape::scene::Scene;
 use drape::verify::triangles_intersect;
 
-use crate::mutation::Random;
 use crate::readers::FABRIC;
+use crate::shapes::Source;
 
 /// Number of steps.
 const STEPS: usize = 3;
 
-/// Returns a number between two others.
-fn between(random: &mut Random, low: f64, high: f64) -> f64 {
-    low + (high - low) * (random.next() >> 11) as f64 / (1_u64 << 53) as f64
-}
-
 /// Returns a scene: one or two sheets of 9 or 8 particles, thrown at a ball or a box.
-fn scene(random: &mut Random) -> String {
-    let mut near = |reach: f64| [0; 3].map(|_| between(random, -reach, reach));
+fn scene(source: &mut Source<'_>) -> String {
+    let mut near = |reach: f64| [0; 3].map(|_| source.between(-reach, reach));
     let (speeds, turns, others) = ([near(3.0), near(3.0)], [near(180.0), near(180.0)], near(0.05));
-    let step = between(random, 0.0005, 0.01);
-    let count = 1 + random.below(2);
+    let step = source.between(0.0005, 0.01);
+    let count = 1 + source.below(2);
     let mut text = format!(
         "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\ntime = {{ step = {step}, end = 1 }}\n"
     );
     let height = if count == 1 { 0.04 } else { 0.02 };
-    for index in 0..count {
+    for index in 0..count as usize {
         let rows = if count == 1 { [0.04, height] } else { [0.02 * 2.0, 0.02 * 2.0] };
         let center = [others[0], 0.03 * (index as f64 + 1.0) + 0.03, others[2]];
         text += &format!(
@@ -35,8 +30,8 @@ fn scene(random: &mut Random) -> String {
             turns[index], speeds[index]
         );
     }
-    let size = between(random, 0.005, 0.05);
-    text + &match random.below(3) {
+    let size = source.between(0.005, 0.05);
+    text + &match source.below(3) {
         0 => format!("[[collider.sphere]]\nradius = {size}\n"),
         1 => format!("[[collider.box]]\nsize = [{size}, {size}, {size}]\n"),
         _ => String::new(),
@@ -44,8 +39,8 @@ fn scene(random: &mut Random) -> String {
 }
 
 /// Simulates some steps of a scene, if it is accepted.
-pub fn simulate(_: &str, seed: u64) {
-    let text = scene(&mut Random(seed));
+pub fn simulate(bytes: &[u8]) {
+    let text = scene(&mut Source::new(bytes));
     let fabric = Document::new("plain.toml", FABRIC);
     let Ok(scene) = Scene::from_documents(&Document::new("scene.toml", text.as_str()), &[fabric])
     else {

@@ -120,4 +120,23 @@ mod tests {
             assert!(height < 0.0 && met, "at {height}, met {met}");
         }
     }
+
+    #[test]
+    fn a_pair_without_room_may_part_and_neither_approach_nor_slide() {
+        let (surface, positions) = triangles(DISTANCES.min_separation);
+        let mut detector = Detector::default();
+        let pairs = detector.detect(&surface, &positions, MARGIN).unwrap();
+        let fraction = |[x, y, z]: [f64; 3]| {
+            let upper = (0..18).map(|k| if k < 9 { 0.0 } else { [x, y, z][k % 3] });
+            let displacements: Vec<f64> = upper.collect();
+            let mut filter = CcdFilter::default();
+            filter.common_fraction(pairs, &positions, &displacements).unwrap().value
+        };
+        assert_eq!(fraction([0.0, 0.0, 1e-3]), 1.0);
+        assert_eq!(fraction([0.0; 3]), 1.0);
+        assert_eq!(fraction([0.0, 0.0, -1e-6]), 0.0);
+        assert_eq!(fraction([1e-3, 0.0, 0.0]), 0.0);
+        // Less than the rounding of the step is no way apart.
+        assert_eq!(fraction([0.0, 0.0, 1e-20]), 0.0);
+    }
 }
