@@ -85,9 +85,7 @@ impl Checkpoint {
         let fail = |reason: &str| Error::Section { section: name.into(), reason: reason.into() };
         let section = self.sections.iter().find(|section| section.name == name);
         let section = section.ok_or_else(|| fail("it is missing"))?;
-        let (value, rest) = postcard::take_from_bytes(&section.content)
-            .map_err(|error| fail(&error.to_string()))?;
-        if rest.is_empty() { Ok(value) } else { Err(fail("it is longer than its value")) }
+        section.value().map_err(|reason| fail(&reason))
     }
 
     /// Writes the bytes of a file.
@@ -147,8 +145,17 @@ impl Checkpoint {
         }
         let first = (!sections.is_empty()).then(|| sections.remove(0));
         let header = first.filter(|first| first.name == IDENTITY).ok_or(Damage::Whole)?;
-        let identity = postcard::from_bytes(&header.content);
+        let identity = header.value();
         Ok(Self { identity: identity.map_err(|_| Damage::Whole)?, sections })
+    }
+}
+
+impl Section {
+    /// Value of the section, or why its content is no value of this type and nothing else.
+    fn value<T: DeserializeOwned>(&self) -> Result<T, String> {
+        let (value, rest) =
+            postcard::take_from_bytes(&self.content).map_err(|error| error.to_string())?;
+        if rest.is_empty() { Ok(value) } else { Err("it is longer than its value".into()) }
     }
 }
 
@@ -198,6 +205,7 @@ mod tests {
         assert_eq!(bits, expected);
         let words: (String, u64, Option<[u32; 2]>) = read.get("words").expect("a section");
         assert_eq!(words, ("a".into(), 7, Some([1, 2])));
+        assert!(read.get::<String>("words").is_err(), "the rest of a section is no other value");
     }
 
     #[test]
