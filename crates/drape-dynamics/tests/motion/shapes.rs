@@ -158,10 +158,7 @@ fn motions_that_do_not_fit_are_refused_with_their_file() {
         (format!("motion = {}", path("short.pc2")), ["has no rate", "rate = 24"]),
         (format!("motion = {}\nrate = 24", path("flat.pc2")), ["frame 1", "has no area"]),
         (format!("motion = {}\nrate = 24", path("lost.pc2")), ["frame 1", "vertex 3 is at"]),
-        (
-            format!("motion = {}\nrate = 24", path("fast.pc2")),
-            ["480.000 m/s", "slow it to"],
-        ),
+        (format!("motion = {}\nrate = 24", path("fast.pc2")), ["480.000 m/s", "slow it to"]),
         (format!("frames = {}\nrate = 24", path("walk_*.obj")), ["walk_*.obj", "number 2"]),
         (format!("frames = {}\nrate = 24", path("run_*.obj")), ["there is no file", "run_*.obj"]),
         (format!("frames = {}\nrate = 24", path("walk_1.obj")), ["walk_1.obj", "no *"]),
