@@ -76,6 +76,7 @@ mod tests {
     #[test]
     fn what_has_changed_is_named() {
         let before = Identity::new("a 1").with("scene", b"x").with("wool", b"y").with("old", b"z");
+        assert_eq!(before.program(), "a 1");
         assert!(before.changes(&before.clone()).is_empty());
         let now = Identity::new("a 2").with("scene", b"x").with("wool", b"Y").with("new", b"z");
         let expected = ["the program (a 1, now a 2)", "wool", "new (new)", "old (gone)"];

@@ -192,6 +192,7 @@ mod tests {
         for number in 1..=5 {
             store.write(&numbered(number)).expect("it is written");
             assert_eq!(newest(&store), Some(number));
+            assert!(!store.is_empty());
         }
         let mut names: Vec<_> = fs::read_dir(folder.path())
             .expect("a folder")
@@ -220,6 +221,9 @@ mod tests {
         assert_eq!(found.damaged.len(), 1);
         assert_eq!(found.damaged[0].path, last);
         assert_eq!(newest(&store), Some(1));
+        found.remove_damaged().expect("it is removed");
+        assert!(!last.exists() && store.read().expect("the folder is read").damaged.is_empty());
+        fs::write(&last, &bytes).expect("it is written");
         // The next one is newer than both.
         store.write(&numbered(3)).expect("it is written");
         assert_eq!(newest(&store), Some(3));
@@ -235,5 +239,33 @@ mod tests {
         let found = store.read().expect("the folder is read");
         assert!(matches!(found.damaged[0].fault, Damage::Unreadable { .. }));
         assert_eq!(newest(&store), Some(1));
+    }
+
+    #[test]
+    fn a_folder_that_is_not_there_has_no_checkpoints() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let store = Store::new(folder.path().join("missing"));
+        assert!(store.is_empty() && newest(&store).is_none());
+        store.clear().expect("nothing is to be removed");
+    }
+
+    #[test]
+    fn a_file_in_place_of_the_folder_is_told() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = folder.path().join("file");
+        fs::write(&file, b"text").expect("it is written");
+        let store = Store::new(&file);
+        assert!(matches!(store.read(), Err(Error::Read { path, .. }) if path == file));
+        assert!(matches!(store.write(&numbered(1)), Err(Error::Read { .. })));
+        assert!(!store.is_empty(), "nobody knows");
+    }
+
+    #[test]
+    fn a_checkpoint_that_cannot_be_removed_is_told() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let store = Store::new(folder.path());
+        let place = folder.path().join("checkpoint-00000001.bin");
+        fs::create_dir(&place).expect("it is made");
+        assert!(matches!(store.clear(), Err(Error::Write { path, .. }) if path == place));
     }
 }
