@@ -73,9 +73,9 @@ const CASES: [Case; 10] = [
         until: 0.02,
     },
     Case {
-        name: "factorised",
+        name: "newton",
         scene: "swing-vacuum.toml",
-        changes: &[["[time]", "[solver]\nlinear = \"cholesky\"\nmethod = \"newton\"\n[time]"]],
+        changes: &[["[time]", "[solver]\nmethod = \"newton\"\n[time]"]],
         until: 0.08,
     },
     Case {
