@@ -17,6 +17,7 @@ pub use error::Error;
 pub use record::frame::Frame;
 pub use record::recorder::{Output, Recorder, SavedRecorder, prepare_folder};
 pub use record::snapshot::{Body, Snapshot};
+pub use record::step_hashes::StepHashes;
 pub use record::summary::{Contacts, Phase, PhaseName, Solver, Status, Strain, Summary};
 pub use record::topology::{Part, Topology};
 pub use simulation::run::Progress;

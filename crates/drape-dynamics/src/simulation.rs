@@ -290,6 +290,12 @@ impl Simulation {
         state_hash(&self.world)
     }
 
+    /// Hashes positions and velocities after each step from now on, for the summary. A run that goes on
+    /// from a checkpoint does so if the one before it did.
+    pub fn hash_steps(&mut self) {
+        self.statistics.hashes.get_or_insert_default();
+    }
+
     /// Advances by one step.
     ///
     /// # Errors
@@ -370,6 +376,7 @@ impl Simulation {
             speed_max: self.last.speed_max,
             imbalance: self.last.imbalance,
             state_hash: self.state_hash(),
+            step_hashes: self.statistics.hashes.clone(),
             warnings: self.outcome.warnings.clone(),
             contact_limits: self.source.contact_limits.clone(),
             measures: self.outcome.measures.clone(),

@@ -190,11 +190,20 @@ fn a_run_goes_on_beyond_its_end_as_a_longer_one() {
             "",
         )
     };
-    let longer = Simulation::new(until("0.12")).unwrap().run(&mut ()).unwrap();
+    let hashed = |end: &str| {
+        let mut simulation = Simulation::new(until(end)).unwrap();
+        simulation.hash_steps();
+        simulation
+    };
+    let longer = hashed("0.12").run(&mut ()).unwrap();
     let mut keeper = Keeper::default();
-    Simulation::new(until("0.08")).unwrap().run(&mut keeper).unwrap();
+    hashed("0.08").run(&mut keeper).unwrap();
     let mut extended = Simulation::new(until("0.08")).unwrap();
     extended.resume(saved(keeper.kept.last().unwrap())).unwrap();
     assert!(extended.extend(0.04));
-    assert_eq!(extended.run(&mut ()).unwrap().state_hash, longer.state_hash);
+    let extended = extended.run(&mut ()).unwrap();
+    assert_eq!(extended.state_hash, longer.state_hash);
+    assert_eq!(extended.step_hashes, longer.step_hashes);
+    let hashes = extended.step_hashes.unwrap();
+    assert_eq!((hashes.steps, hashes.hashes.len()), (longer.steps, longer.steps));
 }

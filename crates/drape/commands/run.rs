@@ -43,6 +43,9 @@ pub(crate) struct RunArguments {
     /// Time between two checkpoints, in seconds; there is one at the end of each phase, too.
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
     pub(crate) checkpoint_every: f64,
+    /// Hashes positions and velocities after each step, for `step_hashes` in `summary.json`.
+    #[arg(long)]
+    pub(crate) state_hash: bool,
     #[command(flatten)]
     pub(crate) options: RunOptions,
 }
@@ -119,10 +122,13 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
     let lock = Lock::take(&folder)?;
     let output = prepare_folder(&folder, arguments.force)?;
     let every = arguments.checkpoint_every;
-    RunRequest::new(path, arguments.until, every).write(&folder)?;
+    let state_hash = arguments.state_hash;
+    let request = RunRequest::new(path, arguments.until, every);
+    RunRequest { state_hash, ..request }.write(&folder)?;
     let options = &arguments.options;
     let keeper = Keeper::new(&folder, &scene, every, options.limits.clone());
-    let job = Job { scene, folder: folder.clone(), output, keeper, lock, options };
+    let own = folder.clone();
+    let job = Job { scene, folder: own, output, keeper, lock, options, state_hash };
     Ok(Ran { summary: job.run(None)?, folder })
 }
 

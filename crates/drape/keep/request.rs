@@ -19,12 +19,15 @@ pub(crate) struct RunRequest {
     pub(crate) until: Option<f64>,
     /// Time between two checkpoints, in s.
     pub(crate) checkpoint_every: f64,
+    /// Whether the state is hashed after each step.
+    #[serde(default)]
+    pub(crate) state_hash: bool,
 }
 
 impl RunRequest {
     /// Makes the request of a scene.
     pub(crate) fn new(scene: &Path, until: Option<f64>, checkpoint_every: f64) -> Self {
-        Self { scene: whole_path(scene), until, checkpoint_every }
+        Self { scene: whole_path(scene), until, checkpoint_every, state_hash: false }
     }
 
     /// Gives the scene another place.

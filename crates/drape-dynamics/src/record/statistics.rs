@@ -3,6 +3,7 @@
 use drape_implicit::Report;
 use serde::{Deserialize, Serialize};
 
+use crate::record::step_hashes::StepHashes;
 use crate::record::summary::{Contacts, Solver};
 use crate::world::{Contact, World};
 
@@ -21,6 +22,8 @@ pub(crate) struct Statistics {
     released_max: usize,
     /// Smallest distance of two surfaces after a step, in m.
     min_distance: f64,
+    /// Hashes after the steps, where they are asked for.
+    pub(crate) hashes: Option<StepHashes>,
 }
 
 impl Statistics {
@@ -33,6 +36,7 @@ impl Statistics {
             thinned_max: 0,
             released_max: 0,
             min_distance: f64::INFINITY,
+            hashes: None,
         }
     }
 
@@ -51,6 +55,9 @@ impl Statistics {
         };
         self.pairs_max = self.pairs_max.max(touching);
         self.steps += 1;
+        if let Some(hashes) = &mut self.hashes {
+            hashes.add(&world.state.positions, &world.state.velocities);
+        }
         self.add_work(report);
     }
 

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::record::step_hashes::StepHashes;
 use crate::world::Energy;
 
 /// Summary of a run: the content of `summary.json`.
@@ -51,6 +52,9 @@ pub struct Summary {
     pub imbalance: f64,
     /// Hash of the final positions, velocities and memories.
     pub state_hash: String,
+    /// Hashes after the steps, where they are asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_hashes: Option<StepHashes>,
     /// Warnings about the result.
     pub warnings: Vec<String>,
     /// What contact cannot promise on the bodies, a sentence each.

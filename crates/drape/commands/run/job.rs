@@ -45,6 +45,8 @@ pub(crate) struct Job<'a> {
     pub(crate) keeper: Keeper,
     pub(crate) lock: Lock,
     pub(crate) options: &'a RunOptions,
+    /// Whether the state is hashed after each step.
+    pub(crate) state_hash: bool,
 }
 
 /// What a job draws at its end.
@@ -64,13 +66,16 @@ pub(crate) struct Resumption {
 impl Job<'_> {
     /// Runs it, stores its results and says what came out; a run that fails has a summary too.
     pub(crate) fn run(self, resumption: Option<Resumption>) -> Result<Summary, Failure> {
-        let Self { scene, folder, output, keeper, lock: _lock, options } = self;
+        let Self { scene, folder, output, keeper, lock: _lock, options, state_hash } = self;
         let view = [scene.output.view.azimuth, scene.output.view.elevation];
         let is_garment = scene.sewing.is_some();
         notes(&scene);
         let (name, step) = (scene.name.clone(), scene.schedule.clock.step);
         let mut simulation = Simulation::new(scene)?;
         simulation.give_up_when(signal::give_up_flag());
+        if state_hash {
+            simulation.hash_steps();
+        }
         let recorder = match resumption {
             None => output.record(&simulation.topology())?,
             Some(Resumption { kept, extend }) => {

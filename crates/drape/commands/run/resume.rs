@@ -78,7 +78,8 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<(), Failure> {
         request.move_scene(&path);
     }
     request.write(folder)?;
-    let job = Job { scene, folder: folder.clone(), output, keeper, lock, options };
+    let state_hash = request.state_hash;
+    let job = Job { scene, folder: folder.clone(), output, keeper, lock, options, state_hash };
     let summary = job.run(resumption)?;
     if options.json {
         say_json(&summary)?;
