@@ -19,7 +19,6 @@ mod motion;
 mod panel;
 mod pins;
 mod solver;
-mod speed;
 mod start;
 mod time;
 
@@ -101,7 +100,7 @@ pub(crate) fn check(
     let pins = pins::pins(checker, &placed);
     if file.keeps_surfaces_apart() {
         let most = fabrics().map(max_impact_speed).fold(f64::INFINITY, f64::min);
-        speed::check_speeds(checker, &bodies, &pins, most);
+        contact::speed::check_speeds(checker, &bodies, &pins, most);
     }
     let pins = pins.into_iter().map(|checked| checked.pin).collect();
     let sewing = sewing_settings(checker, seams.is_empty());

@@ -1,5 +1,7 @@
 //! Settings of the contact of cloth and bodies.
 
+pub(crate) mod speed;
+
 use drape_collide::{ParticleSettings, PinchPolicy, SurfaceSettings};
 use drape_input::{Given, figure};
 

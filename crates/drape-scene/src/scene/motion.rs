@@ -1,20 +1,13 @@
 //! Motions of bodies and pins: rigid ones along keys, and shapes from frame to frame.
 
+mod resolution;
 mod rigid;
 mod shape;
 
+pub use self::resolution::MotionResolution;
 pub use self::rigid::{MotionKey, RigidMotion};
 pub(crate) use self::rigid::{rotate, rotate_pose};
 pub use self::shape::ShapeMotion;
-
-/// Largest motion of a point within a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MotionResolution {
-    /// Length of its path, in m.
-    pub path: f64,
-    /// Deviation from a straight path, in m.
-    pub deviation: f64,
-}
 
 /// Motion of a body.
 #[derive(Debug, Clone, PartialEq)]

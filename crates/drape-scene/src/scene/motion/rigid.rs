@@ -2,7 +2,7 @@
 
 use drape_collide::Pose;
 
-use super::MotionResolution;
+use super::resolution::MotionResolution;
 
 /// Rotation between two keys, in degrees, from which on a path does not count as straight, however
 /// small it is.
