@@ -11,8 +11,8 @@ pub enum Error {
     /// The equations of a step could not be solved, even with the shortest sub-step allowed.
     #[error(
         "the step from t = {time} s did not converge ({stop}): with dt = {dt:e} s the residual is \
-         {residual:e} against a tolerance of {tolerance:e} after {iterations} iterations; shorten \
-         the step or allow more halvings"
+         {residual:e} against a tolerance of {tolerance:e} after {iterations} iterations; {}",
+        stop.remedy()
     )]
     NotConverged {
         /// Time at which the failing sub-step starts, in s.

@@ -122,6 +122,16 @@ pub enum Stop {
     Intersection,
 }
 
+impl Stop {
+    /// Remedy, for the end of a message.
+    pub(crate) fn remedy(self) -> &'static str {
+        match self {
+            Self::Blocked => "slow what moves by prescription, or leave room where it moves to",
+            _ => "shorten the step or allow more halvings",
+        }
+    }
+}
+
 impl core::fmt::Display for Stop {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
