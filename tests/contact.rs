@@ -5,6 +5,8 @@
 
 #[path = "contact/impacts.rs"]
 mod impacts;
+#[path = "contact/soak.rs"]
+mod soak;
 
 use std::path::{Path, PathBuf};
 
