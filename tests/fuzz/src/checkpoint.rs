@@ -72,7 +72,7 @@ fn sections(bytes: &[u8]) -> Option<Vec<[usize; 3]>> {
 }
 
 /// Makes all checksums right, where there is room for them.
-fn seal(bytes: &mut Vec<u8>) -> Option<()> {
+fn seal(bytes: &mut [u8]) -> Option<()> {
     for [start, _, end] in sections(bytes)? {
         let checksum = blake3::hash(&bytes[start..end]);
         bytes[end..end + CHECKSUM].copy_from_slice(checksum.as_bytes());
