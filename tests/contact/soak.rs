@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-/// Seconds of the scene, in which the ball comes and goes once in two.
+/// End of the scene, in s; the period of the ball is 2 s.
 const SECONDS: u32 = 100;
 
-/// Scene of a ball that comes and goes under a hanging sheet.
+/// Scene of a ball that moves to and fro at a hanging sheet.
 fn scene() -> String {
     let times: Vec<u32> = (0..=SECONDS).collect();
     let shifts: Vec<[f64; 3]> =
@@ -23,7 +23,7 @@ fn scene() -> String {
     )
 }
 
-/// Memory of a process, in kB, as the system counts it.
+/// Resident memory of a process, in kB.
 fn resident(process: u32) -> Option<f64> {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

@@ -184,7 +184,7 @@ fn frames() {
     }
 }
 
-/// Bytes of a checkpoint that a run leaves in its folder.
+/// Bytes of the checkpoint of a finished run.
 fn checkpoint() -> Vec<u8> {
     let folder = folder();
     fs::write(folder.path().join("plain.toml"), readers::FABRIC).expect("written");

@@ -26,29 +26,35 @@ const LEAST_SEPARATION: f64 = 0.05;
 /// Largest stiffness of contact, in N/m³.
 pub(crate) const STIFFNESS_MAX: f64 = 1e12;
 
-/// Speed at which cloth meets cloth or a body, over that of what moves by prescription: a pull runs
-/// through a fabric much faster than what pulls it, and gathers where it is stopped.
+/// Ratio of the speed at which cloth hits cloth or a body to the largest prescribed speed. Tension
+/// waves make parts of the cloth faster than the edge that is pulled. With a ratio of 1 an edge at
+/// 10 m/s was not stopped, with 3 all impacts were.
 const SPEED_RATIO: f64 = 4.0;
 
 impl Scene {
     /// Stiffness of the contact of surfaces, in N/m³: the scene's own, or the larger one of that of
     /// the fabrics' compression and that which stops the fastest impact.
     pub(crate) fn contact_stiffness(&self) -> f64 {
-        let speed = self.prescribed_speed();
-        let compression = self.largest(stiffness_of_compression);
-        let impact = self.largest(|fabric| stiffness_of_impact(fabric, speed));
-        self.contact.stiffness.unwrap_or_else(|| compression.max(impact))
+        self.contact.stiffness.unwrap_or_else(|| {
+            let speed = self.prescribed_speed();
+            let impact = self.largest(|fabric| stiffness_of_impact(fabric, speed));
+            impact.max(self.largest(stiffness_of_compression))
+        })
     }
 
     /// Note on a contact that is stiffer than the fabrics are.
     pub(crate) fn stiffness_note(&self) -> Option<String> {
-        let (stiffness, own) = (self.contact_stiffness(), self.largest(stiffness_of_compression));
-        let chosen = self.contact.surfaces && self.contact.stiffness.is_none();
-        (chosen && stiffness > own).then(|| {
+        if !self.contact.surfaces || self.contact.stiffness.is_some() {
+            return None;
+        }
+        let speed = self.prescribed_speed();
+        let impact = self.largest(|fabric| stiffness_of_impact(fabric, speed));
+        let compression = self.largest(stiffness_of_compression);
+        (impact > compression).then(|| {
             format!(
                 "contact is {} times as stiff as the fabric's compression, to stop what moves at {} m/s",
-                figure(stiffness / own),
-                figure(self.prescribed_speed())
+                figure(impact / compression),
+                figure(speed)
             )
         })
     }

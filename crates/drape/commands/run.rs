@@ -123,8 +123,7 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
     let output = prepare_folder(&folder, arguments.force)?;
     let every = arguments.checkpoint_every;
     let state_hash = arguments.state_hash;
-    let request = RunRequest::new(path, arguments.until, every);
-    RunRequest { state_hash, ..request }.write(&folder)?;
+    RunRequest { state_hash, ..RunRequest::new(path, arguments.until, every) }.write(&folder)?;
     let options = &arguments.options;
     let keeper = Keeper::new(&folder, &scene, every, options.limits.clone());
     let own = folder.clone();

@@ -20,8 +20,8 @@ const MAX_STEPS: usize = 12;
 const MIN_STEP: f64 = 0.05;
 
 /// Fraction taken of an advance of the obstacles that the filter has shortened. The filter leaves a
-/// tenth of a gap, and a Newton step at most doubles one: the whole of it, again and again, closes
-/// the gap.
+/// tenth of a gap, and a Newton step at most doubles it: the whole advance in each iteration would
+/// close the gap.
 const OBSTACLE_PART: f64 = 0.5;
 
 /// A particle that keeps less than this multiple of the largest fraction kept is near something,

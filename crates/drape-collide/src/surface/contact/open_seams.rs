@@ -9,7 +9,7 @@ use crate::surface::geometry::Separations;
 /// It is some thousand times the rounding of coordinates of 1 m.
 const LEAST: f64 = 1e-12;
 
-/// Open seams of a surface: the widest gap that contact may take each of them for.
+/// Open seams of a surface, with the largest gap that contact assumes between the sides of each.
 ///
 /// It is limited where the sides lie nearer to each other at the start than the gap is wide.
 #[derive(Debug, Default)]

@@ -1,4 +1,4 @@
-//! Speeds of what moves by prescription.
+//! Speeds of bodies and pins that move.
 
 use drape_input::{excerpt, figure_below};
 
@@ -26,7 +26,7 @@ pub(crate) fn check_speeds(
     }
 }
 
-/// What moves by prescription.
+/// Body or pin that moves.
 struct Moved {
     name: String,
     /// Largest speed, in m/s.

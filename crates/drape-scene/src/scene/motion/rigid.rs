@@ -61,10 +61,7 @@ impl RigidMotion {
         let mut most = 0.0_f64;
         for pair in self.keys.windows(2) {
             let [from, time] = [pair[0].time, 1e-3 * (pair[1].time - pair[0].time)];
-            let (before, after) = (self.transform(from), self.transform(from + time));
-            for &place in start {
-                most = most.max(distance(before(place), after(place)) / time);
-            }
+            most = most.max(self.longest_chord([from, from + time], start) / time);
         }
         most
     }
@@ -83,19 +80,26 @@ impl RigidMotion {
     }
 
     /// Returns an upper bound of the length of the paths between two times, in s, of points that
-    /// start at some positions, in m: the sum over the keys of the longest chord between each two.
+    /// start at some positions, in m: the sum of the longest chords from key to key.
     fn path(&self, [from, to]: [f64; 2], start: &[[f64; 3]]) -> f64 {
         let mut length = 0.0;
         let mut begin = from;
         for end in self.times_inside([from, to]).chain([to]) {
-            let (before, after) = (self.transform(begin), self.transform(end));
-            length += start
-                .iter()
-                .map(|&place| distance(before(place), after(place)))
-                .fold(0.0, f64::max);
+            length += self.longest_chord([begin, end], start);
             begin = end;
         }
         length
+    }
+
+    /// Returns the longest distance between the places at two times, in s, of points that start at
+    /// some positions, in m. Without a rotation between the times it is the same for all points.
+    fn longest_chord(&self, times: [f64; 2], start: &[[f64; 3]]) -> f64 {
+        let [before, after] = times.map(|time| self.at(time));
+        if before.turn == after.turn {
+            return distance(before.shift, after.shift);
+        }
+        let [before, after] = times.map(|time| self.transform(time));
+        start.iter().map(|&place| distance(before(place), after(place))).fold(0.0, f64::max)
     }
 
     /// Returns the times of the keys between two times, in s.
