@@ -154,7 +154,8 @@ impl Store {
 fn number_of(path: &Path) -> Option<u32> {
     let name = path.file_name()?.to_str()?;
     let digits = name.strip_prefix("checkpoint-")?.strip_suffix(".bin")?;
-    (digits.len() == 8).then(|| digits.parse().ok())?
+    let is_number = digits.len() >= 8 && digits.bytes().all(|digit| digit.is_ascii_digit());
+    is_number.then(|| digits.parse().ok())?
 }
 
 /// Makes the names of a folder outlast a loss of power.
@@ -228,6 +229,21 @@ mod tests {
         store.write(&numbered(3)).expect("it is written");
         assert_eq!(newest(&store), Some(3));
         assert!(folder.path().join("checkpoint-00000003.bin").exists());
+    }
+
+    #[test]
+    fn numbers_go_on_beyond_eight_digits() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let store = Store::new(folder.path());
+        let planted = folder.path().join("checkpoint-99999999.bin");
+        fs::write(&planted, b"nothing").expect("it is written");
+        fs::write(folder.path().join("checkpoint-+9999999.bin"), b"nothing")
+            .expect("it is written");
+        for number in 1..=3 {
+            store.write(&numbered(number)).expect("it is written");
+            assert_eq!(newest(&store), Some(number));
+        }
+        assert!(!planted.exists() && folder.path().join("checkpoint-100000002.bin").exists());
     }
 
     #[test]

@@ -223,6 +223,17 @@ mod tests {
     }
 
     #[test]
+    fn an_element_without_plateau_keeps_its_load_and_works_with_it() {
+        // The state keeps what was there before the plateau became zero.
+        let without = Dahl { plateau: 0.0, length: 0.03 };
+        for (load, amount) in [(0.4, 0.1), (0.4, -0.2), (-0.3, 0.5), (0.0, 0.1)] {
+            let work = without.work(load, amount);
+            assert!(work == load * amount, "{load} {amount}: {work}");
+            assert!(ELEMENT.work(load, 0.0) == 0.0, "{load}");
+        }
+    }
+
+    #[test]
     fn a_reversal_is_continuous_from_every_state_and_has_two_slopes() {
         for load in [-0.7, -0.3, 0.0, 0.5, 0.7] {
             for tiny in [1e-9, -1e-9] {

@@ -3,11 +3,12 @@
 //!
 //! [`describe`] says in SI what a file holds, [`pattern`] how a pattern is cut, [`start`] draws where
 //! a garment starts, [`body`] says what a mesh is and how it is repaired; [`frames`] reads the
-//! folders of runs by `drape::verify`, which shares no code with the simulation.
+//! folders of runs by `drape::verify`, which shares no code with the simulation; [`pace`] says how long a run takes.
 
 mod body;
 mod describe;
 mod frames;
+mod pace;
 mod pattern;
 mod start;
 
@@ -48,6 +49,9 @@ pub(crate) struct CheckArguments {
     /// Replaces a repaired body that is there already.
     #[arg(long)]
     pub(crate) force: bool,
+    /// Makes the first steps of scenes, for two seconds, and says how long a run takes at their pace.
+    #[arg(long)]
+    pub(crate) time: bool,
     /// Prints what was found as JSON: of each file its mistakes, of each run its frames.
     #[arg(long)]
     pub(crate) json: bool,
@@ -89,7 +93,11 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
                     true => body::describe(file, measure),
                     false => describe(file, spacing),
                 };
+                let is_right = found.is_ok();
                 checked.add(file, found)?;
+                if arguments.time && is_right && describe::is_scene(file) {
+                    checked.add_time(pace::describe(file)?)?;
+                }
             }
         }
     }
@@ -131,6 +139,15 @@ impl Checked {
         }
         self.mistakes.extend(mistakes);
         Ok(())
+    }
+
+    /// Adds the time that a run of the scene takes that was added last, and says it.
+    fn add_time(&mut self, time: String) -> Result<(), Failure> {
+        if let Some(found) = self.found.last_mut() {
+            found["time"] = time.trim_start().into();
+            return Ok(());
+        }
+        say(time)
     }
 }
 

@@ -50,6 +50,10 @@ impl RunRequest {
                 folder.join(NAME).display()
             ))
         };
+        // Reading a pipe would wait for ever.
+        if !folder.join(NAME).is_file() {
+            return Err(fail("no such file".into()));
+        }
         let text = std::fs::read(folder.join(NAME)).map_err(|error| fail(error.to_string()))?;
         serde_json::from_slice(&text).map_err(|error| fail(error.to_string()))
     }
@@ -69,7 +73,10 @@ fn whole_path(scene: &Path) -> PathBuf {
 
 /// Returns the `status` of a run's summary; `None` without a summary.
 pub(crate) fn status_of(folder: &Path) -> Option<String> {
-    let text = std::fs::read(folder.join("summary.json")).ok()?;
+    let path = folder.join("summary.json");
+    // Reading a pipe would wait for ever.
+    let is_file = std::fs::metadata(&path).is_ok_and(|found| found.is_file());
+    let text = is_file.then(|| std::fs::read(&path).ok())??;
     let summary: serde_json::Value = serde_json::from_slice(&text).ok()?;
     Some(summary["status"].as_str()?.to_owned())
 }

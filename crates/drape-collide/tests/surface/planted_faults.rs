@@ -203,4 +203,15 @@ fn sides_of_an_open_seam_keep_a_tenth_of_its_gap_and_end_apart() {
         assert!(kept >= least && kept < 1.01 * least, "{kept} m of {least} m at {gap} m");
         assert_eq!(contact.intersections(&positions).unwrap(), []);
     }
+    // A seam that is taken for closed lets one side through the other.
+    contact.close_seams();
+    contact.begin(&start, &[]);
+    let mut positions = start.clone();
+    for _ in 0..20 {
+        let mut displacements = vec![0.0; positions.len()];
+        (3..6).for_each(|vertex| displacements[3 * vertex + 2] = -0.0005);
+        advance(&mut contact, &mut positions, &mut displacements);
+    }
+    contact.open_seams(&gaps(gap), &positions).unwrap();
+    assert!(!contact.intersections(&positions).unwrap().is_empty());
 }

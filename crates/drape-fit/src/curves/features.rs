@@ -62,3 +62,41 @@ pub(crate) fn zero(curve: &Curve) -> Parameter {
     let load = curve.load_range().span();
     Parameter::new(0.0).with_scale(load).between(-0.5 * load, 0.5 * load)
 }
+
+#[cfg(test)]
+mod tests {
+    use drape_kes::Direction;
+
+    use super::*;
+
+    fn curve(deformation: &[f64], load: &[f64]) -> Curve {
+        let columns = (deformation.to_vec(), load.to_vec());
+        Curve::new(Test::Bending, Direction::Warp, columns.0, columns.1).expect("it is a curve")
+    }
+
+    #[test]
+    fn the_mean_slope_is_that_of_least_squares_whatever_the_zeros() {
+        // Sums by hand: mean x = 4, Σ(x − 4)² = 20, mean y = 9, Σ(x − 4)(y − 9) = 32.
+        let found = mean_slope(&curve(&[1.0, 3.0, 5.0, 7.0], &[4.0, 8.0, 10.0, 14.0]));
+        let slope = found.expect("the load rises");
+        assert!((slope - 1.6).abs() < 1e-14, "{slope}");
+        let line =
+            StraightLine::through([[1.0, 4.0], [3.0, 8.0], [5.0, 10.0], [7.0, 14.0]].into_iter());
+        let intercept = line.expect("the points have several x").intercept;
+        assert!((intercept - 2.6).abs() < 1e-14, "{intercept}");
+    }
+
+    #[test]
+    fn a_load_that_falls_or_stays_on_average_has_no_mean_slope() {
+        for load in [[4.0, 2.0, 1.0], [1.0, 2.0, 1.0]] {
+            let found = mean_slope(&curve(&[1.0, 2.0, 3.0], &load));
+            assert!(matches!(found, Err(Error::FallingLoad { .. })), "{load:?}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn the_zero_of_the_load_lies_within_half_of_its_range() {
+        let zero = zero(&curve(&[0.0, 1.0, 2.0], &[-1.0, 2.0, 5.0]));
+        assert_eq!(zero, Parameter::new(0.0).with_scale(6.0).between(-3.0, 3.0));
+    }
+}

@@ -123,3 +123,56 @@ fn effective_points(curve: &Curve, models: &[CandidateModel<'_>], results: &[Sea
     }
     Independence::of(&residuals).effective_count
 }
+
+#[cfg(test)]
+mod tests {
+    use drape_kes::{Direction, Test};
+    use drape_lm::Parameter;
+
+    use super::*;
+
+    /// Number of points of the curve.
+    const POINTS: usize = 400;
+
+    /// Line with a slow wave that no law has, and with a small quadratic part.
+    fn wavy(quadratic: f64) -> Curve {
+        let x: Vec<f64> = (0..POINTS).map(|i| i as f64 / (POINTS - 1) as f64).collect();
+        let load = |x: &f64| x + 0.02 * (6.0 * x).sin() + quadratic * x * x;
+        let loads = x.iter().map(load).collect();
+        Curve::new(Test::Bending, Direction::Warp, x, loads).expect("it is a curve")
+    }
+
+    fn models(curve: &Curve) -> Vec<CandidateModel<'_>> {
+        let x = curve.deformation();
+        let line = move |p: &[f64], out: &mut [f64]| {
+            out.iter_mut().zip(x).for_each(|(load, x)| *load = p[0] + p[1] * x);
+        };
+        let parabola = move |p: &[f64], out: &mut [f64]| {
+            out.iter_mut().zip(x).for_each(|(load, x)| *load = p[0] + (p[1] + p[2] * x) * x);
+        };
+        let model = |forward, count: usize| {
+            let names = ["zero", "slope", "curvature"];
+            let start = names[..count].iter();
+            let start = start.map(|name| NamedParameter::new(name, Parameter::new(0.5))).collect();
+            let name = format!("polynomial of {count}");
+            CandidateModel { name, starts: vec![start], prediction: None, forward }
+        };
+        let laws: [Box<dyn ForwardModel>; 2] = [Box::new(line), Box::new(parabola)];
+        laws.into_iter().zip([2, 3]).map(|(forward, count)| model(forward, count)).collect()
+    }
+
+    #[test]
+    fn correlated_residuals_count_as_the_independent_ones_among_them() {
+        let curve = wavy(-0.01);
+        let models = models(&curve);
+        let selection = select(&curve, &models);
+        let misfits = [0, 1].map(|i| selection.candidates[i].misfit);
+        // Were all residuals independent, the parabola would be selected.
+        let lead = 2.0 * POINTS as f64 * (misfits[0] / misfits[1]).ln();
+        assert!(lead > 2.0 * Candidate::LEAD, "{lead} {misfits:?}");
+        assert_eq!(selection.chosen, 0, "{misfits:?}");
+        // With a quadratic part that stands out of the wave it is.
+        let curve = wavy(1.0);
+        assert_eq!(select(&curve, &self::models(&curve)).chosen, 1);
+    }
+}

@@ -7,13 +7,15 @@ pub(crate) struct Safeguards {
     pub(crate) freeze: bool,
     /// No vertex drifts farther than the detected pairs allow.
     pub(crate) drift_budget: bool,
+    /// A pair has come nearer by what its vertices have drifted since it was detected.
+    pub(crate) drift_bound: bool,
     /// Pairs are detected along trajectories that those at hand do not include.
     pub(crate) swept_detection: bool,
 }
 
 impl Default for Safeguards {
     fn default() -> Safeguards {
-        Safeguards { freeze: true, drift_budget: true, swept_detection: true }
+        Safeguards { freeze: true, drift_budget: true, drift_bound: true, swept_detection: true }
     }
 }
 
@@ -103,6 +105,20 @@ mod tests {
             );
         }
         let unguarded = Safeguards { drift_budget: false, ..Safeguards::default() };
+        for (height, met) in drop_corner(unguarded, drop, (MARGIN, MARGIN)) {
+            assert!(height < 0.0 && met, "at {height}, met {met}");
+        }
+    }
+
+    #[test]
+    fn a_pair_is_as_near_as_its_vertices_have_drifted_or_it_crosses() {
+        // Each step alone is a good way shorter than the distance at the detection.
+        let apart = 0.4 * MARGIN;
+        let drop = (apart, 0.6 * apart, 2);
+        for (height, met) in drop_corner(Safeguards::default(), drop, (MARGIN, MARGIN)) {
+            assert!(height >= 2.0 * DISTANCES.min_separation && !met, "at {height}, met {met}");
+        }
+        let unguarded = Safeguards { drift_bound: false, ..Safeguards::default() };
         for (height, met) in drop_corner(unguarded, drop, (MARGIN, MARGIN)) {
             assert!(height < 0.0 && met, "at {height}, met {met}");
         }

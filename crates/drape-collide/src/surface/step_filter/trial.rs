@@ -97,7 +97,7 @@ impl Drift {
             if safeguards.drift_budget && moved > most {
                 return Err(Error::DriftBudgetExceeded { vertex, moved, budget });
             }
-            self.moved.push(moved);
+            self.moved.push(if safeguards.drift_bound { moved } else { 0.0 });
             self.lengths.push(norm(at(displacements, vertex)) * UPWARDS);
         }
         pairs.write_off_trajectory(displacements, common, &mut self.off_trajectory);
