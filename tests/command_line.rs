@@ -194,6 +194,25 @@ fn checks_and_lists_have_a_form_for_programs() {
 }
 
 #[test]
+fn the_time_of_a_run_is_told_from_its_first_steps() {
+    let folder = started();
+    let told = succeeds(folder.path(), &["check", "--time", "scene.toml"]);
+    let line = told.lines().find(|line| line.contains("time: ")).expect("a line of the time");
+    assert!(
+        line.contains("at the pace of the first") || line.contains("the whole run in"),
+        "{line}"
+    );
+    let found: Value = serde_json::from_str(&succeeds(
+        folder.path(),
+        &["check", "--time", "--json", "scene.toml"],
+    ))
+    .expect("JSON");
+    assert!(found[0]["time"].as_str().is_some_and(|time| time.starts_with("time: ")), "{found}");
+    let told = succeeds(folder.path(), &["check", "scene.toml"]);
+    assert!(!told.contains("time: "), "{told}");
+}
+
+#[test]
 fn a_list_of_nowhere_fails() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let message = fails(folder.path(), &["fabric", "list", "nowhere"], 3);
