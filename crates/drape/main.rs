@@ -10,7 +10,6 @@ use std::process::ExitCode;
 use clap::Parser;
 use drape::file;
 
-
 use console::{progress, signal};
 
 // What a person types, and what is done.

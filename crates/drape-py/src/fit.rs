@@ -14,6 +14,9 @@ use pyo3::types::PyDict;
 use crate::array::row;
 use crate::error::{Kind, failure, input, mistake};
 
+/// Tables of `fabric.toml` that hold laws.
+const LAWS: [&str; 3] = ["warp", "weft", "shear"];
+
 /// Sheet of a laboratory.
 #[pyclass(frozen, module = "drape._drape")]
 pub(crate) struct Sheet(drape::kes::Sheet);
@@ -71,6 +74,22 @@ fn loop_model(test: &str, name: Option<&str>) -> PyResult<Option<LoopModel>> {
 
 fn unknown(test: &str, law: &str, known: &str) -> PyErr {
     failure(Kind::Usage, format!("{test}={law:?} is no law; give one of {known}"))
+}
+
+/// Adds the numbers in a value of TOML, each with its key.
+fn flatten(key: String, value: toml::Value, to: &mut Vec<(String, f64)>) {
+    match value {
+        toml::Value::Float(number) => to.push((key, number)),
+        toml::Value::Integer(number) => to.push((key, number as f64)),
+        toml::Value::Table(table) => {
+            table.into_iter().for_each(|(own, value)| flatten(format!("{key}.{own}"), value, to));
+        }
+        toml::Value::Array(values) => {
+            let values = values.into_iter().enumerate();
+            values.for_each(|(index, value)| flatten(format!("{key}[{index}]"), value, to));
+        }
+        _ => {}
+    }
 }
 
 fn of_sheet(error: drape::kes::Error, file: &str) -> PyErr {
@@ -150,6 +169,16 @@ impl Fabric {
 
     fn to_toml(&self) -> String {
         self.0.to_toml()
+    }
+
+    /// Numbers of the laws, with their keys in `fabric.toml`.
+    fn numbers(&self) -> Vec<(String, f64)> {
+        let text = self.0.to_toml();
+        let table: toml::Table = text.parse().expect("the text of a fabric is TOML");
+        let laws = table.into_iter().filter(|(key, _)| LAWS.contains(&key.as_str()));
+        let mut numbers = Vec::new();
+        laws.for_each(|(key, value)| flatten(key, value, &mut numbers));
+        numbers
     }
 }
 

@@ -44,7 +44,10 @@ pub(crate) fn drapemeter<'py>(
     let bound = spacing_bound(fabric);
     let spacing = settings.spacing.unwrap_or(bound.min(SPACING_MAX));
     if !(spacing > 0.0) {
-        return Err(failure(Kind::Usage, format!("spacing={spacing}: give a length above 0, in m")));
+        return Err(failure(
+            Kind::Usage,
+            format!("spacing={spacing}: give a length above 0, in m"),
+        ));
     }
     let sampling = Sampling { spacing, starts: settings.starts };
     let study = py.detach(|| meter.study(fabric, sampling, &|| ()));

@@ -109,10 +109,8 @@ impl Progress for Unkept<'_> {
 impl RunSettings {
     fn keeping(&self, detached: &Detached) -> PyResult<Keeping> {
         if !(self.checkpoint_every >= 0.0 && self.checkpoint_every <= 1e9) {
-            let message = format!(
-                "checkpoint_every={}: give a time from 0 to 1e9 s",
-                self.checkpoint_every
-            );
+            let message =
+                format!("checkpoint_every={}: give a time from 0 to 1e9 s", self.checkpoint_every);
             return Err(failure(Kind::Usage, message));
         }
         Ok(Keeping {
@@ -263,8 +261,9 @@ pub(crate) fn resume(
             let message = "the scene was a text, which has no file: give it again, with scene=";
             return Err(failure(Kind::Usage, message));
         }
-        None => Scene::read(resumed.request.scene.clone(), Vec::new())?
-            .take(resumed.request.until)?,
+        None => {
+            Scene::read(resumed.request.scene.clone(), Vec::new())?.take(resumed.request.until)?
+        }
     };
     let (run, _notes) = resumed.go_on(own, &settings.keeping(&detached)?).map_err(of_run)?;
     settings.execute(py, &detached, |mut reporter| Ok(run.run(&mut reporter)?.close()))

@@ -20,20 +20,30 @@ def test_a_fit_gives_the_bytes_that_the_command_writes(root, command, tmp_path):
 def test_parameters_have_errors_and_correlations(root):
     fit = drape.fit(root / "fabrics/cupro-weave")
     assert fit.curves and len(fit.params) > 4
-    warp, weft = fit.params["warp.bending.B"], fit.params["weft.bending.B"]
+    warp, weft = fit.params["warp.B"], fit.params["weft.bending.rigidity"]
     assert warp.value > 0 and 0 < warp.stderr < warp.value
     assert warp.interval[0] < warp.value < warp.interval[1]
-    assert warp.unit and warp.correl and all(-1 <= c <= 1 for c in warp.correl.values())
+    assert warp.name == "warp.bending.rigidity" and warp.unit == "N·m"
+    assert "warp.bending.zero" in warp.correl and all(-1 <= c <= 1 for c in warp.correl.values())
     mean = fit.params["B"]
     assert mean.value == pytest.approx((warp.value + weft.value) / 2)
     assert mean.stderr == pytest.approx(np.hypot(warp.stderr, weft.stderr) / 2)
-    with pytest.raises(KeyError, match="warp.bending.B"):
+    with pytest.raises(KeyError, match="warp.bending.rigidity"):
         fit.params["none"]
     curve = fit.curves[0]
     assert curve["measured"].shape == curve["deformation"].shape == curve["fitted"].shape
     residuals = curve["measured"] - curve["fitted"]
     spread = np.ptp(curve["measured"])
     assert np.sqrt(np.mean(residuals**2)) / spread == pytest.approx(curve["misfit"], rel=0.2)
+
+
+def test_parameters_from_values_have_no_errors(root):
+    fit = drape.fit(root / "fabrics/matsudaira-b")
+    rigidity = fit.params["B"]
+    keys = ("warp.bending.rigidity", "weft.bending.rigidity")
+    assert rigidity.value == pytest.approx(sum(fit.params[key].value for key in keys) / 2)
+    assert rigidity.stderr is None and "value of the sheet" in rigidity.reason
+    assert fit.params["G"].value > 0
 
 
 def test_a_fit_is_reported(root):

@@ -7,7 +7,7 @@ import numpy.typing as npt
 _Array = npt.NDArray[np.float64]
 _Triangles = npt.NDArray[np.uint32]
 
-__file__: str
+
 __all__: list[str]
 
 @final
@@ -36,6 +36,7 @@ class Fabric:
     @property
     def thickness(self) -> float: ...
     def to_toml(self) -> str: ...
+    def numbers(self) -> list[tuple[str, float]]: ...
 
 @final
 class Fit:

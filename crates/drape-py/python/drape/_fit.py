@@ -96,7 +96,8 @@ class Parameter:
     """Fitted parameter, in SI."""
 
     name: str
-    """Key: direction, test and symbol, as in `"warp.bending.B"`."""
+    """Key in `fabric.toml`, as in `"warp.bending.rigidity"`; of what belongs to the test and not
+    to the fabric: direction, test and name, as in `"warp.bending.zero"`."""
     value: float
     stderr: float | None
     """Standard error; None where the curve does not determine the parameter."""
@@ -108,39 +109,43 @@ class Parameter:
     """Why there is no standard error."""
     correl: dict[str, float] = field(default_factory=dict)
     """Correlations with the other parameters of the same curve, by their keys."""
-    toml_key: str | None = None
-    """Key of the parameter in `fabric.toml`."""
+    symbol: str = ""
+    """Symbol in the report of the fit."""
+
+
+# Symbols of KES for parameters of the laws.
+_SYMBOLS = {"B": "bending.rigidity", "G": "shear.stiffness"}
 
 
 class Parameters(Mapping[str, Parameter]):
-    """Parameters of a fit by their keys.
+    """Parameters of a fit by their keys in `fabric.toml`.
 
-    A symbol alone, as in `params["B"]`, gives the mean over the directions, as laboratories state
-    it, with the error of that mean; symbols of several tests need the test too: `"bending.B"`.
+    `B` and `G` stand for the bending rigidity and the shear stiffness. A key without its direction,
+    as in `params["B"]`, gives the mean over both directions, with the error of that mean; with it,
+    as in `params["warp.B"]`, the parameter of that direction.
     """
 
     def __init__(self, own: dict[str, Parameter]) -> None:
         self._own = own
 
     def __getitem__(self, key: str) -> Parameter:
-        if key in self._own:
-            return self._own[key]
-        found = [p for name, p in self._own.items() if name.endswith("." + key)]
-        tests = {p.name.split(".", 1)[1] for p in found}
-        if len(tests) != 1:
-            known = ", ".join(p.name for p in found) or ", ".join(self._own)
-            raise KeyError(f"{key!r} is not one parameter; give one of {known}")
-        if len(found) == 1:
-            return found[0]
+        *direction, symbol = key.rsplit(".", 1)
+        whole = ".".join([*direction, _SYMBOLS.get(symbol, symbol)])
+        if whole in self._own:
+            return self._own[whole]
+        found = [self._own[k] for d in ("warp", "weft") if (k := f"{d}.{whole}") in self._own]
+        if not found:
+            raise KeyError(f"{key!r} is no parameter; give one of {', '.join(self._own)}")
         errors = [p.stderr for p in found]
         squares = [e * e for e in errors if e is not None]
-        whole = len(squares) == len(errors)
+        has_error = len(squares) == len(errors)
         return Parameter(
             name=key,
             value=sum(p.value for p in found) / len(found),
-            stderr=math.sqrt(sum(squares)) / len(found) if whole else None,
+            stderr=math.sqrt(sum(squares)) / len(found) if has_error else None,
             unit=found[0].unit,
-            reason=None if whole else next(p.reason for p in found if p.stderr is None),
+            reason=None if has_error else next(p.reason for p in found if p.stderr is None),
+            symbol=found[0].symbol,
         )
 
     def __iter__(self) -> Iterator[str]:
@@ -166,11 +171,13 @@ class Fit:
 
     @property
     def params(self) -> Parameters:
-        """Fitted parameters, with errors and correlations."""
-        own: dict[str, Parameter] = {}
+        """Parameters of the laws and of the tests, in SI, with errors and correlations."""
+        reason = "from a value of the sheet, or assumed"
+        numbers = self._inner.fabric.numbers()
+        own = {key: Parameter(key, value, None, reason=reason) for key, value in numbers}
         for curve in self.curves:
-            where = f"{curve['direction']}.{curve['test']}"
-            keys = [f"{where}.{p['symbol']}" for p in curve["parameters"]]
+            where = f"{curve['direction']}.{curve['test'].removeprefix('loop')}"
+            keys = [p["key"] or f"{where}.{p['name']}" for p in curve["parameters"]]
             for index, (key, p) in enumerate(zip(keys, curve["parameters"])):
                 row = p["correl"] or []
                 pairs = [(k, c) for j, (k, c) in enumerate(zip(keys, row)) if j != index]
@@ -179,11 +186,11 @@ class Fit:
                     name=key,
                     value=p["value"],
                     stderr=p["stderr"],
-                    interval=tuple(interval) if interval else None,
+                    interval=(interval[0], interval[1]) if interval else None,
                     unit=p["unit"],
                     reason=p["reason"],
                     correl={k: c for k, c in pairs if c is not None},
-                    toml_key=p["key"],
+                    symbol=p["symbol"],
                 )
         return Parameters(own)
 

@@ -74,7 +74,9 @@ impl Files<'_> {
         for (path, number) in paths.iter().zip(clip.frames()) {
             let frame = clip.recording().frame(*number)?;
             let write = |to: &mut Writer| write_obj(clip.recording(), &frame, to);
-            file::write_by(path, |to| write(to).map_err(|error| Failure::from(drape::export::Error::from(error))))?;
+            file::write_by(path, |to| {
+                write(to).map_err(|error| Failure::from(drape::export::Error::from(error)))
+            })?;
         }
         self.remove_following((clip.count()..).map(path))
     }
@@ -97,7 +99,9 @@ impl Files<'_> {
         self.free([self.output, &rest])?;
         let frame = clip.recording().frame(clip.frames()[0])?;
         let write = |to: &mut Writer| write_rest_obj(clip.recording(), &frame, to);
-        file::write_by(&rest, |to| write(to).map_err(|error| Failure::from(drape::export::Error::from(error))))?;
+        file::write_by(&rest, |to| {
+            write(to).map_err(|error| Failure::from(drape::export::Error::from(error)))
+        })?;
         file::write_by(self.output, |to| content(to).map_err(Failure::from))
     }
 
@@ -115,7 +119,9 @@ impl Files<'_> {
             };
             let data = PolyData { recording, frame: &frame, surface, fields: &fields };
             let write = |to: &mut Writer| write_vtp(&data, to);
-            file::write_by(path, |to| write(to).map_err(|error| Failure::from(drape::export::Error::from(error))))
+            file::write_by(path, |to| {
+                write(to).map_err(|error| Failure::from(drape::export::Error::from(error)))
+            })
         };
         if one {
             let bodies = self.beside("-bodies.vtp");
