@@ -7,8 +7,19 @@ import numpy.typing as npt
 _Array = npt.NDArray[np.float64]
 _Triangles = npt.NDArray[np.uint32]
 
-
-__all__: list[str]
+__all__ = [
+    "Fabric",
+    "Fit",
+    "Recording",
+    "Scene",
+    "Sheet",
+    "Simulation",
+    "case_names",
+    "drapemeter",
+    "resume",
+    "validate",
+    "view_html",
+]
 
 @final
 class Sheet:
