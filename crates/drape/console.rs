@@ -1,7 +1,12 @@
 //! The console: messages on stderr, and how much the user asked to be told.
 //!
+//! Here are its bars too, [`progress`], and the signals that it sends, [`signal`].
+//!
 //! The command line installs the console once. Text of the input may hold control characters; none
 //! of them reaches a terminal.
+
+pub(crate) mod progress;
+pub(crate) mod signal;
 
 use std::borrow::Cow;
 use std::fmt::Display;

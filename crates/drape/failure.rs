@@ -8,7 +8,7 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
 
 use crate::console::{is_coloured, printable, tell, tell_coloured};
-use crate::input;
+use crate::{file, input};
 
 /// Failure that ends a command, with its exit code.
 pub(crate) enum Failure {
@@ -151,6 +151,29 @@ impl From<drape::scene::Error> for Failure {
             drape::scene::Error::Input(mistakes) => Self::Input(mistakes),
             drape::scene::Error::Tangled(tangle) => Self::Input(tangle.mistakes),
             error => Self::Solver(error.to_string()),
+        }
+    }
+}
+
+impl From<file::Error> for Failure {
+    fn from(error: file::Error) -> Self {
+        match error {
+            file::Error::Exists { .. } => Self::Usage(error.to_string()),
+            error => Self::Output(error.to_string()),
+        }
+    }
+}
+
+impl From<drape::keep::Error> for Failure {
+    fn from(error: drape::keep::Error) -> Self {
+        use drape::keep::Error;
+        match error {
+            Error::File(error) => error.into(),
+            Error::Input(mistakes) => Self::Input(mistakes),
+            Error::Dynamics(error) => error.into(),
+            Error::Frames(error) => Self::Frames(error),
+            Error::Folder { .. } | Error::LastFrame { .. } => Self::Output(error.to_string()),
+            error => Self::Usage(error.to_string()),
         }
     }
 }

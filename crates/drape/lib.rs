@@ -4,7 +4,8 @@
 //!
 //! This crate re-exports all others, and adds what joins them: [`read_scene`] reads a scene and
 //! fits the sheets that it names, since the crates of the fit and of the scene do not know each
-//! other. A run follows the data from the top of this list to its end:
+//! other; [`keep`] runs it in a folder, from which an interrupted run goes on; [`reports`] turns
+//! results into pages. A run follows the data from the top of this list to its end:
 //!
 //! * measurements: [`kes`] (sheets, curves, values), [`fit`] by [`lm`] (fabrics from them);
 //! * materials: [`fabric`] (laws in SI), [`hysteresis`] (their friction), [`pattern`] (garments);
@@ -24,6 +25,10 @@
 //! assert_eq!(wool.density, sheet.density().expect("it was weighed"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+
+pub mod file;
+pub mod keep;
+pub mod reports;
 
 mod scene_fabric;
 

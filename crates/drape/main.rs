@@ -1,14 +1,16 @@
 //! The `drape` command: see `drape --help`.
 //!
 //! From the top down: [`command`] reads the arguments, one module of [`commands`] carries each
-//! command out, [`pages`] turns its results into pages and pictures, and [`say`], [`console`], [`file`],
-//! [`progress`] and [`failure`] are all that writes. [`keep`] keeps what a run has come to, and
-//! notes what asks the program to end.
+//! command out, [`pages`] draws its results, and [`say`], [`console`], [`file`] and [`failure`] are
+//! all that writes.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 use clap::Parser;
+use drape::file;
+
+use console::{progress, signal};
 
 // What a person types, and what is done.
 mod command;
@@ -17,13 +19,10 @@ mod commands;
 // What a person is shown.
 mod pages;
 
-// Where it goes: stdout, files, stderr, the exit code.
+// Where it goes: stdout, stderr, the exit code.
 mod console;
 mod failure;
-mod file;
 mod input;
-mod keep;
-mod progress;
 mod say;
 
 /// What is told after a panic.
@@ -31,7 +30,7 @@ const PANICKED: &str = "error: this is a mistake of the program, not of its inpu
      the lines above. A run goes on from its last checkpoint with `drape resume FOLDER`";
 
 fn main() -> ExitCode {
-    keep::signal::let_large_files_fail();
+    signal::let_large_files_fail();
     let command = command::CommandLine::parse();
     // A panic has told where it was; what the command wrote until then is whole.
     match catch_unwind(AssertUnwindSafe(|| command.execute())) {

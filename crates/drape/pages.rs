@@ -5,18 +5,8 @@
 //! has the name, the symbol and the units of every number, [`kes_value`] those of KES values. The
 //! commands call these modules and store the files; nothing here reads or writes one.
 
-pub(crate) mod fabric;
-pub(crate) mod fit;
-pub(crate) mod instruments;
 pub(crate) mod picture;
 pub(crate) mod run_picture;
 pub(crate) mod start;
 pub(crate) mod strain_map;
 pub(crate) mod validation;
-pub(crate) mod viewer;
-
-mod kes_value;
-mod loop_plot;
-mod quantity;
-mod value_law;
-mod version;

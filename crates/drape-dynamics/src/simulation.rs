@@ -248,6 +248,18 @@ impl Simulation {
         self.spacing
     }
 
+    /// Returns the positions of the particles now, three numbers for each, in m.
+    #[must_use]
+    pub fn positions(&self) -> &[f64] {
+        &self.world.state.positions
+    }
+
+    /// Returns the velocities of the particles now, three numbers for each, in m/s.
+    #[must_use]
+    pub fn velocities(&self) -> &[f64] {
+        &self.world.state.velocities
+    }
+
     /// Returns the material coordinates of the particles, in m.
     #[must_use]
     pub fn coordinates(&self) -> &[[f64; 2]] {

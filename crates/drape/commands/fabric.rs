@@ -6,13 +6,13 @@ use clap::Subcommand;
 use drape::fabric::Fabric;
 use drape::input::{Diagnostic, Diagnostics};
 use drape::kes::Sheet;
+use drape::reports::{compare_page, show_page};
 use drape::scene::Model;
 use serde_json::{Value, json};
 
 use crate::commands::fit::store;
 use crate::commands::sheets;
 use crate::failure::Failure;
-use crate::pages::fabric::{compare_page, show_page};
 use crate::say::{say, say_json, say_written};
 use crate::{file, input};
 

@@ -5,24 +5,24 @@
 //! the triangles.
 
 pub(crate) mod job;
+mod limits;
 pub(crate) mod report;
 pub(crate) mod resume;
-pub(crate) mod space;
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use drape::dynamics::{Summary, prepare_folder};
+use drape::dynamics::Summary;
 use drape::input::Places;
+use drape::keep::{KeptRun, RunRequest, end_at};
 use drape::scene::Error;
 use serde_json::json;
 
 use self::job::{Job, RunOptions};
 use self::report::outcome;
 use crate::failure::Failure;
-use crate::keep::{Keeper, Lock, RunRequest, signal};
 use crate::say::{say, say_json};
-use crate::{file, input};
+use crate::{file, input, signal};
 
 #[derive(Args)]
 pub(crate) struct RunArguments {
@@ -103,32 +103,17 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
     let read = drape::scene_of(&input::document(path)?);
     let mut scene = read.map_err(|error| refuse(error, path, arguments))?;
     if let Some(end) = arguments.until {
-        if !(end >= scene.schedule.clock.step) {
-            let step = scene.schedule.clock.step;
-            return Err(Failure::Usage(format!("--until {end}: a step takes {step} s already")));
-        }
-        scene.schedule.clock.end = end;
+        end_at(&mut scene, end)?;
     }
     let folder = folder(path, arguments, scene.output.folder.as_ref());
     check_place(&folder, path, arguments)?;
-    if RunRequest::is_interrupted(&folder) && !arguments.force {
-        let place = folder.display();
-        return Err(Failure::Usage(format!(
-            "{place} holds a run that was interrupted; go on with `drape resume {place}`, or begin \
-             anew with --force"
-        )));
-    }
-    space::check(&scene, path, &folder)?;
-    let lock = Lock::take(&folder)?;
-    let output = prepare_folder(&folder, arguments.force)?;
-    let every = arguments.checkpoint_every;
-    let state_hash = arguments.state_hash;
-    RunRequest { state_hash, ..RunRequest::new(path, arguments.until, every) }.write(&folder)?;
+    let request = RunRequest {
+        state_hash: arguments.state_hash,
+        ..RunRequest::new(path, arguments.until, arguments.checkpoint_every)
+    };
     let options = &arguments.options;
-    let keeper = Keeper::new(&folder, &scene, every, options.limits.clone());
-    let own = folder.clone();
-    let job = Job { scene, folder: own, output, keeper, lock, options, state_hash };
-    Ok(Ran { summary: job.run(None)?, folder })
+    let run = KeptRun::begin(scene, &folder, &request, &options.keeping(arguments.force))?;
+    Ok(Ran { summary: Job { run, folder: &folder, options }.run()?, folder })
 }
 
 /// Returns the folder for the results of a scene.
@@ -165,7 +150,7 @@ fn refuse(error: Error, scene: &Path, arguments: &RunArguments) -> Failure {
     let written = tangle.write_ply(&mut content).map_err(|error| error.to_string());
     let written = written.and_then(|()| {
         let checked = check_place(&path, scene, arguments);
-        let written = checked.and_then(|()| file::write(&path, content));
+        let written = checked.and_then(|()| Ok(file::write(&path, content)?));
         written.map_err(|failure| failure.to_string())
     });
     let told = match (written, tangle.overlaps.len()) {

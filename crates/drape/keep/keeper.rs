@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use drape::checkpoint::{Checkpoint, Identity, Store};
-use drape::dynamics::{Error, SavedRecorder, SavedSimulation};
-use drape::scene::Scene;
+use crate::checkpoint::{Checkpoint, Identity, Store};
+use crate::dynamics::{Error, SavedRecorder, SavedSimulation};
+use crate::scene::Scene;
 
+use super::keeping::Keeping;
 use super::limits::Limits;
 use super::status::{Advance, StatusFile};
 
@@ -14,7 +15,7 @@ use super::status::{Advance, StatusFile};
 const RECORDER: &str = "recorder";
 
 /// Keeper of a run.
-pub(crate) struct Keeper {
+pub(super) struct Keeper {
     folder: PathBuf,
     identity: Identity,
     every: Duration,
@@ -26,44 +27,44 @@ pub(crate) struct Keeper {
 }
 
 /// Content of a checkpoint: the states of simulation and recorder.
-pub(crate) struct Kept {
-    pub(crate) simulation: SavedSimulation,
-    pub(crate) recorder: SavedRecorder,
+pub(super) struct Kept {
+    pub(super) simulation: SavedSimulation,
+    pub(super) recorder: SavedRecorder,
 }
 
 impl Keeper {
     /// Keeper of a run of a scene in a folder, with a checkpoint after every so many seconds.
-    pub(crate) fn new(folder: &Path, scene: &Scene, every: f64, limits: Limits) -> Self {
+    pub(super) fn new(folder: &Path, scene: &Scene, every: f64, keeping: &Keeping) -> Self {
         Self {
             folder: folder.to_owned(),
-            identity: identity(scene),
+            identity: identity(scene, &keeping.program),
             every: Duration::from_secs_f64(every),
             last: Instant::now(),
-            limits,
+            limits: keeping.limits.clone(),
             reached: None,
             status: StatusFile::new(folder),
         }
     }
 
     /// Takes a step into account, and looks after the limits from time to time.
-    pub(crate) fn step(&mut self, advance: Advance) {
+    pub(super) fn step(&mut self, advance: Advance) {
         if self.status.step(advance) && self.reached.is_none() {
             self.reached = self.limits.reached(self.status.begin(), &self.folder);
         }
     }
 
     /// Returns the limit that the run has reached, in words.
-    pub(crate) fn reached(&self) -> Option<&str> {
+    pub(super) fn reached(&self) -> Option<&str> {
         self.reached.as_deref()
     }
 
     /// Returns whether it is time for a checkpoint.
-    pub(crate) fn is_due(&self) -> bool {
+    pub(super) fn is_due(&self) -> bool {
         self.last.elapsed() >= self.every
     }
 
     /// Writes a checkpoint.
-    pub(crate) fn keep(
+    pub(super) fn keep(
         &mut self,
         simulation: &SavedSimulation,
         recorder: &SavedRecorder,
@@ -77,28 +78,28 @@ impl Keeper {
     }
 
     /// Returns what changed since a checkpoint was written.
-    pub(crate) fn changes(&self, checkpoint: &Checkpoint) -> Vec<String> {
+    pub(super) fn changes(&self, checkpoint: &Checkpoint) -> Vec<String> {
         self.identity.changes(checkpoint.identity())
     }
 
     /// Tells how the run ended.
-    pub(crate) fn end(&mut self, outcome: &str, message: Option<String>) {
+    pub(super) fn end(&mut self, outcome: &str, message: Option<String>) {
         self.status.end(outcome, message);
     }
 }
 
 impl Kept {
     /// Takes what a checkpoint holds.
-    pub(crate) fn read(checkpoint: &Checkpoint) -> Result<Self, Error> {
+    pub(super) fn read(checkpoint: &Checkpoint) -> Result<Self, Error> {
         let simulation = SavedSimulation::read(checkpoint)?;
         Ok(Self { simulation, recorder: checkpoint.get(RECORDER)? })
     }
 }
 
 /// Identity of a run: the program, to the last byte, and all that the scene was read from.
-fn identity(scene: &Scene) -> Identity {
+fn identity(scene: &Scene, program: &Path) -> Identity {
     let identity = Identity::new(concat!("drape ", env!("CARGO_PKG_VERSION")));
-    let program = std::env::current_exe().and_then(std::fs::read).unwrap_or_default();
+    let program = std::fs::read(program).unwrap_or_default();
     let parts = scene.source.parts.iter();
     parts.fold(identity.with("the program's file", &program), |identity, part| {
         identity.with_digest(&part.name, part.digest)

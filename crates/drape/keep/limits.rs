@@ -3,38 +3,24 @@
 use std::path::Path;
 use std::time::Instant;
 
-use clap::Args;
-
 /// Limits of a run. One that is reached ends it with a checkpoint.
-#[derive(Args, Clone, Default)]
-pub(crate) struct Limits {
-    /// Ends the run with a checkpoint after this time, in seconds (exit code 8).
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
-    pub(crate) max_wall: Option<f64>,
-    /// Ends the run with a checkpoint when the program takes more memory, in MB (exit code 8).
-    #[arg(long, value_name = "MB", value_parser = positive)]
-    pub(crate) max_memory: Option<f64>,
-    /// Ends the run with a checkpoint when its results take more of the disk, in MB (exit code 8).
-    #[arg(long, value_name = "MB", value_parser = positive)]
-    pub(crate) max_disk: Option<f64>,
+#[derive(Debug, Clone, Default)]
+pub struct Limits {
+    /// Time, in s.
+    pub max_wall: Option<f64>,
+    /// Memory of the program, in MB.
+    pub max_memory: Option<f64>,
+    /// Disk that its results take, in MB.
+    pub max_disk: Option<f64>,
 }
 
 /// Bytes of a MB.
 const MEGABYTE: f64 = 1e6;
 
-/// Reads a number above 0.
-pub(crate) fn positive(text: &str) -> Result<f64, String> {
-    let number: f64 = text.parse().map_err(|_| "no number".to_owned())?;
-    if number > 0.0 && number.is_finite() {
-        return Ok(number);
-    }
-    Err("not a number above 0".into())
-}
-
 impl Limits {
     /// Returns the limit that is reached, in words: by a run that began at a time and writes to a
     /// folder.
-    pub(crate) fn reached(&self, begin: Instant, folder: &Path) -> Option<String> {
+    pub fn reached(&self, begin: Instant, folder: &Path) -> Option<String> {
         let over = |limit: Option<f64>, now: Option<f64>| {
             limit.zip(now).filter(|(limit, now)| now >= limit)
         };

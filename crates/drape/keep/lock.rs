@@ -3,29 +3,24 @@
 use std::fs::{File, TryLockError};
 use std::path::Path;
 
-use crate::failure::Failure;
+use super::Error;
 
 /// Lock of a folder, until it is dropped or its process ends, however it does.
-pub(crate) struct Lock {
+pub(super) struct Lock {
     _file: File,
 }
 
 impl Lock {
     /// Takes the lock of a folder, which is created.
-    pub(crate) fn take(folder: &Path) -> Result<Self, Failure> {
-        let fail = |error: std::io::Error| {
-            Failure::Output(format!("cannot write {}: {error}", folder.display()))
-        };
+    pub(super) fn take(folder: &Path) -> Result<Self, Error> {
+        let fail = |reason| Error::Folder { folder: folder.to_owned(), reason };
         std::fs::create_dir_all(folder).map_err(fail)?;
         let mut options = File::options();
         let file = options.write(true).create(true).truncate(false).open(folder.join("run.lock"));
         let file = file.map_err(fail)?;
         match file.try_lock() {
             Ok(()) => Ok(Self { _file: file }),
-            Err(TryLockError::WouldBlock) => Err(Failure::Usage(format!(
-                "another run is writing to {}; wait for its end, or give another folder with -o",
-                folder.display()
-            ))),
+            Err(TryLockError::WouldBlock) => Err(Error::Locked { folder: folder.to_owned() }),
             Err(TryLockError::Error(error)) => Err(fail(error)),
         }
     }

@@ -4,52 +4,56 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::failure::Failure;
-use crate::{file, input};
+use super::Error;
+use crate::file;
 
 /// Name of its file.
 const NAME: &str = "run.json";
 
+/// What stands for a scene without a file: one from standard input, or a text.
+const STANDARD: &str = "-";
+
 /// Options of a run: its scene, its end and the interval of its checkpoints.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(crate) struct RunRequest {
+pub struct RunRequest {
     /// Scene, as a whole path, or `-` for standard input.
-    pub(crate) scene: PathBuf,
+    pub scene: PathBuf,
     /// End of the run, in s, if it is not that of the scene.
-    pub(crate) until: Option<f64>,
+    pub until: Option<f64>,
     /// Time between two checkpoints, in s.
-    pub(crate) checkpoint_every: f64,
+    pub checkpoint_every: f64,
     /// Whether the state is hashed after each step.
     #[serde(default)]
-    pub(crate) state_hash: bool,
+    pub state_hash: bool,
 }
 
 impl RunRequest {
     /// Makes the request of a scene.
-    pub(crate) fn new(scene: &Path, until: Option<f64>, checkpoint_every: f64) -> Self {
+    #[must_use]
+    pub fn new(scene: &Path, until: Option<f64>, checkpoint_every: f64) -> Self {
         Self { scene: whole_path(scene), until, checkpoint_every, state_hash: false }
     }
 
     /// Gives the scene another place.
-    pub(crate) fn move_scene(&mut self, scene: &Path) {
+    pub fn move_scene(&mut self, scene: &Path) {
         self.scene = whole_path(scene);
     }
 
     /// Writes it to a folder.
-    pub(crate) fn write(&self, folder: &Path) -> Result<(), Failure> {
-        let text = serde_json::to_string_pretty(self)
-            .map_err(|error| Failure::Output(error.to_string()))?;
-        file::write(&folder.join(NAME), text + "\n")
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+        let text = serde_json::to_string_pretty(self).expect("a request always has a JSON form");
+        Ok(file::write(&folder.join(NAME), text + "\n")?)
     }
 
     /// Reads that of a folder.
-    pub(crate) fn read(folder: &Path) -> Result<Self, Failure> {
-        let fail = |reason: String| {
-            Failure::Usage(format!(
-                "{}: {reason}; a folder that `drape run` has begun has it",
-                folder.join(NAME).display()
-            ))
-        };
+    ///
+    /// # Errors
+    /// No run was begun in the folder.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        let fail = |reason: String| Error::NotBegun { path: folder.join(NAME), reason };
         // Reading a pipe would wait for ever.
         if !folder.join(NAME).is_file() {
             return Err(fail("no such file".into()));
@@ -58,8 +62,15 @@ impl RunRequest {
         serde_json::from_slice(&text).map_err(|error| fail(error.to_string()))
     }
 
+    /// Returns whether the scene has no file: it came from standard input, or is a text.
+    #[must_use]
+    pub fn has_no_file(&self) -> bool {
+        self.scene.as_os_str() == STANDARD
+    }
+
     /// Returns whether a folder holds a run that was begun and has not ended.
-    pub(crate) fn is_interrupted(folder: &Path) -> bool {
+    #[must_use]
+    pub fn is_interrupted(folder: &Path) -> bool {
         let ended = status_of(folder).is_some_and(|status| status != "interrupted");
         folder.join(NAME).is_file() && !ended
     }
@@ -67,12 +78,12 @@ impl RunRequest {
 
 /// Returns a path from the root of the file system; that of standard input stays.
 fn whole_path(scene: &Path) -> PathBuf {
-    let whole = std::path::absolute(scene).ok().filter(|_| !input::is_standard(scene));
+    let whole = std::path::absolute(scene).ok().filter(|_| scene.as_os_str() != STANDARD);
     whole.unwrap_or_else(|| scene.to_owned())
 }
 
 /// Returns the `status` of a run's summary; `None` without a summary.
-pub(crate) fn status_of(folder: &Path) -> Option<String> {
+pub(super) fn status_of(folder: &Path) -> Option<String> {
     let path = folder.join("summary.json");
     // Reading a pipe would wait for ever.
     let is_file = std::fs::metadata(&path).is_ok_and(|found| found.is_file());

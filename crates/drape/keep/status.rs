@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use drape::dynamics::PhaseName;
+use crate::dynamics::PhaseName;
 use serde_json::{Value, json};
 
 use crate::file;
@@ -13,16 +13,16 @@ const EVERY: Duration = Duration::from_secs(1);
 
 /// Progress of a run after a step.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Advance {
-    pub(crate) phase: PhaseName,
+pub(super) struct Advance {
+    pub(super) phase: PhaseName,
     /// Part of the phase that is done, 0 to 1.
-    pub(crate) done: f64,
+    pub(super) done: f64,
     /// Time reached, in s.
-    pub(crate) time: f64,
+    pub(super) time: f64,
 }
 
 /// File of the status. A run that panics leaves it as such.
-pub(crate) struct StatusFile {
+pub(super) struct StatusFile {
     path: PathBuf,
     begin: Instant,
     told: Option<Instant>,
@@ -33,7 +33,7 @@ pub(crate) struct StatusFile {
 
 impl StatusFile {
     /// Begins the status of a run in a folder.
-    pub(crate) fn new(folder: &Path) -> Self {
+    pub(super) fn new(folder: &Path) -> Self {
         Self {
             path: folder.join("status.json"),
             begin: Instant::now(),
@@ -45,12 +45,12 @@ impl StatusFile {
     }
 
     /// Time at which it began.
-    pub(crate) fn begin(&self) -> Instant {
+    pub(super) fn begin(&self) -> Instant {
         self.begin
     }
 
     /// Takes a step into account; returns whether it was time to tell.
-    pub(crate) fn step(&mut self, advance: Advance) -> bool {
+    pub(super) fn step(&mut self, advance: Advance) -> bool {
         self.steps += 1;
         self.last = Some(advance);
         let is_due = self.told.is_none_or(|told| told.elapsed() >= EVERY);
@@ -62,7 +62,7 @@ impl StatusFile {
     }
 
     /// Tells how the run ended.
-    pub(crate) fn end(&mut self, outcome: &str, message: Option<String>) {
+    pub(super) fn end(&mut self, outcome: &str, message: Option<String>) {
         self.is_over = true;
         self.write(outcome, message);
     }

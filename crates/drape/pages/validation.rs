@@ -4,11 +4,11 @@ mod limits;
 
 use drape::report::plot::{Axis, GraphPlot, GraphSeries, Look};
 use drape::report::{CaptionedPicture, Picture, ValidationCase, ValidationPage, ValidationRow};
+use drape::reports::VERSION;
 use drape::validate::{Check, Graph, Kind, Layout, Outcome, Source, Still};
 
 use self::limits::LIMITS;
 use super::picture::Pictures;
-use super::version::VERSION;
 use crate::failure::Failure;
 
 /// Pixels of one of several pictures.

@@ -6,11 +6,11 @@ use std::path::Path;
 use drape::collide::{MeshInspection, Shape};
 use drape::fabric::{BendingBackbone, Fabric, ShearBackbone, TractionBackbone};
 use drape::input::{Diagnostic, Diagnostics, figure};
+use drape::keep::describe_needs;
 use drape::pattern::Pattern;
 use drape::scene::{Error, MovingBody, Scene, is_fabric};
 
 use super::pattern::CutOut;
-use crate::commands::run::space;
 use crate::commands::sheets;
 use crate::input;
 
@@ -110,7 +110,7 @@ pub(crate) fn scene(scene: &Scene) -> String {
         }
     }
     scene.bodies.iter().for_each(|moving| text += &body(moving));
-    let _ = writeln!(text, "  {}", space::describe(&scene.needs()));
+    let _ = writeln!(text, "  {}", describe_needs(&scene.needs()));
     scene.source.notes.iter().chain(&scene.source.contact_limits).for_each(|note| {
         let _ = writeln!(text, "  note: {note}");
     });

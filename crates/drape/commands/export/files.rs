@@ -32,9 +32,9 @@ impl Files<'_> {
         &self,
         paths: impl IntoIterator<Item = &'p Path>,
     ) -> Result<(), Failure> {
+        let help = "replace it with --force";
         let mut paths = paths.into_iter();
-        paths
-            .try_for_each(|path| file::refuse_existing(path, self.force, "replace it with --force"))
+        Ok(paths.try_for_each(|path| file::refuse_existing(path, self.force, help))?)
     }
 
     /// Writes the output itself.
@@ -43,7 +43,7 @@ impl Files<'_> {
         content: impl FnOnce(&mut Writer) -> Result<(), drape::export::Error>,
     ) -> Result<(), Failure> {
         self.free([self.output])?;
-        file::write_by(self.output, content)
+        file::write_by(self.output, |to| content(to).map_err(Failure::from))
     }
 
     /// Writes a field of the first frame of a clip on the flat pattern.
@@ -74,7 +74,9 @@ impl Files<'_> {
         for (path, number) in paths.iter().zip(clip.frames()) {
             let frame = clip.recording().frame(*number)?;
             let write = |to: &mut Writer| write_obj(clip.recording(), &frame, to);
-            file::write_by(path, |to| write(to).map_err(drape::export::Error::from))?;
+            file::write_by(path, |to| {
+                write(to).map_err(|error| Failure::from(drape::export::Error::from(error)))
+            })?;
         }
         self.remove_following((clip.count()..).map(path))
     }
@@ -84,7 +86,7 @@ impl Files<'_> {
         &self,
         paths: impl Iterator<Item = PathBuf>,
     ) -> Result<(), Failure> {
-        if self.force { file::remove_following(paths) } else { Ok(()) }
+        if self.force { Ok(file::remove_following(paths)?) } else { Ok(()) }
     }
 
     /// Writes a point cache, and beside it the OBJ file that it moves, in its first frame.
@@ -97,8 +99,10 @@ impl Files<'_> {
         self.free([self.output, &rest])?;
         let frame = clip.recording().frame(clip.frames()[0])?;
         let write = |to: &mut Writer| write_rest_obj(clip.recording(), &frame, to);
-        file::write_by(&rest, |to| write(to).map_err(drape::export::Error::from))?;
-        file::write_by(self.output, content)
+        file::write_by(&rest, |to| {
+            write(to).map_err(|error| Failure::from(drape::export::Error::from(error)))
+        })?;
+        file::write_by(self.output, |to| content(to).map_err(Failure::from))
     }
 
     /// Writes files of VTK: of one frame the output itself, of more a list of files in a folder beside
@@ -115,7 +119,9 @@ impl Files<'_> {
             };
             let data = PolyData { recording, frame: &frame, surface, fields: &fields };
             let write = |to: &mut Writer| write_vtp(&data, to);
-            file::write_by(path, |to| write(to).map_err(drape::export::Error::from))
+            file::write_by(path, |to| {
+                write(to).map_err(|error| Failure::from(drape::export::Error::from(error)))
+            })
         };
         if one {
             let bodies = self.beside("-bodies.vtp");
@@ -151,7 +157,7 @@ impl Files<'_> {
                 listed.push(Listed { time, file, surface: Surface::Bodies });
             }
         }
-        file::write_by(&list, |to| write_pvd(&listed, to))
+        file::write_by(&list, |to| write_pvd(&listed, to).map_err(Failure::from))
     }
 }
 

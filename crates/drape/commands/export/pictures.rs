@@ -71,7 +71,7 @@ impl<'a> ClipPictures<'a> {
         let paths: Vec<PathBuf> = (0..self.clip.count()).map(path).collect();
         files.free(paths.iter().map(PathBuf::as_path))?;
         self.each(|index, picture| {
-            file::write(&paths[index], picture.png().map_err(Failure::of_picture)?)
+            Ok(file::write(&paths[index], picture.png().map_err(Failure::of_picture)?)?)
         })?;
         match self.clip.count() {
             1 => Ok(()),

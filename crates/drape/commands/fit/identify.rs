@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use drape::fit::{Fit, Settings, identify_with};
 use drape::kes::Sheet;
 use drape::report::FitPage;
+use drape::reports::fit_page;
 
 use crate::commands::sheets;
 use crate::failure::Failure;
 use crate::file;
-use crate::pages::fit::fit_page;
 
 /// A fitted sheet.
 pub(crate) struct Identified {

@@ -5,7 +5,7 @@ use std::path::Path;
 use drape::dynamics::{Contacts, Energy, PhaseName, Status, Summary};
 
 use crate::failure::Failure;
-use crate::keep::signal;
+use crate::signal;
 
 /// Describes a run in a few lines.
 pub(crate) fn describe(summary: &Summary) -> String {

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use drape::frames::Recording;
+use drape::reports::{VIEWER_SIZE_MAX, ViewerPage};
 
 use crate::console::note;
 use crate::failure::Failure;
 use crate::file;
-use crate::pages::viewer::{SIZE_MAX, ViewerPage};
 use crate::say::say_written;
 
 #[derive(Args)]
@@ -20,7 +20,7 @@ pub(crate) struct ViewArguments {
     #[arg(short, long, value_name = "HTML")]
     output: Option<PathBuf>,
     /// Largest size of the page, in megabytes: frames are left out evenly until it fits.
-    #[arg(long, default_value_t = SIZE_MAX, value_name = "MB")]
+    #[arg(long, default_value_t = VIEWER_SIZE_MAX, value_name = "MB")]
     size: f64,
 }
 

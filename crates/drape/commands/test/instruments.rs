@@ -1,6 +1,7 @@
 //! Specimens of a fabric in simulated KES instruments: their loops against the laws.
 
 use drape::fabric::Fabric;
+use drape::reports::{DIRECTIONS, TESTS, TestedLoop, instruments_page};
 use drape::validate::instrument::{Comparison, Resolution};
 use serde_json::json;
 
@@ -8,7 +9,6 @@ use super::arguments::TestArguments;
 use crate::commands::sheets;
 use crate::failure::Failure;
 use crate::file;
-use crate::pages::instruments::{DIRECTIONS, TESTS, TestedLoop, page};
 use crate::say::{say, say_json, say_written};
 
 /// Spacing of the particles, in mm.
@@ -39,7 +39,7 @@ pub(crate) fn compare(fabric: &Fabric, arguments: &TestArguments) -> Result<(), 
     }
     if let Some(folder) = &arguments.report {
         let path = folder.join(format!("{}-tested.html", sheets::stem(&arguments.fabric)));
-        file::write(&path, &page(fabric, &loops).to_html()?)?;
+        file::write(&path, &instruments_page(fabric, &loops).to_html()?)?;
         if !arguments.json {
             say_written(format_args!("page written to {}", path.display()))?;
         }

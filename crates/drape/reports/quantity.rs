@@ -1,11 +1,11 @@
 //! Names, symbols and units of the numbers of a test, and the axes of its plots.
 
-use drape::kes::{Direction, Test};
-use drape::report::Units;
-use drape::report::plot::Axis;
+use crate::kes::{Direction, Test};
+use crate::report::Units;
+use crate::report::plot::Axis;
 
 /// Directions of the yarns, in the order of the pages.
-pub(crate) const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
+pub const DIRECTIONS: [Direction; 2] = [Direction::Warp, Direction::Weft];
 
 /// One gram-force, in N.
 const GRAM_FORCE: f64 = 9.806_65e-3;
@@ -13,57 +13,57 @@ const GRAM_FORCE: f64 = 9.806_65e-3;
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// Parameter of the law of a test, as a page shows it.
-pub(crate) struct Quantity {
-    pub(crate) symbol: &'static str,
+pub struct Quantity {
+    pub symbol: &'static str,
     /// Name in words.
-    pub(crate) words: &'static str,
-    pub(crate) units: Units,
+    pub words: &'static str,
+    pub units: Units,
     /// Whether it is a property of the test, not of the fabric.
-    pub(crate) incidental: bool,
+    pub incidental: bool,
 }
 
-pub(crate) fn ratio() -> Units {
+pub fn ratio() -> Units {
     Units::si("")
 }
 
-pub(crate) fn percent() -> Units {
+pub fn percent() -> Units {
     Units::si("").with_kes("%", 0.01)
 }
 
-pub(crate) fn tension() -> Units {
+pub fn tension() -> Units {
     Units::si("N/m").with_kes("gf/cm", 1e2 * GRAM_FORCE)
 }
 
-pub(crate) fn moment() -> Units {
+pub fn moment() -> Units {
     Units::si("N").with_kes("gf·cm/cm", GRAM_FORCE)
 }
 
-pub(crate) fn rigidity() -> Units {
+pub fn rigidity() -> Units {
     Units::si("N·m").with_kes("gf·cm²/cm", 1e-2 * GRAM_FORCE)
 }
 
-pub(crate) fn curvature() -> Units {
+pub fn curvature() -> Units {
     Units::si("1/m").with_kes("1/cm", 1e2)
 }
 
-pub(crate) fn shear_stiffness() -> Units {
+pub fn shear_stiffness() -> Units {
     Units::si("N/(m·rad)").with_kes("gf/(cm·deg)", 1e2 * GRAM_FORCE / DEGREE)
 }
 
-pub(crate) fn work() -> Units {
+pub fn work() -> Units {
     Units::si("J/m²").with_kes("gf·cm/cm²", 1e2 * GRAM_FORCE)
 }
 
-pub(crate) fn mass() -> Units {
+pub fn mass() -> Units {
     Units::si("kg/m²").with_kes("mg/cm²", 1e-2)
 }
 
-pub(crate) fn thickness() -> Units {
+pub fn thickness() -> Units {
     Units::si("m").with_kes("mm", 1e-3)
 }
 
 /// Axes of a test's plots: deformation, then load.
-pub(crate) fn axes(test: Test) -> [Axis; 2] {
+pub fn axes(test: Test) -> [Axis; 2] {
     match test {
         Test::Tensile => [Axis::new("strain", "%", 0.01), Axis::new("tension", "N/m", 1.0)],
         Test::Shear => [Axis::new("angle", "°", DEGREE), Axis::new("shear force", "N/m", 1.0)],
@@ -80,7 +80,7 @@ fn load(test: Test) -> Units {
 }
 
 /// Describes a parameter of a test's law by its name in the fit; an unknown name stands for itself.
-pub(crate) fn parameter(test: Test, name: &'static str) -> Quantity {
+pub fn parameter(test: Test, name: &'static str) -> Quantity {
     let incidental = matches!(name, "zero" | "free strain" | "drift" | "state");
     let of = |symbol, words, units| Quantity { symbol, words, units, incidental };
     let bends = matches!(test, Test::Bending | Test::LoopBending);

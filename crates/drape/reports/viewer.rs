@@ -1,21 +1,25 @@
 //! Viewer: runs as a page that turns, plays and measures them.
 
-use drape::export::{Named, View};
-use drape::frames::{Error, Recording};
+use crate::export::{Named, View};
+use crate::frames::{Error, Recording};
 
 /// Largest size of a page unless another is asked for, in megabytes.
-pub(crate) const SIZE_MAX: f64 = 20.0;
+pub const VIEWER_SIZE_MAX: f64 = 20.0;
 
 /// Page of some runs.
-pub(crate) struct ViewerPage {
-    pub(crate) html: String,
+pub struct ViewerPage {
+    /// The page.
+    pub html: String,
     /// How many frames it shows where these are not all.
-    pub(crate) thinned: Vec<String>,
+    pub thinned: Vec<String>,
 }
 
 impl ViewerPage {
     /// Returns the page of some runs, of at most so many megabytes.
-    pub(crate) fn new(recordings: &[Recording], megabytes: f64) -> Result<ViewerPage, Error> {
+    ///
+    /// # Errors
+    /// Frames that cannot be read.
+    pub fn new(recordings: &[Recording], megabytes: f64) -> Result<ViewerPage, Error> {
         let names: Vec<String> = recordings.iter().map(name).collect();
         let named = names.iter().zip(recordings).map(|(name, recording)| Named { name, recording });
         let View { html, frames } =

@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use drape::input::{Diagnostic, Diagnostics};
-use drape::scene::{Needs, Scene};
-
-use crate::input;
+use crate::input::{Diagnostic, Diagnostics};
+use crate::scene::{Needs, Scene};
 
 /// Returns what a run needs, in words.
-pub(crate) fn describe(needs: &Needs) -> String {
+#[must_use]
+pub fn describe_needs(needs: &Needs) -> String {
     let up_to = if needs.may_rest { "up to " } else { "" };
     format!(
         "a run takes about {} of memory, and {up_to}{} of disk for {up_to}{} frames",
@@ -19,7 +18,7 @@ pub(crate) fn describe(needs: &Needs) -> String {
 }
 
 /// Refuses a run whose results do not fit where its folder is.
-pub(super) fn check(scene: &Scene, file: &Path, folder: &Path) -> Result<(), Diagnostics> {
+pub(super) fn check_space(scene: &Scene, folder: &Path) -> Result<(), Diagnostics> {
     let Some(free) = free(folder) else { return Ok(()) };
     let needs = scene.needs();
     if needs.disk_min() <= free {
@@ -32,7 +31,7 @@ pub(super) fn check(scene: &Scene, file: &Path, folder: &Path) -> Result<(), Dia
         folder.display()
     );
     let help = "name another folder with -o, or write fewer frames: a larger output.every or a larger spacing";
-    Err(Diagnostic::new(input::shown(file), message).help(help).into())
+    Err(Diagnostic::new(&scene.source.file, message).help(help).into())
 }
 
 /// Returns the space that is free where a folder is or would be, in bytes, if the system says it.

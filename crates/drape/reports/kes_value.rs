@@ -1,9 +1,9 @@
 //! KES values as pages show them: in SI, with the unit of the laboratory beside it.
 
-use drape::fabric::Fabric;
-use drape::fit::{Settings, ValueComparison, compare_values, fabric_values};
-use drape::kes::{Direction, Sheet, SheetValue, Symbol};
-use drape::report::{ComparedValue, KesValue, Quantity, Units};
+use crate::fabric::Fabric;
+use crate::fit::{Settings, ValueComparison, compare_values, fabric_values};
+use crate::kes::{Direction, Sheet, SheetValue, Symbol};
+use crate::report::{ComparedValue, KesValue, Quantity, Units};
 
 use super::quantity;
 
@@ -29,14 +29,14 @@ fn named(symbol: Symbol) -> Named {
 }
 
 /// KES values of a sheet and of the fabric that was fitted to it.
-pub(crate) struct SheetValues {
-    pub(crate) values: Vec<KesValue>,
+pub struct SheetValues {
+    pub values: Vec<KesValue>,
     /// Values that disagree with each other, in words.
-    pub(crate) warnings: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
 /// Returns the values that a sheet or its curves have, each with that of the fitted fabric.
-pub(crate) fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> SheetValues {
+pub fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> SheetValues {
     let rows = compare_values(sheet, fabric, settings);
     let warnings = rows.iter().filter_map(ValueComparison::warning).collect();
     let known = rows.into_iter().filter(|row| row.sheet.is_some() || row.curve.is_ok());
@@ -47,7 +47,7 @@ pub(crate) fn of_sheet(sheet: &Sheet, fabric: &Fabric, settings: &Settings) -> S
 }
 
 /// Returns a value of a sheet as a page shows it: with its symbol, and what the model uses it for.
-pub(crate) fn listed(value: &SheetValue) -> Quantity {
+pub fn listed(value: &SheetValue) -> Quantity {
     let SheetValue { symbol, name, direction, value, used_for, .. } = *value;
     let direction = direction.map_or(String::new(), |direction| format!(" {}", direction.name()));
     let units = units(symbol);
@@ -60,7 +60,7 @@ pub(crate) fn listed(value: &SheetValue) -> Quantity {
 }
 
 /// Returns a value that a fabric keeps though its model does not use it.
-pub(crate) fn unused(symbol: &str, value: f64) -> Quantity {
+pub fn unused(symbol: &str, value: f64) -> Quantity {
     let units = units(symbol.rsplit('.').next().unwrap_or(symbol));
     let factor = units.kes.as_ref().map_or(1.0, |unit| unit.in_si);
     let origin = "not used by the model".into();
@@ -84,14 +84,14 @@ fn units(symbol: &str) -> Units {
 }
 
 /// Returns the values of a fabric in a direction.
-pub(crate) fn of_fabric(fabric: &Fabric, direction: Direction) -> Vec<KesValue> {
+pub fn of_fabric(fabric: &Fabric, direction: Direction) -> Vec<KesValue> {
     let points = Settings::default().evaluation_points(&Sheet::default());
     let values = fabric_values(fabric, direction, &points);
     Symbol::ALL.map(|symbol| shown(direction, symbol, [None, None, values.get(symbol)])).into()
 }
 
 /// Returns a value of two fabrics, given in the laboratory's unit.
-pub(crate) fn compared(direction: Direction, symbol: Symbol, numbers: [f64; 2]) -> ComparedValue {
+pub fn compared(direction: Direction, symbol: Symbol, numbers: [f64; 2]) -> ComparedValue {
     let [first, second] = numbers;
     let KesValue { symbol, name, direction, units, sheet, curve, .. } =
         shown(direction, symbol, [Some(first), Some(second), None]);

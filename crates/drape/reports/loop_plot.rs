@@ -1,22 +1,22 @@
 //! Loops of a test as plots draw them: one history branch by branch, or a trace to overlay on
 //! others.
 
-use drape::kes::{Curve, Test};
-use drape::report::plot::{Branch, BranchKind, LoopPlot, Point, Trace};
+use crate::kes::{Curve, Test};
+use crate::report::plot::{Branch, BranchKind, LoopPlot, Point, Trace};
 
 use super::quantity;
 
 /// Loads at a point of a history, in SI.
 #[derive(Default)]
-pub(crate) struct Loads {
-    pub(crate) measured: Option<f64>,
-    pub(crate) fitted: Option<f64>,
-    pub(crate) band: Option<[f64; 2]>,
+pub struct Loads {
+    pub measured: Option<f64>,
+    pub fitted: Option<f64>,
+    pub band: Option<[f64; 2]>,
 }
 
 /// Returns the plot of a history, branch by branch, with the measured and the fitted load at each
 /// point.
-pub(crate) fn loop_plot(title: String, curve: &Curve, loads: impl Fn(usize) -> Loads) -> LoopPlot {
+pub fn loop_plot(title: String, curve: &Curve, loads: impl Fn(usize) -> Loads) -> LoopPlot {
     let [deformation, load] = quantity::axes(curve.test);
     let branches = curve.branches();
     let both_sides = matches!(curve.test, Test::Bending | Test::Shear);
@@ -25,7 +25,7 @@ pub(crate) fn loop_plot(title: String, curve: &Curve, loads: impl Fn(usize) -> L
         let Loads { measured, fitted, band } = loads(i);
         Point { deformation: curve.deformation()[i], measured, fitted, band }
     };
-    let branch = |(index, branch): (usize, &drape::kes::Branch)| Branch {
+    let branch = |(index, branch): (usize, &crate::kes::Branch)| Branch {
         kind: match (branch.rising == first, both_sides && index > 0) {
             (true, false) => BranchKind::Loading,
             (true, true) => BranchKind::Reversal,
@@ -40,7 +40,7 @@ pub(crate) fn loop_plot(title: String, curve: &Curve, loads: impl Fn(usize) -> L
 }
 
 /// Returns a curve as an overlay plot draws it.
-pub(crate) fn trace(label: &str, curve: &Curve) -> Trace {
+pub fn trace(label: &str, curve: &Curve) -> Trace {
     let points = curve.deformation().iter().zip(curve.load());
     Trace { label: label.into(), points: points.map(|(&q, &f)| [q, f]).collect() }
 }

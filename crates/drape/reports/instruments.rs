@@ -1,29 +1,32 @@
 //! Page of `drape test`: the loops of simulated specimens overlaid on those of the laws, and their
 //! KES values.
 
-use drape::fabric::Fabric;
-use drape::kes::{Curve, Direction, Test};
-use drape::report::plot::{OverlayPlot, Trace};
-use drape::report::{ComparePage, FabricName};
-use drape::validate::instrument::Comparison;
+use crate::fabric::Fabric;
+use crate::kes::{Curve, Direction, Test};
+use crate::report::plot::{OverlayPlot, Trace};
+use crate::report::{ComparePage, FabricName};
+use crate::validate::instrument::Comparison;
 
 use super::loop_plot::trace;
-pub(crate) use super::quantity::DIRECTIONS;
 use super::version::VERSION;
 use super::{kes_value, quantity};
 
 /// Tests of a specimen, in the order of the page.
-pub(crate) const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
+pub const TESTS: [Test; 3] = [Test::Tensile, Test::Bending, Test::Shear];
 
 /// A specimen's loop beside the law's.
-pub(crate) struct TestedLoop {
-    pub(crate) test: Test,
-    pub(crate) direction: Direction,
-    pub(crate) comparison: Comparison,
+pub struct TestedLoop {
+    /// Test.
+    pub test: Test,
+    /// Direction of the specimen.
+    pub direction: Direction,
+    /// Specimen and law.
+    pub comparison: Comparison,
 }
 
 /// Returns the page of the loops of a fabric.
-pub(crate) fn page(fabric: &Fabric, loops: &[TestedLoop]) -> ComparePage {
+#[must_use]
+pub fn instruments_page(fabric: &Fabric, loops: &[TestedLoop]) -> ComparePage {
     let names = ["Simulated specimens", "Laws"].map(str::to_owned);
     let overlay = |test: Test| {
         let [deformation, load] = quantity::axes(test);

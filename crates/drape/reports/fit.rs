@@ -1,11 +1,11 @@
 //! Report of a fit: every law with its loop, its parameters and their intervals, and what was
 //! assumed.
 
-use drape::fit::{Candidate, CurveFit, Estimate, Fit, Settings, Undetermined};
-use drape::kes::{Curve, Sheet, Test};
-use drape::lm::Stop;
-use drape::report::plot::{Correlation, LoopPlot};
-use drape::report::{
+use crate::fit::{Candidate, CurveFit, Estimate, Fit, Settings, Undetermined};
+use crate::kes::{Curve, Sheet, Test};
+use crate::lm::Stop;
+use crate::report::plot::{Correlation, LoopPlot};
+use crate::report::{
     FitPage, Interval, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,
 };
 
@@ -16,7 +16,8 @@ use super::value_law::value_laws;
 use super::version::VERSION;
 
 /// Returns the report of a fit: all that shows whether it can be trusted.
-pub(crate) fn fit_page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> FitPage {
+#[must_use]
+pub fn fit_page(sheet: &Sheet, fit: &Fit, settings: &Settings) -> FitPage {
     let given = |name: &str, value: Option<f64>, taken: f64, units: Units| Quantity {
         name: name.into(),
         value: value.unwrap_or(taken),

@@ -1,16 +1,16 @@
 //! Pages of `drape fabric`: a fabric with the loops that an ideal instrument would draw of it, and
 //! two compared.
 
-use drape::fabric::{
+use crate::fabric::{
     BendingBackbone, BlimanSorine, Fabric, Piecewise, ShearBackbone, TractionBackbone,
 };
-use drape::fit::parameter_key;
-use drape::kes::{Curve, Direction, Sheet, Test};
-use drape::report::plot::OverlayPlot;
-use drape::report::{
+use crate::fit::parameter_key;
+use crate::kes::{Curve, Direction, Sheet, Test};
+use crate::report::plot::OverlayPlot;
+use crate::report::{
     ComparePage, ComparedValue, FabricName, FitPage, Interval, LawReport, Parameter, Quantity,
 };
-use drape::validate::instrument;
+use crate::validate::instrument;
 
 use super::loop_plot::{Loads, loop_plot, trace};
 use super::quantity::DIRECTIONS;
@@ -31,7 +31,8 @@ fn directions(test: Test) -> &'static [Direction] {
 
 /// Returns the page of a fabric, with the loops that an instrument would draw of it, and the values
 /// of the sheet that it comes from where that is at hand.
-pub(crate) fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
+#[must_use]
+pub fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
     let given = |name: &str, value: f64, units| Quantity {
         name: name.into(),
         value,
@@ -76,12 +77,12 @@ pub(crate) fn show_page(fabric: &Fabric, sheet: Option<&Sheet>) -> FitPage {
 }
 
 /// Returns the loop that an ideal instrument draws of a fabric.
-pub(crate) fn loop_of(fabric: &Fabric, test: Test, direction: Direction) -> Curve {
+pub fn loop_of(fabric: &Fabric, test: Test, direction: Direction) -> Curve {
     instrument::ideal(fabric, test, direction, POINTS)
 }
 
 /// Returns a law of a fabric, with its loop and its parameters.
-pub(crate) fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
+pub fn law(fabric: &Fabric, test: Test, direction: Direction) -> LawReport {
     let curve = loop_of(fabric, test, direction);
     let title = match test {
         Test::Shear => test.name().to_owned(),
@@ -179,7 +180,8 @@ fn elements(friction: &BlimanSorine) -> Vec<NamedValue> {
 }
 
 /// Returns the page of two fabrics: their loops overlaid, their values side by side.
-pub(crate) fn compare_page(fabrics: [&Fabric; 2]) -> ComparePage {
+#[must_use]
+pub fn compare_page(fabrics: [&Fabric; 2]) -> ComparePage {
     let names = fabrics.map(|fabric| fabric.name.clone());
     let overlay = |test: Test| {
         let [deformation, load] = quantity::axes(test);

@@ -1,10 +1,10 @@
 //! Laws that no curve gives: the loop of each along its instrument's test, the values of the sheet
 //! marked in it, and what of it was assumed.
 
-use drape::fit::{Fit, Settings};
-use drape::kes::{BendingPoints, Curve, Direction, Sheet, Symbol, Test, Values};
-use drape::report::plot::Mark;
-use drape::report::{Interval, LawReport};
+use crate::fit::{Fit, Settings};
+use crate::kes::{BendingPoints, Curve, Direction, Sheet, Symbol, Test, Values};
+use crate::report::plot::Mark;
+use crate::report::{Interval, LawReport};
 
 use super::fabric;
 use super::quantity::DIRECTIONS;
@@ -21,7 +21,7 @@ struct ValueLaw<'a> {
 }
 
 /// Returns the laws of a fit that no curve of the sheet gives.
-pub(crate) fn value_laws(sheet: &Sheet, fit: &Fit, settings: &Settings) -> Vec<LawReport> {
+pub fn value_laws(sheet: &Sheet, fit: &Fit, settings: &Settings) -> Vec<LawReport> {
     let tests = [Test::Tensile, Test::Bending, Test::Shear];
     let laws = tests.into_iter().flat_map(|test| {
         // One law of shear for both directions.

@@ -1,0 +1,45 @@
+"""Simulated drapemeters, and the cases of the validation."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from typing import Any
+
+from . import _drape
+from ._fit import Fabric
+
+
+def drapemeter(
+    fabric: Fabric,
+    *,
+    meter: str = "frl",
+    starts: int = 5,
+    spacing: float | None = None,
+    shake: bool = False,
+) -> dict[str, Any]:
+    """Drapes specimens of a fabric on a simulated drapemeter, from some starts.
+
+    `meter` is `"frl"`, `"cusick-24"`, `"cusick-30"` or `"cusick-36"`; `spacing` is that of the
+    particles, in m. Returns `coefficient` and `deviation` (ratios), `coefficients` of the starts (an
+    array), `nodes`, `spacing` and `spacing_bound` (in m). Raises `SolverError` and `UsageError`.
+    """
+    settings = {"meter": meter, "starts": starts, "spacing": spacing, "shake": shake}
+    return _drape.drapemeter(fabric._inner, settings)
+
+
+def cases() -> list[str]:
+    """Returns the names of the cases of the validation, the short ones first."""
+    return [name for name, _ in sorted(_drape.case_names(), key=lambda case: case[1])]
+
+
+def validate(names: Iterable[str] | None = None) -> list[dict[str, Any]]:
+    """Runs cases of the validation, all that take seconds unless they are named.
+
+    Returns the outcome of each; `passes` is the verdict on it. Raises `UsageError` for a name that
+    is none.
+    """
+    if isinstance(names, str):
+        names = [names]
+    chosen = [n for n, is_long in _drape.case_names() if not is_long] if names is None else names
+    return [json.loads(_drape.validate(name)) for name in chosen]

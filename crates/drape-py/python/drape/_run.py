@@ -1,0 +1,138 @@
+"""Runs: their summaries, and their frames where they were stored."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _drape
+from ._errors import UsageError
+from ._fit import StrPath, frame
+
+Array = npt.NDArray[np.float64]
+
+
+class Frames(Sequence[Array]):
+    """Frames of a run, each read when it is asked for: positions, (n, 3), in m; read-only."""
+
+    def __init__(self, recording: _drape.Recording) -> None:
+        self._recording = recording
+
+    def __len__(self) -> int:
+        return self._recording.frames
+
+    @overload
+    def __getitem__(self, index: int) -> Array: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Array]: ...
+
+    def __getitem__(self, index: int | slice) -> Array | list[Array]:
+        if isinstance(index, slice):
+            return [self._recording.frame(i) for i in range(*index.indices(len(self)))]
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"frame {index} of {len(self)}")
+        return self._recording.frame(index % len(self))
+
+    def __iter__(self) -> Iterator[Array]:
+        return (self[index] for index in range(len(self)))
+
+
+class Run:
+    """Run of a scene: its summary, and its frames where it has a folder."""
+
+    def __init__(self, summary: dict[str, Any], folder: Path | None) -> None:
+        self.summary = summary
+        """Summary, as in `summary.json`; empty while another process runs the scene."""
+        self.folder = folder
+        """Folder of the results, if they were stored."""
+
+    @cached_property
+    def _recording(self) -> _drape.Recording:
+        if self.folder is None:
+            raise UsageError("the run stored no frames; give it a folder: scene.run(output=...)")
+        return _drape.Recording(self.folder)
+
+    @property
+    def status(self) -> str:
+        """How the run ended: `"ok"`, `"interrupted"`, `"did not settle"` and others."""
+        return str(self.summary.get("status", "running"))
+
+    @property
+    def frames(self) -> Frames:
+        """Frames, read one by one."""
+        return Frames(self._recording)
+
+    @property
+    def times(self) -> Array:
+        """Times of the frames, (frames,), in s."""
+        return self._recording.times()
+
+    @property
+    def triangles(self) -> npt.NDArray[np.uint32]:
+        """Corners of the triangles of the cloth, (m, 3)."""
+        return self._recording.triangles()
+
+    @property
+    def coordinates(self) -> Array:
+        """Material coordinates of the particles, weft and warp, (n, 2), in m."""
+        return self._recording.coordinates()
+
+    @property
+    def panels(self) -> dict[str, range]:
+        """Particles of each panel, by its name."""
+        return {name: range(start, end) for name, start, end in self._recording.panels()}
+
+    def bodies(self, index: int) -> Array:
+        """Returns the vertices of all bodies in a frame, (k, 3), in m."""
+        return self._recording.bodies(index % len(self.frames))
+
+    def check(self) -> list[dict[str, Any]]:
+        """Verifies every frame with code of its own: intersections, distances, bodies.
+
+        Returns a verdict for each frame; `holds` says whether it keeps all that is promised.
+        """
+        verdicts: list[dict[str, Any]] = json.loads(self._recording.check())
+        return verdicts
+
+    def __repr__(self) -> str:
+        return f"<drape.Run {str(self.folder) if self.folder else 'without a folder'}: {self.status}>"
+
+
+class View:
+    """Runs as a page that turns, plays and measures them; a notebook shows it."""
+
+    def __init__(self, html: str) -> None:
+        self.html = html
+        """The page, which needs nothing else."""
+
+    def save(self, path: StrPath) -> None:
+        """Writes the page."""
+        Path(path).write_text(self.html, encoding="utf-8")
+
+    def _repr_html_(self) -> str:
+        return frame(self.html, 640)
+
+
+def open(folder: StrPath) -> Run:
+    """Opens a stored run, of this package or of `drape run`. Raises `OutputError`."""
+    folder = Path(folder)
+    path = folder / "summary.json"
+    summary = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    run = Run(summary, folder)
+    run._recording
+    return run
+
+
+def view(*runs: Run | StrPath, megabytes: float | None = None) -> View:
+    """Returns runs side by side as a page, of at most so many megabytes (20)."""
+    folders = [run.folder if isinstance(run, Run) else Path(run) for run in runs]
+    if not folders or None in folders:
+        raise UsageError("view() shows stored runs; give them a folder: scene.run(output=...)")
+    return View(_drape.view_html([f for f in folders if f is not None], megabytes))

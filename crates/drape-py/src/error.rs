@@ -1,0 +1,115 @@
+//! Mistakes and failures as the exceptions of `drape._errors`.
+
+use drape::input::{Diagnostic, Diagnostics};
+use pyo3::prelude::*;
+
+/// Kind of a failure: the name of its exception.
+#[derive(Clone, Copy)]
+pub(crate) enum Kind {
+    Usage,
+    Solver,
+    Output,
+}
+
+/// Returns the exception of a failure.
+pub(crate) fn failure(kind: Kind, message: impl ToString) -> PyErr {
+    let name = match kind {
+        Kind::Usage => "UsageError",
+        Kind::Solver => "SolverError",
+        Kind::Output => "OutputError",
+    };
+    let message = message.to_string();
+    raised(|module| module.getattr(name)?.call1((message,)))
+}
+
+/// Returns the exception of mistakes of an input, which lists them.
+pub(crate) fn input(mistakes: &Diagnostics) -> PyErr {
+    raised(|module| {
+        let mistake = |one: &Diagnostic| {
+            let file = one.file.display().to_string();
+            let fields = (file, one.line, one.column, one.message.clone(), one.help.clone());
+            module.getattr("Mistake")?.call1(fields)
+        };
+        let list: PyResult<Vec<_>> = mistakes.0.iter().map(mistake).collect();
+        module.getattr("InputError")?.call1((mistakes.to_string(), list?))
+    })
+}
+
+fn raised<F>(make: F) -> PyErr
+where
+    F: for<'py> FnOnce(&Bound<'py, PyModule>) -> PyResult<Bound<'py, PyAny>>,
+{
+    Python::attach(|py| {
+        let made = py.import("drape._errors").and_then(|module| make(&module));
+        made.map_or_else(|error| error, PyErr::from_value)
+    })
+}
+
+/// Returns the exception of one mistake.
+pub(crate) fn mistake(one: Diagnostic) -> PyErr {
+    input(&one.into())
+}
+
+/// Returns the exception of a scene that is refused.
+pub(crate) fn of_scene(error: drape::scene::Error) -> PyErr {
+    match error {
+        drape::scene::Error::Input(mistakes) => input(&mistakes),
+        drape::scene::Error::Tangled(tangle) => input(&tangle.mistakes),
+        error => failure(Kind::Solver, error),
+    }
+}
+
+/// Returns the exception of stored frames that cannot be read.
+pub(crate) fn of_frames(error: drape::frames::Error) -> PyErr {
+    failure(Kind::Output, error)
+}
+
+/// Returns the exception of a simulation that cannot go on.
+pub(crate) fn of_dynamics(error: drape::dynamics::Error) -> PyErr {
+    use drape::dynamics::Error;
+    match error {
+        Error::Occupied { folder } => failure(
+            Kind::Usage,
+            format!(
+                "{} holds results already; give another folder, or allow it with replace=True",
+                folder.display()
+            ),
+        ),
+        Error::Write { .. } => failure(Kind::Output, error),
+        error => failure(Kind::Solver, error),
+    }
+}
+
+/// Returns the exception of a run that cannot begin, go on or be kept, with a remedy in Python.
+pub(crate) fn of_run(error: drape::keep::Error) -> PyErr {
+    use drape::keep::Error;
+    let message = match error {
+        Error::Input(mistakes) => return input(&mistakes),
+        Error::Dynamics(error) => return of_dynamics(error),
+        Error::Frames(error) => return of_frames(error),
+        Error::File(_) | Error::Folder { .. } | Error::LastFrame { .. } => {
+            return failure(Kind::Output, error);
+        }
+        Error::Locked { folder } => format!(
+            "another run is writing to {}; wait for its end, or give another folder",
+            folder.display()
+        ),
+        Error::Interrupted { folder } => format!(
+            "{0} holds a run that was interrupted; go on with drape.resume({0:?}), or begin anew \
+             with replace=True",
+            folder.display().to_string()
+        ),
+        Error::End { end, step } => format!("until={end}: a step takes {step} s already"),
+        Error::Ended { folder, status } => format!(
+            "{}: the run has ended ({status}); go on beyond its end with extend=SECONDS",
+            folder.display()
+        ),
+        Error::Failed { folder, status } => format!(
+            "{}: the run has ended ({status}); it would end so again: change its scene, and run it \
+             anew with replace=True",
+            folder.display()
+        ),
+        other => other.to_string(),
+    };
+    failure(Kind::Usage, message)
+}

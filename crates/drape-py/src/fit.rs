@@ -1,0 +1,250 @@
+//! Sheets, fabrics, and fits of fabrics to sheets.
+
+use std::path::PathBuf;
+
+use drape::fit::{
+    FrictionOrder, Intervals, LoopModel, Settings, TractionModel, identify_with, parameter_key,
+};
+use drape::input::{Diagnostic, Document};
+use drape::report::FitPage;
+use drape::reports::fit_page;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::array::row;
+use crate::error::{Kind, failure, input, mistake};
+
+/// Tables of `fabric.toml` that hold laws.
+const LAWS: [&str; 3] = ["warp", "weft", "shear"];
+
+/// Sheet of a laboratory.
+#[pyclass(frozen, module = "drape._drape")]
+pub(crate) struct Sheet(drape::kes::Sheet);
+
+/// Fabric: laws in SI.
+#[pyclass(frozen, module = "drape._drape")]
+pub(crate) struct Fabric(pub(crate) drape::fabric::Fabric);
+
+/// Fit of a fabric to a sheet.
+#[pyclass(frozen, module = "drape._drape")]
+pub(crate) struct Fit {
+    fit: drape::fit::Fit,
+    page: FitPage,
+}
+
+/// Laws that a fit is asked for, by the names of the command line.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Laws {
+    traction: Option<String>,
+    bending: Option<String>,
+    shear: Option<String>,
+    profile: bool,
+}
+
+impl Laws {
+    fn settings(&self) -> PyResult<Settings> {
+        let traction = match self.traction.as_deref() {
+            None => None,
+            Some("primed") => Some(TractionModel::Primed),
+            Some("polynomial") => Some(TractionModel::Polynomial),
+            Some(other) => return Err(unknown("traction", other, "primed, polynomial")),
+        };
+        Ok(Settings {
+            traction,
+            bending: loop_model("bending", self.bending.as_deref())?,
+            shear: loop_model("shear", self.shear.as_deref())?,
+            intervals: if self.profile { Intervals::Profile } else { Intervals::Wald },
+            ..Settings::default()
+        })
+    }
+}
+
+fn loop_model(test: &str, name: Option<&str>) -> PyResult<Option<LoopModel>> {
+    let known = "first-order, parallel, second-order, breen-1994";
+    Ok(Some(match name {
+        None => return Ok(None),
+        Some("first-order") => LoopModel::Linear(FrictionOrder::First),
+        Some("parallel") => LoopModel::Linear(FrictionOrder::Parallel),
+        Some("second-order") => LoopModel::Linear(FrictionOrder::Second),
+        Some("breen-1994") => LoopModel::Piecewise,
+        Some(other) => return Err(unknown(test, other, known)),
+    }))
+}
+
+fn unknown(test: &str, law: &str, known: &str) -> PyErr {
+    failure(Kind::Usage, format!("{test}={law:?} is no law; give one of {known}"))
+}
+
+/// Adds the numbers in a value of TOML, each with its key.
+fn flatten(key: String, value: toml::Value, to: &mut Vec<(String, f64)>) {
+    match value {
+        toml::Value::Float(number) => to.push((key, number)),
+        toml::Value::Integer(number) => to.push((key, number as f64)),
+        toml::Value::Table(table) => {
+            table.into_iter().for_each(|(own, value)| flatten(format!("{key}.{own}"), value, to));
+        }
+        toml::Value::Array(values) => {
+            let values = values.into_iter().enumerate();
+            values.for_each(|(index, value)| flatten(format!("{key}[{index}]"), value, to));
+        }
+        _ => {}
+    }
+}
+
+fn of_sheet(error: drape::kes::Error, file: &str) -> PyErr {
+    match error {
+        drape::kes::Error::Input(mistakes) => input(&mistakes),
+        other => mistake(Diagnostic::new(file, other.to_string())),
+    }
+}
+
+#[pymethods]
+impl Sheet {
+    #[staticmethod]
+    fn read(path: PathBuf) -> PyResult<Self> {
+        let sheet = drape::kes::Sheet::read(&path);
+        sheet.map(Self).map_err(|error| of_sheet(error, &path.display().to_string()))
+    }
+
+    #[staticmethod]
+    fn from_toml(text: &str, folder: PathBuf) -> PyResult<Self> {
+        let document = Document::new(folder.join("<text>"), text);
+        drape::kes::Sheet::from_document(&document).map(Self).map_err(|e| of_sheet(e, "<text>"))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    #[getter]
+    fn source(&self) -> &str {
+        &self.0.source
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings().iter().map(ToString::to_string).collect()
+    }
+
+    fn fit(&self, py: Python<'_>, laws: Laws) -> PyResult<Fit> {
+        let settings = laws.settings()?;
+        let fit = py.detach(|| identify_with(&self.0, &settings));
+        let fit = fit.map_err(|error| mistake(Diagnostic::new(&self.0.name, error.to_string())))?;
+        let page = fit_page(&self.0, &fit, &settings);
+        page.check().map_err(|error| mistake(Diagnostic::new(&self.0.name, error.to_string())))?;
+        Ok(Fit { fit, page })
+    }
+}
+
+#[pymethods]
+impl Fabric {
+    #[staticmethod]
+    fn read(path: PathBuf) -> PyResult<Self> {
+        let document = Document::read(&path).map_err(|mistakes| input(&mistakes))?;
+        let fabric = drape::fabric::Fabric::from_document(&document);
+        fabric.map(Self).map_err(|mistakes| input(&mistakes))
+    }
+
+    #[staticmethod]
+    fn from_toml(text: &str) -> PyResult<Self> {
+        let fabric = drape::fabric::Fabric::from_document(&Document::new("<text>", text));
+        fabric.map(Self).map_err(|mistakes| input(&mistakes))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    #[getter]
+    fn density(&self) -> f64 {
+        self.0.density
+    }
+
+    #[getter]
+    fn thickness(&self) -> f64 {
+        self.0.thickness
+    }
+
+    fn to_toml(&self) -> String {
+        self.0.to_toml()
+    }
+
+    /// Numbers of the laws, with their keys in `fabric.toml`.
+    fn numbers(&self) -> Vec<(String, f64)> {
+        let text = self.0.to_toml();
+        let table: toml::Table = text.parse().expect("the text of a fabric is TOML");
+        let laws = table.into_iter().filter(|(key, _)| LAWS.contains(&key.as_str()));
+        let mut numbers = Vec::new();
+        laws.for_each(|(key, value)| flatten(key, value, &mut numbers));
+        numbers
+    }
+}
+
+#[pymethods]
+impl Fit {
+    #[getter]
+    fn fabric(&self) -> Fabric {
+        Fabric(self.fit.fabric.clone())
+    }
+
+    fn assumed(&self) -> Vec<String> {
+        self.fit.assumed.clone()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.page.warnings.clone()
+    }
+
+    fn text(&self) -> PyResult<String> {
+        self.page.to_text().map_err(|error| failure(Kind::Output, error))
+    }
+
+    fn html(&self) -> PyResult<String> {
+        self.page.to_html().map_err(|error| failure(Kind::Output, error))
+    }
+
+    /// Curves with their laws, a dictionary each.
+    fn curves<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let laws = self.fit.curves.iter().zip(&self.page.laws);
+        laws.map(|(curve, law)| {
+            let (test, direction) = (curve.test, curve.direction);
+            let entry = PyDict::new(py);
+            entry.set_item("name", &law.title)?;
+            entry.set_item("test", format!("{test:?}").to_lowercase())?;
+            entry.set_item("direction", format!("{direction:?}").to_lowercase())?;
+            entry.set_item("model", &law.model)?;
+            entry.set_item("misfit", curve.misfit)?;
+            entry.set_item("r_squared", curve.r_squared)?;
+            for (key, numbers) in [
+                ("deformation", &curve.deformation),
+                ("measured", &curve.measured),
+                ("fitted", &curve.load),
+                ("band", &curve.band),
+            ] {
+                entry.set_item(key, row(py, numbers)?)?;
+            }
+            let own = curve.parameters.iter().zip(&law.parameters).enumerate();
+            let parameters: PyResult<Vec<_>> = own
+                .map(|(index, (estimate, shown))| {
+                    let parameter = PyDict::new(py);
+                    parameter.set_item("name", estimate.name)?;
+                    parameter.set_item("symbol", &shown.symbol)?;
+                    parameter.set_item("unit", &shown.units.si)?;
+                    parameter.set_item("key", parameter_key(test, direction, estimate.name))?;
+                    parameter.set_item("value", estimate.value)?;
+                    parameter.set_item("stderr", estimate.standard_error.as_ref().ok())?;
+                    parameter.set_item("interval", estimate.interval.as_ref().ok())?;
+                    let reason = estimate.standard_error.as_ref().err().map(ToString::to_string);
+                    parameter.set_item("reason", reason)?;
+                    parameter.set_item("correl", curve.correlations.get(index))?;
+                    Ok(parameter)
+                })
+                .collect();
+            entry.set_item("parameters", parameters?)?;
+            Ok(entry)
+        })
+        .collect()
+    }
+}

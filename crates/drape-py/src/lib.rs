@@ -1,0 +1,35 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Tour
+//!
+//! The extension module `drape._drape`, which the Python sources in `python/drape` wrap:
+//!
+//! * `error`: mistakes and failures as exceptions;
+//! * `detached`: work on threads of its own, without the lock of the interpreter, which Ctrl-C ends;
+//! * `fit`: sheets, fabrics and their fits; `scene`: scenes and their runs; `stepping`: a
+//!   simulation step by step; `recording`: runs that were stored; `instruments`: drapemeters and
+//!   the validation; `array`: NumPy arrays of numbers.
+
+mod array;
+mod detached;
+mod error;
+mod fit;
+mod instruments;
+mod recording;
+mod scene;
+mod stepping;
+
+/// Extension module.
+#[pyo3::pymodule]
+mod _drape {
+    #[pymodule_export]
+    use crate::fit::{Fabric, Fit, Sheet};
+    #[pymodule_export]
+    use crate::instruments::{case_names, drapemeter, validate};
+    #[pymodule_export]
+    use crate::recording::{Recording, view_html};
+    #[pymodule_export]
+    use crate::scene::{Scene, resume};
+    #[pymodule_export]
+    use crate::stepping::Simulation;
+}

@@ -1,0 +1,98 @@
+//! Runs that were stored, frame by frame.
+
+use std::path::PathBuf;
+
+use drape::reports::{VIEWER_SIZE_MAX, ViewerPage};
+use drape::verify::Verifier;
+use pyo3::prelude::*;
+
+use crate::array::{row, rows};
+use crate::error::of_frames;
+
+/// Run in a folder.
+#[pyclass(frozen, module = "drape._drape")]
+pub(crate) struct Recording(drape::frames::Recording);
+
+#[pymethods]
+impl Recording {
+    #[new]
+    fn new(folder: PathBuf) -> PyResult<Self> {
+        drape::frames::Recording::open(folder).map(Self).map_err(of_frames)
+    }
+
+    #[getter]
+    fn frames(&self) -> usize {
+        self.0.frames()
+    }
+
+    #[getter]
+    fn ended(&self) -> bool {
+        self.0.ended()
+    }
+
+    fn times<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let time = |number| Ok(self.0.read_time(number)?.unwrap_or(f64::NAN));
+        let times: Result<Vec<f64>, _> = (0..self.0.frames()).map(time).collect();
+        row(py, &times.map_err(of_frames)?)
+    }
+
+    fn frame<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
+        let frame = py.detach(|| self.0.frame(number)).map_err(of_frames)?;
+        rows(py, frame.cloth.as_flattened(), 3)
+    }
+
+    fn bodies<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
+        let frame = py.detach(|| self.0.frame(number)).map_err(of_frames)?;
+        rows(py, frame.bodies.as_flattened(), 3)
+    }
+
+    fn triangles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        rows(py, self.0.topology().cloth.as_flattened(), 3)
+    }
+
+    fn coordinates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        rows(py, self.0.topology().material.as_flattened(), 2)
+    }
+
+    fn panels(&self) -> Vec<(String, usize, usize)> {
+        let mut first = 0;
+        let panels = self.0.manifest().panels.iter().map(|panel| {
+            let start = first;
+            first += panel.vertices;
+            (panel.name.clone(), start, first)
+        });
+        panels.collect()
+    }
+
+    /// Verdicts on all frames, as JSON.
+    fn check(&self, py: Python<'_>) -> PyResult<String> {
+        let verdicts = py.detach(|| {
+            let verifier = Verifier::open(self.0.folder())?;
+            let verdict = |number| {
+                let verdict = verifier.verify(number)?;
+                let mut value = serde_json::to_value(&verdict).unwrap_or_default();
+                value["holds"] = verdict.holds().into();
+                Ok(value)
+            };
+            (0..self.0.frames()).map(verdict).collect::<Result<Vec<_>, drape::verify::Error>>()
+        });
+        let verdicts = verdicts.map_err(of_frames)?;
+        Ok(serde_json::Value::from(verdicts).to_string())
+    }
+}
+
+/// Returns the page that shows runs, of at most so many megabytes.
+#[pyfunction]
+#[pyo3(signature = (folders, megabytes=None))]
+pub(crate) fn view_html(
+    py: Python<'_>,
+    folders: Vec<PathBuf>,
+    megabytes: Option<f64>,
+) -> PyResult<String> {
+    let page = py.detach(|| {
+        let recordings = folders.iter().map(drape::frames::Recording::open);
+        let recordings: Result<Vec<_>, _> = recordings.collect();
+        ViewerPage::new(&recordings?, megabytes.unwrap_or(VIEWER_SIZE_MAX))
+    });
+    page.map(|page| page.html).map_err(of_frames)
+}

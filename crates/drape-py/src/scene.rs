@@ -1,0 +1,270 @@
+//! Scenes that were read and checked, and their runs.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use drape::dynamics::{self, Frame, Progress, Simulation, Step, Summary};
+use drape::input::Document;
+use drape::keep::{Goal, Keeping, KeptRun, Limits, RunRequest, RunToResume, Watcher, end_at};
+use pyo3::prelude::*;
+
+use crate::array::rows;
+use crate::detached::{Detached, Outbox};
+use crate::error::{Kind, failure, input, of_dynamics, of_run, of_scene};
+
+/// Scene that was read and checked.
+#[pyclass(frozen, module = "drape._drape")]
+pub(crate) struct Scene {
+    document: Document,
+    /// File that it was read from; a text has none.
+    file: Option<PathBuf>,
+    name: String,
+    particles: usize,
+    panels: Vec<(String, usize, usize)>,
+    notes: Vec<String>,
+    /// The scene as it was checked, until a run takes it.
+    checked: Mutex<Option<drape::scene::Scene>>,
+}
+
+/// Settings of a run.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct RunSettings {
+    output: Option<PathBuf>,
+    until: Option<f64>,
+    threads: Option<usize>,
+    replace: bool,
+    checkpoint_every: f64,
+    state_hash: bool,
+    max_wall: Option<f64>,
+    extend: Option<f64>,
+    /// File of the extension module: a run goes on only with the same one.
+    program: PathBuf,
+    progress: Option<Py<PyAny>>,
+    on_frame: Option<Py<PyAny>>,
+}
+
+/// What a run tells.
+enum Event {
+    Step { time: f64, done: f64, phase: String, speed_max: f64, iterations: usize },
+    Frame { number: usize, time: f64, positions: Vec<f64> },
+}
+
+/// Reporter of a run: what hands its events over.
+struct Reporter<'a> {
+    outbox: &'a Outbox<Event>,
+    detached: &'a Detached,
+    steps: bool,
+    frames: bool,
+}
+
+impl Watcher for Reporter<'_> {
+    fn step(&mut self, step: &Step, done: f64) {
+        if self.steps {
+            let phase = serde_json::to_value(step.phase).unwrap_or_default();
+            self.outbox.send(Event::Step {
+                time: step.time,
+                done,
+                phase: phase.as_str().unwrap_or_default().to_owned(),
+                speed_max: step.speed_max,
+                iterations: step.report.iterations,
+            });
+        }
+    }
+
+    fn frame(&mut self, frame: &Frame) {
+        if self.frames {
+            let (number, time) = (frame.number, frame.time);
+            self.outbox.send(Event::Frame { number, time, positions: frame.positions.clone() });
+        }
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.detached.is_stopped()
+    }
+}
+
+/// Progress of a run that stores nothing.
+struct Unkept<'a> {
+    reporter: Reporter<'a>,
+    goal: Goal,
+}
+
+impl Progress for Unkept<'_> {
+    fn step(&mut self, step: &Step, ticks: usize) {
+        let done = self.goal.done(step, ticks);
+        self.reporter.step(step, done);
+    }
+
+    fn frame(&mut self, frame: &Frame) -> Result<(), dynamics::Error> {
+        self.reporter.frame(frame);
+        Ok(())
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.reporter.is_interrupted()
+    }
+}
+
+impl RunSettings {
+    fn keeping(&self, detached: &Detached) -> PyResult<Keeping> {
+        if !(self.checkpoint_every >= 0.0 && self.checkpoint_every <= 1e9) {
+            let message =
+                format!("checkpoint_every={}: give a time from 0 to 1e9 s", self.checkpoint_every);
+            return Err(failure(Kind::Usage, message));
+        }
+        Ok(Keeping {
+            limits: Limits { max_wall: self.max_wall, ..Limits::default() },
+            program: self.program.clone(),
+            replace: self.replace,
+            give_up: detached.give_up.clone(),
+        })
+    }
+
+    /// Has a run made on threads of its own, whose events are handled by the callbacks.
+    fn execute(
+        &self,
+        py: Python<'_>,
+        detached: &Detached,
+        run: impl FnOnce(Reporter<'_>) -> Result<Summary, drape::keep::Error> + Send,
+    ) -> PyResult<String> {
+        let (steps, frames) = (self.progress.is_some(), self.on_frame.is_some());
+        let work = |outbox: &Outbox<Event>| run(Reporter { outbox, detached, steps, frames });
+        let (summary, raised) = detached.run(py, work, |py, event| self.handle(py, event));
+        raised?;
+        let summary = summary.map_err(of_run)?;
+        Ok(serde_json::to_string(&summary).expect("a summary always has a JSON form"))
+    }
+
+    fn handle(&self, py: Python<'_>, event: Event) -> PyResult<()> {
+        match (event, &self.progress, &self.on_frame) {
+            (Event::Step { time, done, phase, speed_max, iterations }, Some(progress), _) => {
+                progress.call1(py, (time, done, phase, speed_max, iterations))?;
+            }
+            (Event::Frame { number, time, positions }, _, Some(on_frame)) => {
+                on_frame.call1(py, (number, time, rows(py, &positions, 3)?))?;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+impl Scene {
+    fn new(document: Document, file: Option<PathBuf>) -> PyResult<Self> {
+        let scene = drape::scene_of(&document).map_err(of_scene)?;
+        let panels = scene.panels.iter().map(|panel| {
+            let range = panel.particles();
+            (panel.name.clone(), range.start, range.end)
+        });
+        let notes = scene.source.notes.iter().chain(&scene.source.contact_limits);
+        Ok(Self {
+            name: scene.name.clone(),
+            particles: scene.cloth.particles(),
+            panels: panels.collect(),
+            notes: notes.cloned().collect(),
+            checked: Mutex::new(Some(scene)),
+            document,
+            file,
+        })
+    }
+
+    /// Returns the scene as it was checked, or reads it again where a run has taken that.
+    pub(crate) fn take(&self, until: Option<f64>) -> PyResult<drape::scene::Scene> {
+        let checked = self.checked.lock().ok().and_then(|mut checked| checked.take());
+        let mut scene = match checked {
+            Some(scene) => scene,
+            None => drape::scene_of(&self.document).map_err(of_scene)?,
+        };
+        if let Some(end) = until {
+            // A scene that is refused is checked still.
+            end_at(&mut scene, end).map_err(of_run)?;
+        }
+        Ok(scene)
+    }
+}
+
+#[pymethods]
+impl Scene {
+    #[staticmethod]
+    fn read(path: PathBuf, allow: Vec<PathBuf>) -> PyResult<Self> {
+        let document = Document::read(&path).map_err(|mistakes| input(&mistakes))?;
+        Self::new(document.allowing(&allow), Some(path))
+    }
+
+    #[staticmethod]
+    fn from_toml(text: &str, folder: PathBuf, allow: Vec<PathBuf>) -> PyResult<Self> {
+        Self::new(Document::new(folder.join("<text>"), text).allowing(&allow), None)
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    #[getter]
+    fn particles(&self) -> usize {
+        self.particles
+    }
+
+    fn panels(&self) -> Vec<(String, usize, usize)> {
+        self.panels.clone()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+
+    fn to_toml(&self) -> &str {
+        self.document.text()
+    }
+
+    /// Runs the scene; returns its summary as JSON.
+    fn run(&self, py: Python<'_>, settings: RunSettings) -> PyResult<String> {
+        let detached = Detached::new(settings.threads)?;
+        let keeping = settings.keeping(&detached)?;
+        let scene = self.take(settings.until)?;
+        let Some(folder) = &settings.output else {
+            let mut simulation = Simulation::new(scene).map_err(of_dynamics)?;
+            simulation.give_up_when(detached.give_up.clone());
+            if settings.state_hash {
+                simulation.hash_steps();
+            }
+            let goal = Goal::new(&simulation);
+            return settings.execute(py, &detached, |reporter| {
+                Ok(simulation.run(&mut Unkept { reporter, goal })?)
+            });
+        };
+        let file = self.file.as_deref().unwrap_or(Path::new("-"));
+        let request = RunRequest {
+            state_hash: settings.state_hash,
+            ..RunRequest::new(file, settings.until, settings.checkpoint_every)
+        };
+        let run = KeptRun::begin(scene, folder, &request, &keeping).map_err(of_run)?;
+        settings.execute(py, &detached, |mut reporter| Ok(run.run(&mut reporter)?.close()))
+    }
+}
+
+/// Goes on with the run of a folder; returns its summary as JSON.
+#[pyfunction]
+pub(crate) fn resume(
+    py: Python<'_>,
+    folder: PathBuf,
+    scene: Option<&Bound<'_, Scene>>,
+    settings: RunSettings,
+) -> PyResult<String> {
+    let detached = Detached::new(settings.threads)?;
+    let resumed = RunToResume::open(&folder, settings.extend).map_err(of_run)?;
+    let own = match scene {
+        Some(scene) => scene.get().take(resumed.request.until)?,
+        None if resumed.request.has_no_file() => {
+            let message = "the scene was a text, which has no file: give it again, with scene=";
+            return Err(failure(Kind::Usage, message));
+        }
+        None => {
+            Scene::read(resumed.request.scene.clone(), Vec::new())?.take(resumed.request.until)?
+        }
+    };
+    let (run, _notes) = resumed.go_on(own, &settings.keeping(&detached)?).map_err(of_run)?;
+    settings.execute(py, &detached, |mut reporter| Ok(run.run(&mut reporter)?.close()))
+}

@@ -1,0 +1,132 @@
+//! Simulation step by step.
+
+use std::time::{Duration, Instant};
+
+use drape::dynamics;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+use crate::array::rows;
+use crate::detached::{Detached, Outbox};
+use crate::error::{Kind, failure, of_dynamics};
+use crate::scene::Scene;
+
+/// Duration of a step above which the state is copied before the next one, which then can be taken
+/// back when it is given up.
+const LONG_STEP: Duration = Duration::from_millis(200);
+
+/// Simulation of a scene. One thread steps or reads it at a time.
+#[pyclass(module = "drape._drape")]
+pub(crate) struct Simulation {
+    simulation: dynamics::Simulation,
+    detached: Detached,
+    is_long: bool,
+    /// Whether a step was given up that could not be taken back.
+    is_broken: bool,
+}
+
+/// Step: time, length, largest speed, imbalance, iterations, whether it is the last, phase, events.
+type StepFields = (f64, f64, f64, f64, usize, bool, String, Vec<String>);
+
+impl Simulation {
+    fn check(&self) -> PyResult<()> {
+        match self.is_broken {
+            false => Ok(()),
+            true => Err(failure(
+                Kind::Solver,
+                "a step was interrupted and cannot be taken back; make the simulation anew",
+            )),
+        }
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    #[new]
+    fn new(scene: &Bound<'_, Scene>, threads: Option<usize>) -> PyResult<Self> {
+        let detached = Detached::new(threads)?;
+        let scene = scene.get().take(None)?;
+        let mut simulation = dynamics::Simulation::new(scene).map_err(of_dynamics)?;
+        simulation.give_up_when(detached.give_up.clone());
+        Ok(Self { simulation, detached, is_long: false, is_broken: false })
+    }
+
+    fn step(&mut self, py: Python<'_>) -> PyResult<StepFields> {
+        self.check()?;
+        let Self { simulation, detached, is_long, is_broken } = self;
+        let start = is_long.then(|| simulation.saved());
+        let began = Instant::now();
+        let work = |_: &Outbox<()>| simulation.step();
+        let (step, raised) = detached.run(py, work, |_, ()| Ok(()));
+        *is_long = began.elapsed() >= LONG_STEP;
+        let step = match step {
+            Ok(step) => step,
+            Err(error) => {
+                let was_cancelled = raised.is_err();
+                if was_cancelled {
+                    *is_broken = true;
+                    if let Some(start) = start {
+                        simulation.resume(start).map_err(of_dynamics)?;
+                        *is_broken = false;
+                    }
+                }
+                raised?;
+                return Err(failure(Kind::Solver, error));
+            }
+        };
+        raised?;
+        let phase = serde_json::to_value(step.phase).unwrap_or_default();
+        Ok((
+            step.time,
+            step.dt,
+            step.speed_max,
+            step.imbalance,
+            step.report.iterations,
+            step.finished,
+            phase.as_str().unwrap_or_default().to_owned(),
+            step.events,
+        ))
+    }
+
+    #[getter]
+    fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.check()?;
+        rows(py, self.simulation.positions(), 3)
+    }
+
+    fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.check()?;
+        rows(py, self.simulation.velocities(), 3)
+    }
+
+    fn triangles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        rows(py, self.simulation.triangles().as_flattened(), 3)
+    }
+
+    fn coordinates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        rows(py, self.simulation.coordinates().as_flattened(), 2)
+    }
+
+    /// Summary so far, as JSON.
+    fn summary(&self) -> PyResult<String> {
+        self.check()?;
+        let summary = self.detached.install(|| self.simulation.summary());
+        serde_json::to_string(&summary).map_err(|error| PyRuntimeError::new_err(error.to_string()))
+    }
+
+    fn state_hash(&self) -> PyResult<String> {
+        self.check()?;
+        Ok(self.simulation.state_hash())
+    }
+
+    /// Forces and moments of the pins, a pair of rows.
+    fn pin_loads(&mut self) -> PyResult<Vec<([f64; 3], [f64; 3])>> {
+        self.check()?;
+        let loads = self.simulation.pin_loads();
+        Ok(loads.iter().map(|load| (load.force, load.moment)).collect())
+    }
+}

@@ -1,0 +1,82 @@
+"""Fits are those of the command, and say how certain they are."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import drape
+
+
+def test_a_fit_gives_the_bytes_that_the_command_writes(root, command, tmp_path):
+    told = tmp_path / "cupro.toml"
+    sheet = root / "fabrics/cupro-weave"
+    subprocess.run([command, "fit", sheet, "-o", told], check=True, capture_output=True)
+    assert drape.fit(sheet).to_toml().encode() == told.read_bytes()
+    assert drape.fit(drape.read_sheet(sheet)).to_toml().encode() == told.read_bytes()
+
+
+def test_parameters_have_errors_and_correlations(root):
+    fit = drape.fit(root / "fabrics/cupro-weave")
+    assert fit.curves and len(fit.params) > 4
+    warp, weft = fit.params["warp.B"], fit.params["weft.bending.rigidity"]
+    assert warp.value > 0 and 0 < warp.stderr < warp.value
+    assert warp.interval[0] < warp.value < warp.interval[1]
+    assert warp.name == "warp.bending.rigidity" and warp.unit == "N·m"
+    assert "warp.bending.zero" in warp.correl and all(-1 <= c <= 1 for c in warp.correl.values())
+    mean = fit.params["B"]
+    assert mean.value == pytest.approx((warp.value + weft.value) / 2)
+    assert mean.stderr == pytest.approx(np.hypot(warp.stderr, weft.stderr) / 2)
+    with pytest.raises(KeyError, match="warp.bending.rigidity"):
+        fit.params["none"]
+    curve = fit.curves[0]
+    assert curve["measured"].shape == curve["deformation"].shape == curve["fitted"].shape
+    residuals = curve["measured"] - curve["fitted"]
+    spread = np.ptp(curve["measured"])
+    assert np.sqrt(np.mean(residuals**2)) / spread == pytest.approx(curve["misfit"], rel=0.2)
+
+
+def test_parameters_from_values_have_no_errors(root):
+    fit = drape.fit(root / "fabrics/matsudaira-b")
+    rigidity = fit.params["B"]
+    keys = ("warp.bending.rigidity", "weft.bending.rigidity")
+    assert rigidity.value == pytest.approx(sum(fit.params[key].value for key in keys) / 2)
+    assert rigidity.stderr is None and "value of the sheet" in rigidity.reason
+    assert fit.params["G"].value > 0
+
+
+def test_a_fit_is_reported(root):
+    fit = drape.fit(root / "fabrics/cupro-weave")
+    assert "cupro weave" in fit.report()
+    assert fit._repr_html_().startswith("<iframe")
+    assert len(fit.plot().axes) == len(fit.curves)
+
+
+def test_a_plot_without_matplotlib_says_what_to_install(root, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    with pytest.raises(drape.UsageError, match="pip install matplotlib"):
+        drape.fit(root / "fabrics/cupro-weave").plot()
+
+
+def test_laws_are_chosen_by_name(root):
+    sheet = drape.read_sheet(root / "fabrics/cupro-weave")
+    assert drape.fit(sheet, bending="first-order").to_toml() != ""
+    with pytest.raises(drape.UsageError, match="give one of first-order"):
+        drape.fit(sheet, bending="third-order")
+
+
+def test_a_fabric_comes_back_from_its_text(root, tmp_path):
+    fabric = drape.fit(root / "fabrics/cupro-weave").fabric
+    path = tmp_path / "fabric.toml"
+    path.write_text(fabric.to_toml())
+    assert drape.Fabric.read(path).to_toml() == fabric.to_toml()
+    assert fabric.density == pytest.approx(0.1056) and fabric.thickness > 0
+
+
+def test_a_fabric_is_made_of_values():
+    yarns = {"B": 0.1, "2HB": 0.03, "LT": 0.7, "WT": 10.0, "RT": 50.0, "G": 0.6, "2HG": 0.5}
+    fabric = drape.Fabric.from_values("poplin", {"W": 12.4, "T": 0.4, "warp": yarns, "weft": yarns})
+    assert fabric.name == "poplin" and fabric.density == pytest.approx(0.124)
+    with pytest.raises(drape.InputError, match="W"):
+        drape.Fabric.from_values("poplin", {"W": -1.0})

@@ -1,0 +1,33 @@
+//! Keeping: what a caller says of how a run is kept, and what it hears of the run.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use super::limits::Limits;
+use crate::dynamics::{Frame, Step};
+
+/// How a run is kept.
+#[derive(Debug, Clone, Default)]
+pub struct Keeping {
+    /// Limits at which it ends with a checkpoint.
+    pub limits: Limits,
+    /// File of the program: a run goes on only with the same one, to the last byte.
+    pub program: PathBuf,
+    /// Whether the results of an earlier run are replaced.
+    pub replace: bool,
+    /// Flag that gives up the step in hand.
+    pub give_up: Arc<AtomicBool>,
+}
+
+/// Watcher of a run.
+pub trait Watcher {
+    /// Is called after a step, with how much of its phase is done, 0 to 1.
+    fn step(&mut self, step: &Step, done: f64);
+
+    /// Is called when a frame has been written.
+    fn frame(&mut self, _frame: &Frame) {}
+
+    /// Returns whether the run is to end after this step, with a checkpoint.
+    fn is_interrupted(&self) -> bool;
+}

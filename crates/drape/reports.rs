@@ -1,0 +1,22 @@
+//! Pages of fits, fabrics, instruments and runs: results as the crate `drape-report` shows them.
+//!
+//! Each module fills in a type of [`report`](crate::report) or [`export`](crate::export), which
+//! draws it; the numbers are not computed again here. `quantity` has the name, the symbol and the
+//! units of every number, `kes_value` those of KES values. Nothing here writes a file.
+
+mod fabric;
+mod fit;
+mod instruments;
+mod kes_value;
+mod loop_plot;
+mod quantity;
+mod value_law;
+mod version;
+mod viewer;
+
+pub use fabric::{compare_page, show_page};
+pub use fit::fit_page;
+pub use instruments::{TESTS, TestedLoop, instruments_page};
+pub use quantity::DIRECTIONS;
+pub use version::VERSION;
+pub use viewer::{VIEWER_SIZE_MAX, ViewerPage};
