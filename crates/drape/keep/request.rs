@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use drape::input::Setting;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
@@ -22,12 +23,24 @@ pub(crate) struct RunRequest {
     /// Whether the state is hashed after each step.
     #[serde(default)]
     pub(crate) state_hash: bool,
+    /// Keys of the scene that were set on the command line, each as KEY=VALUE.
+    #[serde(default)]
+    pub(crate) set: Vec<String>,
 }
 
 impl RunRequest {
     /// Makes the request of a scene.
     pub(crate) fn new(scene: &Path, until: Option<f64>, checkpoint_every: f64) -> Self {
-        Self { scene: whole_path(scene), until, checkpoint_every, state_hash: false }
+        let scene = whole_path(scene);
+        Self { scene, until, checkpoint_every, state_hash: false, set: Vec::new() }
+    }
+
+    /// Returns the keys of the scene that were set.
+    pub(crate) fn settings(&self) -> Result<Vec<Setting>, Failure> {
+        let settings = self.set.iter().map(|text| {
+            text.parse().map_err(|error| Failure::Usage(format!("{NAME}: set: {error}")))
+        });
+        settings.collect()
     }
 
     /// Gives the scene another place.
