@@ -12,11 +12,12 @@ pub(crate) mod picture;
 pub(crate) mod run_picture;
 pub(crate) mod start;
 pub(crate) mod strain_map;
+pub(crate) mod sweep;
 pub(crate) mod validation;
+pub(crate) mod version;
 pub(crate) mod viewer;
 
 mod kes_value;
 mod loop_plot;
 mod quantity;
 mod value_law;
-mod version;

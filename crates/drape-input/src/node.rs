@@ -83,9 +83,7 @@ impl Node {
         match &self.value {
             Value::Text(text) => vec![text],
             Value::List(elements) => elements.iter().flat_map(Self::texts).collect(),
-            Value::Table(entries) => {
-                entries.iter().flat_map(|entry| entry.node.texts()).collect()
-            }
+            Value::Table(entries) => entries.iter().flat_map(|entry| entry.node.texts()).collect(),
             _ => Vec::new(),
         }
     }

@@ -85,8 +85,11 @@ mod tests {
             let folder = folder.path().join(name);
             std::fs::create_dir_all(folder.join("linen")).expect("made");
             let write = |file: &str, text: &str| std::fs::write(folder.join(file), text);
-            write("scene.toml", "[fabric.a]\nfile = \"linen\"\n[[collider.mesh]]\nfile = \"b.obj\"")
-                .expect("written");
+            write(
+                "scene.toml",
+                "[fabric.a]\nfile = \"linen\"\n[[collider.mesh]]\nfile = \"b.obj\"",
+            )
+            .expect("written");
             write("linen/sheet.toml", "[[curve]]\nfile = \"bend.csv\"").expect("written");
             write("linen/bend.csv", "1,2").expect("written");
             write("b.obj", "v 0 0 0").expect("written");
@@ -94,7 +97,8 @@ mod tests {
         };
         let key = |folder: &Path, set: &str, program: &str| {
             let scene = Document::read(folder.join("scene.toml")).expect("read");
-            let settings: Vec<_> = set.split_terminator(';').map(|s| s.parse().expect("right")).collect();
+            let settings: Vec<_> =
+                set.split_terminator(';').map(|s| s.parse().expect("right")).collect();
             let scene = scene.with_settings(&settings).expect("set");
             Digests::default().key(&scene, program)
         };

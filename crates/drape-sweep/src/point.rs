@@ -50,12 +50,8 @@ mod tests {
 
     #[test]
     fn shards_share_all_points() {
-        let point = |index| Point {
-            index,
-            key: String::new(),
-            levels: Vec::new(),
-            settings: Vec::new(),
-        };
+        let point =
+            |index| Point { index, key: String::new(), levels: Vec::new(), settings: Vec::new() };
         for index in 0..10 {
             let shards = ["1/3", "2/3", "3/3"].map(|text| text.parse::<Shard>().expect("right"));
             assert_eq!(shards.iter().filter(|shard| shard.has(&point(index))).count(), 1);

@@ -364,7 +364,8 @@ impl Reader<'_> {
             };
             match Range::new([own.start, own.end], own.scale.as_deref(), fail) {
                 Ok(range) => {
-                    let levels: Vec<String> = coordinates.into_iter().map(|x| range.at(x)).collect();
+                    let levels: Vec<String> =
+                        coordinates.into_iter().map(|x| range.at(x)).collect();
                     self.check_key(&place, &own.key, &levels[0]);
                     let name = own.name.clone().unwrap_or_else(|| own.key.clone());
                     axes.push(Axis { name, key: own.key.clone(), levels, is_sample: true });

@@ -138,7 +138,9 @@ fn flatten(name: &str, value: &Value, values: &mut Vec<(String, String)>) {
         Value::Object(entries) => {
             entries.iter().for_each(|(key, value)| flatten(&inner(key), value, values));
         }
-        Value::Array(elements) if name.starts_with("measures") && elements.len() <= ELEMENTS_MAX => {
+        Value::Array(elements)
+            if name.starts_with("measures") && elements.len() <= ELEMENTS_MAX =>
+        {
             let elements = elements.iter().enumerate();
             elements.for_each(|(index, value)| flatten(&inner(&index.to_string()), value, values));
         }
@@ -165,7 +167,8 @@ mod tests {
         let mut values = Vec::new();
         flatten("", &summary, &mut values);
         values.sort();
-        let values: Vec<String> = values.into_iter().map(|(name, v)| format!("{name}={v}")).collect();
+        let values: Vec<String> =
+            values.into_iter().map(|(name, v)| format!("{name}={v}")).collect();
         assert_eq!(
             values,
             [

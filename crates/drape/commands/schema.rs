@@ -34,6 +34,8 @@ pub(crate) enum SchemaKind {
     Fabric,
     /// Panels and seams.
     Pattern,
+    /// Many runs of a scene.
+    Study,
 }
 
 impl SchemaKind {
@@ -44,6 +46,7 @@ impl SchemaKind {
             Self::Sheet => drape::kes::sheet_schema(),
             Self::Fabric => drape::fabric::fabric_schema(),
             Self::Pattern => drape::pattern::pattern_schema(),
+            Self::Study => drape::sweep::study_schema(),
         };
         let text = serde_json::to_string_pretty(&schema);
         text.expect("a value always has a JSON form") + "\n"
