@@ -22,8 +22,8 @@ const OTHERS: [&str; 8] = [
     "solver.",
     "steps",
     "frames",
-    "contact.growth",
-    "energy.residual",
+    "contact.grown",
+    "energy.remainder",
 ];
 
 /// Axis of a study as the page shows it.
