@@ -14,10 +14,12 @@ pub(crate) mod start;
 pub(crate) mod strain_map;
 pub(crate) mod sweep;
 pub(crate) mod validation;
-pub(crate) mod version;
 pub(crate) mod viewer;
 
 mod kes_value;
 mod loop_plot;
 mod quantity;
 mod value_law;
+
+/// Version of the program, as pages show it.
+pub(crate) const VERSION: &str = concat!("drape ", env!("CARGO_PKG_VERSION"));

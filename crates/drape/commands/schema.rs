@@ -1,5 +1,8 @@
 //! `drape schema`: JSON Schema of the files, by which editors complete and check them as they are
-//! typed. Made from the types that read the files.
+//! typed. Made from the types that read the files. [`new`] writes files to start from, with their
+//! schemas.
+
+pub(crate) mod new;
 
 use std::path::PathBuf;
 

@@ -1,9 +1,11 @@
 //! `drape sweep`: many runs of one scene, planned, run, collected and exported.
 //!
 //! The study, its points, their keys and their table are those of `drape::sweep`. [`run`] shares the
-//! points out to jobs, each of which is a process of this program, started by [`worker`].
+//! points out to jobs, each of which is a process of this program, started by [`worker`]. [`study`]
+//! reads the study.
 
 mod run;
+mod study;
 mod worker;
 
 use std::path::{Path, PathBuf};
@@ -12,9 +14,9 @@ use clap::{Args, Subcommand};
 use drape::sweep::{Batch, Engine, Outcome, Place, Point, Study, Table, manifest};
 
 use self::run::SweepRunArguments;
+use self::study::StudyArguments;
 use crate::failure::Failure;
 use crate::pages::sweep::page;
-use crate::pages::version::VERSION;
 use crate::say::{say, say_written};
 use crate::{file, input};
 
@@ -28,13 +30,6 @@ pub(crate) enum SweepCommand {
     Collect(StudyArguments),
     /// Writes the file by which Slurm, HyperQueue or Dask run a study on many machines.
     Export(SweepExportArguments),
-}
-
-#[derive(Args)]
-pub(crate) struct StudyArguments {
-    /// Study, a TOML file.
-    #[arg(value_name = "STUDY")]
-    pub(crate) study: PathBuf,
 }
 
 #[derive(Args)]
@@ -76,15 +71,6 @@ pub(crate) fn sweep(command: &SweepCommand) -> Result<(), Failure> {
         SweepCommand::Run(arguments) => run::run(arguments),
         SweepCommand::Collect(arguments) => collect(arguments),
         SweepCommand::Export(arguments) => export(arguments),
-    }
-}
-
-impl StudyArguments {
-    /// Reads the study and its points.
-    fn read(&self) -> Result<(Study, Vec<Point>), Failure> {
-        let study = Study::read(&self.study, input::allowed())?;
-        let points = study.points(VERSION)?;
-        Ok((study, points))
     }
 }
 

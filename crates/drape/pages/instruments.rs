@@ -7,9 +7,9 @@ use drape::report::plot::{OverlayPlot, Trace};
 use drape::report::{ComparePage, FabricName};
 use drape::validate::instrument::Comparison;
 
+use super::VERSION;
 use super::loop_plot::trace;
 pub(crate) use super::quantity::DIRECTIONS;
-use super::version::VERSION;
 use super::{kes_value, quantity};
 
 /// Tests of a specimen, in the order of the page.

@@ -6,7 +6,7 @@ use drape::report::plot::{Axis, GraphPlot, GraphSeries, Look};
 use drape::report::{EffectTable, Error, MeasureEffects, StudyPage};
 use drape::sweep::{Column, Study, Table, interaction, main_effect};
 
-use super::version::VERSION;
+use super::VERSION;
 
 /// Most levels of an axis that has means and pairs; a sample has others at each point.
 const LEVELS_MAX: usize = 12;

@@ -7,8 +7,8 @@ use drape::report::{CaptionedPicture, Picture, ValidationCase, ValidationPage, V
 use drape::validate::{Check, Graph, Kind, Layout, Outcome, Source, Still};
 
 use self::limits::LIMITS;
+use super::VERSION;
 use super::picture::Pictures;
-use super::version::VERSION;
 use crate::failure::Failure;
 
 /// Pixels of one of several pictures.

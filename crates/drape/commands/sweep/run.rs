@@ -10,8 +10,8 @@ use drape::sweep::{Outcome, Place, Point, Record, Shard, Study, manifest};
 use indicatif::ProgressBar;
 use serde_json::json;
 
-use super::StudyArguments;
-use super::worker::{Ended, Worker};
+use super::study::StudyArguments;
+use super::worker::{Ended, TRIES, Worker};
 use crate::console::{Console, ProgressKind, tell};
 use crate::failure::Failure;
 use crate::keep::signal;
@@ -85,8 +85,7 @@ pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
         let message = format!(
             "{} points could not be run on this machine, though tried {} times each; try again \
              with `drape sweep run {place}`",
-            counts.workers,
-            super::worker::TRIES
+            counts.workers, TRIES
         );
         return Err(Failure::Output(message));
     }

@@ -1,3 +1,0 @@
-//! Version of the program, as pages show it.
-
-pub(crate) const VERSION: &str = concat!("drape ", env!("CARGO_PKG_VERSION"));
