@@ -11,13 +11,14 @@ use crate::commands::convert::{self, ConvertArguments};
 use crate::commands::export::{self, ExportArguments};
 use crate::commands::fabric::{self, FabricCommand};
 use crate::commands::fit::{self, FitArguments};
-use crate::commands::new::{self, NewArguments};
 use crate::commands::run::resume::{self, ResumeArguments};
 use crate::commands::run::{self, RunArguments};
+use crate::commands::schema::new::{self, NewArguments};
 use crate::commands::schema::{self, SchemaArguments};
 use crate::commands::shell::{self, CompletionsArguments, ManArguments};
 use crate::commands::show::picture::{self, PictureArguments};
 use crate::commands::show::view::{self, ViewArguments};
+use crate::commands::sweep::{self, SweepCommand};
 use crate::commands::test::{self, TestArguments};
 use crate::commands::validate::{self, ValidateArguments};
 use crate::console::{Console, ProgressKind};
@@ -88,6 +89,9 @@ enum Command {
     /// Goes on with a run that was interrupted, from its last checkpoint, to the results that it would
     /// have had; or with one that has ended, beyond its end.
     Resume(ResumeArguments),
+    /// Runs a scene many times, with values of its keys from a study, and makes one table of all.
+    #[command(subcommand)]
+    Sweep(SweepCommand),
     /// Compares simulations with exact solutions and measurements.
     Validate(ValidateArguments),
     /// Tests specimens of a fabric in simulated KES instruments and compares the loops with its
@@ -140,6 +144,7 @@ impl Command {
             Self::Fabric(command) => fabric::fabric(command),
             Self::Run(arguments) => run::run(arguments),
             Self::Resume(arguments) => resume::resume(arguments),
+            Self::Sweep(command) => sweep::sweep(command),
             Self::Validate(arguments) => validate::validate(arguments),
             Self::Test(arguments) => test::test(arguments),
             Self::Check(arguments) => check::check(arguments),

@@ -6,8 +6,8 @@
 //! [`Failure`](crate::failure::Failure) into an exit code.
 //!
 //! [`sheets`] is shared by the commands that read sheets. Of the commands, [`test`] reads its
-//! fabric through [`fabric`], which stores its page through [`fit`], [`new`] has the schemas of
-//! [`schema`], [`export`] the options of pictures of [`show`], no other knows another.
+//! fabric through [`fabric`], which stores its page through [`fit`], [`export`] has the options of
+//! pictures of [`show`], no other knows another.
 
 pub(crate) mod bench;
 pub(crate) mod check;
@@ -15,11 +15,11 @@ pub(crate) mod convert;
 pub(crate) mod export;
 pub(crate) mod fabric;
 pub(crate) mod fit;
-pub(crate) mod new;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod shell;
 pub(crate) mod show;
+pub(crate) mod sweep;
 pub(crate) mod test;
 pub(crate) mod validate;
 

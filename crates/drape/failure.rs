@@ -139,6 +139,15 @@ impl From<drape::report::Error> for Failure {
     }
 }
 
+impl From<drape::sweep::Error> for Failure {
+    fn from(error: drape::sweep::Error) -> Self {
+        match error {
+            drape::sweep::Error::Input(mistakes) => Self::Input(mistakes),
+            error => Self::Output(error.to_string()),
+        }
+    }
+}
+
 impl From<Diagnostics> for Failure {
     fn from(mistakes: Diagnostics) -> Self {
         Self::Input(mistakes)

@@ -8,7 +8,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use drape::input::{Diagnostic, Diagnostics, Document};
+use drape::input::{Diagnostic, Diagnostics, Document, Setting};
 
 /// Name of standard input in messages.
 const NAME: &str = "<standard input>";
@@ -32,18 +32,27 @@ pub(crate) fn allowed() -> &'static [PathBuf] {
     ALLOWED.get().map_or(&[], Vec::as_slice)
 }
 
+/// Values that the user sets in place of those of the files of a command.
+static SETTINGS: OnceLock<Vec<Setting>> = OnceLock::new();
+
+/// Sets values in place of those of the files that the command names; the first call stays.
+pub(crate) fn set(settings: &[Setting]) {
+    let _ = SETTINGS.set(settings.to_vec());
+}
+
 /// Returns whether a path stands for standard input or output.
 pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Reads a file, or standard input.
+/// Reads a file, or standard input, with the values that the user sets.
 pub(crate) fn document(path: &Path) -> Result<Document, Diagnostics> {
+    let settings = SETTINGS.get().map_or(&[][..], Vec::as_slice);
     if !is_standard(path) {
-        return Ok(Document::read(path)?.allowing(allowed()));
+        return Document::read(path)?.allowing(allowed()).with_settings(settings);
     }
     match TEXT.get_or_init(read) {
-        Ok(text) => Ok(Document::new(NAME, text).allowing(allowed())),
+        Ok(text) => Document::new(NAME, text).allowing(allowed()).with_settings(settings),
         Err(message) => {
             let help = "pipe a file in UTF-8 into it, or name the file in place of -";
             Err(Diagnostic::new(NAME, message).help(help).into())

@@ -12,7 +12,8 @@
 //! * simulation: [`scene`] (TOML to checked values), [`cloth`] (forces and stiffness), [`collide`]
 //!   (contact), [`implicit`] (time steps), [`dynamics`] (what joins the four to frames);
 //! * results: [`frames`] (stored frames read), [`verify`] (and verified), [`export`] (for other
-//!   programs), [`report`] (pictures and pages), [`validate`] (simulated instruments).
+//!   programs), [`report`] (pictures and pages), [`validate`] (simulated instruments), [`sweep`]
+//!   (many runs).
 //!
 //! ```
 //! use drape::fabric::Fabric;
@@ -55,6 +56,7 @@ pub use drape_checkpoint as checkpoint;
 pub use drape_export as export;
 pub use drape_frames as frames;
 pub use drape_report as report;
+pub use drape_sweep as sweep;
 pub use drape_validate as validate;
 pub use drape_verify as verify;
 

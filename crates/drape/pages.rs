@@ -9,4 +9,5 @@ pub(crate) mod picture;
 pub(crate) mod run_picture;
 pub(crate) mod start;
 pub(crate) mod strain_map;
+pub(crate) mod sweep;
 pub(crate) mod validation;

@@ -15,7 +15,7 @@ pub struct Kind {
     pub intro: &'static str,
 }
 
-pub const KINDS: [Kind; 4] = [
+pub const KINDS: [Kind; 5] = [
     Kind {
         name: "scene",
         title: "Keys of a scene",
@@ -42,6 +42,12 @@ pub const KINDS: [Kind; 4] = [
         intro: "Lengths without a unit are in the unit that `length` names, which has no default. An outline runs \
                 anticlockwise, seen from the right side of the cloth. A file with a `[from]` table changes and adds to \
                 a pattern of another format.",
+    },
+    Kind {
+        name: "study",
+        title: "Keys of a study",
+        intro: "`drape sweep` reads such a file: [many runs](../many-runs.md) of one scene. Paths are relative to the \
+                folder of the study.",
     },
 ];
 

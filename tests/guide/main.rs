@@ -22,6 +22,7 @@ fn schema_of(kind: Kind) -> Value {
         "scene" => drape::scene::scene_schema(),
         "sheet" => drape::kes::sheet_schema(),
         "fabric" => drape::fabric::fabric_schema(),
+        "study" => drape::sweep::study_schema(),
         _ => drape::pattern::pattern_schema(),
     }
 }

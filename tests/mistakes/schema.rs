@@ -108,7 +108,7 @@ fn named_schema(file: &Path) -> Option<PathBuf> {
 
 #[test]
 fn the_shipped_schemas_are_those_that_the_program_prints() {
-    for kind in KINDS {
+    for kind in KINDS.into_iter().chain(["study"]) {
         let path = root().join(format!("crates/drape/schemas/{kind}.json"));
         let shipped = std::fs::read_to_string(&path).expect("it ships");
         let now = printed(root(), &["schema", kind]);
@@ -133,12 +133,15 @@ fn values_with_their_standard_deviations_are_accepted() {
 
 #[test]
 fn every_shipped_file_is_accepted_and_names_its_schema() {
-    let (patterns, scenes): (Vec<PathBuf>, Vec<PathBuf>) = files("scenes")
-        .into_iter()
-        .partition(|path| path.parent().is_some_and(|p| p.ends_with("patterns")));
+    let is_in = |path: &Path, folder: &str| path.parent().is_some_and(|p| p.ends_with(folder));
+    let (patterns, others): (Vec<PathBuf>, Vec<PathBuf>) =
+        files("scenes").into_iter().partition(|path| is_in(path, "patterns"));
+    let (studies, scenes): (Vec<PathBuf>, Vec<PathBuf>) =
+        others.into_iter().partition(|path| is_in(path, "studies"));
     let kinds = [
         ("scene", scenes),
         ("pattern", patterns),
+        ("study", studies),
         ("sheet", files("fabrics")),
         ("fabric", files("tests/fabrics")),
     ];

@@ -15,6 +15,7 @@ use crate::figure::cut;
 use crate::grammar::{GrammarMistake, grammar_mistakes};
 use crate::node::{Node, Value};
 use crate::places::{Misplaced, Places};
+use crate::setting::Setting;
 use crate::spelling::closest;
 
 /// Largest TOML file that is read, in bytes.
@@ -41,6 +42,8 @@ pub struct Document {
     text: String,
     /// Files and folders that it may name beside those of its own folder and the working folder.
     allowed: Vec<PathBuf>,
+    /// Values that take the place of those of the text.
+    settings: Vec<Setting>,
     content: OnceLock<Content>,
     lines: OnceLock<Lines>,
 }
@@ -52,7 +55,7 @@ impl Document {
         let text: String = text.into();
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
         let (content, lines) = (OnceLock::new(), OnceLock::new());
-        Self { path: path.into(), text, allowed: Vec::new(), content, lines }
+        Self { path: path.into(), text, allowed: Vec::new(), settings: Vec::new(), content, lines }
     }
 
     /// Returns the document, which may name other files and those in other folders too.
@@ -66,6 +69,40 @@ impl Document {
     #[must_use]
     pub fn allowed(&self) -> &[PathBuf] {
         &self.allowed
+    }
+
+    /// Returns the document with values that take the place of those of its text, one after the
+    /// other. Lines and columns stay those of the text; a mistake in a value that was set says so.
+    ///
+    /// # Errors
+    /// A key leads nowhere: through a value that is no table, or to an element that is not there.
+    /// Mistakes of the text itself are left to [`decode`](Self::decode).
+    pub fn with_settings(mut self, settings: &[Setting]) -> Result<Self, Diagnostics> {
+        let mut content = self.content().clone();
+        let mut mistakes = Vec::new();
+        for setting in settings.iter().filter(|_| content.mistakes.is_empty()) {
+            let place = self.text.len() + 1 + self.settings.len();
+            if let Err(error) = setting.apply(&mut content.root, place) {
+                let message = format!("{setting}, set on the command line: {}", error.message);
+                mistakes.push(Diagnostic::new(&self.path, message).help(error.help));
+            }
+            self.settings.push(setting.clone());
+        }
+        Diagnostics::check(mistakes)?;
+        self.content = OnceLock::from(content);
+        Ok(self)
+    }
+
+    /// Values that take the place of those of the text.
+    #[must_use]
+    pub fn settings(&self) -> &[Setting] {
+        &self.settings
+    }
+
+    /// Returns all values that are texts, in the order of their keys.
+    #[must_use]
+    pub fn texts(&self) -> Vec<&str> {
+        self.content().root.texts()
     }
 
     /// Returns the path of a file that the document names, which is seen from its folder.
@@ -179,8 +216,13 @@ impl Document {
         self.locate(self.find(key).map(|place| place.span), message)
     }
 
-    /// Returns a mistake with the place of a span.
+    /// Returns a mistake with the place of a span; places behind the text stand for its settings.
     fn locate(&self, span: Option<Range<usize>>, message: impl Into<String>) -> Diagnostic {
+        let place = span.as_ref().and_then(|span| span.start.checked_sub(self.text.len() + 1));
+        if let Some(setting) = place.and_then(|index| self.settings.get(index)) {
+            let message = format!("{} (set on the command line: {setting})", message.into());
+            return Diagnostic::new(&self.path, message);
+        }
         let mut diagnostic = Diagnostic::new(&self.path, message);
         if let Some(span) = span {
             let lines = self.lines.get_or_init(|| Lines::of(&self.text));

@@ -10,6 +10,7 @@
 //! * `diagnostic`: [`Diagnostic`], one mistake with its place and remedy, and [`Diagnostics`], the
 //!   error type of this crate: all mistakes of an input.
 //! * `spelling`: [`closest`], the known word nearest to a misspelt one.
+//! * `setting`: [`Setting`], a value given beside a text, such as on a command line.
 //! * `places`: [`Places`], the folders below which the files lie that a document may name.
 //! * `quoting`: [`toml_key`] and [`toml_string`], names and texts as TOML.
 //! * `schema`: JSON Schema of such numbers, with the feature of that name.
@@ -26,6 +27,7 @@ mod places;
 mod quoting;
 #[cfg(feature = "schema")]
 mod schema;
+mod setting;
 mod spelling;
 mod unit;
 
@@ -42,5 +44,6 @@ pub use places::{Misplaced, Places};
 pub use quoting::{toml_key, toml_string};
 #[cfg(feature = "schema")]
 pub use schema::{at_least, laboratory_schema, one_of, positive, schema_of, unit_schema, within};
+pub use setting::{Setting, SettingError};
 pub use spelling::closest;
 pub use unit::{Quantity, Unit, UnitError, Written, is_unit, parse_quantity, parse_unit};

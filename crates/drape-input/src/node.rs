@@ -65,6 +65,29 @@ impl Node {
         entries.get(index)
     }
 
+    /// Gives the value, and all in it, one place.
+    pub(crate) fn move_to(&mut self, place: usize) {
+        self.span = place..place;
+        match &mut self.value {
+            Value::List(elements) => elements.iter_mut().for_each(|node| node.move_to(place)),
+            Value::Table(entries) => entries.iter_mut().for_each(|entry| {
+                entry.span = place..place;
+                entry.node.move_to(place);
+            }),
+            _ => {}
+        }
+    }
+
+    /// Returns all texts in the value.
+    pub(crate) fn texts(&self) -> Vec<&str> {
+        match &self.value {
+            Value::Text(text) => vec![text],
+            Value::List(elements) => elements.iter().flat_map(Self::texts).collect(),
+            Value::Table(entries) => entries.iter().flat_map(|entry| entry.node.texts()).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// Returns the kind of the value, in words.
     pub(crate) fn kind(&self) -> &'static str {
         match &self.value {

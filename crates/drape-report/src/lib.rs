@@ -5,7 +5,7 @@
 //! [`render`] draws a [`Scene`] of [`Surface`]s for a [`View`] and returns a [`Picture`];
 //! [`LitShapes`] draw several of the same shapes. The
 //! functions of [`plot`] draw SVG figures of measured and fitted curves. [`FitPage`],
-//! [`ComparePage`] and [`ValidationPage`] are reports that become HTML pages and text; a
+//! [`ComparePage`], [`ValidationPage`] and [`StudyPage`] are reports that become HTML pages and text; a
 //! [`Parameter`] is a number with its [`Units`] and its [`Interval`].
 //!
 //! Layers, lowest first: `error`, `check`, `text`, `parameter`, `picture`; the chapters `render`
@@ -29,9 +29,9 @@ mod page;
 
 pub use error::Error;
 pub use page::{
-    CaptionedPicture, ComparePage, ComparedValue, Evidence, FabricName, FitPage, KesValue,
-    LawReport, Limits, ModelScore, Quantity, Statistics, Trust, ValidationCase, ValidationPage,
-    ValidationRow, Verdict,
+    CaptionedPicture, ComparePage, ComparedValue, EffectTable, Evidence, FabricName, FitPage,
+    KesValue, LawReport, Limits, MeasureEffects, ModelScore, Quantity, Statistics, StudyPage,
+    Trust, ValidationCase, ValidationPage, ValidationRow, Verdict,
 };
 pub use parameter::{Interval, Parameter, Unit, Units};
 pub use picture::{Animation, Colour, ColourScale, Legend, Picture, diverging};

@@ -1,7 +1,7 @@
-//! Pages: the reports of a fit, of a comparison and of a validation.
+//! Pages: the reports of a fit, of a comparison, of a validation and of a study.
 //!
 //! A report is plain data in SI: [`FitPage`] with a [`LawReport`] for each law, [`ComparePage`],
-//! [`ValidationPage`]. It checks its numbers and texts, and becomes one self-contained HTML page or
+//! [`ValidationPage`], [`StudyPage`]. It checks its numbers and texts, and becomes one self-contained HTML page or
 //! a text for the terminal; serialised, it is the report for programs. `shown` rounds quantities
 //! and writes them in both units, `assets` holds the style and the script, the templates are in
 //! `templates/page`. The chapter takes figures from `plot` and pictures from `render`.
@@ -13,9 +13,11 @@ mod fit_page;
 mod fit_text;
 mod law_report;
 mod shown;
+mod study_page;
 mod validation_page;
 
 pub use compare_page::{ComparePage, ComparedValue, FabricName};
 pub use fit_page::{FitPage, KesValue, Quantity};
 pub use law_report::{Evidence, LawReport, Limits, ModelScore, Statistics, Trust, Verdict};
+pub use study_page::{EffectTable, MeasureEffects, StudyPage};
 pub use validation_page::{CaptionedPicture, ValidationCase, ValidationPage, ValidationRow};

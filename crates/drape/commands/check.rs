@@ -15,7 +15,7 @@ mod start;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use drape::input::{Diagnostic, Diagnostics};
+use drape::input::{Diagnostic, Diagnostics, Setting};
 use serde_json::{Value, json};
 
 use self::body::Measure;
@@ -35,6 +35,9 @@ pub(crate) struct CheckArguments {
     /// seam in one colour, with a dot at the first stitch and an arrowhead in its direction.
     #[arg(long, value_name = "SVG|PNG")]
     pub(crate) figure: Option<PathBuf>,
+    /// Sets a key in place of its value in the files, as for `drape run`; may be given several times.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<Setting>,
     /// Distance between the particles of a cut pattern, or of the cloth on a body, in mm.
     #[arg(long, value_name = "MM", default_value_t = 10.0)]
     pub(crate) spacing: f64,
@@ -60,6 +63,7 @@ pub(crate) struct CheckArguments {
 /// Executes `drape check`: reads all files, reports all mistakes together, then verifies the frames
 /// of runs.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
+    input::set(&arguments.set);
     let (runs, files): (Vec<&PathBuf>, Vec<&PathBuf>) =
         arguments.files.iter().partition(|file| frames::is_run(file));
     let spacing = 1e-3 * arguments.spacing;

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use drape::dynamics::Summary;
-use drape::input::Places;
+use drape::input::{Places, Setting};
 use drape::keep::{KeptRun, RunRequest, end_at};
 use drape::scene::Error;
 use serde_json::json;
@@ -37,6 +37,11 @@ pub(crate) struct RunArguments {
     /// Ends the simulation at this time, in seconds.
     #[arg(long, value_name = "SECONDS")]
     pub(crate) until: Option<f64>,
+    /// Sets a key of the scene in place of its value there, such as time.end=2.0 or
+    /// panel.0.rectangle=[1.0, 0.5]; may be given several times. The key is a path of names and
+    /// numbers, the value one of TOML: texts stand in quotes.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<Setting>,
     /// Replaces the results of an earlier run.
     #[arg(long)]
     pub(crate) force: bool,
@@ -66,6 +71,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// Executes `drape run`.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     signal::watch();
+    input::set(&arguments.set);
     if let [scene] = &arguments.scenes[..] {
         let Ran { summary, folder } = run_scene(scene, arguments)?;
         if arguments.options.json {
@@ -109,6 +115,7 @@ fn run_scene(path: &Path, arguments: &RunArguments) -> Result<Ran, Failure> {
     check_place(&folder, path, arguments)?;
     let request = RunRequest {
         state_hash: arguments.state_hash,
+        set: arguments.set.iter().map(Setting::to_string).collect(),
         ..RunRequest::new(path, arguments.until, arguments.checkpoint_every)
     };
     let options = &arguments.options;

@@ -1,5 +1,8 @@
 //! `drape schema`: JSON Schema of the files, by which editors complete and check them as they are
-//! typed. Made from the types that read the files.
+//! typed. Made from the types that read the files. [`new`] writes files to start from, with their
+//! schemas.
+
+pub(crate) mod new;
 
 use std::path::PathBuf;
 
@@ -34,6 +37,8 @@ pub(crate) enum SchemaKind {
     Fabric,
     /// Panels and seams.
     Pattern,
+    /// Many runs of a scene.
+    Study,
 }
 
 impl SchemaKind {
@@ -44,6 +49,7 @@ impl SchemaKind {
             Self::Sheet => drape::kes::sheet_schema(),
             Self::Fabric => drape::fabric::fabric_schema(),
             Self::Pattern => drape::pattern::pattern_schema(),
+            Self::Study => drape::sweep::study_schema(),
         };
         let text = serde_json::to_string_pretty(&schema);
         text.expect("a value always has a JSON form") + "\n"

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::input::Setting;
 use serde::{Deserialize, Serialize};
 
 use super::Error;
@@ -25,13 +26,32 @@ pub struct RunRequest {
     /// Whether the state is hashed after each step.
     #[serde(default)]
     pub state_hash: bool,
+    /// Keys of the scene that were set on the command line, each as KEY=VALUE.
+    #[serde(default)]
+    pub set: Vec<String>,
 }
 
 impl RunRequest {
     /// Makes the request of a scene.
     #[must_use]
     pub fn new(scene: &Path, until: Option<f64>, checkpoint_every: f64) -> Self {
-        Self { scene: whole_path(scene), until, checkpoint_every, state_hash: false }
+        let scene = whole_path(scene);
+        Self { scene, until, checkpoint_every, state_hash: false, set: Vec::new() }
+    }
+
+    /// Returns the keys of the scene that were set.
+    ///
+    /// # Errors
+    /// A text that sets no key.
+    pub fn settings(&self) -> Result<Vec<Setting>, Error> {
+        let settings = self.set.iter().map(|text| {
+            let fail = |error: SettingError| Error::NotBegun {
+                path: NAME.into(),
+                reason: error.to_string(),
+            };
+            text.parse().map_err(fail)
+        });
+        settings.collect()
     }
 
     /// Gives the scene another place.

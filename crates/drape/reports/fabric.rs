@@ -12,9 +12,9 @@ use crate::report::{
 };
 use crate::validate::instrument;
 
+use super::VERSION;
 use super::loop_plot::{Loads, loop_plot, trace};
 use super::quantity::DIRECTIONS;
-use super::version::VERSION;
 use super::{kes_value, quantity};
 
 /// Points of a branch of a loop; enough for the trapezoids of WT to be right to a

@@ -9,11 +9,11 @@ use crate::report::{
     FitPage, Interval, LawReport, ModelScore, Parameter, Quantity, Statistics, Units,
 };
 
+use super::VERSION;
 use super::kes_value::{self, SheetValues};
 use super::loop_plot::{Loads, loop_plot};
 use super::quantity;
 use super::value_law::value_laws;
-use super::version::VERSION;
 
 /// Returns the report of a fit: all that shows whether it can be trusted.
 #[must_use]

@@ -7,8 +7,8 @@ use crate::report::plot::{OverlayPlot, Trace};
 use crate::report::{ComparePage, FabricName};
 use crate::validate::instrument::Comparison;
 
+use super::VERSION;
 use super::loop_plot::trace;
-use super::version::VERSION;
 use super::{kes_value, quantity};
 
 /// Tests of a specimen, in the order of the page.

@@ -24,6 +24,7 @@ impl Content<'_> {
     pub(crate) fn hash(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         hasher.update(self.document.text().as_bytes());
+        hasher.update(self.settings().as_bytes());
         for material in self.materials {
             hasher.update(material.fabric.to_toml().as_bytes());
         }
@@ -38,11 +39,20 @@ impl Content<'_> {
         hasher.finalize().to_hex().to_string()
     }
 
-    /// Returns the digests of the text, of each fabric, of the cloth at its start and of each body.
+    /// Returns the values that take the place of those of the text, one a line.
+    fn settings(&self) -> String {
+        self.document.settings().iter().map(|setting| format!("\n{setting}")).collect()
+    }
+
+    /// Returns the digests of the text, of what is set beside it, of each fabric, of the cloth at its start and of each body.
     pub(crate) fn parts(&self) -> Vec<SourcePart> {
         let part = |name: String, digest: blake3::Hash| SourcePart { name, digest: digest.into() };
         let mut parts =
             vec![part("the scene".into(), blake3::hash(self.document.text().as_bytes()))];
+        if !self.document.settings().is_empty() {
+            let digest = blake3::hash(self.settings().as_bytes());
+            parts.push(part("what is set beside the scene".into(), digest));
+        }
         for Material { name, fabric, .. } in self.materials {
             let digest = blake3::hash(fabric.to_toml().as_bytes());
             parts.push(part(format!("the fabric \"{name}\""), digest));

@@ -41,6 +41,7 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<(), Failure> {
             "the scene was read from standard input: pipe it again, with --scene -".into(),
         ));
     }
+    input::set(&request.settings()?);
     let mut scene = drape::scene_of(&input::document(&path)?)?;
     if let Some(end) = request.until {
         scene.schedule.clock.end = end;

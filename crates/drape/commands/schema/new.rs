@@ -44,9 +44,9 @@ impl Kind {
 
     fn content(self) -> &'static str {
         match self {
-            Self::Scene => include_str!("../templates/scene.toml"),
-            Self::Sheet => include_str!("../templates/sheet.toml"),
-            Self::Pattern => include_str!("../templates/pattern.toml"),
+            Self::Scene => include_str!("../../templates/scene.toml"),
+            Self::Sheet => include_str!("../../templates/sheet.toml"),
+            Self::Pattern => include_str!("../../templates/pattern.toml"),
         }
     }
 

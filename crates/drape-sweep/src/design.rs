@@ -1,0 +1,122 @@
+//! Designs: points in the unit cube that fill it evenly.
+
+/// Method of a sample.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Method {
+    /// Sobol's sequence with Owen's scrambling (Burley 2020).
+    Sobol,
+    /// Latin hypercube: each interval of each coordinate has one point (McKay, Beckman & Conover
+    /// 1979).
+    LatinHypercube,
+}
+
+impl Method {
+    /// Largest number of points: the sequence has 2¹⁶.
+    pub(crate) fn points_max(self) -> u32 {
+        match self {
+            Self::Sobol => 1 << 16,
+            Self::LatinHypercube => 100_000,
+        }
+    }
+
+    /// Largest number of coordinates.
+    pub(crate) fn dimensions_max(self) -> usize {
+        sobol_burley::NUM_DIMENSIONS as usize
+    }
+
+    /// Returns points with coordinates of 0 to 1, a list for each coordinate.
+    pub(crate) fn coordinates(self, dimensions: usize, count: u32, seed: u32) -> Vec<Vec<f64>> {
+        let coordinate = |dimension: u32| -> Vec<f64> {
+            match self {
+                Self::Sobol => (0..count)
+                    .map(|index| f64::from(sobol_burley::sample(index, dimension, seed)))
+                    .collect(),
+                Self::LatinHypercube => latin(count, &mut Random::new(seed, dimension)),
+            }
+        };
+        (0..dimensions as u32).map(coordinate).collect()
+    }
+}
+
+/// Returns a coordinate of a Latin hypercube: one number in each of so many intervals, shuffled.
+fn latin(count: u32, random: &mut Random) -> Vec<f64> {
+    let mut intervals: Vec<u32> = (0..count).collect();
+    for last in (1..intervals.len()).rev() {
+        let other = (random.next() * (last + 1) as f64) as usize;
+        intervals.swap(last, other.min(last));
+    }
+    let within = |interval| (f64::from(interval) + random.next()) / f64::from(count);
+    intervals.into_iter().map(within).collect()
+}
+
+/// Numbers from 0 to 1 that look random, the same on every machine: the output of BLAKE3.
+struct Random(blake3::OutputReader);
+
+impl Random {
+    fn new(seed: u32, dimension: u32) -> Self {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(b"latin hypercube").update(&seed.to_le_bytes());
+        Self(hasher.update(&dimension.to_le_bytes()).finalize_xof())
+    }
+
+    fn next(&mut self) -> f64 {
+        let mut bytes = [0; 8];
+        self.0.fill(&mut bytes);
+        (u64::from_le_bytes(bytes) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the largest difference between the part of points in a box at the origin and its
+    /// volume.
+    fn discrepancy(points: &[Vec<f64>]) -> f64 {
+        let count = points[0].len();
+        let mut worst: f64 = 0.0;
+        for [x, y] in (1..=16).flat_map(|i| (1..=16).map(move |j| [i, j].map(f64::from))) {
+            let [x, y] = [x / 16.0, y / 16.0];
+            let inside = (0..count).filter(|&k| points[0][k] < x && points[1][k] < y).count();
+            worst = worst.max((inside as f64 / count as f64 - x * y).abs());
+        }
+        worst
+    }
+
+    #[test]
+    fn each_interval_of_a_latin_hypercube_has_one_point() {
+        for seed in 0..20 {
+            for coordinate in Method::LatinHypercube.coordinates(3, 17, seed) {
+                let mut intervals: Vec<usize> =
+                    coordinate.iter().map(|x| (17.0 * x) as usize).collect();
+                intervals.sort_unstable();
+                assert_eq!(intervals, (0..17).collect::<Vec<_>>());
+            }
+        }
+    }
+
+    #[test]
+    fn sobol_points_fill_the_square_more_evenly_than_random_ones() {
+        let random: Vec<Vec<f64>> = (0..2)
+            .map(|dimension| {
+                let mut random = Random::new(7, dimension);
+                (0..256).map(|_| random.next()).collect()
+            })
+            .collect();
+        for seed in 0..10 {
+            let sobol = discrepancy(&Method::Sobol.coordinates(2, 256, seed));
+            assert!(sobol < 0.012, "{sobol}");
+            assert!(sobol < 0.5 * discrepancy(&random), "{sobol}");
+        }
+    }
+
+    #[test]
+    fn a_seed_chooses_the_sample() {
+        for method in [Method::Sobol, Method::LatinHypercube] {
+            let sample = |seed| method.coordinates(4, 8, seed);
+            assert_eq!(sample(1), sample(1));
+            assert_ne!(sample(1), sample(2));
+            assert!(sample(3).iter().flatten().all(|x| (0.0..1.0).contains(x)));
+        }
+    }
+}

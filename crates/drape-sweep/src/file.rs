@@ -1,0 +1,119 @@
+//! TOML form of a study.
+//!
+//! `StudyFile` mirrors the text of a study key by key. Nothing here is checked beyond its type.
+
+use drape_input::TextOr;
+use serde::Deserialize;
+
+/// Study: many runs of one scene.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StudyFile {
+    /// Scene whose keys are set, relative to the folder of the study.
+    pub(crate) scene: String,
+    /// Folder for the results, relative to the folder of the study; `out/` and the name of the
+    /// study's file, in the current folder, if missing.
+    pub(crate) output: Option<String>,
+    /// Files that a run that has ended keeps: `all`; `last`, its summary and the last state of the
+    /// cloth as OBJ; or `measures`, its summary.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = "all")))]
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["all", "last", "measures"])))]
+    pub(crate) keep: Option<String>,
+    /// Keys that are set to one value after the other. The levels of all axes, and all samples, are
+    /// combined, those of the last one first.
+    #[serde(default)]
+    pub(crate) axis: Vec<AxisFile>,
+    /// Samples of ranges of several keys.
+    #[serde(default)]
+    pub(crate) sample: Vec<SampleFile>,
+}
+
+/// Key of a scene that is set to one value after the other, by one of `values`, `range`, `files` and
+/// `starts`.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AxisFile {
+    /// Key of the scene, a path of names and numbers such as `panel.0.rectangle`.
+    pub(crate) key: String,
+    /// Name of the column in the table; the key if missing.
+    pub(crate) name: Option<String>,
+    /// Values of the key, of any kind.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<serde_json::Value>>"))]
+    pub(crate) values: Option<Vec<toml::Value>>,
+    /// Numbers at equal distances or ratios.
+    pub(crate) range: Option<RangeFile>,
+    /// Files, as a list or as a pattern such as `fabrics/*/sheet.toml`, relative to the folder of the
+    /// study.
+    pub(crate) files: Option<TextOr<Vec<String>>>,
+    /// Number of random starts: values from 1 to this one for the `seed` of a panel's `noise`.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(1.0)))]
+    pub(crate) starts: Option<u32>,
+    /// Name of a group: axes with the same one go in step in place of being combined.
+    pub(crate) together: Option<String>,
+}
+
+/// Numbers at equal distances or ratios.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RangeFile {
+    /// First number.
+    pub(crate) start: f64,
+    /// Last number.
+    pub(crate) end: f64,
+    /// Number of numbers.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(2.0)))]
+    pub(crate) count: u32,
+    /// Whether distances are equal, `linear`, or ratios, `log`.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = "linear")))]
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["linear", "log"])))]
+    pub(crate) scale: Option<String>,
+}
+
+/// Sample of ranges of several keys.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SampleFile {
+    /// Method: `sobol`, a scrambled Sobol sequence, or `latin-hypercube`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["sobol", "latin-hypercube"])))]
+    pub(crate) method: String,
+    /// Number of points.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(1.0)))]
+    pub(crate) count: u32,
+    /// Number that chooses the sample.
+    #[serde(default)]
+    pub(crate) seed: u32,
+    /// Ranges, one of each key.
+    pub(crate) range: Vec<SampleRangeFile>,
+}
+
+/// Range of a key in a sample.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SampleRangeFile {
+    /// Key of the scene, as for an axis.
+    pub(crate) key: String,
+    /// Name of the column in the table; the key if missing.
+    pub(crate) name: Option<String>,
+    /// Lower end.
+    pub(crate) start: f64,
+    /// Upper end.
+    pub(crate) end: f64,
+    /// Whether numbers, `linear`, or their logarithms, `log`, are spread evenly.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = "linear")))]
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["linear", "log"])))]
+    pub(crate) scale: Option<String>,
+}
+
+/// Returns the JSON Schema of studies.
+#[cfg(feature = "schema")]
+#[must_use]
+pub fn study_schema() -> serde_json::Value {
+    let about = "Study of drape: many runs of one scene, with values of its keys from lists, ranges, \
+                 files and samples.";
+    drape_input::schema_of::<StudyFile>("Study of drape", about, serde_json::Map::new())
+}

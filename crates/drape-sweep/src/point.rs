@@ -1,0 +1,64 @@
+//! Points of a study, and parts of them.
+
+use drape_input::Setting;
+
+/// One run of a study.
+#[derive(Debug, Clone)]
+pub struct Point {
+    /// Number in the order of the plan, from 0.
+    pub index: usize,
+    /// BLAKE3 digest of what its run reads, in hexadecimal digits.
+    pub key: String,
+    /// Levels of the axes, in their order, as values of TOML.
+    pub levels: Vec<String>,
+    /// Keys of the scene that are set.
+    pub settings: Vec<Setting>,
+}
+
+/// Part of the points of a study: every so manieth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Number of the part, from 1.
+    index: usize,
+    /// Number of parts.
+    count: usize,
+}
+
+impl Shard {
+    /// Returns whether a point is in this part.
+    #[must_use]
+    pub fn has(self, point: &Point) -> bool {
+        point.index % self.count == self.index - 1
+    }
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(index, count)| {
+            Some(Self { index: index.trim().parse().ok()?, count: count.trim().parse().ok()? })
+        });
+        let shard = numbers.filter(|shard| (1..=shard.count).contains(&shard.index));
+        shard.ok_or_else(|| "write i/n, the part and the number of parts, such as 1/4".into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_share_all_points() {
+        let point =
+            |index| Point { index, key: String::new(), levels: Vec::new(), settings: Vec::new() };
+        for index in 0..10 {
+            let shards = ["1/3", "2/3", "3/3"].map(|text| text.parse::<Shard>().expect("right"));
+            assert_eq!(shards.iter().filter(|shard| shard.has(&point(index))).count(), 1);
+        }
+        for wrong in ["0/3", "4/3", "1", "a/b", "1/0"] {
+            assert!(wrong.parse::<Shard>().expect_err("wrong").contains("such as 1/4"));
+        }
+        assert!("1/4".parse::<Shard>().is_ok());
+    }
+}

@@ -1,0 +1,183 @@
+//! Table: inputs, records and measures of all points of a study.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use crate::error::Error;
+use crate::manifest::value_of;
+use crate::place::Place;
+use crate::point::Point;
+use crate::record::Outcome;
+use crate::study::Study;
+
+/// Most elements of a list of a summary's measures that have columns.
+const ELEMENTS_MAX: usize = 32;
+
+/// Column of a table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Column {
+    /// Name.
+    pub name: String,
+    /// Cells, one for each point; empty where there is no value.
+    pub cells: Vec<String>,
+}
+
+impl Column {
+    /// Returns the numbers of the cells.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<Option<f64>> {
+        let number = |cell: &String| cell.parse().ok().filter(|x: &f64| x.is_finite());
+        self.cells.iter().map(number).collect()
+    }
+}
+
+/// Table of a study: a row for each point, in the order of the plan.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Table {
+    /// Number and key of each point.
+    pub points: Vec<Column>,
+    /// Levels of the axes.
+    pub inputs: Vec<Column>,
+    /// What came of each point: status, exit code, number of retries, time in s, message.
+    pub records: Vec<Column>,
+    /// Values of the summaries, in the order of their names.
+    pub measures: Vec<Column>,
+}
+
+impl Table {
+    /// Collects the points of a study.
+    #[must_use]
+    pub fn collect(study: &Study, points: &[Point]) -> Self {
+        let mut records: Vec<[String; 5]> = Vec::new();
+        let mut measures: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for (row, point) in points.iter().enumerate() {
+            let place = Place::new(study, point);
+            let record = place.record();
+            let own = record.as_ref().filter(|record| record.outcome != Outcome::WorkerFailed);
+            let summary = own.and_then(|_| place.summary());
+            let mut values = Vec::new();
+            summary.iter().for_each(|summary| flatten("", summary, &mut values));
+            for (name, value) in values {
+                let cells = measures.entry(name).or_default();
+                cells.resize(row, String::new());
+                cells.push(value);
+            }
+            let status = summary.as_ref().and_then(|summary| summary["status"].as_str());
+            records.push(match record {
+                None => ["not run", "", "", "", ""].map(str::to_owned),
+                Some(record) => [
+                    match (record.outcome, status) {
+                        (Outcome::WorkerFailed, _) => "worker failed",
+                        (Outcome::JobFailed, None) => "refused",
+                        (_, status) => status.unwrap_or_default(),
+                    }
+                    .to_owned(),
+                    record.exit_code.map_or(String::new(), |code| code.to_string()),
+                    record.retries.to_string(),
+                    format!("{:.3}", record.seconds),
+                    record.message,
+                ],
+            });
+        }
+        let column = |name: &str, cells: Vec<String>| Column { name: name.to_owned(), cells };
+        let inputs = study.axes().enumerate().map(|(index, axis)| {
+            let cells = points.iter().map(|point| cell(&value_of(&point.levels[index])));
+            column(&axis.name, cells.collect())
+        });
+        let inputs: Vec<Column> = inputs.collect();
+        let taken = |name: &str| inputs.iter().any(|input| input.name == name);
+        let measures = measures.into_iter().map(|(name, mut cells)| {
+            cells.resize(points.len(), String::new());
+            let name = if taken(&name) { format!("summary.{name}") } else { name };
+            Column { name, cells }
+        });
+        let names = ["outcome", "exit_code", "retries", "seconds", "message"];
+        let records = names.into_iter().enumerate().map(|(index, name)| {
+            column(name, records.iter().map(|record| record[index].clone()).collect())
+        });
+        Self {
+            points: vec![
+                column("point", points.iter().map(|point| point.index.to_string()).collect()),
+                column("key", points.iter().map(|point| point.key.clone()).collect()),
+            ],
+            measures: measures.collect(),
+            records: records.collect(),
+            inputs,
+        }
+    }
+
+    /// Returns all columns in their order.
+    pub fn columns(&self) -> impl Iterator<Item = &Column> {
+        let Self { points, inputs, records, measures } = self;
+        points.iter().chain(inputs).chain(records).chain(measures)
+    }
+
+    /// Returns the table as CSV, with a line of names.
+    ///
+    /// # Errors
+    /// None but those of memory.
+    pub fn to_csv(&self) -> Result<Vec<u8>, Error> {
+        let mut csv = csv::Writer::from_writer(Vec::new());
+        let path = std::path::Path::new("table.csv");
+        let failed = |error: csv::Error| Error::io("write", path)(error.into());
+        csv.write_record(self.columns().map(|column| &column.name)).map_err(failed)?;
+        let rows = self.points.first().map_or(0, |column| column.cells.len());
+        for row in 0..rows {
+            csv.write_record(self.columns().map(|column| &column.cells[row])).map_err(failed)?;
+        }
+        csv.into_inner().map_err(|error| Error::io("write", path)(error.into_error()))
+    }
+}
+
+/// Adds the values of a summary with their names, such as `strain.traction_max`. Of lists there are
+/// those of measures, up to some length.
+fn flatten(name: &str, value: &Value, values: &mut Vec<(String, String)>) {
+    let inner = |key: &str| if name.is_empty() { key.to_owned() } else { format!("{name}.{key}") };
+    match value {
+        Value::Object(entries) => {
+            entries.iter().for_each(|(key, value)| flatten(&inner(key), value, values));
+        }
+        Value::Array(elements)
+            if name.starts_with("measures") && elements.len() <= ELEMENTS_MAX =>
+        {
+            let elements = elements.iter().enumerate();
+            elements.for_each(|(index, value)| flatten(&inner(&index.to_string()), value, values));
+        }
+        Value::Null | Value::Array(_) => {}
+        value => values.push((name.to_owned(), cell(value))),
+    }
+}
+
+/// Returns a value as a cell: texts without quotes.
+fn cell(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_of_a_summary_have_names() {
+        let summary = serde_json::json!({
+            "status": "ok", "frame_times": [0.0, 1.0], "cpu_seconds": null, "settled": true,
+            "strain": { "shear_max": 0.5 }, "measures": { "hem": { "heights": [1.0, 2.5] } },
+        });
+        let mut values = Vec::new();
+        flatten("", &summary, &mut values);
+        values.sort();
+        let values: Vec<String> =
+            values.into_iter().map(|(name, v)| format!("{name}={v}")).collect();
+        assert_eq!(
+            values,
+            [
+                "measures.hem.heights.0=1.0",
+                "measures.hem.heights.1=2.5",
+                "settled=true",
+                "status=ok",
+                "strain.shear_max=0.5"
+            ]
+        );
+    }
+}

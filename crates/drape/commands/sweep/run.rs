@@ -1,0 +1,238 @@
+//! `drape sweep run`: points shared out to jobs.
+
+use std::collections::BTreeSet;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use clap::Args;
+use drape::sweep::{Outcome, Place, Point, Record, Shard, Study, manifest};
+use indicatif::ProgressBar;
+use serde_json::json;
+
+use super::study::StudyArguments;
+use super::worker::{Ended, TRIES, Worker};
+use crate::console::progress;
+use crate::console::signal;
+use crate::console::{Console, ProgressKind, tell};
+use crate::failure::Failure;
+use crate::file;
+use crate::say::{say, say_written};
+
+#[derive(Args)]
+pub(crate) struct SweepRunArguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Number of points that run at once, which share the threads [default: one for each thread].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Runs the point with this key, or with a key that begins so; may be given several times.
+    #[arg(long, value_name = "KEY")]
+    point: Vec<String>,
+    /// Runs part i of n of the points, such as 1/4.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Lists the points with their keys, their outcomes and their values, and runs none.
+    #[arg(long)]
+    list: bool,
+}
+
+/// Time between two looks for a signal.
+const WATCH: Duration = Duration::from_millis(50);
+
+/// Executes `drape sweep run`. Points that fail are results: the exit code is that of a failure only
+/// where a worker failed, or a signal came.
+pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
+    let (study, points) = arguments.study.read()?;
+    let chosen = choose(arguments, &points)?;
+    if arguments.list {
+        return chosen.iter().try_for_each(|point| list(&study, point));
+    }
+    signal::watch();
+    let path = study.output().join("manifest.jsonl");
+    let text = manifest(&study, &points);
+    // Sweeps that begin at once would write the same.
+    if std::fs::read_to_string(&path).ok().as_ref() != Some(&text) {
+        let own = format!("manifest-{}.jsonl", std::process::id());
+        let own = study.output().join(own);
+        file::write(&own, text)?;
+        std::fs::rename(&own, &path).map_err(|error| {
+            Failure::Output(format!("cannot write {}: {error}", path.display()))
+        })?;
+    }
+    let threads = rayon::current_num_threads();
+    let jobs = arguments.jobs.map_or(threads, usize::from).min(chosen.len().max(1));
+    let sweep = Sweep {
+        worker: Worker::new(&study, (threads / jobs).max(1))?,
+        study: &study,
+        points: &chosen,
+        next: AtomicUsize::new(0),
+        counts: Mutex::default(),
+        bar: progress::bar(chosen.len() as u64, "{pos}/{len} points, {eta} left"),
+    };
+    let failures = sweep.run(jobs);
+    sweep.bar.finish_and_clear();
+    let counts = sweep.counts.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    say_written(counts.describe(chosen.len()))?;
+    if let Some(failure) = failures.into_iter().next() {
+        return Err(failure);
+    }
+    let place = arguments.study.study.display();
+    if let Some(signal) = signal::received() {
+        let message = format!("interrupted; go on with `drape sweep run {place}`");
+        return Err(Failure::Interrupted { signal, message });
+    }
+    if counts.workers > 0 {
+        let message = format!(
+            "{} points could not be run on this machine, though tried {} times each; try again \
+             with `drape sweep run {place}`",
+            counts.workers, TRIES
+        );
+        return Err(Failure::Output(message));
+    }
+    Ok(())
+}
+
+/// Returns the points that are asked for, each key once.
+fn choose<'a>(
+    arguments: &SweepRunArguments,
+    points: &'a [Point],
+) -> Result<Vec<&'a Point>, Failure> {
+    let SweepRunArguments { point: keys, shard, .. } = arguments;
+    if let Some(key) = keys.iter().find(|key| points.iter().all(|point| !is_of(point, key))) {
+        return Err(Failure::Usage(format!(
+            "--point {key}: the study has no such point; `drape sweep run {} --list` lists them",
+            arguments.study.study.display()
+        )));
+    }
+    let mut known = BTreeSet::new();
+    let is_asked = |point: &&Point| {
+        shard.is_none_or(|shard| shard.has(point))
+            && (keys.is_empty() || keys.iter().any(|key| is_of(point, key)))
+    };
+    Ok(points.iter().filter(is_asked).filter(|point| known.insert(&point.key)).collect())
+}
+
+fn is_of(point: &Point, key: &str) -> bool {
+    !key.is_empty() && point.key.starts_with(key)
+}
+
+/// Prints a line for a point.
+fn list(study: &Study, point: &Point) -> Result<(), Failure> {
+    let outcome = match Place::new(study, point).record().map(|record| record.outcome) {
+        None => "not run",
+        Some(Outcome::Done) => "done",
+        Some(Outcome::JobFailed) => "job failed",
+        Some(Outcome::WorkerFailed) => "worker failed",
+    };
+    say(format_args!("{}\t{}\t{outcome}\t{}", point.index, point.key, values(point)))
+}
+
+/// Returns the values of a point in words.
+fn values(point: &Point) -> String {
+    let settings: Vec<String> = point.settings.iter().map(ToString::to_string).collect();
+    settings.join(" ")
+}
+
+/// Points that are run by several jobs.
+struct Sweep<'a> {
+    worker: Worker<'a>,
+    study: &'a Study,
+    points: &'a [&'a Point],
+    next: AtomicUsize,
+    counts: Mutex<Counts>,
+    bar: ProgressBar,
+}
+
+/// Numbers of points by what came of them.
+#[derive(Default)]
+struct Counts {
+    done: usize,
+    earlier: usize,
+    failed: usize,
+    workers: usize,
+    elsewhere: usize,
+}
+
+impl Counts {
+    fn describe(&self, all: usize) -> String {
+        let Self { done, earlier, failed, workers, elsewhere } = self;
+        let mut text = format!("{all} points: {done} run, {earlier} done before");
+        for (count, what) in [
+            (failed, "refused or failed"),
+            (workers, "could not be run"),
+            (elsewhere, "left to another sweep"),
+        ] {
+            if *count > 0 {
+                text += &format!(", {count} {what}");
+            }
+        }
+        text
+    }
+}
+
+impl Sweep<'_> {
+    /// Runs the points by so many jobs; returns failures to write results.
+    fn run(&self, jobs: usize) -> Vec<Failure> {
+        std::thread::scope(|scope| {
+            let jobs: Vec<_> = (0..jobs).map(|_| scope.spawn(|| self.job())).collect();
+            while jobs.iter().any(|job| !job.is_finished()) {
+                if let Some(signal) = signal::received() {
+                    self.worker.end_all(signal);
+                    break;
+                }
+                std::thread::park_timeout(WATCH);
+            }
+            jobs.into_iter().filter_map(|job| job.join().ok()?.err()).collect()
+        })
+    }
+
+    /// Runs one point after the other.
+    fn job(&self) -> Result<(), Failure> {
+        while signal::received().is_none() {
+            let Some(point) = self.points.get(self.next.fetch_add(1, Ordering::Relaxed)) else {
+                break;
+            };
+            let ended = self.worker.run(&Place::new(self.study, point), point)?;
+            self.count(point, &ended);
+        }
+        Ok(())
+    }
+
+    fn count(&self, point: &Point, ended: &Ended) {
+        let mut counts = self.counts.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        match ended {
+            Ended::Interrupted => return,
+            Ended::Elsewhere => counts.elsewhere += 1,
+            Ended::Before(Record { outcome: Outcome::JobFailed, .. }) => counts.failed += 1,
+            Ended::Before(_) => counts.earlier += 1,
+            Ended::Now(record) => {
+                match record.outcome {
+                    Outcome::Done => counts.done += 1,
+                    Outcome::JobFailed => counts.failed += 1,
+                    Outcome::WorkerFailed => counts.workers += 1,
+                }
+                self.tell(point, record);
+            }
+        }
+        self.bar.inc(1);
+    }
+
+    /// Tells what came of a point: all of them if asked, else failures.
+    fn tell(&self, point: &Point, record: &Record) {
+        let console = Console::get();
+        if console.progress == ProgressKind::Json {
+            tell(json!({
+                "point": point.index, "key": point.key, "outcome": record.outcome,
+                "exit_code": record.exit_code, "seconds": record.seconds,
+            }));
+        } else if record.outcome != Outcome::Done {
+            let (index, values) = (point.index, values(point));
+            let message = record.message.replace('\n', "\n  ");
+            self.bar.suspend(|| tell(format_args!("warning: point {index} ({values}): {message}")));
+        } else if console.verbose {
+            let (index, values, seconds) = (point.index, values(point), record.seconds);
+            tell(format_args!("point {index} ({values}): done in {seconds:.2} s"));
+        }
+    }
+}

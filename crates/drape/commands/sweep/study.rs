@@ -1,0 +1,26 @@
+//! Study that a command names, with its points.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use drape::sweep::{Point, Study};
+
+use crate::failure::Failure;
+use crate::input;
+use drape::reports::VERSION;
+
+#[derive(Args)]
+pub(crate) struct StudyArguments {
+    /// Study, a TOML file.
+    #[arg(value_name = "STUDY")]
+    pub(crate) study: PathBuf,
+}
+
+impl StudyArguments {
+    /// Reads the study and its points.
+    pub(super) fn read(&self) -> Result<(Study, Vec<Point>), Failure> {
+        let study = Study::read(&self.study, input::allowed())?;
+        let points = study.points(VERSION)?;
+        Ok((study, points))
+    }
+}

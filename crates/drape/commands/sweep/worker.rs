@@ -1,0 +1,192 @@
+//! Worker: runs one point as a process of this program, and records what came of it.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::os::unix::process::ExitStatusExt;
+use std::path::PathBuf;
+use std::process::{Command, ExitStatus, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use drape::sweep::{Outcome, Place, Point, Record, Study};
+use rustix::io::Errno;
+use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
+
+use crate::console::signal;
+use crate::failure::Failure;
+use crate::input;
+
+/// Number of times that a point is tried where what runs it fails.
+pub(super) const TRIES: u32 = 3;
+
+/// Time between two looks at a run that outlived its sweep.
+const BUSY: Duration = Duration::from_millis(200);
+
+/// Longest message of a record, in bytes.
+const MESSAGE_MAX: usize = 2000;
+
+/// Worker of a study.
+pub(super) struct Worker<'a> {
+    study: &'a Study,
+    program: PathBuf,
+    threads: usize,
+    /// Processes that run and have not been waited for.
+    running: Mutex<BTreeSet<i32>>,
+}
+
+/// How a point ended.
+pub(super) enum Ended {
+    /// It has a record from before.
+    Before(Record),
+    /// It has one now.
+    Now(Record),
+    /// Another sweep runs it.
+    Elsewhere,
+    /// A signal ended it before it had one.
+    Interrupted,
+}
+
+/// How a process ended.
+struct Exit {
+    code: Option<i32>,
+    message: String,
+}
+
+impl<'a> Worker<'a> {
+    /// Makes the worker of a study, whose processes have so many threads each.
+    pub(super) fn new(study: &'a Study, threads: usize) -> Result<Self, Failure> {
+        let program = std::env::current_exe()
+            .map_err(|error| Failure::Output(format!("cannot find the program: {error}")))?;
+        Ok(Self { study, program, threads, running: Mutex::default() })
+    }
+
+    /// Runs a point, unless it has a record or another sweep runs it.
+    pub(super) fn run(&self, place: &Place, point: &Point) -> Result<Ended, Failure> {
+        let Some(_lock) = place.lock()? else { return Ok(Ended::Elsewhere) };
+        let record = place.record().filter(|record| record.outcome != Outcome::WorkerFailed);
+        if let Some(record) = record {
+            return Ok(Ended::Before(record));
+        }
+        while place.is_busy() {
+            if signal::received().is_some() {
+                return Ok(Ended::Interrupted);
+            }
+            std::thread::sleep(BUSY);
+        }
+        let begin = Instant::now();
+        let mut retries = 0;
+        let Exit { code, message } = loop {
+            let exit = self.attempt(place, point)?;
+            let is_worker = Outcome::of(exit.code) == Outcome::WorkerFailed;
+            if is_worker && signal::received().is_some() {
+                return Ok(Ended::Interrupted);
+            }
+            if !is_worker || retries + 1 == TRIES {
+                break exit;
+            }
+            retries += 1;
+        };
+        let record = Record {
+            key: point.key.clone(),
+            outcome: Outcome::of(code),
+            exit_code: code,
+            retries,
+            seconds: begin.elapsed().as_secs_f64(),
+            message,
+        };
+        place.finish(&record, self.study.keep())?;
+        Ok(Ended::Now(record))
+    }
+
+    /// Runs the process of a point once, from its checkpoint if there is one.
+    fn attempt(&self, place: &Place, point: &Point) -> Result<Exit, Failure> {
+        if place.is_finished() {
+            return Ok(Exit { code: Some(0), message: String::new() });
+        }
+        if place.is_begun() {
+            let exit = self.process(place, |command| {
+                command.arg("resume").arg(place.folder());
+            })?;
+            // A checkpoint of another program, or of which nothing is left, is of no use.
+            if !matches!(exit.code, Some(2 | 3)) {
+                return Ok(exit);
+            }
+        }
+        self.process(place, |command| {
+            command.arg("run").arg(self.study.scene()).arg("-o").arg(place.folder()).arg("--force");
+            for setting in &point.settings {
+                command.arg("--set").arg(setting.to_string());
+            }
+        })
+    }
+
+    /// Runs a process of this program to its end.
+    fn process(
+        &self,
+        place: &Place,
+        arguments: impl FnOnce(&mut Command),
+    ) -> Result<Exit, Failure> {
+        let log = place.log();
+        let failed = |what: &str, error: &dyn std::fmt::Display| {
+            Failure::Output(format!("cannot {what}: {error}"))
+        };
+        let file = File::create(&log)
+            .map_err(|error| failed(&format!("write {}", log.display()), &error))?;
+        let mut command = Command::new(&self.program);
+        arguments(&mut command);
+        command.args(["--no-picture", "--quiet", "--progress", "none", "--threads"]);
+        command.arg(self.threads.to_string());
+        for path in input::allowed() {
+            command.arg("--allow-path").arg(path);
+        }
+        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(file);
+        // No process starts after the others were ended.
+        let mut running = self.running();
+        if let Some(signal) = signal::received() {
+            return Ok(Exit { code: Some(128 + i32::from(signal)), message: String::new() });
+        }
+        let mut child = command.spawn().map_err(|error| failed("start a process", &error))?;
+        let number = i32::try_from(child.id()).unwrap_or_default();
+        running.insert(number);
+        drop(running);
+        // The number stays that of the child until it is waited for below, which takes it from those
+        // that signals go to.
+        if let Some(pid) = Pid::from_raw(number) {
+            let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT;
+            while matches!(waitid(WaitId::Pid(pid), options), Err(Errno::INTR)) {}
+        }
+        let mut running = self.running();
+        running.remove(&number);
+        let status = child.wait().map_err(|error| failed("wait for a process", &error))?;
+        drop(running);
+        let text = std::fs::read(&log).unwrap_or_default();
+        Ok(Exit { code: status.code(), message: message(status, &String::from_utf8_lossy(&text)) })
+    }
+
+    /// Sends a signal to all processes that run.
+    pub(super) fn end_all(&self, signal: u8) {
+        let signal = if signal == 2 { Signal::INT } else { Signal::TERM };
+        for pid in self.running().iter().filter_map(|number| Pid::from_raw(*number)) {
+            // It may have ended by itself.
+            let _ = kill_process(pid, signal);
+        }
+    }
+
+    fn running(&self) -> MutexGuard<'_, BTreeSet<i32>> {
+        self.running.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Returns the message of a process that failed: its text from the first error on.
+fn message(status: ExitStatus, text: &str) -> String {
+    if status.success() {
+        return String::new();
+    }
+    if let Some(signal) = status.signal() {
+        return format!("a signal ended it: {signal}");
+    }
+    let start = text.find("error").unwrap_or_default();
+    let own = text[start..].trim();
+    let end = (0..=own.len().min(MESSAGE_MAX)).rev().find(|end| own.is_char_boundary(*end));
+    own[..end.unwrap_or_default()].to_owned()
+}
