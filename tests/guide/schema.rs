@@ -167,6 +167,7 @@ impl<'a> Schema<'a> {
             Some("integer") => plain("whole number"),
             Some("number") => plain("number"),
             _ if own["const"].is_boolean() => plain("`false`"),
+            _ if own.as_bool() == Some(true) => plain("value"),
             _ => panic!("a kind that the reference has no word for: {own}"),
         }
     }

@@ -1,6 +1,6 @@
 //! Axes: keys of a scene with the levels that a study sets them to.
 
-use drape_input::{Diagnostic, figure};
+use drape_input::{Diagnostic, Diagnostics, figure};
 
 use crate::file::RangeFile;
 
@@ -46,23 +46,23 @@ impl Range {
         ends: [f64; 2],
         scale: Option<&str>,
         mut fail: impl FnMut(&str, String, &str) -> Diagnostic,
-    ) -> Result<Self, Diagnostic> {
+    ) -> Result<Self, Diagnostics> {
         let [start, end] = ends;
         let is_log = match scale {
             None | Some("linear") => false,
             Some("log") => true,
             Some(other) => {
                 let message = format!("there is no scale \"{other}\"");
-                return Err(fail("scale", message, "write \"linear\" or \"log\""));
+                return Err(fail("scale", message, "write \"linear\" or \"log\"").into());
             }
         };
         if is_log && !(start > 0.0 && end > 0.0) {
             let message = format!("{} to {} has no logarithms", figure(start), figure(end));
-            return Err(fail("scale", message, "give ends above 0, or scale = \"linear\""));
+            return Err(fail("scale", message, "give ends above 0, or scale = \"linear\"").into());
         }
         if start == end {
             let message = format!("both ends are {}", figure(start));
-            return Err(fail("end", message, "give another end"));
+            return Err(fail("end", message, "give another end").into());
         }
         Ok(Self { start, end, is_log })
     }

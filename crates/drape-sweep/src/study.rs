@@ -249,7 +249,7 @@ impl Reader<'_> {
                 return None;
             }
             let range = Range::new([file.start, file.end], file.scale.as_deref(), fail);
-            range.map_err(|mistake| self.mistakes.push(mistake)).ok()?.levels(file)
+            range.map_err(|found| self.mistakes.extend(found.0)).ok()?.levels(file)
         } else if let Some(files) = files {
             self.files(&format!("{place}.files"), files)?
         } else {
@@ -370,7 +370,7 @@ impl Reader<'_> {
                     let name = own.name.clone().unwrap_or_else(|| own.key.clone());
                     axes.push(Axis { name, key: own.key.clone(), levels, is_sample: true });
                 }
-                Err(mistake) => self.mistakes.push(mistake),
+                Err(found) => self.mistakes.extend(found.0),
             }
         }
         axes
