@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::input::Setting;
+use crate::input::{Setting, SettingError};
 use serde::{Deserialize, Serialize};
 
 use super::Error;
