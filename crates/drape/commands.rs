@@ -1,7 +1,7 @@
 //! The commands: one module each, with its arguments and what it does with them.
 //!
 //! A command reads its input through the library (`drape::kes`, `drape::fabric`, `drape::scene` …),
-//! has it computed there, and writes the result through [`say`](crate::say), [`file`](crate::file)
+//! has it computed there, and writes the result through [`say`](crate::say), [`file`](drape::file)
 //! and the pages of [`pages`](crate::pages). No command computes physics, and only `main` turns a
 //! [`Failure`](crate::failure::Failure) into an exit code.
 //!

@@ -8,7 +8,8 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use drape::input::{Diagnostic, Diagnostics};
 
 use crate::console::{is_coloured, printable, tell, tell_coloured};
-use crate::{file, input};
+use crate::input;
+use drape::file;
 
 /// Failure that ends a command, with its exit code.
 pub(crate) enum Failure {

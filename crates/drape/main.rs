@@ -8,9 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 use clap::Parser;
-use drape::file;
-
-use console::{progress, signal};
+use console::signal;
 
 // What a person types, and what is done.
 mod command;

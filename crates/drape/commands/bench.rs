@@ -9,8 +9,8 @@ use drape::input::Document;
 use drape::scene::Scene;
 use serde_json::json;
 
+use crate::console::progress;
 use crate::failure::Failure;
-use crate::progress;
 use crate::say::say;
 
 #[derive(Args)]

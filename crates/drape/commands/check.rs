@@ -22,8 +22,9 @@ use self::body::Measure;
 use self::describe::describe;
 use self::pattern::CutOut;
 use crate::failure::Failure;
+use crate::input;
 use crate::say::{say, say_json};
-use crate::{file, input};
+use drape::file;
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {

@@ -13,8 +13,9 @@ use serde_json::{Value, json};
 use crate::commands::fit::store;
 use crate::commands::sheets;
 use crate::failure::Failure;
+use crate::input;
 use crate::say::{say, say_json, say_written};
-use crate::{file, input};
+use drape::file;
 
 #[derive(Subcommand)]
 pub(crate) enum FabricCommand {

@@ -15,8 +15,9 @@ pub(crate) use identify::store;
 use self::identify::identify;
 use crate::commands::sheets;
 use crate::failure::Failure;
+use crate::input;
 use crate::say::{say, say_json, say_written};
-use crate::{file, input};
+use drape::file;
 
 /// Executes `drape fit`.
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {

@@ -20,9 +20,11 @@ use serde_json::json;
 
 use self::job::{Job, RunOptions};
 use self::report::outcome;
+use crate::console::signal;
 use crate::failure::Failure;
+use crate::input;
 use crate::say::{say, say_json};
-use crate::{file, input, signal};
+use drape::file;
 
 #[derive(Args)]
 pub(crate) struct RunArguments {

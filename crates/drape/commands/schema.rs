@@ -10,8 +10,9 @@ use clap::{Args, ValueEnum};
 use serde_json::Value;
 
 use crate::failure::Failure;
+use crate::input;
 use crate::say::{say, say_written};
-use crate::{file, input};
+use drape::file;
 
 #[derive(Args)]
 pub(crate) struct SchemaArguments {

@@ -8,8 +8,8 @@ use clap_complete::Shell;
 use clap_mangen::Man;
 
 use crate::failure::Failure;
-use crate::file;
 use crate::say::{say, say_written};
+use drape::file;
 
 #[derive(Args)]
 pub(crate) struct CompletionsArguments {

@@ -9,10 +9,11 @@ use drape::report::plot::graph_svg;
 use drape::validate::{CASES, Case, Check, Kind, Outcome};
 use serde_json::{Value, json};
 
+use crate::console::progress;
 use crate::failure::Failure;
 use crate::pages::validation::{self, figure};
 use crate::say::{say, say_json, say_written};
-use crate::{file, progress};
+use drape::file;
 
 #[derive(Args)]
 pub(crate) struct ValidateArguments {

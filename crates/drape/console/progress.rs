@@ -8,8 +8,8 @@ use drape::scene::{Relaxation, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
+use crate::console::signal;
 use crate::console::{Console, ProgressKind, tell};
-use crate::signal;
 
 /// Returns a progress bar on stderr, silent where that is no terminal or none is asked for, with a
 /// template of indicatif for the text beside it.

@@ -7,7 +7,7 @@ use drape::collide::{MeshInspection, Places, RepairSettings, Triangulation, read
 use drape::input::{Diagnostic, Diagnostics};
 
 use crate::failure::Failure;
-use crate::file;
+use drape::file;
 
 /// Heights of persons and dress forms, in m, by which the unit of a file is guessed.
 const HEIGHTS: [f64; 2] = [0.5, 2.5];

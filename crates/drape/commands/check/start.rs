@@ -7,8 +7,8 @@ use drape::input::Diagnostics;
 
 use super::describe;
 use crate::failure::Failure;
-use crate::file;
 use crate::pages::start::{draw_start, start_svg};
+use drape::file;
 
 /// Reads a scene, draws it as it starts, and describes it; or returns its mistakes.
 pub(crate) fn draw(path: &Path, figure: &Path) -> Result<Result<String, Diagnostics>, Failure> {

@@ -8,8 +8,9 @@ use drape::pattern::{Error, Paper, Pattern, Request, Unit};
 use super::arguments::ConvertArguments;
 use crate::console::tell;
 use crate::failure::Failure;
+use crate::input;
 use crate::say::say;
-use crate::{file, input};
+use drape::file;
 
 /// Converts a pattern and says what is not in the result, or was taken for it.
 pub(crate) fn convert(from: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {

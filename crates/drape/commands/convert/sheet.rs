@@ -9,8 +9,9 @@ use super::arguments::ConvertArguments;
 use crate::commands::sheets::SHEET_FILE;
 use crate::console::tell;
 use crate::failure::Failure;
+use crate::input;
 use crate::say::say;
-use crate::{file, input};
+use drape::file;
 
 /// Drafts the sheet of a folder and says what was assumed and what needs a word.
 pub(crate) fn convert(folder: &Path, arguments: &ConvertArguments) -> Result<(), Failure> {

@@ -9,7 +9,7 @@ use drape::export::{
 use drape::frames::{Frame, Recording};
 
 use crate::failure::Failure;
-use crate::file;
+use drape::file;
 
 type Writer = std::io::BufWriter<std::fs::File>;
 

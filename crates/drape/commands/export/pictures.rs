@@ -8,8 +8,8 @@ use drape::report::{Animation, Picture};
 use super::files::Files;
 use crate::commands::show::look::LookArguments;
 use crate::failure::Failure;
-use crate::file;
 use crate::pages::run_picture::{Look, RunPictures};
+use drape::file;
 
 /// Width and height of an animation of one view, in pixels.
 pub(super) const ANIMATED: [u32; 2] = [800, 600];

@@ -10,10 +10,11 @@ use drape::report::{FitPage, Trust};
 use super::arguments::FitArguments;
 use super::identify::{beside, page, store};
 use crate::commands::sheets;
+use crate::console::progress;
 use crate::console::{Console, tell};
 use crate::failure::Failure;
 use crate::say::{say, say_json};
-use crate::{file, progress};
+use drape::file;
 
 /// One sheet of a batch, with what its files are called.
 struct Job<'a> {

@@ -9,7 +9,7 @@ use drape::reports::fit_page;
 
 use crate::commands::sheets;
 use crate::failure::Failure;
-use crate::file;
+use drape::file;
 
 /// A fitted sheet.
 pub(crate) struct Identified {

@@ -14,12 +14,13 @@ use drape::scene::Scene;
 use super::limits::LimitArguments;
 use super::report::describe;
 use crate::console::note;
+use crate::console::progress::RunProgress;
+use crate::console::signal;
 use crate::failure::Failure;
 use crate::pages::picture::{self, Pictures};
 use crate::pages::strain_map::draw_strains;
-use crate::progress::RunProgress;
 use crate::say::{say, say_written};
-use crate::{file, signal};
+use drape::file;
 
 /// Time after a signal up to which a picture of the last frame is still drawn.
 const PICTURE_MAX: Duration = Duration::from_millis(700);

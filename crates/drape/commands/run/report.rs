@@ -4,8 +4,8 @@ use std::path::Path;
 
 use drape::dynamics::{Contacts, Energy, PhaseName, Status, Summary};
 
+use crate::console::signal;
 use crate::failure::Failure;
-use crate::signal;
 
 /// Describes a run in a few lines.
 pub(crate) fn describe(summary: &Summary) -> String {

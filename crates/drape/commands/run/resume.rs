@@ -9,10 +9,11 @@ use drape::keep::RunToResume;
 use crate::commands::run::job::{Job, RunOptions};
 use crate::commands::run::limits::positive;
 use crate::commands::run::report::outcome;
+use crate::console::signal;
 use crate::console::tell;
 use crate::failure::Failure;
+use crate::input;
 use crate::say::say_json;
-use crate::{input, signal};
 
 #[derive(Args)]
 pub(crate) struct ResumeArguments {

@@ -6,8 +6,9 @@ use clap::{Args, ValueEnum};
 
 use crate::commands::schema::SchemaKind;
 use crate::failure::Failure;
+use crate::input;
 use crate::say::{say, say_written};
-use crate::{file, input};
+use drape::file;
 
 #[derive(Args)]
 pub(crate) struct NewArguments {

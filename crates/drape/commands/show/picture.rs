@@ -9,9 +9,9 @@ use drape::report::{Animation, Picture};
 
 use super::look::LookArguments;
 use crate::failure::Failure;
-use crate::file;
 use crate::pages::run_picture::{Direction, Look, RunPictures};
 use crate::say::say_written;
+use drape::file;
 
 /// Time in which a turntable turns once, in s.
 const TURN: f64 = 6.0;

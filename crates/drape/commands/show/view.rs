@@ -8,8 +8,8 @@ use drape::reports::{VIEWER_SIZE_MAX, ViewerPage};
 
 use crate::console::note;
 use crate::failure::Failure;
-use crate::file;
 use crate::say::say_written;
+use drape::file;
 
 #[derive(Args)]
 pub(crate) struct ViewArguments {

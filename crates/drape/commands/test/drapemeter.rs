@@ -6,8 +6,8 @@ use drape::validate::drapemeter::{Drapemeter, Prediction, Sampling, Shake, Study
 use serde_json::json;
 
 use super::arguments::{Meter, ShakeName, TestArguments};
+use crate::console::progress;
 use crate::failure::Failure;
-use crate::progress;
 use crate::say::{say, say_json};
 
 /// Largest default spacing, in m.

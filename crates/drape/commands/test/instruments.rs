@@ -8,8 +8,8 @@ use serde_json::json;
 use super::arguments::TestArguments;
 use crate::commands::sheets;
 use crate::failure::Failure;
-use crate::file;
 use crate::say::{say, say_json, say_written};
+use drape::file;
 
 /// Spacing of the particles, in mm.
 const SPACING: f64 = 5.0;
