@@ -12,8 +12,8 @@ use serde::Deserialize;
 pub(crate) struct StudyFile {
     /// Scene whose keys are set, relative to the folder of the study.
     pub(crate) scene: String,
-    /// Folder for the results, relative to the folder of the study; `out/` and the name of the
-    /// study's file, in the current folder, if missing.
+    /// Folder for the results, relative to the folder of the study; in the current folder `out/` and
+    /// the name of the study's file, if missing.
     pub(crate) output: Option<String>,
     /// Files that a run that has ended keeps: `all`; `last`, its summary and the last state of the
     /// cloth as OBJ; or `measures`, its summary.

@@ -11,14 +11,15 @@ mod worker;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
+use drape::file;
 use drape::sweep::{Batch, Engine, Outcome, Place, Point, Study, Table, manifest};
 
 use self::run::SweepRunArguments;
 use self::study::StudyArguments;
 use crate::failure::Failure;
+use crate::input;
 use crate::pages::sweep::page;
 use crate::say::{say, say_written};
-use crate::{file, input};
 
 #[derive(Subcommand)]
 pub(crate) enum SweepCommand {

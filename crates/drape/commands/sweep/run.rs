@@ -6,17 +6,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use clap::Args;
+use drape::file;
 use drape::sweep::{Outcome, Place, Point, Record, Shard, Study, manifest};
 use indicatif::ProgressBar;
 use serde_json::json;
 
 use super::study::StudyArguments;
 use super::worker::{Ended, TRIES, Worker};
-use crate::console::progress;
-use crate::console::signal;
-use crate::console::{Console, ProgressKind, tell};
+use crate::console::{Console, ProgressKind, progress, signal, tell};
 use crate::failure::Failure;
-use crate::file;
 use crate::say::{say, say_written};
 
 #[derive(Args)]
