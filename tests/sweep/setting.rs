@@ -12,9 +12,9 @@ fn mistakes_of_what_is_set_have_remedies_that_help() {
         ("panel[1].rectangle=[1, 1]", 3, "numbers 0 to 0", "panel[0].rectangle=[0.1, 0.1]"),
         ("time.end.x=1", 3, "set time.end itself", "time.end=1"),
         (
-            "time.ende=1",
+            "time.finish=1",
             3,
-            "time.ende: there is no such key (set on the command line: time.ende=1)",
+            "time.finish: there is no such key (set on the command line: time.finish=1)",
             "time.end=1",
         ),
         (
@@ -31,7 +31,7 @@ fn mistakes_of_what_is_set_have_remedies_that_help() {
     }
     // What is not set keeps its line.
     let text = std::fs::read_to_string(bench.path("scene.toml")).unwrap();
-    std::fs::write(bench.path("scene.toml"), text.replace("turn = ", "trun = ")).unwrap();
+    std::fs::write(bench.path("scene.toml"), text.replace("turn = ", "turned = ")).unwrap();
     let messages = check("name=\"new\"", 3);
     assert!(messages.contains("scene.toml:9:"), "{messages}");
 }
@@ -43,7 +43,7 @@ fn a_resumed_run_has_what_was_set_and_refuses_other_values() {
     let run =
         |more: &[&str], code| bench.ran(&[&["run", "scene.toml"], more, &long].concat(), code);
     run(&["-o", "whole"], 0);
-    run(&["-o", "part", "--max-wall", "0.01"], 8);
+    run(&["-o", "part", "--max-disk", "0.001"], 8);
     let request = bench.path("part/run.json");
     let text = std::fs::read_to_string(&request).unwrap();
     assert!(text.contains("time.end=3.0"), "{text}");
