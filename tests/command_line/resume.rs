@@ -229,6 +229,59 @@ fn one_run_at_a_time_writes_to_a_folder() {
     ran(&["run", CASES[2].scene, "--until", "0.01", "--force", "-o", place, "--no-picture"], 0);
 }
 
+/// Returns the checkpoints of a folder with their bytes, the oldest first.
+fn checkpoints(out: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let paths = std::fs::read_dir(out).unwrap().map(|entry| entry.unwrap().path());
+    let is_one = |path: &PathBuf| path.to_str().unwrap().contains("checkpoint-");
+    let mut found: Vec<_> =
+        paths.filter(is_one).map(|path| (path.clone(), std::fs::read(path).unwrap())).collect();
+    found.sort();
+    found
+}
+
+#[test]
+#[ignore = "minutes: a run goes on 1 000 times"]
+fn a_thousand_flipped_bits_are_detected_and_the_checkpoint_before_is_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let place = out.to_str().unwrap();
+    let stack = &CASES[2];
+    ran(
+        &[
+            "run",
+            stack.scene,
+            "--until",
+            "0.02",
+            "-o",
+            place,
+            "--no-picture",
+            "--checkpoint-every",
+            "0",
+        ],
+        0,
+    );
+    let expected = results(&out);
+    let kept = checkpoints(&out);
+    assert_eq!(kept.len(), 2);
+    let (newest, whole) = &kept[1];
+    let mut random = Random(3);
+    for _ in 0..1000 {
+        for (path, _) in checkpoints(&out) {
+            std::fs::remove_file(path).unwrap();
+        }
+        kept.iter().for_each(|(path, bytes)| std::fs::write(path, bytes).unwrap());
+        let bit = (8.0 * whole.len() as f64 * random.next()) as usize;
+        let mut bytes = whole.clone();
+        bytes[bit / 8] ^= 1 << (bit % 8);
+        std::fs::write(newest, bytes).unwrap();
+        // The run is as if it had not ended.
+        std::fs::remove_file(out.join("summary.json")).unwrap();
+        let told = ran(&["resume", place, "--no-picture"], 0);
+        assert!(told.contains("damaged") && !told.contains("begins anew"), "bit {bit}: {told}");
+        assert!(results(&out) == expected, "bit {bit}");
+    }
+}
+
 #[test]
 fn what_changed_is_named_and_damage_leads_to_the_checkpoint_before() {
     let folder = tempfile::tempdir().unwrap();
