@@ -11,25 +11,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 /// Scene of a strip that takes some milliseconds.
-const SCENE: &str = r#"name = "strip"
-spacing = 0.02
-[fabric.cloth]
-file = "plain.toml"
-[[panel]]
-name = "strip"
-fabric = "cloth"
-rectangle = [0.04, 0.1]
-turn = [-90, 0, 0]
-noise = { amplitude = 0.001, length = 0.05 }
-[[pin]]
-panel = "strip"
-edge = "top"
-[contact]
-surfaces = false
-[time]
-step = 0.005
-end = 0.05
-"#;
+const SCENE: &str = include_str!("strip.toml");
 
 /// Columns that hold times and what differs with them.
 const TIMES: [&str; 5] = ["seconds", "wall_seconds", "cpu_seconds", "threads", "retries"];

@@ -15,7 +15,7 @@ use crate::figure::cut;
 use crate::grammar::{GrammarMistake, grammar_mistakes};
 use crate::node::{Node, Value};
 use crate::places::{Misplaced, Places};
-use crate::setting::Setting;
+use crate::setting::{Setting, SettingError};
 use crate::spelling::closest;
 
 /// Largest TOML file that is read, in bytes.
@@ -91,6 +91,14 @@ impl Document {
         Diagnostics::check(mistakes)?;
         self.content = OnceLock::from(content);
         Ok(self)
+    }
+
+    /// Checks that a value can take the place of one of the text, which has no mistakes of grammar.
+    ///
+    /// # Errors
+    /// The key leads nowhere, as in [`with_settings`](Self::with_settings).
+    pub fn accepts(&self, setting: &Setting) -> Result<(), SettingError> {
+        setting.apply(&mut self.content().root.clone(), self.text.len() + 1)
     }
 
     /// Values that take the place of those of the text.

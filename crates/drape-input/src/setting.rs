@@ -44,7 +44,7 @@ impl Setting {
     /// Makes a setting of a key and a value of TOML.
     ///
     /// # Errors
-    /// The key is no path, or the value no value of TOML.
+    /// The key is not a path of names and numbers, or the value is not one of TOML.
     pub fn new(key: &str, value: &str) -> Result<Self, SettingError> {
         let (key, value) = (key.trim(), value.trim());
         let path = path(key).ok_or_else(|| SettingError {

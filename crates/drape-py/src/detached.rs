@@ -19,7 +19,7 @@ const POLL: Duration = Duration::from_millis(50);
 /// Time after a signal until which the step in hand may end; then it is given up.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Threads for some work, and the flags that end it.
+/// Thread pool for work, and the flags that end the work.
 pub(crate) struct Detached {
     pool: ThreadPool,
     /// Whether the work is to end after the step in hand.
@@ -28,7 +28,7 @@ pub(crate) struct Detached {
     pub(crate) give_up: Arc<AtomicBool>,
 }
 
-/// Way from the work to the thread that waits for it.
+/// Channel from the work to the thread that waits for it.
 pub(crate) struct Outbox<E>(mpsc::Sender<(E, mpsc::Sender<()>)>);
 
 impl<E> Outbox<E> {

@@ -15,7 +15,7 @@ pub struct Point {
     pub settings: Vec<Setting>,
 }
 
-/// Part of the points of a study: every so manieth.
+/// Part of the points of a study: every n-th one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     /// Number of the part, from 1.

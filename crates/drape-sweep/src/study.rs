@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use drape_input::{
-    Diagnostic, Diagnostics, Document, Setting, TextOr, closest, excerpt, toml_string,
+    Diagnostic, Diagnostics, Document, Setting, SettingError, TextOr, closest, excerpt, toml_string,
 };
 
 use crate::axis::{Axis, Group, Range};
@@ -208,20 +208,8 @@ impl Reader<'_> {
 
     /// Checks a key of the scene with a level.
     fn check_key(&mut self, place: &str, key: &str, level: &str) {
-        let set = Setting::new(key, level).map_err(|error| (error.message, error.help));
-        let set = set.and_then(|setting| match self.scene.clone().with_settings(&[setting]) {
-            Ok(_) => Ok(()),
-            Err(Diagnostics(mistakes)) => Err(mistakes.into_iter().next().map_or_else(
-                || ("it leads nowhere".into(), String::new()),
-                |mistake| {
-                    let message = mistake.message;
-                    let own = message.split_once(", set on the command line: ");
-                    let own = own.map_or(message.clone(), |(_, own)| own.into());
-                    (own, mistake.help.unwrap_or_default())
-                },
-            )),
-        });
-        if let Err((message, help)) = set {
+        let set = Setting::new(key, level).and_then(|setting| self.scene.accepts(&setting));
+        if let Err(SettingError { message, help }) = set {
             self.fail(&format!("{place}.key"), message, help);
         }
     }

@@ -1,4 +1,4 @@
-//! Keeping: what a caller says of how a run is kept, and what it hears of the run.
+//! Options of a run that is kept, and the watcher that is told of its progress.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -7,12 +7,12 @@ use std::sync::atomic::AtomicBool;
 use super::limits::Limits;
 use crate::dynamics::{Frame, Step};
 
-/// How a run is kept.
+/// Options of a run that is kept.
 #[derive(Debug, Clone, Default)]
 pub struct Keeping {
     /// Limits at which it ends with a checkpoint.
     pub limits: Limits,
-    /// File of the program: a run goes on only with the same one, to the last byte.
+    /// File of the program. A run is resumed only by a program with the same bytes.
     pub program: PathBuf,
     /// Whether the results of an earlier run are replaced.
     pub replace: bool,

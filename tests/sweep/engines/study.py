@@ -11,25 +11,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 # Columns that hold times and what differs with them.
 TIMES = {"seconds", "wall_seconds", "cpu_seconds", "threads", "retries"}
 
-SCENE = """name = "strip"
-spacing = 0.02
-[fabric.cloth]
-file = "plain.toml"
-[[panel]]
-name = "strip"
-fabric = "cloth"
-rectangle = [0.04, 0.1]
-turn = [-90, 0, 0]
-[[pin]]
-panel = "strip"
-edge = "top"
-[contact]
-surfaces = false
-[time]
-step = 0.005
-end = 0.2
-"""
-
 
 class Study:
     """Study of so many points, one of which is refused by the check, in a folder of its own."""
@@ -37,7 +18,7 @@ class Study:
     def __init__(self, folder, points, drape):
         self.folder, self.points, self.drape = pathlib.Path(folder), points, str(drape)
         shutil.copy(ROOT / "tests/fabrics/plain-weave.toml", self.folder / "plain.toml")
-        (self.folder / "scene.toml").write_text(SCENE)
+        shutil.copy(ROOT / "tests/sweep/strip.toml", self.folder / "scene.toml")
         lengths = [round(0.08 + 0.12 * k / points, 6) for k in range(points - 1)] + [-0.1]
         for name in ["serial", "study"]:
             (self.folder / f"{name}.toml").write_text(

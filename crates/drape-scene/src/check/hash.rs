@@ -44,7 +44,8 @@ impl Content<'_> {
         self.document.settings().iter().map(|setting| format!("\n{setting}")).collect()
     }
 
-    /// Returns the digests of the text, of what is set beside it, of each fabric, of the cloth at its start and of each body.
+    /// Returns the digests of the text, of what is set beside it, of each fabric, of the cloth at its
+    /// start and of each body.
     pub(crate) fn parts(&self) -> Vec<SourcePart> {
         let part = |name: String, digest: blake3::Hash| SourcePart { name, digest: digest.into() };
         let mut parts =

@@ -4,13 +4,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use drape::keep::RunToResume;
+use drape::keep::{RunToResume, end_at};
 
 use crate::commands::run::job::{Job, RunOptions};
 use crate::commands::run::limits::positive;
 use crate::commands::run::report::outcome;
-use crate::console::signal;
-use crate::console::tell;
+use crate::console::{signal, tell};
 use crate::failure::Failure;
 use crate::input;
 use crate::say::say_json;
@@ -45,7 +44,7 @@ pub(crate) fn resume(arguments: &ResumeArguments) -> Result<(), Failure> {
     input::set(&request.settings()?);
     let mut scene = drape::scene_of(&input::document(&path)?)?;
     if let Some(end) = request.until {
-        scene.schedule.clock.end = end;
+        end_at(&mut scene, end)?;
     }
     if arguments.scene.is_some() {
         request.move_scene(&path);
