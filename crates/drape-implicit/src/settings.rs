@@ -95,6 +95,16 @@ pub struct Settings {
     /// tolerance. The rest then changes the positions little, however stiff the forces that are
     /// left unbalanced. For motion that goes on from there, not for its end.
     pub energy_tolerance: f64,
+    /// Error that the solver may leave in a step, as a fraction of the step's own. Default 0, which
+    /// leaves only the tolerance.
+    ///
+    /// A step has also converged when a Newton step predicted a decrease of the energy, half its
+    /// decrement `−pᵀφ`, of at most `½ Σ m |θ e|²/(β dt)²`, with this fraction `θ` and the error
+    /// `e` of the step as [`ErrorEstimate`](crate::ErrorEstimate) finds it, and has left a residual
+    /// of at most `acceleration · √Σm²`. The energy bounds what the Newton step has moved: stiff
+    /// forces that are left unbalanced hardly move anything. What is then left is less by the
+    /// contraction of that step.
+    pub error_fraction: f64,
     /// Acceleration that the tolerance refers to, in m/s². Default 9.81, that of gravity; a system
     /// without weight sets the one that matters to it.
     pub acceleration: f64,
@@ -140,6 +150,7 @@ impl Default for Settings {
             linear_solver: LinearSolver::default(),
             tolerance: 1e-4,
             energy_tolerance: 0.0,
+            error_fraction: 0.0,
             acceleration: 9.81,
             max_iterations: 100,
             max_halvings: 10,
@@ -170,6 +181,12 @@ impl Settings {
                 self.energy_tolerance,
                 (0.0..1.0).contains(&self.energy_tolerance),
                 "at least 0 and below 1",
+            ),
+            (
+                "error_fraction",
+                self.error_fraction,
+                (0.0..=1.0).contains(&self.error_fraction),
+                "from 0 to 1",
             ),
             ("acceleration", self.acceleration, positive(self.acceleration), "positive"),
             (

@@ -103,6 +103,7 @@ pub(crate) fn relaxation_scheme(settings: &Settings, accuracy: Accuracy) -> Sche
         method,
         tolerance: accuracy.tolerance,
         energy_tolerance: accuracy.energy,
+        error_fraction: 0.0,
         newton_forcing: FORCING,
         integrator: Integrator::BackwardEuler,
         begin_at_prediction: true,

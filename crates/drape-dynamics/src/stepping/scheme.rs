@@ -11,6 +11,11 @@ use drape_scene::SolverSettings;
 /// swing.
 const ENERGY_SAMPLING: u64 = 32;
 
+/// Linear residual relative to the nonlinear one at which the linear solver stops where the error of
+/// the step decides on the accuracy. With the solver's own 0.01 the swing of 2 500 particles took
+/// 4 156 iterations of conjugate gradients instead of 3 094, and as many tangents.
+const FORCING: f64 = 0.03;
+
 /// Scheme by which a scene is integrated in time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Scheme {
@@ -41,14 +46,21 @@ impl Scheme {
             drape_scene::LinearSolver::ConjugateGradient => LinearSolver::ConjugateGradient,
             drape_scene::LinearSolver::Cholesky => LinearSolver::Cholesky,
         };
+        let exact = Settings::default();
         Self::Implicit(Settings {
             integrator,
             method,
             linear_solver,
             tolerance: solver.tolerance,
+            error_fraction: solver.error_fraction,
+            newton_forcing: if solver.error_fraction > 0.0 {
+                FORCING
+            } else {
+                exact.newton_forcing
+            },
             energy_balance: solver.energy_balance,
             energy_sampling: ENERGY_SAMPLING,
-            ..Settings::default()
+            ..exact
         })
     }
 

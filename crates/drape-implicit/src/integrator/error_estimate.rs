@@ -1,7 +1,56 @@
 //! Error estimate of a step, for callers that choose the step by its error.
 
+use super::formula::Formula;
 use super::state::IntegratorState;
 use crate::settings::Integrator;
+
+/// Extrapolation of the past to the end of a step, and what its difference from the end of the step
+/// tells; see [`ErrorEstimate`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Extrapolation {
+    /// Length of the step, in s.
+    dt: f64,
+    /// Factor of the last change of velocity, in s.
+    weight: f64,
+    /// Error of the formula as a fraction of its difference from the extrapolation.
+    pub fraction: f64,
+}
+
+impl Extrapolation {
+    /// Extrapolation for a first-order step of length `dt`, in s.
+    fn first_order(dt: f64) -> Self {
+        Self { dt, weight: 0.0, fraction: 0.5 }
+    }
+
+    /// Extrapolation for a second-order step of length `dt`, in s, after one of another length.
+    fn second_order(dt: f64, previous: f64) -> Self {
+        let ratio = dt / previous;
+        let formula = (1.0 + ratio) * (1.0 + ratio) / (6.0 * ratio * (1.0 + 2.0 * ratio));
+        let fraction = formula / (formula + 1.0 / 6.0 + 0.25 / ratio);
+        Self { dt, weight: 0.5 * dt * ratio, fraction }
+    }
+
+    /// Extrapolation for a step of length `dt`, in s, by a formula.
+    pub(crate) fn new(formula: Formula, state: &IntegratorState, dt: f64) -> Self {
+        match &state.previous {
+            Some(previous) if formula.previous != 0.0 => Self::second_order(dt, previous.dt),
+            _ => Self::first_order(dt),
+        }
+    }
+
+    /// Writes where the past leads, in m.
+    pub(crate) fn write(self, state: &IntegratorState, predicted: &mut [f64]) {
+        let now = state.positions.iter().zip(&state.velocities);
+        for (predicted, (x, v)) in predicted.iter_mut().zip(now) {
+            *predicted = x + self.dt * v;
+        }
+        let Some(previous) = state.previous.as_ref().filter(|_| self.weight != 0.0) else { return };
+        let change = state.velocities.iter().zip(&previous.velocities);
+        for (predicted, (v, before)) in predicted.iter_mut().zip(change) {
+            *predicted += self.weight * (v - before);
+        }
+    }
+}
 
 /// Estimate of the error that a step makes in the positions, from a prediction made before it.
 ///
@@ -43,22 +92,14 @@ impl ErrorEstimate {
 
     /// Extrapolates the state to the end of a step of length `dt`, in s. Call it before the step.
     pub fn predict(&mut self, state: &IntegratorState, integrator: Integrator, dt: f64) {
-        let second = state.previous.as_ref().filter(|_| integrator == Integrator::Bdf2);
-        let now = state.positions.iter().zip(&state.velocities);
-        for (predicted, (x, v)) in self.predicted.iter_mut().zip(now) {
-            *predicted = x + dt * v;
-        }
-        self.fraction = 0.5;
-        if let Some(previous) = second {
-            let ratio = dt / previous.dt;
-            let weight = 0.5 * dt * ratio;
-            let change = state.velocities.iter().zip(&previous.velocities);
-            for (predicted, (v, before)) in self.predicted.iter_mut().zip(change) {
-                *predicted += weight * (v - before);
+        let extrapolation = match &state.previous {
+            Some(previous) if integrator == Integrator::Bdf2 => {
+                Extrapolation::second_order(dt, previous.dt)
             }
-            let formula = (1.0 + ratio) * (1.0 + ratio) / (6.0 * ratio * (1.0 + 2.0 * ratio));
-            self.fraction = formula / (formula + 1.0 / 6.0 + 0.25 / ratio);
-        }
+            _ => Extrapolation::first_order(dt),
+        };
+        extrapolation.write(state, &mut self.predicted);
+        self.fraction = extrapolation.fraction;
     }
 
     /// Root-mean-square error of the positions over all particles, in m. Call it after the step.

@@ -1,5 +1,6 @@
 //! Attempt at one sub-step: prediction, solution, velocities and energy balance.
 
+use super::error_estimate::Extrapolation;
 use super::formula::Formula;
 use super::path_work::{Path, PathWork, Work, is_sampled};
 use super::state::{IntegratorState, Span, check_length};
@@ -30,6 +31,8 @@ pub(crate) struct SubStepper {
     base: Vec<f64>,
     /// Velocities at the end of the sub-step, in m/s.
     velocities: Vec<f64>,
+    /// Positions to which the past leads, in m, where the error of the sub-step is asked for.
+    predicted: Vec<f64>,
     path_work: PathWork,
 }
 
@@ -48,6 +51,7 @@ struct Opening {
 impl SubStepper {
     pub(crate) fn new(particles: usize, solver: NonlinearSolver, settings: Settings) -> Self {
         let zeros = || vec![0.0; 3 * particles];
+        let estimated = if settings.error_fraction > 0.0 { 3 * particles } else { 0 };
         let balanced = if settings.energy_balance { 3 * particles } else { 0 };
         Self {
             settings,
@@ -59,6 +63,7 @@ impl SubStepper {
             past_velocities: zeros(),
             base: zeros(),
             velocities: zeros(),
+            predicted: vec![0.0; estimated],
             path_work: PathWork::new(balanced),
         }
     }
@@ -93,6 +98,8 @@ impl SubStepper {
             }
         });
 
+        let extrapolation = Extrapolation::new(formula, state, span.dt);
+        extrapolation.write(state, &mut self.predicted);
         let mut equations = StepEquations {
             system: &mut *system,
             inertia: &self.inertia,
@@ -100,6 +107,9 @@ impl SubStepper {
             base: &self.base,
             start: &state.positions,
             limit: unit * self.settings.tolerance,
+            unit,
+            predicted: &self.predicted,
+            error_fraction: self.settings.error_fraction * extrapolation.fraction,
             report: &mut *report,
         };
         self.solver.solve(&mut equations, &self.settings)?;

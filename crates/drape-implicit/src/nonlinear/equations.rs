@@ -62,6 +62,12 @@ pub(crate) struct StepEquations<'a, 'b> {
     pub start: &'a [f64],
     /// Norm of the residual at which the step is solved, in N.
     pub limit: f64,
+    /// Norm that residuals are relative to, in N.
+    pub unit: f64,
+    /// Positions to which the past leads, in m; empty if the error of the step is not asked for.
+    pub predicted: &'a [f64],
+    /// Fraction of the distance from there that the error of the solver may be.
+    pub error_fraction: f64,
     pub report: &'a mut Report,
 }
 
@@ -113,6 +119,20 @@ impl StepEquations<'_, '_> {
             kinetic += 0.5 * inertia * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         }
         *iterate.energy.insert(kinetic + self.system.system().potential(&iterate.positions))
+    }
+
+    /// Energy that the solver may leave to be gained at an iterate because the step itself errs more,
+    /// `½ Σ m |θ e|²/(β dt)²` with the step's error `e` and the fraction `θ` of it, in J.
+    pub(crate) fn negligible_energy(&self, iterate: &Iterate) -> f64 {
+        let ends = triples(&iterate.positions).iter().zip(triples(self.predicted));
+        let mut sum = 0.0;
+        for (((x, predicted), inertia), &held) in ends.zip(self.inertia).zip(self.held) {
+            if !held {
+                let error = [0, 1, 2].map(|k| self.error_fraction * (x[k] - predicted[k]));
+                sum += 0.5 * inertia * dot(&error, &error);
+            }
+        }
+        sum
     }
 
     /// Kinetic energy of a straight motion to an iterate, `½ Σ m |x − x₀|²/(β dt)²`, in J.

@@ -124,12 +124,18 @@ impl Newton {
             self.least_residual = self.least_residual.min(before);
             let NewtonStep { whole, predicted_decrease } =
                 self.newton_step(search, equations, settings)?;
-            if settings.energy_tolerance > 0.0 && may_end(&search.current, equations.limit) {
+            if settings.energy_tolerance > 0.0
+                && may_end(&search.current, MAX_UNBALANCE * equations.limit)
+            {
                 let left = predicted_decrease / equations.kinetic(&search.current);
                 if left <= settings.energy_tolerance {
                     equations.report.energy_left = equations.report.energy_left.max(left);
                     break;
                 }
+            }
+            let rough = settings.error_fraction > 0.0 && may_end(&search.current, equations.unit);
+            if rough && predicted_decrease <= equations.negligible_energy(&search.current) {
+                break;
             }
             self.updates.forget();
             let contraction = search.current.norm / before;
@@ -263,9 +269,10 @@ fn iterations_per_matrix(settings: &Settings) -> usize {
     if settings.method == Method::Broyden { settings.iterations_per_matrix } else { 1 }
 }
 
-/// Whether a step that has little energy left to gain may end at an iterate.
-fn may_end(iterate: &Iterate, limit: f64) -> bool {
-    iterate.obstacle_time == 1.0 && iterate.solves(MAX_UNBALANCE * limit)
+/// Whether a step that has little energy left to gain may end at an iterate with a largest residual,
+/// in N.
+fn may_end(iterate: &Iterate, residual_max: f64) -> bool {
+    iterate.obstacle_time == 1.0 && iterate.solves(residual_max)
 }
 
 /// Residual to which a linear system is worth solving: relative to the nonlinear residual, but not

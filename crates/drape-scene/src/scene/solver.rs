@@ -11,6 +11,8 @@ pub struct SolverSettings {
     pub linear_solver: LinearSolver,
     /// Root-mean-square error of the acceleration that a step may leave, over g.
     pub tolerance: f64,
+    /// Error that the solver may leave in a step, as a fraction of the step's own.
+    pub error_fraction: f64,
     /// Whether the balance of the energy is kept.
     pub energy_balance: bool,
 }
