@@ -59,6 +59,14 @@ impl Scene {
         })
     }
 
+    /// Largest speed of what moves by prescription, in m/s, that the contact of this scene stops.
+    #[must_use]
+    pub fn stopped_speed(&self) -> f64 {
+        let stiffness = self.contact_stiffness();
+        let fabrics = self.panels.iter().map(|panel| &self.materials[panel.material].fabric);
+        fabrics.map(|fabric| stopped_speed(fabric, stiffness)).fold(f64::INFINITY, f64::min)
+    }
+
     /// Largest value of a fabric's quantity over the panels.
     fn largest(&self, of: impl Fn(&Fabric) -> f64) -> f64 {
         let fabrics = self.panels.iter().map(|panel| &self.materials[panel.material].fabric);
@@ -103,8 +111,14 @@ fn stiffness_of_impact(fabric: &Fabric, speed: f64) -> f64 {
 
 /// Largest speed of what moves by prescription, in m/s, at which contact keeps a fabric apart.
 pub(crate) fn max_impact_speed(fabric: &Fabric) -> f64 {
+    stopped_speed(fabric, STIFFNESS_MAX)
+}
+
+/// Speed whose impact a contact of some stiffness, in N/m³, stops, in m/s: the inverse of
+/// [`stiffness_of_impact`].
+fn stopped_speed(fabric: &Fabric, stiffness: f64) -> f64 {
     let range = fabric.thickness - min_separation(fabric);
-    range / SPEED_RATIO * (STIFFNESS_MAX / (2.0 * fabric.density)).sqrt()
+    range / SPEED_RATIO * (stiffness / (2.0 * fabric.density)).sqrt()
 }
 
 /// Minimum separation of two layers of a fabric, in m.
