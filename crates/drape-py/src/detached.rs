@@ -76,7 +76,7 @@ impl Detached {
             // Nobody listens any more once a signal has come.
             let _ = sender.send(work());
         });
-        py.detach(|| {
+        py.detach(move || {
             loop {
                 match inbox.recv_timeout(POLL) {
                     Ok(result) => return Ok(result),

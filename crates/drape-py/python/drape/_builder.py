@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-import tomli_w
 
 from . import _drape
 from ._errors import UsageError
 from ._fit import Fabric, Fit, StrPath
 from ._scene import Scene
+from ._toml import dumps, plain
 
 
 class SceneBuilder:
@@ -33,12 +33,12 @@ class SceneBuilder:
         """
         self._folder = Path(folder)
         self._allow = [Path(path) for path in allow]
-        self._table: dict[str, Any] = _plain(keys, "")
+        self._table: dict[str, Any] = plain(keys, "")
         self._documents: dict[str, str] = {}
 
     def set(self, **keys: Any) -> SceneBuilder:
         """Sets keys of the scene itself, in place of those that it has."""
-        self._table |= _plain(keys, "")
+        self._table |= plain(keys, "")
         return self
 
     def fabric(self, name: str, source: Fabric | Fit | StrPath) -> SceneBuilder:
@@ -61,7 +61,7 @@ class SceneBuilder:
     ) -> SceneBuilder:
         """Adds a garment: the file of a pattern, or the keys of one, and the fabric of its panels."""
         if isinstance(pattern, Mapping):
-            text = tomli_w.dumps(_plain(pattern, "pattern"))
+            text = dumps(pattern)
             file = self._document("patterns", str(keys.get("name", "pattern")), ".toml", text)
         else:
             file = Path(pattern).as_posix()
@@ -75,7 +75,7 @@ class SceneBuilder:
         """Adds a `"sphere"`, `"box"`, `"cylinder"`, `"plane"` or a `"mesh"` of a file."""
         colliders = self._table.setdefault("collider", {})
         place = f"collider.{kind}[{len(colliders.get(kind, []))}]"
-        colliders.setdefault(kind, []).append(_plain(keys, place))
+        colliders.setdefault(kind, []).append(plain(keys, place))
         return self
 
     def mesh(
@@ -121,7 +121,7 @@ class SceneBuilder:
 
     def to_toml(self) -> str:
         """Returns the text of the scene."""
-        return tomli_w.dumps(self._table)
+        return dumps(self._table)
 
     def scene(self) -> Scene:
         """Checks the scene. Raises `InputError` with all mistakes, at the lines of `to_toml()`."""
@@ -147,7 +147,7 @@ class SceneBuilder:
 
     def _add(self, kind: str, keys: Mapping[str, Any]) -> SceneBuilder:
         entries = self._table.setdefault(kind, [])
-        entries.append(_plain(keys, f"{kind}[{len(entries)}]"))
+        entries.append(plain(keys, f"{kind}[{len(entries)}]"))
         return self
 
     def _document(self, folder: str, name: str, ending: str, text: str) -> str:
@@ -166,20 +166,3 @@ def _obj(vertices: npt.NDArray[np.float64], faces: npt.NDArray[Any]) -> str:
     lines = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist()]
     lines += [f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces.tolist()]
     return "".join(lines)
-
-
-def _plain(value: Any, place: str) -> Any:
-    """Returns a value as TOML has it; `place` is its key."""
-    if isinstance(value, Mapping):
-        entries = ((str(key), entry) for key, entry in value.items() if entry is not None)
-        return {key: _plain(entry, f"{place}.{key}".lstrip(".")) for key, entry in entries}
-    if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist(), place)
-    if isinstance(value, list | tuple | range):
-        return [_plain(entry, f"{place}[{index}]") for index, entry in enumerate(value)]
-    if isinstance(value, Path):
-        return value.as_posix()
-    if isinstance(value, bool | int | float | str):
-        return value
-    kind = type(value).__name__
-    raise UsageError(f"{place}: {value!r} is a {kind}; give a number, a text, a list or a dictionary")
