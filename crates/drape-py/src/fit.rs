@@ -167,11 +167,7 @@ impl From<drape::fit::Error> for NoFit {
 
 /// Fits the sheets of some paths on all threads; returns the fit of each, or its exception.
 #[pyfunction]
-pub(crate) fn fit_all(
-    py: Python<'_>,
-    paths: Vec<PathBuf>,
-    laws: Laws,
-) -> PyResult<Vec<Py<PyAny>>> {
+pub(crate) fn fit_all(py: Python<'_>, paths: Vec<PathBuf>, laws: Laws) -> PyResult<Vec<Py<PyAny>>> {
     let settings = laws.settings()?;
     let work = move || {
         let read = |path: &PathBuf| drape::kes::Sheet::read(path).map_err(NoFit::Sheet);

@@ -177,9 +177,7 @@ impl Scene {
         let checked = self.checked.lock().ok().and_then(|mut checked| checked.take());
         let mut scene = match checked {
             Some(scene) => scene,
-            None => {
-                drape::scene_of_documents(&self.document, &self.others).map_err(of_scene)?
-            }
+            None => drape::scene_of_documents(&self.document, &self.others).map_err(of_scene)?,
         };
         if let Some(end) = until {
             // A scene that is refused is checked still.

@@ -114,9 +114,7 @@ impl Simulation {
         self.check()?;
         let (shift, turn, center) = rigid;
         let target = match vertices {
-            Some(numbers) => {
-                BodyTarget::Vertices(numbers.as_slice()?.as_chunks::<3>().0.to_vec())
-            }
+            Some(numbers) => BodyTarget::Vertices(numbers.as_slice()?.as_chunks::<3>().0.to_vec()),
             None => BodyTarget::Rigid { shift, turn, center },
         };
         self.simulation.lead_body(name, &target, seconds).map_err(of_dynamics)

@@ -86,24 +86,25 @@ def test_arrays_are_fitted_as_files(root):
     sheet = drape.read_sheet(root / "fabrics/cupro-weave")
     told = drape.fit(sheet)
     curves = []
-    for kind in ("stretch-8cm", "loop-bend-up", "loop-bend-down-1"):
-        for direction in ("warp", "weft"):
-            path = root / f"fabrics/cupro-weave/{kind}-{direction}.csv"
-            table = np.genfromtxt(path, delimiter=",", names=True)
-            test = "tensile" if kind == "stretch-8cm" else "loop-bending"
-            curves.append(
-                drape.Curve(
-                    test,
-                    direction,
-                    table["clamp_distance_m"],
-                    table["force_N"],
-                    deformation_unit="m",
-                    gauge=float(table["specimen_length_m"][0]),
-                    load_unit="N",
-                    width=float(table["clamp_width_m"][0]),
-                    slack=test == "tensile",
-                )
-            )
+    files = ["stretch-8cm-warp", "stretch-8cm-weft"]
+    files += [f"loop-bend-{up}-{way}" for way in ("warp", "weft") for up in ("up", "down-1")]
+    for file in files:
+        path = root / f"fabrics/cupro-weave/{file}.csv"
+        table = np.genfromtxt(path, delimiter=",", names=True)
+        test = "tensile" if "stretch" in file else "loop-bending"
+        curve = drape.Curve(
+            test,
+            file[-4:],
+            table["clamp_distance_m"],
+            table["force_N"],
+            deformation_unit="m",
+            gauge=float(table["specimen_length_m"][0]),
+            load_unit="N",
+            width=float(table["clamp_width_m"][0]),
+            zero="distance",
+            slack=test == "tensile",
+        )
+        curves.append(curve)
     values = {"W": "105.6 g/m2", "T": "0.1046 mm"}
     own = drape.fit(drape.Sheet.from_curves(sheet.name, curves, values))
     assert own.to_toml().split("[warp", 1)[1] == told.to_toml().split("[warp", 1)[1]

@@ -34,7 +34,8 @@ const SPEED_RATIO: f64 = 4.0;
 impl Scene {
     /// Stiffness of the contact of surfaces, in N/m³: the scene's own, or the larger one of that of
     /// the fabrics' compression and that which stops the fastest impact.
-    pub(crate) fn contact_stiffness(&self) -> f64 {
+    #[must_use]
+    pub fn contact_stiffness(&self) -> f64 {
         self.contact.stiffness.unwrap_or_else(|| {
             let speed = self.prescribed_speed();
             let impact = self.largest(|fabric| stiffness_of_impact(fabric, speed));

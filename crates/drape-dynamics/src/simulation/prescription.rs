@@ -150,9 +150,11 @@ impl Simulation {
             let most = surfaces.speed_max();
             if !(speed <= most) {
                 let needed = seconds * speed / most;
+                let stiffness = surfaces.stiffness_of_speed(speed);
                 return Err(unsuited(format!(
                     "the body \"{name}\" moves at {speed:.3} m/s; contact keeps these fabrics apart up \
-                     to {most:.3} m/s: give it {needed:.4} s or more, or name the motion in the scene"
+                     to {most:.3} m/s: give it {needed:.4} s or more, or the scene \
+                     contact.stiffness = {stiffness:.1e}"
                 )));
             }
         }

@@ -51,6 +51,8 @@ class Curve:
     """Length of the strip between the clamps, in m or with a unit."""
     width: float | str | None = None
     """Width of the strip, in m or with a unit."""
+    zero: str | None = None
+    """What a length is: `"extension"`, `"distance"` of clamps or `"position"` of one."""
     slack: bool = False
     """Whether the strip hangs slack at the start."""
 
@@ -74,6 +76,8 @@ class Curve:
         entry: dict[str, Any] = {"test": self.test, "direction": self.direction, "file": file}
         entry["deformation"] = axis("deformation", of_length, "gauge", self.gauge)
         entry["load"] = axis("load", self.load_unit or units[1], "width", self.width)
+        if self.zero is not None:
+            entry["deformation"]["zero"] = self.zero
         if self.slack:
             entry["slack"] = True
         return entry if self.name is None else {"name": self.name, **entry}

@@ -6,9 +6,7 @@
 
 use std::ops::Range;
 
-use drape_collide::{
-    Body, Error, PairDistance, Shape, SurfaceContact, SurfaceStep, Triangulation,
-};
+use drape_collide::{Body, Error, PairDistance, Shape, SurfaceContact, SurfaceStep, Triangulation};
 use drape_implicit::{StepLimit, TrialStep};
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
 
@@ -39,6 +37,8 @@ pub(crate) struct Surfaces {
     vertices: Vec<Range<usize>>,
     /// Largest speed at which contact stops what moves, in m/s.
     speed_max: f64,
+    /// Stiffness of the contact, in N/m³.
+    stiffness: f64,
     /// Largest motion of a vertex of a body and of a held particle within a step.
     resolution: MotionResolution,
     /// Number of intersections that were found after steps, which were then taken back.
@@ -115,6 +115,7 @@ impl Surfaces {
             moving: moving.collect(),
             vertices,
             speed_max: scene.stopped_speed(),
+            stiffness: scene.contact_stiffness(),
             resolution: MotionResolution {
                 path: scene.spacing(),
                 deviation: 2.0 * DEVIATION * min_separation,
@@ -159,6 +160,11 @@ impl Surfaces {
     /// Largest speed at which contact stops what moves, in m/s.
     pub(crate) fn speed_max(&self) -> f64 {
         self.speed_max
+    }
+
+    /// Stiffness of the contact that stops what moves at a speed, in m/s, in N/m³.
+    pub(crate) fn stiffness_of_speed(&self, speed: f64) -> f64 {
+        self.stiffness * (speed / self.speed_max).powi(2)
     }
 
     /// Time at which the bodies will have grown to their size, in s, if they have not at a time.
