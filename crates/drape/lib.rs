@@ -60,4 +60,4 @@ pub use drape_sweep as sweep;
 pub use drape_validate as validate;
 pub use drape_verify as verify;
 
-pub use scene_fabric::{fabric_of, read_scene, scene_fabric, scene_of};
+pub use scene_fabric::{fabric_of, read_scene, scene_fabric, scene_of, scene_of_documents};

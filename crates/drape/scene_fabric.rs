@@ -25,6 +25,18 @@ pub fn scene_of(document: &Document) -> Result<Scene, drape_scene::Error> {
     Scene::from_document(document, &scene_fabric)
 }
 
+/// Makes a scene of a document, as [`scene_of`] does, whose fabrics, patterns and meshes are taken from
+/// other documents where it names their paths.
+///
+/// # Errors
+/// As for [`read_scene`].
+pub fn scene_of_documents(
+    document: &Document,
+    others: &[Document],
+) -> Result<Scene, drape_scene::Error> {
+    Scene::from_documents_with(document, others, &scene_fabric)
+}
+
 /// Reads a `fabric.toml`, or fits a fabric to a `sheet.toml`.
 ///
 /// The laws are those of the model of the scene: Breen's are fitted to the first branches of the

@@ -17,7 +17,7 @@ mod surface;
 
 pub use body::{Body, Mesh, NearestSurface, Pose, Shape, SignedDistance};
 pub use error::Error;
-pub use mesh_io::{PointCache, Triangulation, read_mesh};
+pub use mesh_io::{PointCache, Triangulation, parse_mesh, read_mesh};
 pub use mesh_repair::{
     EdgeLengths, Hole, MeshInspection, Places, RepairNote, RepairSettings, Repaired, repair,
 };

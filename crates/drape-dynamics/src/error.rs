@@ -37,6 +37,12 @@ pub enum Error {
         /// The folder.
         folder: PathBuf,
     },
+    /// Forces, or the motion of a body, that are asked for between steps do not suit the simulation.
+    #[error("{reason}")]
+    Unsuited {
+        /// What does not suit it, with the remedy.
+        reason: String,
+    },
     /// A result could not be written: check space and permissions.
     #[error("cannot write {}: {reason}", path.display())]
     Write {

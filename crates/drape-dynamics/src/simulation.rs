@@ -3,8 +3,9 @@
 //! A run has up to three phases: a garment is sewn, the cloth comes to rest, bodies and pins move.
 //! Steps are made by the chapter `stepping`; after each of them the simulation asks whether the
 //! phase, or the run, is over. `run.rs` makes them all, watched; `saved.rs` is what a run goes on
-//! from after it was interrupted.
+//! from after it was interrupted; `prescription.rs` is what a program does between steps.
 
+pub(crate) mod prescription;
 pub(crate) mod run;
 pub(crate) mod saved;
 

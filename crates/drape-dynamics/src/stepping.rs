@@ -113,6 +113,11 @@ impl Stepping {
         self.ticks as f64 * self.clock.tick()
     }
 
+    /// Length of the next step, in s, unless its error makes it shorter.
+    pub(crate) fn next_step(&self) -> f64 {
+        self.control.next(self.ticks) as f64 * self.clock.tick()
+    }
+
     /// Lets the run end after so many more seconds of steps that are not longer than the first.
     pub(crate) fn end_after(&mut self, seconds: f64) {
         self.clock.end = self.time() + seconds;

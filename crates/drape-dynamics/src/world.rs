@@ -6,7 +6,7 @@
 //! are
 //!
 //! ```math
-//! f = M g + f_\text{internal} + f_\text{springs} + f_\text{air} + f_\text{contact}
+//! f = M g + f_\text{internal} + f_\text{springs} + f_\text{air} + f_\text{contact} + f_\text{external}
 //! ```
 //!
 //! and each term has a file of its own here, with its force, potential and stiffness.
@@ -21,6 +21,7 @@ mod air_drag;
 pub(crate) mod check;
 mod contact;
 mod energy_balance;
+mod external_forces;
 mod gravity;
 mod internal_forces;
 mod momentum_removal;
@@ -40,6 +41,7 @@ use crate::error::Error;
 use crate::sewing::closing_springs::ClosingSprings;
 
 use self::air_drag::AirDrag;
+use self::external_forces::ExternalForces;
 use self::gravity::Gravity;
 use self::internal_forces::InternalForces;
 use self::momentum_removal::MomentumRemoval;
@@ -62,6 +64,8 @@ pub(crate) struct World {
     pub(crate) contact: Contact,
     gravity: Gravity,
     air: AirDrag,
+    /// Forces from outside of the scene.
+    pub(crate) external: ExternalForces,
     momentum: MomentumRemoval,
     pins: Pins,
     clock: MotionClock,
@@ -121,6 +125,7 @@ impl World {
             internal,
             contact,
             gravity: Gravity::new(environment.gravity, schedule.clock.ramp),
+            external: ExternalForces::default(),
             momentum: MomentumRemoval::default(),
             pins: Pins::new(pins, held),
             clock: if moves_at_once { MotionClock::running() } else { MotionClock::stopped() },
@@ -155,6 +160,11 @@ impl World {
         self.pins.release(HoldUntil::Rest, time);
         self.state.velocities.fill(0.0);
         self.set_relaxing(false);
+    }
+
+    /// Time on the clock of motions at a time, in s; none while it stands still.
+    pub(crate) fn motion_time(&self, time: f64) -> Option<f64> {
+        self.clock.start_time().is_finite().then(|| self.clock.time(time))
     }
 
     /// Whether each particle is held in all directions in this step.

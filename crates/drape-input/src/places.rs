@@ -91,7 +91,10 @@ impl Misplaced {
     pub fn help(&self) -> String {
         match self {
             Self::Outside { place, .. } => {
-                format!("move it there, or allow it with --allow-path {}", shell(place))
+                let place = shell(place);
+                format!(
+                    "move it there, or allow it with --allow-path {place}, in Python with allow="
+                )
             }
             Self::TooLong { .. } => {
                 format!("a name has up to {NAME_MAX} bytes, a path up to {PATH_MAX}")

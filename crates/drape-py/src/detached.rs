@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -61,6 +62,31 @@ impl Detached {
     /// Returns whether the work is to end.
     pub(crate) fn is_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Has work done that cannot be ended. Where a signal comes first it is left alone, and its result
+    /// is dropped.
+    pub(crate) fn leave<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce() -> T + Send + 'static,
+    ) -> PyResult<T> {
+        let (sender, inbox) = mpsc::channel();
+        self.pool.spawn(move || {
+            // Nobody listens any more once a signal has come.
+            let _ = sender.send(work());
+        });
+        py.detach(move || {
+            loop {
+                match inbox.recv_timeout(POLL) {
+                    Ok(result) => return Ok(result),
+                    Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals())?,
+                    Err(RecvTimeoutError::Disconnected) => {
+                        return Err(PyRuntimeError::new_err("the work ended without a result"));
+                    }
+                }
+            }
+        })
     }
 
     /// Has work done, and events of it handled; returns its result with what a signal or a handler

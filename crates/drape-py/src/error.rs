@@ -1,5 +1,7 @@
 //! Mistakes and failures as the exceptions of `drape._errors`.
 
+use std::ffi::CString;
+
 use drape::input::{Diagnostic, Diagnostics};
 use pyo3::prelude::*;
 
@@ -45,6 +47,14 @@ where
     })
 }
 
+/// Warns of what deserves a second look, as a `RunWarning`.
+pub(crate) fn warn(py: Python<'_>, note: &str) -> PyResult<()> {
+    let category = py.import("drape._errors")?.getattr("RunWarning")?;
+    let note = note.trim_start_matches("warning: ").trim_start_matches("note: ");
+    let message = CString::new(note.replace('\0', " "))?;
+    PyErr::warn(py, &category, &message, 2)
+}
+
 /// Returns the exception of one mistake.
 pub(crate) fn mistake(one: Diagnostic) -> PyErr {
     input(&one.into())
@@ -75,6 +85,22 @@ pub(crate) fn of_dynamics(error: drape::dynamics::Error) -> PyErr {
                 folder.display()
             ),
         ),
+        Error::Unfit { reason } => failure(
+            Kind::Solver,
+            format!(
+                "the checkpoint does not fit the scene: {reason}; run the scene anew with \
+                 replace=True"
+            ),
+        ),
+        Error::LostFrames { path, found, frames } => failure(
+            Kind::Output,
+            format!(
+                "{} has {found} frames, of {frames} that the checkpoint counts; run the scene anew \
+                 with replace=True",
+                path.display()
+            ),
+        ),
+        Error::Unsuited { reason } => failure(Kind::Usage, reason),
         Error::Write { .. } => failure(Kind::Output, error),
         error => failure(Kind::Solver, error),
     }

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use drape::fit::{
-    FrictionOrder, Intervals, LoopModel, Settings, TractionModel, identify_with, parameter_key,
+    FittedSheet, FrictionOrder, Intervals, LoopModel, Settings, TractionModel, identify_all,
+    identify_with, parameter_key,
 };
 use drape::input::{Diagnostic, Document};
 use drape::report::FitPage;
@@ -12,6 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::array::row;
+use crate::detached::Detached;
 use crate::error::{Kind, failure, input, mistake};
 
 /// Tables of `fabric.toml` that hold laws.
@@ -35,7 +37,7 @@ pub(crate) struct Fit {
 /// Laws that a fit is asked for, by the names of the command line.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-struct Laws {
+pub(crate) struct Laws {
     traction: Option<String>,
     bending: Option<String>,
     shear: Option<String>,
@@ -128,13 +130,65 @@ impl Sheet {
     }
 
     fn fit(&self, py: Python<'_>, laws: Laws) -> PyResult<Fit> {
-        let settings = laws.settings()?;
-        let fit = py.detach(|| identify_with(&self.0, &settings));
-        let fit = fit.map_err(|error| mistake(Diagnostic::new(&self.0.name, error.to_string())))?;
-        let page = fit_page(&self.0, &fit, &settings);
-        page.check().map_err(|error| mistake(Diagnostic::new(&self.0.name, error.to_string())))?;
-        Ok(Fit { fit, page })
+        let (settings, sheet) = (laws.settings()?, self.0.clone());
+        let work = move || {
+            let fit = identify_with(&sheet, &settings).map_err(|error| error.to_string())?;
+            Fit::new(&sheet, fit, &settings)
+        };
+        let fit = Detached::new(None)?.leave(py, work)?;
+        fit.map_err(|error| mistake(Diagnostic::new(&self.0.name, error)))
     }
+}
+
+impl Fit {
+    /// Returns a fit with its page.
+    fn new(
+        sheet: &drape::kes::Sheet,
+        fit: drape::fit::Fit,
+        settings: &Settings,
+    ) -> Result<Self, String> {
+        let page = fit_page(sheet, &fit, settings);
+        page.check().map_err(|error| error.to_string())?;
+        Ok(Self { fit, page })
+    }
+}
+
+/// Reason why a sheet of many has no fit.
+enum NoFit {
+    Sheet(drape::kes::Error),
+    Fit(String),
+}
+
+impl From<drape::fit::Error> for NoFit {
+    fn from(error: drape::fit::Error) -> Self {
+        Self::Fit(error.to_string())
+    }
+}
+
+/// Fits the sheets of some paths on all threads; returns the fit of each, or its exception.
+#[pyfunction]
+pub(crate) fn fit_all(py: Python<'_>, paths: Vec<PathBuf>, laws: Laws) -> PyResult<Vec<Py<PyAny>>> {
+    let settings = laws.settings()?;
+    let work = move || {
+        let read = |path: &PathBuf| drape::kes::Sheet::read(path).map_err(NoFit::Sheet);
+        identify_all(&paths, &settings, read, |path, found| {
+            let fit = found.and_then(|FittedSheet { sheet, fit }| {
+                Fit::new(sheet, fit.clone(), &settings).map_err(NoFit::Fit)
+            });
+            (path.clone(), fit)
+        })
+    };
+    let fits = Detached::new(None)?.leave(py, work)?;
+    let result = |(path, fit): (PathBuf, Result<Fit, NoFit>)| match fit {
+        Ok(fit) => Ok(Py::new(py, fit)?.into_any()),
+        Err(NoFit::Sheet(error)) => {
+            Ok(of_sheet(error, &path.display().to_string()).into_value(py).into_any())
+        }
+        Err(NoFit::Fit(error)) => {
+            Ok(mistake(Diagnostic::new(&path, error)).into_value(py).into_any())
+        }
+    };
+    fits.into_iter().map(result).collect()
 }
 
 #[pymethods]

@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::array::row;
+use crate::detached::Detached;
 use crate::error::{Kind, failure};
 use crate::fit::Fabric;
 
@@ -50,7 +51,9 @@ pub(crate) fn drapemeter<'py>(
         ));
     }
     let sampling = Sampling { spacing, starts: settings.starts };
-    let study = py.detach(|| meter.study(fabric, sampling, &|| ()));
+    let fabric = fabric.clone();
+    let work = move || meter.study(&fabric, sampling, &|| ());
+    let study = Detached::new(None)?.leave(py, work)?;
     let study = study.map_err(|error| failure(Kind::Solver, error))?;
     let found = PyDict::new(py);
     found.set_item("coefficient", study.mean())?;
@@ -78,7 +81,7 @@ pub(crate) fn validate(py: Python<'_>, name: &str) -> PyResult<String> {
         let message = format!("{name:?} is no case; give one of {}", names.join(", "));
         return Err(failure(Kind::Usage, message));
     };
-    let outcome = py.detach(|| Outcome::of(case, &|_| ()));
+    let outcome = Detached::new(None)?.leave(py, || Outcome::of(case, &|_| ()))?;
     let mut value = serde_json::to_value(&outcome).unwrap_or_default();
     value["passes"] = outcome.passes().into();
     Ok(value.to_string())

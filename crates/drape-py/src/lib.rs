@@ -23,7 +23,7 @@ mod stepping;
 #[pyo3::pymodule]
 mod _drape {
     #[pymodule_export]
-    use crate::fit::{Fabric, Fit, Sheet};
+    use crate::fit::{Fabric, Fit, Sheet, fit_all};
     #[pymodule_export]
     use crate::instruments::{case_names, drapemeter, validate};
     #[pymodule_export]

@@ -10,12 +10,14 @@ use pyo3::prelude::*;
 
 use crate::array::rows;
 use crate::detached::{Detached, Outbox};
-use crate::error::{Kind, failure, input, of_dynamics, of_run, of_scene};
+use crate::error::{Kind, failure, input, of_dynamics, of_run, of_scene, warn};
 
 /// Scene that was read and checked.
 #[pyclass(frozen, module = "drape._drape")]
 pub(crate) struct Scene {
     document: Document,
+    /// Documents that it names and that have no file.
+    others: Vec<Document>,
     /// File that it was read from; a text has none.
     file: Option<PathBuf>,
     name: String,
@@ -151,8 +153,8 @@ impl RunSettings {
 }
 
 impl Scene {
-    fn new(document: Document, file: Option<PathBuf>) -> PyResult<Self> {
-        let scene = drape::scene_of(&document).map_err(of_scene)?;
+    fn new(document: Document, others: Vec<Document>, file: Option<PathBuf>) -> PyResult<Self> {
+        let scene = drape::scene_of_documents(&document, &others).map_err(of_scene)?;
         let panels = scene.panels.iter().map(|panel| {
             let range = panel.particles();
             (panel.name.clone(), range.start, range.end)
@@ -165,6 +167,7 @@ impl Scene {
             notes: notes.cloned().collect(),
             checked: Mutex::new(Some(scene)),
             document,
+            others,
             file,
         })
     }
@@ -174,7 +177,7 @@ impl Scene {
         let checked = self.checked.lock().ok().and_then(|mut checked| checked.take());
         let mut scene = match checked {
             Some(scene) => scene,
-            None => drape::scene_of(&self.document).map_err(of_scene)?,
+            None => drape::scene_of_documents(&self.document, &self.others).map_err(of_scene)?,
         };
         if let Some(end) = until {
             // A scene that is refused is checked still.
@@ -189,12 +192,25 @@ impl Scene {
     #[staticmethod]
     fn read(path: PathBuf, allow: Vec<PathBuf>) -> PyResult<Self> {
         let document = Document::read(&path).map_err(|mistakes| input(&mistakes))?;
-        Self::new(document.allowing(&allow), Some(path))
+        Self::new(document.allowing(&allow), Vec::new(), Some(path))
     }
 
+    /// Makes a scene of a text, with the texts of documents that it names by their paths.
     #[staticmethod]
-    fn from_toml(text: &str, folder: PathBuf, allow: Vec<PathBuf>) -> PyResult<Self> {
-        Self::new(Document::new(folder.join("<text>"), text).allowing(&allow), None)
+    fn from_toml(
+        py: Python<'_>,
+        text: &str,
+        documents: Vec<(PathBuf, String)>,
+        folder: PathBuf,
+        allow: Vec<PathBuf>,
+    ) -> PyResult<Self> {
+        let others = documents.into_iter().map(|(path, text)| {
+            let path = folder.join(path);
+            Document::new(path, text)
+        });
+        let others: Vec<Document> = others.collect();
+        let document = Document::new(folder.join("<text>"), text).allowing(&allow);
+        py.detach(|| Self::new(document, others, None))
     }
 
     #[getter]
@@ -265,6 +281,9 @@ pub(crate) fn resume(
             Scene::read(resumed.request.scene.clone(), Vec::new())?.take(resumed.request.until)?
         }
     };
-    let (run, _notes) = resumed.go_on(own, &settings.keeping(&detached)?).map_err(of_run)?;
+    let (run, notes) = resumed.go_on(own, &settings.keeping(&detached)?).map_err(of_run)?;
+    for note in &notes {
+        warn(py, note)?;
+    }
     settings.execute(py, &detached, |mut reporter| Ok(run.run(&mut reporter)?.close()))
 }

@@ -2,7 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use drape::dynamics;
+use drape::collide::Triangulation;
+use drape::dynamics::{self, BodyTarget};
+use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
@@ -27,6 +29,9 @@ pub(crate) struct Simulation {
 
 /// Step: time, length, largest speed, imbalance, iterations, whether it is the last, phase, events.
 type StepFields = (f64, f64, f64, f64, usize, bool, String, Vec<String>);
+
+/// Body: name, vertices, triangles.
+type Outline<'py> = (String, Bound<'py, PyAny>, Bound<'py, PyAny>);
 
 impl Simulation {
     fn check(&self) -> PyResult<()> {
@@ -86,6 +91,43 @@ impl Simulation {
             phase.as_str().unwrap_or_default().to_owned(),
             step.events,
         ))
+    }
+
+    /// Lets forces act from now on, three numbers for each particle; none without numbers.
+    fn apply_forces(&mut self, forces: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
+        self.check()?;
+        self.simulation.apply_forces(forces.as_slice()?).map_err(of_dynamics)
+    }
+
+    fn next_step(&self) -> f64 {
+        self.simulation.next_step()
+    }
+
+    /// Leads a body to positions of its vertices, three numbers each, or by a shift, a turn and its centre.
+    fn lead_body(
+        &mut self,
+        name: &str,
+        vertices: Option<PyReadonlyArray1<'_, f64>>,
+        rigid: ([f64; 3], [f64; 3], Option<[f64; 3]>),
+        seconds: f64,
+    ) -> PyResult<()> {
+        self.check()?;
+        let (shift, turn, center) = rigid;
+        let target = match vertices {
+            Some(numbers) => BodyTarget::Vertices(numbers.as_slice()?.as_chunks::<3>().0.to_vec()),
+            None => BodyTarget::Rigid { shift, turn, center },
+        };
+        self.simulation.lead_body(name, &target, seconds).map_err(of_dynamics)
+    }
+
+    /// Names, vertices and triangles of the bodies.
+    fn bodies<'py>(&self, py: Python<'py>) -> PyResult<Vec<Outline<'py>>> {
+        self.check()?;
+        let outline = |(name, outline): (String, Triangulation)| {
+            let vertices = rows(py, outline.vertices.as_flattened(), 3)?;
+            Ok((name, vertices, rows(py, outline.triangles.as_flattened(), 3)?))
+        };
+        self.simulation.bodies().into_iter().map(outline).collect()
     }
 
     #[getter]

@@ -80,3 +80,61 @@ def test_a_fabric_is_made_of_values():
     assert fabric.name == "poplin" and fabric.density == pytest.approx(0.124)
     with pytest.raises(drape.InputError, match="W"):
         drape.Fabric.from_values("poplin", {"W": -1.0})
+
+
+def test_arrays_are_fitted_as_files(root):
+    sheet = drape.read_sheet(root / "fabrics/cupro-weave")
+    told = drape.fit(sheet)
+    curves = []
+    files = ["stretch-8cm-warp", "stretch-8cm-weft"]
+    files += [f"loop-bend-{up}-{way}" for way in ("warp", "weft") for up in ("up", "down-1")]
+    for file in files:
+        path = root / f"fabrics/cupro-weave/{file}.csv"
+        table = np.genfromtxt(path, delimiter=",", names=True)
+        test = "tensile" if "stretch" in file else "loop-bending"
+        curve = drape.Curve(
+            test,
+            file[-4:],
+            table["clamp_distance_m"],
+            table["force_N"],
+            deformation_unit="m",
+            gauge=float(table["specimen_length_m"][0]),
+            load_unit="N",
+            width=float(table["clamp_width_m"][0]),
+            zero="distance",
+            slack=test == "tensile",
+        )
+        curves.append(curve)
+    values = {"W": "105.6 g/m2", "T": "0.1046 mm"}
+    own = drape.fit(drape.Sheet.from_curves(sheet.name, curves, values))
+    assert own.to_toml().split("[warp", 1)[1] == told.to_toml().split("[warp", 1)[1]
+    assert drape.fit(curves).params["warp.B"].value == told.params["warp.B"].value
+    strain = np.linspace(0, 0.05, 40)
+    bent = drape.fit([drape.Curve("tensile", "warp", strain, 2000 * strain)])
+    assert bent.curves[0]["measured"].max() == pytest.approx(100)
+    with pytest.raises(drape.UsageError, match=r"shapes \(40,\) and \(39,\); give \(n,\)"):
+        drape.fit([drape.Curve("tensile", "warp", strain, strain[1:])])
+    with pytest.raises(drape.InputError) as caught:
+        drape.fit([drape.Curve("tensile", "warp", strain, np.full(40, np.nan))])
+    assert caught.value.file == "<arrays>/curve-1.csv" and caught.value.remedy
+
+
+def test_a_folder_of_sheets_is_fitted_as_by_the_command(root, command, tmp_path):
+    fits = drape.fit_all(root / "fabrics")
+    told = tmp_path / "told"
+    subprocess.run([command, "fit", root / "fabrics", "-o", told], capture_output=True, check=True)
+    assert {f"{name}.toml" for name in fits} == {path.name for path in told.iterdir()}
+    for name, fit in fits.items():
+        assert fit.to_toml().encode() == (told / f"{name}.toml").read_bytes()
+    assert not fits.failures
+    with pytest.raises(drape.UsageError, match="drape.fit_all"):
+        drape.fit(root / "fabrics")
+    (tmp_path / "wrong/one").mkdir(parents=True)
+    with pytest.raises(drape.UsageError, match="holds no sheet.toml"):
+        drape.fit_all(tmp_path / "wrong")
+    (tmp_path / "wrong/one/sheet.toml").write_text("W = -1\n")
+    some = drape.fit_all([tmp_path / "wrong", root / "fabrics/matsudaira-b"])
+    assert list(some) == ["matsudaira-b"] and list(some.failures) == ["one"]
+    assert isinstance(some.failures["one"], drape.InputError)
+    with pytest.raises(drape.InputError):
+        some["one"]

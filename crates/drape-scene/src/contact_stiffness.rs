@@ -34,7 +34,8 @@ const SPEED_RATIO: f64 = 4.0;
 impl Scene {
     /// Stiffness of the contact of surfaces, in N/m³: the scene's own, or the larger one of that of
     /// the fabrics' compression and that which stops the fastest impact.
-    pub(crate) fn contact_stiffness(&self) -> f64 {
+    #[must_use]
+    pub fn contact_stiffness(&self) -> f64 {
         self.contact.stiffness.unwrap_or_else(|| {
             let speed = self.prescribed_speed();
             let impact = self.largest(|fabric| stiffness_of_impact(fabric, speed));
@@ -57,6 +58,14 @@ impl Scene {
                 figure(speed)
             )
         })
+    }
+
+    /// Largest speed of what moves by prescription, in m/s, that the contact of this scene stops.
+    #[must_use]
+    pub fn stopped_speed(&self) -> f64 {
+        let stiffness = self.contact_stiffness();
+        let fabrics = self.panels.iter().map(|panel| &self.materials[panel.material].fabric);
+        fabrics.map(|fabric| stopped_speed(fabric, stiffness)).fold(f64::INFINITY, f64::min)
     }
 
     /// Largest value of a fabric's quantity over the panels.
@@ -103,8 +112,14 @@ fn stiffness_of_impact(fabric: &Fabric, speed: f64) -> f64 {
 
 /// Largest speed of what moves by prescription, in m/s, at which contact keeps a fabric apart.
 pub(crate) fn max_impact_speed(fabric: &Fabric) -> f64 {
+    stopped_speed(fabric, STIFFNESS_MAX)
+}
+
+/// Speed whose impact a contact of some stiffness, in N/m³, stops, in m/s: the inverse of
+/// [`stiffness_of_impact`].
+fn stopped_speed(fabric: &Fabric, stiffness: f64) -> f64 {
     let range = fabric.thickness - min_separation(fabric);
-    range / SPEED_RATIO * (STIFFNESS_MAX / (2.0 * fabric.density)).sqrt()
+    range / SPEED_RATIO * (stiffness / (2.0 * fabric.density)).sqrt()
 }
 
 /// Minimum separation of two layers of a fabric, in m.

@@ -36,17 +36,29 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::read`].
     pub fn from_document(scene: &Document, fabrics: FabricReader<'_>) -> Result<Self, Error> {
-        let (file, faults) = scene.decode_with_faults::<SceneFile>()?;
-        check(&Documents { scene, others: &[], fabrics }, &file, faults)
+        Self::from_documents_with(scene, &[], fabrics)
     }
 
-    /// Makes a scene of a document in memory. A fabric or a pattern whose path, seen from the
+    /// Makes a scene of a document in memory. A fabric, a pattern or a mesh whose path, seen from the
     /// scene's folder, is that of one of the other documents is taken from there.
     ///
     /// # Errors
     /// As for [`Scene::read`].
     pub fn from_documents(scene: &Document, others: &[Document]) -> Result<Self, Error> {
+        Self::from_documents_with(scene, others, &read_fabric)
+    }
+
+    /// Makes a scene of documents in memory, as [`Scene::from_documents`] does, with a function that
+    /// makes the fabrics of the files that it names beside them.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn from_documents_with(
+        scene: &Document,
+        others: &[Document],
+        fabrics: FabricReader<'_>,
+    ) -> Result<Self, Error> {
         let (file, faults) = scene.decode_with_faults::<SceneFile>()?;
-        check(&Documents { scene, others, fabrics: &read_fabric }, &file, faults)
+        check(&Documents { scene, others, fabrics }, &file, faults)
     }
 }

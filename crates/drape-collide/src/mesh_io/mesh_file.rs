@@ -21,15 +21,35 @@ const BYTES_MAX: u64 = 1 << 28;
 /// If the file is none of these, is cut off, is no regular file or is longer than 256 MiB.
 pub fn read_mesh(path: impl AsRef<Path>) -> Result<Triangulation, Error> {
     let path = path.as_ref();
+    let parser = parser(path)?;
+    parse(path, &read_bytes(path, BYTES_MAX)?, parser)
+}
+
+/// Returns the triangles of the content of a file, as [`read_mesh`] does of the file.
+///
+/// # Errors
+/// As for [`read_mesh`].
+pub fn parse_mesh(path: impl AsRef<Path>, bytes: &[u8]) -> Result<Triangulation, Error> {
+    let path = path.as_ref();
+    parse(path, bytes, parser(path)?)
+}
+
+/// Function that makes triangles of the bytes of a file.
+type Parser = fn(&[u8]) -> Result<Triangulation, String>;
+
+/// Returns the parser of a file, by the extension of its name.
+fn parser(path: &Path) -> Result<Parser, Error> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let parse: fn(&[u8]) -> Result<Triangulation, String> = match extension.as_str() {
-        "obj" => obj::parse,
-        "stl" => stl::parse,
-        "ply" => ply::parse,
-        _ => return Err(Error::UnknownMeshFormat { path: path.to_path_buf() }),
-    };
-    let bytes = read_bytes(path, BYTES_MAX)?;
-    parse(&bytes).map_err(|reason| Error::MalformedFile { path: path.to_path_buf(), reason })
+    match extension.as_str() {
+        "obj" => Ok(obj::parse),
+        "stl" => Ok(stl::parse),
+        "ply" => Ok(ply::parse),
+        _ => Err(Error::UnknownMeshFormat { path: path.to_path_buf() }),
+    }
+}
+
+fn parse(path: &Path, bytes: &[u8], parser: Parser) -> Result<Triangulation, Error> {
+    parser(bytes).map_err(|reason| Error::MalformedFile { path: path.to_path_buf(), reason })
 }
 
 /// Returns the content of a regular file of at most `limit` bytes.

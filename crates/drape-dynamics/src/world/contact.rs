@@ -70,6 +70,14 @@ impl Contact {
         }
     }
 
+    /// Triangles of a body at a time on the clock of motions, in s, in its own size.
+    pub(crate) fn outline(&self, body: usize, time: f64) -> Triangulation {
+        match self {
+            Self::Particles(bodies) => bodies.outline(body, time),
+            Self::Surfaces(surfaces) => surfaces.outline(body, time),
+        }
+    }
+
     /// Triangles of the bodies, where they are now.
     pub(crate) fn triangulations(&self) -> Vec<Triangulation> {
         let bodies = self.bodies().iter();

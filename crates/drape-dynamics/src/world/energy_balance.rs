@@ -41,7 +41,7 @@ pub struct Energy {
     /// has no friction.
     #[serde(rename = "turning_dissipated")]
     pub rotation_dissipated: f64,
-    /// Work done on the cloth by bodies that move and by pins; where a pin holds in some directions
+    /// Work done on the cloth by bodies that move, by pins and by forces from outside; where a pin holds in some directions
     /// alone, the work of its springs counts.
     pub work_in: f64,
     /// Residual of the balance: what its entries leave open in the sub-steps, one of some thirty, in
@@ -82,6 +82,8 @@ struct FirstAndLast {
 pub(crate) struct StepEnergy {
     /// Work against the weight.
     pub(crate) gravity: f64,
+    /// Work of the forces from outside of the scene.
+    pub(crate) external_work: f64,
     /// Growth of the energy of contact.
     pub(crate) contact: f64,
     /// Work of the springs of pins, with their forces at the end of the step.
@@ -142,6 +144,7 @@ impl EnergyBalance {
         sums.gravity += step.gravity;
         sums.contact += step.contact;
         sums.work_in += step.body_work + step.body_friction_work + step.spring_work;
+        sums.work_in += step.external_work;
         sums.elastic += step.stored - self.stored;
         sums.friction_dissipated += step.internal_friction;
         sums.body_dissipated += step.body_friction_loss - step.cloth_friction_loss;

@@ -55,6 +55,7 @@ impl System for World {
 
     fn forces(&mut self, positions: &[f64], forces: &mut [f64]) {
         self.gravity.write_forces(self.cloth.masses(), forces);
+        self.external.add_forces(forces);
         self.momentum.add_forces(forces);
         self.internal.add_forces(self.cloth.trial(&self.state, positions), forces);
         if let Some(springs) = &self.seams.springs {
@@ -76,7 +77,8 @@ impl System for World {
         let closing = self.seams.springs.as_ref().map_or(0.0, |own| own.potential(positions));
         let pins = self.pins.springs.potential(positions);
         let weight = self.gravity.potential(self.cloth.masses(), positions);
-        internal + weight + momentum + drag + contact + closing + pins
+        let external = self.external.potential(positions);
+        internal + weight + momentum + drag + contact + closing + pins + external
     }
 
     fn stiffness(&mut self, positions: &[f64], kind: Stiffness, matrix: &mut BlockMatrix) {
@@ -160,6 +162,7 @@ impl World {
         let energy = StepEnergy {
             gravity: self.gravity.potential(masses, positions)
                 - self.gravity.potential(masses, start),
+            external_work: self.external.work(start, positions),
             spring_work: springs.by_force,
             spring_potential_fall: springs.potential_fall,
             body_work: before.body_work,

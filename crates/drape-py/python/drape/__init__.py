@@ -1,20 +1,42 @@
 """From measured fabric to moving cloth.
 
-Fabrics are fitted to the curves of a laboratory (`fit`), scenes are read (`Scene`), run
-(`Scene.run`) or stepped (`Simulation`), and stored runs are opened again (`open`). All numbers are
+Fabrics are fitted to the curves of a laboratory (`fit`), scenes are read (`Scene`) or built
+(`SceneBuilder`), run (`Scene.run`) or stepped (`Simulation`), and stored runs are opened again (`open`). All numbers are
 in SI; y is up.
 """
 
-from ._errors import Error, InputError, Mistake, OutputError, SolverError, UsageError
-from ._fit import Fabric, Fit, Parameter, Parameters, Sheet, fit, read_sheet
+from ._builder import SceneBuilder
+from ._errors import (
+    Error,
+    InputError,
+    Mistake,
+    OutputError,
+    RunWarning,
+    SolverError,
+    UsageError,
+)
+from ._fit import (
+    Curve,
+    Fabric,
+    Fit,
+    Fits,
+    Parameter,
+    Parameters,
+    Sheet,
+    fit,
+    fit_all,
+    read_sheet,
+)
 from ._instruments import cases, drapemeter, validate
 from ._run import Frames, Run, View, open, view
 from ._scene import Frame, Progress, Scene, Simulation, Step, resume
 
 __all__ = [
+    "Curve",
     "Error",
     "Fabric",
     "Fit",
+    "Fits",
     "Frame",
     "Frames",
     "InputError",
@@ -24,7 +46,9 @@ __all__ = [
     "Parameters",
     "Progress",
     "Run",
+    "RunWarning",
     "Scene",
+    "SceneBuilder",
     "Sheet",
     "Simulation",
     "SolverError",
@@ -34,6 +58,7 @@ __all__ = [
     "cases",
     "drapemeter",
     "fit",
+    "fit_all",
     "open",
     "read_sheet",
     "resume",

@@ -36,6 +36,10 @@ class OutputError(Error):
     """A file that cannot be read or written."""
 
 
+class RunWarning(UserWarning):
+    """What deserves a second look in a run that goes on, such as a damaged checkpoint."""
+
+
 class InputError(Error):
     """Input with mistakes: all that were found are in `mistakes`, in the order of the text.
 

@@ -5,15 +5,82 @@ from __future__ import annotations
 import html
 import math
 import os
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 from . import _drape
-from ._errors import UsageError
+from ._errors import InputError, UsageError
+from ._toml import dumps
 
 StrPath = str | os.PathLike[str]
+
+
+# Units of the numbers of a test in SI: of deformation and load.
+_SI = {
+    "tensile": ("1", "N/m"),
+    "shear": ("rad", "N/m"),
+    "bending": ("1/m", "N"),
+    "loop-bending": ("m", "N/m"),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Curve of a test as arrays, in SI unless units are given."""
+
+    test: str
+    """`"tensile"`, `"shear"`, `"bending"` or `"loop-bending"`."""
+    direction: str
+    """`"warp"` or `"weft"`."""
+    deformation: npt.ArrayLike
+    """Deformations, (n,): strains, angles in rad, curvatures in 1/m; distances of clamps in m."""
+    load: npt.ArrayLike
+    """Loads per width, (n,), in N/m; moments in N."""
+    name: str | None = None
+    deformation_unit: str | None = None
+    """Unit of the deformations, such as `"%"` or `"1/cm"`; a length needs a `gauge`."""
+    load_unit: str | None = None
+    """Unit of the loads, such as `"gf/cm"`; a force or a moment needs a `width`."""
+    gauge: float | str | None = None
+    """Length of the strip between the clamps, in m or with a unit."""
+    width: float | str | None = None
+    """Width of the strip, in m or with a unit."""
+    zero: str | None = None
+    """What a length is: `"extension"`, `"distance"` of clamps or `"position"` of one."""
+    slack: bool = False
+    """Whether the strip hangs slack at the start."""
+
+    def _write(self, folder: Path, number: int) -> dict[str, Any]:
+        points = [np.asarray(a, dtype=np.float64) for a in (self.deformation, self.load)]
+        if points[0].ndim != 1 or points[0].shape != points[1].shape:
+            shapes = f"{points[0].shape} and {points[1].shape}"
+            raise UsageError(f"curve {number} has deformation and load of shapes {shapes}; give (n,)")
+        rows = zip(*(array.tolist() for array in points))
+        file = f"curve-{number}.csv"
+        lines = ["deformation,load\n", *(f"{x!r},{y!r}\n" for x, y in rows)]
+        (folder / file).write_text("".join(lines), encoding="utf-8")
+        units = _SI.get(self.test, ("1", "N/m"))
+
+        def axis(column: str, unit: str, size: str, length: float | str | None) -> dict[str, Any]:
+            own = {"column": column, "unit": unit}
+            metres = length if isinstance(length, str) else f"{length} m"
+            return own if length is None else {**own, size: metres}
+
+        of_length = self.deformation_unit or ("m" if self.gauge is not None else units[0])
+        entry: dict[str, Any] = {"test": self.test, "direction": self.direction, "file": file}
+        entry["deformation"] = axis("deformation", of_length, "gauge", self.gauge)
+        entry["load"] = axis("load", self.load_unit or units[1], "width", self.width)
+        if self.zero is not None:
+            entry["deformation"]["zero"] = self.zero
+        if self.slack:
+            entry["slack"] = True
+        return entry if self.name is None else {"name": self.name, **entry}
 
 
 class Sheet:
@@ -21,6 +88,24 @@ class Sheet:
 
     def __init__(self, inner: _drape.Sheet) -> None:
         self._inner = inner
+
+    @staticmethod
+    def from_curves(
+        name: str, curves: Iterable[Curve], values: Mapping[str, Any] | None = None
+    ) -> Sheet:
+        """Makes a sheet of curves that are arrays, and of KES values as for `Fabric.from_values`.
+
+        They are read as from the files of a sheet, with the same checks. Raises `InputError`.
+        """
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
+            entries = [curve._write(folder, number) for number, curve in enumerate(curves, 1)]
+            text = dumps({"name": name, **(values or {}), "curve": entries})
+            try:
+                return Sheet(_drape.Sheet.from_toml(text, folder))
+            except InputError as error:
+                shown = [replace(m, file=m.file.replace(temporary, "<arrays>")) for m in error.mistakes]
+                raise InputError(str(error).replace(temporary, "<arrays>"), shown) from None
 
     @property
     def name(self) -> str:
@@ -64,9 +149,7 @@ class Fabric:
         The keys are those of a sheet: `{"W": 12.4, "warp": {"B": 0.11}, "weft": {"B": 0.08}}`.
         What they lack is assumed. Raises `InputError`.
         """
-        text = _toml({"name": name, **values})
-        sheet = _drape.Sheet.from_toml(text, Path())
-        return Fabric(sheet.fit(_laws()).fabric)
+        return fit(Sheet.from_curves(name, [], values)).fabric
 
     @property
     def name(self) -> str:
@@ -241,23 +324,105 @@ def read_sheet(path: StrPath) -> Sheet:
     return Sheet(_drape.Sheet.read(Path(path)))
 
 
+class Fits(Mapping[str, Fit]):
+    """Fits of many sheets by their names, those of their folders, as `drape fit` calls them."""
+
+    def __init__(self, fits: dict[str, Fit], failures: dict[str, Exception]) -> None:
+        self._fits = fits
+        self.failures = failures
+        """Sheets that have no fit, each with its exception."""
+
+    def __getitem__(self, name: str) -> Fit:
+        if name in self.failures:
+            raise self.failures[name]
+        return self._fits[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._fits)
+
+    def __len__(self) -> int:
+        return len(self._fits)
+
+    def __repr__(self) -> str:
+        return f"<drape.Fits: {len(self)} fits, {len(self.failures)} failures>"
+
+
 def fit(
-    sheet: Sheet | StrPath,
+    sheet: Sheet | StrPath | Iterable[Curve],
     *,
     traction: str | None = None,
     bending: str | None = None,
     shear: str | None = None,
     profile: bool = False,
 ) -> Fit:
-    """Fits a fabric to a sheet, or to the sheet of a file or folder.
+    """Fits a fabric to a sheet, to the sheet of a file or folder, or to curves as arrays.
 
     The laws are those that the curves support best unless they are named: `traction` is
     `"primed"` or `"polynomial"`; `bending` and `shear` are `"first-order"`, `"parallel"`,
     `"second-order"` or `"breen-1994"`. `profile` takes intervals from the profile of the residuals.
-    Raises `InputError`, and `UsageError` for a law that is not known.
+    Ctrl-C ends it at once. Raises `InputError`, and `UsageError` for a law that is not known and a
+    folder of many sheets, which are for `fit_all`.
     """
-    own = sheet if isinstance(sheet, Sheet) else read_sheet(sheet)
+    if isinstance(sheet, str | os.PathLike):
+        path = Path(sheet)
+        if path.is_dir() and not (path / _SHEET).exists() and (below := _sheets_below(path)):
+            advice = f"fit them with drape.fit_all({str(path)!r})"
+            raise UsageError(f"{path} holds {len(below)} sheets in its folders; {advice}")
+        sheet = read_sheet(path)
+    own = sheet if isinstance(sheet, Sheet) else Sheet.from_curves("fabric", sheet)
     return Fit(own._inner.fit(_laws(traction, bending, shear, profile)))
+
+
+def fit_all(
+    sheets: StrPath | Iterable[StrPath],
+    *,
+    traction: str | None = None,
+    bending: str | None = None,
+    shear: str | None = None,
+    profile: bool = False,
+) -> Fits:
+    """Fits the sheets of files and folders on all threads: all that are in the folders below, too.
+
+    The keywords are those of `fit`. A sheet that has no fit does not stop the others: it is in
+    `failures`. Raises `UsageError` for a folder without sheets.
+    """
+    paths: list[Path] = []
+    for path in map(Path, [sheets] if isinstance(sheets, str | os.PathLike) else sheets):
+        if not path.is_dir() or (path / _SHEET).exists():
+            paths.append(path)
+        elif below := _sheets_below(path):
+            paths += below
+        else:
+            raise UsageError(f"{path} holds no {_SHEET}; name a folder of sheets, or a sheet")
+    found = _drape.fit_all(paths, _laws(traction, bending, shear, profile))
+    fits: dict[str, Fit] = {}
+    failures: dict[str, Exception] = {}
+    for path, result in zip(paths, found):
+        own = path.resolve().parent if path.name == _SHEET else path.resolve()
+        stem = own.name if own.is_dir() else own.stem
+        name, number = stem, 2
+        while name in fits or name in failures:
+            name, number = f"{stem}-{number}", number + 1
+        if isinstance(result, Exception):
+            failures[name] = result
+        else:
+            fits[name] = Fit(result)
+    return Fits(fits, failures)
+
+
+# Name of the file of a sheet in its folder, and the deepest folder that is searched.
+_SHEET = "sheet.toml"
+_DEEPEST = 8
+
+
+def _sheets_below(folder: Path, depth: int = _DEEPEST) -> list[Path]:
+    found: list[Path] = []
+    for path in sorted(path for path in folder.iterdir() if path.is_dir()):
+        if (path / _SHEET).exists():
+            found.append(path)
+        elif depth > 0:
+            found += _sheets_below(path, depth - 1)
+    return found
 
 
 def _laws(
@@ -273,16 +438,3 @@ def frame(page: str, height: int) -> str:
     """Returns a page as a frame in a notebook, so many pixels high."""
     style = f"width:100%;height:{height}px;border:0"
     return f'<iframe srcdoc="{html.escape(page)}" style="{style}"></iframe>'
-
-
-def _toml(values: Mapping[str, Any]) -> str:
-    lines, tables = [], []
-    for key, value in values.items():
-        if isinstance(value, Mapping):
-            tables.append(f"\n[{key}]\n{_toml(value)}")
-        elif isinstance(value, str):
-            escaped = value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
-            lines.append(f'{key} = "{escaped}"\n')
-        else:
-            lines.append(f"{key} = {float(value)!r}\n")
-    return "".join(lines + tables)

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _drape
+from ._errors import UsageError
 from ._fit import StrPath
 from ._run import Run
 
@@ -68,7 +69,7 @@ class Step:
 
 
 class Scene:
-    """Scene that was read and checked."""
+    """Scene that was read and checked; `SceneBuilder` makes one without a file."""
 
     def __init__(self, inner: _drape.Scene) -> None:
         self._inner = inner
@@ -85,7 +86,7 @@ class Scene:
     @staticmethod
     def from_toml(text: str, folder: StrPath = ".", *, allow: Iterable[StrPath] = ()) -> Scene:
         """Makes a scene of a text; its relative paths are seen from a folder. Raises `InputError`."""
-        return Scene(_drape.Scene.from_toml(text, Path(folder), [Path(p) for p in allow]))
+        return Scene(_drape.Scene.from_toml(text, [], Path(folder), [Path(p) for p in allow]))
 
     @property
     def name(self) -> str:
@@ -168,6 +169,13 @@ def resume(
     return Run(json.loads(_drape.resume(Path(run), inner, settings)), Path(run))
 
 
+def _triple(key: str, value: npt.ArrayLike | None) -> list[float]:
+    numbers = np.zeros(3) if value is None else np.asarray(value, dtype=np.float64)
+    if numbers.shape != (3,):
+        raise UsageError(f"{key} of shape {numbers.shape}: give 3 numbers")
+    return [float(number) for number in numbers]
+
+
 def _settings(
     output: StrPath | None, until: float | None, threads: int | None, replace: bool
 ) -> dict[str, Any]:
@@ -214,15 +222,68 @@ class Simulation:
         """Material coordinates of the particles, weft and warp, (n, 2), in m."""
         self._positions: Array | None = None
         self._velocities: Array | None = None
+        self._pushed = False
 
-    def step(self) -> Step:
+    def step(self, forces: npt.ArrayLike | None = None) -> Step:
         """Advances by one step, during which other threads of Python run.
 
-        Ctrl-C ends it: the simulation is then at the end of the step, or at its start. Raises
-        `SolverError` for a step that cannot be solved; the state is then the last good one.
+        `forces`, (n, 3), in N, act on the particles during this step, constant and beside those of
+        the scene; their work is part of `work_in` in `energy()`. Ctrl-C ends the step: the
+        simulation is then at its end, or at its start. Raises `SolverError` for a step that cannot
+        be solved, the state is then the last good one, and `UsageError` for forces of another
+        shape or without an end.
         """
+        if forces is not None or self._pushed:
+            pushed = np.zeros((0, 3)) if forces is None else np.asarray(forces, dtype=np.float64)
+            n = len(self.coordinates)
+            if forces is not None and pushed.shape != (n, 3):
+                raise UsageError(f"forces of shape {pushed.shape}: give ({n}, 3), in N")
+            self._inner.apply_forces(pushed.ravel())
+            self._pushed = forces is not None
         self._positions = self._velocities = None
         return Step(*self._inner.step())
+
+    @property
+    def next_step(self) -> float:
+        """Length of the next step, in s, unless `time.error` makes it shorter."""
+        return self._inner.next_step()
+
+    @property
+    def bodies(self) -> dict[str, tuple[Array, npt.NDArray[np.uint32]]]:
+        """Vertices, (k, 3), in m, and triangles, (m, 3), of the bodies now, by their names."""
+        return {name: (vertices, triangles) for name, vertices, triangles in self._inner.bodies()}
+
+    def move_body(
+        self,
+        name: str,
+        vertices: npt.ArrayLike | None = None,
+        *,
+        shift: npt.ArrayLike | None = None,
+        turn: npt.ArrayLike | None = None,
+        center: npt.ArrayLike | None = None,
+        seconds: float | None = None,
+    ) -> None:
+        """Moves a body from where it is, at a steady rate, within `seconds` or the next step.
+
+        Either to `vertices`, (k, 3), in m, as many as it has in `bodies` and in their order, or by a
+        `shift`, (3,), in m, with a `turn`, (3,), in degrees about x, then y, then z, about `center`
+        (the middle of its extent). It takes the place of the motion that the scene gives the body.
+        Surfaces stay apart and the energy is accounted for as with a motion of the scene. Raises
+        `UsageError` for a body that there is not, another shape, and a speed at which contact does
+        not keep the fabrics apart.
+        """
+        if (vertices is None) == (shift is None and turn is None):
+            raise UsageError("move_body: give either vertices, or shift and turn")
+        target = None
+        if vertices is not None:
+            target = np.asarray(vertices, dtype=np.float64)
+            if target.ndim != 2 or target.shape[1] != 3:
+                raise UsageError(f"vertices of shape {target.shape}: give (k, 3), in m")
+        rigid = (_triple("shift", shift), _triple("turn", turn))
+        middle = None if center is None else _triple("center", center)
+        within = self.next_step if seconds is None else seconds
+        flat = None if target is None else target.ravel()
+        self._inner.lead_body(name, flat, (*rigid, middle), within)
 
     @property
     def time(self) -> float:

@@ -26,6 +26,10 @@ const LENGTH_MAX: f64 = 1e4;
 /// Largest coordinate of the middle of a body, in m.
 const FAR: f64 = 1e4;
 
+/// Remedy for a mesh that is no closed surface and has no file.
+const MEND_GIVEN: &str = "a body is one closed surface, each of whose edges has two triangles: mend it where it was \
+                          made, such as with trimesh.repair.fill_holes";
+
 /// Body, with its friction where the file gives it.
 pub(crate) struct CheckedBody {
     pub(crate) body: Body,
@@ -187,7 +191,8 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
         return None;
     }
     let path = checker.locate(&format!("collider.mesh[{index}].file"), &file.file)?;
-    match Mesh::load(path, scale(checker, file)) {
+    let read = checker.mesh(&path).map(|outline| outline.scaled(scale(checker, file)));
+    match read.and_then(|outline| Mesh::new(&outline.vertices, &outline.triangles)) {
         Ok(mesh) => {
             let longest = longest(&mesh);
             if check_unit(checker, index, file, longest) {
@@ -200,6 +205,9 @@ fn rigid_mesh(checker: &mut Checker<'_>, index: usize, file: &MeshBodyFile) -> O
         Err(error) => {
             let key = format!("collider.mesh[{index}].file");
             match error.is_fault_of_surface() {
+                true if checker.given(&path).is_some() => {
+                    checker.fail(&key, error.to_string(), MEND_GIVEN);
+                }
                 true => {
                     let path = checker.folder.join(&file.file);
                     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -338,7 +346,7 @@ fn changing_mesh(
         let arm = rotate(point.map(|x| scale * x), common.turn);
         [0, 1, 2].map(|axis| common.center[axis] * unit + arm[axis])
     };
-    match read_shapes(file, checker.document(), Sampling { rate, start }, place) {
+    match read_shapes(file, checker, Sampling { rate, start }, place) {
         Ok(shapes) => {
             check_size(checker, index, longest(&shapes.mesh));
             let name = common.name.map_or_else(|| format!("mesh {}", index + 1), str::to_owned);

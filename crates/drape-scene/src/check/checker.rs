@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
+use drape_collide::{Triangulation, parse_mesh, read_mesh};
 use drape_input::{Diagnostic, Diagnostics, Document, Faults, closest, excerpt, figure, tidy};
 
 use crate::check::documents::Documents;
@@ -16,7 +17,7 @@ pub(crate) struct Checker<'a> {
     pub(crate) file: &'a SceneFile,
     /// Folder of the file.
     pub(crate) folder: &'a Path,
-    /// Fabrics and patterns given along with the scene, by the paths by which it names them.
+    /// Fabrics, patterns and meshes given along with the scene, by the paths by which it names them.
     pub(crate) documents: &'a [Document],
     /// Number of particles for which there is memory.
     pub(crate) particles_max: usize,
@@ -78,6 +79,14 @@ impl<'a> Checker<'a> {
     /// Document given along with the scene for a path.
     pub(crate) fn given(&self, path: &Path) -> Option<&'a Document> {
         self.documents.iter().find(|given| given.path() == path)
+    }
+
+    /// Reads the mesh of a path: from the document that is given for it, or from its file.
+    pub(crate) fn mesh(&self, path: &Path) -> Result<Triangulation, drape_collide::Error> {
+        match self.given(path) {
+            Some(document) => parse_mesh(path, document.text().as_bytes()),
+            None => read_mesh(path),
+        }
     }
 
     /// Adds a mistake at a key, with a remedy, and returns its index. Of a value that could not be

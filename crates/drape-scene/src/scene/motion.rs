@@ -8,6 +8,7 @@ pub use self::resolution::MotionResolution;
 pub use self::rigid::{MotionKey, RigidMotion};
 pub(crate) use self::rigid::{rotate, rotate_pose};
 pub use self::shape::ShapeMotion;
+pub(crate) use self::shape::check_frame;
 
 /// Motion of a body.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! Bodies that particles touch, in scenes where surfaces are not kept apart, and how these bodies
 //! move.
 
-use drape_collide::{ParticleContact, Pose};
+use drape_collide::{ParticleContact, Pose, Triangulation};
 use drape_scene::{BodyMotion, RigidMotion, Scene};
 
 use super::step::{ContactEnergy, ContactStep};
@@ -66,6 +66,26 @@ impl ParticleBodies {
             moving: moving.collect(),
             forces: ForcePair { with_friction, without_friction },
         })
+    }
+
+    /// Triangles of a body at a time on the clock of motions, in s.
+    pub(crate) fn outline(&self, body: usize, time: f64) -> Triangulation {
+        let mut own = self.contact.bodies()[body].clone();
+        own.pose = self.pose_at(body, time);
+        own.triangulate().expect("contact has checked it")
+    }
+
+    /// Leads a body along a motion from where it is at a time on the clock of motions, in s.
+    pub(crate) fn lead(&mut self, body: usize, time: f64, motion: RigidMotion) {
+        let start = self.pose_at(body, time);
+        self.moving.retain(|moving| moving.body != body);
+        self.moving.push(MovingBody { body, start, motion });
+    }
+
+    /// Pose of a body at a time on the clock of motions, in s.
+    fn pose_at(&self, body: usize, time: f64) -> Pose {
+        let moving = self.moving.iter().find(|moving| moving.body == body);
+        moving.map_or(self.contact.bodies()[body].pose, |own| own.motion.pose_at(time, own.start))
     }
 
     /// Opens a step and returns the energy of contact at its start if that is asked for.

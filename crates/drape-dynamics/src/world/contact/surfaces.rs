@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use drape_collide::{Body, Error, PairDistance, Shape, SurfaceContact, SurfaceStep};
+use drape_collide::{Body, Error, PairDistance, Shape, SurfaceContact, SurfaceStep, Triangulation};
 use drape_implicit::{StepLimit, TrialStep};
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
 
@@ -33,6 +33,12 @@ pub(crate) struct Surfaces {
     /// Fraction of the distances that is kept at the start, 0 to 1.
     pub(crate) start_growth_fraction: f64,
     moving: Vec<MovingSurface>,
+    /// Vertices of each body among those of all bodies.
+    vertices: Vec<Range<usize>>,
+    /// Largest speed at which contact stops what moves, in m/s.
+    speed_max: f64,
+    /// Stiffness of the contact, in N/m³.
+    stiffness: f64,
     /// Largest motion of a vertex of a body and of a held particle within a step.
     resolution: MotionResolution,
     /// Number of intersections that were found after steps, which were then taken back.
@@ -89,10 +95,10 @@ impl Surfaces {
         if growth.is_some() {
             contact.shrink_distances(positions)?;
         }
-        let moving = scene.bodies.iter().zip(vertices).filter_map(|(moving, vertices)| {
+        let moving = scene.bodies.iter().zip(&vertices).filter_map(|(moving, vertices)| {
             let motion = moving.motion.clone()?;
             let is_floor = matches!(moving.body.shape, Shape::Plane);
-            Some(MovingSurface { vertices, motion, is_floor })
+            Some(MovingSurface { vertices: vertices.clone(), motion, is_floor })
         });
         let held = scene.held_particles();
         Ok(Self {
@@ -107,6 +113,9 @@ impl Surfaces {
             }),
             growth,
             moving: moving.collect(),
+            vertices,
+            speed_max: scene.stopped_speed(),
+            stiffness: scene.contact_stiffness(),
             resolution: MotionResolution {
                 path: scene.spacing(),
                 deviation: 2.0 * DEVIATION * min_separation,
@@ -123,6 +132,45 @@ impl Surfaces {
     /// Bodies at the start of the simulation.
     pub(crate) fn bodies(&self) -> &[Body] {
         &self.bodies
+    }
+
+    /// Triangles of a body at a time on the clock of motions, in s, in its own size.
+    pub(crate) fn outline(&self, body: usize, time: f64) -> Triangulation {
+        let mut outline = self.bodies[body].triangulate().expect("contact has checked it");
+        let own = &self.vertices[body];
+        let start = &self.start[3 * own.start..3 * own.end];
+        let mut places = start.to_vec();
+        if let Some(moving) = self.moving.iter().find(|moving| moving.vertices == *own) {
+            moving.motion.write_positions(time, start, &mut places);
+        }
+        outline.vertices = places.as_chunks::<3>().0.to_vec();
+        outline
+    }
+
+    /// Leads a body along a motion that begins where its vertices are.
+    pub(crate) fn lead(&mut self, body: usize, from: &Triangulation, motion: BodyMotion) {
+        let vertices = self.vertices[body].clone();
+        self.start[3 * vertices.start..3 * vertices.end]
+            .copy_from_slice(from.vertices.as_flattened());
+        let is_floor = matches!(self.bodies[body].shape, Shape::Plane);
+        self.moving.retain(|moving| moving.vertices != vertices);
+        self.moving.push(MovingSurface { vertices, motion, is_floor });
+    }
+
+    /// Largest speed at which contact stops what moves, in m/s.
+    pub(crate) fn speed_max(&self) -> f64 {
+        self.speed_max
+    }
+
+    /// Stiffness of the contact that stops what moves at a speed, in m/s, in N/m³.
+    pub(crate) fn stiffness_of_speed(&self, speed: f64) -> f64 {
+        self.stiffness * (speed / self.speed_max).powi(2)
+    }
+
+    /// Time at which the bodies will have grown to their size, in s, if they have not at a time.
+    pub(crate) fn end_of_inflation(&self, time: f64) -> Option<f64> {
+        let inflation = self.inflation.as_ref()?.inflation;
+        (inflation.remaining(time) > 0.0).then_some(inflation.seconds)
     }
 
     /// Largest motion within a step of what moves by prescription.

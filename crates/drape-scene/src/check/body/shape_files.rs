@@ -2,19 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use drape_collide::{Mesh, PointCache, Triangulation, read_mesh};
-use drape_input::{Document, Misplaced};
+use drape_collide::{Mesh, PointCache, Triangulation};
+use drape_input::Misplaced;
 
+use crate::check::checker::Checker;
 use crate::file::body::MeshBodyFile;
-use crate::scene::motion::ShapeMotion;
-
-/// Largest distance in another frame of vertices that are one in the first frame, in m: some digits
-/// of a 32-bit float.
-const PARTED: f64 = 1e-6;
-
-/// Square of the sine of the sharpest triangle of a frame, about: what the mesh of a body may have
-/// too.
-const FLAT: f64 = 1e-12;
+use crate::scene::motion::{ShapeMotion, check_frame};
 
 /// Number of vertices that all frames of a sequence may have together: 400 MB of positions.
 const VERTICES_MAX: usize = 1 << 24;
@@ -70,11 +63,16 @@ struct Frames {
 /// world, in m.
 pub(crate) fn read_shapes(
     file: &MeshBodyFile,
-    scene: &Document,
+    checker: &Checker<'_>,
     sampling: Sampling,
     place: impl Fn([f64; 3]) -> [f64; 3],
 ) -> Result<Shapes, ShapeError> {
-    let of_mesh = read_mesh(scene.beside(&file.file)?)?;
+    let scene = checker.document();
+    let path = checker.folder.join(&file.file);
+    if checker.given(&path).is_none() {
+        scene.permit(&path)?;
+    }
+    let of_mesh = checker.mesh(&path)?;
     let frames = match (file.point_cache(), &file.frames) {
         (Some(cache), None) => {
             let path = scene.beside(cache)?;
@@ -82,7 +80,7 @@ pub(crate) fn read_shapes(
             let paths = vec![path; cache.samples.len()];
             Frames { stride: cache.frames_per_sample, paths, samples: cache.samples }
         }
-        (None, Some(pattern)) => sequence(scene, pattern, &of_mesh)?,
+        (None, Some(pattern)) => sequence(checker, pattern, &of_mesh)?,
         _ => {
             let message = "give either motion = \"….pc2\" or frames = \"…_*.obj\"".to_owned();
             return Err(ShapeError::Mismatch(message));
@@ -120,13 +118,14 @@ pub(crate) fn read_shapes(
     Ok(Shapes { motion: ShapeMotion::new(times, positions), mesh })
 }
 
-/// Reads the meshes of a sequence of files, `*` in whose name stands for their numbers.
+/// Reads the meshes of a sequence of files, `*` in whose name stands for their numbers; those of the
+/// disk count where none is given along with the scene.
 fn sequence(
-    scene: &Document,
+    checker: &Checker<'_>,
     pattern: &str,
     of_mesh: &Triangulation,
 ) -> Result<Frames, ShapeError> {
-    let pattern = scene.beside(pattern)?;
+    let pattern = checker.folder.join(pattern);
     let name = pattern.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let Some((before, after)) = name.split_once('*') else {
         let message = format!("\"{name}\" has no * for the number of the frame");
@@ -134,17 +133,23 @@ fn sequence(
     };
     let parent = pattern.parent().unwrap_or(Path::new(""));
     let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
-    let entries = std::fs::read_dir(parent).map_err(|error| {
-        let reason = error.to_string();
-        drape_collide::Error::UnreadableFile { path: parent.to_path_buf(), reason }
-    })?;
-    let mut numbered: Vec<(u64, PathBuf)> = Vec::new();
-    for path in entries.flatten().map(|entry| entry.path()) {
+    let number = |path: &Path| -> Option<u64> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let number = name.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
-        if let Some(number) = number.and_then(|number| number.parse().ok()) {
-            numbered.push((number, path));
-        }
+        name.strip_prefix(before)?.strip_suffix(after)?.parse().ok()
+    };
+    let numbers = |paths: Vec<PathBuf>| -> Vec<(u64, PathBuf)> {
+        paths.into_iter().filter_map(|path| Some((number(&path)?, path))).collect()
+    };
+    let given = checker.documents.iter().map(|document| document.path().to_path_buf());
+    let mut numbered = numbers(given.filter(|path| path.parent() == pattern.parent()).collect());
+    let are_given = !numbered.is_empty();
+    if !are_given {
+        checker.document().permit(&pattern)?;
+        let entries = std::fs::read_dir(parent).map_err(|error| {
+            let reason = error.to_string();
+            drape_collide::Error::UnreadableFile { path: parent.to_path_buf(), reason }
+        })?;
+        numbered = numbers(entries.flatten().map(|entry| entry.path()).collect());
     }
     numbered.sort();
     let (Some((first, _)), Some((last, _))) = (numbered.first(), numbered.last()) else {
@@ -164,8 +169,10 @@ fn sequence(
     }
     let mut samples = Vec::new();
     for (_, path) in &numbered {
-        scene.permit(path)?;
-        let frame = read_mesh(path)?;
+        if !are_given {
+            checker.document().permit(path)?;
+        }
+        let frame = checker.mesh(path)?;
         if frame.vertices.len() == of_mesh.vertices.len() && frame.triangles != of_mesh.triangles {
             let message = format!("{} has other triangles than the body", path.display());
             return Err(ShapeError::Mismatch(message));
@@ -184,35 +191,4 @@ fn coincident_vertices(places: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32;
     used.dedup();
     let same = used.windows(2).filter(|pair| bits(&pair[0]) == bits(&pair[1]));
     same.map(|pair| [pair[0], pair[1]]).collect()
-}
-
-/// Checks a frame: its vertices are near, coincident ones stay so, and triangles keep an area.
-fn check_frame(
-    sample: &[[f64; 3]],
-    coincident: &[[u32; 2]],
-    triangles: &[[u32; 3]],
-) -> Result<(), String> {
-    let at = |vertex: u32| sample[vertex as usize];
-    let minus = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|k| a[k] - b[k]);
-    let square = |a: [f64; 3]| a.iter().map(|x| x * x).sum::<f64>();
-    // Written so that NaN fails.
-    let far = |place: &[f64; 3]| !place.iter().all(|x| x.abs() <= 1e6);
-    if let Some(vertex) = sample.iter().position(far) {
-        return Err(format!("vertex {vertex} is at {:?} m", sample[vertex]));
-    }
-    for &[a, b] in coincident {
-        if square(minus(at(a), at(b))) > PARTED * PARTED {
-            return Err(format!("the vertices {a} and {b} part, which are one in the first frame"));
-        }
-    }
-    for (number, &[a, b, c]) in triangles.iter().enumerate() {
-        let (e, f) = (minus(at(b), at(a)), minus(at(c), at(a)));
-        let longest = square(e).max(square(f)).max(square(minus(f, e)));
-        let dot: f64 = e.iter().zip(f).map(|(e, f)| e * f).sum();
-        let area = square(e) * square(f) - dot * dot;
-        if !(area > FLAT * longest * longest) && longest > 0.0 {
-            return Err(format!("triangle {number} has no area"));
-        }
-    }
-    Ok(())
 }

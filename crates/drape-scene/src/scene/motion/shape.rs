@@ -1,5 +1,13 @@
 //! Motion of a body that changes its shape: all its vertices at times.
 
+/// Largest distance in another frame of vertices that are one in the first frame, in m: some digits
+/// of a 32-bit float.
+const PARTED: f64 = 1e-6;
+
+/// Square of the sine of the sharpest triangle of a frame, about: what the mesh of a body may have
+/// too.
+const FLAT: f64 = 1e-12;
+
 /// Motion of a body that changes its shape: positions of all its vertices at times, between which
 /// they move straight; at rest before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,6 +21,20 @@ pub struct ShapeMotion {
 }
 
 impl ShapeMotion {
+    /// Returns a straight motion between two rising times, in s, from positions of vertices to others,
+    /// in m, with the triangles of the body.
+    ///
+    /// # Errors
+    /// Vertices that are too far out, or a triangle without an area at the end, in words.
+    pub fn between(
+        times: [f64; 2],
+        positions: [Vec<f64>; 2],
+        triangles: &[[u32; 3]],
+    ) -> Result<Self, String> {
+        check_frame(positions[1].as_chunks::<3>().0, &[], triangles)?;
+        Ok(Self::new(times.to_vec(), positions.into()))
+    }
+
     /// Motion through positions at rising times, at least one.
     pub(crate) fn new(times: Vec<f64>, positions: Vec<Vec<f64>>) -> Self {
         let pairs = positions.windows(2).zip(times.windows(2));
@@ -62,6 +84,37 @@ impl ShapeMotion {
         };
         pieces.map(length).sum()
     }
+}
+
+/// Checks a frame: its vertices are near, coincident ones stay so, and triangles keep an area.
+pub(crate) fn check_frame(
+    sample: &[[f64; 3]],
+    coincident: &[[u32; 2]],
+    triangles: &[[u32; 3]],
+) -> Result<(), String> {
+    let at = |vertex: u32| sample[vertex as usize];
+    let minus = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|k| a[k] - b[k]);
+    let square = |a: [f64; 3]| a.iter().map(|x| x * x).sum::<f64>();
+    // Written so that NaN fails.
+    let far = |place: &[f64; 3]| !place.iter().all(|x| x.abs() <= 1e6);
+    if let Some(vertex) = sample.iter().position(far) {
+        return Err(format!("vertex {vertex} is at {:?} m", sample[vertex]));
+    }
+    for &[a, b] in coincident {
+        if square(minus(at(a), at(b))) > PARTED * PARTED {
+            return Err(format!("the vertices {a} and {b} part, which are one in the first frame"));
+        }
+    }
+    for (number, &[a, b, c]) in triangles.iter().enumerate() {
+        let (e, f) = (minus(at(b), at(a)), minus(at(c), at(a)));
+        let longest = square(e).max(square(f)).max(square(minus(f, e)));
+        let dot: f64 = e.iter().zip(f).map(|(e, f)| e * f).sum();
+        let area = square(e) * square(f) - dot * dot;
+        if !(area > FLAT * longest * longest) && longest > 0.0 {
+            return Err(format!("triangle {number} has no area"));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

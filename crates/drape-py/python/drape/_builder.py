@@ -1,0 +1,168 @@
+"""Scenes built in Python, key by key."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _drape
+from ._errors import UsageError
+from ._fit import Fabric, Fit, StrPath
+from ._scene import Scene
+from ._toml import dumps, plain
+
+
+class SceneBuilder:
+    """Scene that is built key by key, into the TOML that a file of it would have.
+
+    Keywords are keys of the reference of scenes, whatever they are, and their values are numbers,
+    texts, lists, dictionaries and NumPy arrays; a key with the value None is left out. Nothing is
+    checked until `scene()`, which checks it as `Scene.read` does.
+    """
+
+    def __init__(self, *, folder: StrPath = ".", allow: Iterable[StrPath] = (), **keys: Any) -> None:
+        """Begins a scene with its own keys, such as `spacing=0.01, time={"step": 0.002, "end": 1}`.
+
+        Files that it names are seen from `folder`; `allow` are files or folders elsewhere that it
+        may name.
+        """
+        self._folder = Path(folder)
+        self._allow = [Path(path) for path in allow]
+        self._table: dict[str, Any] = plain(keys, "")
+        self._documents: dict[str, str] = {}
+
+    def set(self, **keys: Any) -> SceneBuilder:
+        """Sets keys of the scene itself, in place of those that it has."""
+        self._table |= plain(keys, "")
+        return self
+
+    def fabric(self, name: str, source: Fabric | Fit | StrPath) -> SceneBuilder:
+        """Adds a fabric: one that was made, a fit, or a `fabric.toml`, a sheet or its folder."""
+        if isinstance(source, Fit):
+            source = source.fabric
+        if isinstance(source, Fabric):
+            file = self._document("fabrics", name, ".toml", source.to_toml())
+        else:
+            file = Path(source).as_posix()
+        self._table.setdefault("fabric", {})[name] = {"file": file}
+        return self
+
+    def panel(self, name: str, fabric: str, **keys: Any) -> SceneBuilder:
+        """Adds a panel of a fabric, such as `rectangle=[0.2, 0.3], center=[0, 1, 0]`."""
+        return self._add("panel", {"name": name, "fabric": fabric} | keys)
+
+    def garment(
+        self, pattern: StrPath | Mapping[str, Any], fabric: str, **keys: Any
+    ) -> SceneBuilder:
+        """Adds a garment: the file of a pattern, or the keys of one, and the fabric of its panels."""
+        if isinstance(pattern, Mapping):
+            text = dumps(pattern)
+            file = self._document("patterns", str(keys.get("name", "pattern")), ".toml", text)
+        else:
+            file = Path(pattern).as_posix()
+        return self._add("garment", {"pattern": file, "fabric": fabric} | keys)
+
+    def pin(self, panel: str, **keys: Any) -> SceneBuilder:
+        """Adds a pin of a panel, such as `edge="top"`, with a `motion` if it moves."""
+        return self._add("pin", {"panel": panel} | keys)
+
+    def body(self, kind: str, **keys: Any) -> SceneBuilder:
+        """Adds a `"sphere"`, `"box"`, `"cylinder"`, `"plane"` or a `"mesh"` of a file."""
+        colliders = self._table.setdefault("collider", {})
+        place = f"collider.{kind}[{len(colliders.get(kind, []))}]"
+        colliders.setdefault(kind, []).append(plain(keys, place))
+        return self
+
+    def mesh(
+        self,
+        name: str,
+        vertices: Any,
+        faces: npt.ArrayLike | None = None,
+        *,
+        frames: npt.ArrayLike | None = None,
+        **keys: Any,
+    ) -> SceneBuilder:
+        """Adds a body with a closed surface: `vertices`, (k, 3), in m, and `faces`, (m, 3).
+
+        In place of both, a mesh of trimesh or anything else with `vertices` and `faces`. The numbers
+        of vertices begin at 0. `frames`, (f, k, 3), in m, are its vertices from frame to frame, of
+        which `rate=` says how many a second has. Raises `UsageError` for other shapes.
+        """
+        if faces is None:
+            if not (hasattr(vertices, "vertices") and hasattr(vertices, "faces")):
+                raise UsageError(f"the body {name!r} has no faces; give (m, 3), or a mesh of trimesh")
+            vertices, faces = vertices.vertices, vertices.faces
+        places = np.asarray(vertices, dtype=np.float64)
+        corners = np.asarray(faces)
+        if places.ndim != 2 or places.shape[1] != 3:
+            raise UsageError(f"{name!r} has vertices of shape {places.shape}; give (k, 3), in m")
+        if corners.ndim != 2 or corners.shape[1] != 3 or not np.issubdtype(corners.dtype, np.integer):
+            shape = f"of shape {corners.shape} and type {corners.dtype}"
+            raise UsageError(f"{name!r} has faces {shape}; give (m, 3) numbers of vertices, from 0")
+        own: dict[str, Any] = {"name": name}
+        own["file"] = self._document("bodies", name, ".obj", _obj(places, corners))
+        if frames is not None:
+            moving = np.asarray(frames, dtype=np.float64)
+            if moving.ndim != 3 or moving.shape[1:] != places.shape:
+                wanted = f"(f, {len(places)}, 3)"
+                raise UsageError(f"{name!r} has frames of shape {moving.shape}; give {wanted}, in m")
+            stem = own["file"].removesuffix(".obj")
+            for number, frame in enumerate(moving):
+                self._documents[f"{stem}_{number}.obj"] = _obj(frame, corners)
+            own["frames"] = f"{stem}_*.obj"
+        if self._table.get("length", "m") != "m":
+            own["scale"] = 1
+        return self.body("mesh", **(own | keys))
+
+    def to_toml(self) -> str:
+        """Returns the text of the scene."""
+        return dumps(self._table)
+
+    def scene(self) -> Scene:
+        """Checks the scene. Raises `InputError` with all mistakes, at the lines of `to_toml()`."""
+        documents = [(Path(file), text) for file, text in self._documents.items()]
+        inner = _drape.Scene.from_toml(self.to_toml(), documents, self._folder, self._allow)
+        return Scene(inner)
+
+    def save(self, path: StrPath, *, replace: bool = False) -> None:
+        """Writes the scene for the command, and its fabrics, patterns and bodies beside it.
+
+        Files that it names besides stay where they are: they are seen from the folder of `path`.
+        Raises `UsageError` where files are there already, unless it may `replace` them.
+        """
+        path = Path(path)
+        texts = {path: self.to_toml()}
+        texts |= {path.parent / file: text for file, text in self._documents.items()}
+        there = [str(file) for file in texts if file.exists()]
+        if there and not replace:
+            raise UsageError(f"{', '.join(there)} exists; save elsewhere, or with replace=True")
+        for file, text in texts.items():
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8", newline="\n")
+
+    def _add(self, kind: str, keys: Mapping[str, Any]) -> SceneBuilder:
+        entries = self._table.setdefault(kind, [])
+        entries.append(plain(keys, f"{kind}[{len(entries)}]"))
+        return self
+
+    def _document(self, folder: str, name: str, ending: str, text: str) -> str:
+        stem = re.sub(r"[^\w-]+", "-", name) or "unnamed"
+        file, number = f"{folder}/{stem}{ending}", 2
+        while file in self._documents:
+            file, number = f"{folder}/{stem}-{number}{ending}", number + 1
+        self._documents[file] = text
+        return file
+
+    def __repr__(self) -> str:
+        return f"<drape.SceneBuilder {self._table.get('name', 'unnamed')!r}>"
+
+
+def _obj(vertices: npt.NDArray[np.float64], faces: npt.NDArray[Any]) -> str:
+    lines = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist()]
+    lines += [f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces.tolist()]
+    return "".join(lines)
