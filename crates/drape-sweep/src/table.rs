@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use crate::error::Error;
 use crate::manifest::value_of;
+use crate::measure::Measure;
 use crate::place::Place;
 use crate::point::Point;
 use crate::record::Outcome;
@@ -58,6 +59,9 @@ impl Table {
             let summary = own.and_then(|_| place.summary());
             let mut values = Vec::new();
             summary.iter().for_each(|summary| flatten("", summary, &mut values));
+            if !study.measures().is_empty() {
+                values = chosen(study.measures(), values);
+            }
             for (name, value) in values {
                 let cells = measures.entry(name).or_default();
                 cells.resize(row, String::new());
@@ -86,6 +90,14 @@ impl Table {
             column(&axis.name, cells.collect())
         });
         let inputs: Vec<Column> = inputs.collect();
+        // Those that the study names keep its order, and are there though no run has them.
+        let measures: Vec<(String, Vec<String>)> = match study.measures() {
+            [] => measures.into_iter().collect(),
+            named => {
+                let mut cells = |name: &String| measures.remove(name).unwrap_or_default();
+                named.iter().map(|own| (own.name.clone(), cells(&own.name))).collect()
+            }
+        };
         let taken = |name: &str| inputs.iter().any(|input| input.name == name);
         let measures = measures.into_iter().map(|(name, mut cells)| {
             cells.resize(points.len(), String::new());
@@ -128,6 +140,13 @@ impl Table {
         }
         csv.into_inner().map_err(|error| Error::io("write", path)(error.into_error()))
     }
+}
+
+/// Returns the values of the measures that a study names, in their units.
+fn chosen(measures: &[Measure], values: Vec<(String, String)>) -> Vec<(String, String)> {
+    let values: BTreeMap<String, String> = values.into_iter().collect();
+    let value = |own: &Measure| Some((own.name.clone(), own.in_unit(values.get(&own.key)?.clone())));
+    measures.iter().filter_map(value).collect()
 }
 
 /// Adds the values of a summary with their names, such as `strain.traction_max`. Of lists there are
