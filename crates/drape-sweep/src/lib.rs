@@ -26,7 +26,7 @@ mod study;
 mod table;
 
 pub use axes::{Axis, AxisKind};
-pub use effects::{Interaction, MainEffect, interaction, main_effect};
+pub use effects::{Interaction, MainEffect, Mean, interaction, main_effect};
 pub use engine::{Batch, Engine};
 pub use error::Error;
 #[cfg(feature = "schema")]
