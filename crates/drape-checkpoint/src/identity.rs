@@ -1,5 +1,7 @@
 //! Identity: which program wrote a checkpoint, and from what.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 /// BLAKE3 digest.
@@ -30,6 +32,18 @@ impl Identity {
     #[must_use]
     pub fn with(self, name: impl Into<String>, content: &[u8]) -> Self {
         self.with_digest(name, *blake3::hash(content).as_bytes())
+    }
+
+    /// Adds a file by its content, which is read in pieces; one that cannot be read counts as empty.
+    #[must_use]
+    pub fn with_file(self, name: impl Into<String>, file: &Path) -> Self {
+        let digest = || {
+            let mut hasher = blake3::Hasher::new();
+            hasher.update_reader(std::fs::File::open(file)?)?;
+            Ok::<_, std::io::Error>(hasher.finalize())
+        };
+        let digest = digest().unwrap_or_else(|_| blake3::hash(b""));
+        self.with_digest(name, *digest.as_bytes())
     }
 
     /// Adds the same by its digest.

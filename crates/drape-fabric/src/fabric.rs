@@ -92,6 +92,10 @@ pub struct Provenance {
     /// `warp.bending.rigidity`.
     #[serde(default)]
     pub standard_errors: BTreeMap<String, f64>,
+    /// Correlations of the errors of two fitted numbers, by the key paths of both, each pair once;
+    /// the errors of pairs that are not listed are independent.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub correlations: BTreeMap<String, BTreeMap<String, f64>>,
     /// Measured values that the model does not use, by their symbols such as `warp.MMD`, in the
     /// laboratory's units.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]

@@ -83,7 +83,7 @@ impl Document {
         for setting in settings.iter().filter(|_| content.mistakes.is_empty()) {
             let place = self.text.len() + 1 + self.settings.len();
             if let Err(error) = setting.apply(&mut content.root, place) {
-                let message = format!("{setting}, set on the command line: {}", error.message);
+                let message = format!("{setting}, {}: {}", setting.origin(), error.message);
                 mistakes.push(Diagnostic::new(&self.path, message).help(error.help));
             }
             self.settings.push(setting.clone());
@@ -221,14 +221,21 @@ impl Document {
     #[must_use]
     pub fn at(&self, key: &str, message: impl Into<String>) -> Diagnostic {
         let message = format!("{}: {}", cut(key, KEY_MAX), message.into());
-        self.locate(self.find(key).map(|place| place.span), message)
+        let Some(place) = self.find(key) else { return self.locate(None, message) };
+        let mut mistake = self.locate(Some(place.span), message);
+        // Of a list of the text, elements may have been set.
+        let set = place.set.filter(|_| mistake.span.is_some());
+        if let Some(setting) = set.and_then(|index| self.settings.get(index)) {
+            mistake.message += &format!(" ({}: {setting})", setting.origin());
+        }
+        mistake
     }
 
     /// Returns a mistake with the place of a span; places behind the text stand for its settings.
     fn locate(&self, span: Option<Range<usize>>, message: impl Into<String>) -> Diagnostic {
         let place = span.as_ref().and_then(|span| span.start.checked_sub(self.text.len() + 1));
         if let Some(setting) = place.and_then(|index| self.settings.get(index)) {
-            let message = format!("{} (set on the command line: {setting})", message.into());
+            let message = format!("{} ({}: {setting})", message.into(), setting.origin());
             return Diagnostic::new(&self.path, message);
         }
         let mut diagnostic = Diagnostic::new(&self.path, message);
@@ -259,6 +266,11 @@ impl Document {
 
     /// Returns the place of the value at a key path, or of the innermost table on the way to it.
     fn find(&self, key: &str) -> Option<Place> {
+        let whole = |node: &Node| Place {
+            span: node.span.clone(),
+            is_whole: true,
+            set: node.first_element_behind(self.text.len()).map(|place| place - 1 - self.text.len()),
+        };
         let mut place: Option<Place> = None;
         let mut node = &self.content().root;
         let innermost =
@@ -266,12 +278,12 @@ impl Document {
         for Part { name, indices } in parts(key) {
             let Some(entry) = node.entry(name) else { return innermost(place) };
             node = &entry.node;
-            place = Some(Place { span: node.span.clone(), is_whole: true });
+            place = Some(whole(node));
             for index in indices {
                 let Value::List(elements) = &node.value else { return innermost(place) };
                 let Some(element) = elements.get(index) else { return innermost(place) };
                 node = element;
-                place = Some(Place { span: node.span.clone(), is_whole: true });
+                place = Some(whole(node));
             }
         }
         place
@@ -306,6 +318,8 @@ struct Place {
     span: Range<usize>,
     /// Whether it is the value itself.
     is_whole: bool,
+    /// Number of the setting of an element, if the value is a list.
+    set: Option<usize>,
 }
 
 /// Returns mistakes in the order of the text.

@@ -78,6 +78,15 @@ impl Node {
         }
     }
 
+    /// Returns the place of the first element of a list, or of a list in it, that is behind a text.
+    pub(crate) fn first_element_behind(&self, text: usize) -> Option<usize> {
+        let Value::List(elements) = &self.value else { return None };
+        elements.iter().find_map(|element| match element.span.start > text {
+            true => Some(element.span.start),
+            false => element.first_element_behind(text),
+        })
+    }
+
     /// Returns all texts in the value.
     pub(crate) fn texts(&self) -> Vec<&str> {
         match &self.value {

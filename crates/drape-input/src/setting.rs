@@ -29,6 +29,8 @@ pub struct Setting {
     key: String,
     value: String,
     node: Node,
+    /// Who set it, in messages.
+    origin: String,
 }
 
 /// Mistake in a setting, with its remedy.
@@ -68,7 +70,21 @@ impl Setting {
                 excerpt(value.trim_matches(['"', '\'']))
             ),
         })?;
-        Ok(Self { path, key: key.into(), value: value.into(), node: node.node })
+        let origin = "set on the command line".into();
+        Ok(Self { path, key: key.into(), value: value.into(), node: node.node, origin })
+    }
+
+    /// Returns the setting with who set it, as messages say it: "set on the command line" if this is
+    /// not called.
+    #[must_use]
+    pub fn given_in(self, origin: &str) -> Self {
+        Self { origin: origin.into(), ..self }
+    }
+
+    /// Who set it, as messages say it.
+    #[must_use]
+    pub fn origin(&self) -> &str {
+        &self.origin
     }
 
     /// Key, as it was given.
@@ -254,5 +270,13 @@ mod tests {
         let own = document.at("time.end", "-1 s is in the past");
         assert_eq!((own.line, &own.span), (None, &None));
         assert!(own.message.contains("set on the command line: time.end=-1"), "{own}");
+        // A mistake of a list of which an element was set has its line, and names what was set.
+        let set: Setting = "panel.0.size.1=-2".parse().expect("a setting");
+        let set = set.given_in("set by the study");
+        let document = Document::new("s.toml", TEXT).with_settings(&[set]).expect("it can be set");
+        let own = document.at("panel[0].size", "too small");
+        assert_eq!(own.line, Some(6));
+        assert!(own.message.ends_with("too small (set by the study: panel.0.size.1=-2)"), "{own}");
+        assert_eq!(document.at("panel[0].name", "wrong").message, "panel[0].name: wrong");
     }
 }

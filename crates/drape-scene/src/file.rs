@@ -111,6 +111,10 @@ pub(crate) struct FabricFile {
     /// Fabric, sheet, or folder of a sheet, relative to the folder of the scene. A sheet is fitted
     /// first.
     pub(crate) file: String,
+    /// Numbers that take the place of those of the fabric, in SI, by their keys in a `fabric.toml`,
+    /// such as `"warp.bending.rigidity"`.
+    #[serde(default)]
+    pub(crate) set: BTreeMap<String, f64>,
 }
 
 impl SceneFile {

@@ -2,15 +2,35 @@
 
 use crate::table::Column;
 
+/// Mean of a measure over some points, and its scatter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mean {
+    /// Mean.
+    pub value: f64,
+    /// Standard deviation of the points; `None` of a single one.
+    pub deviation: Option<f64>,
+    /// Number of points that have the measure.
+    pub count: usize,
+}
+
+impl Mean {
+    /// Returns the mean of some numbers; `None` of none.
+    fn of(numbers: &[f64]) -> Option<Self> {
+        let count = numbers.len();
+        let value = numbers.iter().sum::<f64>() / count as f64;
+        let squares = numbers.iter().map(|number| (number - value).powi(2)).sum::<f64>();
+        let deviation = (count > 1).then(|| (squares / (count - 1) as f64).sqrt());
+        (count > 0).then_some(Self { value, deviation, count })
+    }
+}
+
 /// Means of a measure over the levels of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MainEffect {
     /// Levels, in the order of the plan.
     pub levels: Vec<String>,
     /// Mean of each level; `None` where no point of it has the measure.
-    pub means: Vec<Option<f64>>,
-    /// Number of points of each level that have the measure.
-    pub counts: Vec<usize>,
+    pub means: Vec<Option<Mean>>,
 }
 
 /// Means of a measure over the pairs of levels of two axes.
@@ -21,55 +41,33 @@ pub struct Interaction {
     /// Levels of the second axis.
     pub columns: Vec<String>,
     /// Mean of each pair; `None` where no point of it has the measure.
-    pub means: Vec<Vec<Option<f64>>>,
-}
-
-/// Mean of numbers that come one after the other.
-#[derive(Debug, Clone, Copy, Default)]
-struct Mean {
-    sum: f64,
-    count: usize,
-}
-
-impl Mean {
-    fn add(&mut self, value: f64) {
-        self.sum += value;
-        self.count += 1;
-    }
-
-    fn value(self) -> Option<f64> {
-        (self.count > 0).then(|| self.sum / self.count as f64)
-    }
+    pub means: Vec<Vec<Option<Mean>>>,
 }
 
 /// Returns the means of a measure over the levels of an axis.
 #[must_use]
 pub fn main_effect(axis: &Column, measure: &Column) -> MainEffect {
     let levels = levels(axis);
-    let mut means = vec![Mean::default(); levels.len()];
+    let mut numbers = vec![Vec::new(); levels.len()];
     for (level, value) in axis.cells.iter().zip(measure.numbers()) {
         let place = levels.iter().position(|own| own == level);
-        place.zip(value).into_iter().for_each(|(place, value)| means[place].add(value));
+        place.zip(value).into_iter().for_each(|(place, value)| numbers[place].push(value));
     }
-    MainEffect {
-        levels,
-        means: means.iter().map(|mean| mean.value()).collect(),
-        counts: means.iter().map(|mean| mean.count).collect(),
-    }
+    MainEffect { levels, means: numbers.iter().map(|own| Mean::of(own)).collect() }
 }
 
 /// Returns the means of a measure over the pairs of levels of two axes.
 #[must_use]
 pub fn interaction(axes: [&Column; 2], measure: &Column) -> Interaction {
     let [rows, columns] = axes.map(levels);
-    let mut means = vec![vec![Mean::default(); columns.len()]; rows.len()];
+    let mut numbers = vec![vec![Vec::new(); columns.len()]; rows.len()];
     let pairs = axes[0].cells.iter().zip(&axes[1].cells);
     for ((row, column), value) in pairs.zip(measure.numbers()) {
         let place = rows.iter().position(|own| own == row);
         let place = place.zip(columns.iter().position(|own| own == column));
-        place.zip(value).into_iter().for_each(|((i, j), value)| means[i][j].add(value));
+        place.zip(value).into_iter().for_each(|((i, j), value)| numbers[i][j].push(value));
     }
-    let means = means.iter().map(|row| row.iter().map(|mean| mean.value()).collect()).collect();
+    let means = numbers.iter().map(|row| row.iter().map(|own| Mean::of(own)).collect()).collect();
     Interaction { rows, columns, means }
 }
 
@@ -99,10 +97,12 @@ mod tests {
         let drop = column("drop", &["1.0", "3.0", "", "10"]);
         let main = main_effect(&fabric, &drop);
         assert_eq!(main.levels, ["wool", "cupro"]);
-        assert_eq!(main.means, [Some(2.0), Some(10.0)]);
-        assert_eq!(main.counts, [2, 1]);
+        let mean = |value, deviation, count| Some(Mean { value, deviation, count });
+        let [wool, cupro] = [mean(2.0, Some(2.0_f64.sqrt()), 2), mean(10.0, None, 1)];
+        assert_eq!(main.means, [wool, cupro]);
         let both = interaction([&fabric, &size], &drop);
         assert_eq!(both.columns, ["1", "2"]);
-        assert_eq!(both.means, [[Some(1.0), Some(3.0)], [None, Some(10.0)]]);
+        let expected = [[mean(1.0, None, 1), mean(3.0, None, 1)], [None, cupro]];
+        assert_eq!(both.means, expected);
     }
 }

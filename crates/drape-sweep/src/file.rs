@@ -27,6 +27,17 @@ pub(crate) struct StudyFile {
     /// Samples of ranges of several keys.
     #[serde(default)]
     pub(crate) sample: Vec<SampleFile>,
+    /// Samples of the numbers of fitted fabrics, by the errors and correlations of their fits.
+    #[serde(default)]
+    pub(crate) covariance: Vec<CovarianceFile>,
+    /// Keys of the scene that are set to one value at all points, as they stand in a scene.
+    #[serde(default)]
+    #[cfg_attr(feature = "schema", schemars(with = "serde_json::Map<String, serde_json::Value>"))]
+    pub(crate) set: toml::Table,
+    /// Values of the summaries that have columns in the table, and sections on the page; all of them
+    /// if missing.
+    #[serde(default)]
+    pub(crate) measure: Vec<MeasureFile>,
 }
 
 /// Key of a scene that is set to one value after the other, by one of `values`, `range`, `files` and
@@ -107,6 +118,43 @@ pub(crate) struct SampleRangeFile {
     #[cfg_attr(feature = "schema", schemars(extend("default" = "linear")))]
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["linear", "log"])))]
     pub(crate) scale: Option<String>,
+}
+
+/// Sample of the fitted numbers of a fabric, all of them together.
+///
+/// Numbers above 0 are sampled on the logarithmic scale, so that they stay there.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CovarianceFile {
+    /// Name of the fabric in the scene.
+    pub(crate) fabric: String,
+    /// Fitted fabric, a `fabric.toml` with standard errors, relative to the folder of the study. It
+    /// takes the place of that of the scene.
+    pub(crate) file: String,
+    /// Number of samples.
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::at_least(1.0)))]
+    pub(crate) count: u32,
+    /// Number that chooses the sample.
+    #[serde(default)]
+    pub(crate) seed: u32,
+    /// Keys of the numbers, such as `warp.bending.rigidity`; all that have a standard error if
+    /// missing. The others keep their values.
+    pub(crate) keys: Option<Vec<String>>,
+}
+
+/// Value of the summaries of all runs.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MeasureFile {
+    /// Key in `summary.json`, such as `measures.openings.0.ease`.
+    pub(crate) key: String,
+    /// Name of the column in the table; the key if missing.
+    pub(crate) name: Option<String>,
+    /// Unit, such as `mm`, which is put behind the name; the number of the summary, in SI, if
+    /// missing.
+    pub(crate) unit: Option<String>,
 }
 
 /// Returns the JSON Schema of studies.

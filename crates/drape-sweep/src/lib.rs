@@ -2,35 +2,37 @@
 //!
 //! # Tour
 //!
-//! * `file`: TOML form of a study; `study`: [`Study`], read and checked; `axis`: [`Axis`] and its
-//!   levels, `design`: samples of ranges.
+//! * `file`: TOML form of a study; `study`: [`Study`], read and checked; `axes`: [`Axis`] and its
+//!   levels, samples of ranges and of the errors of fitted fabrics; `measure`: [`Measure`], a value of
+//!   all summaries.
 //! * `point`: [`Point`], one run of a study; `key`: digests of what it reads.
 //! * `place`: [`Place`], where a point has its results, its lock and its record; `record`:
 //!   [`Record`], what came of it; `manifest`: the list of all points.
 //! * `table`: [`Table`], inputs, measures and records of all points; `effects`: means over levels.
 //! * `engine`: files by which others run a study: Slurm, HyperQueue, Dask.
 
-mod axis;
-mod design;
+mod axes;
 mod effects;
 mod engine;
 mod error;
 mod file;
 mod key;
 mod manifest;
+mod measure;
 mod place;
 mod point;
 mod record;
 mod study;
 mod table;
 
-pub use axis::Axis;
-pub use effects::{Interaction, MainEffect, interaction, main_effect};
+pub use axes::{Axis, AxisKind};
+pub use effects::{Interaction, MainEffect, Mean, interaction, main_effect};
 pub use engine::{Batch, Engine};
 pub use error::Error;
 #[cfg(feature = "schema")]
 pub use file::study_schema;
 pub use manifest::manifest;
+pub use measure::Measure;
 pub use place::{Place, PlaceLock};
 pub use point::{Point, Shard};
 pub use record::{Outcome, Record};

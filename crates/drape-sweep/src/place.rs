@@ -20,7 +20,18 @@ pub struct Place {
 /// Lock of a point, until it is dropped or its process ends, however it does.
 #[derive(Debug)]
 pub struct PlaceLock {
-    _file: File,
+    file: File,
+    path: PathBuf,
+}
+
+impl PlaceLock {
+    /// Removes the file of the lock, which no one needs once the point has a record: whoever takes
+    /// the lock looks for one first.
+    pub fn retire(self) {
+        // Where it cannot be removed it is in nobody's way.
+        let _ = std::fs::remove_file(&self.path);
+        drop(self.file);
+    }
 }
 
 impl Place {
@@ -56,7 +67,7 @@ impl Place {
         let file = File::options().write(true).create(true).truncate(false).open(&path);
         let file = file.map_err(Error::io("write", &path))?;
         match file.try_lock() {
-            Ok(()) => Ok(Some(PlaceLock { _file: file })),
+            Ok(()) => Ok(Some(PlaceLock { file, path })),
             Err(TryLockError::WouldBlock) => Ok(None),
             Err(TryLockError::Error(error)) => Err(Error::io("lock", &path)(error)),
         }
@@ -70,16 +81,30 @@ impl Place {
     }
 
     /// Returns the record of the point, if there is one that holds: that of a finished run has its
-    /// summary beside it.
+    /// summary in it, or beside it.
     #[must_use]
     pub fn record(&self) -> Option<Record> {
         let bytes = std::fs::read(self.record_file()).ok()?;
         let record: Record = serde_json::from_slice(&bytes).ok()?;
-        let holds = record.outcome != Outcome::Done || self.summary().is_some();
+        let has_summary = || record.summary.is_some() || self.summary().is_some();
+        let holds = record.outcome != Outcome::Done || has_summary();
         (record.key == self.key && holds).then_some(record)
     }
 
-    /// Returns the summary of its run.
+    /// Returns how the point ended, in the words of the table.
+    #[must_use]
+    pub fn outcome(&self) -> String {
+        let Some(record) = self.record() else { return "not run".into() };
+        record.word(self.summary_of(&record).as_ref())
+    }
+
+    /// Returns the summary of the run of a record, unless what ran it failed.
+    pub(crate) fn summary_of(&self, record: &Record) -> Option<Value> {
+        let is_own = record.outcome != Outcome::WorkerFailed;
+        is_own.then(|| record.summary.clone().or_else(|| self.summary()))?
+    }
+
+    /// Returns the summary in the folder of its run.
     #[must_use]
     pub fn summary(&self) -> Option<Value> {
         let bytes = std::fs::read(self.folder.join("summary.json")).ok()?;
@@ -103,24 +128,25 @@ impl Place {
         self.folder.join("run.json").is_file() && status.is_none_or(|is| is == "interrupted")
     }
 
-    /// Puts the record of the point beside its folder, which keeps what it is to keep.
+    /// Puts the record of the point beside its folder, which keeps what it is to keep: of measures
+    /// alone, nothing is left but the record, which has the summary.
     ///
     /// # Errors
     /// A file cannot be written or removed.
     pub fn finish(&self, record: &Record, keep: Keep) -> Result<(), Error> {
-        self.prune(keep)?;
+        let is_last = record.outcome != Outcome::WorkerFailed;
+        let mut record = record.clone();
+        if keep == Keep::Measures && is_last {
+            record.summary = self.summary();
+        }
         let path = self.record_file();
-        let text = serde_json::to_string_pretty(record).expect("a record has a JSON form") + "\n";
+        let text = serde_json::to_string(&record).expect("a record has a JSON form") + "\n";
         let part = self.folder.with_extension("part");
         std::fs::write(&part, text).map_err(Error::io("write", &part))?;
         std::fs::rename(&part, &path).map_err(Error::io("write", &path))?;
         let log = self.log();
-        match std::fs::remove_file(&log) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                Err(Error::io("remove", &log)(error))
-            }
-            _ => Ok(()),
-        }
+        removed(&log, std::fs::remove_file(&log))?;
+        if is_last { self.prune(keep) } else { Ok(()) }
     }
 
     /// Removes what is not kept.
@@ -128,13 +154,13 @@ impl Place {
         let kept: &[&str] = match keep {
             Keep::All => return Ok(()),
             Keep::Last => &["summary.json", "last.obj"],
-            Keep::Measures => &["summary.json"],
+            Keep::Measures => return removed(&self.folder, std::fs::remove_dir_all(&self.folder)),
         };
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
         for path in entries.map(|entry| entry.path()).filter(|path| path.is_file()) {
             let name = path.file_name().unwrap_or_default();
             if kept.iter().all(|kept| name != *kept) {
-                std::fs::remove_file(&path).map_err(Error::io("remove", &path))?;
+                removed(&path, std::fs::remove_file(&path))?;
             }
         }
         Ok(())
@@ -142,5 +168,15 @@ impl Place {
 
     fn record_file(&self) -> PathBuf {
         self.folder.with_extension("json")
+    }
+}
+
+/// Returns what came of a removal; what is not there is removed.
+fn removed(path: &Path, result: std::io::Result<()>) -> Result<(), Error> {
+    match result {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(Error::io("remove", path)(error))
+        }
+        _ => Ok(()),
     }
 }

@@ -1,6 +1,7 @@
 //! Records: what came of a point.
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// How a point ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,6 +32,22 @@ pub struct Record {
     pub seconds: f64,
     /// Message of the last process; empty where it had none.
     pub message: String,
+    /// Summary of its run, where nothing else is kept of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub summary: Option<Value>,
+}
+
+impl Record {
+    /// Returns how the point ended, in the words of the table; its run has a summary or none.
+    pub(crate) fn word(&self, summary: Option<&Value>) -> String {
+        let status = summary.and_then(|summary| summary["status"].as_str());
+        let word = match (self.outcome, status) {
+            (Outcome::WorkerFailed, _) => "worker failed",
+            (Outcome::JobFailed, None) => "refused",
+            (_, status) => status.unwrap_or_default(),
+        };
+        word.to_owned()
+    }
 }
 
 impl Outcome {

@@ -1,18 +1,19 @@
 //! Table: inputs, records and measures of all points of a study.
 
-use std::collections::BTreeMap;
+mod parts;
+mod summary;
 
-use serde_json::Value;
+use std::collections::BTreeMap;
 
 use crate::error::Error;
 use crate::manifest::value_of;
 use crate::place::Place;
 use crate::point::Point;
-use crate::record::Outcome;
 use crate::study::Study;
+use crate::table::summary::{cell, chosen, flatten};
 
-/// Most elements of a list of a summary's measures that have columns.
-const ELEMENTS_MAX: usize = 32;
+/// Names of the columns that say what came of a point.
+const RECORDS: [&str; 5] = ["outcome", "exit_code", "retries", "seconds", "message"];
 
 /// Column of a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,25 +55,21 @@ impl Table {
         for (row, point) in points.iter().enumerate() {
             let place = Place::new(study, point);
             let record = place.record();
-            let own = record.as_ref().filter(|record| record.outcome != Outcome::WorkerFailed);
-            let summary = own.and_then(|_| place.summary());
+            let summary = record.as_ref().and_then(|record| place.summary_of(record));
             let mut values = Vec::new();
             summary.iter().for_each(|summary| flatten("", summary, &mut values));
+            if !study.measures().is_empty() {
+                values = chosen(study.measures(), values);
+            }
             for (name, value) in values {
                 let cells = measures.entry(name).or_default();
                 cells.resize(row, String::new());
                 cells.push(value);
             }
-            let status = summary.as_ref().and_then(|summary| summary["status"].as_str());
             records.push(match record {
                 None => ["not run", "", "", "", ""].map(str::to_owned),
                 Some(record) => [
-                    match (record.outcome, status) {
-                        (Outcome::WorkerFailed, _) => "worker failed",
-                        (Outcome::JobFailed, None) => "refused",
-                        (_, status) => status.unwrap_or_default(),
-                    }
-                    .to_owned(),
+                    record.word(summary.as_ref()),
                     record.exit_code.map_or(String::new(), |code| code.to_string()),
                     record.retries.to_string(),
                     format!("{:.3}", record.seconds),
@@ -86,14 +83,21 @@ impl Table {
             column(&axis.name, cells.collect())
         });
         let inputs: Vec<Column> = inputs.collect();
+        // Those that the study names keep its order, and are there though no run has them.
+        let measures: Vec<(String, Vec<String>)> = match study.measures() {
+            [] => measures.into_iter().collect(),
+            named => {
+                let mut cells = |name: &String| measures.remove(name).unwrap_or_default();
+                named.iter().map(|own| (own.name.clone(), cells(&own.name))).collect()
+            }
+        };
         let taken = |name: &str| inputs.iter().any(|input| input.name == name);
         let measures = measures.into_iter().map(|(name, mut cells)| {
             cells.resize(points.len(), String::new());
             let name = if taken(&name) { format!("summary.{name}") } else { name };
             Column { name, cells }
         });
-        let names = ["outcome", "exit_code", "retries", "seconds", "message"];
-        let records = names.into_iter().enumerate().map(|(index, name)| {
+        let records = RECORDS.into_iter().enumerate().map(|(index, name)| {
             column(name, records.iter().map(|record| record[index].clone()).collect())
         });
         Self {
@@ -127,57 +131,5 @@ impl Table {
             csv.write_record(self.columns().map(|column| &column.cells[row])).map_err(failed)?;
         }
         csv.into_inner().map_err(|error| Error::io("write", path)(error.into_error()))
-    }
-}
-
-/// Adds the values of a summary with their names, such as `strain.traction_max`. Of lists there are
-/// those of measures, up to some length.
-fn flatten(name: &str, value: &Value, values: &mut Vec<(String, String)>) {
-    let inner = |key: &str| if name.is_empty() { key.to_owned() } else { format!("{name}.{key}") };
-    match value {
-        Value::Object(entries) => {
-            entries.iter().for_each(|(key, value)| flatten(&inner(key), value, values));
-        }
-        Value::Array(elements)
-            if name.starts_with("measures") && elements.len() <= ELEMENTS_MAX =>
-        {
-            let elements = elements.iter().enumerate();
-            elements.for_each(|(index, value)| flatten(&inner(&index.to_string()), value, values));
-        }
-        Value::Null | Value::Array(_) => {}
-        value => values.push((name.to_owned(), cell(value))),
-    }
-}
-
-/// Returns a value as a cell: texts without quotes.
-fn cell(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_of_a_summary_have_names() {
-        let summary = serde_json::json!({
-            "status": "ok", "frame_times": [0.0, 1.0], "cpu_seconds": null, "settled": true,
-            "strain": { "shear_max": 0.5 }, "measures": { "hem": { "heights": [1.0, 2.5] } },
-        });
-        let mut values = Vec::new();
-        flatten("", &summary, &mut values);
-        values.sort();
-        let values: Vec<String> =
-            values.into_iter().map(|(name, v)| format!("{name}={v}")).collect();
-        assert_eq!(
-            values,
-            [
-                "measures.hem.heights.0=1.0",
-                "measures.hem.heights.1=2.5",
-                "settled=true",
-                "status=ok",
-                "strain.shear_max=0.5"
-            ]
-        );
     }
 }

@@ -4,6 +4,7 @@
 //! points out to jobs, each of which is a process of this program, started by [`worker`]. [`study`]
 //! reads the study.
 
+mod collect;
 mod run;
 mod study;
 mod worker;
@@ -12,13 +13,12 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use drape::file;
-use drape::sweep::{Batch, Engine, Outcome, Place, Point, Study, Table, manifest};
+use drape::sweep::{Batch, Engine, Outcome, Place, Point, Shard, Study, manifest};
 
 use self::run::SweepRunArguments;
 use self::study::StudyArguments;
 use crate::failure::Failure;
 use crate::input;
-use crate::pages::sweep::page;
 use crate::say::{say, say_written};
 
 #[derive(Subcommand)]
@@ -28,9 +28,21 @@ pub(crate) enum SweepCommand {
     /// Runs the points that have no result yet; what was interrupted goes on from its checkpoint.
     Run(SweepRunArguments),
     /// Collects inputs, measures and failures of all points in table.csv and a page of effects.
-    Collect(StudyArguments),
+    Collect(SweepCollectArguments),
     /// Writes the file by which Slurm, HyperQueue or Dask run a study on many machines.
     Export(SweepExportArguments),
+}
+
+#[derive(Args)]
+pub(crate) struct SweepCollectArguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Collects part i of n of the points, such as 1/4, in a table of its own, and makes no page.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Makes the table and the page of the tables of the parts, without reading the points.
+    #[arg(long, conflicts_with = "shard")]
+    join: bool,
 }
 
 #[derive(Args)]
@@ -70,36 +82,20 @@ pub(crate) fn sweep(command: &SweepCommand) -> Result<(), Failure> {
     match command {
         SweepCommand::Plan(arguments) => plan(arguments),
         SweepCommand::Run(arguments) => run::run(arguments),
-        SweepCommand::Collect(arguments) => collect(arguments),
+        SweepCommand::Collect(arguments) => collect::collect(arguments),
         SweepCommand::Export(arguments) => export(arguments),
     }
 }
 
 fn plan(arguments: &StudyArguments) -> Result<(), Failure> {
-    let (study, points) = arguments.read()?;
+    let (study, points) = arguments.read(None)?;
     let path = study.output().join("manifest.jsonl");
     file::write(&path, manifest(&study, &points))?;
     say_written(format_args!("{} points in {}", points.len(), path.display()))
 }
 
-fn collect(arguments: &StudyArguments) -> Result<(), Failure> {
-    let (study, points) = arguments.read()?;
-    let table = Table::collect(&study, &points);
-    let path = study.output().join("table.csv");
-    file::write(&path, table.to_csv()?)?;
-    say_written(format_args!("{} points in {}", points.len(), path.display()))?;
-    let not_run = table.records[0].cells.iter().filter(|cell| *cell == "not run").count();
-    if not_run > 0 {
-        let study = arguments.study.display();
-        say(format_args!("{not_run} points have no result yet: drape sweep run {study}"))?;
-    }
-    let path = study.output().join("index.html");
-    file::write(&path, page(&study, &table)?)?;
-    say_written(format_args!("effects in {}", path.display()))
-}
-
 fn export(arguments: &SweepExportArguments) -> Result<(), Failure> {
-    let (study, points) = arguments.study.read()?;
+    let (study, points) = arguments.study.read(None)?;
     let EngineArguments { slurm, hyperqueue, .. } = arguments.engine;
     let (engine, name) = match (slurm, hyperqueue) {
         (true, _) => (Engine::Slurm, "slurm.sh"),

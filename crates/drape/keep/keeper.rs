@@ -99,9 +99,8 @@ impl Kept {
 /// Identity of a run: the program, to the last byte, and all that the scene was read from.
 fn identity(scene: &Scene, program: &Path) -> Identity {
     let identity = Identity::new(concat!("drape ", env!("CARGO_PKG_VERSION")));
-    let program = std::fs::read(program).unwrap_or_default();
     let parts = scene.source.parts.iter();
-    parts.fold(identity.with("the program's file", &program), |identity, part| {
+    parts.fold(identity.with_file("the program's file", program), |identity, part| {
         identity.with_digest(&part.name, part.digest)
     })
 }

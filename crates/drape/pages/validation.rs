@@ -59,6 +59,7 @@ fn plot(graph: &Graph) -> GraphPlot {
     GraphPlot {
         title: graph.title.clone(),
         axes: graph.axes.map(|axis| Axis::new(axis.label, axis.unit, axis.in_si)),
+        categories: Vec::new(),
         logarithmic: [graph.layout == Layout::Logarithmic; 2],
         to_scale: graph.layout == Layout::ToScale,
         series: series.collect(),

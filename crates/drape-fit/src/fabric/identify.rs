@@ -112,10 +112,10 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
         notes.push(format!("shear beyond {degrees:.1}°: not measured, jamming before 60° taken"));
     }
     let fits = laws.into_fits();
-    let mut standard_errors = keys::standard_errors(&fits);
+    let mut errors = keys::fitted_errors(&fits);
     let identified = |sheet: &Sheet| identify_with(sheet, settings).ok().map(|fit| fit.fabric);
-    match scatter::standard_errors(sheet, &keys::laws(&fits), identified) {
-        Some(of_values) => standard_errors.extend(of_values),
+    match scatter::fitted_errors(sheet, &keys::laws(&fits), identified) {
+        Some(of_values) => errors.extend(of_values),
         None => notes.push(
             "standard deviations of the values: not used, since values close by give laws of another \
              form"
@@ -138,7 +138,8 @@ pub fn identify_with(sheet: &Sheet, settings: &Settings) -> Result<Fit, Error> {
             digest: sheet.digest(),
             fitted_by: concat!("drape-fit ", env!("CARGO_PKG_VERSION")).to_owned(),
             assumed: notes.clone(),
-            standard_errors,
+            standard_errors: errors.standard,
+            correlations: errors.correlations,
             unused: unused(sheet),
             measured_range: measured_range(sheet),
         }),

@@ -5,23 +5,56 @@ use std::collections::{BTreeMap, BTreeSet};
 use drape_kes::{Direction, Test};
 
 use crate::regression::curve_fit::CurveFit;
+use crate::regression::estimate::Estimate;
 
-/// Returns the standard errors of the numbers of a fabric by their key paths, where they have one.
+/// Errors of the fitted numbers of a fabric, by their key paths.
+#[derive(Debug, Default)]
+pub(crate) struct FittedErrors {
+    /// Standard errors, in the units of the numbers.
+    pub(crate) standard: BTreeMap<String, f64>,
+    /// Correlations by both keys, the lesser one first.
+    pub(crate) correlations: BTreeMap<String, BTreeMap<String, f64>>,
+}
+
+impl FittedErrors {
+    /// Adds the correlation of two numbers that differ.
+    pub(crate) fn correlate(&mut self, one: &str, other: &str, correlation: f64) {
+        let (first, second) = if one < other { (one, other) } else { (other, one) };
+        let row = self.correlations.entry(first.to_owned()).or_default();
+        row.insert(second.to_owned(), correlation);
+    }
+
+    /// Adds those of other numbers.
+    pub(crate) fn extend(&mut self, other: Self) {
+        self.standard.extend(other.standard);
+        self.correlations.extend(other.correlations);
+    }
+}
+
+/// Returns the errors of the numbers of a fabric, where they have one.
 ///
 /// Of several curves of one law the one that gives the fabric's law counts: a bending loop before
 /// loop bending, whose strips share their law.
-pub(crate) fn standard_errors(fits: &[CurveFit]) -> BTreeMap<String, f64> {
-    let mut errors = BTreeMap::new();
+pub(crate) fn fitted_errors(fits: &[CurveFit]) -> FittedErrors {
+    let mut errors = FittedErrors::default();
     let mut taken = BTreeSet::new();
     let arches = fits.iter().filter(|fit| fit.test == Test::LoopBending);
     for fit in fits.iter().filter(|fit| fit.test != Test::LoopBending).chain(arches) {
         let law = law(fit.test, fit.direction);
         if taken.insert(law.clone()) {
             let two_elements = fit.parameters.iter().any(|estimate| estimate.name == "ratio");
-            for estimate in &fit.parameters {
-                let key = key(fit.test, estimate.name, two_elements);
-                if let (Some(key), Ok(error)) = (key, &estimate.standard_error) {
-                    errors.insert(format!("{law}.{key}"), *error);
+            let keyed = |(index, estimate): (usize, &Estimate)| {
+                let key = key(fit.test, estimate.name, two_elements)?;
+                let error = *estimate.standard_error.as_ref().ok()?;
+                Some((index, format!("{law}.{key}"), error))
+            };
+            let keyed: Vec<_> = fit.parameters.iter().enumerate().filter_map(keyed).collect();
+            for (place, (index, key, error)) in keyed.iter().enumerate() {
+                errors.standard.insert(key.clone(), *error);
+                for (other, other_key, _) in &keyed[..place] {
+                    if let Some(correlation) = fit.correlations[*index][*other] {
+                        errors.correlate(key, other_key, correlation);
+                    }
                 }
             }
         }

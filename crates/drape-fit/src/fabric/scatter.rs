@@ -7,38 +7,59 @@ use drape_fabric::{
 };
 use drape_kes::{Direction, Scatter, Sheet};
 
+use crate::fabric::keys::FittedErrors;
+
 /// Step by which a value is changed for a derivative, as a share of the value: above the tolerance to
 /// which laws meet their values, and small against what bends a law.
 const STEP: f64 = 0.01;
 
-/// Returns the standard errors of the numbers of a fabric by their key paths, where they come from
-/// values with a stated standard deviation.
+/// Correlation below which numbers have no value in common: more than laws are matched to.
+const CORRELATION_MIN: f64 = 1e-6;
+
+/// Returns the errors of the numbers of a fabric, where they come from values with a stated standard
+/// deviation.
 ///
 /// ```text
-/// s(p)² = Σ (∂p/∂v · s(v))²
+/// c(p, q) = Σ (∂p/∂v · s(v)) (∂q/∂v · s(v))
 /// ```
 ///
 /// over the values `v`, taken as independent of each other; derivatives are central differences. Laws
 /// that a curve gives are left out. `None` where a value close by has no law, or one of another form.
-pub(crate) fn standard_errors(
+pub(crate) fn fitted_errors(
     sheet: &Sheet,
     of_curves: &BTreeSet<String>,
     identified: impl Fn(&Sheet) -> Option<Fabric>,
-) -> Option<BTreeMap<String, f64>> {
+) -> Option<FittedErrors> {
+    let mut errors = FittedErrors::default();
     if sheet.scatter.is_empty() {
-        return Some(BTreeMap::new());
+        return Some(errors);
     }
-    let mut squares: BTreeMap<String, f64> = BTreeMap::new();
+    // Of each number, the effect of each value.
+    let mut all: BTreeMap<String, Vec<f64>> = BTreeMap::new();
     let mut values = sheet.clone();
     (values.curves, values.scatter) = (Vec::new(), Vec::new());
-    for stated in independent(sheet) {
+    for (index, stated) in independent(sheet).enumerate() {
         for (key, effect) in effects(&values, stated, &identified)? {
-            *squares.entry(key).or_default() += effect * effect;
+            let own = all.entry(key).or_default();
+            own.resize(index, 0.0);
+            own.push(effect);
         }
     }
     let is_of_curve = |key: &String| of_curves.iter().any(|law| key.starts_with(law));
-    let errors = squares.into_iter().filter(|(key, square)| *square > 0.0 && !is_of_curve(key));
-    Some(errors.map(|(key, square)| (key, square.sqrt())).collect())
+    let norm = |effects: &[f64]| effects.iter().map(|effect| effect * effect).sum::<f64>().sqrt();
+    all.retain(|key, effects| norm(effects) > 0.0 && !is_of_curve(key));
+    for (key, effects) in &all {
+        errors.standard.insert(key.clone(), norm(effects));
+        for (other, others) in all.range::<String, _>(..key) {
+            let product: f64 = effects.iter().zip(others).map(|(a, b)| a * b).sum();
+            let correlation = product / (norm(effects) * norm(others));
+            // What has no value in common is independent.
+            if correlation.abs() > CORRELATION_MIN {
+                errors.correlate(key, other, correlation.clamp(-1.0, 1.0));
+            }
+        }
+    }
+    Some(errors)
 }
 
 /// Returns the stated deviations that are independent: of a value for both directions, that of the warp.

@@ -7,9 +7,9 @@ use super::axis::Axis;
 use super::chart::{Chart, Frame, Heading, Plane};
 use super::legend::{Legend, LegendItem, Sign};
 use super::margin::ACROSS;
-use super::scale::Scale;
+use super::scale::{Scale, Tick};
 use super::style::Placement;
-use super::svg::{dots, line};
+use super::svg::{dots, line, marks, px};
 use crate::check;
 use crate::error::Error;
 
@@ -21,6 +21,8 @@ pub enum Look {
     Dots,
     /// A line in the next colour.
     Line,
+    /// A short level line at each point, in the next colour.
+    Marks,
     /// A pale band beneath the others: the reference.
     Exact,
 }
@@ -49,6 +51,7 @@ pub struct GraphSeries {
 /// let plot = GraphPlot {
 ///     title: "error against spacing".to_owned(),
 ///     axes: [Axis::new("spacing", "mm", 1e-3), Axis::new("error", "%", 0.01)],
+///     categories: Vec::new(),
 ///     logarithmic: [true, true],
 ///     to_scale: false,
 ///     series: vec![errors("simulated", Look::Dots), errors("second order", Look::Exact)],
@@ -62,6 +65,8 @@ pub struct GraphPlot {
     pub title: String,
     /// Axes across and up.
     pub axes: [Axis; 2],
+    /// Names of the places 1, 2, … across, such as materials; none for an axis of numbers.
+    pub categories: Vec<String>,
     /// Whether each axis is logarithmic; its values must then be positive.
     pub logarithmic: [bool; 2],
     /// Whether a length is as long up as across, for shapes; not with logarithmic axes.
@@ -79,6 +84,7 @@ impl GraphPlot {
     pub fn check(&self) -> Result<(), Error> {
         check::text("the title of a plot", &self.title)?;
         self.axes.iter().try_for_each(|axis| axis.check(&self.title))?;
+        self.categories.iter().try_for_each(|name| check::text("a name of a plot", name))?;
         let empty =
             |what: &str| Error::EmptyPlot { plot: self.title.clone(), what: what.to_owned() };
         if self.series.is_empty() {
@@ -165,15 +171,37 @@ pub(crate) fn graph_figure(plot: &GraphPlot, placement: Placement) -> String {
         let (kind, data) = match series.look {
             Look::Dots => ("points", dots(pixels)),
             Look::Line | Look::Exact => ("line", line(pixels)),
+            Look::Marks => ("line", marks(pixels)),
         };
         Series { class: format!("{kind} {class}"), data, label: &series.label }
     });
+    let mut frame = plane.frame();
+    if !plot.categories.is_empty() {
+        frame.x_ticks = category_ticks(&plot.categories, &plane);
+        frame.zero[0] = None;
+    }
     let figure = GraphFigure {
-        frame: plane.frame(),
+        frame,
         series: series.collect(),
         chart: Chart::new(Heading { title: &plot.title, axes, placement }, legend, bottom),
     };
     figure.render().expect("writing to a string does not fail")
+}
+
+/// Width of a letter of a tick, in px.
+const LETTER: f64 = 7.2;
+
+/// Returns the ticks of places with names, which are cut where there is no room.
+fn category_ticks(names: &[String], plane: &Plane<'_>) -> Vec<Tick> {
+    let letters = ((ACROSS[1] - ACROSS[0]) / names.len() as f64 / LETTER) as usize;
+    let tick = |(index, name): (usize, &String)| Tick {
+        at: px(plane.x(1.0 + index as f64)),
+        label: match name.char_indices().nth(letters.max(2)) {
+            Some(_) => name.chars().take(letters.max(2) - 1).chain(['…']).collect(),
+            None => name.clone(),
+        },
+    };
+    names.iter().enumerate().map(tick).collect()
 }
 
 /// Returns the series with their classes: references share one, the others take the colours in
@@ -184,7 +212,7 @@ fn classified(series: &[GraphSeries]) -> Vec<Classified<'_>> {
         series,
         class: match series.look {
             Look::Exact => "exact".to_owned(),
-            Look::Dots | Look::Line => format!("tone{}", tones.next().unwrap_or(0)),
+            Look::Dots | Look::Line | Look::Marks => format!("tone{}", tones.next().unwrap_or(0)),
         },
     };
     series.iter().map(class).collect()
@@ -195,7 +223,9 @@ fn scales(plot: &GraphPlot, top: f64) -> [Scale; 2] {
     let scale = |k: usize, pixels: [f64; 2]| {
         let points = plot.series.iter().flat_map(|series| &series.points);
         let values = points.map(|point| plot.axes[k].in_unit(point[k]));
-        if plot.logarithmic[k] {
+        if k == 0 && !plot.categories.is_empty() {
+            Scale::places(plot.categories.len(), pixels)
+        } else if plot.logarithmic[k] {
             Scale::around_logarithms(values, pixels)
         } else {
             Scale::around(values, pixels)
@@ -224,6 +254,7 @@ mod tests {
         GraphPlot {
             title: "a plot".to_owned(),
             axes: [Axis::new("across", "mm", 1e-3), Axis::new("up", "cm", 1e-2)],
+            categories: Vec::new(),
             logarithmic: [false, false],
             to_scale: true,
             series: vec![series(Look::Dots), series(Look::Exact), series(Look::Line)],

@@ -61,6 +61,11 @@ impl Scale {
         Scale { logarithmic: true, ..Scale::around(values.map(f64::log10), pixels) }
     }
 
+    /// Returns the scale of the places 1 to a number, with half a place free at either end.
+    pub(crate) fn places(count: usize, [from, to]: [f64; 2]) -> Scale {
+        Scale { logarithmic: false, low: 0.5, high: count as f64 + 0.5, from, to }
+    }
+
     /// Returns the scale of the same range on other pixels.
     pub(crate) fn on(self, [from, to]: [f64; 2]) -> Scale {
         Scale { from, to, ..self }

@@ -22,6 +22,14 @@ pub(crate) fn dots(pixels: impl Iterator<Item = [f64; 2]>) -> String {
     pixels.map(|[x, y]| format!("M{} {}h0", px(x), px(y))).collect()
 }
 
+/// Half the length of a mark, in px.
+const MARK: f64 = 16.0;
+
+/// Returns short level lines at pixels as path data.
+pub(crate) fn marks(pixels: impl Iterator<Item = [f64; 2]>) -> String {
+    pixels.map(|[x, y]| format!("M{} {}h{}", px(x - MARK), px(y), px(2.0 * MARK))).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

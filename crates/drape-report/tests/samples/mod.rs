@@ -140,6 +140,7 @@ pub fn a_graph() -> GraphPlot {
     GraphPlot {
         title: "error against spacing".to_owned(),
         axes: [Axis::new("spacing", "mm", 1e-3), Axis::new("error", "%", 0.01)],
+        categories: Vec::new(),
         logarithmic: [true, true],
         to_scale: false,
         series: vec![series("simulated", Look::Dots, 1.1), series("h²", Look::Exact, 1.0)],

@@ -2,7 +2,9 @@
 
 use drape_cloth::Lattice;
 use drape_fabric::Fabric;
-use drape_input::{excerpt, figure, nearest_file, toml_key};
+use drape_input::{
+    Diagnostic, Diagnostics, Document, Setting, SettingError, excerpt, figure, nearest_file, toml_key,
+};
 
 use crate::check::checker::{Checker, UnknownName};
 use crate::scene::material::{FabricReader, FabricRequest, Material};
@@ -39,9 +41,38 @@ pub(crate) fn materials(
             return None;
         };
         let fabric = fabric.map_err(|mistakes| checker.extend(mistakes)).ok()?;
+        let fabric = changed(checker, name, fabric)?;
         Some(Material { name: name.clone(), file, fabric })
     };
     file.fabric.iter().map(read).collect()
+}
+
+/// Returns a fabric with the numbers that the scene sets.
+fn changed(checker: &mut Checker<'_>, name: &str, fabric: Fabric) -> Option<Fabric> {
+    let numbers = &checker.file.fabric[name].set;
+    if numbers.is_empty() {
+        return Some(fabric);
+    }
+    let place = |key: &str| format!("fabric.{}.set.\"{key}\"", toml_key(name));
+    let (mut settings, mut is_sound) = (Vec::new(), true);
+    for (key, number) in numbers {
+        match Setting::new(key, &format!("{number:?}")) {
+            Ok(setting) => settings.push(setting.given_in(&format!("set by [fabric.{name}]"))),
+            Err(SettingError { message, help }) => {
+                checker.fail(&place(key), message, &help);
+                is_sound = false;
+            }
+        }
+    }
+    let document = Document::new(checker.document().path(), fabric.to_toml());
+    let fabric = document.with_settings(&settings);
+    let fabric = fabric.and_then(|document| Fabric::from_document(&document));
+    // Lines would be those of a text that nobody sees.
+    let unplaced = |mistake| Diagnostic { line: None, column: None, span: None, ..mistake };
+    let fabric = fabric.map_err(|Diagnostics(mistakes)| {
+        checker.extend(Diagnostics(mistakes.into_iter().map(unplaced).collect()));
+    });
+    fabric.ok().filter(|_| is_sound)
 }
 
 /// Returns the number of the fabric of a name.

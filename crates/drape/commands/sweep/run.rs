@@ -41,22 +41,15 @@ const WATCH: Duration = Duration::from_millis(50);
 /// Executes `drape sweep run`. Points that fail are results: the exit code is that of a failure only
 /// where a worker failed, or a signal came.
 pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
-    let (study, points) = arguments.study.read()?;
+    let (study, points) = arguments.study.read(arguments.shard)?;
     let chosen = choose(arguments, &points)?;
     if arguments.list {
         return chosen.iter().try_for_each(|point| list(&study, point));
     }
     signal::watch();
-    let path = study.output().join("manifest.jsonl");
-    let text = manifest(&study, &points);
-    // Sweeps that begin at once would write the same.
-    if std::fs::read_to_string(&path).ok().as_ref() != Some(&text) {
-        let own = format!("manifest-{}.jsonl", std::process::id());
-        let own = study.output().join(own);
-        file::write(&own, text)?;
-        std::fs::rename(&own, &path).map_err(|error| {
-            Failure::Output(format!("cannot write {}: {error}", path.display()))
-        })?;
+    // A part does not know the keys of the rest.
+    if arguments.shard.is_none() {
+        write_manifest(&study, &points)?;
     }
     let threads = rayon::current_num_threads();
     let jobs = arguments.jobs.map_or(threads, usize::from).min(chosen.len().max(1));
@@ -91,12 +84,25 @@ pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Writes the list of all points, unless it is there. Sweeps that begin at once write the same.
+fn write_manifest(study: &Study, points: &[Point]) -> Result<(), Failure> {
+    let path = study.output().join("manifest.jsonl");
+    let text = manifest(study, points);
+    if std::fs::read_to_string(&path).ok().as_ref() == Some(&text) {
+        return Ok(());
+    }
+    let own = study.output().join(format!("manifest-{}.jsonl", std::process::id()));
+    file::write(&own, text)?;
+    std::fs::rename(&own, &path)
+        .map_err(|error| Failure::Output(format!("cannot write {}: {error}", path.display())))
+}
+
 /// Returns the points that are asked for, each key once.
 fn choose<'a>(
     arguments: &SweepRunArguments,
     points: &'a [Point],
 ) -> Result<Vec<&'a Point>, Failure> {
-    let SweepRunArguments { point: keys, shard, .. } = arguments;
+    let keys = &arguments.point;
     if let Some(key) = keys.iter().find(|key| points.iter().all(|point| !is_of(point, key))) {
         return Err(Failure::Usage(format!(
             "--point {key}: the study has no such point; `drape sweep run {} --list` lists them",
@@ -105,8 +111,7 @@ fn choose<'a>(
     }
     let mut known = BTreeSet::new();
     let is_asked = |point: &&Point| {
-        shard.is_none_or(|shard| shard.has(point))
-            && (keys.is_empty() || keys.iter().any(|key| is_of(point, key)))
+        keys.is_empty() || keys.iter().any(|key| is_of(point, key))
     };
     Ok(points.iter().filter(is_asked).filter(|point| known.insert(&point.key)).collect())
 }
@@ -117,12 +122,7 @@ fn is_of(point: &Point, key: &str) -> bool {
 
 /// Prints a line for a point.
 fn list(study: &Study, point: &Point) -> Result<(), Failure> {
-    let outcome = match Place::new(study, point).record().map(|record| record.outcome) {
-        None => "not run",
-        Some(Outcome::Done) => "done",
-        Some(Outcome::JobFailed) => "job failed",
-        Some(Outcome::WorkerFailed) => "worker failed",
-    };
+    let outcome = Place::new(study, point).outcome();
     say(format_args!("{}\t{}\t{outcome}\t{}", point.index, point.key, values(point)))
 }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use drape::sweep::{Point, Study};
+use drape::sweep::{Point, Shard, Study};
 
 use crate::failure::Failure;
 use crate::input;
@@ -17,10 +17,10 @@ pub(crate) struct StudyArguments {
 }
 
 impl StudyArguments {
-    /// Reads the study and its points.
-    pub(super) fn read(&self) -> Result<(Study, Vec<Point>), Failure> {
+    /// Reads the study and its points, or those of a part of it.
+    pub(super) fn read(&self, shard: Option<Shard>) -> Result<(Study, Vec<Point>), Failure> {
         let study = Study::read(&self.study, input::allowed())?;
-        let points = study.points(VERSION)?;
+        let points = study.points(VERSION, shard)?;
         Ok((study, points))
     }
 }

@@ -62,9 +62,13 @@ impl<'a> Worker<'a> {
 
     /// Runs a point, unless it has a record or another sweep runs it.
     pub(super) fn run(&self, place: &Place, point: &Point) -> Result<Ended, Failure> {
-        let Some(_lock) = place.lock()? else { return Ok(Ended::Elsewhere) };
-        let record = place.record().filter(|record| record.outcome != Outcome::WorkerFailed);
-        if let Some(record) = record {
+        let earlier = || place.record().filter(|own| own.outcome != Outcome::WorkerFailed);
+        if let Some(record) = earlier() {
+            return Ok(Ended::Before(record));
+        }
+        let Some(lock) = place.lock()? else { return Ok(Ended::Elsewhere) };
+        if let Some(record) = earlier() {
+            lock.retire();
             return Ok(Ended::Before(record));
         }
         while place.is_busy() {
@@ -93,8 +97,12 @@ impl<'a> Worker<'a> {
             retries,
             seconds: begin.elapsed().as_secs_f64(),
             message,
+            summary: None,
         };
         place.finish(&record, self.study.keep())?;
+        if record.outcome != Outcome::WorkerFailed {
+            lock.retire();
+        }
         Ok(Ended::Now(record))
     }
 

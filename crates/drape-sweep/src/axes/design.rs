@@ -1,5 +1,7 @@
 //! Designs: points in the unit cube that fill it evenly.
 
+use crate::axes::random::Random;
+
 /// Method of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Method {
@@ -31,7 +33,7 @@ impl Method {
                 Self::Sobol => (0..count)
                     .map(|index| f64::from(sobol_burley::sample(index, dimension, seed)))
                     .collect(),
-                Self::LatinHypercube => latin(count, &mut Random::new(seed, dimension)),
+                Self::LatinHypercube => latin(count, &mut Random::new("latin hypercube", &[seed, dimension])),
             }
         };
         (0..dimensions as u32).map(coordinate).collect()
@@ -42,28 +44,11 @@ impl Method {
 fn latin(count: u32, random: &mut Random) -> Vec<f64> {
     let mut intervals: Vec<u32> = (0..count).collect();
     for last in (1..intervals.len()).rev() {
-        let other = (random.next() * (last + 1) as f64) as usize;
+        let other = (random.uniform() * (last + 1) as f64) as usize;
         intervals.swap(last, other.min(last));
     }
-    let within = |interval| (f64::from(interval) + random.next()) / f64::from(count);
+    let within = |interval| (f64::from(interval) + random.uniform()) / f64::from(count);
     intervals.into_iter().map(within).collect()
-}
-
-/// Numbers from 0 to 1 that look random, the same on every machine: the output of BLAKE3.
-struct Random(blake3::OutputReader);
-
-impl Random {
-    fn new(seed: u32, dimension: u32) -> Self {
-        let mut hasher = blake3::Hasher::new();
-        hasher.update(b"latin hypercube").update(&seed.to_le_bytes());
-        Self(hasher.update(&dimension.to_le_bytes()).finalize_xof())
-    }
-
-    fn next(&mut self) -> f64 {
-        let mut bytes = [0; 8];
-        self.0.fill(&mut bytes);
-        (u64::from_le_bytes(bytes) >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
 
 #[cfg(test)]
@@ -99,8 +84,8 @@ mod tests {
     fn sobol_points_fill_the_square_more_evenly_than_random_ones() {
         let random: Vec<Vec<f64>> = (0..2)
             .map(|dimension| {
-                let mut random = Random::new(7, dimension);
-                (0..256).map(|_| random.next()).collect()
+                let mut random = Random::new("test", &[7, dimension]);
+                (0..256).map(|_| random.uniform()).collect()
             })
             .collect();
         for seed in 0..10 {

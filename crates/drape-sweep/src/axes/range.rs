@@ -1,36 +1,8 @@
-//! Axes: keys of a scene with the levels that a study sets them to.
+//! Ranges of numbers.
 
 use drape_input::{Diagnostic, Diagnostics, figure};
 
 use crate::file::RangeFile;
-
-/// Key of a scene with its levels.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Axis {
-    /// Name of the column in the table.
-    pub name: String,
-    /// Key of the scene.
-    pub key: String,
-    /// Levels, as values of TOML.
-    pub levels: Vec<String>,
-    /// Whether the levels are a sample, so that each belongs to one point of it.
-    pub is_sample: bool,
-}
-
-/// Axes that go in step: a row of each belongs together.
-#[derive(Debug, Clone)]
-pub(crate) struct Group {
-    /// Name, if the study gives one.
-    pub(crate) name: Option<String>,
-    pub(crate) axes: Vec<Axis>,
-}
-
-impl Group {
-    /// Returns the number of levels.
-    pub(crate) fn len(&self) -> usize {
-        self.axes.first().map_or(0, |axis| axis.levels.len())
-    }
-}
 
 /// Range of numbers, on a linear or logarithmic scale.
 #[derive(Debug, Clone, Copy)]
@@ -87,7 +59,7 @@ impl Range {
 }
 
 /// Returns a number as a value of TOML, to 12 digits; a whole one serves for keys of either kind.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
     if rounded.fract() == 0.0 && rounded.abs() < 1e15 {
         return format!("{rounded:.0}");

@@ -1,0 +1,51 @@
+//! Axes: keys of a scene with the levels that a study sets them to.
+
+mod covariance;
+mod design;
+mod levels;
+mod random;
+mod range;
+mod reader;
+
+pub(crate) use reader::Reader;
+
+/// Kind of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxisKind {
+    /// Levels that are chosen, each for many points.
+    Levels,
+    /// Numbers of a sample: each level belongs to one point of it.
+    Sample,
+    /// Random starts: levels without an order or a meaning of their own.
+    Starts,
+    /// Numbers in a fixed ratio to those of another axis.
+    Follower,
+}
+
+/// Key of a scene with its levels.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Axis {
+    /// Name of the column in the table.
+    pub name: String,
+    /// Key of the scene.
+    pub key: String,
+    /// Levels, as values of TOML.
+    pub levels: Vec<String>,
+    /// Kind of the levels.
+    pub kind: AxisKind,
+}
+
+/// Axes that go in step: a row of each belongs together.
+#[derive(Debug, Clone)]
+pub(crate) struct Group {
+    /// Name, if the study gives one.
+    pub(crate) name: Option<String>,
+    pub(crate) axes: Vec<Axis>,
+}
+
+impl Group {
+    /// Returns the number of levels.
+    pub(crate) fn len(&self) -> usize {
+        self.axes.first().map_or(0, |axis| axis.levels.len())
+    }
+}

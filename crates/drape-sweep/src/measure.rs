@@ -1,0 +1,68 @@
+//! Measures: values of the summaries that a study names.
+
+use drape_input::{Quantity, UnitError, parse_unit};
+
+/// Quantities whose units a measure may have.
+const QUANTITIES: [Quantity; 8] = [
+    Quantity::Ratio,
+    Quantity::Length,
+    Quantity::Angle,
+    Quantity::Curvature,
+    Quantity::Force,
+    Quantity::Pressure,
+    Quantity::Time,
+    Quantity::Speed,
+];
+
+/// Value of the summaries of all runs, with a name and a unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measure {
+    /// Name of the column in the table.
+    pub name: String,
+    /// Key in the summary, a path of names and numbers.
+    pub key: String,
+    /// Value of the unit in SI.
+    factor: f64,
+}
+
+impl Measure {
+    /// Makes a measure; the unit is put behind the name.
+    pub(crate) fn new(key: &str, name: Option<&str>, unit: Option<&str>) -> Result<Self, UnitError> {
+        let unit = unit.map(|unit| parse_unit(unit, &QUANTITIES)).transpose()?;
+        let name = name.unwrap_or(key);
+        Ok(Self {
+            name: unit.map_or_else(|| name.to_owned(), |unit| format!("{name} in {}", unit.spelling)),
+            key: key.to_owned(),
+            factor: unit.map_or(1.0, |unit| unit.factor),
+        })
+    }
+
+    /// Returns a value of the summary in the unit of the measure, to 12 digits.
+    pub(crate) fn in_unit(&self, value: String) -> String {
+        match value.parse::<f64>() {
+            Ok(number) if self.factor != 1.0 => {
+                let number = number / self.factor;
+                format!("{number:.11e}").parse::<f64>().unwrap_or(number).to_string()
+            }
+            _ => value,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_in_the_unit_that_the_name_has() {
+        let ease = Measure::new("measures.openings.0.ease", Some("ease"), Some("mm"));
+        let ease = ease.expect("a unit");
+        assert_eq!(ease.name, "ease in mm");
+        assert_eq!(ease.in_unit("0.4058423688330177".into()), "405.842368833");
+        assert_eq!(ease.in_unit("-0.1".into()), "-100");
+        let plain = Measure::new("steps", None, None).expect("none");
+        assert_eq!((plain.name.as_str(), plain.in_unit("44".into())), ("steps", "44".into()));
+        let error = Measure::new("steps", None, Some("mmm")).expect_err("no unit");
+        assert!(error.help.contains("mm"), "{error:?}");
+    }
+}
