@@ -269,7 +269,9 @@ impl Document {
         let whole = |node: &Node| Place {
             span: node.span.clone(),
             is_whole: true,
-            set: node.first_element_behind(self.text.len()).map(|place| place - 1 - self.text.len()),
+            set: node
+                .first_element_behind(self.text.len())
+                .map(|place| place - 1 - self.text.len()),
         };
         let mut place: Option<Place> = None;
         let mut node = &self.content().root;

@@ -27,11 +27,16 @@ pub struct Measure {
 
 impl Measure {
     /// Makes a measure; the unit is put behind the name.
-    pub(crate) fn new(key: &str, name: Option<&str>, unit: Option<&str>) -> Result<Self, UnitError> {
+    pub(crate) fn new(
+        key: &str,
+        name: Option<&str>,
+        unit: Option<&str>,
+    ) -> Result<Self, UnitError> {
         let unit = unit.map(|unit| parse_unit(unit, &QUANTITIES)).transpose()?;
         let name = name.unwrap_or(key);
         Ok(Self {
-            name: unit.map_or_else(|| name.to_owned(), |unit| format!("{name} in {}", unit.spelling)),
+            name: unit
+                .map_or_else(|| name.to_owned(), |unit| format!("{name} in {}", unit.spelling)),
             key: key.to_owned(),
             factor: unit.map_or(1.0, |unit| unit.factor),
         })

@@ -66,9 +66,8 @@ impl Study {
         let scene = scene.allowing(document.allowed());
         scene.decode::<toml::Table>()?;
         let mut fixed = Vec::new();
-        settings("", &file.set, &mut fixed).map_err(|SettingError { message, help }| {
-            document.at("set", message).help(help)
-        })?;
+        settings("", &file.set, &mut fixed)
+            .map_err(|SettingError { message, help }| document.at("set", message).help(help))?;
         let scene = scene.with_settings(&fixed)?;
         let mut reader = Reader { document, scene: &scene, mistakes: Vec::new() };
         let keep = match file.keep.as_deref() {
@@ -193,7 +192,9 @@ fn measures(reader: &mut Reader<'_>, files: &[MeasureFile]) -> Vec<Measure> {
     for (index, MeasureFile { key, name, unit }) in files.iter().enumerate() {
         let place = format!("measure[{index}]");
         match Measure::new(key, name.as_deref(), unit.as_deref()) {
-            Err(UnitError { message, help }) => reader.fail(&format!("{place}.unit"), message, help),
+            Err(UnitError { message, help }) => {
+                reader.fail(&format!("{place}.unit"), message, help)
+            }
             Ok(own) if measures.iter().any(|other| other.name == own.name) => {
                 let message = format!("two measures have the name \"{}\"", excerpt(&own.name));
                 reader.fail(&place, message, "give each measure its own name");

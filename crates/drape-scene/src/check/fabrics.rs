@@ -3,7 +3,8 @@
 use drape_cloth::Lattice;
 use drape_fabric::Fabric;
 use drape_input::{
-    Diagnostic, Diagnostics, Document, Setting, SettingError, excerpt, figure, nearest_file, toml_key,
+    Diagnostic, Diagnostics, Document, Setting, SettingError, excerpt, figure, nearest_file,
+    toml_key,
 };
 
 use crate::check::checker::{Checker, UnknownName};

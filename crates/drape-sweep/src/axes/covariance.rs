@@ -114,7 +114,10 @@ impl CovarianceError {
 
 impl Covariance {
     /// Reads the errors of a fitted fabric: of those numbers whose keys are asked for, or of all.
-    pub(crate) fn read(fabric: &Document, keys: Option<&[String]>) -> Result<Self, CovarianceError> {
+    pub(crate) fn read(
+        fabric: &Document,
+        keys: Option<&[String]>,
+    ) -> Result<Self, CovarianceError> {
         let refit = "write it with `drape fit SHEET -o FABRIC.toml`, from a sheet with curves or with \
                      standard deviations";
         let file = fabric.path().display();
@@ -127,7 +130,8 @@ impl Covariance {
         }
         let value = |key: &str| lookup(&laws, key);
         let known: Vec<&String> = errors.keys().filter(|key| value(key).is_some()).collect();
-        let wide = |key: &&String| value(key).is_some_and(|own| errors[*key] > ERROR_MAX * own.abs());
+        let wide =
+            |key: &&String| value(key).is_some_and(|own| errors[*key] > ERROR_MAX * own.abs());
         let narrow = || {
             let narrow: Vec<String> =
                 known.iter().filter(|key| !wide(key)).map(|key| format!("{key:?}")).collect();
@@ -221,7 +225,8 @@ fn followers(
         }
     };
     after(key).into_iter().for_each(&mut add);
-    let is_same = |other: &String| !errors.contains_key(other) && lookup(laws, other) == Some(value);
+    let is_same =
+        |other: &String| !errors.contains_key(other) && lookup(laws, other) == Some(value);
     if let Some(other) = other.filter(is_same) {
         after(&other).into_iter().for_each(&mut add);
         add(other);
@@ -299,8 +304,7 @@ stiffness = 30.0
             (log("warp.bending.rigidity"), 6e-6_f64.ln(), 2e-6 / 6e-6),
             (log("warp.bending.friction[0].plateau"), 7e-5_f64.ln(), 3e-5 / 7e-5),
         ];
-        let ratio =
-            (logit("warp.traction.primed.toe_ratio"), 1.5_f64.ln(), 0.05 / (0.6 * 0.4));
+        let ratio = (logit("warp.traction.primed.toe_ratio"), 1.5_f64.ln(), 0.05 / (0.6 * 0.4));
         let strain = (log("warp.traction.primed.toe_strain"), 0.01_f64.ln(), 0.1);
         let shear = (log("shear.stiffness"), 30.0_f64.ln(), 0.1);
         for (values, value, error) in [&rigidity, &plateau, &ratio, &strain, &shear] {
@@ -340,7 +344,8 @@ stiffness = 30.0
 
     #[test]
     fn what_the_fit_does_not_know_is_refused_with_a_remedy_that_helps() {
-        let text = FABRIC.replace("\"warp.bending.rigidity\" = 2e-6", "\"warp.bending.rigidity\" = 2e-5");
+        let text =
+            FABRIC.replace("\"warp.bending.rigidity\" = 2e-6", "\"warp.bending.rigidity\" = 2e-5");
         let fabric = Document::new("fabric.toml", text);
         let error = Covariance::read(&fabric, None).expect_err("it is wide");
         assert!(error.message.contains("warp.bending.rigidity of fabric.toml"), "{error:?}");

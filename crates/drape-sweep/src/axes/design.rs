@@ -33,7 +33,9 @@ impl Method {
                 Self::Sobol => (0..count)
                     .map(|index| f64::from(sobol_burley::sample(index, dimension, seed)))
                     .collect(),
-                Self::LatinHypercube => latin(count, &mut Random::new("latin hypercube", &[seed, dimension])),
+                Self::LatinHypercube => {
+                    latin(count, &mut Random::new("latin hypercube", &[seed, dimension]))
+                }
             }
         };
         (0..dimensions as u32).map(coordinate).collect()

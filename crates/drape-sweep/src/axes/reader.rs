@@ -64,7 +64,8 @@ impl Reader<'_> {
         self.check_names(&groups);
         let count = groups.iter().map(Group::len).try_fold(1_usize, usize::checked_mul);
         if file.axis.is_empty() && file.sample.is_empty() && file.covariance.is_empty() {
-            let help = "add an [[axis]] with a key and its values, a [[sample]] or a [[covariance]]";
+            let help =
+                "add an [[axis]] with a key and its values, a [[sample]] or a [[covariance]]";
             let mistake = Diagnostic::new(self.document.path(), "the study has no axis");
             self.mistakes.push(mistake.help(help));
         } else if count.is_none_or(|count| count > POINTS_MAX) {
@@ -145,8 +146,9 @@ impl Reader<'_> {
             self.fail(&format!("{place}.fabric"), message, help);
             return Vec::new();
         }
-        let fabric = self.document.beside(&file.file).map_err(|misplaced| {
-            CovarianceError { message: misplaced.to_string(), help: misplaced.help() }
+        let fabric = self.document.beside(&file.file).map_err(|misplaced| CovarianceError {
+            message: misplaced.to_string(),
+            help: misplaced.help(),
         });
         let fabric = fabric.and_then(|path| match path.is_file() {
             true => Document::read(&path).map_err(|mistakes| CovarianceError {
@@ -158,8 +160,9 @@ impl Reader<'_> {
                 help: nearest_file(&path),
             }),
         });
-        let sampled = fabric
-            .and_then(|fabric| Covariance::read(&fabric, file.keys.as_deref()).map(|c| (fabric, c)));
+        let sampled = fabric.and_then(|fabric| {
+            Covariance::read(&fabric, file.keys.as_deref()).map(|c| (fabric, c))
+        });
         let (fabric, covariance) = match sampled {
             Ok(found) => found,
             Err(CovarianceError { message, help }) => {

@@ -12,7 +12,8 @@ const ELEMENTS_MAX: usize = 32;
 /// Returns the values of the measures that a study names, in their units.
 pub(super) fn chosen(measures: &[Measure], values: Vec<(String, String)>) -> Vec<(String, String)> {
     let values: BTreeMap<String, String> = values.into_iter().collect();
-    let value = |own: &Measure| Some((own.name.clone(), own.in_unit(values.get(&own.key)?.clone())));
+    let value =
+        |own: &Measure| Some((own.name.clone(), own.in_unit(values.get(&own.key)?.clone())));
     measures.iter().filter_map(value).collect()
 }
 

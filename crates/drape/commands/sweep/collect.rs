@@ -56,8 +56,11 @@ fn joined(study: &Study) -> Result<(Table, usize), Failure> {
         return Err(Failure::Usage(message));
     }
     let read = |path: &PathBuf| -> Result<Table, Failure> {
-        let text = std::fs::read(path)
-            .map_err(|source| Error::Io { what: "read", path: path.clone(), source })?;
+        let text = std::fs::read(path).map_err(|source| Error::Io {
+            what: "read",
+            path: path.clone(),
+            source,
+        })?;
         Ok(Table::from_csv(study, path, &text)?)
     };
     let tables: Result<Vec<Table>, Failure> = paths.iter().map(read).collect();

@@ -110,9 +110,7 @@ fn choose<'a>(
         )));
     }
     let mut known = BTreeSet::new();
-    let is_asked = |point: &&Point| {
-        keys.is_empty() || keys.iter().any(|key| is_of(point, key))
-    };
+    let is_asked = |point: &&Point| keys.is_empty() || keys.iter().any(|key| is_of(point, key));
     Ok(points.iter().filter(is_asked).filter(|point| known.insert(&point.key)).collect())
 }
 
