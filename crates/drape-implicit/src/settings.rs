@@ -101,7 +101,7 @@ pub struct Settings {
     /// A step has also converged when a Newton step predicted a decrease of the energy, half its
     /// decrement `−pᵀφ`, of at most `½ Σ m |θ e|²/(β dt)²`, with this fraction `θ` and the error
     /// `e` of the step as [`ErrorEstimate`](crate::ErrorEstimate) finds it, and has left a residual
-    /// of at most `acceleration · √Σm²`. The energy bounds what the Newton step has moved: stiff
+    /// of at most a tenth of `acceleration · √Σm²`. The energy bounds what the Newton step has moved: stiff
     /// forces that are left unbalanced hardly move anything. What is then left is less by the
     /// contraction of that step.
     pub error_fraction: f64,

@@ -92,9 +92,7 @@ impl Misplaced {
         match self {
             Self::Outside { place, .. } => {
                 let place = shell(place);
-                format!(
-                    "move it there, or allow it with --allow-path {place}, in Python with allow="
-                )
+                format!("move it there, or allow it with --allow-path {place} (in Python allow=)")
             }
             Self::TooLong { .. } => {
                 format!("a name has up to {NAME_MAX} bytes, a path up to {PATH_MAX}")

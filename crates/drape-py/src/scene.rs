@@ -6,6 +6,7 @@ use std::sync::Mutex;
 use drape::dynamics::{self, Frame, Progress, Simulation, Step, Summary};
 use drape::input::Document;
 use drape::keep::{Goal, Keeping, KeptRun, Limits, RunRequest, RunToResume, Watcher, end_at};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::array::rows;
@@ -195,21 +196,22 @@ impl Scene {
         Self::new(document.allowing(&allow), Vec::new(), Some(path))
     }
 
-    /// Makes a scene of a text, with the texts of documents that it names by their paths.
+    /// Makes a scene of documents, by their paths in a folder: its own text is the first, and it names
+    /// the others.
     #[staticmethod]
     fn from_toml(
         py: Python<'_>,
-        text: &str,
         documents: Vec<(PathBuf, String)>,
         folder: PathBuf,
         allow: Vec<PathBuf>,
     ) -> PyResult<Self> {
-        let others = documents.into_iter().map(|(path, text)| {
-            let path = folder.join(path);
-            Document::new(path, text)
-        });
-        let others: Vec<Document> = others.collect();
-        let document = Document::new(folder.join("<text>"), text).allowing(&allow);
+        let documents = documents.into_iter();
+        let mut others: Vec<Document> =
+            documents.map(|(path, text)| Document::new(folder.join(path), text)).collect();
+        if others.is_empty() {
+            return Err(PyValueError::new_err("a scene has a text"));
+        }
+        let document = others.remove(0).allowing(&allow);
         py.detach(|| Self::new(document, others, None))
     }
 

@@ -2,6 +2,9 @@
 
 use drape_input::Setting;
 
+/// Largest number of points of a study. Each takes memory and a file.
+pub(crate) const POINTS_MAX: usize = 1_000_000;
+
 /// One run of a study.
 #[derive(Debug, Clone)]
 pub struct Point {

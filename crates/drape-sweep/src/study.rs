@@ -13,9 +13,6 @@ use crate::key::Digests;
 use crate::measure::Measure;
 use crate::point::{Point, Shard};
 
-/// Largest number of points of a study. Each takes memory and a file.
-pub(crate) const POINTS_MAX: usize = 1_000_000;
-
 /// Files that a run that has ended keeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Keep {

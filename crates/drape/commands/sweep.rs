@@ -15,6 +15,7 @@ use clap::{Args, Subcommand};
 use drape::file;
 use drape::sweep::{Batch, Engine, Outcome, Place, Point, Shard, Study, manifest};
 
+use self::collect::SweepCollectArguments;
 use self::run::SweepRunArguments;
 use self::study::StudyArguments;
 use crate::failure::Failure;
@@ -31,18 +32,6 @@ pub(crate) enum SweepCommand {
     Collect(SweepCollectArguments),
     /// Writes the file by which Slurm, HyperQueue or Dask run a study on many machines.
     Export(SweepExportArguments),
-}
-
-#[derive(Args)]
-pub(crate) struct SweepCollectArguments {
-    #[command(flatten)]
-    study: StudyArguments,
-    /// Collects part i of n of the points, such as 1/4, in a table of its own, and makes no page.
-    #[arg(long, value_name = "I/N")]
-    shard: Option<Shard>,
-    /// Makes the table and the page of the tables of the parts, without reading the points.
-    #[arg(long, conflicts_with = "shard")]
-    join: bool,
 }
 
 #[derive(Args)]

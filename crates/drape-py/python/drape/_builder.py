@@ -125,8 +125,9 @@ class SceneBuilder:
 
     def scene(self) -> Scene:
         """Checks the scene. Raises `InputError` with all mistakes, at the lines of `to_toml()`."""
-        documents = [(Path(file), text) for file, text in self._documents.items()]
-        inner = _drape.Scene.from_toml(self.to_toml(), documents, self._folder, self._allow)
+        documents = [(Path("<text>"), self.to_toml())]
+        documents += [(Path(file), text) for file, text in self._documents.items()]
+        inner = _drape.Scene.from_toml(documents, self._folder, self._allow)
         return Scene(inner)
 
     def save(self, path: StrPath, *, replace: bool = False) -> None:

@@ -8,10 +8,6 @@ use crate::scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
 /// say.
 const TOLERANCE: f64 = 1e-4;
 
-/// Error that the solver may leave in a step when the scene does not say, as a fraction of the step's
-/// own.
-const ERROR_FRACTION: f64 = 0.2;
-
 /// Checks the model of the internal forces.
 pub(crate) fn model(checker: &mut Checker<'_>) -> Model {
     let models = [("kes", Model::Kes), ("breen-1994", Model::Breen1994)];
@@ -44,13 +40,8 @@ pub(crate) fn solver(checker: &mut Checker<'_>) -> SolverSettings {
     let tolerance = solver.tolerance.unwrap_or(TOLERANCE);
     let help = "rms acceleration error over g; 1e-4 is usual";
     checker.within("solver.tolerance", tolerance, 1e-10..=0.1, help);
-    // A tolerance that is asked for is met.
-    let error_fraction = solver.error_fraction.unwrap_or(if solver.tolerance.is_some() {
-        0.0
-    } else {
-        ERROR_FRACTION
-    });
-    let help = "fraction of the step's own error; 0.2 is usual, 0 leaves the tolerance alone";
+    let error_fraction = solver.error_fraction.unwrap_or(0.0);
+    let help = "fraction of the step's own error; 0.2 is fast, 0 leaves the tolerance alone";
     checker.within("solver.error_fraction", error_fraction, 0.0..=1.0, help);
     let varies = file.settle.is_some() || file.time.error.is_some();
     if integrator == Integrator::Explicit && varies {

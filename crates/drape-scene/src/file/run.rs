@@ -85,8 +85,10 @@ pub(crate) struct SolverFile {
     #[cfg_attr(feature = "schema", schemars(extend("default" = 1e-4)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-10, 0.1)))]
     pub(crate) tolerance: Option<f64>,
-    /// Error that the solver may leave in a step, as a fraction of the step's own error in time: a
-    /// step is solved as soon as either is met. 0.2, or 0 where `tolerance` is given.
+    /// Error that the solver may leave in a step, as a fraction of the step's own error in time; a
+    /// step is then solved as soon as this or the tolerance is met. 0 leaves the tolerance alone;
+    /// 0.2 moves the cloth by less than a tenth of what the step itself loses.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1.0)))]
     pub(crate) error_fraction: Option<f64>,
 }

@@ -8,7 +8,7 @@ use drape_input::{TextOr, excerpt, toml_string};
 use crate::axes::range::Range;
 use crate::axes::reader::Reader;
 use crate::file::AxisFile;
-use crate::study::POINTS_MAX;
+use crate::point::POINTS_MAX;
 
 impl Reader<'_> {
     /// Returns the levels of an axis.

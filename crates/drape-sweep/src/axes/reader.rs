@@ -11,7 +11,7 @@ use crate::axes::design::Method;
 use crate::axes::range::Range;
 use crate::axes::{Axis, AxisKind, Group};
 use crate::file::{CovarianceFile, SampleFile, StudyFile};
-use crate::study::POINTS_MAX;
+use crate::point::POINTS_MAX;
 
 /// Reader of the axes of a study.
 pub(crate) struct Reader<'a> {

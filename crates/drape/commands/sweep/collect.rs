@@ -2,14 +2,27 @@
 
 use std::path::PathBuf;
 
+use clap::Args;
 use drape::file;
-use drape::sweep::{Error, Study, Table};
+use drape::sweep::{Error, Shard, Study, Table};
 
-use super::SweepCollectArguments;
+use super::study::StudyArguments;
 use crate::failure::Failure;
 use crate::input;
 use crate::pages::sweep::page;
 use crate::say::{say, say_written};
+
+#[derive(Args)]
+pub(crate) struct SweepCollectArguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Collects part i of n of the points, such as 1/4, in a table of its own, and makes no page.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Makes the table and the page of the tables of the parts, without reading the points.
+    #[arg(long, conflicts_with = "shard")]
+    join: bool,
+}
 
 /// Executes `drape sweep collect`.
 pub(crate) fn collect(arguments: &SweepCollectArguments) -> Result<(), Failure> {
