@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use drape::file;
-use drape::sweep::{Batch, Engine, Outcome, Place, Point, Shard, Study, manifest};
+use drape::sweep::{Batch, Engine, Outcome, Place, Point, Study, manifest};
 
 use self::collect::SweepCollectArguments;
 use self::run::SweepRunArguments;
