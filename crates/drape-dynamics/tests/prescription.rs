@@ -59,7 +59,7 @@ fn masses() -> Vec<f64> {
 
 #[test]
 fn a_constant_force_is_a_fall_in_its_direction() {
-    let mut simulation = simulation("gravity = [0, 0, 0]", "");
+    let mut simulation = simulation("gravity = [0, 0, 0]\nsolver.tolerance = 1e-8", "");
     let acceleration = [3.0, 2.0, -1.0];
     let start = simulation.positions().to_vec();
     simulation.apply_forces(&forces(acceleration, &masses())).unwrap();
@@ -202,9 +202,12 @@ fn motions_that_do_not_fit_are_refused_with_what_would() {
     assert!(refused("ball", &up(f64::NAN), 1.0).contains("NaN"));
     let fast = refused("ball", &up(10.0), 0.002);
     let needed = fast.split("give it ").nth(1).unwrap().split(' ').next().unwrap();
-    let flat = vec![[0.0; 3]; one.bodies()[0].1.vertices.len()];
-    let error = one.lead_body("ball", &BodyTarget::Vertices(flat), 1.0).unwrap_err().to_string();
-    assert!(error.contains("the body \"ball\""), "{error}");
+    let line = one.bodies()[0].1.vertices.iter().map(|&[x, ..]| [x, 0.0, 0.0]).collect();
+    let error = one.lead_body("ball", &BodyTarget::Vertices(line), 1.0).unwrap_err().to_string();
+    assert!(error.contains("the body \"ball\": triangle 0 has no area"), "{error}");
+    let point = vec![[0.0; 3]; one.bodies()[0].1.vertices.len()];
+    let error = one.lead_body("ball", &BodyTarget::Vertices(point), 1.0).unwrap_err().to_string();
+    assert!(error.contains("triangle 0 has no area"), "{error}");
     // The time that it advises is enough.
     let needed = needed.parse::<f64>().unwrap() * 1.001;
     one.lead_body("ball", &up(10.0), needed).unwrap();

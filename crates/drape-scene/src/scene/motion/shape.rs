@@ -31,7 +31,15 @@ impl ShapeMotion {
         positions: [Vec<f64>; 2],
         triangles: &[[u32; 3]],
     ) -> Result<Self, String> {
-        check_frame(positions[1].as_chunks::<3>().0, &[], triangles)?;
+        let end = positions[1].as_chunks::<3>().0;
+        check_frame(end, &[], triangles)?;
+        let is_point = |[a, b, c]: &[u32; 3]| {
+            let [a, b, c] = [a, b, c].map(|corner| end[*corner as usize]);
+            a == b && b == c
+        };
+        if let Some(number) = triangles.iter().position(is_point) {
+            return Err(format!("triangle {number} has no area"));
+        }
         Ok(Self::new(times.to_vec(), positions.into()))
     }
 
