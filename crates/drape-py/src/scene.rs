@@ -198,7 +198,6 @@ impl Scene {
     /// Makes a scene of a text, with the texts of documents that it names by their paths.
     #[staticmethod]
     fn from_toml(
-        py: Python<'_>,
         text: &str,
         documents: Vec<(PathBuf, String)>,
         folder: PathBuf,
@@ -208,9 +207,8 @@ impl Scene {
             let path = folder.join(path);
             Document::new(path, text)
         });
-        let others: Vec<Document> = others.collect();
         let document = Document::new(folder.join("<text>"), text).allowing(&allow);
-        py.detach(|| Self::new(document, others, None))
+        Self::new(document, others.collect(), None)
     }
 
     #[getter]
