@@ -159,6 +159,8 @@ impl<'a> Schema<'a> {
                 let (kind, unit) = self.kind(&own["additionalProperties"]);
                 match value["properties"].is_object() {
                     true => plain("tables by names"),
+                    // Numbers of two names are a table of tables.
+                    false if kind.ends_with(" by names") => (format!("{kind}, two each"), unit),
                     false => (format!("{} by names", plural(&kind)), unit),
                 }
             }

@@ -1,5 +1,11 @@
 """Drapemeters and validation."""
 
+import os
+import signal
+import subprocess
+import sys
+import time
+
 import pytest
 
 import drape
@@ -27,3 +33,35 @@ def test_a_fabric_drapes(root):
     fabric = drape.fit(root / "fabrics/cupro-weave").fabric
     found = drape.drapemeter(fabric, starts=2, spacing=0.02)
     assert 0 < found["coefficient"] < 1 and found["coefficients"].shape == (2,)
+
+
+INTERRUPTED = """
+import sys, threading, drape
+fabric = drape.fit(sys.argv[1]).fabric
+print("running", flush=True)
+try:
+    {call}
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "drape.drapemeter(fabric, starts=8, spacing=0.005)",
+        "drape.validate()",
+        "[drape.fit(sys.argv[1], profile=True) for _ in range(10000)]",
+    ],
+)
+def test_ctrl_c_ends_what_takes_long(call, root):
+    code = INTERRUPTED.format(call=call)
+    process = subprocess.Popen(
+        [sys.executable, "-c", code, root / "fabrics/cupro-weave"], stdout=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "running\n"
+    time.sleep(0.5)
+    began = time.monotonic()
+    os.kill(process.pid, signal.SIGINT)
+    rest, _ = process.communicate(timeout=20)
+    assert rest == "interrupted\n" and time.monotonic() - began < 1

@@ -126,13 +126,45 @@ def test_ctrl_c_leaves_a_checkpoint_from_which_a_run_goes_on(towel, tmp_path):
     began = time.monotonic()
     os.kill(process.pid, signal.SIGINT)
     rest, _ = process.communicate(timeout=20)
-    assert rest.endswith("interrupted\n") and time.monotonic() - began < 2
+    assert rest.endswith("interrupted\n") and time.monotonic() - began < 1
     assert json.loads((own / "summary.json").read_text())["status"] == "interrupted"
     with pytest.raises(drape.UsageError, match="drape.resume"):
         drape.Scene.read(towel).run(own)
     assert drape.resume(own).status == "ok"
     drape.Scene.read(towel).run(tmp_path / "whole")
     same_results(own, tmp_path / "whole")
+
+
+@pytest.mark.slow
+def test_the_shirt_is_that_of_the_command_and_is_interrupted(root, command, tmp_path):
+    scene, own = root / "scenes/tshirt.toml", tmp_path / "own"
+    process = subprocess.Popen(
+        [sys.executable, "-c", INTERRUPTED, scene, own], stdout=subprocess.PIPE, text=True, cwd=root
+    )
+    assert process.stdout.readline() == "running\n"
+    time.sleep(3)
+    began = time.monotonic()
+    os.kill(process.pid, signal.SIGINT)
+    rest, _ = process.communicate(timeout=20)
+    seconds = time.monotonic() - began
+    print(f"Ctrl-C returned after {seconds:.2f} s")
+    assert rest.endswith("interrupted\n") and seconds < 1
+    assert drape.resume(own).status == "ok"
+    told = [command, "run", scene, "-o", tmp_path / "told", "--no-picture"]
+    subprocess.run(told, check=True, capture_output=True, cwd=root)
+    same_results(tmp_path / "told", own)
+    drape.Scene.read(scene).run(tmp_path / "whole")
+    same_results(tmp_path / "told", tmp_path / "whole")
+
+
+def test_a_damaged_checkpoint_is_warned_of(towel, tmp_path):
+    drape.Scene.read(towel).run(tmp_path / "own", until=0.05, checkpoint_every=0)
+    kept = sorted(tmp_path.glob("own/**/*checkpoint*"))
+    assert len(kept) > 1, list(tmp_path.glob("own/**/*"))
+    newest = max(kept, key=lambda path: path.stat().st_mtime_ns)
+    newest.write_bytes(newest.read_bytes()[:-40])
+    with pytest.warns(drape.RunWarning, match="is damaged"):
+        drape.resume(tmp_path / "own", extend=0.02)
 
 
 def test_stored_runs_are_opened(towel, tmp_path):

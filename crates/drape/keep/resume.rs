@@ -91,7 +91,8 @@ fn check_identity(keeper: &Keeper, checkpoint: &Checkpoint, scene: &Scene) -> Re
         return Ok(());
     }
     let message = format!("since the run was begun this has changed: {}", changes.join(", "));
-    let help = "undo the change to go on, or run the scene anew with drape run --force";
+    let help = "undo the change to go on, or run the scene anew with drape run --force, in Python with \
+                replace=True";
     let mistake = Diagnostic::new(&scene.source.file, message).help(help);
     Err(Error::Input(mistake.into()))
 }

@@ -22,7 +22,8 @@ def drapemeter(
 
     `meter` is `"frl"`, `"cusick-24"`, `"cusick-30"` or `"cusick-36"`; `spacing` is that of the
     particles, in m. Returns `coefficient` and `deviation` (ratios), `coefficients` of the starts (an
-    array), `nodes`, `spacing` and `spacing_bound` (in m). Raises `SolverError` and `UsageError`.
+    array), `nodes`, `spacing` and `spacing_bound` (in m). Ctrl-C returns at once; what is left
+    of the work then ends by itself, or with the process. Raises `SolverError` and `UsageError`.
     """
     settings = {"meter": meter, "starts": starts, "spacing": spacing, "shake": shake}
     return _drape.drapemeter(fabric._inner, settings)
@@ -37,7 +38,7 @@ def validate(names: Iterable[str] | None = None) -> list[dict[str, Any]]:
     """Runs cases of the validation, all that take seconds unless they are named.
 
     Returns the outcome of each; `passes` is the verdict on it. Raises `UsageError` for a name that
-    is none.
+    is none. Ctrl-C returns at once, as from `drapemeter`.
     """
     if isinstance(names, str):
         names = [names]
