@@ -159,8 +159,6 @@ impl<'a> Schema<'a> {
                 let (kind, unit) = self.kind(&own["additionalProperties"]);
                 match value["properties"].is_object() {
                     true => plain("tables by names"),
-                    // Numbers of two names are a table of tables.
-                    false if kind.ends_with(" by names") => (format!("{kind}, two each"), unit),
                     false => (format!("{} by names", plural(&kind)), unit),
                 }
             }
@@ -243,6 +241,7 @@ fn plural(kind: &str) -> String {
     match kind {
         kind if kind.starts_with("list of ") => kind.replacen("list", "lists", 1),
         kind if kind.starts_with("2 ") => format!("pairs of {}", &kind[2..]),
+        kind if kind.ends_with(" by names") => format!("tables of {kind}"),
         kind if kind.starts_with("3 ") => format!("triples of {}", &kind[2..]),
         kind => format!("{kind}s"),
     }

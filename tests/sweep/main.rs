@@ -119,7 +119,15 @@ fn every_point_has_its_row_and_is_run_once() {
     assert_eq!(rows.iter().map(|row| row["key"].clone()).collect::<Vec<_>>(), bench.keys());
     let page = std::fs::read_to_string(bench.path("results/index.html")).unwrap();
     assert!(page.contains("6 of 6 points ended well"));
-    assert!(page.contains("Means over panel.0.rectangle.1"));
+    assert!(page.contains("Means over panel.0.rectangle.1<"));
+    // Starts are chance: they have no effects, and are the scatter of the others.
+    assert!(!page.contains("Means over panel.0.noise.seed"));
+    assert!(page.matches('±').count() > 3, "{page}");
+    // The same points by values that mean something have both effects.
+    bench.write(&GRID.replace("starts = 2", "values = [1, 2]"));
+    assert_eq!(bench.table(), rows);
+    let page = std::fs::read_to_string(bench.path("results/index.html")).unwrap();
+    assert!(page.contains("Means over panel.0.rectangle.1 and panel.0.noise.seed"));
     // A run of its own has the same measures.
     let set = ["--set", "panel.0.rectangle.1=0.12", "--set", "panel.0.noise.seed=2"];
     let alone = ["run", "scene.toml", "-o", "alone", "--no-picture"];

@@ -19,9 +19,9 @@
 mod air_drag;
 #[cfg(test)]
 pub(crate) mod check;
+mod constant_forces;
 mod contact;
 mod energy_balance;
-mod external_forces;
 mod gravity;
 mod internal_forces;
 mod momentum_removal;
@@ -41,7 +41,7 @@ use crate::error::Error;
 use crate::sewing::closing_springs::ClosingSprings;
 
 use self::air_drag::AirDrag;
-use self::external_forces::ExternalForces;
+use self::constant_forces::ConstantForces;
 use self::gravity::Gravity;
 use self::internal_forces::InternalForces;
 use self::momentum_removal::MomentumRemoval;
@@ -64,8 +64,8 @@ pub(crate) struct World {
     pub(crate) contact: Contact,
     gravity: Gravity,
     air: AirDrag,
-    /// Forces from outside of the scene.
-    pub(crate) external: ExternalForces,
+    /// Forces that a program applies between steps.
+    pub(crate) external: ConstantForces,
     momentum: MomentumRemoval,
     pins: Pins,
     clock: MotionClock,
@@ -125,7 +125,7 @@ impl World {
             internal,
             contact,
             gravity: Gravity::new(environment.gravity, schedule.clock.ramp),
-            external: ExternalForces::default(),
+            external: ConstantForces::default(),
             momentum: MomentumRemoval::default(),
             pins: Pins::new(pins, held),
             clock: if moves_at_once { MotionClock::running() } else { MotionClock::stopped() },
@@ -162,7 +162,7 @@ impl World {
         self.set_relaxing(false);
     }
 
-    /// Time on the clock of motions at a time, in s; none while it stands still.
+    /// Time of the prescribed motions at a time of the simulation, both in s; none before they begin.
     pub(crate) fn motion_time(&self, time: f64) -> Option<f64> {
         self.clock.start_time().is_finite().then(|| self.clock.time(time))
     }

@@ -2,21 +2,13 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod samples;
+
 use drape_dynamics::{BodyTarget, Energy, Simulation};
 use drape_input::Document;
 use drape_scene::Scene;
 
-const FABRIC: &str = r#"name = "plain"
-density = 0.15
-thickness = 0.0003
-shear = { stiffness = 35.0, growth = 4.0, friction = [{ plateau = 0.5, length = 0.004 }] }
-[warp]
-traction = { friction = [{ plateau = 4.0, length = 0.001 }], primed = { stiffness = 5000.0, toe_ratio = 0.7, toe_strain = 0.01, toe_strain_after = 0.015 } }
-bending = { rigidity = 1.2e-5, friction = [{ plateau = 6e-4, length = 4.0 }] }
-[weft]
-traction = { friction = [{ plateau = 3.0, length = 0.001 }], primed = { stiffness = 4000.0, toe_ratio = 0.7, toe_strain = 0.02, toe_strain_after = 0.03 } }
-bending = { rigidity = 0.8e-5, friction = [{ plateau = 4e-4, length = 4.0 }] }
-"#;
+use samples::FABRIC;
 
 const STEP: f64 = 0.002;
 
@@ -127,8 +119,16 @@ fn forces_that_do_not_fit_are_refused() {
     simulation.apply_forces(&[0.0; 3 * 49]).unwrap();
 }
 
-const BALL: &str = "[[collider.sphere]]\nname = \"ball\"\nradius = 0.03\ncenter = [0, -0.032, 0]\n\
-                    [[pin]]\npanel = \"cloth\"\nedge = \"top\"\n[[pin]]\npanel = \"cloth\"\nedge = \"bottom\"";
+const SPHERE: &str =
+    "[[collider.sphere]]\nname = \"ball\"\nradius = 0.03\ncenter = [0, -0.032, 0]\n";
+
+const PINS: &str = "[[pin]]\npanel = \"cloth\"\nedge = \"top\"\n\
+                    [[pin]]\npanel = \"cloth\"\nedge = \"bottom\"";
+
+/// Ball below a cloth with two held edges, with more tables of the ball.
+fn ball(tables: &str) -> String {
+    format!("{SPHERE}{tables}{PINS}")
+}
 
 /// Lifts the ball by 2 cm within 0.1 s.
 fn lift(simulation: &mut Simulation, target: &BodyTarget) {
@@ -145,14 +145,10 @@ fn middle(simulation: &Simulation) -> f64 {
 #[test]
 fn a_body_is_led_as_by_a_motion_of_the_scene() {
     for (keys, motion) in [("", "surfaces"), ("contact.surfaces = false", "particles")] {
-        let told = format!(
-            "{BALL}\n[collider.sphere.motion]\ntimes = [0, 0.1]\nshift = [[0, 0, 0], [0, 0.02, 0]]"
-        );
-        let told = told.replace("\n[[pin]]", "").replace("\npanel = \"cloth\"\nedge = \"top\"", "");
-        let told = told.replace("\npanel = \"cloth\"\nedge = \"bottom\"", "");
-        let pins = &BALL[BALL.find("[[pin]]").unwrap()..];
-        let mut scene = simulation(keys, &format!("{told}\n{pins}"));
-        let mut led = simulation(keys, BALL);
+        let told =
+            "[collider.sphere.motion]\ntimes = [0, 0.1]\nshift = [[0, 0, 0], [0, 0.02, 0]]\n";
+        let mut scene = simulation(keys, &ball(told));
+        let mut led = simulation(keys, &ball(""));
         let target = BodyTarget::Rigid { shift: [0.0, 0.02, 0.0], turn: [0.0; 3], center: None };
         lift(&mut led, &target);
         for _ in 0..60 {
@@ -169,7 +165,7 @@ fn a_body_is_led_as_by_a_motion_of_the_scene() {
 
 #[test]
 fn vertices_go_where_they_are_led_and_stay_apart_from_cloth() {
-    let mut simulation = simulation("", BALL);
+    let mut simulation = simulation("", &ball(""));
     let (name, outline) = simulation.bodies().remove(0);
     assert_eq!(name, "ball");
     // The ball rises and becomes taller.
@@ -191,7 +187,7 @@ fn vertices_go_where_they_are_led_and_stay_apart_from_cloth() {
 
 #[test]
 fn motions_that_do_not_fit_are_refused_with_what_would() {
-    let mut one = simulation("", BALL);
+    let mut one = simulation("", &ball(""));
     let up = |y: f64| BodyTarget::Rigid { shift: [0.0, y, 0.0], turn: [0.0; 3], center: None };
     let mut refused = |name: &str, target: &BodyTarget, seconds: f64| {
         one.lead_body(name, target, seconds).unwrap_err().to_string()
@@ -211,13 +207,13 @@ fn motions_that_do_not_fit_are_refused_with_what_would() {
     // The time that it advises is enough.
     let needed = needed.parse::<f64>().unwrap() * 1.001;
     one.lead_body("ball", &up(10.0), needed).unwrap();
-    let mut particles = simulation("contact.surfaces = false", BALL);
+    let mut particles = simulation("contact.surfaces = false", &ball(""));
     let vertices = particles.bodies()[0].1.vertices.clone();
     let target = BodyTarget::Vertices(vertices);
     let error = particles.lead_body("ball", &target, 1.0).unwrap_err().to_string();
     assert!(error.contains("contact.surfaces = true"), "{error}");
-    simulation("contact.surfaces = true", BALL).lead_body("ball", &target, 1.0).unwrap();
-    let mut waiting = simulation("settle = {}\nmotion.seconds = 1", BALL);
+    simulation("contact.surfaces = true", &ball("")).lead_body("ball", &target, 1.0).unwrap();
+    let mut waiting = simulation("settle = {}\nmotion.seconds = 1", &ball(""));
     let error = waiting.lead_body("ball", &up(0.01), 1.0).unwrap_err().to_string();
     assert!(error.contains("wait for the cloth to rest"), "{error}");
 }

@@ -101,8 +101,8 @@ pub struct Settings {
     /// A step has also converged when a Newton step predicted a decrease of the energy, half its
     /// decrement `−pᵀφ`, of at most `½ Σ m |θ e|²/(β dt)²`, with this fraction `θ` and the error
     /// `e` of the step as [`ErrorEstimate`](crate::ErrorEstimate) finds it, and has left a residual
-    /// of at most a tenth of `acceleration · √Σm²`. The energy bounds what the Newton step has moved: stiff
-    /// forces that are left unbalanced hardly move anything. What is then left is less by the
+    /// of at most a tenth of `acceleration · √Σm²`. The energy bounds the displacements of the Newton
+    /// step, also where stiff forces are left unbalanced. The error that is left is smaller by the
     /// contraction of that step.
     pub error_fraction: f64,
     /// Acceleration that the tolerance refers to, in m/s². Default 9.81, that of gravity; a system

@@ -29,7 +29,7 @@ pub struct Setting {
     key: String,
     value: String,
     node: Node,
-    /// Who set it, in messages.
+    /// Origin, as messages name it.
     origin: String,
 }
 
@@ -74,14 +74,14 @@ impl Setting {
         Ok(Self { path, key: key.into(), value: value.into(), node: node.node, origin })
     }
 
-    /// Returns the setting with who set it, as messages say it: "set on the command line" if this is
-    /// not called.
+    /// Returns the setting with its origin as messages name it, which is "set on the command line"
+    /// otherwise.
     #[must_use]
     pub fn given_in(self, origin: &str) -> Self {
         Self { origin: origin.into(), ..self }
     }
 
-    /// Who set it, as messages say it.
+    /// Origin, as messages name it.
     #[must_use]
     pub fn origin(&self) -> &str {
         &self.origin

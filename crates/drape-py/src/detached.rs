@@ -64,8 +64,8 @@ impl Detached {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Has work done that cannot be ended. Where a signal comes first it is left alone, and its result
-    /// is dropped.
+    /// Runs work that cannot be interrupted. After a signal the call returns at once; the work then
+    /// ends by itself, and its result is dropped.
     pub(crate) fn leave<T: Send + 'static>(
         &self,
         py: Python<'_>,

@@ -14,11 +14,11 @@ pub(crate) use reader::Reader;
 pub enum AxisKind {
     /// Levels that are chosen, each for many points.
     Levels,
-    /// Numbers of a sample: each level belongs to one point of it.
+    /// Sampled numbers, one for each point of the sample.
     Sample,
     /// Random starts: levels without an order or a meaning of their own.
     Starts,
-    /// Numbers in a fixed ratio to those of another axis.
+    /// Dependent numbers, in a fixed ratio to those of another axis.
     Follower,
 }
 

@@ -34,7 +34,7 @@ pub fn parse_mesh(path: impl AsRef<Path>, bytes: &[u8]) -> Result<Triangulation,
     parse(path, bytes, parser(path)?)
 }
 
-/// Function that makes triangles of the bytes of a file.
+/// Parser of the content of a mesh file.
 type Parser = fn(&[u8]) -> Result<Triangulation, String>;
 
 /// Returns the parser of a file, by the extension of its name.

@@ -28,9 +28,9 @@ pub enum BodyTarget {
 }
 
 impl Simulation {
-    /// Lets forces act on the particles from now on, in place of those before: three numbers for each
-    /// particle, in N; without numbers no forces. They are constant during a step, and their work is
-    /// part of [`Energy::work_in`](crate::Energy::work_in).
+    /// Sets forces on the particles for the steps that follow, in place of earlier ones: three numbers
+    /// for each particle, in N; an empty list removes them. They are constant during a step, and
+    /// their work is part of [`Energy::work_in`](crate::Energy::work_in).
     ///
     /// # Errors
     /// [`Error::Unsuited`] for another number of forces, or numbers that are not finite.
@@ -49,7 +49,7 @@ impl Simulation {
                 "the force on particle {particle} is {force} N; give finite numbers"
             )));
         }
-        self.world.external.set(forces);
+        self.world.external.values = forces.to_vec();
         Ok(())
     }
 
@@ -59,7 +59,7 @@ impl Simulation {
         self.stepping.next_step()
     }
 
-    /// Returns the bodies where they are now: names and triangles.
+    /// Returns the bodies at the present time: names and triangles.
     #[must_use]
     pub fn bodies(&self) -> Vec<(String, Triangulation)> {
         let names = self.world.contact.bodies().iter().map(|body| body.name.clone());
@@ -70,9 +70,9 @@ impl Simulation {
     /// takes the place of the body's motion.
     ///
     /// # Errors
-    /// [`Error::Unsuited`] for a body or vertices that there are not, a time that is not positive, a
-    /// speed at which contact does not keep the fabrics apart, vertices where only particles meet
-    /// bodies, and while bodies grow to their size or wait for the cloth to rest.
+    /// [`Error::Unsuited`] for an unknown body, another number of vertices, a time that is not
+    /// positive, a speed that contact cannot stop, vertices in a scene without contact of surfaces,
+    /// and while bodies grow to their size or wait for the cloth to rest.
     pub fn lead_body(
         &mut self,
         name: &str,

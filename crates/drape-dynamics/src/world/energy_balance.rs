@@ -41,8 +41,8 @@ pub struct Energy {
     /// has no friction.
     #[serde(rename = "turning_dissipated")]
     pub rotation_dissipated: f64,
-    /// Work done on the cloth by bodies that move, by pins and by forces from outside; where a pin holds in some directions
-    /// alone, the work of its springs counts.
+    /// Work done on the cloth by bodies that move, by pins and by forces that a program applies; where
+    /// a pin holds in some directions alone, the work of its springs counts.
     pub work_in: f64,
     /// Residual of the balance: what its entries leave open in the sub-steps, one of some thirty, in
     /// which each is found by itself. It is the error of a quadrature, some millionths of what these
@@ -82,7 +82,7 @@ struct FirstAndLast {
 pub(crate) struct StepEnergy {
     /// Work against the weight.
     pub(crate) gravity: f64,
-    /// Work of the forces from outside of the scene.
+    /// Work of the forces that a program applies.
     pub(crate) external_work: f64,
     /// Growth of the energy of contact.
     pub(crate) contact: f64,

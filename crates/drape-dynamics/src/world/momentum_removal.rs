@@ -1,5 +1,7 @@
 //! Removal of momentum in quasi-static relaxation: every step then starts from rest.
 
+use super::constant_forces::ConstantForces;
+
 /// Forces that remove the momentum with which particles enter a step, in N.
 ///
 /// A step of relaxation is to start from rest, but the velocity with which the cloth enters it
@@ -7,16 +9,16 @@
 #[derive(Debug, Default)]
 pub(crate) struct MomentumRemoval {
     active: bool,
-    /// Three numbers per particle; none where momentum stays.
-    forces: Vec<f64>,
+    /// Forces of the step; none where momentum stays.
+    pub(crate) forces: ConstantForces,
 }
 
 impl MomentumRemoval {
     /// Removes the momentum of so many particles from now on, or lets it be.
     pub(crate) fn set_active(&mut self, active: bool, particles: usize) {
         self.active = active;
-        self.forces.clear();
-        self.forces.resize(if active { 3 * particles } else { 0 }, 0.0);
+        self.forces.values.clear();
+        self.forces.values.resize(if active { 3 * particles } else { 0 }, 0.0);
     }
 
     /// Whether momentum is removed.
@@ -26,7 +28,7 @@ impl MomentumRemoval {
 
     /// Opens a step of a length, in s, from velocities, in m/s.
     pub(crate) fn begin(&mut self, masses: &[f64], velocities: &[f64], dt: f64) {
-        let momenta = self.forces.chunks_exact_mut(3).zip(velocities.chunks_exact(3));
+        let momenta = self.forces.values.chunks_exact_mut(3).zip(velocities.chunks_exact(3));
         for ((force, velocity), mass) in momenta.zip(masses) {
             for (force, v) in force.iter_mut().zip(velocity) {
                 *force = -mass * v / dt;
@@ -36,20 +38,6 @@ impl MomentumRemoval {
 
     /// Takes the forces out until the next step begins.
     pub(crate) fn clear(&mut self) {
-        self.forces.fill(0.0);
-    }
-
-    pub(crate) fn add_forces(&self, forces: &mut [f64]) {
-        forces.iter_mut().zip(&self.forces).for_each(|(force, own)| *force += own);
-    }
-
-    pub(crate) fn potential(&self, positions: &[f64]) -> f64 {
-        self.forces.iter().zip(positions).map(|(force, x)| -force * x).sum()
-    }
-
-    /// Work against the forces in a step, in J.
-    pub(crate) fn work(&self, start: &[f64], end: &[f64]) -> f64 {
-        let moved = end.iter().zip(start).map(|(end, start)| end - start);
-        moved.zip(&self.forces).map(|(moved, force)| -moved * force).sum()
+        self.forces.values.fill(0.0);
     }
 }

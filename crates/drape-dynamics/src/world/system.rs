@@ -56,7 +56,7 @@ impl System for World {
     fn forces(&mut self, positions: &[f64], forces: &mut [f64]) {
         self.gravity.write_forces(self.cloth.masses(), forces);
         self.external.add_forces(forces);
-        self.momentum.add_forces(forces);
+        self.momentum.forces.add_forces(forces);
         self.internal.add_forces(self.cloth.trial(&self.state, positions), forces);
         if let Some(springs) = &self.seams.springs {
             springs.add_forces(positions, forces);
@@ -69,7 +69,7 @@ impl System for World {
     fn potential(&mut self, positions: &[f64]) -> f64 {
         let drag = self.air.potential(&self.state, positions);
         let internal = self.internal.potential(self.cloth.trial(&self.state, positions));
-        let momentum = self.momentum.potential(positions);
+        let momentum = self.momentum.forces.potential(positions);
         if let Some(balance) = &mut self.balance {
             balance.note_internal_potential(internal);
         }
@@ -167,7 +167,7 @@ impl World {
             spring_potential_fall: springs.potential_fall,
             body_work: before.body_work,
             air: self.air.loss(&self.state, positions),
-            momentum_removal: self.momentum.work(start, positions),
+            momentum_removal: -self.momentum.forces.work(start, positions),
             ..StepEnergy::default()
         };
         match &mut self.contact {

@@ -4,8 +4,8 @@ use super::formula::Formula;
 use super::state::IntegratorState;
 use crate::settings::Integrator;
 
-/// Extrapolation of the past to the end of a step, and what its difference from the end of the step
-/// tells; see [`ErrorEstimate`].
+/// Extrapolation of the last steps to the end of the next one, with the factor that makes its
+/// difference from the solution the error of the step; see [`ErrorEstimate`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Extrapolation {
     /// Length of the step, in s.
@@ -38,7 +38,7 @@ impl Extrapolation {
         }
     }
 
-    /// Writes where the past leads, in m.
+    /// Writes the extrapolated positions, in m.
     pub(crate) fn write(self, state: &IntegratorState, predicted: &mut [f64]) {
         let now = state.positions.iter().zip(&state.velocities);
         for (predicted, (x, v)) in predicted.iter_mut().zip(now) {

@@ -31,7 +31,7 @@ pub(crate) struct SubStepper {
     base: Vec<f64>,
     /// Velocities at the end of the sub-step, in m/s.
     velocities: Vec<f64>,
-    /// Positions to which the past leads, in m, where the error of the sub-step is asked for.
+    /// Extrapolated positions, in m; empty unless the error of the sub-step bounds that of the solver.
     predicted: Vec<f64>,
     path_work: PathWork,
 }

@@ -64,9 +64,9 @@ pub(crate) struct StepEquations<'a, 'b> {
     pub limit: f64,
     /// Norm that residuals are relative to, in N.
     pub unit: f64,
-    /// Positions to which the past leads, in m; empty if the error of the step is not asked for.
+    /// Extrapolated positions, in m; empty unless the error of the step bounds that of the solver.
     pub predicted: &'a [f64],
-    /// Fraction of the distance from there that the error of the solver may be.
+    /// Largest error of the solver, as a fraction of the distance from the extrapolated positions.
     pub error_fraction: f64,
     pub report: &'a mut Report,
 }
@@ -121,8 +121,8 @@ impl StepEquations<'_, '_> {
         *iterate.energy.insert(kinetic + self.system.system().potential(&iterate.positions))
     }
 
-    /// Energy that the solver may leave to be gained at an iterate because the step itself errs more,
-    /// `½ Σ m |θ e|²/(β dt)²` with the step's error `e` and the fraction `θ` of it, in J.
+    /// Energy of the largest error that the solver may leave, `½ Σ m |θ e|²/(β dt)²` with the error
+    /// `e` of a step that ends at an iterate and the fraction `θ` of it, in J.
     pub(crate) fn negligible_energy(&self, iterate: &Iterate) -> f64 {
         let ends = triples(&iterate.positions).iter().zip(triples(self.predicted));
         let mut sum = 0.0;

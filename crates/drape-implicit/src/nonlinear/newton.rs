@@ -57,8 +57,8 @@ const LINEAR_FRACTION: f64 = 0.3;
 /// contacts that were too tight for the next ones.
 const MAX_UNBALANCE: f64 = 100.0;
 
-/// Residual, over the acceleration that tolerances refer to, that a step may leave whose solver errs
-/// less than the step itself. Without a bound a swing took 807 tangents instead of 879.
+/// Largest residual of a step that ends because its own error is larger than that of the solver, as a
+/// fraction of the unit of residuals. With a bound of 1 a swing took 807 tangents instead of 879.
 const ROUGH_RESIDUAL: f64 = 0.1;
 
 /// Newton step that was taken.
@@ -274,8 +274,8 @@ fn iterations_per_matrix(settings: &Settings) -> usize {
     if settings.method == Method::Broyden { settings.iterations_per_matrix } else { 1 }
 }
 
-/// Whether a step that has little energy left to gain may end at an iterate with a largest residual,
-/// in N.
+/// Whether a step may end at an iterate before it meets its tolerance: all motions are done, and the
+/// residual is at most `residual_max`, in N.
 fn may_end(iterate: &Iterate, residual_max: f64) -> bool {
     iterate.obstacle_time == 1.0 && iterate.solves(residual_max)
 }

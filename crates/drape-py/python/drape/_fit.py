@@ -360,9 +360,8 @@ def fit(
     The laws are those that the curves support best unless they are named: `traction` is
     `"primed"` or `"polynomial"`; `bending` and `shear` are `"first-order"`, `"parallel"`,
     `"second-order"` or `"breen-1994"`. `profile` takes intervals from the profile of the residuals.
-    Ctrl-C returns at once; what is left of the work then
-    ends by itself. Raises `InputError`, and `UsageError` for a law that is not known and a
-    folder of many sheets, which are for `fit_all`.
+    Ctrl-C returns at once; the work then ends by itself. Raises `InputError`, and `UsageError` for
+    a law that is not known and a folder of many sheets, which are for `fit_all`.
     """
     if isinstance(sheet, str | os.PathLike):
         path = Path(sheet)

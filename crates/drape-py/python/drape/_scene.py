@@ -86,7 +86,8 @@ class Scene:
     @staticmethod
     def from_toml(text: str, folder: StrPath = ".", *, allow: Iterable[StrPath] = ()) -> Scene:
         """Makes a scene of a text; its relative paths are seen from a folder. Raises `InputError`."""
-        return Scene(_drape.Scene.from_toml([(Path("<text>"), text)], Path(folder), [Path(p) for p in allow]))
+        documents = [(Path("<text>"), text)]
+        return Scene(_drape.Scene.from_toml(documents, Path(folder), [Path(p) for p in allow]))
 
     @property
     def name(self) -> str:

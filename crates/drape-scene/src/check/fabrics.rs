@@ -48,7 +48,7 @@ pub(crate) fn materials(
     file.fabric.iter().map(read).collect()
 }
 
-/// Returns a fabric with the numbers that the scene sets.
+/// Returns a fabric with the numbers of its `set` table in the scene in place of its own.
 fn changed(checker: &mut Checker<'_>, name: &str, fabric: Fabric) -> Option<Fabric> {
     let numbers = &checker.file.fabric[name].set;
     if numbers.is_empty() {

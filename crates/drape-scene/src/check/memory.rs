@@ -32,7 +32,7 @@ fn available() -> Option<u64> {
     let group = |path: &str| read(path).trim().parse::<u64>().ok();
     let of_group = group("/sys/fs/cgroup/memory.max").map(|limit| {
         let taken = group("/sys/fs/cgroup/memory.current").unwrap_or_default();
-        let cached = cached(&read("/sys/fs/cgroup/memory.stat"));
+        let cached = page_cache(&read("/sys/fs/cgroup/memory.stat"));
         limit.saturating_sub(taken.saturating_sub(cached))
     });
     // The address space that threads reserve for what they will allocate is not taken yet.
@@ -43,9 +43,8 @@ fn available() -> Option<u64> {
     [of_machine, of_group, own].into_iter().flatten().min()
 }
 
-/// Returns the copies of files that a group of processes has in memory, in bytes: the system gives
-/// them up for anything else.
-fn cached(stat: &str) -> u64 {
+/// Returns the page cache of a control group, in bytes: memory that the system frees on demand.
+fn page_cache(stat: &str) -> u64 {
     let counts = stat.lines().filter_map(|line| line.split_once(' '));
     let files = counts.filter(|(name, _)| matches!(*name, "inactive_file" | "active_file"));
     files.filter_map(|(_, bytes)| bytes.trim().parse::<u64>().ok()).sum()
@@ -84,7 +83,7 @@ mod tests {
         assert_eq!(address_space(text), Some(1 << 29));
         assert_eq!(address_space("Max address space  unlimited  unlimited  bytes\n"), None);
         let text = "anon 5\nfile 900\ninactive_file 400\nactive_file 300\nshmem 200\n";
-        assert_eq!(cached(text), 700);
-        assert_eq!(cached(""), 0);
+        assert_eq!(page_cache(text), 700);
+        assert_eq!(page_cache(""), 0);
     }
 }

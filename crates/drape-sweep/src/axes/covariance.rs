@@ -17,7 +17,7 @@ const ERROR_MAX: f64 = 1.0;
 struct FabricNumbers {
     #[serde(default)]
     provenance: Errors,
-    /// All else.
+    /// Laws of the fabric.
     #[serde(flatten)]
     laws: BTreeMap<String, toml::Value>,
 }
@@ -70,7 +70,7 @@ impl Scale {
     }
 }
 
-/// Number of a fabric with an error.
+/// Fitted number with a standard error.
 #[derive(Debug, Clone)]
 struct Uncertain {
     key: String,
@@ -95,7 +95,7 @@ pub(crate) struct Sampled {
     pub(crate) key: String,
     /// Values of TOML.
     pub(crate) values: Vec<String>,
-    /// Whether it is in a fixed ratio to another one.
+    /// Whether the number keeps a fixed ratio to another sampled number.
     pub(crate) is_follower: bool,
 }
 
@@ -176,7 +176,7 @@ impl Covariance {
         Ok(Self { numbers, root })
     }
 
-    /// Draws so many samples.
+    /// Draws a number of samples.
     pub(crate) fn sample(&self, count: u32, seed: u32) -> Vec<Sampled> {
         let mut random = Random::new("covariance", &[seed]);
         let empty = |key: &String, is_follower| Sampled {
@@ -204,8 +204,8 @@ impl Covariance {
     }
 }
 
-/// Returns the numbers that go with a number: that of the weft where it was taken from the warp's,
-/// or the reverse, and the toe strain after the first pull.
+/// Returns the numbers that keep their ratio to a sampled number: that of the weft where it was taken
+/// from the warp's, or the reverse, and the toe strain after the first pull.
 fn followers(
     key: &str,
     value: f64,

@@ -16,7 +16,7 @@ use crate::point::POINTS_MAX;
 /// Reader of the axes of a study.
 pub(crate) struct Reader<'a> {
     pub(crate) document: &'a Document,
-    /// Scene with what the study sets at all points.
+    /// Scene with the settings of the study that hold at all points.
     pub(crate) scene: &'a Document,
     pub(crate) mistakes: Vec<Diagnostic>,
 }
@@ -83,6 +83,7 @@ impl Reader<'_> {
             self.fail(&format!("{place}.key"), message, help);
         }
     }
+
     /// Returns the axes of a sample.
     fn sample(&mut self, place: &str, sample: &SampleFile) -> Vec<Axis> {
         let method = match sample.method.as_str() {

@@ -3,7 +3,7 @@
 use drape::sweep::Mean;
 
 /// Returns a mean with its standard deviation as a cell: the deviation has two digits, and the mean
-/// none behind them.
+/// as many decimals.
 pub(super) fn with_scatter(mean: Option<Mean>) -> String {
     let Some(Mean { value, deviation, .. }) = mean else { return "–".into() };
     match deviation {
@@ -18,7 +18,7 @@ pub(super) fn with_scatter(mean: Option<Mean>) -> String {
     }
 }
 
-/// Most digits behind the point of a cell.
+/// Most decimals of a cell.
 const PLACES_MAX: usize = 6;
 
 /// Returns a number with four digits.
@@ -37,7 +37,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// Returns the number of digits behind the point of a number of so many digits.
+/// Returns the decimals of a number that is written with so many significant digits.
 fn places(value: f64, digits: i32) -> usize {
     let power = value.abs().log10().floor() as i32;
     usize::try_from(digits - 1 - power).unwrap_or(0)

@@ -167,7 +167,7 @@ impl Surfaces {
         self.stiffness * (speed / self.speed_max).powi(2)
     }
 
-    /// Time at which the bodies will have grown to their size, in s, if they have not at a time.
+    /// End of the growth of the bodies to their size, in s; none if it is over at a time.
     pub(crate) fn end_of_inflation(&self, time: f64) -> Option<f64> {
         let inflation = self.inflation.as_ref()?.inflation;
         (inflation.remaining(time) > 0.0).then_some(inflation.seconds)
