@@ -89,7 +89,7 @@ enum Command {
     /// Goes on with a run that was interrupted, from its last checkpoint, to the results that it would
     /// have had; or with one that has ended, beyond its end.
     Resume(ResumeArguments),
-    /// Runs a scene many times, with values of its keys from a study, and makes one table of all.
+    /// Runs a scene, a fit or a test many times, with values from a study, and makes one table of all.
     #[command(subcommand)]
     Sweep(SweepCommand),
     /// Compares simulations with exact solutions and measurements.

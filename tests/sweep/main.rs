@@ -3,6 +3,7 @@
 #![cfg(unix)]
 #![allow(clippy::unwrap_used)]
 
+mod base;
 mod setting;
 
 use std::collections::BTreeMap;

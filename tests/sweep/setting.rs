@@ -37,6 +37,28 @@ fn mistakes_of_what_is_set_have_remedies_that_help() {
 }
 
 #[test]
+fn sheets_and_fabrics_have_what_is_set() {
+    let bench = Bench::new("");
+    bench.copy_sheet("matsudaira-a");
+    let fit = |set: &str, code: i32| {
+        let arguments = ["fit", "matsudaira-a", "-o", "f.toml", "--force", "--set", set];
+        bench.ran(&arguments, code).1
+    };
+    fit("W=\"150 g/m2\"", 0);
+    let fabric = std::fs::read_to_string(bench.path("f.toml")).unwrap();
+    assert!(fabric.contains("density = 0.15\n"), "{fabric}");
+    let messages = fit("warp.B=-1", 3);
+    assert!(messages.contains("set on the command line: warp.B=-1"), "{messages}");
+    let test = |set: &str, code: i32| {
+        bench.ran(&["test", "f.toml", "--spacing", "10", "--json", "--set", set], code)
+    };
+    let (stiff, soft) = (test("shear.stiffness=60", 0).0, test("shear.stiffness=30", 0).0);
+    assert_ne!(stiff, soft);
+    let messages = test("shear.stiffnes=60", 3).1;
+    assert!(messages.contains("did you mean `stiffness`?"), "{messages}");
+}
+
+#[test]
 fn a_resumed_run_has_what_was_set_and_refuses_other_values() {
     let bench = Bench::new("");
     let long = ["--set", "time.end=3.0", "--set", "spacing=0.005", "--no-picture"];

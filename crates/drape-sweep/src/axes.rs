@@ -1,4 +1,4 @@
-//! Axes: keys of a scene with the levels that a study sets them to.
+//! Axes: keys of a base with the levels that a study sets them to.
 
 mod covariance;
 mod design;
@@ -6,6 +6,8 @@ mod levels;
 mod random;
 mod range;
 mod reader;
+
+use serde_json::Value;
 
 pub(crate) use reader::Reader;
 
@@ -22,12 +24,12 @@ pub enum AxisKind {
     Follower,
 }
 
-/// Key of a scene with its levels.
+/// Key of a base with its levels.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Axis {
     /// Name of the column in the table.
     pub name: String,
-    /// Key of the scene.
+    /// Key of the base.
     pub key: String,
     /// Levels, as values of TOML.
     pub levels: Vec<String>,
@@ -48,4 +50,11 @@ impl Group {
     pub(crate) fn len(&self) -> usize {
         self.axes.first().map_or(0, |axis| axis.levels.len())
     }
+}
+
+/// Returns a level, a value of TOML, as one of JSON.
+pub(crate) fn value_of(level: &str) -> Value {
+    let table = toml::from_str::<toml::Table>(&format!("value = {level}"));
+    let value = table.ok().and_then(|mut table| table.remove("value"));
+    value.and_then(|value| serde_json::to_value(value).ok()).unwrap_or_else(|| level.into())
 }

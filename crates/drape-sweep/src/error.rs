@@ -9,7 +9,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Mistakes in the study or its scene: mend them.
+    /// Mistakes in the study or its base: mend them.
     #[error(transparent)]
     Input(#[from] Diagnostics),
     /// A file or folder of the results cannot be read or written: make room, or allow it.

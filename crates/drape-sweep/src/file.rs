@@ -5,18 +5,25 @@
 use drape_input::TextOr;
 use serde::Deserialize;
 
-/// Study: many runs of one scene.
+/// Study: many runs of one scene, fits of one sheet or tests of one fabric.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StudyFile {
-    /// Scene whose keys are set, relative to the folder of the study.
-    pub(crate) scene: String,
+    /// Scene that is simulated, relative to the folder of the study.
+    pub(crate) scene: Option<String>,
+    /// Sheet of which a fabric is fitted, in place of a scene.
+    pub(crate) fit: Option<String>,
+    /// Fabric or sheet of which specimens are tested, in place of a scene.
+    pub(crate) test: Option<String>,
+    /// Options of `drape fit` or `drape test`, such as `["--drape", "--starts", "5"]`.
+    #[serde(default)]
+    pub(crate) options: Vec<String>,
     /// Folder for the results, relative to the folder of the study; in the current folder `out/` and
     /// the name of the study's file, if missing.
     pub(crate) output: Option<String>,
     /// Files that a run that has ended keeps: `all`; `last`, its summary and the last state of the
-    /// cloth as OBJ; or `measures`, its summary.
+    /// cloth as OBJ, or the fabric; or `measures`, its summary.
     #[cfg_attr(feature = "schema", schemars(extend("default" = "all")))]
     #[cfg_attr(feature = "schema", schemars(extend("enum" = ["all", "last", "measures"])))]
     pub(crate) keep: Option<String>,
@@ -30,7 +37,7 @@ pub(crate) struct StudyFile {
     /// Samples of the numbers of fitted fabrics, by the errors and correlations of their fits.
     #[serde(default)]
     pub(crate) covariance: Vec<CovarianceFile>,
-    /// Keys of the scene that are set to one value at all points, as they stand in a scene.
+    /// Keys of the base that are set to one value at all points, as they stand there.
     #[serde(default)]
     #[cfg_attr(feature = "schema", schemars(with = "serde_json::Map<String, serde_json::Value>"))]
     pub(crate) set: toml::Table,
@@ -40,13 +47,14 @@ pub(crate) struct StudyFile {
     pub(crate) measure: Vec<MeasureFile>,
 }
 
-/// Key of a scene that is set to one value after the other, by one of `values`, `range`, `files` and
+/// Key of the base that is set to one value after the other, by one of `values`, `range`, `files` and
 /// `starts`.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AxisFile {
-    /// Key of the scene, a path of names and numbers such as `panel.0.rectangle`.
+    /// Key of the base, a path of names and numbers such as `panel.0.rectangle`; or `scene`, `fit` or
+    /// `test`, the base itself, with `files`.
     pub(crate) key: String,
     /// Name of the column in the table; the key if missing.
     pub(crate) name: Option<String>,
@@ -106,7 +114,7 @@ pub(crate) struct SampleFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SampleRangeFile {
-    /// Key of the scene, as for an axis.
+    /// Key of the base, as for an axis.
     pub(crate) key: String,
     /// Name of the column in the table; the key if missing.
     pub(crate) name: Option<String>,
@@ -161,7 +169,7 @@ pub(crate) struct MeasureFile {
 #[cfg(feature = "schema")]
 #[must_use]
 pub fn study_schema() -> serde_json::Value {
-    let about = "Study of drape: many runs of one scene, with values of its keys from lists, ranges, \
-                 files and samples.";
+    let about = "Study of drape: many runs of one scene, fits of one sheet or tests of one fabric, \
+                 with values of keys from lists, ranges, files and samples.";
     drape_input::schema_of::<StudyFile>("Study of drape", about, serde_json::Map::new())
 }

@@ -5,27 +5,41 @@ use std::path::{Path, PathBuf};
 
 use drape_input::Document;
 
+use crate::base::Base;
+
 /// Longest text of a scene that may be the name of a file, in bytes.
 const NAME_MAX: usize = 1024;
 
 /// Digests of files, each read once. A file of TOML includes those that it names.
-#[derive(Debug, Default)]
-pub(crate) struct Digests(HashMap<PathBuf, Option<blake3::Hash>>);
+#[derive(Debug)]
+pub(crate) struct Digests {
+    files: HashMap<PathBuf, Option<blake3::Hash>>,
+    /// Command other than a simulation, with its options.
+    command: Vec<String>,
+}
 
 impl Digests {
-    /// Returns the key of a run of a scene, with the values that are set in it, by a program.
+    /// Makes the digests of runs of a base with options.
+    pub(crate) fn new(base: Base, options: &[String]) -> Self {
+        let name = (base != Base::Scene).then(|| base.key().to_owned());
+        let command = name.into_iter().chain(options.iter().cloned()).collect();
+        Self { files: HashMap::new(), command }
+    }
+
+    /// Returns the key of a run of a base, with the values that are set in it, by a program.
     ///
-    /// Every text of the scene that is the name of a file, seen from the scene's folder, counts with
-    /// the bytes of that file: more than what is read, and never less.
-    pub(crate) fn key(&mut self, scene: &Document, program: &str) -> String {
+    /// Every text of the base that is the name of a file, seen from its folder, counts with the
+    /// bytes of that file: more than what is read, and never less.
+    pub(crate) fn key(&mut self, base: &Document, program: &str) -> String {
         let mut hasher = blake3::Hasher::new();
         let mut add = |part: &[u8]| {
             hasher.update(&(part.len() as u64).to_le_bytes()).update(part);
         };
         add(program.as_bytes());
-        add(scene.text().as_bytes());
-        scene.settings().iter().for_each(|setting| add(setting.to_string().as_bytes()));
-        for (name, digest) in self.named(scene) {
+        self.command.iter().for_each(|word| add(word.as_bytes()));
+        add(base.text().as_bytes());
+        base.settings().iter().for_each(|setting| add(setting.to_string().as_bytes()));
+        for (name, digest) in self.named(base) {
             add(name.as_bytes());
             add(digest.as_bytes());
         }
@@ -43,13 +57,13 @@ impl Digests {
 
     /// Returns the digest of a file, or of the sheet in a folder; `None` if there is none.
     fn of(&mut self, path: &Path) -> Option<blake3::Hash> {
-        if let Some(known) = self.0.get(path) {
+        if let Some(known) = self.files.get(path) {
             return *known;
         }
         // A file that names itself, by whatever detour, ends here.
-        self.0.insert(path.to_owned(), None);
+        self.files.insert(path.to_owned(), None);
         let digest = self.read(path);
-        self.0.insert(path.to_owned(), digest);
+        self.files.insert(path.to_owned(), digest);
         digest
     }
 
@@ -100,7 +114,7 @@ mod tests {
             let settings: Vec<_> =
                 set.split_terminator(';').map(|s| s.parse().expect("right")).collect();
             let scene = scene.with_settings(&settings).expect("set");
-            Digests::default().key(&scene, program)
+            Digests::new(Base::Scene, &[]).key(&scene, program)
         };
         let [here, there] = ["here", "deep/there"].map(begin);
         let first = key(&here, "", "p 1");

@@ -2,16 +2,17 @@
 //!
 //! # Tour
 //!
-//! * `file`: TOML form of a study; `study`: [`Study`], read and checked; `axes`: [`Axis`] and its
-//!   levels, samples of ranges and of the errors of fitted fabrics; `measure`: [`Measure`], a value of
-//!   all summaries.
+//! * `file`: TOML form of a study; `study`: [`Study`], read and checked; `base`: [`Base`], what its
+//!   points are runs of; `axes`: [`Axis`] and its levels, samples of ranges and of the errors of
+//!   fitted fabrics; `measure`: [`Measure`], a value of all summaries.
 //! * `point`: [`Point`], one run of a study; `key`: digests of what it reads.
-//! * `place`: [`Place`], where a point has its results, its lock and its record; `record`:
+//! * `place`: [`Place`], where a point has its results, its lock and its record:
 //!   [`Record`], what came of it; `manifest`: the list of all points.
 //! * `table`: [`Table`], inputs, measures and records of all points; `effects`: means over levels.
 //! * `engine`: files by which others run a study: Slurm, HyperQueue, Dask.
 
 mod axes;
+mod base;
 mod effects;
 mod engine;
 mod error;
@@ -21,11 +22,11 @@ mod manifest;
 mod measure;
 mod place;
 mod point;
-mod record;
 mod study;
 mod table;
 
 pub use axes::{Axis, AxisKind};
+pub use base::Base;
 pub use effects::{Interaction, MainEffect, Mean, interaction, main_effect};
 pub use engine::{Batch, Engine};
 pub use error::Error;
@@ -33,8 +34,7 @@ pub use error::Error;
 pub use file::study_schema;
 pub use manifest::manifest;
 pub use measure::Measure;
-pub use place::{Place, PlaceLock};
+pub use place::{Outcome, Place, PlaceLock, Record};
 pub use point::{Point, Shard};
-pub use record::{Outcome, Record};
 pub use study::{Keep, Study};
 pub use table::{Column, Table};

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::axes::value_of;
 use crate::point::Point;
 use crate::study::Study;
 
@@ -17,11 +18,4 @@ pub fn manifest(study: &Study, points: &[Point]) -> String {
         json!({ "point": point.index, "key": point.key, "values": values, "set": set }).to_string()
     };
     points.iter().map(|point| line(point) + "\n").collect()
-}
-
-/// Returns a value of TOML as one of JSON.
-pub(crate) fn value_of(level: &str) -> Value {
-    let table = toml::from_str::<toml::Table>(&format!("value = {level}"));
-    let value = table.ok().and_then(|mut table| table.remove("value"));
-    value.and_then(|value| serde_json::to_value(value).ok()).unwrap_or_else(|| level.into())
 }

@@ -1,14 +1,17 @@
 //! Places of points: where each has its results, its lock and its record.
 
+mod record;
+
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::error::Error;
 use crate::point::Point;
-use crate::record::{Outcome, Record};
 use crate::study::{Keep, Study};
+
+pub use record::{Outcome, Record};
 
 /// Place of a point: `points/ab/KEY`, with its lock and its record beside it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -112,6 +115,18 @@ impl Place {
         summary.get("status").is_some().then_some(summary)
     }
 
+    /// Writes the summary of a fit or a test, with what it printed as measures.
+    ///
+    /// # Errors
+    /// The text is not JSON, or the summary cannot be written.
+    pub fn summarise(&self, report: &[u8]) -> Result<(), Error> {
+        let path = self.folder.join("summary.json");
+        let report: Value = serde_json::from_slice(report)
+            .map_err(|error| Error::io("write", &path)(error.into()))?;
+        let text = json!({ "status": "ok", "measures": report }).to_string() + "\n";
+        std::fs::write(&path, text).map_err(Error::io("write", &path))
+    }
+
     /// Returns whether its folder holds a run that came to its end, to the last file.
     #[must_use]
     pub fn is_finished(&self) -> bool {
@@ -153,7 +168,7 @@ impl Place {
     fn prune(&self, keep: Keep) -> Result<(), Error> {
         let kept: &[&str] = match keep {
             Keep::All => return Ok(()),
-            Keep::Last => &["summary.json", "last.obj"],
+            Keep::Last => &["summary.json", "last.obj", "fabric.toml"],
             Keep::Measures => return removed(&self.folder, std::fs::remove_dir_all(&self.folder)),
         };
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();

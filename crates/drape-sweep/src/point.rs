@@ -1,5 +1,7 @@
 //! Points of a study, and parts of them.
 
+use std::path::PathBuf;
+
 use drape_input::Setting;
 
 /// Largest number of points of a study. Each takes memory and a file.
@@ -14,7 +16,9 @@ pub struct Point {
     pub key: String,
     /// Levels of the axes, in their order, as values of TOML.
     pub levels: Vec<String>,
-    /// Keys of the scene that are set.
+    /// File of the base.
+    pub file: PathBuf,
+    /// Keys of the base that are set.
     pub settings: Vec<Setting>,
 }
 

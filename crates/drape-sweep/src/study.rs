@@ -6,7 +6,8 @@ use drape_input::{
     Diagnostic, Diagnostics, Document, Setting, SettingError, UnitError, closest, excerpt, toml_key,
 };
 
-use crate::axes::{Axis, Group, Reader};
+use crate::axes::{Axis, Group, Reader, value_of};
+use crate::base::Base;
 use crate::error::Error;
 use crate::file::{MeasureFile, StudyFile};
 use crate::key::Digests;
@@ -18,17 +19,20 @@ use crate::point::{Point, Shard};
 pub enum Keep {
     /// All.
     All,
-    /// Its summary and the last state of the cloth.
+    /// Its summary, and the last state of the cloth or the fabric.
     Last,
     /// Its summary.
     Measures,
 }
 
-/// Study: many runs of one scene.
+/// Study: many runs of one base.
 #[derive(Debug, Clone)]
 pub struct Study {
     file: PathBuf,
-    scene: Document,
+    base: Base,
+    /// File of the base, with what is set at all points.
+    document: Document,
+    options: Vec<String>,
     output: PathBuf,
     keep: Keep,
     /// What is set at all points.
@@ -38,11 +42,11 @@ pub struct Study {
 }
 
 impl Study {
-    /// Reads a study and its scene, which may name files below their folders, the working folder
+    /// Reads a study and its base, which may name files below their folders, the working folder
     /// and those that are allowed.
     ///
     /// # Errors
-    /// All mistakes of the study, or those of the grammar of its scene.
+    /// All mistakes of the study, or those of the grammar of its base.
     pub fn read(path: impl AsRef<Path>, allowed: &[PathBuf]) -> Result<Self, Error> {
         Self::from_document(&Document::read(path)?.allowing(allowed))
     }
@@ -53,20 +57,14 @@ impl Study {
     /// As for [`read`](Self::read).
     pub fn from_document(document: &Document) -> Result<Self, Error> {
         let file: StudyFile = document.decode()?;
-        let scene = document.beside(&file.scene).map_err(|misplaced| {
-            document.at("scene", misplaced.to_string()).help(misplaced.help())
-        })?;
-        let scene = Document::read(&scene).map_err(|Diagnostics(mistakes)| {
-            let message = mistakes.into_iter().map(|mistake| mistake.message).collect::<String>();
-            document.at("scene", message).help("name a scene, relative to the study")
-        })?;
-        let scene = scene.allowing(document.allowed());
-        scene.decode::<toml::Table>()?;
+        let (base, name) = Base::of(document, &file)?;
+        base.check(document, &file.options)?;
+        let own = read(document, base, Path::new(name))?;
         let mut fixed = Vec::new();
         settings("", &file.set, &mut fixed)
             .map_err(|SettingError { message, help }| document.at("set", message).help(help))?;
-        let scene = scene.with_settings(&fixed)?;
-        let mut reader = Reader { document, scene: &scene, mistakes: Vec::new() };
+        let own = own.with_settings(&fixed)?;
+        let mut reader = Reader { document, base, own: &own, mistakes: Vec::new() };
         let keep = match file.keep.as_deref() {
             None | Some("all") => Keep::All,
             Some("last") => Keep::Last,
@@ -89,8 +87,8 @@ impl Study {
             })?,
             None => Path::new("out").join(document.path().file_stem().unwrap_or_default()),
         };
-        let file = document.path().to_owned();
-        Ok(Self { file, scene, output, keep, fixed, groups, measures })
+        let (options, file) = (file.options, document.path().to_owned());
+        Ok(Self { file, base, document: own, options, output, keep, fixed, groups, measures })
     }
 
     /// File of the study.
@@ -99,16 +97,35 @@ impl Study {
         &self.file
     }
 
-    /// File of its scene.
+    /// What its points are runs of.
     #[must_use]
-    pub fn scene(&self) -> &Path {
-        self.scene.path()
+    pub fn base(&self) -> Base {
+        self.base
+    }
+
+    /// File of its base.
+    #[must_use]
+    pub fn base_file(&self) -> &Path {
+        self.document.path()
+    }
+
+    /// Options of the fits or tests.
+    #[must_use]
+    pub fn options(&self) -> &[String] {
+        &self.options
     }
 
     /// Folder for the results.
     #[must_use]
     pub fn output(&self) -> &Path {
         &self.output
+    }
+
+    /// Returns the study with another folder for the results.
+    #[must_use]
+    pub fn with_output(mut self, folder: PathBuf) -> Self {
+        self.output = folder;
+        self
     }
 
     /// Files that a run that has ended keeps.
@@ -140,7 +157,7 @@ impl Study {
     /// # Errors
     /// A key of an axis leads nowhere at one of the points.
     pub fn points(&self, program: &str, shard: Option<Shard>) -> Result<Vec<Point>, Error> {
-        let mut digests = Digests::default();
+        let mut digests = Digests::new(self.base, &self.options);
         let is_asked = |index: &usize| shard.is_none_or(|shard| shard.has(*index));
         let indices = (0..self.count()).filter(is_asked);
         indices.map(|index| self.point(index, program, &mut digests)).collect()
@@ -157,17 +174,44 @@ impl Study {
         let chosen = groups
             .flat_map(|(group, row)| group.axes.iter().map(move |axis| (axis, &axis.levels[row])));
         let (mut levels, mut settings) = (Vec::new(), Vec::new());
-        let fixed = self.fixed.iter().cloned();
+        let mut document = self.document.clone();
         for (axis, level) in chosen {
+            levels.push(level.clone());
+            if axis.key == self.base.key() {
+                document = self.other(level)?;
+                continue;
+            }
             let setting = Setting::new(&axis.key, level);
             let wrong = |error| Diagnostic::new(&self.file, format!("{}: {error}", axis.key));
             settings.push(setting.map_err(wrong)?);
-            levels.push(level.clone());
         }
-        let scene = self.scene.clone().with_settings(&settings)?;
-        let settings = fixed.chain(settings).collect();
-        Ok(Point { index, key: digests.key(&scene, program), levels, settings })
+        let document = document.with_settings(&settings)?;
+        let settings = self.fixed.iter().cloned().chain(settings).collect();
+        let file = document.path().to_owned();
+        Ok(Point { index, key: digests.key(&document, program), levels, file, settings })
     }
+
+    /// Reads another file in place of that of the base, which a level names as seen from the study.
+    fn other(&self, level: &str) -> Result<Document, Error> {
+        let name = value_of(level).as_str().map(str::to_owned).unwrap_or_default();
+        let folder = self.file.parent().unwrap_or(Path::new(""));
+        let document = Document::read(folder.join(name))?.allowing(self.document.allowed());
+        Ok(document.with_settings(&self.fixed)?)
+    }
+}
+
+/// Reads the base of a study.
+fn read(document: &Document, base: Base, name: &Path) -> Result<Document, Error> {
+    let path = document.beside(name).map_err(|misplaced| {
+        document.at(base.key(), misplaced.to_string()).help(misplaced.help())
+    })?;
+    let own = Document::read(&path).map_err(|Diagnostics(mistakes)| {
+        let message = mistakes.into_iter().map(|mistake| mistake.message).collect::<String>();
+        document.at(base.key(), message).help("name a file of TOML, relative to the study")
+    })?;
+    let own = own.allowing(document.allowed());
+    own.decode::<toml::Table>()?;
+    Ok(own)
 }
 
 /// Adds the values of a table, with the paths of their keys.

@@ -1,12 +1,14 @@
 //! Table: inputs, records and measures of all points of a study.
 
+#[cfg(feature = "parquet")]
+mod parquet;
 mod parts;
 mod summary;
 
 use std::collections::BTreeMap;
 
+use crate::axes::value_of;
 use crate::error::Error;
-use crate::manifest::value_of;
 use crate::place::Place;
 use crate::point::Point;
 use crate::study::Study;

@@ -21,6 +21,7 @@ use drape::file;
 
 /// Executes `drape fit`.
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
+    input::set(&arguments.set);
     let sheets = sheets::sheets(&arguments.sheets)?;
     match sheets.as_slice() {
         [sheet] => one(sheet, arguments),

@@ -1,4 +1,4 @@
-//! `drape sweep`: many runs of one scene, planned, run, collected and exported.
+//! `drape sweep`: many runs of one scene, fits or tests, planned, run, collected and exported.
 //!
 //! The study, its points, their keys and their table are those of `drape::sweep`. [`run`] shares the
 //! points out to jobs, each of which is a process of this program, started by [`worker`]. [`study`]
@@ -102,10 +102,13 @@ fn export(arguments: &SweepExportArguments) -> Result<(), Failure> {
     let options = options?
         .into_iter()
         .flat_map(|path| ["--allow-path".to_owned(), path.display().to_string()]);
+    let output = whole(study.output())?;
     let batch = Batch {
         program: std::env::current_exe().map_err(here)?,
         folder: std::env::current_dir().map_err(here)?,
         study: arguments.study.study.clone(),
+        is_elsewhere: arguments.study.results.is_some(),
+        output,
         options: options.collect(),
         tasks: points.len().div_ceil(chunk),
     };

@@ -12,9 +12,11 @@ pub(crate) use arguments::TestArguments;
 
 use crate::commands::fabric;
 use crate::failure::Failure;
+use crate::input;
 
 /// Executes `drape test`.
 pub(crate) fn test(arguments: &TestArguments) -> Result<(), Failure> {
+    input::set(&arguments.set);
     let fabric = fabric::read(&arguments.fabric)?;
     if let Some(spacing) = arguments.spacing.filter(|mm| !(*mm >= 0.5 && *mm <= 50.0)) {
         let message = format!("--spacing {spacing} is not between 0.5 and 50 (mm)");

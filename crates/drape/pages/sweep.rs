@@ -44,7 +44,12 @@ pub(crate) fn page(study: &Study, table: &Table) -> Result<String, Error> {
     let facts = vec![
         format!("{ok} of {} points ended well", outcomes.len()),
         "± is the standard deviation of the runs of a level, or of a pair of levels".into(),
-        format!("study {}, scene {}", study.file().display(), study.scene().display()),
+        format!(
+            "study {}, {} {}",
+            study.file().display(),
+            study.base().key(),
+            study.base_file().display()
+        ),
     ];
     let failures = outcomes.iter().enumerate();
     let failures = failures.filter(|(_, outcome)| !matches!(&outcome[..], "ok" | "not run"));

@@ -1,9 +1,11 @@
 """Dask: a scheduler and two workers, each a process that can be killed."""
 
+import os
 import signal
 import socket
 import subprocess
 import sys
+import time
 
 
 def free_port():
@@ -15,6 +17,8 @@ def free_port():
 
 class Dask:
     """Scheduler with two workers, and the exported program that uses them."""
+
+    options = []
 
     def __init__(self, study, chunk):
         self.study, self.file = study, study.export("dask", chunk)
@@ -37,7 +41,7 @@ class Dask:
         self._begin("scheduler", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard")
         self.worker("worker-1")
         self.worker("worker-2")
-        self.client = subprocess.Popen([sys.executable, self.file, self.address], cwd=self.study.folder)
+        self.client = subprocess.Popen([sys.executable, self.file, self.address, *self.options], cwd=self.study.folder)
 
     def kill_worker(self):
         """Kills a worker; another one takes its place."""
@@ -56,3 +60,44 @@ class Dask:
         """Waits for the end of the program."""
         assert self.client.wait(timeout=1800) == 0
         self.kill()
+
+
+class DaskStore(Dask):
+    """Dask whose results meet in an object store: a server of S3 on this machine."""
+
+    options = ["--store", "s3://drapes/study"]
+
+    def __init__(self, study, chunk):
+        super().__init__(study, chunk)
+        port = str(free_port())
+        keys = {"AWS_ACCESS_KEY_ID": "test", "AWS_SECRET_ACCESS_KEY": "test", "AWS_DEFAULT_REGION": "us-east-1"}
+        os.environ.update(keys, AWS_ENDPOINT_URL=f"http://127.0.0.1:{port}")
+        log = open(study.folder / "store.log", "a")
+        command = [sys.executable, "-m", "moto.server", "--port", port]
+        self.store = subprocess.Popen(command, stdout=log, stderr=log)
+        self.files = self._bucket()
+        study.records = self.records
+
+    def _bucket(self):
+        """Returns the file system of the store, with a bucket."""
+        import s3fs
+
+        deadline = time.monotonic() + 60
+        while True:
+            files = s3fs.S3FileSystem(use_listings_cache=False)
+            try:
+                files.mkdir("drapes")
+                return files
+            except OSError:
+                assert time.monotonic() < deadline, "the store does not answer"
+                time.sleep(0.2)
+
+    def records(self):
+        """Counts the points that have a record in the store."""
+        return len(self.files.glob("drapes/study/points/*/*.json"))
+
+    def finish(self):
+        """Waits for the end of the program, which fetches what is in the store."""
+        super().finish()
+        self.store.kill()
+        self.store.wait()

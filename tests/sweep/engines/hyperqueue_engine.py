@@ -3,6 +3,7 @@
 Its package has no command `hq`, so the exported file is read here and submitted as it is.
 """
 
+import os
 import signal
 import subprocess
 import sys
@@ -22,7 +23,7 @@ with LocalCluster() as cluster:
     job = Job()
     for task in tasks:
         job.program(task["command"], cwd=task["cwd"], stdout=None, stderr=None, crash_limit=task["crash_limit"])
-    client.wait_for_jobs([client.submit(job)])
+    client.wait_for_jobs([client.submit(job)], raise_on_error=False)
 """
 
 
@@ -41,8 +42,12 @@ class HyperQueue:
             [sys.executable, "-c", PROGRAM, self.file], stdout=log, stderr=log, cwd=self.study.folder
         )
 
-    # A worker has no process of its own: it ends with the server.
-    kill_worker = None
+    def kill_worker(self):
+        """Kills what a worker runs: the worker itself has no process of its own."""
+        children = ["pgrep", "-P", str(self.process.pid), "-x", "drape"]
+        tasks = subprocess.run(children, capture_output=True, text=True).stdout.split()
+        assert tasks, "no task runs"
+        os.kill(int(tasks[0]), signal.SIGKILL)
 
     def kill(self):
         """Kills the server and the workers."""

@@ -18,8 +18,8 @@ class Study:
     def __init__(self, folder, points, drape):
         self.folder, self.points, self.drape = pathlib.Path(folder), points, str(drape)
         shutil.copy(ROOT / "tests/fabrics/plain-weave.toml", self.folder / "plain.toml")
-        shutil.copy(ROOT / "tests/sweep/strip.toml", self.folder / "scene.toml")
-        lengths = [round(0.08 + 0.12 * k / points, 6) for k in range(points - 1)] + [-0.1]
+        shutil.copy(ROOT / "tests/sweep/drape.toml", self.folder / "scene.toml")
+        lengths = [round(80 + 120 * k / points, 3) for k in range(points - 1)] + [-100]
         for name in ["serial", "study"]:
             (self.folder / f"{name}.toml").write_text(
                 f'scene = "scene.toml"\noutput = "{name}"\nkeep = "measures"\n'
@@ -67,5 +67,10 @@ class Study:
         serial = time.monotonic() - begin
         assert found == self.table("serial")
         failed = [row for row in found if row["outcome"] != "ok"]
-        assert len(failed) == 1 and failed[0]["length"] == "-0.1", failed
+        assert len(failed) == 1 and failed[0]["length"] == "-100", failed
         return serial
+
+    def seconds(self, name="study"):
+        """Returns the time of all runs in the table of a study, in s."""
+        with open(self.folder / name / "table.csv", newline="") as file:
+            return sum(float(row["seconds"]) for row in csv.DictReader(file))

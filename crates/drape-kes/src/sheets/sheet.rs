@@ -111,8 +111,12 @@ impl Sheet {
     /// As for [`Sheet::read`].
     pub fn from_document(document: &Document) -> Result<Self, Error> {
         // Decoding into a plain table reports mistakes of grammar as for every other file.
-        document.decode::<toml::Table>()?;
-        let table = DeTable::parse(document.text()).expect("the text has just been decoded");
+        let values: toml::Table = document.decode()?;
+        let text = match document.settings() {
+            [] => document.text().to_owned(),
+            _ => values.to_string(),
+        };
+        let table = DeTable::parse(&text).expect("the text has just been decoded");
         let mut findings = Findings::new(document);
         let sheet = Self::check(&Section::root(table.get_ref()), &mut findings);
         Diagnostics::check(findings.errors)?;

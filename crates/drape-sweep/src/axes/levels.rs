@@ -36,7 +36,7 @@ impl Reader<'_> {
             let range = Range::new([file.start, file.end], file.scale.as_deref(), fail);
             range.map_err(|found| self.mistakes.extend(found.0)).ok()?.levels(file)
         } else if let Some(files) = files {
-            self.files(&format!("{place}.files"), files)?
+            self.files(place, key, files)?
         } else {
             self.starts(place, key, starts.unwrap_or_default())?
         };
@@ -50,7 +50,13 @@ impl Reader<'_> {
             self.fail(place, "there are no levels", "give one or more");
             return None;
         };
-        self.check_key(place, key, first);
+        if key != self.base.key() {
+            self.check_key(place, key, first);
+        } else if files.is_none() {
+            let help = "give its levels as files = [...]";
+            self.fail(place, format!("\"{key}\" is the base of the study"), help);
+            return None;
+        }
         Some(levels)
     }
 
@@ -58,7 +64,7 @@ impl Reader<'_> {
     fn starts(&mut self, place: &str, key: &str, count: u32) -> Option<Vec<String>> {
         let noise = key.strip_suffix(".noise.seed");
         let noise = noise.map(|panel| format!("{panel}.noise.amplitude"));
-        let has = noise.is_some_and(|noise| self.scene.has(&with_brackets(&noise)));
+        let has = noise.is_some_and(|noise| self.own.has(&with_brackets(&noise)));
         if !has {
             let help = "give the panel noise = { amplitude = …, length = … } in the scene, and the \
                         axis key = \"panel.0.noise.seed\"";
@@ -74,17 +80,21 @@ impl Reader<'_> {
         Some((1..=count).map(|seed| seed.to_string()).collect())
     }
 
-    /// Returns a file as the scene names it, a value of TOML.
-    pub(super) fn seen_from_scene(&self, path: &Path) -> Option<String> {
-        let from = std::path::absolute(self.scene.path()).ok()?;
-        let from = from.parent().unwrap_or(Path::new(""));
-        let whole = plain(&std::path::absolute(path).ok()?);
-        let seen = pathdiff::diff_paths(&whole, plain(from)).unwrap_or(whole);
-        Some(toml_string(&seen.to_string_lossy()))
+    /// Returns a file as the base names it, a value of TOML.
+    pub(super) fn seen_from_base(&self, path: &Path) -> Option<String> {
+        seen_from(self.own.path(), path)
     }
 
-    /// Returns the levels of files, as the scene names them: seen from its folder.
-    fn files(&mut self, place: &str, files: &TextOr<Vec<String>>) -> Option<Vec<String>> {
+    /// Returns the levels of files, as the base names them, seen from its folder; of other bases, as
+    /// the study does.
+    fn files(
+        &mut self,
+        place: &str,
+        key: &str,
+        files: &TextOr<Vec<String>>,
+    ) -> Option<Vec<String>> {
+        let place = &format!("{place}.files");
+        let is_base = key == self.base.key();
         let folder = self.document.path().parent().unwrap_or(Path::new(""));
         let paths = match files {
             TextOr::Other(names) => names.iter().map(|name| folder.join(name)).collect(),
@@ -114,10 +124,20 @@ impl Reader<'_> {
                 self.fail(place, message, drape_input::nearest_file(&path));
                 return None;
             }
-            levels.push(self.seen_from_scene(&path)?);
+            let seen_from_study = || seen_from(self.document.path(), &path);
+            levels.push(if is_base { seen_from_study()? } else { self.seen_from_base(&path)? });
         }
         Some(levels)
     }
+}
+
+/// Returns a path as it is seen from the folder of a file, a value of TOML.
+fn seen_from(file: &Path, path: &Path) -> Option<String> {
+    let from = std::path::absolute(file).ok()?;
+    let from = from.parent().unwrap_or(Path::new(""));
+    let whole = plain(&std::path::absolute(path).ok()?);
+    let seen = pathdiff::diff_paths(&whole, plain(from)).unwrap_or(whole);
+    Some(toml_string(&seen.to_string_lossy()))
 }
 
 /// Returns a key with the numbers of elements in brackets, as documents look them up.

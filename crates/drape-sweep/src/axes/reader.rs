@@ -10,14 +10,16 @@ use crate::axes::covariance::{Covariance, CovarianceError};
 use crate::axes::design::Method;
 use crate::axes::range::Range;
 use crate::axes::{Axis, AxisKind, Group};
+use crate::base::Base;
 use crate::file::{CovarianceFile, SampleFile, StudyFile};
 use crate::point::POINTS_MAX;
 
 /// Reader of the axes of a study.
 pub(crate) struct Reader<'a> {
     pub(crate) document: &'a Document,
-    /// Scene with the settings of the study that hold at all points.
-    pub(crate) scene: &'a Document,
+    pub(crate) base: Base,
+    /// File of the base, with the settings of the study that hold at all points.
+    pub(crate) own: &'a Document,
     pub(crate) mistakes: Vec<Diagnostic>,
 }
 
@@ -76,9 +78,9 @@ impl Reader<'_> {
         groups
     }
 
-    /// Checks a key of the scene with a level.
+    /// Checks a key of the base with a level.
     pub(super) fn check_key(&mut self, place: &str, key: &str, level: &str) {
-        let set = Setting::new(key, level).and_then(|setting| self.scene.accepts(&setting));
+        let set = Setting::new(key, level).and_then(|setting| self.own.accepts(&setting));
         if let Err(SettingError { message, help }) = set {
             self.fail(&format!("{place}.key"), message, help);
         }
@@ -138,8 +140,13 @@ impl Reader<'_> {
             self.fail(&format!("{place}.count"), message, format!("write 1 to {POINTS_MAX}"));
             return Vec::new();
         }
+        if self.base != Base::Scene {
+            let help = "take a scene as the base, or a [[sample]] of keys of the fabric";
+            self.fail(place, format!("the base is a {}", self.base.key()), help);
+            return Vec::new();
+        }
         let known: BTreeMap<String, toml::Value> =
-            self.scene.decode::<Fabrics>().map(|scene| scene.fabric).unwrap_or_default();
+            self.own.decode::<Fabrics>().map(|scene| scene.fabric).unwrap_or_default();
         if !known.contains_key(&file.fabric) {
             let names: Vec<&str> = known.keys().map(String::as_str).collect();
             let message = format!("the scene has no fabric \"{}\"", excerpt(&file.fabric));
@@ -172,7 +179,7 @@ impl Reader<'_> {
             }
         };
         let of_scene = format!("fabric.{}", toml_key(&file.fabric));
-        let Some(level) = self.seen_from_scene(fabric.path()) else { return Vec::new() };
+        let Some(level) = self.seen_from_base(fabric.path()) else { return Vec::new() };
         let own = known[&file.fabric].get("file").and_then(|file| file.as_str()).map(toml_string);
         let mut axes = Vec::new();
         if own.as_ref() != Some(&level) {

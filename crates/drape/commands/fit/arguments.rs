@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use drape::fit::{FrictionOrder, Intervals, LoopModel, Settings, TractionModel};
+use drape::input::Setting;
 
 #[derive(Args)]
 pub(crate) struct FitArguments {
@@ -18,6 +19,10 @@ pub(crate) struct FitArguments {
     /// Folder for a report with plots, one HTML page per sheet.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) report: Option<PathBuf>,
+    /// Sets a key of the sheet in place of its value there, such as thickness=0.4; may be given
+    /// several times. The key is a path of names and numbers, the value one of TOML.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<Setting>,
     /// Replaces fabrics that are there already.
     #[arg(long)]
     pub(crate) force: bool,

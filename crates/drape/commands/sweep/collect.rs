@@ -8,7 +8,6 @@ use drape::sweep::{Error, Shard, Study, Table};
 
 use super::study::StudyArguments;
 use crate::failure::Failure;
-use crate::input;
 use crate::pages::sweep::page;
 use crate::say::{say, say_written};
 
@@ -28,7 +27,7 @@ pub(crate) struct SweepCollectArguments {
 pub(crate) fn collect(arguments: &SweepCollectArguments) -> Result<(), Failure> {
     let own = &arguments.study;
     if arguments.join {
-        let study = Study::read(&own.study, input::allowed())?;
+        let study = own.study()?;
         let (table, missing) = joined(&study)?;
         if missing > 0 {
             let study = own.study.display();
@@ -84,6 +83,8 @@ fn joined(study: &Study) -> Result<(Table, usize), Failure> {
 fn write(study: &Study, table: &Table, name: impl std::fmt::Display) -> Result<(), Failure> {
     let path = study.output().join("table.csv");
     file::write(&path, table.to_csv()?)?;
+    #[cfg(feature = "parquet")]
+    file::write(&study.output().join("table.parquet"), table.to_parquet()?)?;
     let outcomes = &table.records[0].cells;
     say_written(format_args!("{} points in {}", outcomes.len(), path.display()))?;
     let not_run = outcomes.iter().filter(|cell| *cell == "not run").count();

@@ -1,8 +1,8 @@
 //! `drape sweep run`: points shared out to jobs.
 
 use std::collections::BTreeSet;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use clap::Args;
@@ -35,6 +35,9 @@ pub(crate) struct SweepRunArguments {
     list: bool,
 }
 
+/// Number of points in a row that could not be run, after which the sweep ends: the machine is bad.
+const FAILED_MAX: usize = 3;
+
 /// Time between two looks for a signal.
 const WATCH: Duration = Duration::from_millis(50);
 
@@ -42,7 +45,7 @@ const WATCH: Duration = Duration::from_millis(50);
 /// where a worker failed, or a signal came.
 pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
     let (study, points) = arguments.study.read(arguments.shard)?;
-    let chosen = choose(arguments, &points)?;
+    let mut chosen = choose(arguments, &points)?;
     if arguments.list {
         return chosen.iter().try_for_each(|point| list(&study, point));
     }
@@ -51,6 +54,11 @@ pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
     if arguments.shard.is_none() {
         write_manifest(&study, &points)?;
     }
+    // Those that could not be run before come last, since they may fail again and end the sweep.
+    chosen.sort_by_cached_key(|point| {
+        let record = Place::new(&study, point).record();
+        record.is_some_and(|record| record.outcome == Outcome::WorkerFailed)
+    });
     let threads = rayon::current_num_threads();
     let jobs = arguments.jobs.map_or(threads, usize::from).min(chosen.len().max(1));
     let sweep = Sweep {
@@ -63,7 +71,7 @@ pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
     };
     let failures = sweep.run(jobs);
     sweep.bar.finish_and_clear();
-    let counts = sweep.counts.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let counts = sweep.counts.into_inner().unwrap_or_else(PoisonError::into_inner);
     say_written(counts.describe(chosen.len()))?;
     if let Some(failure) = failures.into_iter().next() {
         return Err(failure);
@@ -74,10 +82,11 @@ pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
         return Err(Failure::Interrupted { signal, message });
     }
     if counts.workers > 0 {
+        let rest = if counts.in_a_row >= FAILED_MAX { ", and the rest is left" } else { "" };
         let message = format!(
-            "{} points could not be run on this machine, though tried {} times each; try again \
-             with `drape sweep run {place}`",
-            counts.workers, TRIES
+            "{} points could not be run on this machine, though tried {TRIES} times each{rest}; try \
+             again with `drape sweep run {place}`",
+            counts.workers
         );
         return Err(Failure::Output(message));
     }
@@ -147,12 +156,14 @@ struct Counts {
     earlier: usize,
     failed: usize,
     workers: usize,
+    /// Number of points in a row that could not be run.
+    in_a_row: usize,
     elsewhere: usize,
 }
 
 impl Counts {
     fn describe(&self, all: usize) -> String {
-        let Self { done, earlier, failed, workers, elsewhere } = self;
+        let Self { done, earlier, failed, workers, elsewhere, .. } = self;
         let mut text = format!("{all} points: {done} run, {earlier} done before");
         for (count, what) in [
             (failed, "refused or failed"),
@@ -185,7 +196,7 @@ impl Sweep<'_> {
 
     /// Runs one point after the other.
     fn job(&self) -> Result<(), Failure> {
-        while signal::received().is_none() {
+        while signal::received().is_none() && self.counts().in_a_row < FAILED_MAX {
             let Some(point) = self.points.get(self.next.fetch_add(1, Ordering::Relaxed)) else {
                 break;
             };
@@ -195,18 +206,27 @@ impl Sweep<'_> {
         Ok(())
     }
 
+    fn counts(&self) -> MutexGuard<'_, Counts> {
+        self.counts.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn count(&self, point: &Point, ended: &Ended) {
-        let mut counts = self.counts.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut counts = self.counts();
         match ended {
             Ended::Interrupted => return,
             Ended::Elsewhere => counts.elsewhere += 1,
             Ended::Before(Record { outcome: Outcome::JobFailed, .. }) => counts.failed += 1,
             Ended::Before(_) => counts.earlier += 1,
             Ended::Now(record) => {
+                let in_a_row = counts.in_a_row + 1;
+                counts.in_a_row = 0;
                 match record.outcome {
                     Outcome::Done => counts.done += 1,
                     Outcome::JobFailed => counts.failed += 1,
-                    Outcome::WorkerFailed => counts.workers += 1,
+                    Outcome::WorkerFailed => {
+                        counts.workers += 1;
+                        counts.in_a_row = in_a_row;
+                    }
                 }
                 self.tell(point, record);
             }

@@ -14,13 +14,25 @@ pub(crate) struct StudyArguments {
     /// Study, a TOML file.
     #[arg(value_name = "STUDY")]
     pub(crate) study: PathBuf,
+    /// Folder for the results [default: that of the study].
+    #[arg(long, value_name = "FOLDER", overrides_with = "results")]
+    pub(crate) results: Option<PathBuf>,
 }
 
 impl StudyArguments {
     /// Reads the study and its points, or those of a part of it.
     pub(super) fn read(&self, shard: Option<Shard>) -> Result<(Study, Vec<Point>), Failure> {
-        let study = Study::read(&self.study, input::allowed())?;
+        let study = self.study()?;
         let points = study.points(VERSION, shard)?;
         Ok((study, points))
+    }
+
+    /// Reads the study alone.
+    pub(super) fn study(&self) -> Result<Study, Failure> {
+        let study = Study::read(&self.study, input::allowed())?;
+        Ok(match &self.results {
+            Some(folder) => study.with_output(folder.clone()),
+            None => study,
+        })
     }
 }

@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::os::unix::process::ExitStatusExt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use drape::sweep::{Outcome, Place, Point, Record, Study};
+use drape::sweep::{Base, Error, Outcome, Place, Point, Record, Study};
 use rustix::io::Errno;
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
 
@@ -108,30 +108,59 @@ impl<'a> Worker<'a> {
 
     /// Runs the process of a point once, from its checkpoint if there is one.
     fn attempt(&self, place: &Place, point: &Point) -> Result<Exit, Failure> {
+        if self.study.base() != Base::Scene {
+            return self.report(place, point);
+        }
         if place.is_finished() {
             return Ok(Exit { code: Some(0), message: String::new() });
         }
         if place.is_begun() {
-            let exit = self.process(place, |command| {
-                command.arg("resume").arg(place.folder());
+            let exit = self.process(place, Stdio::null(), |command| {
+                command.arg("resume").arg(place.folder()).arg("--no-picture");
             })?;
             // A checkpoint of another program, or of which nothing is left, is of no use.
             if !matches!(exit.code, Some(2 | 3)) {
                 return Ok(exit);
             }
         }
-        self.process(place, |command| {
-            command.arg("run").arg(self.study.scene()).arg("-o").arg(place.folder()).arg("--force");
-            for setting in &point.settings {
-                command.arg("--set").arg(setting.to_string());
-            }
+        self.process(place, Stdio::null(), |command| {
+            command.arg("run").arg(&point.file).arg("-o").arg(place.folder());
+            command.args(["--force", "--no-picture"]);
+            set(command, point);
         })
+    }
+
+    /// Runs the process of a fit or of a test once; what it prints becomes the summary.
+    fn report(&self, place: &Place, point: &Point) -> Result<Exit, Failure> {
+        let folder = place.folder();
+        let failed = |what: &'static str, path: &Path| {
+            let path = path.to_owned();
+            move |source| Failure::from(Error::Io { what, path, source })
+        };
+        std::fs::create_dir_all(folder).map_err(failed("create", folder))?;
+        let path = folder.join("report.json");
+        let file = File::create(&path).map_err(failed("write", &path))?;
+        let exit = self.process(place, file.into(), |command| {
+            command.arg(self.study.base().key()).arg(&point.file).arg("--json");
+            if self.study.base() == Base::Fit {
+                command.arg("-o").arg(folder.join("fabric.toml")).arg("--force");
+            }
+            command.args(self.study.options());
+            set(command, point);
+        })?;
+        if exit.code == Some(0) {
+            let text = std::fs::read(&path).map_err(failed("read", &path))?;
+            place.summarise(&text)?;
+        }
+        std::fs::remove_file(&path).map_err(failed("remove", &path))?;
+        Ok(exit)
     }
 
     /// Runs a process of this program to its end.
     fn process(
         &self,
         place: &Place,
+        output: Stdio,
         arguments: impl FnOnce(&mut Command),
     ) -> Result<Exit, Failure> {
         let log = place.log();
@@ -142,12 +171,12 @@ impl<'a> Worker<'a> {
             .map_err(|error| failed(&format!("write {}", log.display()), &error))?;
         let mut command = Command::new(&self.program);
         arguments(&mut command);
-        command.args(["--no-picture", "--quiet", "--progress", "none", "--threads"]);
+        command.args(["--quiet", "--progress", "none", "--threads"]);
         command.arg(self.threads.to_string());
         for path in input::allowed() {
             command.arg("--allow-path").arg(path);
         }
-        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(file);
+        command.stdin(Stdio::null()).stdout(output).stderr(file);
         // No process starts after the others were ended.
         let mut running = self.running();
         if let Some(signal) = signal::received() {
@@ -182,6 +211,13 @@ impl<'a> Worker<'a> {
 
     fn running(&self) -> MutexGuard<'_, BTreeSet<i32>> {
         self.running.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Adds the values of a point to a command.
+fn set(command: &mut Command, point: &Point) {
+    for setting in &point.settings {
+        command.arg("--set").arg(setting.to_string());
     }
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use drape::input::Setting;
 
 #[derive(Args)]
 pub(crate) struct TestArguments {
@@ -23,6 +24,10 @@ pub(crate) struct TestArguments {
     /// Specimens to drape, each from another start.
     #[arg(long, value_name = "N", default_value_t = 10, requires = "drape")]
     pub(crate) starts: u64,
+    /// Sets a key of the fabric or sheet in place of its value there, such as density=0.12; may be
+    /// given several times. The key is a path of names and numbers, the value one of TOML.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<Setting>,
     /// Folder for a page with the loops overlaid.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) report: Option<PathBuf>,
