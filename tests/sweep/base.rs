@@ -121,6 +121,20 @@ fn mistakes_of_bases_have_remedies_that_help() {
 }
 
 #[test]
+fn a_base_elsewhere_is_allowed_first() {
+    let bench = Bench::new("");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fabrics");
+    bench.write_whole(&format!(
+        "test = \"plain.toml\"\n[[axis]]\nkey = \"test\"\nfiles = {:?}\n",
+        folder.join("plain-*.toml")
+    ));
+    let plan = ["sweep", "plan", "study.toml"];
+    let (_, messages) = bench.ran(&plan, 3);
+    let option = messages.split_once("--allow-path ").unwrap().1.split_whitespace().next();
+    bench.ran(&[&plan[..], &["--allow-path", option.unwrap()]].concat(), 0);
+}
+
+#[test]
 fn a_machine_on_which_nothing_runs_ends_the_sweep_and_fails_few_points() {
     let bench = Bench::new("[[axis]]\nkey = \"panel.0.noise.seed\"\nstarts = 8\n");
     // Files where folders must be: no run can write its results.

@@ -124,6 +124,10 @@ impl Reader<'_> {
                 self.fail(place, message, drape_input::nearest_file(&path));
                 return None;
             }
+            if is_base && let Err(misplaced) = self.document.permit(&path) {
+                self.fail(place, misplaced.to_string(), misplaced.help());
+                return None;
+            }
             let seen_from_study = || seen_from(self.document.path(), &path);
             levels.push(if is_base { seen_from_study()? } else { self.seen_from_base(&path)? });
         }
