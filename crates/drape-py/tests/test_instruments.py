@@ -35,8 +35,10 @@ def test_a_fabric_drapes(root):
     assert 0 < found["coefficient"] < 1 and found["coefficients"].shape == (2,)
 
 
+# A shell starts what runs in its background with SIGINT ignored, which Python leaves so.
 INTERRUPTED = """
-import sys, threading, drape
+import signal, sys, drape
+signal.signal(signal.SIGINT, signal.default_int_handler)
 fabric = drape.fit(sys.argv[1]).fabric
 print("running", flush=True)
 try:
