@@ -103,8 +103,10 @@ def test_results_are_replaced_only_where_that_is_allowed(towel, tmp_path):
         scene.run(threads=0)
 
 
+# A shell starts what runs in its background with SIGINT ignored, which Python leaves so.
 INTERRUPTED = """
-import sys, drape
+import signal, sys, drape
+signal.signal(signal.SIGINT, signal.default_int_handler)
 scene = drape.Scene.read(sys.argv[1])
 def told(step):
     if step.time > 0.02:
