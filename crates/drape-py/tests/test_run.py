@@ -196,3 +196,8 @@ def test_a_run_is_viewed(towel, tmp_path):
     view.save(tmp_path / "view.html")
     with pytest.raises(drape.UsageError, match="output="):
         drape.view()
+
+
+def test_the_package_has_the_version_of_the_command(command):
+    said = subprocess.run([command, "--version"], check=True, capture_output=True, text=True).stdout
+    assert said.split()[-1] == drape.__version__

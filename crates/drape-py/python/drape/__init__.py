@@ -5,6 +5,8 @@ Fabrics are fitted to the curves of a laboratory (`fit`), scenes are read (`Scen
 in SI; y is up.
 """
 
+from importlib.metadata import version as _version
+
 from ._builder import SceneBuilder
 from ._errors import (
     Error,
@@ -65,3 +67,5 @@ __all__ = [
     "validate",
     "view",
 ]
+
+__version__ = _version("drape-sim")
