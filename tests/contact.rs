@@ -70,8 +70,9 @@ fn keeps_apart(name: &str, seed: u64, until: f64, threads: usize) -> Value {
     let contact = &summary["contact"];
     assert_eq!(contact["intersections"], 0, "{name}, start {seed}");
     assert_eq!(contact["crossings_found"], 0, "{name}, start {seed}");
-    // Relaxation has to meet its residual at rest only, and before that the energy left to gain.
-    let (tolerance, share) = if settles { (1.0, 3e-3) } else { (1e-4, 0.0) };
+    // Relaxation has to meet its residual at rest only, and before that the energy left to gain. Of
+    // other steps it bounds what their own error lets them leave.
+    let (tolerance, share) = if settles { (1.0, 3e-3) } else { (1e-2, 0.0) };
     let solver = &summary["solver"];
     let [residual, left] =
         ["residual_max", "energy_left_max"].map(|key| solver[key].as_f64().expect("a number"));

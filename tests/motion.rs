@@ -77,3 +77,34 @@ fn cloth_that_is_stretched_beyond_its_measurements_gets_a_warning() {
         assert!(!warnings.contains("shear"), "{warnings}");
     }
 }
+
+/// Root-mean-square distance of two lists of positions, in m.
+fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    let square =
+        |(a, b): (&[f64; 3], &[f64; 3])| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>();
+    (a.iter().zip(b).map(square).sum::<f64>() / a.len() as f64).sqrt()
+}
+
+#[test]
+fn the_solver_errs_a_tenth_of_what_the_steps_do() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let swing = |solver: &str| {
+        let scene = format!(
+            "spacing = 0.04\nair.density = 0\nfabric.plain.file = \"plain.toml\"\n{solver}\n\
+             [contact]\nsurfaces = false\n[[panel]]\nname = \"sheet\"\nfabric = \"plain\"\n\
+             rectangle = [1, 1]\nturn = [-90, 0, 0]\n[[pin]]\npanel = \"sheet\"\n\
+             points = [[0, 1], [1, 1]]\n[time]\nstep = {}\nend = 0.3\n[output]\nevery = 0.3\n",
+            if solver.contains("1e-6") { 0.001 } else { 0.005 },
+        );
+        let folder = folder.path().join(solver.len().to_string());
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let (summary, [_, end]) = run(&folder, &scene, FABRIC);
+        (summary["solver"]["tangents"].as_u64().expect("a number"), end)
+    };
+    let (most, exact) = swing("solver.error_fraction = 0");
+    let (_, short) = swing("solver = { error_fraction = 0, tolerance = 1e-6 }");
+    let (fewer, usual) = swing("");
+    let [step, solver] = [&short, &usual].map(|end| distance(end, &exact));
+    assert!(solver < 0.1 * step, "{solver:e} m beside {step:e} m");
+    assert!(4 * fewer < 3 * most, "{fewer} tangents instead of {most}");
+}

@@ -98,12 +98,12 @@ pub struct Settings {
     /// Error that the solver may leave in a step, as a fraction of the step's own. Default 0, which
     /// leaves only the tolerance.
     ///
-    /// A step has also converged when a Newton step predicted a decrease of the energy, half its
-    /// decrement `−pᵀφ`, of at most `½ Σ m |θ e|²/(β dt)²`, with this fraction `θ` and the error
-    /// `e` of the step as [`ErrorEstimate`](crate::ErrorEstimate) finds it, and has left a residual
-    /// of at most a tenth of `acceleration · √Σm²`. The energy bounds the displacements of the Newton
-    /// step, also where stiff forces are left unbalanced. The error that is left is smaller by the
-    /// contraction of that step.
+    /// A step has also converged when a Newton or Broyden step predicted a decrease of the energy,
+    /// half its decrement `−pᵀφ`, of at most `½ Σ m |θ e|²/(β dt)²`, with this fraction `θ` and the
+    /// error `e` of the step as [`ErrorEstimate`](crate::ErrorEstimate) finds it, and has left a
+    /// residual of at most `acceleration · √Σm²`, with a step filter a hundredth of it. The energy
+    /// bounds the displacements of that step, also where stiff forces are left unbalanced. The error
+    /// that is left is smaller by its contraction.
     pub error_fraction: f64,
     /// Acceleration that the tolerance refers to, in m/s². Default 9.81, that of gravity; a system
     /// without weight sets the one that matters to it.
@@ -124,6 +124,13 @@ pub struct Settings {
     /// iterations of conjugate gradients, and one matrix costs as much as ten to fifteen of these;
     /// from 0.01 to 0.001 the cost is flat within a tenth.
     pub newton_forcing: f64,
+    /// Energy that the last two iterations of conjugate gradients gain when they end, as a fraction
+    /// of all that they have gained. Default 0, which leaves their end to the forcing terms.
+    ///
+    /// With conjugate gradients the gains are the squares of the changes of the solution in the norm
+    /// of the matrix, and while they fall the last ones tell what is left. Stiff forces that hardly move
+    /// anything do not count, as they do in the residual. For steps whose end is told by energies.
+    pub energy_forcing: f64,
     /// Iterations of conjugate gradients after which the direction found so far is taken. Default
     /// 2000.
     pub max_linear_iterations: usize,
@@ -157,6 +164,7 @@ impl Default for Settings {
             iterations_per_matrix: 3,
             broyden_forcing: 0.03,
             newton_forcing: 0.01,
+            energy_forcing: 0.0,
             max_linear_iterations: 2000,
             begin_at_prediction: false,
             energy_balance: false,
@@ -213,6 +221,12 @@ impl Settings {
                 self.newton_forcing,
                 fraction(self.newton_forcing),
                 "between 0 and 1",
+            ),
+            (
+                "energy_forcing",
+                self.energy_forcing,
+                (0.0..1.0).contains(&self.energy_forcing),
+                "at least 0 and below 1",
             ),
             (
                 "max_linear_iterations",

@@ -5,7 +5,7 @@ use drape_scene::Relaxation;
 use serde::{Deserialize, Serialize};
 
 use crate::sewing::closing_springs;
-use crate::stepping::scheme::Scheme;
+use crate::stepping::scheme::{ENERGY_FORCING, Scheme};
 
 /// Fraction of the imbalance of a relaxing cloth to which its next step is solved: the forces that
 /// drive the cloth are then known to some per cent. Steps solved better cost more and lead to the
@@ -24,11 +24,6 @@ const ENERGY: f64 = 3e-3;
 
 /// Multiple of the imbalance at rest below which steps leave no energy to be gained.
 const NEAR_REST: f64 = 2.0;
-
-/// Linear residual relative to the nonlinear one at which the linear solver of a step of relaxation
-/// stops: with so loose a tolerance a better direction is wasted. From 0.003 to 0.03 the time fell
-/// by a third.
-const FORCING: f64 = 0.03;
 
 /// Accuracy of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -104,7 +99,7 @@ pub(crate) fn relaxation_scheme(settings: &Settings, accuracy: Accuracy) -> Sche
         tolerance: accuracy.tolerance,
         energy_tolerance: accuracy.energy,
         error_fraction: 0.0,
-        newton_forcing: FORCING,
+        energy_forcing: ENERGY_FORCING,
         integrator: Integrator::BackwardEuler,
         begin_at_prediction: true,
         ..settings.clone()

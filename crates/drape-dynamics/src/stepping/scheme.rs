@@ -11,10 +11,11 @@ use drape_scene::SolverSettings;
 /// swing.
 const ENERGY_SAMPLING: u64 = 32;
 
-/// Linear residual relative to the nonlinear one at which the linear solver stops where the error of
-/// the step decides on the accuracy. With the solver's own 0.01 the swing of 2 500 particles took
-/// 4 156 iterations of conjugate gradients instead of 3 094, and as many tangents.
-const FORCING: f64 = 0.03;
+/// Energy that the last two iterations of conjugate gradients gain when they end, as a fraction of
+/// all, where energies decide on the end of a step. With residuals at 0.03 of the nonlinear ones a
+/// curtain of 40 000 particles took 14.1 instead of 10.8 s, a T-shirt 62 instead of 52 and a skirt
+/// 70 instead of 58.
+pub(crate) const ENERGY_FORCING: f64 = 0.01;
 
 /// Scheme by which a scene is integrated in time.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,11 +54,7 @@ impl Scheme {
             linear_solver,
             tolerance: solver.tolerance,
             error_fraction: solver.error_fraction,
-            newton_forcing: if solver.error_fraction > 0.0 {
-                FORCING
-            } else {
-                exact.newton_forcing
-            },
+            energy_forcing: if solver.error_fraction > 0.0 { ENERGY_FORCING } else { 0.0 },
             energy_balance: solver.energy_balance,
             energy_sampling: ENERGY_SAMPLING,
             ..exact

@@ -56,7 +56,7 @@ fn block() -> (Triangulation, [f64; 3]) {
 fn scene(folder: &Path, motion: &str) -> String {
     let file = folder.join("block.obj");
     format!(
-        "air.density = 0.0\ncontact.surfaces = true\n[time]\nstep = 0.002\nend = 0.1\n\
+        "air.density = 0.0\ncontact.surfaces = true\nsolver.tolerance = 1e-4\n[time]\nstep = 0.002\nend = 0.1\n\
          [[collider.mesh]]\nfile = {:?}\nfriction = 0.3\n{motion}",
         file.display().to_string()
     )

@@ -28,6 +28,15 @@ pub(crate) struct Outcome {
     pub ending: Ending,
 }
 
+/// Accuracy at which a solve ends: as soon as one of two is met.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Target {
+    /// Norm of the residual.
+    pub residual: f64,
+    /// Energy that the last two iterations gained, as a fraction of all that was gained.
+    pub energy: f64,
+}
+
 /// Matrix and the factor that preconditions it.
 pub(crate) struct Preconditioned<'a> {
     pub layout: &'a BatchLayout,
@@ -51,8 +60,12 @@ impl ConjugateGradient {
         Self { solution: zeros(), residual: zeros(), direction: zeros(), product: zeros() }
     }
 
-    /// Solves `A x = b` from `x = 0` until `‖b − A x‖₂ ≤ target`, in at least one iteration. `x`
-    /// holds `b ≠ 0` on entry.
+    /// Solves `A x = b` from `x = 0` to a target, in at least one iteration. `x` holds `b ≠ 0` on
+    /// entry.
+    ///
+    /// An iteration lowers the energy `½ xᵀA x − bᵀx` by half the square of the change of `x` in the
+    /// norm of `A`, and the sum of all gains to come is the square of the error \[HS52\]. While they
+    /// fall, the last gains tell it.
     ///
     /// At negative curvature the solution so far is kept if its residual is smaller than that of
     /// zero \[DS83\]. Beginning again with a definite matrix took a third more iterations on a
@@ -64,7 +77,7 @@ impl ConjugateGradient {
         &mut self,
         system: Preconditioned<'_>,
         x: &mut [f64],
-        target: f64,
+        target: Target,
         limit: usize,
     ) -> Outcome {
         let row_of = &system.layout.order.row_of;
@@ -91,7 +104,7 @@ impl ConjugateGradient {
     /// as rarely as the method allows: the preconditioned residual stays where the preconditioner
     /// leaves it.
     #[inline(always)]
-    fn iterate(&mut self, system: Preconditioned<'_>, target: f64, limit: usize) -> Outcome {
+    fn iterate(&mut self, system: Preconditioned<'_>, target: Target, limit: usize) -> Outcome {
         let Preconditioned { layout, matrix, factor } = system;
         let Self { solution, residual, direction, product } = self;
         // Keeps the numbers of the preconditioner in the range of single precision.
@@ -112,6 +125,8 @@ impl ConjugateGradient {
             weight += dot_scaled(&residual.0[axis], image, scale);
             update_direction(&mut direction.0[axis], 0.0, image, scale);
         }
+        let mut gained = 0.0;
+        let mut last_gain = f64::INFINITY;
         for iteration in 1..=limit {
             matrix.add_product(layout, direction, product);
             let mut curvature = 0.0;
@@ -137,7 +152,11 @@ impl ConjugateGradient {
             for (x, direction) in solution.0.iter_mut().zip(&direction.0) {
                 add_scaled(x, step, direction);
             }
-            if length <= target {
+            let gain = step * weight;
+            gained += gain;
+            let recent = last_gain + gain;
+            last_gain = gain;
+            if length <= target.residual || recent <= target.energy * gained {
                 return Outcome { iterations: iteration, ending: Ending::Converged };
             }
             factor.apply(layout);
@@ -228,6 +247,20 @@ mod tests {
         matrix
     }
 
+    /// Solution for a right side that is one on each axis.
+    fn solve_to(matrix: &BlockMatrix, target: Target) -> Vec<f64> {
+        let schedule = LevelSchedule::new(matrix.sparsity());
+        let layout = &schedule.layout;
+        let mut packed = PackedMatrix::new(layout);
+        let mut factor = IncompleteCholesky::new(layout);
+        factor.factorise(&schedule, matrix, &mut packed).unwrap();
+        let mut x = vec![1.0; 3 * matrix.sparsity().particles()];
+        let system = Preconditioned { layout, matrix: &packed, factor: &mut factor };
+        let ending = ConjugateGradient::new(layout).solve(system, &mut x, target, 500).ending;
+        assert_eq!(ending, Ending::Converged);
+        x
+    }
+
     /// With a right side that is a sine of this many radians from one number to the next.
     fn solve(matrix: &BlockMatrix, phase: f64, limit: usize) -> (f64, usize, Ending) {
         let size = 3 * matrix.sparsity().particles();
@@ -239,7 +272,7 @@ mod tests {
         factor.factorise(&schedule, matrix, &mut packed).unwrap();
         let mut x = b.clone();
         let mut back = vec![0.0; size];
-        let target = 1e-10 * norm(&b);
+        let target = Target { residual: 1e-10 * norm(&b), energy: 0.0 };
         let mut gradient = ConjugateGradient::new(layout);
         let system = Preconditioned { layout, matrix: &packed, factor: &mut factor };
         let Outcome { iterations, ending } = gradient.solve(system, &mut x, target, limit);
@@ -272,5 +305,22 @@ mod tests {
         let (residual, iterations, truncated) = solve(&grid(20, 1e-3), 0.37, 5);
         assert_eq!((iterations, truncated), (5, Ending::Truncated));
         assert!(residual > 1e-10, "{residual:e}");
+    }
+
+    #[test]
+    fn energies_gained_tell_the_error_that_is_left() {
+        let matrix = grid(40, 1e-3);
+        let exact = solve_to(&matrix, Target { residual: 1e-12, energy: 0.0 });
+        let energy = |x: &[f64]| {
+            let mut image = vec![0.0; x.len()];
+            matrix.multiply(x, &mut image);
+            dot(x, &image)
+        };
+        for fraction in [0.1, 0.01, 1e-4] {
+            let mut error = solve_to(&matrix, Target { residual: 0.0, energy: fraction });
+            add_scaled(&mut error, -1.0, &exact);
+            let left = energy(&error) / energy(&exact);
+            assert!(left < fraction && left > 1e-3 * fraction, "{left:e} of {fraction:e}");
+        }
     }
 }

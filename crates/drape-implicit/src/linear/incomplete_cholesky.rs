@@ -77,10 +77,10 @@ impl IncompleteCholesky {
 
     /// Packs a matrix and factorises it. Returns the number of attempts that failed.
     ///
-    /// Begins with the attempt that succeeded last, or with the one before it if that succeeded at
-    /// once; but until [`forget`](Self::forget) the very first is not tried again after it has
-    /// failed. With the one before tried each time, the first was tried in vain for almost every
-    /// matrix of a cloth that comes to rest, and for half of those of a swing.
+    /// Begins with the attempt that succeeded last or, if that succeeded at once, with the second; but
+    /// until [`forget`](Self::forget) the very first is not tried again after it has failed. Tried
+    /// each time, it failed for almost every matrix of a cloth that comes to rest, and for half of
+    /// those of a swing.
     #[inline(always)]
     pub(crate) fn factorise(
         &mut self,
@@ -97,8 +97,7 @@ impl IncompleteCholesky {
         let first = self.first_attempt;
         for (failed, attempt) in ATTEMPTS[first..].iter().enumerate() {
             if self.elimination.eliminate(schedule, packed, *attempt, &mut self.factor) {
-                self.first_attempt =
-                    if failed == 0 && first > 1 { first - 1 } else { first + failed };
+                self.first_attempt = if failed == 0 { first.min(1) } else { first + failed };
                 return Ok(failed);
             }
         }

@@ -5,7 +5,9 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::error::Error;
 use crate::linear::block_matrix::{BlockMatrix, NotDefinite};
 use crate::linear::cholesky::Cholesky;
-use crate::linear::conjugate_gradient::{ConjugateGradient, Ending, Outcome, Preconditioned};
+use crate::linear::conjugate_gradient::{
+    ConjugateGradient, Ending, Outcome, Preconditioned, Target,
+};
 use crate::linear::incomplete_cholesky::IncompleteCholesky;
 use crate::linear::level_schedule::LevelSchedule;
 use crate::linear::packed_matrix::PackedMatrix;
@@ -68,13 +70,12 @@ impl SystemMatrix {
         Ok(())
     }
 
-    /// Solves `A x = b` to a residual of at most `target` (conjugate gradients) or to rounding
-    /// (Cholesky). Returns whether the target was met.
+    /// Solves `A x = b` to a target (conjugate gradients) or to rounding (Cholesky). Returns whether the target was met.
     pub(crate) fn solve(
         &mut self,
         b: &[f64],
         x: &mut [f64],
-        target: f64,
+        target: Target,
         report: &mut Report,
     ) -> Result<bool, NotDefinite> {
         report.linear_solves += 1;
@@ -157,7 +158,7 @@ impl WithSimd for Factorise<'_> {
 struct Solve<'a> {
     iterative: &'a mut Iterative,
     x: &'a mut [f64],
-    target: f64,
+    target: Target,
     limit: usize,
 }
 
@@ -191,7 +192,8 @@ mod tests {
             let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity()) };
             arch.dispatch(Factorise { iterative: &mut iterative, matrix: &matrix }).unwrap();
             let mut x: Vec<f64> = (0..1200).map(|k| (k as f64).sin()).collect();
-            let solve = Solve { iterative: &mut iterative, x: &mut x, target: 1e-9, limit: 100 };
+            let target = Target { residual: 1e-9, energy: 0.0 };
+            let solve = Solve { iterative: &mut iterative, x: &mut x, target, limit: 100 };
             let Outcome { iterations, ending } = arch.dispatch(solve);
             assert_eq!(ending, Ending::Converged);
             (iterations, x)

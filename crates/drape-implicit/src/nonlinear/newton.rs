@@ -7,6 +7,7 @@ use super::line_search::energy_search;
 use super::search::Search;
 use super::start_point::advance_obstacles;
 use crate::error::Quantity;
+use crate::linear::conjugate_gradient::Target;
 use crate::linear::system_matrix::SystemMatrix;
 use crate::linear::vector::dot;
 use crate::report::Stop;
@@ -58,11 +59,22 @@ const LINEAR_FRACTION: f64 = 0.3;
 const MAX_UNBALANCE: f64 = 100.0;
 
 /// Largest residual of a step that ends because its own error is larger than that of the solver, as a
-/// fraction of the unit of residuals. With a bound of 1 a swing took 807 tangents instead of 879.
-const ROUGH_RESIDUAL: f64 = 0.1;
+/// fraction of the unit of residuals. With a tenth of it a swing took 407 matrices instead of 380.
+const ROUGH_RESIDUAL: f64 = 1.0;
 
-/// Newton step that was taken.
-struct NewtonStep {
+/// Same where a step filter keeps surfaces apart. From 1 to this the time of six scenes in contact
+/// was flat within a twentieth.
+const ROUGH_RESIDUAL_APART: f64 = 0.01;
+
+/// Decrease of the energy that a Newton step predicted, as a multiple of the negligible energy, at or
+/// below which its matrix is kept where the error of the step decides on the accuracy: an error
+/// some thirty times as large as what may be left. A Broyden step then costs half as much as
+/// another matrix, and is the last one of most steps. With a tenth of the multiple a swing took 378
+/// matrices instead of 298.
+const REFINED_DECREASE: f64 = 1e3;
+
+/// Newton or Broyden step that was taken.
+struct StepTaken {
     /// Whether its length was 1, with nothing limited.
     whole: bool,
     /// Decrease of the energy that it predicted, in J; infinite if it was not solved for.
@@ -126,7 +138,7 @@ impl Newton {
             }
             let before = search.current.norm;
             self.least_residual = self.least_residual.min(before);
-            let NewtonStep { whole, predicted_decrease } =
+            let StepTaken { whole, predicted_decrease } =
                 self.newton_step(search, equations, settings)?;
             if settings.energy_tolerance > 0.0
                 && may_end(&search.current, MAX_UNBALANCE * equations.limit)
@@ -137,22 +149,28 @@ impl Newton {
                     break;
                 }
             }
-            let rough = settings.error_fraction > 0.0
-                && may_end(&search.current, ROUGH_RESIDUAL * equations.unit);
-            if rough && predicted_decrease <= equations.negligible_energy(&search.current) {
+            let mut rough = roughness(&search.current, equations, predicted_decrease);
+            if rough <= 1.0 {
                 break;
             }
             self.updates.forget();
             let contraction = search.current.norm / before;
             let expected = search.current.norm * contraction.max(EXPECTED_CONTRACTION);
-            let mut trusted = whole
-                && search.current.obstacle_time == 1.0
-                && contraction <= TRUSTED_CONTRACTION
-                && expected <= TRUST_MULTIPLE * equations.limit;
+            let refined = contraction <= 1.0 && rough <= REFINED_DECREASE;
+            let converges =
+                contraction <= TRUSTED_CONTRACTION && expected <= TRUST_MULTIPLE * equations.limit;
+            let mut trusted =
+                whole && search.current.obstacle_time == 1.0 && (refined || converges);
             let mut left = iterations_per_matrix(settings) - 1;
             while trusted && left > 0 && !search.current.solves(equations.limit) {
                 search.count_iteration(equations, settings.max_iterations)?;
-                trusted = self.broyden_step(search, equations, settings.broyden_forcing);
+                let before = search.current.norm;
+                let Some(step) = self.broyden_step(search, equations, settings) else { break };
+                rough = roughness(&search.current, equations, step.predicted_decrease);
+                if rough <= 1.0 {
+                    return Ok(());
+                }
+                trusted = step.whole && search.current.norm <= SLOW_CONTRACTION * before;
                 left -= 1;
             }
         }
@@ -169,7 +187,7 @@ impl Newton {
         search: &mut Search,
         equations: &mut StepEquations<'_, '_>,
         settings: &Settings,
-    ) -> Result<NewtonStep, Halt> {
+    ) -> Result<StepTaken, Halt> {
         let mut stop = Stop::Indefinite;
         let kinds: &[Stiffness] = match self.skips_left {
             0 => &[Stiffness::Exact, Stiffness::Definite],
@@ -178,7 +196,7 @@ impl Newton {
         self.skips_left = self.skips_left.saturating_sub(1);
         for &kind in kinds {
             equations.assemble(&search.current, kind, &mut self.matrix)?;
-            let direction = self.newton_direction(search, equations, settings.newton_forcing);
+            let direction = self.newton_direction(search, equations, settings);
             let Some(NewtonDirection { mut slope, solved }) = direction else {
                 if let Some(particle) = self.first_not_finite() {
                     return Err(Halt::NotFinite { quantity: Quantity::Stiffness, particle });
@@ -202,7 +220,7 @@ impl Newton {
                     (Stiffness::Exact, false) if length <= SHORT_STEP => self.skip_exact(settings),
                     _ => {}
                 }
-                return Ok(NewtonStep { whole: whole && length == 1.0, predicted_decrease });
+                return Ok(StepTaken { whole: whole && length == 1.0, predicted_decrease });
             }
         }
         Err(Halt::Stop(stop))
@@ -221,10 +239,10 @@ impl Newton {
         &mut self,
         search: &mut Search,
         equations: &mut StepEquations<'_, '_>,
-        forcing: f64,
+        settings: &Settings,
     ) -> Option<NewtonDirection> {
         self.matrix.factorise(equations.report).ok()?;
-        let target = linear_target(&search.current, forcing, equations.limit);
+        let target = linear_target(&search.current, settings, settings.newton_forcing, equations);
         let Search { current, direction, .. } = search;
         let solved =
             self.matrix.solve(&current.residual, direction, target, equations.report).ok()?;
@@ -235,29 +253,28 @@ impl Newton {
         (slope < 0.0).then_some(NewtonDirection { slope, solved })
     }
 
-    /// Takes one step with the updated inverse of the kept matrix if the residual falls. Returns
-    /// whether the matrix is worth keeping.
+    /// Takes one step with the updated inverse of the kept matrix if the residual falls; `None` if
+    /// there is no direction.
     fn broyden_step(
         &mut self,
         search: &mut Search,
         equations: &mut StepEquations<'_, '_>,
-        forcing: f64,
-    ) -> bool {
-        let target = linear_target(&search.current, forcing, equations.limit);
+        settings: &Settings,
+    ) -> Option<StepTaken> {
+        let target = linear_target(&search.current, settings, settings.broyden_forcing, equations);
         let Search { current, image, .. } = search;
-        if self.matrix.solve(&current.residual, image, target, equations.report).is_err() {
-            return false;
-        }
+        self.matrix.solve(&current.residual, image, target, equations.report).ok()?;
         if !self.updates.next_direction(search, 1.0, CURVATURE_FLOOR) {
-            return false;
+            return None;
         }
-        let before = search.current.norm;
+        let predicted_decrease = -0.5 * dot(&search.direction, &search.current.residual);
         let whole = search.limit_direction(equations);
         search.try_step(equations, 1.0);
-        if search.trial.norm < before {
+        let falls = search.trial.norm < search.current.norm;
+        if falls {
             search.accept_trial();
         }
-        whole && search.current.norm <= SLOW_CONTRACTION * before
+        Some(StepTaken { whole: whole && falls, predicted_decrease })
     }
 
     /// Particle of the first row of the matrix with an entry that is not finite.
@@ -280,8 +297,28 @@ fn may_end(iterate: &Iterate, residual_max: f64) -> bool {
     iterate.obstacle_time == 1.0 && iterate.solves(residual_max)
 }
 
-/// Residual to which a linear system is worth solving: relative to the nonlinear residual, but not
-/// beyond what convergence needs.
-fn linear_target(iterate: &Iterate, forcing: f64, limit: f64) -> f64 {
-    (forcing * iterate.norm).max(LINEAR_FRACTION * limit)
+/// Decrease of the energy that the last step predicted, as a multiple of the negligible energy;
+/// infinite unless the error of the step decides on the accuracy, and may end it.
+fn roughness(iterate: &Iterate, equations: &StepEquations<'_, '_>, decrease: f64) -> f64 {
+    let apart = equations.system.is_filtered();
+    let residual_max = if apart { ROUGH_RESIDUAL_APART } else { ROUGH_RESIDUAL };
+    if equations.error_fraction > 0.0 && may_end(iterate, residual_max * equations.unit) {
+        decrease / equations.negligible_energy(iterate)
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// Accuracy to which a linear system is worth solving: relative to the nonlinear residual, or by the
+/// energy alone, but not beyond what convergence needs.
+fn linear_target(
+    iterate: &Iterate,
+    settings: &Settings,
+    forcing: f64,
+    equations: &StepEquations<'_, '_>,
+) -> Target {
+    let enough = LINEAR_FRACTION * equations.limit;
+    let energy = settings.energy_forcing;
+    let residual = if energy > 0.0 { enough } else { enough.max(forcing * iterate.norm) };
+    Target { residual, energy }
 }

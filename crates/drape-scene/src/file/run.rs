@@ -86,9 +86,9 @@ pub(crate) struct SolverFile {
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(1e-10, 0.1)))]
     pub(crate) tolerance: Option<f64>,
     /// Error that the solver may leave in a step, as a fraction of the step's own error in time; a
-    /// step is then solved as soon as this or the tolerance is met. 0 leaves the tolerance alone;
-    /// 0.2 moves the cloth by less than a tenth of what the step itself loses.
-    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
+    /// step is solved as soon as this or the tolerance is met. 0 leaves the tolerance alone, and is
+    /// the default where a tolerance is given. Steps of relaxation have their own accuracy.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 0.2)))]
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.0, 1.0)))]
     pub(crate) error_fraction: Option<f64>,
 }
