@@ -1,7 +1,8 @@
 """Slurm: a controller and two daemons on this machine, as root, with the packages `slurm-wlm` and
-`munge` of Debian."""
+`munge` of Debian. The queue is full when the array is submitted."""
 
 import os
+import re
 import shutil
 import socket
 import subprocess
@@ -29,6 +30,7 @@ SlurmdSpoolDir={folder}/spool-%n
 StateSaveLocation={folder}/state
 MaxArraySize=1001
 MaxJobCount={most}
+MinJobAge=2
 NodeName=node1 NodeHostname={host} NodeAddr=127.0.0.1 Port=16821 CPUs=1 RealMemory=1000
 NodeName=node2 NodeHostname={host} NodeAddr=127.0.0.1 Port=16822 CPUs=1 RealMemory=1000
 PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP
@@ -45,7 +47,9 @@ class Slurm:
         (self.folder / "state").mkdir(parents=True)
         for node in ["node1", "node2"]:
             (self.folder / f"spool-{node}").mkdir()
-        text = CONFIGURATION.format(host=socket.gethostname(), folder=self.folder, most=2000)
+        self.tasks = int(re.search(r"--array=1-(\d+)", self.file.read_text())[1])
+        most = self.tasks + 1
+        text = CONFIGURATION.format(host=socket.gethostname(), folder=self.folder, most=most)
         (self.folder / "slurm.conf").write_text(text)
         self.environment = {**os.environ, "SLURM_CONF": str(self.folder / "slurm.conf")}
         self.processes, self.job = {}, None
@@ -68,21 +72,27 @@ class Slurm:
     def _node(self, node):
         self._begin(node, "slurmd", "-D", "-N", node)
 
-    def _ask(self, *command):
-        ended = subprocess.run(command, env=self.environment, capture_output=True, text=True, cwd=self.study.folder)
-        return ended.stdout.strip() if ended.returncode == 0 else None
+    def _run(self, *command):
+        return subprocess.run(command, env=self.environment, capture_output=True, text=True, cwd=self.study.folder)
 
     def start(self):
         """Begins the daemons, and submits the array unless it is in the queue already."""
         self._begin("controller", "slurmctld", "-D")
         self._node("node1")
         self._node("node2")
+        if self.job is None:
+            # The queue has room for one of two such arrays: `sbatch` waits until the first is done.
+            self._submit(f"--array=1-{self.tasks}", "--wrap", "sleep 2")
+            self.job, said = self._submit(str(self.file))
+            assert "temporarily unable to accept job" in said, f"the queue was not full: {said}"
+
+    def _submit(self, *arguments):
+        """Submits a job once the controller is there; returns its number, and what is said besides."""
         deadline = time.monotonic() + 60
-        while self.job is None:
-            assert time.monotonic() < deadline, "no job was taken after a minute"
-            taken = self._ask("sbatch", "--parsable", "--output=%x-%a.log", str(self.file))
-            self.job = taken and taken.split(";")[0]
+        while (ended := self._run("sbatch", "--parsable", "--output=%x-%a.log", *arguments)).returncode:
+            assert time.monotonic() < deadline, f"no job was taken: {ended.stderr}"
             time.sleep(0.5)
+        return ended.stdout.strip().split(";")[0], ended.stderr
 
     def kill_worker(self):
         """Kills a daemon and all that it has started, as when its machine fails; it begins again."""
@@ -102,9 +112,9 @@ class Slurm:
         self.processes.clear()
 
     def finish(self):
-        """Waits until the array has left the queue."""
+        """Waits until the queue is empty."""
         deadline = time.monotonic() + 1800
-        while (left := self._ask("squeue", "-h", "-j", self.job)) is None or left:
-            assert time.monotonic() < deadline, left
+        while (queue := self._run("squeue", "-h")).returncode or queue.stdout:
+            assert time.monotonic() < deadline, queue.stdout
             time.sleep(0.5)
         self.kill()
