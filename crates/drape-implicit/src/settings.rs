@@ -127,9 +127,9 @@ pub struct Settings {
     /// Energy that the last two iterations of conjugate gradients gain when they end, as a fraction
     /// of all that they have gained. Default 0, which leaves their end to the forcing terms.
     ///
-    /// With conjugate gradients the gains are the squares of the changes of the solution in the norm
-    /// of the matrix, and while they fall the last ones tell what is left. Stiff forces that hardly move
-    /// anything do not count, as they do in the residual. For steps whose end is told by energies.
+    /// What is left to gain is half the square of the error in the norm of the matrix. Stiff forces
+    /// that hardly move anything count little, while they decide on the residual. For steps that end
+    /// by their energy or by their own error.
     pub energy_forcing: f64,
     /// Iterations of conjugate gradients after which the direction found so far is taken. Default
     /// 2000.

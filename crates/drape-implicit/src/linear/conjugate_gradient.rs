@@ -63,9 +63,9 @@ impl ConjugateGradient {
     /// Solves `A x = b` from `x = 0` to a target, in at least one iteration. `x` holds `b ≠ 0` on
     /// entry.
     ///
-    /// An iteration lowers the energy `½ xᵀA x − bᵀx` by half the square of the change of `x` in the
-    /// norm of `A`, and the sum of all gains to come is the square of the error \[HS52\]. While they
-    /// fall, the last gains tell it.
+    /// The energy `½ xᵀA x − bᵀx` that an iteration gains is half the square of its step in the norm
+    /// of `A`, and the energy that is left to gain is half the square of the error \[HS52\]. As long
+    /// as gains fall fast, the last ones tell what is left.
     ///
     /// At negative curvature the solution so far is kept if its residual is smaller than that of
     /// zero \[DS83\]. Beginning again with a definite matrix took a third more iterations on a

@@ -70,7 +70,8 @@ impl SystemMatrix {
         Ok(())
     }
 
-    /// Solves `A x = b` to a target (conjugate gradients) or to rounding (Cholesky). Returns whether the target was met.
+    /// Solves `A x = b` to a target (conjugate gradients) or to rounding (Cholesky). Returns whether
+    /// the target was met.
     pub(crate) fn solve(
         &mut self,
         b: &[f64],
