@@ -28,12 +28,12 @@ pub(crate) struct Outcome {
     pub ending: Ending,
 }
 
-/// Accuracy at which a solve ends: as soon as one of two is met.
+/// Accuracy at which a solve ends, as soon as one of the two is met.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Target {
     /// Norm of the residual.
     pub residual: f64,
-    /// Energy that the last two iterations gained, as a fraction of all that was gained.
+    /// Energy that the last two iterations gained, as a fraction of that of all iterations.
     pub energy: f64,
 }
 
@@ -60,8 +60,8 @@ impl ConjugateGradient {
         Self { solution: zeros(), residual: zeros(), direction: zeros(), product: zeros() }
     }
 
-    /// Solves `A x = b` from `x = 0` to a target, in at least one iteration. `x` holds `b ≠ 0` on
-    /// entry.
+    /// Solves `A x = b` from `x = 0` until a target is met, in at least one iteration. `x` holds
+    /// `b ≠ 0` on entry.
     ///
     /// The energy `½ xᵀA x − bᵀx` that an iteration gains is half the square of its step in the norm
     /// of `A`, and the energy that is left to gain is half the square of the error \[HS52\]. As long
@@ -247,35 +247,31 @@ mod tests {
         matrix
     }
 
-    /// Solution for a right side that is one on each axis.
-    fn solve_to(matrix: &BlockMatrix, target: Target) -> Vec<f64> {
+    /// Solves for a right side in at most so many iterations.
+    fn solve_for(
+        matrix: &BlockMatrix,
+        b: &[f64],
+        target: Target,
+        limit: usize,
+    ) -> (Vec<f64>, Outcome) {
         let schedule = LevelSchedule::new(matrix.sparsity());
         let layout = &schedule.layout;
         let mut packed = PackedMatrix::new(layout);
         let mut factor = IncompleteCholesky::new(layout);
         factor.factorise(&schedule, matrix, &mut packed).unwrap();
-        let mut x = vec![1.0; 3 * matrix.sparsity().particles()];
+        let mut x = b.to_vec();
         let system = Preconditioned { layout, matrix: &packed, factor: &mut factor };
-        let ending = ConjugateGradient::new(layout).solve(system, &mut x, target, 500).ending;
-        assert_eq!(ending, Ending::Converged);
-        x
+        let outcome = ConjugateGradient::new(layout).solve(system, &mut x, target, limit);
+        (x, outcome)
     }
 
     /// With a right side that is a sine of this many radians from one number to the next.
     fn solve(matrix: &BlockMatrix, phase: f64, limit: usize) -> (f64, usize, Ending) {
         let size = 3 * matrix.sparsity().particles();
         let b: Vec<f64> = (0..size).map(|k| (1.0 + k as f64 * phase).sin()).collect();
-        let schedule = LevelSchedule::new(matrix.sparsity());
-        let layout = &schedule.layout;
-        let mut packed = PackedMatrix::new(layout);
-        let mut factor = IncompleteCholesky::new(layout);
-        factor.factorise(&schedule, matrix, &mut packed).unwrap();
-        let mut x = b.clone();
-        let mut back = vec![0.0; size];
         let target = Target { residual: 1e-10 * norm(&b), energy: 0.0 };
-        let mut gradient = ConjugateGradient::new(layout);
-        let system = Preconditioned { layout, matrix: &packed, factor: &mut factor };
-        let Outcome { iterations, ending } = gradient.solve(system, &mut x, target, limit);
+        let (x, Outcome { iterations, ending }) = solve_for(matrix, &b, target, limit);
+        let mut back = vec![0.0; size];
         matrix.multiply(&x, &mut back);
         add_scaled(&mut back, -1.0, &b);
         assert!(ending == Ending::Indefinite || dot(&x, &b) > 0.0, "not a descent direction");
@@ -310,14 +306,20 @@ mod tests {
     #[test]
     fn energies_gained_tell_the_error_that_is_left() {
         let matrix = grid(40, 1e-3);
-        let exact = solve_to(&matrix, Target { residual: 1e-12, energy: 0.0 });
+        let b = vec![1.0; 3 * 40 * 40];
+        let solution = |target| {
+            let (x, outcome) = solve_for(&matrix, &b, target, 500);
+            assert_eq!(outcome.ending, Ending::Converged);
+            x
+        };
+        let exact = solution(Target { residual: 1e-12, energy: 0.0 });
         let energy = |x: &[f64]| {
             let mut image = vec![0.0; x.len()];
             matrix.multiply(x, &mut image);
             dot(x, &image)
         };
         for fraction in [0.1, 0.01, 1e-4] {
-            let mut error = solve_to(&matrix, Target { residual: 0.0, energy: fraction });
+            let mut error = solution(Target { residual: 0.0, energy: fraction });
             add_scaled(&mut error, -1.0, &exact);
             let left = energy(&error) / energy(&exact);
             assert!(left < fraction && left > 1e-3 * fraction, "{left:e} of {fraction:e}");

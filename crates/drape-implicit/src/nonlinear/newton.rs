@@ -149,14 +149,14 @@ impl Newton {
                     break;
                 }
             }
-            let mut rough = roughness(&search.current, equations, predicted_decrease);
-            if rough <= 1.0 {
+            let decrease = relative_decrease(&search.current, equations, predicted_decrease);
+            if decrease <= 1.0 {
                 break;
             }
             self.updates.forget();
             let contraction = search.current.norm / before;
             let expected = search.current.norm * contraction.max(EXPECTED_CONTRACTION);
-            let refined = contraction <= 1.0 && rough <= REFINED_DECREASE;
+            let refined = contraction <= 1.0 && decrease <= REFINED_DECREASE;
             let converges =
                 contraction <= TRUSTED_CONTRACTION && expected <= TRUST_MULTIPLE * equations.limit;
             let mut trusted =
@@ -166,8 +166,8 @@ impl Newton {
                 search.count_iteration(equations, settings.max_iterations)?;
                 let before = search.current.norm;
                 let Some(step) = self.broyden_step(search, equations, settings) else { break };
-                rough = roughness(&search.current, equations, step.predicted_decrease);
-                if rough <= 1.0 {
+                let predicted = step.predicted_decrease;
+                if relative_decrease(&search.current, equations, predicted) <= 1.0 {
                     return Ok(());
                 }
                 trusted = step.whole && search.current.norm <= SLOW_CONTRACTION * before;
@@ -297,20 +297,21 @@ fn may_end(iterate: &Iterate, residual_max: f64) -> bool {
     iterate.obstacle_time == 1.0 && iterate.solves(residual_max)
 }
 
-/// Decrease of the energy that the last step predicted, as a multiple of the negligible energy;
-/// infinite unless the error of the step decides on the accuracy, and may end it.
-fn roughness(iterate: &Iterate, equations: &StepEquations<'_, '_>, decrease: f64) -> f64 {
+/// Decrease of the energy that the last iteration predicted, as a multiple of the negligible energy.
+/// Infinite where the error of the time step does not decide on the accuracy, or the residual is too
+/// large to end here.
+fn relative_decrease(iterate: &Iterate, equations: &StepEquations<'_, '_>, predicted: f64) -> f64 {
     let apart = equations.system.is_filtered();
     let residual_max = if apart { ROUGH_RESIDUAL_APART } else { ROUGH_RESIDUAL };
     if equations.error_fraction > 0.0 && may_end(iterate, residual_max * equations.unit) {
-        decrease / equations.negligible_energy(iterate)
+        predicted / equations.negligible_energy(iterate)
     } else {
         f64::INFINITY
     }
 }
 
-/// Accuracy to which a linear system is worth solving: relative to the nonlinear residual, or by the
-/// energy alone, but not beyond what convergence needs.
+/// Target of a linear solve: a residual relative to the nonlinear one, or the energy gained where a
+/// fraction of it is set. Either ends at the residual that convergence needs.
 fn linear_target(
     iterate: &Iterate,
     settings: &Settings,
