@@ -26,6 +26,7 @@ mod exact;
 mod friction;
 mod geometry;
 mod pair;
+mod placement;
 mod step_filter;
 mod tracked_pairs;
 

@@ -13,6 +13,11 @@ pub(crate) fn at(flat: &[f64], index: usize) -> Vector {
     [flat[3 * index], flat[3 * index + 1], flat[3 * index + 2]]
 }
 
+/// Returns a vector of a flat list; zero beyond its end.
+pub(crate) fn at_or_zero(flat: &[f64], index: usize) -> Vector {
+    if 3 * index < flat.len() { at(flat, index) } else { [0.0; 3] }
+}
+
 pub(crate) fn add(a: Vector, b: Vector) -> Vector {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }

@@ -14,6 +14,7 @@
 //! [`detector`](super::detector) calls the search. This chapter uses [`geometry`](super::geometry)
 //! and [`distance`](super::distance).
 
+mod body_boxes;
 mod candidates;
 mod margin;
 mod query;
@@ -22,8 +23,9 @@ mod scan;
 mod sweep;
 mod tree;
 
+pub(crate) use body_boxes::BodyBoxes;
 pub use candidates::CandidatePairs;
-pub(crate) use candidates::{Detection, PastDetection};
+pub(crate) use candidates::{Detection, PastDetection, largest};
 pub(crate) use margin::AdaptiveMargin;
 pub(crate) use query::{Limit, Query};
 pub(crate) use rest::close_at_rest;

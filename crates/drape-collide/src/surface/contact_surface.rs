@@ -92,6 +92,15 @@ impl Surface {
         self.separations.pinch_fraction(&self.primitives, vertices)
     }
 
+    /// Checks the length and the range of flat displacements: of all vertices, or of the free ones
+    /// where bodies rest.
+    pub(crate) fn check_displacements(&self, displacements: &[f64]) -> Result<(), Error> {
+        match displacements.len() == 3 * self.free_count() {
+            true => check_positions("the displacement of vertex", displacements),
+            false => self.check_positions(displacements),
+        }
+    }
+
     /// Checks the length and the range of flat positions.
     pub(crate) fn check_positions(&self, positions: &[f64]) -> Result<(), Error> {
         let needed = 3 * self.vertex_count();

@@ -2,6 +2,7 @@
 
 use super::broad_phase::{CandidatePairs, Detection, Limit, PastDetection, Query, Scan, Sweep};
 use super::contact_surface::Surface;
+use super::placement::Placement;
 use crate::error::{Error, check};
 
 /// Largest number of pairs of a list, unless another one is given.
@@ -18,6 +19,8 @@ pub struct Detector {
     scan: Scan,
     pairs: CandidatePairs,
     capacity: usize,
+    /// Stand of the bodies and margin that their boxes in the trees are for, if they rest.
+    fitted: Option<(u64, f64)>,
 }
 
 impl Default for Detector {
@@ -30,7 +33,7 @@ impl Detector {
     /// Makes a detector whose list may hold so many pairs, instead of 50 million.
     #[must_use]
     pub fn with_capacity(capacity: usize) -> Detector {
-        Detector { scan: Scan::default(), pairs: CandidatePairs::default(), capacity }
+        Detector { scan: Scan::default(), pairs: CandidatePairs::default(), capacity, fitted: None }
     }
 
     /// Pairs of the last detection that succeeded.
@@ -71,21 +74,49 @@ impl Detector {
         sweep: Sweep<'_>,
         margin: f64,
     ) -> Result<&CandidatePairs, Error> {
+        self.run(surface, Detection { positions, stand: None, sweep, margin })
+    }
+
+    /// Finds the same pairs at a placement. Boxes of bodies that have the same stand as last time are
+    /// kept.
+    pub(crate) fn detect_placed(
+        &mut self,
+        surface: &Surface,
+        placement: &Placement,
+        sweep: Sweep<'_>,
+        margin: f64,
+    ) -> Result<&CandidatePairs, Error> {
+        self.run(
+            surface,
+            Detection { positions: placement, stand: placement.stand(), sweep, margin },
+        )
+    }
+
+    fn run(
+        &mut self,
+        surface: &Surface,
+        detection: Detection<'_>,
+    ) -> Result<&CandidatePairs, Error> {
+        let Detection { positions, stand, sweep, margin } = detection;
         surface.check_positions(positions)?;
         if let Some(displacements) = sweep.displacements() {
-            surface.check_positions(displacements)?;
+            surface.check_displacements(displacements)?;
         }
         check("the margin of contact (m)", margin, "above 0", margin > 0.0)?;
         let free = surface.free_count();
+        let mean_displacement = sweep.mean_displacement(free, surface.vertex_count());
         let query = Query {
             primitives: surface.primitives(),
             separations: &surface.separations,
             positions,
             limit: Limit::Margin { margin, sweep },
-            mean_displacement: sweep.mean_displacement(free),
+            mean_displacement: mean_displacement.unwrap_or_default(),
         };
-        self.scan.run(&query, self.capacity)?;
-        self.pairs.replace(self.scan.pairs(), &Detection { positions, sweep, margin, free });
+        let fitted = stand.filter(|_| mean_displacement.is_none()).map(|stand| (stand, margin));
+        let keeps_bodies = fitted.is_some() && fitted == self.fitted;
+        self.fitted = fitted;
+        self.scan.run(&query, self.capacity, keeps_bodies)?;
+        self.pairs.replace(self.scan.pairs(), &detection, free);
         Ok(&self.pairs)
     }
 
@@ -105,6 +136,86 @@ impl Detector {
 
     /// Drops the pairs, whose distances have changed.
     pub(crate) fn clear(&mut self) {
+        self.fitted = None;
         self.pairs.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::exact::IntersectionTest;
+    use crate::{ContactDistances, SurfaceParts, intersections};
+
+    /// Square grid of so many vertices a side at a height, from a corner, in m: positions and triangles.
+    fn grid(side: u32, spacing: f64, height: f64, first: u32) -> (Vec<f64>, Vec<[u32; 3]>) {
+        let vertices = (0..side * side)
+            .flat_map(|k| [spacing * f64::from(k % side), spacing * f64::from(k / side), height]);
+        let cells =
+            (0..(side - 1) * (side - 1)).map(|k| first + k / (side - 1) * side + k % (side - 1));
+        let triangles = cells.flat_map(|a| [[a, a + 1, a + side], [a + 1, a + side + 1, a + side]]);
+        (vertices.collect(), triangles.collect())
+    }
+
+    #[test]
+    fn boxes_of_bodies_that_rest_find_the_same_pairs_and_intersections() {
+        let (sheet, mut triangles) = grid(6, 0.01, 2e-3, 0);
+        let (body, faces) = grid(48, 4e-3, 0.0, 36);
+        triangles.extend(faces);
+        let rest: Vec<f64> = sheet.iter().chain(&body).copied().collect();
+        let vertices = rest.len() / 3;
+        let surface = Surface::new(SurfaceParts {
+            rest_positions: rest,
+            triangles,
+            areas: vec![1e-5; vertices],
+            groups: (0..vertices).map(|vertex| u32::from(vertex >= 36)).collect(),
+            distances: vec![
+                ContactDistances { activation_distance: 5e-4, min_separation: 1e-4 };
+                2
+            ],
+            free_vertices: 36,
+            seam_pairs: Vec::new(),
+            ties: Vec::new(),
+        })
+        .unwrap();
+        let (mut detector, mut test) = (Detector::default(), IntersectionTest::default());
+        let mut placement = Placement::default();
+        let (mut found, mut met, mut kept) = (0, 0, 0);
+        for round in 0..40_u32 {
+            let wave = |k: usize| (f64::from(round) * 0.7 + k as f64).sin();
+            // Sheet and body move in turn, and the sheet wanders along the body and through it.
+            let free: Vec<f64> = (0..sheet.len())
+                .map(|k| {
+                    sheet[k] + if k % 3 == 2 { 2e-3 } else { 3e-3 * f64::from(round) } * wave(k)
+                })
+                .collect();
+            let stand = u64::from(round / 4);
+            let bodies = body.iter().map(|x| x + 1e-3 * stand as f64);
+            let moves = round % 4 == 0;
+            placement.place(&free, (!moves).then_some(stand), bodies);
+            let mut displacements: Vec<f64> = (0..free.len()).map(|k| 1e-3 * wave(k + 5)).collect();
+            if moves {
+                displacements.resize(3 * vertices, 0.0);
+            }
+            let sweep = match round % 3 {
+                0 => Sweep::Still,
+                1 => Sweep::Common(&displacements),
+                _ => Sweep::Individual(&displacements),
+            };
+            let margin = if round % 16 < 10 { 2e-3 } else { 4e-3 };
+            let before = detector.fitted;
+            let pairs = detector.detect_placed(&surface, &placement, sweep, margin).unwrap();
+            let list = format!("{:?}", pairs.as_slice());
+            found += pairs.as_slice().len();
+            kept += usize::from(before.is_some() && before == detector.fitted);
+            let mut fresh = Detector::default();
+            let pairs = fresh.detect_swept(&surface, &placement, sweep, margin).unwrap();
+            assert!(list == format!("{:?}", pairs.as_slice()), "round {round}");
+            test.run_placed(&surface, &placement).unwrap();
+            let expected = intersections(&surface, &placement).unwrap();
+            assert_eq!(test.found, expected, "round {round}");
+            met += expected.len();
+        }
+        assert!(found > 10_000 && met > 100 && kept > 10, "{found} pairs, {met} met, {kept} kept");
     }
 }

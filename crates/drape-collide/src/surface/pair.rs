@@ -64,9 +64,11 @@ impl Pair {
         self.kind.first_vertices()
     }
 
-    /// Returns the largest sum of two numbers of a list, of a vertex of each primitive.
+    /// Returns the largest sum of two numbers of a list, of a vertex of each primitive; those beyond
+    /// the end of the list are 0.
     pub(crate) fn largest_sum(&self, list: &[f64]) -> f64 {
-        let [a, b, c, d] = self.vertices.map(|vertex| list[vertex as usize]);
+        let number = |vertex: u32| list.get(vertex as usize).copied().unwrap_or(0.0);
+        let [a, b, c, d] = self.vertices.map(number);
         match self.kind {
             PairKind::VertexFace => a + b.max(c).max(d),
             PairKind::EdgeEdge => a.max(b) + c.max(d),

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::broad_phase::{AdaptiveMargin, CandidatePairs, PastDetection, Sweep};
 use super::contact_surface::Surface;
 use super::detector::Detector;
+use super::placement::Placement;
 use crate::error::Error;
 use crate::vector::{at, norm, subtract};
 
@@ -13,7 +14,8 @@ use crate::vector::{at, norm, subtract};
 pub(crate) struct TrackedPairs {
     detector: Detector,
     margin: AdaptiveMargin,
-    /// Distance of each vertex from the reference positions of the pairs, in m.
+    /// Distance of each vertex from the reference positions of the pairs, in m; of the first ones if
+    /// the others have not moved.
     pub(crate) drift: Vec<f64>,
 }
 
@@ -73,15 +75,15 @@ impl TrackedPairs {
         self.detector.clear();
     }
 
-    /// Detects the pairs at flat positions or on trajectories from there, and adapts the margin.
+    /// Detects the pairs at a placement or on trajectories from there, and adapts the margin.
     pub(crate) fn detect(
         &mut self,
         surface: &Surface,
-        positions: &[f64],
+        placement: &Placement,
         sweep: Sweep<'_>,
     ) -> Result<(), Error> {
         let margin = self.margin.value();
-        let found = self.detector.detect_swept(surface, positions, sweep, margin)?;
+        let found = self.detector.detect_placed(surface, placement, sweep, margin)?;
         self.margin.adapt(found.as_slice().len(), surface.vertex_count());
         Ok(())
     }
@@ -94,15 +96,14 @@ impl TrackedPairs {
 
     /// Measures the drift of each vertex and returns the largest, in m; infinite without a
     /// detection.
-    pub(crate) fn measure_drift(&mut self, positions: &[f64]) -> f64 {
-        let reference = self.detector.pairs().positions();
+    pub(crate) fn measure_drift(&mut self, placement: &Placement) -> f64 {
+        let pairs = self.detector.pairs();
         self.drift.clear();
-        if reference.len() != positions.len() {
-            self.drift.resize(positions.len() / 3, 0.0);
+        if pairs.positions().len() != placement.len() {
             return f64::INFINITY;
         }
-        let drift = |vertex| norm(subtract(at(positions, vertex), at(reference, vertex)));
-        self.drift.extend((0..positions.len() / 3).map(drift));
+        let drift = |vertex| norm(subtract(at(placement, vertex), at(pairs.positions(), vertex)));
+        self.drift.extend((0..pairs.moved(placement)).map(drift));
         // A maximum that passes NaN on.
         self.drift.iter().fold(0.0, |most, &drift| if drift <= most { most } else { drift })
     }

@@ -80,6 +80,7 @@ impl Statistics {
         solver.residual_max = solver.residual_max.max(report.residual);
         solver.energy_left_max = solver.energy_left_max.max(report.energy_left);
         solver.force_evaluations += report.force_evaluations;
+        solver.linear_solves_max = solver.linear_solves_max.max(report.linear_solves);
         solver.linear_iterations += report.linear_iterations;
         solver.stiffness_assemblies += report.stiffness_assemblies;
         solver.potential_evaluations += report.potential_evaluations;

@@ -147,6 +147,8 @@ pub struct Solver {
     pub stiffness_assemblies: usize,
     /// Number of evaluations of the potential.
     pub potential_evaluations: usize,
+    /// Largest number of linear systems that a step solved.
+    pub linear_solves_max: usize,
     /// Number of iterations of the linear solver.
     pub linear_iterations: usize,
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::sweep::{Sweep, nearest_fraction};
 use crate::surface::pair::Pair;
+use crate::surface::placement::{Placement, StepStart};
 
 /// Sorted list of the pairs that come near each other at some positions or on trajectories from
 /// there.
@@ -19,9 +20,14 @@ pub struct CandidatePairs {
     positions: Vec<f64>,
     pub(crate) margin: f64,
     pub(crate) free: usize,
+    /// Number of the positions at which bodies rest; none while they move.
+    stand: Option<u64>,
+    /// Largest coordinate of the bodies' reference positions, in m.
+    largest_of_bodies: f64,
     /// Start of the trajectories, in m; empty if there are none.
     start: Vec<f64>,
-    /// Displacements along the trajectories, in m; empty if there are none.
+    /// Displacements along the trajectories, in m; empty if there are none, those of the free vertices
+    /// alone if bodies rest.
     displacements: Vec<f64>,
     /// Whether all vertices move by a common fraction of their displacements.
     common: bool,
@@ -30,10 +36,10 @@ pub struct CandidatePairs {
 /// Positions, trajectories and margin of a detection.
 pub(crate) struct Detection<'a> {
     pub(crate) positions: &'a [f64],
+    /// Number of the positions at which bodies rest; none while they move.
+    pub(crate) stand: Option<u64>,
     pub(crate) sweep: Sweep<'a>,
     pub(crate) margin: f64,
-    /// Number of free vertices.
-    pub(crate) free: usize,
 }
 
 /// Detection of candidate pairs, from which it can be made again: its positions, its trajectories and
@@ -64,9 +70,15 @@ impl PastDetection {
     /// Returns whether lists have the length of flat positions, and numbers are finite.
     pub(crate) fn is_of(&self, numbers: usize) -> bool {
         let Self { start, displacements, reference, .. } = self;
-        let fits = |list: &Vec<f64>| list.len() == numbers && list.iter().all(|x| x.is_finite());
-        let swept = displacements.is_empty() || fits(displacements);
-        fits(start) && fits(reference) && swept && self.margin > 0.0 && self.margin.is_finite()
+        let finite = |list: &Vec<f64>| list.iter().all(|x| x.is_finite());
+        let fits = |list: &Vec<f64>| list.len() == numbers && finite(list);
+        let swept = displacements.len() <= numbers && displacements.len().is_multiple_of(3);
+        fits(start)
+            && fits(reference)
+            && swept
+            && finite(displacements)
+            && self.margin > 0.0
+            && self.margin.is_finite()
     }
 }
 
@@ -113,6 +125,7 @@ impl CandidatePairs {
         &mut self,
         found: impl Iterator<Item = &'a [Pair]>,
         detection: &Detection<'_>,
+        free: usize,
     ) {
         self.clear();
         found.for_each(|pairs| self.list.extend_from_slice(pairs));
@@ -124,13 +137,15 @@ impl CandidatePairs {
             self.displacements.extend_from_slice(displacements);
         }
         self.common = matches!(detection.sweep, Sweep::Common(_));
-        (self.margin, self.free) = (detection.margin, detection.free);
+        (self.margin, self.free, self.stand) = (detection.margin, free, detection.stand);
+        self.largest_of_bodies = largest(&detection.positions[3 * free..]);
     }
 
     /// Drops all pairs and positions, and keeps the memory.
     pub(crate) fn clear(&mut self) {
-        let Self { list, positions, margin, free, start, displacements, common } = self;
+        let Self { list, positions, margin, free, start, displacements, common, stand, .. } = self;
         list.clear();
+        *stand = None;
         [positions, start, displacements].into_iter().for_each(Vec::clear);
         (*margin, *free, *common) = (0.0, 0, false);
     }
@@ -139,7 +154,7 @@ impl CandidatePairs {
     /// positions.
     pub(crate) fn follow_trajectories(&mut self, positions: &[f64]) {
         let count = self.displacements.len();
-        if count == 0 || positions.len() != count {
+        if count == 0 || positions.len() < count {
             return;
         }
         for part in self.parts() {
@@ -164,7 +179,7 @@ impl CandidatePairs {
     ) {
         off_trajectory.clear();
         off_trajectory.extend_from_slice(displacements);
-        if self.displacements.len() != displacements.len() || (self.common && !common) {
+        if self.displacements.len() > displacements.len() || (self.common && !common) {
             return;
         }
         for part in self.parts() {
@@ -177,10 +192,36 @@ impl CandidatePairs {
         }
     }
 
+    /// Returns whether the pairs were detected on trajectories of bodies.
+    pub(crate) fn have_moving_bodies(&self) -> bool {
+        self.displacements.len() > 3 * self.free
+    }
+
+    /// Returns the number of the vertices that may have left the reference positions at a placement:
+    /// the free ones alone if the bodies have the same stand.
+    pub(crate) fn moved(&self, placement: &Placement) -> usize {
+        match self.stand.is_some() && self.stand == placement.stand() {
+            true => self.free,
+            false => placement.len() / 3,
+        }
+    }
+
+    /// Returns the largest coordinate at the start of a step, in m.
+    pub(crate) fn largest_coordinate(&self, start: StepStart<'_>) -> f64 {
+        let StepStart { positions, moved } = start;
+        let others = if 3 * moved < positions.len() { self.largest_of_bodies } else { 0.0 };
+        largest(&positions[..3 * moved]).max(others)
+    }
+
     /// Ranges of components that move by a common fraction of their displacements.
     fn parts(&self) -> impl Iterator<Item = Range<usize>> + use<> {
         let count = self.displacements.len();
         let part = if self.common { count.max(1) } else { 3 };
         (0..count).step_by(part).map(move |first| first..first + part)
     }
+}
+
+/// Returns the largest magnitude of some numbers.
+pub(crate) fn largest(list: &[f64]) -> f64 {
+    list.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }

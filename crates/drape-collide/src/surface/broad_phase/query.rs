@@ -4,7 +4,7 @@ use super::sweep::Sweep;
 use super::tree::Bounds;
 use crate::surface::geometry::{ContactDistances, Primitives, Separations};
 use crate::surface::pair::{Pair, PairKind, closest, distance};
-use crate::vector::{Vector, add, at, subtract};
+use crate::vector::{Vector, add, at, at_or_zero, subtract};
 
 /// Squared sine of the angle below which two edges count as parallel: 1.8° \[Li20, eq. 24\].
 const PARALLEL: f64 = 1e-3;
@@ -48,7 +48,7 @@ impl Query<'_> {
                     return Bounds::around(points, around);
                 };
                 let displacement = |vertex: u32| {
-                    subtract(at(displacements, vertex as usize), self.mean_displacement)
+                    subtract(at_or_zero(displacements, vertex as usize), self.mean_displacement)
                 };
                 let ends = points.into_iter().zip(vertices);
                 let ends = ends.map(|(point, vertex)| add(point, displacement(vertex)));

@@ -31,7 +31,7 @@ pub(crate) fn close_at_rest(
         mean_displacement: [0.0; 3],
     };
     let mut scan = Scan::default();
-    scan.run(&query, CAPACITY)?;
+    scan.run(&query, CAPACITY, false)?;
     let mut close = Vec::new();
     for pair in scan.pairs().flatten() {
         let activation_distance = pair.activation_distance.min(0.5 * pair.distance);

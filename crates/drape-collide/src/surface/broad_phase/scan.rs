@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::body_boxes::BodyBoxes;
 use super::query::Query;
 use super::tree::{Bounds, Probe, Tree, array};
 use crate::error::Error;
@@ -21,17 +22,32 @@ pub(crate) struct Scan {
     triangles: Tree,
     edges: Tree,
     chunks: Vec<Chunk>,
+    body_vertices: BodyBoxes,
 }
 
 impl Scan {
-    /// Finds the pairs that a query asks for, at most `capacity`.
-    pub(crate) fn run(&mut self, query: &Query<'_>, capacity: usize) -> Result<(), Error> {
+    /// Finds the pairs that a query asks for, at most `capacity`. With `keeps_bodies` boxes of bodies
+    /// are as they were in the last run.
+    pub(crate) fn run(
+        &mut self,
+        query: &Query<'_>,
+        capacity: usize,
+        keeps_bodies: bool,
+    ) -> Result<(), Error> {
         let primitives = query.primitives;
-        let Scan { triangles, edges, chunks } = self;
-        triangles.fit(&primitives.triangle_order, |triangle| {
+        let Scan { triangles, edges, chunks, body_vertices } = self;
+        triangles.fit(&primitives.triangle_order, keeps_bodies, |triangle| {
             query.bounds(primitives.triangles[triangle as usize])
         });
-        edges.fit(&primitives.edge_order, |edge| query.bounds(primitives.edges[edge as usize]));
+        edges.fit(&primitives.edge_order, keeps_bodies, |edge| {
+            query.bounds(primitives.edges[edge as usize])
+        });
+        let is_free = |vertex: u32| primitives.is_free(&[vertex]);
+        let vertex_runs = primitives.vertex_runs.chunks(CHUNK);
+        body_vertices.fit(vertex_runs, keeps_bodies, is_free, |vertex| query.bounds([vertex]));
+        let free_triangles = triangles.free_bounds(&primitives.triangle_order);
+        // Edges are paired with later ones.
+        let last_free_edge = primitives.last_free_edge();
 
         let vertex_chunks = primitives.vertex_runs.len().div_ceil(CHUNK);
         let edge_chunks = primitives.edge_runs.len().div_ceil(CHUNK);
@@ -43,7 +59,15 @@ impl Scan {
                 None => (PairKind::VertexFace, primitives.vertex_runs.chunks(CHUNK).nth(k)),
                 Some(k) => (PairKind::EdgeEdge, primitives.edge_runs.chunks(CHUNK).nth(k)),
             };
+            let runs = match kind {
+                PairKind::VertexFace if !body_vertices.may_meet(k, &free_triangles) => None,
+                _ => runs,
+            };
             for &run in runs.unwrap_or_default() {
+                if kind == PairKind::EdgeEdge && last_free_edge.is_none_or(|last| run.first > last)
+                {
+                    break;
+                }
                 let before = chunk.pairs.len();
                 match kind {
                     PairKind::VertexFace => chunk.scan_vertices(query, triangles, run),

@@ -1,12 +1,12 @@
 //! Trajectories of vertices, along which pairs are detected.
 
 use crate::surface::pair::PairKind;
-use crate::vector::{Vector, at, dot, scale, subtract};
+use crate::vector::{Vector, at_or_zero, dot, scale, subtract};
 
 /// Straight trajectories of the vertices of a surface from the positions at which its pairs are
 /// detected.
 ///
-/// Displacements are flat, one for each vertex, in m.
+/// Displacements are flat, one for each vertex or, where bodies rest, for each free one, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sweep<'a> {
     /// No trajectories: the vertices stay.
@@ -27,14 +27,19 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Returns the mean displacement of the free vertices if the fraction is common, in m.
-    pub(crate) fn mean_displacement(self, free: usize) -> Vector {
-        let Sweep::Common(displacements) = self else { return [0.0; 3] };
+    /// Returns the mean displacement of so many free vertices among all, in m, if the fraction is
+    /// common. Without it the boxes of cloth that falls are larger; with it those of bodies at rest
+    /// change, so that a surface most of whose vertices are theirs has none.
+    pub(crate) fn mean_displacement(self, free: usize, vertices: usize) -> Option<Vector> {
+        let Sweep::Common(displacements) = self else { return None };
+        if displacements.len() < 3 * vertices && vertices > 2 * free {
+            return None;
+        }
         let mut sum = [0.0; 3];
         for displacement in displacements.chunks_exact(3).take(free) {
             sum = [0, 1, 2].map(|k| sum[k] + displacement[k]);
         }
-        scale(sum, 1.0 / free.max(1) as f64)
+        Some(scale(sum, 1.0 / free.max(1) as f64))
     }
 
     /// Returns a bound of the decrease of the distance of two primitives, in m.
@@ -43,7 +48,7 @@ impl<'a> Sweep<'a> {
     /// is largest at the ends of the trajectories.
     pub(crate) fn largest_approach(self, kind: PairKind, vertices: [u32; 4]) -> f64 {
         let Some(flat) = self.displacements() else { return 0.0 };
-        let displacements = vertices.map(|vertex| at(flat, vertex as usize));
+        let displacements = vertices.map(|vertex| at_or_zero(flat, vertex as usize));
         let square = |displacement: Vector| dot(displacement, displacement);
         let (first, second) = displacements.split_at(match kind {
             PairKind::VertexFace => 1,

@@ -1,5 +1,7 @@
 //! Tree of boxes over primitives, four to a node.
 
+use std::borrow::Borrow;
+
 use rayon::prelude::*;
 use wide::{f32x4, u32x4};
 
@@ -36,15 +38,21 @@ impl Bounds {
         Bounds { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
     /// Returns the box around several.
-    fn union(list: &[Bounds]) -> Bounds {
+    pub(crate) fn union(list: impl IntoIterator<Item = impl Borrow<Bounds>>) -> Bounds {
         let mut all = Bounds::EMPTY;
         for bounds in list {
+            let bounds = bounds.borrow();
             for k in 0..3 {
                 all.low[k] = lower(all.low[k], bounds.low[k]);
                 all.high[k] = higher(all.high[k], bounds.high[k]);
             }
         }
         all
+    }
+
+    /// Returns whether two boxes overlap.
+    pub(crate) fn overlaps(&self, other: &Bounds) -> bool {
+        (0..3).all(|k| self.low[k] <= other.high[k] && self.high[k] >= other.low[k])
     }
 
     /// Returns the box of some points, widened by a margin, in m.
@@ -128,30 +136,47 @@ pub(crate) struct Tree {
 }
 
 impl Tree {
-    /// Refits the boxes to the primitives in an order.
-    pub(crate) fn fit(&mut self, order: &Order, bounds: impl Fn(u32) -> Bounds + Sync) {
+    /// Refits the boxes to the primitives in an order; with `keeps_bodies` those of bodies are as
+    /// last time, in the same order.
+    pub(crate) fn fit(
+        &mut self,
+        order: &Order,
+        keeps_bodies: bool,
+        bounds: impl Fn(u32) -> Bounds + Sync,
+    ) {
         self.levels.resize_with(order.free.len(), Vec::new);
         for (quads, free) in self.levels.iter_mut().zip(&order.free) {
             quads.resize(free.len(), Quad::EMPTY);
         }
         let Some((lowest, above)) = self.levels.split_first_mut() else { return };
+        let changes = |free: &u8| !keeps_bodies || *free != 0;
         let items = order.items.par_chunks(WIDTH * CHUNK);
-        lowest.par_chunks_mut(CHUNK).zip(items).for_each(|(quads, items)| {
-            for (quad, items) in quads.iter_mut().zip(items.chunks(WIDTH)) {
+        let parts = lowest.par_chunks_mut(CHUNK).zip(items).zip(order.free[0].par_chunks(CHUNK));
+        parts.for_each(|((quads, items), free)| {
+            let quads = quads.iter_mut().zip(items.chunks(WIDTH)).zip(free);
+            for ((quad, items), _) in quads.filter(|(_, free)| changes(free)) {
                 for (lane, &item) in items.iter().enumerate() {
                     quad.set(lane, &bounds(item));
                 }
             }
         });
         let mut below: &[Quad] = lowest;
-        for level in above {
-            for (quad, four) in level.iter_mut().zip(below.chunks(WIDTH)) {
+        for (level, free) in above.iter_mut().zip(&order.free[1..]) {
+            let quads = level.iter_mut().zip(below.chunks(WIDTH)).zip(free);
+            for ((quad, four), _) in quads.filter(|(_, free)| changes(free)) {
                 for (lane, child) in four.iter().enumerate() {
                     quad.set(lane, &child.bounds());
                 }
             }
             below = level;
         }
+    }
+
+    /// Returns a box around all free primitives.
+    pub(crate) fn free_bounds(&self, order: &Order) -> Bounds {
+        let Some(lowest) = self.levels.first() else { return Bounds::EMPTY };
+        let quads = lowest.iter().zip(&order.free[0]).filter(|(_, free)| **free != 0);
+        Bounds::union(quads.map(|(quad, _)| quad.bounds()))
     }
 
     /// Visits the slots of primitives whose box overlaps one of the probe's, with the lane of that.

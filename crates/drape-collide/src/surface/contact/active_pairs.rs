@@ -7,6 +7,7 @@ use crate::surface::barrier::{Gap, Gradient};
 use crate::surface::broad_phase::Sweep;
 use crate::surface::contact_surface::Surface;
 use crate::surface::pair::Pair;
+use crate::surface::placement::Placement;
 use crate::surface::tracked_pairs::TrackedPairs;
 
 /// Number of candidate pairs of a chunk, whatever the number of threads.
@@ -23,7 +24,7 @@ pub(super) struct ActivePair {
 #[derive(Debug, Default)]
 pub(super) struct ActivePairs {
     /// Positions of all vertices, in m.
-    pub(super) positions: Vec<f64>,
+    pub(super) positions: Placement,
     /// Pairs of each chunk of the candidates; lists beyond these are empty.
     chunks: Vec<Vec<ActivePair>>,
     /// Gradients of the energies of the pairs, in N, in their order.
@@ -48,10 +49,10 @@ impl ActivePairs {
         &mut self,
         surface: &Surface,
         tracked: &mut TrackedPairs,
-        positions: &mut Vec<f64>,
+        positions: &mut Placement,
     ) {
         // NaN is never equal, and so is evaluated each time.
-        if *positions == self.positions && self.failure.is_none() {
+        if positions.is_same(&self.positions, surface.free_count()) && self.failure.is_none() {
             return;
         }
         self.failure = None;

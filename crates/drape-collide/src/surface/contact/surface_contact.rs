@@ -14,6 +14,7 @@ use crate::surface::contact_surface::Surface;
 use crate::surface::exact::{Intersection, IntersectionTest, encloses, intersections};
 use crate::surface::friction::{ActiveGap, FrictionEnergy, Stretch, SurfaceFriction};
 use crate::surface::geometry::PinchState;
+use crate::surface::placement::Placement;
 use crate::surface::step_filter::{StepLimiter, SurfaceStep};
 use crate::surface::tracked_pairs::{TrackedMemory, TrackedPairs};
 use crate::vector::{Matrix, at, outer};
@@ -42,7 +43,7 @@ pub struct SurfaceContact {
     growth: Growth,
     open_seams: OpenSeams,
     /// Positions of all vertices at which an evaluation is asked for, in m.
-    trial: Vec<f64>,
+    trial: Placement,
 }
 
 /// State of a [`SurfaceContact`] between two steps: stretches of friction, positions of the bodies,
@@ -120,7 +121,7 @@ impl SurfaceContact {
             pinch: Pinch::new(pinch),
             growth: Growth::NONE,
             open_seams: OpenSeams::default(),
-            trial: Vec::new(),
+            trial: Placement::default(),
         })
     }
 
@@ -150,8 +151,7 @@ impl SurfaceContact {
     /// # Panics
     /// If the bodies have another number of coordinates.
     pub fn begin(&mut self, start: &[f64], bodies: &[f64]) {
-        self.obstacles.end.copy_from_slice(bodies);
-        self.obstacles.time = 0.0;
+        self.obstacles.begin(bodies);
         self.friction.clear();
         self.update_pinch(start);
         self.update(start);
@@ -262,7 +262,7 @@ impl SurfaceContact {
     /// Returns the work of the bodies in the open step with their forces at some positions and the
     /// present obstacle time, in J: the forces on them there times their displacements.
     pub fn body_work(&mut self, positions: &[f64]) -> f64 {
-        if self.obstacles.start == self.obstacles.end {
+        if !self.obstacles.moves() {
             return 0.0;
         }
         self.update(positions);
@@ -336,11 +336,16 @@ impl SurfaceContact {
     /// the step, vertex by vertex. The bodies and the held vertices move by a common fraction.
     pub fn limit_step(&mut self, step: SurfaceStep<'_>) -> bool {
         let SurfaceStep { start, displacements, held, obstacle_time, obstacle_advance } = step;
-        self.obstacles.write_positions(start, obstacle_time, &mut self.limiter.positions);
-        let Obstacles { start, end, .. } = &self.obstacles;
-        let bodies = start.iter().zip(end).map(|(start, end)| *obstacle_advance * (end - start));
+        self.obstacles.place(start, obstacle_time, &mut self.limiter.positions);
         self.limiter.displacements.clear();
-        self.limiter.displacements.extend(displacements.iter().copied().chain(bodies));
+        self.limiter.displacements.extend_from_slice(displacements);
+        // Bodies at rest have no displacements, unless the pairs were detected while they moved.
+        if self.obstacles.moves() || self.tracked.pairs().have_moving_bodies() {
+            let Obstacles { start, end, .. } = &self.obstacles;
+            let bodies =
+                start.iter().zip(end).map(|(start, end)| *obstacle_advance * (end - start));
+            self.limiter.displacements.extend(bodies);
+        }
         match self.limiter.limit(&self.surface, &mut self.tracked, held) {
             Ok(None) => true,
             Ok(Some(fraction)) => {
@@ -365,8 +370,8 @@ impl SurfaceContact {
     /// # Errors
     /// Positions that are not finite.
     pub fn intersections(&mut self, positions: &[f64]) -> Result<&[Intersection], Error> {
-        self.obstacles.write_positions(positions, self.obstacles.time, &mut self.trial);
-        self.intersection_test.run(&self.surface, &self.trial)?;
+        self.obstacles.place(positions, self.obstacles.time, &mut self.trial);
+        self.intersection_test.run_placed(&self.surface, &self.trial)?;
         let surface = &self.surface;
         let kept =
             |found: &Intersection| surface.pinch_fraction(&vertices_of(surface, *found)).is_some();
@@ -382,16 +387,16 @@ impl SurfaceContact {
         &self,
         positions: &[f64],
     ) -> Result<Vec<Intersection>, Error> {
-        let mut all = Vec::new();
-        self.obstacles.write_positions(positions, self.obstacles.time, &mut all);
+        let mut all = Placement::default();
+        self.obstacles.place(positions, self.obstacles.time, &mut all);
         intersections(&self.surface, &all)
     }
 
     /// Returns whether a free vertex is inside a body, for the free vertices' positions, in m.
     #[must_use]
     pub fn is_inside_body(&self, vertex: usize, positions: &[f64]) -> bool {
-        let mut all = Vec::new();
-        self.obstacles.write_positions(positions, self.obstacles.time, &mut all);
+        let mut all = Placement::default();
+        self.obstacles.place(positions, self.obstacles.time, &mut all);
         let bodies = self.surface.free_count()..self.surface.vertex_count();
         let mut groups: Vec<u32> = bodies.map(|v| self.surface.group(v as u32)).collect();
         groups.dedup();
@@ -545,7 +550,7 @@ impl SurfaceContact {
         self.intersection_test.found.clear();
         if self.pinch.any_released() {
             // Positions that fail have no intersections; the detection reports the error.
-            let _ = self.intersection_test.run(&self.surface, &self.active.positions);
+            let _ = self.intersection_test.run_placed(&self.surface, &self.active.positions);
         }
         let found = &self.intersection_test.found;
         self.pinch.update(&self.surface, &self.obstacles, &self.active, found);
@@ -589,7 +594,7 @@ impl SurfaceContact {
 
     /// Finds the active pairs at the free vertices' positions.
     fn update(&mut self, positions: &[f64]) {
-        self.obstacles.write_positions(positions, self.obstacles.time, &mut self.trial);
+        self.obstacles.place(positions, self.obstacles.time, &mut self.trial);
         self.active.update(&self.surface, &mut self.tracked, &mut self.trial);
     }
 }

@@ -4,9 +4,10 @@ use rayon::prelude::*;
 
 use super::predicate::segment_meets_triangle;
 use crate::error::Error;
-use crate::surface::broad_phase::{Bounds, Probe, Tree, array};
+use crate::surface::broad_phase::{BodyBoxes, Bounds, Probe, Tree, array};
 use crate::surface::contact_surface::Surface;
 use crate::surface::geometry::Run;
+use crate::surface::placement::Placement;
 use crate::vector::at;
 
 /// Number of runs of edges of a chunk, for one thread at a time.
@@ -34,7 +35,7 @@ pub struct Intersection {
 /// If there are not three coordinates for each vertex, or one is not finite or beyond 1000 km.
 pub fn intersections(surface: &Surface, positions: &[f64]) -> Result<Vec<Intersection>, Error> {
     let mut test = IntersectionTest::default();
-    test.run(surface, positions)?;
+    test.run(surface, positions, None)?;
     Ok(test.found)
 }
 
@@ -42,25 +43,53 @@ pub fn intersections(surface: &Surface, positions: &[f64]) -> Result<Vec<Interse
 #[derive(Debug, Default)]
 pub(crate) struct IntersectionTest {
     tree: Tree,
+    body_edges: BodyBoxes,
+    /// Stand of the bodies that boxes are for, if they rest.
+    fitted: Option<u64>,
     chunks: Vec<Vec<Intersection>>,
     /// Intersections of the last run, sorted.
     pub(crate) found: Vec<Intersection>,
 }
 
 impl IntersectionTest {
-    /// Finds all edges that meet a triangle at flat positions.
-    pub(crate) fn run(&mut self, surface: &Surface, positions: &[f64]) -> Result<(), Error> {
+    /// Finds all edges that meet a triangle at a placement.
+    pub(crate) fn run_placed(
+        &mut self,
+        surface: &Surface,
+        placement: &Placement,
+    ) -> Result<(), Error> {
+        self.run(surface, placement, placement.stand())
+    }
+
+    /// Finds the same at flat positions, with the stand of bodies that rest.
+    fn run(
+        &mut self,
+        surface: &Surface,
+        positions: &[f64],
+        stand: Option<u64>,
+    ) -> Result<(), Error> {
         self.found.clear();
         surface.check_positions(positions)?;
         let primitives = surface.primitives();
         let point = |vertex: u32| at(positions, vertex as usize);
         let order = &primitives.triangle_order;
-        self.tree.fit(order, |triangle| {
+        let keeps_bodies = stand.is_some() && stand == self.fitted;
+        self.fitted = stand;
+        self.tree.fit(order, keeps_bodies, |triangle| {
             Bounds::around(primitives.triangles[triangle as usize].map(point), 0.0)
         });
-        let tree = &self.tree;
-        let scan = |runs: &[Run], found: &mut Vec<Intersection>| {
+        let is_free = |edge: u32| primitives.is_free(&primitives.edges[edge as usize]);
+        let chunks = primitives.edge_runs.chunks(CHUNK);
+        self.body_edges.fit(chunks, keeps_bodies, is_free, |edge| {
+            Bounds::around(primitives.edges[edge as usize].map(point), 0.0)
+        });
+        let free = self.tree.free_bounds(order);
+        let (tree, body_edges) = (&self.tree, &self.body_edges);
+        let scan = |(chunk, runs): (usize, &[Run]), found: &mut Vec<Intersection>| {
             found.clear();
+            if !body_edges.may_meet(chunk, &free) {
+                return;
+            }
             for run in runs {
                 let ends = |k: usize| primitives.edges[run.first as usize + k];
                 let segment = |k: usize| ends(k).map(point);
@@ -85,7 +114,7 @@ impl IntersectionTest {
                 found[first..].sort_unstable();
             }
         };
-        let runs = primitives.edge_runs.par_chunks(CHUNK);
+        let runs = primitives.edge_runs.par_chunks(CHUNK).enumerate();
         self.chunks.resize_with(runs.len(), Vec::new);
         let chunks = self.chunks.par_iter_mut();
         runs.zip(chunks).with_max_len(1).for_each(|(runs, found)| scan(runs, found));

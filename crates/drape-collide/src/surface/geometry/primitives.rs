@@ -108,6 +108,12 @@ impl Primitives {
         vertices.iter().any(|&v| (v as usize) < self.free)
     }
 
+    /// Last edge that is free; none without one.
+    pub(crate) fn last_free_edge(&self) -> Option<u32> {
+        let free = self.edges.iter().rposition(|edge| self.is_free(edge));
+        free.map(|edge| edge as u32)
+    }
+
     /// Square of the length of an edge at rest, in m².
     pub(crate) fn edge_length_squared(&self, edge: usize) -> f64 {
         self.edge_lengths_squared[edge]

@@ -6,10 +6,12 @@ use super::trial::{Drift, Trial};
 use super::truncation::{Truncation, Truncator};
 use crate::error::Error;
 use crate::surface::broad_phase::CandidatePairs;
+use crate::surface::placement::StepStart;
 
 /// Filter that limits steps such that no two primitives come below their minimum separation.
 ///
-/// Positions and displacements are flat, for all vertices of the surface, bodies included. Its
+/// Positions are flat, for all vertices of the surface, bodies included, and so are displacements;
+/// where bodies rest, those of the free vertices will do. Its
 /// results are proofs for the straight trajectory of each vertex from `x` to `x + dx` as rounded:
 /// every listed pair keeps a twentieth of its clearance, and every other pair stays beyond its
 /// activation distance as long as no vertex drifts farther than 0.45 margins from the reference
@@ -40,8 +42,19 @@ impl CcdFilter {
         positions: &[f64],
         displacements: &[f64],
     ) -> Result<StepFraction, Error> {
-        let mut step = Trial { positions, displacements, smallest: f64::NAN };
-        self.drift.measure(pairs, &mut step, true, self.safeguards)?;
+        let moved = positions.len() / 3;
+        self.common_fraction_from(pairs, StepStart { positions, moved }, displacements)
+    }
+
+    /// Returns the same fraction from a start at which only some vertices may have moved.
+    pub(crate) fn common_fraction_from(
+        &mut self,
+        pairs: &CandidatePairs,
+        start: StepStart<'_>,
+        displacements: &[f64],
+    ) -> Result<StepFraction, Error> {
+        let smallest = self.drift.measure(pairs, (start, displacements), true, self.safeguards)?;
+        let step = Trial { positions: start.positions, displacements, smallest };
         let (drift, safeguards) = (&self.drift, self.safeguards);
         let budget = (0..drift.vertices())
             .map(|vertex| match safeguards.drift_budget {
@@ -70,8 +83,20 @@ impl CcdFilter {
         positions: &[f64],
         displacements: &mut [f64],
     ) -> Result<Truncation, Error> {
-        let mut step = Trial { positions, displacements, smallest: f64::NAN };
-        self.drift.measure(pairs, &mut step, false, self.safeguards)?;
+        let moved = positions.len() / 3;
+        self.truncate_from(pairs, StepStart { positions, moved }, displacements)
+    }
+
+    /// Truncates the same displacements from a start at which only some vertices may have moved.
+    pub(crate) fn truncate_from(
+        &mut self,
+        pairs: &CandidatePairs,
+        start: StepStart<'_>,
+        displacements: &mut [f64],
+    ) -> Result<Truncation, Error> {
+        let smallest = self.drift.measure(pairs, (start, displacements), false, self.safeguards)?;
+        let positions = start.positions;
+        let step = Trial { positions, displacements, smallest };
         let at_drift_budget = self.truncator.divide(pairs, &step, &self.drift, self.safeguards);
         Ok(self.truncator.truncate(pairs, positions, displacements, at_drift_budget))
     }

@@ -5,6 +5,7 @@ use super::trial::DRIFT_BUDGET;
 use crate::error::Error;
 use crate::surface::broad_phase::Sweep;
 use crate::surface::contact_surface::Surface;
+use crate::surface::placement::{Placement, StepStart};
 use crate::surface::tracked_pairs::TrackedPairs;
 use crate::vector::{at, norm, scale};
 
@@ -41,8 +42,8 @@ pub(crate) struct StepLimiter {
     /// Largest displacements of a step, in m: with a common fraction and with individual ones.
     largest: [f64; 2],
     /// Positions of all vertices at the start of the step, in m.
-    pub(crate) positions: Vec<f64>,
-    /// Displacements of all vertices, in m; limited in place.
+    pub(crate) positions: Placement,
+    /// Displacements of all vertices, or of the free ones where bodies rest, in m; limited in place.
     pub(crate) displacements: Vec<f64>,
     /// Displacements before the limit, in m.
     whole: Vec<f64>,
@@ -57,7 +58,7 @@ impl StepLimiter {
         StepLimiter {
             filter: CcdFilter::default(),
             largest: largest.map(|edges| (edges * edge).max(activation_distance)),
-            positions: Vec::new(),
+            positions: Placement::default(),
             displacements: Vec::new(),
             whole: Vec::new(),
             off_trajectory: Vec::new(),
@@ -75,7 +76,9 @@ impl StepLimiter {
         self.whole.clone_from(&self.displacements);
         let shortened = self.detect(surface, tracked, true)?;
         let Self { filter, positions, displacements, .. } = self;
-        let fraction = filter.common_fraction(tracked.pairs(), positions, displacements)?.value;
+        let (pairs, moved) = (tracked.pairs(), tracked.pairs().moved(positions));
+        let start = StepStart { positions, moved };
+        let fraction = filter.common_fraction_from(pairs, start, displacements)?.value;
         if fraction >= 1.0 {
             return Ok((shortened < 1.0).then_some(shortened));
         }
@@ -86,7 +89,8 @@ impl StepLimiter {
         displacements.copy_from_slice(&self.whole);
         self.detect(surface, tracked, false)?;
         let Self { filter, positions, displacements, whole, .. } = self;
-        filter.truncate(tracked.pairs(), positions, displacements)?;
+        let (pairs, moved) = (tracked.pairs(), tracked.pairs().moved(positions));
+        filter.truncate_from(pairs, StepStart { positions, moved }, displacements)?;
         let free = surface.free_count();
         let fraction_of = |vertex: usize| {
             let [after, before] = [norm(at(displacements, vertex)), norm(at(whole, vertex))];
@@ -127,6 +131,11 @@ impl StepLimiter {
         let budget = DRIFT_BUDGET * tracked.pairs().margin();
         let covered = tracked.measure_drift(positions) + longest <= budget;
         if !covered && self.filter.safeguards.swept_detection {
+            // Bodies at rest have no displacements.
+            let displacements = match positions.stand() {
+                Some(_) => &displacements[..3 * surface.free_count()],
+                None => &displacements[..],
+            };
             let sweep = if common {
                 Sweep::Common(displacements)
             } else {

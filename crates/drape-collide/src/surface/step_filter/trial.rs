@@ -2,9 +2,10 @@
 
 use super::safeguards::Safeguards;
 use crate::error::{Error, check_positions};
-use crate::surface::broad_phase::CandidatePairs;
+use crate::surface::broad_phase::{CandidatePairs, largest};
 use crate::surface::pair::Pair;
-use crate::vector::{Vector, at, dot, norm, subtract};
+use crate::surface::placement::StepStart;
+use crate::vector::{Vector, at, at_or_zero, dot, norm, subtract};
 
 /// Number of pairs of a chunk, for one thread at a time; constant, as all bounds of parallel work.
 pub(super) const CHUNK: usize = 2048;
@@ -32,7 +33,7 @@ pub(super) const PLACES: f64 = 64.0;
 /// Factor that rounds a sum of lengths upwards.
 const UPWARDS: f64 = 1.0 + 1e-12;
 
-/// Trial step: flat positions and displacements of all vertices.
+/// Trial step: flat positions of all vertices and displacements of the first ones; the others rest.
 #[derive(Clone, Copy)]
 pub(super) struct Trial<'a> {
     pub(super) positions: &'a [f64],
@@ -44,14 +45,14 @@ pub(super) struct Trial<'a> {
 impl Trial<'_> {
     /// Returns the displacements of a pair's vertices, in m.
     pub(super) fn displacements(&self, pair: &Pair) -> [Vector; 4] {
-        pair.vertices.map(|vertex| at(self.displacements, vertex as usize))
+        pair.vertices.map(|vertex| at_or_zero(self.displacements, vertex as usize))
     }
 }
 
 /// Drift and displacement of each vertex in a trial step.
 #[derive(Debug, Default)]
 pub(super) struct Drift {
-    /// Distance of each vertex from the reference positions of the pairs, in m.
+    /// Distance of each vertex that may have moved from the reference positions of the pairs, in m.
     moved: Vec<f64>,
     /// Length of each displacement, in m.
     lengths: Vec<f64>,
@@ -60,51 +61,53 @@ pub(super) struct Drift {
 }
 
 impl Drift {
-    /// Number of vertices.
+    /// Number of the first vertices that have moved or do.
     pub(super) fn vertices(&self) -> usize {
-        self.moved.len()
+        self.moved.len().max(self.lengths.len())
     }
 
     /// Checks a trial step, and measures drift and displacements; with `common` if all vertices
-    /// move by a common fraction of them. The smallest clearance of the step is filled in.
+    /// move by a common fraction of them. Returns the smallest clearance at which pairs may still
+    /// approach, in m.
     pub(super) fn measure(
         &mut self,
         pairs: &CandidatePairs,
-        step: &mut Trial<'_>,
+        (start, displacements): (StepStart<'_>, &[f64]),
         common: bool,
         safeguards: Safeguards,
-    ) -> Result<(), Error> {
-        let Trial { positions, displacements, .. } = *step;
+    ) -> Result<f64, Error> {
+        let StepStart { positions, moved } = start;
         let needed = pairs.positions().len();
-        for (what, found) in
-            [("positions", positions.len()), ("displacements", displacements.len())]
-        {
-            if found != needed {
-                return Err(Error::WrongLength { what, found, needed });
-            }
+        if positions.len() != needed {
+            let (what, found) = ("positions", positions.len());
+            return Err(Error::WrongLength { what, found, needed });
         }
-        check_positions("vertex", positions)?;
+        if displacements.len() != needed && displacements.len() != 3 * pairs.free {
+            let (what, found) = ("displacements", displacements.len());
+            return Err(Error::WrongLength { what, found, needed });
+        }
+        check_positions("vertex", &positions[..3 * moved])?;
         check_positions("the displacement of vertex", displacements)?;
         let budget = DRIFT_BUDGET * pairs.margin();
         let reference = pairs.positions();
-        let last_places = [last_place(positions), last_place(displacements)];
+        let last_places = [pairs.largest_coordinate(start), largest(displacements)].map(last_place);
         // A vertex at its budget has been moved there by this filter, to rounding.
         let most = budget * (1.0 + 1e-9) + 4.0 * last_places[0];
         self.moved.clear();
         self.lengths.clear();
-        for vertex in 0..needed / 3 {
+        for vertex in 0..moved {
             let moved = norm(subtract(at(positions, vertex), at(reference, vertex))) * UPWARDS;
             if safeguards.drift_budget && moved > most {
                 return Err(Error::DriftBudgetExceeded { vertex, moved, budget });
             }
             self.moved.push(if safeguards.drift_bound { moved } else { 0.0 });
-            self.lengths.push(norm(at(displacements, vertex)) * UPWARDS);
         }
+        let lengths = displacements.as_chunks::<3>().0.iter();
+        self.lengths.extend(lengths.map(|displacement| norm(*displacement) * UPWARDS));
         pairs.write_off_trajectory(displacements, common, &mut self.off_trajectory);
         // The coordinates of the end are at most twice the larger of both.
         let largest = 2.0 * last_places[0].max(last_places[1]);
-        step.smallest = SMALLEST.max(PLACES * largest);
-        Ok(())
+        Ok(SMALLEST.max(PLACES * largest))
     }
 
     /// Returns the largest fraction of its displacement that keeps a vertex within the drift
@@ -116,8 +119,9 @@ impl Drift {
         vertex: usize,
     ) -> f64 {
         let budget = DRIFT_BUDGET * pairs.margin();
-        let off_trajectory = at(&self.off_trajectory, vertex);
-        if self.moved[vertex] + norm(off_trajectory) * UPWARDS <= budget {
+        let off_trajectory = at_or_zero(&self.off_trajectory, vertex);
+        let drift = self.moved.get(vertex).copied().unwrap_or(0.0);
+        if drift + norm(off_trajectory) * UPWARDS <= budget {
             return 1.0;
         }
         let moved = subtract(at(step.positions, vertex), at(pairs.positions(), vertex));
@@ -143,8 +147,7 @@ fn fraction_in_ball(point: Vector, displacement: Vector, radius: f64) -> f64 {
     if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Returns the distance from the largest number of a list to the next.
-fn last_place(list: &[f64]) -> f64 {
-    let largest = list.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    largest.next_up() - largest
+/// Returns the distance from a number to the next.
+fn last_place(number: f64) -> f64 {
+    number.next_up() - number
 }

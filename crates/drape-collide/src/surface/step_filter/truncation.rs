@@ -9,6 +9,7 @@ use super::separating_planes::{DividingPlanes, SeparatingPlane};
 use super::trial::{CHUNK, CLOSED, Drift, Trial};
 use crate::surface::broad_phase::CandidatePairs;
 use crate::surface::pair::Pair;
+use crate::vector::{add, at, at_or_zero};
 
 /// Smallest part of the room between two primitives that either of them has.
 const LEAST_PART: f64 = 0.05;
@@ -55,13 +56,14 @@ impl Truncator {
         drift: &Drift,
         safeguards: Safeguards,
     ) -> Division {
-        let vertices = drift.vertices();
+        let vertices = step.positions.len() / 3;
         self.fractions.resize_with(vertices, AtomicU64::default);
         self.planes.resize(pairs.as_slice().len(), DividingPlanes::NONE);
         let mut planes = std::mem::take(&mut self.planes);
         let mut at_drift_budget = 0;
         for vertex in 0..vertices {
-            let fraction = match safeguards.drift_budget {
+            let limited = safeguards.drift_budget && vertex < drift.vertices();
+            let fraction = match limited {
                 true => drift.budget_fraction(pairs, step, vertex),
                 false => 1.0,
             };
@@ -195,8 +197,8 @@ impl Truncator {
         chunks.for_each(|(pairs, planes)| {
             for (pair, planes) in pairs.iter().zip(planes).filter(|(_, planes)| !planes.is_none()) {
                 let ends = pair.vertices.map(|vertex| {
-                    let first = 3 * vertex as usize;
-                    std::array::from_fn(|k| positions[first + k] + displacements[first + k])
+                    let vertex = vertex as usize;
+                    add(at(positions, vertex), at_or_zero(displacements, vertex))
                 });
                 for (vertex, on_side) in pair.vertices.into_iter().zip(planes.on_side(pair, ends)) {
                     if !on_side {
