@@ -19,7 +19,8 @@ pub struct Detector {
     scan: Scan,
     pairs: CandidatePairs,
     capacity: usize,
-    /// Stand of the bodies and margin that their boxes in the trees are for, if they rest.
+    /// Revision of the bodies' positions and margin that their boxes in the trees are of; none if they
+    /// are not to be kept.
     fitted: Option<(u64, f64)>,
 }
 
@@ -74,11 +75,11 @@ impl Detector {
         sweep: Sweep<'_>,
         margin: f64,
     ) -> Result<&CandidatePairs, Error> {
-        self.run(surface, Detection { positions, stand: None, sweep, margin })
+        self.run(surface, Detection { positions, revision: None, sweep, margin })
     }
 
-    /// Finds the same pairs at a placement. Boxes of bodies that have the same stand as last time are
-    /// kept.
+    /// Finds the same pairs at a placement. Boxes of bodies are kept as long as the revision is the
+    /// same.
     pub(crate) fn detect_placed(
         &mut self,
         surface: &Surface,
@@ -88,7 +89,7 @@ impl Detector {
     ) -> Result<&CandidatePairs, Error> {
         self.run(
             surface,
-            Detection { positions: placement, stand: placement.stand(), sweep, margin },
+            Detection { positions: placement, revision: placement.revision(), sweep, margin },
         )
     }
 
@@ -97,7 +98,7 @@ impl Detector {
         surface: &Surface,
         detection: Detection<'_>,
     ) -> Result<&CandidatePairs, Error> {
-        let Detection { positions, stand, sweep, margin } = detection;
+        let Detection { positions, revision, sweep, margin } = detection;
         surface.check_positions(positions)?;
         if let Some(displacements) = sweep.displacements() {
             surface.check_displacements(displacements)?;
@@ -112,7 +113,8 @@ impl Detector {
             limit: Limit::Margin { margin, sweep },
             mean_displacement: mean_displacement.unwrap_or_default(),
         };
-        let fitted = stand.filter(|_| mean_displacement.is_none()).map(|stand| (stand, margin));
+        let fitted =
+            revision.filter(|_| mean_displacement.is_none()).map(|revision| (revision, margin));
         let keeps_bodies = fitted.is_some() && fitted == self.fitted;
         self.fitted = fitted;
         self.scan.run(&query, self.capacity, keeps_bodies)?;
@@ -189,10 +191,10 @@ mod tests {
                     sheet[k] + if k % 3 == 2 { 2e-3 } else { 3e-3 * f64::from(round) } * wave(k)
                 })
                 .collect();
-            let stand = u64::from(round / 4);
-            let bodies = body.iter().map(|x| x + 1e-3 * stand as f64);
+            let revision = u64::from(round / 4);
+            let bodies = body.iter().map(|x| x + 1e-3 * revision as f64);
             let moves = round % 4 == 0;
-            placement.place(&free, (!moves).then_some(stand), bodies);
+            placement.place(&free, (!moves).then_some(revision), bodies);
             let mut displacements: Vec<f64> = (0..free.len()).map(|k| 1e-3 * wave(k + 5)).collect();
             if moves {
                 displacements.resize(3 * vertices, 0.0);

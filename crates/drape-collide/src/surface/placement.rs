@@ -1,17 +1,17 @@
-//! Placement: positions of all vertices, and a number for where bodies at rest are.
+//! Placement: positions of all vertices, and the revision of those of bodies at rest.
 
 use std::ops::Deref;
 
 /// Positions of all vertices of a surface, the free ones first.
 ///
-/// A body may have a hundred times as many vertices as the cloth on it. Two placements with the same
-/// stand differ in their free vertices alone, and only these are copied and compared.
+/// Placements of the same revision have the same positions of all bodies, so that only the free
+/// vertices are copied and compared: a body may have a hundred times as many as the cloth on it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Placement {
     /// Flat, in m.
     positions: Vec<f64>,
-    /// Number of the positions at which the bodies rest; none while they move.
-    stand: Option<u64>,
+    /// Revision of the bodies' positions; none while they move.
+    revision: Option<u64>,
 }
 
 impl Deref for Placement {
@@ -23,32 +23,33 @@ impl Deref for Placement {
 }
 
 impl Placement {
-    /// Number of the positions at which the bodies rest; none while they move.
-    pub(crate) fn stand(&self) -> Option<u64> {
-        self.stand
+    /// Revision of the bodies' positions; none while they move.
+    pub(crate) fn revision(&self) -> Option<u64> {
+        self.revision
     }
 
-    /// Places the free vertices, and bodies that have a stand or move.
+    /// Sets the positions of the free vertices and, unless they are of this revision, of the bodies.
     pub(crate) fn place(
         &mut self,
         free: &[f64],
-        stand: Option<u64>,
+        revision: Option<u64>,
         bodies: impl ExactSizeIterator<Item = f64>,
     ) {
         let length = free.len() + bodies.len();
-        if stand.is_some() && self.stand == stand && self.positions.len() == length {
+        if revision.is_some() && self.revision == revision && self.positions.len() == length {
             self.positions[..free.len()].copy_from_slice(free);
             return;
         }
         self.positions.clear();
         self.positions.extend_from_slice(free);
         self.positions.extend(bodies);
-        self.stand = stand;
+        self.revision = revision;
     }
 
-    /// Returns whether another placement has the same positions; never if one is not a number.
+    /// Returns whether another placement has the same positions, so many of them of free vertices;
+    /// never if one of these is not a number.
     pub(crate) fn is_same(&self, other: &Placement, free: usize) -> bool {
-        let compared = match self.stand.is_some() && self.stand == other.stand {
+        let compared = match self.revision.is_some() && self.revision == other.revision {
             true => 3 * free,
             false => self.positions.len(),
         };
@@ -59,7 +60,7 @@ impl Placement {
     /// Drops the positions.
     pub(crate) fn clear(&mut self) {
         self.positions.clear();
-        self.stand = None;
+        self.revision = None;
     }
 }
 

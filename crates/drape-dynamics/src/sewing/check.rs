@@ -6,6 +6,7 @@ use drape_input::Document;
 use drape_scene::{Pin, Scene, Seam, SeamPairs, Sewing};
 
 use crate::record::summary::Status;
+use crate::sewing::closing_springs::{ClosingSprings, SeamState, SewingStep};
 use crate::sewing::node_map::merge;
 use crate::sewing::reduced_system::ReducedSystem;
 use crate::sewing::reduction::Reduction;
@@ -133,6 +134,31 @@ fn hang(fullness: u32) {
     assert!((load.force[1] / -weight - 1.0).abs() < 1e-3, "{load:?} and {weight}");
     let residual = summary.energy.map(|energy| energy.residual);
     assert!(residual.is_some_and(|r| r.abs() < 1e-9), "{residual:?}");
+}
+
+#[test]
+fn closed_seams_are_merged_when_the_cloth_is_calm_or_steps_fail() {
+    let scene = scene(1);
+    let pairs = seam_pairs(1);
+    let start = World::new(scene).expect("contact").state.positions;
+    let springs = ClosingSprings::new(&pairs, &start, 0.5);
+    let mut closed = start.clone();
+    merge(&pairs, &vec![1.0; start.len() / 3], &mut closed);
+    let [calm, moving, failing] = [(0.2, 0), (5.0, 0), (5.0, 3)]
+        .map(|(imbalance, rejected)| SewingStep { imbalance, rejected });
+    let state = |positions: &[f64], time, step| springs.state(positions, time, step);
+    for (positions, time, step, is_closed) in [
+        (&closed, 0.5, calm, true),
+        (&closed, 0.5, moving, false),
+        (&closed, 0.5, failing, true),
+        (&closed, 1.0, moving, true),
+        (&closed, 0.4, failing, false),
+        (&start, 0.5, failing, false),
+    ] {
+        let found = state(positions, time, step);
+        assert_eq!(matches!(found, SeamState::Closed), is_closed, "{found:?} {time} {step:?}");
+    }
+    assert!(matches!(state(&start, 1.0, calm), SeamState::Failed(gap) if gap.width > 7e-3));
 }
 
 #[test]

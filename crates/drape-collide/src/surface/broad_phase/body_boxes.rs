@@ -1,17 +1,17 @@
-//! Boxes of bodies, a chunk of runs of primitives each: most of a large body is far from all cloth.
+//! Boxes of bodies: one for each chunk of runs of primitives, most of which are far from all cloth.
 
 use super::tree::Bounds;
 use crate::surface::geometry::Run;
 
-/// Boxes of the chunks of runs; none where a chunk has a free primitive.
+/// Box of each chunk of runs of primitives; none for chunks with free ones.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct BodyBoxes {
     boxes: Vec<Option<Bounds>>,
 }
 
 impl BodyBoxes {
-    /// Refits the boxes to chunks of so many runs, unless they are kept; by whether a primitive
-    /// is free, and its box.
+    /// Refits the boxes to chunks, unless they are kept, by the functions that tell whether a primitive
+    /// is free and what its box is.
     pub(crate) fn fit(
         &mut self,
         chunks: std::slice::Chunks<'_, Run>,

@@ -20,8 +20,8 @@ pub struct CandidatePairs {
     positions: Vec<f64>,
     pub(crate) margin: f64,
     pub(crate) free: usize,
-    /// Number of the positions at which bodies rest; none while they move.
-    stand: Option<u64>,
+    /// Revision of the bodies' positions; none while they move.
+    revision: Option<u64>,
     /// Largest coordinate of the bodies' reference positions, in m.
     largest_of_bodies: f64,
     /// Start of the trajectories, in m; empty if there are none.
@@ -36,8 +36,8 @@ pub struct CandidatePairs {
 /// Positions, trajectories and margin of a detection.
 pub(crate) struct Detection<'a> {
     pub(crate) positions: &'a [f64],
-    /// Number of the positions at which bodies rest; none while they move.
-    pub(crate) stand: Option<u64>,
+    /// Revision of the bodies' positions; none while they move.
+    pub(crate) revision: Option<u64>,
     pub(crate) sweep: Sweep<'a>,
     pub(crate) margin: f64,
 }
@@ -137,15 +137,16 @@ impl CandidatePairs {
             self.displacements.extend_from_slice(displacements);
         }
         self.common = matches!(detection.sweep, Sweep::Common(_));
-        (self.margin, self.free, self.stand) = (detection.margin, free, detection.stand);
+        (self.margin, self.free, self.revision) = (detection.margin, free, detection.revision);
         self.largest_of_bodies = largest(&detection.positions[3 * free..]);
     }
 
     /// Drops all pairs and positions, and keeps the memory.
     pub(crate) fn clear(&mut self) {
-        let Self { list, positions, margin, free, start, displacements, common, stand, .. } = self;
+        let Self { list, positions, margin, free, start, displacements, common, revision, .. } =
+            self;
         list.clear();
-        *stand = None;
+        *revision = None;
         [positions, start, displacements].into_iter().for_each(Vec::clear);
         (*margin, *free, *common) = (0.0, 0, false);
     }
@@ -198,9 +199,9 @@ impl CandidatePairs {
     }
 
     /// Returns the number of the vertices that may have left the reference positions at a placement:
-    /// the free ones alone if the bodies have the same stand.
+    /// the free ones alone if those of the bodies have the same revision.
     pub(crate) fn moved(&self, placement: &Placement) -> usize {
-        match self.stand.is_some() && self.stand == placement.stand() {
+        match self.revision.is_some() && self.revision == placement.revision() {
             true => self.free,
             false => placement.len() / 3,
         }

@@ -27,9 +27,9 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Returns the mean displacement of so many free vertices among all, in m, if the fraction is
-    /// common. Without it the boxes of cloth that falls are larger; with it those of bodies at rest
-    /// change, so that a surface most of whose vertices are theirs has none.
+    /// Returns the mean displacement of the free vertices of a surface, in m, if the fraction is
+    /// common. Boxes are smaller by it where all cloth falls, but those of bodies at rest change with
+    /// it: none where most vertices are theirs.
     pub(crate) fn mean_displacement(self, free: usize, vertices: usize) -> Option<Vector> {
         let Sweep::Common(displacements) = self else { return None };
         if displacements.len() < 3 * vertices && vertices > 2 * free {

@@ -13,14 +13,14 @@ pub(super) struct Obstacles {
     pub(super) time: f64,
     /// Whether the bodies move in the open step.
     moves: bool,
-    /// Number of the committed positions, another one each time that they change.
-    stand: u64,
+    /// Revision of the committed positions.
+    revision: u64,
 }
 
 impl Obstacles {
     /// Bodies at rest at flat positions, in m.
     pub(super) fn new(positions: Vec<f64>) -> Obstacles {
-        Obstacles { start: positions.clone(), end: positions, time: 1.0, moves: false, stand: 0 }
+        Obstacles { start: positions.clone(), end: positions, time: 1.0, moves: false, revision: 0 }
     }
 
     /// Opens a step to positions at its end, in m.
@@ -41,14 +41,14 @@ impl Obstacles {
             // Exact at both ends.
             if time == 1.0 { *end } else { start + time * (end - start) }
         });
-        all.place(free, (!self.moves).then_some(self.stand), bodies);
+        all.place(free, (!self.moves).then_some(self.revision), bodies);
     }
 
     /// Ends the open step.
     pub(super) fn commit(&mut self) {
         if self.moves {
             self.start.copy_from_slice(&self.end);
-            self.stand += 1;
+            self.revision += 1;
             self.moves = false;
         }
     }
@@ -57,7 +57,7 @@ impl Obstacles {
     pub(super) fn restore(&mut self, positions: &[f64]) {
         if self.start != positions {
             self.start.copy_from_slice(positions);
-            self.stand += 1;
+            self.revision += 1;
         }
         self.end.copy_from_slice(positions);
         self.moves = false;

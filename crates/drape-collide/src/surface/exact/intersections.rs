@@ -44,7 +44,7 @@ pub fn intersections(surface: &Surface, positions: &[f64]) -> Result<Vec<Interse
 pub(crate) struct IntersectionTest {
     tree: Tree,
     body_edges: BodyBoxes,
-    /// Stand of the bodies that boxes are for, if they rest.
+    /// Revision of the bodies' positions that their boxes are of; none if they are not to be kept.
     fitted: Option<u64>,
     chunks: Vec<Vec<Intersection>>,
     /// Intersections of the last run, sorted.
@@ -58,23 +58,23 @@ impl IntersectionTest {
         surface: &Surface,
         placement: &Placement,
     ) -> Result<(), Error> {
-        self.run(surface, placement, placement.stand())
+        self.run(surface, placement, placement.revision())
     }
 
-    /// Finds the same at flat positions, with the stand of bodies that rest.
+    /// Finds the same at flat positions, with the revision of the bodies' ones.
     fn run(
         &mut self,
         surface: &Surface,
         positions: &[f64],
-        stand: Option<u64>,
+        revision: Option<u64>,
     ) -> Result<(), Error> {
         self.found.clear();
         surface.check_positions(positions)?;
         let primitives = surface.primitives();
         let point = |vertex: u32| at(positions, vertex as usize);
         let order = &primitives.triangle_order;
-        let keeps_bodies = stand.is_some() && stand == self.fitted;
-        self.fitted = stand;
+        let keeps_bodies = revision.is_some() && revision == self.fitted;
+        self.fitted = revision;
         self.tree.fit(order, keeps_bodies, |triangle| {
             Bounds::around(primitives.triangles[triangle as usize].map(point), 0.0)
         });

@@ -132,7 +132,7 @@ impl StepLimiter {
         let covered = tracked.measure_drift(positions) + longest <= budget;
         if !covered && self.filter.safeguards.swept_detection {
             // Bodies at rest have no displacements.
-            let displacements = match positions.stand() {
+            let displacements = match positions.revision() {
                 Some(_) => &displacements[..3 * surface.free_count()],
                 None => &displacements[..],
             };
