@@ -27,7 +27,7 @@ use crate::record::statistics::Statistics;
 use crate::record::stopwatch::Stopwatch;
 use crate::record::summary::{Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
-use crate::sewing::closing_springs::{SeamState, SewingStep};
+use crate::sewing::closing_springs::SeamState;
 use crate::sewing::node_map::merge;
 use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
 use crate::world::{Energy, PinLoad, World};
@@ -329,7 +329,7 @@ impl Simulation {
         self.last = LastStep { speed_max, imbalance };
         self.stepping.adapt_to_displacement(ticks, speed_max * dt);
         match self.world.closing_springs().is_some() {
-            true => self.check_seams(report.rejected)?,
+            true => self.check_seams()?,
             false => {
                 self.check_rest(ticks)?;
                 self.check_fall();
@@ -405,11 +405,10 @@ impl Simulation {
 
     /// Ends the sewing when the seams are closed, or when they do not close. A seam that misses by
     /// little is pulled harder first, so that merging its sides moves no cloth into a body.
-    fn check_seams(&mut self, rejected: usize) -> Result<(), drape_implicit::Error> {
+    fn check_seams(&mut self) -> Result<(), drape_implicit::Error> {
         let Some(springs) = self.world.closing_springs() else { return Ok(()) };
         let positions = &self.world.state.positions;
-        let step = SewingStep { imbalance: self.last.imbalance, rejected };
-        match springs.state(positions, self.stepping.time(), step) {
+        match springs.state(positions, self.stepping.time(), self.last.imbalance) {
             SeamState::Open => {}
             SeamState::Closed => self.finish_sewing()?,
             SeamState::Failed(gap) => {

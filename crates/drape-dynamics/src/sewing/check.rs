@@ -6,7 +6,7 @@ use drape_input::Document;
 use drape_scene::{Pin, Scene, Seam, SeamPairs, Sewing};
 
 use crate::record::summary::Status;
-use crate::sewing::closing_springs::{ClosingSprings, SeamState, SewingStep};
+use crate::sewing::closing_springs::{ClosingSprings, SeamState};
 use crate::sewing::node_map::merge;
 use crate::sewing::reduced_system::ReducedSystem;
 use crate::sewing::reduction::Reduction;
@@ -137,28 +137,28 @@ fn hang(fullness: u32) {
 }
 
 #[test]
-fn closed_seams_are_merged_when_the_cloth_is_calm_or_steps_fail() {
-    let scene = scene(1);
+fn contact_of_the_sides_of_a_seam_ends_where_they_may_be_merged() {
     let pairs = seam_pairs(1);
-    let start = World::new(scene).expect("contact").state.positions;
-    let springs = ClosingSprings::new(&pairs, &start, 0.5);
+    let start = World::new(scene(1)).expect("contact").state.positions;
+    let mut springs = ClosingSprings::new(&pairs, &start, 0.5);
+    let widest = springs.widest_gap(&start).width;
+    for (time, expected) in [(0.0, widest), (0.25, 0.5 * widest), (0.48, 0.04 * widest), (0.5, 0.0)]
+    {
+        springs.begin(time);
+        let gaps = pairs.pairs.iter().flatten().map(|&particle| springs.gaps()[particle as usize]);
+        let found = gaps.fold(0.0, f64::max);
+        assert!((found - expected).abs() < 1e-12, "{found} and {expected} m after {time} s");
+    }
     let mut closed = start.clone();
     merge(&pairs, &vec![1.0; start.len() / 3], &mut closed);
-    let [calm, moving, failing] = [(0.2, 0), (5.0, 0), (5.0, 3)]
-        .map(|(imbalance, rejected)| SewingStep { imbalance, rejected });
-    let state = |positions: &[f64], time, step| springs.state(positions, time, step);
-    for (positions, time, step, is_closed) in [
-        (&closed, 0.5, calm, true),
-        (&closed, 0.5, moving, false),
-        (&closed, 0.5, failing, true),
-        (&closed, 1.0, moving, true),
-        (&closed, 0.4, failing, false),
-        (&start, 0.5, failing, false),
-    ] {
-        let found = state(positions, time, step);
-        assert_eq!(matches!(found, SeamState::Closed), is_closed, "{found:?} {time} {step:?}");
-    }
-    assert!(matches!(state(&start, 1.0, calm), SeamState::Failed(gap) if gap.width > 7e-3));
+    let is_closed = |positions: &[f64], time, imbalance| {
+        matches!(springs.state(positions, time, imbalance), SeamState::Closed)
+    };
+    assert!(is_closed(&closed, 0.5, 0.2) && is_closed(&closed, 1.0, 5.0));
+    assert!(!is_closed(&closed, 0.5, 5.0) && !is_closed(&closed, 0.4, 0.2));
+    assert!(
+        matches!(springs.state(&start, 1.0, 0.2), SeamState::Failed(gap) if gap.width == widest)
+    );
 }
 
 #[test]
