@@ -183,7 +183,7 @@ impl Tree {
     ///
     /// Primitives that the probe does not search may be among them.
     pub(crate) fn visit(&self, order: &Order, probe: &Probe, mut visit: impl FnMut(usize, usize)) {
-        let all = Quad::splat(&Bounds::union(&probe.bounds));
+        let all = Quad::splat(&Bounds::union(probe.bounds));
         let each = probe.bounds.map(|bounds| Quad::splat(&bounds));
         let after = probe.after.map(u32x4::splat);
         let mut stack = [(0u32, 0u8); DEPTH];
