@@ -28,7 +28,8 @@ impl Placement {
         self.revision
     }
 
-    /// Sets the positions of the free vertices and, unless they are of this revision, of the bodies.
+    /// Sets the positions of the free vertices and, unless these have the revision already, those of the
+    /// bodies.
     pub(crate) fn place(
         &mut self,
         free: &[f64],
@@ -46,8 +47,8 @@ impl Placement {
         self.revision = revision;
     }
 
-    /// Returns whether another placement has the same positions, so many of them of free vertices;
-    /// never if one of these is not a number.
+    /// Returns whether another placement has the same positions; `free` is the number of free vertices.
+    /// Never if a position of these is not a number.
     pub(crate) fn is_same(&self, other: &Placement, free: usize) -> bool {
         let compared = match self.revision.is_some() && self.revision == other.revision {
             true => 3 * free,
@@ -64,11 +65,11 @@ impl Placement {
     }
 }
 
-/// Start of a trial step: flat positions of all vertices, in m, of which the first ones may have left
-/// the reference positions of the candidate pairs.
+/// Start of a trial step: flat positions of all vertices, in m. Only the first ones may differ from the
+/// reference positions of the candidate pairs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepStart<'a> {
     pub(crate) positions: &'a [f64],
-    /// Number of the vertices that may have left them.
+    /// Number of the vertices that may differ.
     pub(crate) moved: usize,
 }

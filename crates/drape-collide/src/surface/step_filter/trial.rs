@@ -61,7 +61,7 @@ pub(super) struct Drift {
 }
 
 impl Drift {
-    /// Number of the first vertices that have moved or do.
+    /// Number of the first vertices with a drift or a displacement; the others have none.
     pub(super) fn vertices(&self) -> usize {
         self.moved.len().max(self.lengths.len())
     }
