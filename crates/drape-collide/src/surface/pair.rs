@@ -64,8 +64,8 @@ impl Pair {
         self.kind.first_vertices()
     }
 
-    /// Returns the largest sum of two numbers of a list, of a vertex of each primitive; those beyond
-    /// the end of the list are 0.
+    /// Returns the largest sum of a number of a vertex of one primitive and one of the other, from a list
+    /// by vertex; numbers beyond its end are 0.
     pub(crate) fn largest_sum(&self, list: &[f64]) -> f64 {
         let number = |vertex: u32| list.get(vertex as usize).copied().unwrap_or(0.0);
         let [a, b, c, d] = self.vertices.map(number);

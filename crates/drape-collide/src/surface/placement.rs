@@ -28,8 +28,8 @@ impl Placement {
         self.revision
     }
 
-    /// Sets the positions of the free vertices and, unless these have the revision already, those of the
-    /// bodies.
+    /// Sets the positions of the free vertices, and those of the bodies unless they have the revision
+    /// already.
     pub(crate) fn place(
         &mut self,
         free: &[f64],
@@ -48,7 +48,7 @@ impl Placement {
     }
 
     /// Returns whether another placement has the same positions; `free` is the number of free vertices.
-    /// Never if a position of these is not a number.
+    /// A free vertex with NaN in its position is never the same.
     pub(crate) fn is_same(&self, other: &Placement, free: usize) -> bool {
         let compared = match self.revision.is_some() && self.revision == other.revision {
             true => 3 * free,
@@ -65,11 +65,19 @@ impl Placement {
     }
 }
 
-/// Start of a trial step: flat positions of all vertices, in m. Only the first ones may differ from the
-/// reference positions of the candidate pairs.
+/// Start of a trial step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepStart<'a> {
+    /// Flat positions of all vertices, in m.
     pub(crate) positions: &'a [f64],
-    /// Number of the vertices that may differ.
+    /// Number of the first vertices, which may differ from the reference positions of the candidate
+    /// pairs; the others do not.
     pub(crate) moved: usize,
+}
+
+impl StepStart<'_> {
+    /// Start at which every vertex may differ from the reference positions.
+    pub(crate) fn new(positions: &[f64]) -> StepStart<'_> {
+        StepStart { positions, moved: positions.len() / 3 }
+    }
 }

@@ -103,7 +103,7 @@ impl TrackedPairs {
             return f64::INFINITY;
         }
         let drift = |vertex| norm(subtract(at(placement, vertex), at(pairs.positions(), vertex)));
-        self.drift.extend((0..pairs.moved(placement)).map(drift));
+        self.drift.extend((0..pairs.step_start(placement).moved).map(drift));
         // A maximum that passes NaN on.
         self.drift.iter().fold(0.0, |most, &drift| if drift <= most { most } else { drift })
     }

@@ -1,4 +1,4 @@
-//! Boxes of bodies: one for each chunk of runs of primitives, most of which are far from all cloth.
+//! Boxes of bodies, one for each chunk of runs of primitives: chunks far from all cloth are skipped.
 
 use super::tree::Bounds;
 use crate::surface::geometry::Run;
@@ -10,8 +10,8 @@ pub(crate) struct BodyBoxes {
 }
 
 impl BodyBoxes {
-    /// Refits the boxes to chunks, unless they are kept, by the functions that tell whether a primitive
-    /// is free and what its box is.
+    /// Refits the boxes to chunks, unless they are kept. `is_free` tells whether a primitive is free,
+    /// `bounds` is its box.
     pub(crate) fn fit(
         &mut self,
         chunks: std::slice::Chunks<'_, Run>,

@@ -72,13 +72,9 @@ impl PastDetection {
         let Self { start, displacements, reference, .. } = self;
         let finite = |list: &Vec<f64>| list.iter().all(|x| x.is_finite());
         let fits = |list: &Vec<f64>| list.len() == numbers && finite(list);
-        let swept = displacements.len() <= numbers && displacements.len().is_multiple_of(3);
-        fits(start)
-            && fits(reference)
-            && swept
-            && finite(displacements)
-            && self.margin > 0.0
-            && self.margin.is_finite()
+        let length = displacements.len();
+        let swept = length <= numbers && length.is_multiple_of(3) && finite(displacements);
+        fits(start) && fits(reference) && swept && self.margin > 0.0 && self.margin.is_finite()
     }
 }
 
@@ -198,12 +194,12 @@ impl CandidatePairs {
         self.displacements.len() > 3 * self.free
     }
 
-    /// Returns the number of the vertices that may have left the reference positions at a placement:
-    /// the free ones alone if those of the bodies have the same revision.
-    pub(crate) fn moved(&self, placement: &Placement) -> usize {
+    /// Returns the start of a step from a placement. Only free vertices may differ from the reference
+    /// positions if the bodies' positions have the same revision.
+    pub(crate) fn step_start<'a>(&self, placement: &'a Placement) -> StepStart<'a> {
         match self.revision.is_some() && self.revision == placement.revision() {
-            true => self.free,
-            false => placement.len() / 3,
+            true => StepStart { positions: placement, moved: self.free },
+            false => StepStart::new(placement),
         }
     }
 

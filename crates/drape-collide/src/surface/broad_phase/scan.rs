@@ -46,8 +46,6 @@ impl Scan {
         let vertex_runs = primitives.vertex_runs.chunks(CHUNK);
         body_vertices.fit(vertex_runs, keeps_bodies, is_free, |vertex| query.bounds([vertex]));
         let free_triangles = triangles.free_bounds(&primitives.triangle_order);
-        // Edges are paired with later ones.
-        let last_free_edge = primitives.last_free_edge();
 
         let vertex_chunks = primitives.vertex_runs.len().div_ceil(CHUNK);
         let edge_chunks = primitives.edge_runs.len().div_ceil(CHUNK);
@@ -59,15 +57,18 @@ impl Scan {
                 None => (PairKind::VertexFace, primitives.vertex_runs.chunks(CHUNK).nth(k)),
                 Some(k) => (PairKind::EdgeEdge, primitives.edge_runs.chunks(CHUNK).nth(k)),
             };
-            let runs = match kind {
-                PairKind::VertexFace if !body_vertices.may_meet(k, &free_triangles) => None,
-                _ => runs,
-            };
-            for &run in runs.unwrap_or_default() {
-                if kind == PairKind::EdgeEdge && last_free_edge.is_none_or(|last| run.first > last)
-                {
-                    break;
+            let runs = runs.unwrap_or_default();
+            let has_pairs = match kind {
+                PairKind::VertexFace => body_vertices.may_meet(k, &free_triangles),
+                // Edges are paired with later ones.
+                PairKind::EdgeEdge => {
+                    runs.first().is_some_and(|run| Some(run.first) <= primitives.last_free_edge)
                 }
+            };
+            if !has_pairs {
+                return;
+            }
+            for &run in runs {
                 let before = chunk.pairs.len();
                 match kind {
                     PairKind::VertexFace => chunk.scan_vertices(query, triangles, run),

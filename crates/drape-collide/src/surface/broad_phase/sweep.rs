@@ -28,8 +28,8 @@ impl<'a> Sweep<'a> {
     }
 
     /// Returns the mean displacement of the free vertices of a surface, in m, if the fraction is
-    /// common. Boxes are smaller by it where all cloth falls, but those of bodies at rest change with
-    /// it: none where most vertices are theirs.
+    /// common. Taken off all displacements, it makes the boxes of falling cloth smaller and those of
+    /// bodies at rest larger, which then cannot be kept: none if most vertices are those of bodies.
     pub(crate) fn mean_displacement(self, free: usize, vertices: usize) -> Option<Vector> {
         let Sweep::Common(displacements) = self else { return None };
         if displacements.len() < 3 * vertices && vertices > 2 * free {

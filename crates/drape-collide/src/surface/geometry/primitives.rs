@@ -15,6 +15,8 @@ const RUN: f64 = 4.0;
 pub(crate) struct Primitives {
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) edges: Vec<[u32; 2]>,
+    /// Number of the last free edge; none if no edge is free.
+    pub(crate) last_free_edge: Option<u32>,
     groups: Vec<u32>,
     pub(crate) free: usize,
     vertex_areas: Vec<f64>,
@@ -79,6 +81,7 @@ impl Primitives {
             triangle_classes: classes_in_order(&triangle_order, &triangles, &seams),
             edge_order,
             triangle_order,
+            last_free_edge: edges.iter().rposition(|edge| edge.free).map(|edge| edge as u32),
             vertex_runs: Run::divide(&vertices, &extents),
             edge_runs: Run::divide(&edges, &extents),
             edge_lengths_squared: lengths,
@@ -106,12 +109,6 @@ impl Primitives {
     /// Returns whether one of some vertices is free.
     pub(crate) fn is_free(&self, vertices: &[u32]) -> bool {
         vertices.iter().any(|&v| (v as usize) < self.free)
-    }
-
-    /// Last edge that is free; none without one.
-    pub(crate) fn last_free_edge(&self) -> Option<u32> {
-        let free = self.edges.iter().rposition(|edge| self.is_free(edge));
-        free.map(|edge| edge as u32)
     }
 
     /// Square of the length of an edge at rest, in m².

@@ -42,8 +42,7 @@ impl CcdFilter {
         positions: &[f64],
         displacements: &[f64],
     ) -> Result<StepFraction, Error> {
-        let moved = positions.len() / 3;
-        self.common_fraction_from(pairs, StepStart { positions, moved }, displacements)
+        self.common_fraction_from(pairs, StepStart::new(positions), displacements)
     }
 
     /// Returns the same fraction from a start at which only some vertices may have moved.
@@ -83,8 +82,7 @@ impl CcdFilter {
         positions: &[f64],
         displacements: &mut [f64],
     ) -> Result<Truncation, Error> {
-        let moved = positions.len() / 3;
-        self.truncate_from(pairs, StepStart { positions, moved }, displacements)
+        self.truncate_from(pairs, StepStart::new(positions), displacements)
     }
 
     /// Truncates the same displacements from a start at which only some vertices may have moved.

@@ -5,7 +5,7 @@ use super::trial::DRIFT_BUDGET;
 use crate::error::Error;
 use crate::surface::broad_phase::Sweep;
 use crate::surface::contact_surface::Surface;
-use crate::surface::placement::{Placement, StepStart};
+use crate::surface::placement::Placement;
 use crate::surface::tracked_pairs::TrackedPairs;
 use crate::vector::{at, norm, scale};
 
@@ -76,8 +76,8 @@ impl StepLimiter {
         self.whole.clone_from(&self.displacements);
         let shortened = self.detect(surface, tracked, true)?;
         let Self { filter, positions, displacements, .. } = self;
-        let (pairs, moved) = (tracked.pairs(), tracked.pairs().moved(positions));
-        let start = StepStart { positions, moved };
+        let pairs = tracked.pairs();
+        let start = pairs.step_start(positions);
         let fraction = filter.common_fraction_from(pairs, start, displacements)?.value;
         if fraction >= 1.0 {
             return Ok((shortened < 1.0).then_some(shortened));
@@ -89,8 +89,8 @@ impl StepLimiter {
         displacements.copy_from_slice(&self.whole);
         self.detect(surface, tracked, false)?;
         let Self { filter, positions, displacements, whole, .. } = self;
-        let (pairs, moved) = (tracked.pairs(), tracked.pairs().moved(positions));
-        filter.truncate_from(pairs, StepStart { positions, moved }, displacements)?;
+        let pairs = tracked.pairs();
+        filter.truncate_from(pairs, pairs.step_start(positions), displacements)?;
         let free = surface.free_count();
         let fraction_of = |vertex: usize| {
             let [after, before] = [norm(at(displacements, vertex)), norm(at(whole, vertex))];
