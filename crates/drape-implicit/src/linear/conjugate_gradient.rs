@@ -1,11 +1,14 @@
 //! Conjugate gradients with the incomplete Cholesky factor as preconditioner, truncated at negative
 //! curvature.
 
+use pulp::{Arch, Simd, WithSimd};
+
 use crate::linear::block;
 use crate::linear::incomplete_cholesky::IncompleteCholesky;
 use crate::linear::lanes::{Columns, LANES};
+use crate::linear::level_schedule::chunk::{self, Chunk, PerChunk, PerRow, leading_to};
 use crate::linear::level_schedule::layout::BatchLayout;
-use crate::linear::packed_matrix::PackedMatrix;
+use crate::linear::packed_matrix::{PackedMatrix, PartialProduct};
 use crate::linear::vector::{add_scaled, dot, sum};
 
 /// Reason why conjugate gradients ended.
@@ -39,6 +42,7 @@ pub(crate) struct Target {
 
 /// Matrix and the factor that preconditions it.
 pub(crate) struct Preconditioned<'a> {
+    pub arch: Arch,
     pub layout: &'a BatchLayout,
     pub matrix: &'a PackedMatrix,
     pub factor: &'a mut IncompleteCholesky,
@@ -50,14 +54,21 @@ pub(crate) struct ConjugateGradient {
     solution: Columns<f64>,
     residual: Columns<f64>,
     direction: Columns<f64>,
-    /// Zeros between two products.
-    product: Columns<f64>,
+    products: Vec<PartialProduct>,
+    /// Sums of the chunks.
+    sums: Vec<f64>,
 }
 
 impl ConjugateGradient {
     pub(crate) fn new(layout: &BatchLayout) -> Self {
         let zeros = || Columns::new(layout.rows);
-        Self { solution: zeros(), residual: zeros(), direction: zeros(), product: zeros() }
+        Self {
+            solution: zeros(),
+            residual: zeros(),
+            direction: zeros(),
+            products: layout.chunks.iter().map(PartialProduct::new).collect(),
+            sums: vec![0.0; layout.chunks.len()],
+        }
     }
 
     /// Solves `A x = b` from `x = 0` until a target is met, in at least one iteration. `x` holds
@@ -72,7 +83,6 @@ impl ConjugateGradient {
     /// cloth that comes to rest on a cube (35 300, not 25 900). Keeping every such solution took 19
     /// 300 there, but three times as many evaluations of the forces on a T-shirt, where most such
     /// steps were shortened by the line search.
-    #[inline(always)]
     pub(crate) fn solve(
         &mut self,
         system: Preconditioned<'_>,
@@ -86,7 +96,7 @@ impl ConjugateGradient {
                 column[row as usize] = *b;
             }
         }
-        for column in self.solution.0.iter_mut().chain(&mut self.product.0) {
+        for column in &mut self.solution.0 {
             column.fill(0.0);
         }
         let outcome = self.iterate(system, target, limit);
@@ -103,36 +113,22 @@ impl ConjugateGradient {
     /// Besides the matrix, reading and writing the vectors takes most of the time, so each is read
     /// as rarely as the method allows: the preconditioned residual stays where the preconditioner
     /// leaves it.
-    #[inline(always)]
     fn iterate(&mut self, system: Preconditioned<'_>, target: Target, limit: usize) -> Outcome {
-        let Preconditioned { layout, matrix, factor } = system;
-        let Self { solution, residual, direction, product } = self;
+        let Preconditioned { arch, layout, matrix, factor } = system;
         // Keeps the numbers of the preconditioner in the range of single precision.
         let start = {
-            let [x, y, z] = &residual.0;
+            let [x, y, z] = &self.residual.0;
             (dot(x, x) + dot(y, y) + dot(z, z)).sqrt()
         };
         let mut scale = start;
-        for axis in 0..3 {
-            let image = &mut factor.image.0[axis];
-            let (residual, product) = (&mut residual.0[axis], &mut product.0[axis]);
-            update_residual(0.0, residual, product, Image { image, factor: 1.0 / scale });
-        }
-        factor.apply(layout);
-        let mut weight = 0.0;
-        for axis in 0..3 {
-            let image = &factor.image.0[axis];
-            weight += dot_scaled(&residual.0[axis], image, scale);
-            update_direction(&mut direction.0[axis], 0.0, image, scale);
-        }
+        self.write_image(factor, 1.0 / scale);
+        factor.apply(arch, layout);
+        let mut weight = self.weight(arch, layout, &factor.image, scale);
+        self.turn(arch, layout, &factor.image, Turn { factor: 0.0, scale });
         let mut gained = 0.0;
         let mut last_gain = f64::INFINITY;
         for iteration in 1..=limit {
-            matrix.add_product(layout, direction, product);
-            let mut curvature = 0.0;
-            for axis in 0..3 {
-                curvature += dot(&direction.0[axis], &product.0[axis]);
-            }
+            let curvature = matrix.multiply(arch, layout, &self.direction, &mut self.products);
             // Written so that a NaN ends the iteration too.
             let positive = curvature > 0.0 && weight > 0.0;
             if !positive {
@@ -141,17 +137,8 @@ impl ConjugateGradient {
                 return Outcome { iterations: iteration, ending };
             }
             let step = weight / curvature;
-            let mut square = 0.0;
-            for axis in 0..3 {
-                let image = &mut factor.image.0[axis];
-                let (residual, product) = (&mut residual.0[axis], &mut product.0[axis]);
-                square +=
-                    update_residual(step, residual, product, Image { image, factor: 1.0 / scale });
-            }
-            let length = square.sqrt();
-            for (x, direction) in solution.0.iter_mut().zip(&direction.0) {
-                add_scaled(x, step, direction);
-            }
+            let stride = Stride { step, image_factor: 1.0 / scale };
+            let length = self.advance(arch, layout, &mut factor.image, stride).sqrt();
             let gain = step * weight;
             gained += gain;
             let recent = last_gain + gain;
@@ -159,42 +146,196 @@ impl ConjugateGradient {
             if length <= target.residual || recent <= target.energy * gained {
                 return Outcome { iterations: iteration, ending: Ending::Converged };
             }
-            factor.apply(layout);
-            let mut next = 0.0;
-            for axis in 0..3 {
-                next += dot_scaled(&residual.0[axis], &factor.image.0[axis], scale);
-            }
-            for axis in 0..3 {
-                let image = &factor.image.0[axis];
-                update_direction(&mut direction.0[axis], next / weight, image, scale);
-            }
+            factor.apply(arch, layout);
+            let next = self.weight(arch, layout, &factor.image, scale);
+            self.turn(arch, layout, &factor.image, Turn { factor: next / weight, scale });
             weight = next;
             scale = length;
         }
         Outcome { iterations: limit, ending: Ending::Truncated }
+    }
+
+    /// Writes the residual, times a factor, as the image.
+    fn write_image(&self, preconditioner: &mut IncompleteCholesky, factor: f64) {
+        for (image, residual) in preconditioner.image.0.iter_mut().zip(&self.residual.0) {
+            for (image, r) in image.iter_mut().zip(residual) {
+                *image = (r * factor) as f32;
+            }
+        }
+    }
+
+    /// Takes a step along the direction, and writes the image of the residual. Returns its square
+    /// norm.
+    fn advance(
+        &mut self,
+        arch: Arch,
+        layout: &BatchLayout,
+        image: &mut Columns<f32>,
+        stride: Stride,
+    ) -> f64 {
+        let Self { solution, residual, direction, products, sums } = self;
+        let (direction, products) = (&*direction, &products[..]);
+        let vectors = (solution.per_row(), residual.per_row(), image.per_row());
+        chunk::for_each(&layout.chunks, (PerChunk(&mut *sums), vectors), &|chunk,
+                                                                           (
+            PerChunk(sums),
+            vectors,
+        )| {
+            let advance = Advance { layout, chunk, direction, products, vectors, stride };
+            sums[0] = arch.dispatch(advance);
+        });
+        sums.iter().sum()
+    }
+
+    /// Dot product `Σ rᵢ zᵢ` of the residual and its image times a scale.
+    fn weight(
+        &mut self,
+        arch: Arch,
+        layout: &BatchLayout,
+        image: &Columns<f32>,
+        scale: f64,
+    ) -> f64 {
+        let Self { residual, sums, .. } = self;
+        let residual = &*residual;
+        chunk::for_each(&layout.chunks, PerChunk(&mut *sums), &|chunk, PerChunk(sums)| {
+            sums[0] = arch.dispatch(Weigh { chunk, residual, image, scale });
+        });
+        sums.iter().sum()
+    }
+
+    /// Replaces the direction `d` by `z + factor · d`, with `z` the image times a scale.
+    fn turn(&mut self, arch: Arch, layout: &BatchLayout, image: &Columns<f32>, turn: Turn) {
+        let direction = self.direction.per_row();
+        chunk::for_each(&layout.chunks, direction, &|chunk, PerRow(direction)| {
+            arch.dispatch(TurnChunk { chunk, image, direction, turn });
+        });
+    }
+}
+
+/// Step along a direction, and the factor of the image of the residual at its end.
+#[derive(Clone, Copy)]
+struct Stride {
+    step: f64,
+    image_factor: f64,
+}
+
+/// Factor of the old direction and scale of the image, of which the new one is the sum.
+#[derive(Clone, Copy)]
+struct Turn {
+    factor: f64,
+    scale: f64,
+}
+
+/// Adds `step · d` to a chunk of the solution, subtracts `step · A d` from that of the residual and
+/// writes its image. Returns its part of the new `‖r‖₂²`.
+struct Advance<'a> {
+    layout: &'a BatchLayout,
+    chunk: &'a Chunk,
+    direction: &'a Columns<f64>,
+    products: &'a [PartialProduct],
+    vectors: (PerRow<'a, f64, 3>, PerRow<'a, f64, 3>, PerRow<'a, f32, 3>),
+    stride: Stride,
+}
+
+impl WithSimd for Advance<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        let Self { layout, chunk, direction, products, vectors, stride } = self;
+        let (PerRow(solution), PerRow(mut residual), PerRow(image)) = vectors;
+        let Stride { step, image_factor } = stride;
+        let first = chunk.rows.start;
+        for (earlier, shared) in leading_to(&layout.chunks, chunk.index) {
+            let beyond = &products[earlier.index].rows.0;
+            for (residual, product) in residual.iter_mut().zip(beyond) {
+                let product = &product[shared.start - earlier.rows.start..][..shared.len()];
+                add_scaled(&mut residual[shared.start - first..], -step, product);
+            }
+        }
+        for &entry in &chunk.incoming {
+            let entry = entry as usize;
+            let row = layout.irregular[entry].column as usize - first;
+            let source = &layout.chunks[layout.chunk_of_entry(entry)];
+            let push = products[source.index].pushes[entry - source.irregular.start];
+            for (residual, push) in residual.iter_mut().zip(push) {
+                residual[row] -= step * push;
+            }
+        }
+        let mut square = 0.0;
+        let own = &products[chunk.index].rows.0;
+        for ((residual, product), image) in residual.into_iter().zip(own).zip(image) {
+            square += update_residual(step, residual, product, Image { image, image_factor });
+        }
+        for (solution, direction) in solution.into_iter().zip(&direction.0) {
+            add_scaled(solution, step, &direction[chunk.rows.clone()]);
+        }
+        square
+    }
+}
+
+/// Dot product of a chunk of the residual and of its image times a scale.
+struct Weigh<'a> {
+    chunk: &'a Chunk,
+    residual: &'a Columns<f64>,
+    image: &'a Columns<f32>,
+    scale: f64,
+}
+
+impl WithSimd for Weigh<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        let Self { chunk, residual, image, scale } = self;
+        let mut sum = 0.0;
+        for (residual, image) in residual.0.iter().zip(&image.0) {
+            let rows = chunk.rows.clone();
+            sum += dot_scaled(&residual[rows.clone()], &image[rows], scale);
+        }
+        sum
+    }
+}
+
+/// Turns a chunk of the direction.
+struct TurnChunk<'a> {
+    chunk: &'a Chunk,
+    image: &'a Columns<f32>,
+    direction: [&'a mut [f64]; 3],
+    turn: Turn,
+}
+
+impl WithSimd for TurnChunk<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { chunk, image, direction, turn: Turn { factor, scale } } = self;
+        for (direction, image) in direction.into_iter().zip(&image.0) {
+            update_direction(direction, factor, &image[chunk.rows.clone()], scale);
+        }
     }
 }
 
 /// Copy of a residual in single precision, times a factor.
 struct Image<'a> {
     image: &'a mut [f32],
-    factor: f64,
+    image_factor: f64,
 }
 
-/// Subtracts `step · p` from `r`, writes its image, and clears `p`. Returns the new `‖r‖₂²`.
+/// Subtracts `step · p` from `r` and writes its image. Returns the new `‖r‖₂²`.
 #[inline(always)]
-fn update_residual(step: f64, r: &mut [f64], p: &mut [f64], image: Image<'_>) -> f64 {
-    let Image { image, factor } = image;
+fn update_residual(step: f64, r: &mut [f64], p: &[f64], image: Image<'_>) -> f64 {
+    let Image { image, image_factor } = image;
     let mut partial = [0.0; LANES];
     let (heads, _) = r.as_chunks_mut::<LANES>();
-    let (products, _) = p.as_chunks_mut::<LANES>();
+    let (products, _) = p.as_chunks::<LANES>();
     let (images, _) = image.as_chunks_mut::<LANES>();
     for ((r, p), image) in heads.iter_mut().zip(products).zip(images) {
         for k in 0..LANES {
             r[k] -= step * p[k];
             partial[k] += r[k] * r[k];
-            image[k] = (r[k] * factor) as f32;
-            p[k] = 0.0;
+            image[k] = (r[k] * image_factor) as f32;
         }
     }
     sum(partial)
@@ -258,9 +399,10 @@ mod tests {
         let layout = &schedule.layout;
         let mut packed = PackedMatrix::new(layout);
         let mut factor = IncompleteCholesky::new(layout);
-        factor.factorise(&schedule, matrix, &mut packed).unwrap();
+        let arch = Arch::new();
+        factor.factorise(arch, &schedule, matrix, &mut packed).unwrap();
         let mut x = b.to_vec();
-        let system = Preconditioned { layout, matrix: &packed, factor: &mut factor };
+        let system = Preconditioned { arch, layout, matrix: &packed, factor: &mut factor };
         let outcome = ConjugateGradient::new(layout).solve(system, &mut x, target, limit);
         (x, outcome)
     }

@@ -19,6 +19,8 @@ pub(crate) mod elimination;
 pub(crate) mod factor;
 pub(crate) mod schur_complement;
 
+use pulp::{Arch, Simd, WithSimd};
+
 use crate::linear::block_matrix::{BlockMatrix, NotDefinite};
 use crate::linear::lane_block::are_definite;
 use crate::linear::lanes::{Columns, Double, LANES};
@@ -81,34 +83,67 @@ impl IncompleteCholesky {
     /// until [`forget`](Self::forget) the very first is not tried again after it has failed. Tried
     /// each time, it failed for almost every matrix of a cloth that comes to rest, and for half of
     /// those of a swing.
-    #[inline(always)]
     pub(crate) fn factorise(
         &mut self,
+        arch: Arch,
         schedule: &LevelSchedule,
         matrix: &BlockMatrix,
         packed: &mut PackedMatrix,
     ) -> Result<usize, NotDefinite> {
+        packed.pack(arch, &schedule.layout, matrix);
+        arch.dispatch(Factorise { preconditioner: self, schedule, packed })
+    }
+
+    /// Turns the image `r` into `(Uᵀ D U)⁻¹ r`.
+    pub(crate) fn apply(&mut self, arch: Arch, layout: &BatchLayout) {
+        arch.dispatch(Apply { preconditioner: self, layout });
+    }
+}
+
+// Calls that are dispatched to the machine's vector instructions: all below them is inlined.
+
+struct Factorise<'a> {
+    preconditioner: &'a mut IncompleteCholesky,
+    schedule: &'a LevelSchedule,
+    packed: &'a PackedMatrix,
+}
+
+impl WithSimd for Factorise<'_> {
+    type Output = Result<usize, NotDefinite>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        let Self { preconditioner, schedule, packed } = self;
+        let IncompleteCholesky { elimination, factor, first_attempt, .. } = preconditioner;
         let layout = &schedule.layout;
-        packed.pack(layout, matrix);
         let mut batches = layout.runs.iter().flat_map(|run| (run.start..run.end).step_by(LANES));
         if !batches.all(|row| are_definite(&packed.main_diagonal(row), Double::ZERO)) {
             return Err(NotDefinite);
         }
-        let first = self.first_attempt;
+        let first = *first_attempt;
         for (failed, attempt) in ATTEMPTS[first..].iter().enumerate() {
-            if self.elimination.eliminate(schedule, packed, *attempt, &mut self.factor) {
-                self.first_attempt = if failed == 0 { first.min(1) } else { first + failed };
+            if elimination.eliminate(schedule, packed, *attempt, factor) {
+                *first_attempt = if failed == 0 { first.min(1) } else { first + failed };
                 return Ok(failed);
             }
         }
-        self.factor.use_diagonal(layout, packed);
+        factor.use_diagonal(layout, packed);
         Ok(ATTEMPTS.len() - first)
     }
+}
 
-    /// Turns the image `r` into `(Uᵀ D U)⁻¹ r`.
+struct Apply<'a> {
+    preconditioner: &'a mut IncompleteCholesky,
+    layout: &'a BatchLayout,
+}
+
+impl WithSimd for Apply<'_> {
+    type Output = ();
+
     #[inline(always)]
-    pub(crate) fn apply(&mut self, layout: &BatchLayout) {
-        self.factor.apply(layout, &mut self.image);
+    fn with_simd<S: Simd>(self, _: S) {
+        let IncompleteCholesky { factor, image, .. } = self.preconditioner;
+        factor.apply(self.layout, image);
     }
 }
 
@@ -146,7 +181,7 @@ mod tests {
         let schedule = LevelSchedule::new(matrix.sparsity());
         let mut incomplete = IncompleteCholesky::new(&schedule.layout);
         let mut packed = PackedMatrix::new(&schedule.layout);
-        let failed = incomplete.factorise(&schedule, matrix, &mut packed);
+        let failed = incomplete.factorise(Arch::new(), &schedule, matrix, &mut packed);
         Factored { schedule, incomplete, failed }
     }
 
@@ -158,7 +193,7 @@ mod tests {
         for (k, axis, row) in numbers() {
             image.0[axis][row] = b[k] as f32;
         }
-        incomplete.apply(&schedule.layout);
+        incomplete.apply(Arch::new(), &schedule.layout);
         numbers().map(|(_, axis, row)| incomplete.image.0[axis][row].into()).collect()
     }
 
@@ -219,7 +254,7 @@ mod tests {
         assert!(!schedule.updates.irregular.is_empty(), "nothing of this is irregular");
         let mut packed = PackedMatrix::new(&schedule.layout);
         let mut incomplete = IncompleteCholesky::new(&schedule.layout);
-        packed.pack(&schedule.layout, &matrix);
+        packed.pack(Arch::new(), &schedule.layout, &matrix);
         let attempt = Attempt { fill: DroppedFill::Compensated(0.0), shift: 0.0 };
         let IncompleteCholesky { elimination, factor, .. } = &mut incomplete;
         assert!(elimination.eliminate(&schedule, &packed, attempt, factor));
@@ -302,7 +337,7 @@ mod tests {
             let mut packed = PackedMatrix::new(&schedule.layout);
             let mut incomplete = IncompleteCholesky::new(&schedule.layout);
             let mut holds = |fill: DroppedFill| {
-                packed.pack(&schedule.layout, &matrix);
+                packed.pack(Arch::new(), &schedule.layout, &matrix);
                 let IncompleteCholesky { elimination, factor, .. } = &mut incomplete;
                 elimination.eliminate(&schedule, &packed, Attempt { fill, shift: 0.0 }, factor)
             };

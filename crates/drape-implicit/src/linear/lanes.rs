@@ -7,6 +7,8 @@
 
 use core::ops::{Add, Mul, Sub};
 
+use crate::linear::level_schedule::chunk::PerRow;
+
 /// Number of lanes: one register of the widest instructions in double precision, and few enough
 /// that the short levels of a level schedule fill them.
 pub(crate) const LANES: usize = 8;
@@ -162,6 +164,11 @@ impl<T: Copy + Default> Columns<T> {
         let column = || vec![T::default(); rows];
         Self([column(), column(), column()])
     }
+
+    /// Output of chunks.
+    pub(crate) fn per_row(&mut self) -> PerRow<'_, T, 3> {
+        PerRow(self.0.each_mut().map(|column| &mut column[..]))
+    }
 }
 
 impl<T: Copy + Add<Output = T> + Sub<Output = T>> Columns<T> {
@@ -170,14 +177,6 @@ impl<T: Copy + Add<Output = T> + Sub<Output = T>> Columns<T> {
     pub(crate) fn at(&self, row: usize) -> [T; 3] {
         let [x, y, z] = &self.0;
         [x[row], y[row], z[row]]
-    }
-
-    /// Adds to the numbers of a row.
-    #[inline(always)]
-    pub(crate) fn add(&mut self, row: usize, numbers: [T; 3]) {
-        for (column, number) in self.0.iter_mut().zip(numbers) {
-            column[row] = column[row] + number;
-        }
     }
 
     /// Subtracts from the numbers of a row.
@@ -194,13 +193,6 @@ impl Columns<f64> {
     pub(crate) fn load(&self, at: usize) -> [Double; 3] {
         let [x, y, z] = &self.0;
         [Double::load(x, at), Double::load(y, at), Double::load(z, at)]
-    }
-
-    #[inline(always)]
-    pub(crate) fn store(&mut self, at: usize, lanes: [Double; 3]) {
-        for (column, lanes) in self.0.iter_mut().zip(lanes) {
-            lanes.store(column, at);
-        }
     }
 }
 

@@ -16,8 +16,10 @@
 //! *irregular entry* and is computed by itself.
 //!
 //! Built once per sparsity, in this order: rows ([`row_order`]), runs and places of blocks
-//! ([`layout`]), updates of the elimination ([`updates`]).
+//! ([`layout`]), the division of the runs among threads ([`chunk`]), updates of the elimination
+//! ([`updates`]).
 
+pub(crate) mod chunk;
 pub(crate) mod layout;
 pub(crate) mod row_order;
 pub(crate) mod run;

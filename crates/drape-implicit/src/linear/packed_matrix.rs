@@ -1,13 +1,20 @@
 //! Matrix laid out for vector instructions, in the order of elimination.
 
+use pulp::{Arch, Simd, WithSimd};
+
 use crate::linear::block::{self, Block};
 use crate::linear::block_matrix::{BlockMatrix, Coupling};
 use crate::linear::lane_block::{
-    Blocks, SymmetricBlocks, product, symmetric_part, symmetric_product, transposed_product,
+    self, Blocks, SymmetricBlocks, symmetric_part, symmetric_product, transposed_product,
 };
 use crate::linear::lanes::{Columns, Double, LANES, Single, widened};
+use crate::linear::level_schedule::chunk::{
+    self, Chunk, PerBlock, PerChunk, PerIrregularEntry, PerRow, leading_to,
+};
 use crate::linear::level_schedule::layout::BatchLayout;
 use crate::linear::level_schedule::row_order::ABSENT;
+use crate::linear::level_schedule::run::IrregularEntry;
+use crate::linear::vector::{add_scaled, dot};
 
 /// Places of a symmetric block's upper half in the block.
 const UPPER_HALF: [usize; 6] = [0, 1, 2, 4, 5, 8];
@@ -29,8 +36,62 @@ pub(crate) struct PackedMatrix {
     pub irregular: Vec<Blocks<f32>>,
     /// Upper halves of the main diagonal, by row. Rows without a particle have the identity.
     main_diagonal: [Vec<f64>; 6],
+    /// Parts of the main diagonal that each chunk adds.
+    parts: Vec<PartialSum<6>>,
     /// Blocks outside the sparsity, between rows.
     couplings: Vec<Coupling>,
+}
+
+/// Sum of what a chunk adds to its own rows and to those beyond that its diagonals lead to.
+#[derive(Clone, Debug)]
+pub(crate) struct PartialSum<const N: usize>(pub [Vec<f64>; N]);
+
+impl<const N: usize> PartialSum<N> {
+    fn new(chunk: &Chunk) -> Self {
+        Self(core::array::from_fn(|_| vec![0.0; chunk.reach - chunk.rows.start]))
+    }
+
+    fn clear(&mut self) {
+        for column in &mut self.0 {
+            column.fill(0.0);
+        }
+    }
+
+    /// Adds to a batch of rows, the first counted within the chunk.
+    #[inline(always)]
+    fn add_batch(&mut self, first: usize, batch: [Double; N]) {
+        for (column, lanes) in self.0.iter_mut().zip(batch) {
+            (Double::load(column, first) + lanes).store(column, first);
+        }
+    }
+
+    /// Adds to a row, counted within the chunk.
+    #[inline(always)]
+    fn add(&mut self, row: usize, numbers: [f64; N]) {
+        for (column, number) in self.0.iter_mut().zip(numbers) {
+            column[row] += number;
+        }
+    }
+}
+
+/// Product of a chunk's blocks with a vector.
+#[derive(Debug)]
+pub(crate) struct PartialProduct {
+    pub rows: PartialSum<3>,
+    /// What each irregular entry adds to its column, where that is not a row of the chunk.
+    pub pushes: Vec<[f64; 3]>,
+    /// Dot product with the vector.
+    pub curvature: f64,
+}
+
+impl PartialProduct {
+    pub(crate) fn new(chunk: &Chunk) -> Self {
+        Self {
+            rows: PartialSum::new(chunk),
+            pushes: vec![[0.0; 3]; chunk.irregular.len()],
+            curvature: 0.0,
+        }
+    }
 }
 
 impl PackedMatrix {
@@ -39,67 +100,55 @@ impl PackedMatrix {
             off_diagonal: vec![[Single::ZERO; 9]; layout.slots.len()],
             irregular: vec![[0.0; 9]; layout.irregular.len()],
             main_diagonal: core::array::from_fn(|_| vec![0.0; layout.rows]),
+            parts: layout.chunks.iter().map(PartialSum::new).collect(),
             couplings: Vec::new(),
         }
     }
 
     /// Copies a matrix on the sparsity of the layout.
-    #[inline(always)]
-    pub(crate) fn pack(&mut self, layout: &BatchLayout, matrix: &BlockMatrix) {
-        let blocks = matrix.blocks();
+    pub(crate) fn pack(&mut self, arch: Arch, layout: &BatchLayout, matrix: &BlockMatrix) {
         self.couplings.clear();
         self.couplings.extend(matrix.couplings().iter().map(|coupling| Coupling {
             row: layout.order.row_of[coupling.row as usize],
             column: layout.order.row_of[coupling.column as usize],
             ..*coupling
         }));
-        for column in &mut self.main_diagonal {
-            column.fill(0.0);
-        }
-        for run in &layout.runs {
-            let diagonals = &layout.diagonals[run.diagonals.clone()];
-            for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
-                let slots = &layout.main_slots[run.batches + batch];
-                for (column, place) in self.main_diagonal.iter_mut().zip(UPPER_HALF) {
-                    let column = &mut column[row..row + LANES];
-                    for (entry, &slot) in column.iter_mut().zip(slots) {
-                        *entry += pick(blocks, slot, &IDENTITY)[place];
+        let (off_diagonal, irregular) = (&mut self.off_diagonal, &mut self.irregular);
+        chunk::for_each(
+            &layout.chunks,
+            (PerBlock(off_diagonal), PerIrregularEntry(irregular), PerChunk(&mut self.parts)),
+            &|chunk, (PerBlock(off_diagonal), PerIrregularEntry(irregular), PerChunk(parts))| {
+                let main_diagonal = &mut parts[0];
+                let packed = PackedChunk { off_diagonal, irregular, main_diagonal };
+                arch.dispatch(Pack { layout, chunk, blocks: matrix.blocks(), packed });
+            },
+        );
+        let (irregular, parts) = (&self.irregular, &self.parts);
+        chunk::for_each(
+            &layout.chunks,
+            PerRow(self.main_diagonal.each_mut().map(|column| &mut column[..])),
+            &|chunk, PerRow(mut rows)| {
+                let first = chunk.rows.start;
+                for (column, part) in rows.iter_mut().zip(&parts[chunk.index].0) {
+                    column.copy_from_slice(&part[..column.len()]);
+                }
+                for (earlier, shared) in leading_to(&layout.chunks, chunk.index) {
+                    let beyond = &parts[earlier.index].0;
+                    for (column, part) in rows.iter_mut().zip(beyond) {
+                        let part = &part[shared.start - earlier.rows.start..][..shared.len()];
+                        add_scaled(&mut column[shared.start - first..], 1.0, part);
                     }
                 }
-                let slots = &layout.slots[run.blocks_of(batch)];
-                let above = &mut self.off_diagonal[run.blocks_of(batch)];
-                for ((diagonal, slots), above) in diagonals.iter().zip(slots).zip(above) {
-                    let mut block = [Double::ZERO; 9];
-                    for (lane, &slot) in slots.iter().enumerate() {
-                        let source = pick(blocks, slot, &block::ZERO);
-                        for (entry, value) in block.iter_mut().zip(source) {
-                            entry.0[lane] = *value;
-                        }
-                    }
-                    let lost = round(&block, above);
-                    for (column, lost) in self.main_diagonal.iter_mut().zip(lost) {
-                        for at in [row, row + diagonal.offset] {
-                            (Double::load(column, at) + lost).store(column, at);
-                        }
+                for &entry in &chunk.incoming {
+                    let IrregularEntry { column, slot, .. } = layout.irregular[entry as usize];
+                    let short = &irregular[entry as usize];
+                    let lost = rounding(&matrix.blocks()[slot as usize], short);
+                    for (rows, lost) in rows.iter_mut().zip(lost) {
+                        rows[column as usize - first] += lost;
                     }
                 }
-                let own = layout.irregular_of[run.batches + batch].clone();
-                for (entry, short) in
-                    layout.irregular[own.clone()].iter().zip(&mut self.irregular[own])
-                {
-                    let mut lost = block::ZERO;
-                    let block = &blocks[entry.slot as usize];
-                    for ((lost, short), value) in lost.iter_mut().zip(short).zip(block) {
-                        *short = *value as f32;
-                        *lost = *value - f64::from(*short);
-                    }
-                    for (column, lost) in self.main_diagonal.iter_mut().zip(symmetric_part(&lost)) {
-                        column[row + entry.lane as usize] += lost;
-                        column[entry.column as usize] += lost;
-                    }
-                }
-            }
-        }
+            },
+        );
     }
 
     /// Blocks on the main diagonal of the batch that begins at a row.
@@ -112,52 +161,170 @@ impl PackedMatrix {
         main
     }
 
-    /// Adds `A x` to `y`, both by rows, with zeros in the rows without a particle.
-    #[inline(always)]
-    pub(crate) fn add_product(&self, layout: &BatchLayout, x: &Columns<f64>, y: &mut Columns<f64>) {
-        for run in &layout.runs {
-            let diagonals = &layout.diagonals[run.diagonals.clone()];
-            for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
-                let here = x.load(row);
-                let mut sum = symmetric_product(&self.main_diagonal(row), here);
-                let blocks = &self.off_diagonal[run.blocks_of(batch)];
-                for (diagonal, block) in diagonals.iter().zip(blocks) {
-                    let column = row + diagonal.offset;
-                    let wide = widened(block);
-                    let there = product(&wide, x.load(column));
-                    for (sum, there) in sum.iter_mut().zip(there) {
-                        *sum = *sum + there;
-                    }
-                    let back = transposed_product(&wide, here);
-                    let old = y.load(column);
-                    y.store(column, [old[0] + back[0], old[1] + back[1], old[2] + back[2]]);
-                }
-                let old = y.load(row);
-                y.store(row, [old[0] + sum[0], old[1] + sum[1], old[2] + sum[2]]);
-                let own = layout.irregular_of[run.batches + batch].clone();
-                for (entry, block) in layout.irregular[own.clone()].iter().zip(&self.irregular[own])
-                {
-                    let mut wide = block::ZERO;
-                    for (wide, entry) in wide.iter_mut().zip(block) {
-                        *wide = (*entry).into();
-                    }
-                    let (row, column) = (row + entry.lane as usize, entry.column as usize);
-                    y.add(row, product(&wide, x.at(column)));
-                    y.add(column, transposed_product(&wide, x.at(row)));
-                }
-            }
-        }
+    /// Writes the products of all chunks with `x`, which has zeros in the rows without a particle.
+    /// Returns `xᵀA x`.
+    pub(crate) fn multiply(
+        &self,
+        arch: Arch,
+        layout: &BatchLayout,
+        x: &Columns<f64>,
+        products: &mut [PartialProduct],
+    ) -> f64 {
+        chunk::for_each(&layout.chunks, PerChunk(&mut *products), &|chunk, PerChunk(own)| {
+            arch.dispatch(Multiply { layout, matrix: self, chunk, x, product: &mut own[0] });
+        });
+        let mut curvature = products.iter().map(|product| product.curvature).sum();
         for Coupling { row, column, block } in &self.couplings {
             let [row, column] = [*row as usize, *column as usize];
-            for axis in 0..3 {
-                for other in 0..3 {
-                    let entry = block[3 * axis + other];
-                    y.0[axis][row] += entry * x.0[other][column];
-                    y.0[other][column] += entry * x.0[axis][row];
+            let (mut here, mut there) = ([0.0; 3], [0.0; 3]);
+            block::add_product(block, &x.at(column), &mut here);
+            block::add_transposed_product(block, &x.at(row), &mut there);
+            curvature += 2.0 * dot(&here, &x.at(row));
+            for (row, numbers) in [(row, here), (column, there)] {
+                let chunk = &layout.chunks[layout.chunk_of(row)];
+                products[chunk.index].rows.add(row - chunk.rows.start, numbers);
+            }
+        }
+        curvature
+    }
+}
+
+/// Parts of a packed matrix that a chunk writes.
+struct PackedChunk<'a> {
+    off_diagonal: &'a mut [Blocks<Single>],
+    irregular: &'a mut [Blocks<f32>],
+    main_diagonal: &'a mut PartialSum<6>,
+}
+
+/// Copies the blocks of a chunk.
+struct Pack<'a> {
+    layout: &'a BatchLayout,
+    chunk: &'a Chunk,
+    blocks: &'a [Block],
+    packed: PackedChunk<'a>,
+}
+
+impl WithSimd for Pack<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { layout, chunk, blocks, packed } = self;
+        let PackedChunk { off_diagonal, irregular, main_diagonal } = packed;
+        let first = chunk.rows.start;
+        main_diagonal.clear();
+        for run in &layout.runs[chunk.runs.clone()] {
+            let diagonals = &layout.diagonals[run.diagonals.clone()];
+            for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
+                let slots = &layout.main_slots[run.batches + batch];
+                let mut main = [Double::ZERO; 6];
+                for (main, place) in main.iter_mut().zip(UPPER_HALF) {
+                    for (entry, &slot) in main.0.iter_mut().zip(slots) {
+                        *entry = pick(blocks, slot, &IDENTITY)[place];
+                    }
+                }
+                main_diagonal.add_batch(row - first, main);
+                let slots = &layout.slots[run.blocks_of(batch)];
+                let own = run.blocks_of(batch);
+                let own = own.start - chunk.blocks.start..own.end - chunk.blocks.start;
+                let above = &mut off_diagonal[own];
+                for ((diagonal, slots), above) in diagonals.iter().zip(slots).zip(above) {
+                    let mut block = [Double::ZERO; 9];
+                    for (lane, &slot) in slots.iter().enumerate() {
+                        let source = pick(blocks, slot, &block::ZERO);
+                        for (entry, value) in block.iter_mut().zip(source) {
+                            entry.0[lane] = *value;
+                        }
+                    }
+                    let lost = round(&block, above);
+                    main_diagonal.add_batch(row - first, lost);
+                    main_diagonal.add_batch(row - first + diagonal.offset, lost);
+                }
+                for index in layout.irregular_of[run.batches + batch].clone() {
+                    let IrregularEntry { lane, column, slot } = layout.irregular[index];
+                    let block = &blocks[slot as usize];
+                    let short = &mut irregular[index - chunk.irregular.start];
+                    for (short, value) in short.iter_mut().zip(block) {
+                        *short = *value as f32;
+                    }
+                    let lost = rounding(block, short);
+                    main_diagonal.add(row - first + lane as usize, lost);
+                    if chunk.rows.contains(&(column as usize)) {
+                        main_diagonal.add(column as usize - first, lost);
+                    }
                 }
             }
         }
     }
+}
+
+/// Multiplies the blocks of a chunk with a vector.
+struct Multiply<'a> {
+    layout: &'a BatchLayout,
+    matrix: &'a PackedMatrix,
+    chunk: &'a Chunk,
+    x: &'a Columns<f64>,
+    product: &'a mut PartialProduct,
+}
+
+impl WithSimd for Multiply<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { layout, matrix, chunk, x, product } = self;
+        let PartialProduct { rows, pushes, curvature } = product;
+        let first = chunk.rows.start;
+        rows.clear();
+        *curvature = 0.0;
+        for run in &layout.runs[chunk.runs.clone()] {
+            let diagonals = &layout.diagonals[run.diagonals.clone()];
+            for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
+                let here = x.load(row);
+                let mut sum = symmetric_product(&matrix.main_diagonal(row), here);
+                let blocks = &matrix.off_diagonal[run.blocks_of(batch)];
+                for (diagonal, block) in diagonals.iter().zip(blocks) {
+                    let column = row + diagonal.offset;
+                    let wide = widened(block);
+                    let there = lane_block::product(&wide, x.load(column));
+                    for (sum, there) in sum.iter_mut().zip(there) {
+                        *sum = *sum + there;
+                    }
+                    rows.add_batch(column - first, transposed_product(&wide, here));
+                }
+                rows.add_batch(row - first, sum);
+                for index in layout.irregular_of[run.batches + batch].clone() {
+                    let IrregularEntry { lane, column, .. } = layout.irregular[index];
+                    let mut wide = block::ZERO;
+                    for (wide, entry) in wide.iter_mut().zip(&matrix.irregular[index]) {
+                        *wide = (*entry).into();
+                    }
+                    let (row, column) = (row + lane as usize, column as usize);
+                    rows.add(row - first, lane_block::product(&wide, x.at(column)));
+                    let push = transposed_product(&wide, x.at(row));
+                    if chunk.rows.contains(&column) {
+                        rows.add(column - first, push);
+                    } else {
+                        pushes[index - chunk.irregular.start] = push;
+                        *curvature += dot(&push, &x.at(column));
+                    }
+                }
+            }
+        }
+        for (x, sums) in x.0.iter().zip(&rows.0) {
+            *curvature += dot(&x[first..chunk.reach], sums);
+        }
+    }
+}
+
+/// Symmetric part of what rounding takes from a block.
+#[inline(always)]
+fn rounding(block: &Block, short: &Blocks<f32>) -> [f64; 6] {
+    let mut lost = block::ZERO;
+    for ((lost, short), value) in lost.iter_mut().zip(short).zip(block) {
+        *lost = *value - f64::from(*short);
+    }
+    symmetric_part(&lost)
 }
 
 /// Converts blocks to single precision. Returns the symmetric part of what they lose.
@@ -179,60 +346,89 @@ fn pick<'a>(blocks: &'a [Block], slot: u32, none: &'a Block) -> &'a Block {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::sparsity::Sparsity;
+    use crate::linear::level_schedule::sample::rimmed;
 
-    /// Springs between the points of a lattice, with numbers that single precision has to round,
-    /// and no springs to anything else.
+    /// Springs between the points of a lattice with a chain around it, with numbers that single
+    /// precision has to round, and no springs to anything else.
     fn lattice(n: usize) -> BlockMatrix {
-        let cells = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-        let pairs: Vec<[usize; 2]> = cells
-            .flat_map(|(i, j)| [(i, j, i, j + 1), (i, j, i + 1, j), (i, j, i + 1, j + 1)])
-            .filter(|&(.., i, j)| i < n && j < n)
-            .map(|(a, b, c, d)| [a * n + b, c * n + d])
-            .collect();
-        let mut matrix = BlockMatrix::zeros(Sparsity::from_pairs(n * n, pairs.clone()).unwrap());
-        for (k, [i, j]) in pairs.into_iter().enumerate() {
-            let [x, y, z] = [0.1, 0.2, 0.3].map(|phase| (k as f64 + phase).sin());
-            let spring = [x * x, x * y, x * z, x * y, y * y, y * z, x * z, y * z, z * z];
-            matrix.add(i, i, &spring);
-            matrix.add(j, j, &spring);
-            matrix.add(i, j, &spring.map(|entry| -entry));
+        let sparsity = rimmed(n);
+        let mut matrix = BlockMatrix::zeros(sparsity.clone());
+        for i in 0..sparsity.particles() {
+            for slot in sparsity.row(i).skip(1) {
+                let j = sparsity.columns()[slot] as usize;
+                let [x, y, z] = [0.1, 0.2, 0.3].map(|phase| (slot as f64 + phase).sin());
+                let spring = [x * x, x * y, x * z, x * y, y * y, y * z, x * z, y * z, z * z];
+                matrix.add(i, i, &spring);
+                matrix.add(j, j, &spring);
+                matrix.add(i, j, &spring.map(|entry| -entry));
+            }
         }
         matrix
     }
 
-    fn multiply(matrix: &BlockMatrix, x: impl Fn(usize) -> f64) -> Vec<f64> {
+    struct Product {
+        numbers: Vec<f64>,
+        curvature: f64,
+    }
+
+    fn multiply(matrix: &BlockMatrix, x: impl Fn(usize) -> f64) -> Product {
         let layout = BatchLayout::new(matrix.sparsity());
         let mut packed = PackedMatrix::new(&layout);
-        packed.pack(&layout, matrix);
-        let (mut columns, mut product) = (Columns::new(layout.rows), Columns::new(layout.rows));
+        packed.pack(Arch::new(), &layout, matrix);
+        let mut columns = Columns::new(layout.rows);
         let entries =
             || (0..3 * layout.order.row_of.len()).map(|k| (k, layout.order.row_of[k / 3] as usize));
         for (k, row) in entries() {
             columns.0[k % 3][row] = x(k);
         }
-        packed.add_product(&layout, &columns, &mut product);
-        entries().map(|(k, row)| product.0[k % 3][row]).collect()
+        let mut products: Vec<_> = layout.chunks.iter().map(PartialProduct::new).collect();
+        let curvature = packed.multiply(Arch::new(), &layout, &columns, &mut products);
+        let mut sum = Columns::new(layout.rows);
+        for (chunk, product) in layout.chunks.iter().zip(&products) {
+            for (sum, part) in sum.0.iter_mut().zip(&product.rows.0) {
+                add_scaled(&mut sum[chunk.rows.start..], 1.0, part);
+            }
+            for &entry in &chunk.incoming {
+                let source = &layout.chunks[layout.chunk_of_entry(entry as usize)];
+                let push = products[source.index].pushes[entry as usize - source.irregular.start];
+                let row = layout.irregular[entry as usize].column as usize;
+                sum.0.iter_mut().zip(push).for_each(|(sum, push)| sum[row] += push);
+            }
+        }
+        Product { numbers: entries().map(|(k, row)| sum.0[k % 3][row]).collect(), curvature }
     }
 
     #[test]
     fn the_product_is_the_matrixs_own_to_single_precision() {
-        let matrix = lattice(13);
-        let x: Vec<f64> = (0..3 * 13 * 13).map(|k| (k as f64).cos()).collect();
-        let mut exact = vec![0.0; x.len()];
-        matrix.multiply(&x, &mut exact);
-        for (k, product) in multiply(&matrix, |k| x[k]).into_iter().enumerate() {
-            assert!((product - exact[k]).abs() < 1e-6, "entry {k}: {product}, {}", exact[k]);
+        for (n, coupled) in [(13, 0), (70, 0), (70, 40)] {
+            let mut matrix = lattice(n);
+            let last = matrix.sparsity().particles() - 1;
+            for k in 0..coupled {
+                let block = core::array::from_fn(|entry| ((9 * k + entry) as f64).cos());
+                matrix.add_coupling(100 * k + 1, last - 77 * k, &block);
+            }
+            assert_eq!(matrix.couplings().len(), coupled);
+            let x: Vec<f64> = (0..3 * (last + 1)).map(|k| (k as f64).cos()).collect();
+            let mut exact = vec![0.0; x.len()];
+            matrix.multiply(&x, &mut exact);
+            let Product { numbers, curvature } = multiply(&matrix, |k| x[k]);
+            for (k, (product, exact)) in numbers.into_iter().zip(&exact).enumerate() {
+                assert!((product - exact).abs() < 1e-6, "entry {k}: {product}, {exact}");
+            }
+            let exact = dot(&x, &exact);
+            assert!((curvature - exact).abs() < 1e-7 * exact.abs(), "{curvature} for {exact}");
         }
     }
 
     #[test]
     fn rounding_gives_a_translation_no_stiffness() {
         // Rounding alone leaves 6e-8 per entry.
-        let largest = |product: Vec<f64>| product.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        for axis in 0..3 {
-            let push = largest(multiply(&lattice(13), |k| if k % 3 == axis { 1.0 } else { 0.0 }));
-            assert!(push < 1e-14, "axis {axis}: {push:e}");
+        let largest = |product: Product| -> f64 {
+            product.numbers.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()))
+        };
+        for (n, axis) in [13, 70].into_iter().flat_map(|n| (0..3).map(move |axis| (n, axis))) {
+            let push = largest(multiply(&lattice(n), |k| if k % 3 == axis { 1.0 } else { 0.0 }));
+            assert!(push < 1e-14, "axis {axis} of {n}: {push:e}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! System matrix of a step, factorised or preconditioned, and linear systems with it.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::Arch;
 
 use crate::error::Error;
 use crate::linear::block_matrix::{BlockMatrix, NotDefinite};
@@ -66,7 +66,7 @@ impl SystemMatrix {
     fn precondition(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
         let matrix = &self.matrix;
         let iterative = self.iterative.get_or_insert_with(|| Iterative::new(matrix.sparsity()));
-        report.pivot_shifts += iterative.arch.dispatch(Factorise { iterative, matrix })?;
+        report.pivot_shifts += iterative.factorise(matrix)?;
         Ok(())
     }
 
@@ -91,8 +91,7 @@ impl SystemMatrix {
         }
         let iterative = self.iterative.as_mut().ok_or(NotDefinite)?;
         let limit = self.max_iterations;
-        let Outcome { iterations, ending } =
-            iterative.arch.dispatch(Solve { iterative, x, target, limit });
+        let Outcome { iterations, ending } = iterative.solve(x, target, limit);
         report.linear_iterations += iterations;
         match ending {
             Ending::Converged => Ok(true),
@@ -137,40 +136,19 @@ impl Iterative {
             arch: Arch::new(),
         }
     }
-}
 
-// Calls that are dispatched to the machine's vector instructions: all below them is inlined.
-
-struct Factorise<'a> {
-    iterative: &'a mut Iterative,
-    matrix: &'a BlockMatrix,
-}
-
-impl WithSimd for Factorise<'_> {
-    type Output = Result<usize, NotDefinite>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
-        let Iterative { schedule, packed, factor, .. } = self.iterative;
-        factor.factorise(schedule, self.matrix, packed)
+    /// Factorises a matrix; returns the number of attempts that failed.
+    fn factorise(&mut self, matrix: &BlockMatrix) -> Result<usize, NotDefinite> {
+        let Self { schedule, packed, factor, arch, .. } = self;
+        factor.factorise(*arch, schedule, matrix, packed)
     }
-}
 
-struct Solve<'a> {
-    iterative: &'a mut Iterative,
-    x: &'a mut [f64],
-    target: Target,
-    limit: usize,
-}
-
-impl WithSimd for Solve<'_> {
-    type Output = Outcome;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
-        let Iterative { schedule, packed, factor, gradient, .. } = self.iterative;
-        let system = Preconditioned { layout: &schedule.layout, matrix: packed, factor };
-        gradient.solve(system, self.x, self.target, self.limit)
+    /// Solves for `x`, which holds the right side on entry.
+    fn solve(&mut self, x: &mut [f64], target: Target, limit: usize) -> Outcome {
+        let Self { schedule, packed, factor, gradient, arch } = self;
+        let system =
+            Preconditioned { arch: *arch, layout: &schedule.layout, matrix: packed, factor };
+        gradient.solve(system, x, target, limit)
     }
 }
 
@@ -191,11 +169,10 @@ mod tests {
         }
         let run = |arch: Arch| {
             let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity()) };
-            arch.dispatch(Factorise { iterative: &mut iterative, matrix: &matrix }).unwrap();
+            iterative.factorise(&matrix).unwrap();
             let mut x: Vec<f64> = (0..1200).map(|k| (k as f64).sin()).collect();
             let target = Target { residual: 1e-9, energy: 0.0 };
-            let solve = Solve { iterative: &mut iterative, x: &mut x, target, limit: 100 };
-            let Outcome { iterations, ending } = arch.dispatch(solve);
+            let Outcome { iterations, ending } = iterative.solve(&mut x, target, 100);
             assert_eq!(ending, Ending::Converged);
             (iterations, x)
         };

@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use super::chunk::Chunk;
 use super::row_order::{ABSENT, RowOrder};
 use super::run::{BlockAddress, Diagonal, IrregularEntry, Run};
 use crate::linear::lanes::LANES;
@@ -15,6 +16,7 @@ pub(crate) struct BatchLayout {
     pub rows: usize,
     /// Runs in the order of elimination.
     pub runs: Vec<Run>,
+    pub chunks: Vec<Chunk>,
     pub diagonals: Vec<Diagonal>,
     /// Slot of the matrix for each lane of each off-diagonal block of the batches.
     pub slots: Vec<[u32; LANES]>,
@@ -64,6 +66,7 @@ impl BatchLayout {
             rows: order.particles.len(),
             order,
             runs: Vec::new(),
+            chunks: Vec::new(),
             diagonals: Vec::new(),
             slots: Vec::new(),
             main_slots: Vec::new(),
@@ -81,6 +84,7 @@ impl BatchLayout {
         layout.find_slots(sparsity);
         layout.find_pivots();
         layout.find_look_ahead();
+        layout.chunks = Chunk::divide(&layout);
         layout
     }
 
@@ -241,6 +245,16 @@ impl BatchLayout {
             look_ahead = look_ahead.max(index + 1).max(last + 1);
             run.look_ahead = look_ahead;
         }
+    }
+
+    /// Number of the chunk that a row lies in.
+    pub(crate) fn chunk_of(&self, row: usize) -> usize {
+        self.chunks.partition_point(|chunk| chunk.rows.end <= row)
+    }
+
+    /// Number of the chunk that an irregular entry lies in.
+    pub(crate) fn chunk_of_entry(&self, index: usize) -> usize {
+        self.chunks.partition_point(|chunk| chunk.irregular.end <= index)
     }
 
     /// Address of an irregular entry in the Schur complement.

@@ -1,0 +1,221 @@
+//! Chunks: consecutive runs, about equally many rows each, that threads work on side by side.
+//!
+//! What is computed for a chunk depends on the chunk alone, and sums over chunks run in their order,
+//! so the number of threads changes no bit.
+
+use core::ops::Range;
+
+use super::layout::BatchLayout;
+use super::run::Run;
+use crate::linear::lanes::LANES;
+
+/// Fewest rows of a chunk, so that its work outweighs handing it to a thread.
+const MIN_ROWS: usize = 1024;
+
+/// Most chunks of a layout.
+const MAX_CHUNKS: usize = 64;
+
+/// Consecutive runs with their rows, blocks and irregular entries.
+#[derive(Clone, Debug)]
+pub(crate) struct Chunk {
+    pub index: usize,
+    pub runs: Range<usize>,
+    /// Rows of the runs; of the first and the last chunk with the margins.
+    pub rows: Range<usize>,
+    /// Off-diagonal blocks.
+    pub blocks: Range<usize>,
+    pub irregular: Range<usize>,
+    /// End of the rows that the diagonals lead to.
+    pub reach: usize,
+    /// Irregular entries of earlier chunks whose columns are rows of this one, ascending.
+    pub incoming: Vec<u32>,
+}
+
+impl Chunk {
+    /// Divides the runs of a layout.
+    pub(crate) fn divide(layout: &BatchLayout) -> Vec<Self> {
+        let target = MIN_ROWS.max(layout.rows.div_ceil(MAX_CHUNKS));
+        let mut chunks: Vec<Self> = Vec::new();
+        let mut first = 0;
+        for (last, run) in layout.runs.iter().enumerate() {
+            let rows = run.end - layout.runs[first].start;
+            let is_last = last + 1 == layout.runs.len();
+            if is_last || (rows >= target && layout.rows - run.end >= target) {
+                chunks.push(Self::of(layout, first..last + 1));
+                first = last + 1;
+            }
+        }
+        if let [first, ..] = &mut chunks[..] {
+            first.rows.start = 0;
+        }
+        if let [.., last] = &mut chunks[..] {
+            last.rows.end = layout.rows;
+            last.reach = layout.rows;
+        }
+        for (index, chunk) in chunks.iter_mut().enumerate() {
+            chunk.index = index;
+        }
+        for (index, entry) in layout.irregular.iter().enumerate() {
+            let column = entry.column as usize;
+            let target = chunks.partition_point(|chunk| chunk.rows.end <= column);
+            let target = &mut chunks[target];
+            if !target.irregular.contains(&index) {
+                target.incoming.push(index as u32);
+            }
+        }
+        chunks
+    }
+
+    fn of(layout: &BatchLayout, runs: Range<usize>) -> Self {
+        let own = &layout.runs[runs.clone()];
+        let (first, last) = (&own[0], &own[own.len() - 1]);
+        let batches = last.len() / LANES;
+        let end = |run: &Run| {
+            let offsets = layout.diagonals[run.diagonals.clone()].iter().map(|own| own.offset);
+            run.end + offsets.max().unwrap_or(0)
+        };
+        let irregular = |batch: usize| &layout.irregular_of[batch];
+        Self {
+            index: 0,
+            rows: first.start..last.end,
+            blocks: first.blocks..last.blocks_of(batches).start,
+            irregular: irregular(first.batches).start..irregular(last.batches + batches - 1).end,
+            reach: own.iter().map(end).fold(last.end, usize::max),
+            incoming: Vec::new(),
+            runs,
+        }
+    }
+}
+
+/// Earlier chunks whose diagonals lead to rows of a chunk, and these rows.
+pub(crate) fn leading_to(
+    chunks: &[Chunk],
+    index: usize,
+) -> impl Iterator<Item = (&Chunk, Range<usize>)> {
+    let rows = &chunks[index].rows;
+    let earlier = chunks[..index].iter().filter(|earlier| earlier.reach > rows.start);
+    earlier.map(|earlier| (earlier, rows.start..earlier.reach.min(rows.end)))
+}
+
+/// Output that consecutive chunks write, each its own part.
+pub(crate) trait Split: Sized + Send {
+    /// Splits the output of some chunks from that of the others, which follow them.
+    fn split(self, here: &[Chunk]) -> (Self, Self);
+}
+
+/// One value per chunk.
+pub(crate) struct PerChunk<'a, T>(pub &'a mut [T]);
+
+/// Columns of one number per row.
+pub(crate) struct PerRow<'a, T, const N: usize>(pub [&'a mut [T]; N]);
+
+/// One value per off-diagonal block.
+pub(crate) struct PerBlock<'a, T>(pub &'a mut [T]);
+
+/// One value per irregular entry.
+pub(crate) struct PerIrregularEntry<'a, T>(pub &'a mut [T]);
+
+impl<T: Send> Split for PerChunk<'_, T> {
+    fn split(self, here: &[Chunk]) -> (Self, Self) {
+        let (own, rest) = self.0.split_at_mut(here.len());
+        (Self(own), Self(rest))
+    }
+}
+
+impl<T: Send, const N: usize> Split for PerRow<'_, T, N> {
+    fn split(self, here: &[Chunk]) -> (Self, Self) {
+        let rows = here.iter().map(|chunk| chunk.rows.len()).sum();
+        let mut rest = self.0;
+        let own = core::array::from_fn(|axis| rest[axis].split_off_mut(..rows).unwrap_or_default());
+        (Self(own), Self(rest))
+    }
+}
+
+impl<T: Send> Split for PerBlock<'_, T> {
+    fn split(self, here: &[Chunk]) -> (Self, Self) {
+        let (own, rest) = self.0.split_at_mut(here.iter().map(|chunk| chunk.blocks.len()).sum());
+        (Self(own), Self(rest))
+    }
+}
+
+impl<T: Send> Split for PerIrregularEntry<'_, T> {
+    fn split(self, here: &[Chunk]) -> (Self, Self) {
+        let (own, rest) = self.0.split_at_mut(here.iter().map(|chunk| chunk.irregular.len()).sum());
+        (Self(own), Self(rest))
+    }
+}
+
+impl<A: Split, B: Split> Split for (A, B) {
+    fn split(self, here: &[Chunk]) -> (Self, Self) {
+        let (a, more_a) = self.0.split(here);
+        let (b, more_b) = self.1.split(here);
+        ((a, b), (more_a, more_b))
+    }
+}
+
+impl<A: Split, B: Split, C: Split> Split for (A, B, C) {
+    fn split(self, here: &[Chunk]) -> (Self, Self) {
+        let (a, more_a) = self.0.split(here);
+        let (rest, more) = (self.1, self.2).split(here);
+        ((a, rest.0, rest.1), (more_a, more.0, more.1))
+    }
+}
+
+/// Works on chunks, each with its own part of the output. Threads that have done theirs take over
+/// others'.
+pub(crate) fn for_each<O: Split>(chunks: &[Chunk], output: O, work: &(impl Fn(&Chunk, O) + Sync)) {
+    match chunks {
+        [] => {}
+        [chunk] => work(chunk, output),
+        _ => {
+            let (here, there) = chunks.split_at(chunks.len().div_ceil(2));
+            let (own, rest) = output.split(here);
+            rayon::join(|| for_each(here, own, work), || for_each(there, rest, work));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::level_schedule::sample::{rimmed, weave};
+
+    #[test]
+    fn chunks_cover_all_rows_blocks_and_entries_once_and_in_order() {
+        for (sparsity, expected) in [(weave(20), 1), (weave(100), 7), (rimmed(80), 5)] {
+            let layout = BatchLayout::new(&sparsity);
+            let chunks = &layout.chunks;
+            assert!(chunks.len() >= expected, "{} chunks", chunks.len());
+            let ranges: [(fn(&Chunk) -> Range<usize>, usize); 4] = [
+                (|chunk| chunk.rows.clone(), layout.rows),
+                (|chunk| chunk.runs.clone(), layout.runs.len()),
+                (|chunk| chunk.blocks.clone(), layout.slots.len()),
+                (|chunk| chunk.irregular.clone(), layout.irregular.len()),
+            ];
+            for (range, end) in ranges {
+                let reached = chunks.iter().fold(0, |reached, chunk| {
+                    assert_eq!(range(chunk).start, reached);
+                    range(chunk).end
+                });
+                assert_eq!(reached, end);
+            }
+        }
+    }
+
+    #[test]
+    fn every_column_beyond_a_chunk_is_reached_by_its_diagonals_or_comes_in() {
+        let layout = BatchLayout::new(&rimmed(80));
+        let incoming: usize = layout.chunks.iter().map(|chunk| chunk.incoming.len()).sum();
+        let beyond = |chunk: &&Chunk, entry: usize| {
+            !chunk.rows.contains(&(layout.irregular[entry].column as usize))
+        };
+        let expected = layout
+            .chunks
+            .iter()
+            .map(|chunk| chunk.irregular.clone().filter(|&entry| beyond(&chunk, entry)).count());
+        assert_eq!(incoming, expected.sum());
+        assert!(incoming > 0);
+        let led = |chunk: &Chunk| leading_to(&layout.chunks, chunk.index).next().is_some();
+        assert!(layout.chunks.iter().filter(|chunk| led(chunk)).count() > 3);
+    }
+}
