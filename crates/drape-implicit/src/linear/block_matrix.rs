@@ -1,7 +1,14 @@
 //! Symmetric sparse matrix of 3x3 blocks, which a system assembles its stiffness into.
 
+use core::ops::Range;
+
+use rayon::prelude::*;
+
 use crate::linear::block::{self, Block};
 use crate::linear::sparsity::Sparsity;
+
+/// Blocks that one thread writes at the most where there are more.
+const PARALLEL_BLOCKS: usize = 16_384;
 
 /// Symmetric sparse matrix of 3x3 blocks, upper half stored; a stiffness is in N/m.
 ///
@@ -85,7 +92,7 @@ impl BlockMatrix {
 
     /// Sets every entry to zero and removes all couplings.
     pub fn clear(&mut self) {
-        self.blocks.fill(block::ZERO);
+        self.blocks.par_chunks_mut(PARALLEL_BLOCKS).for_each(|blocks| blocks.fill(block::ZERO));
         self.couplings.clear();
         self.outside = None;
     }
@@ -172,20 +179,49 @@ impl BlockMatrix {
     /// Turns a stiffness into the system matrix of a step: adds the inertia of each particle, in
     /// N/m, to the diagonal, and removes from the rows and columns of held particles all else.
     pub(crate) fn add_inertia(&mut self, inertia: &[f64], held: &[bool]) {
-        for (row, (&inertia, &row_held)) in inertia.iter().zip(held).enumerate() {
-            let slots = self.sparsity.row(row);
-            for slot in slots.clone() {
-                if row_held || held[self.sparsity.columns()[slot] as usize] {
-                    self.blocks[slot] = block::ZERO;
-                }
-            }
-            let diagonal = &mut self.blocks[slots.start];
-            for k in [0, 4, 8] {
-                diagonal[k] += inertia;
-            }
-        }
+        let rows = Rows { sparsity: &self.sparsity, rows: 0..inertia.len(), inertia, held };
+        rows.add_inertia(&mut self.blocks);
         self.couplings
             .retain(|coupling| !held[coupling.row as usize] && !held[coupling.column as usize]);
+    }
+}
+
+/// Consecutive rows that inertia is added to.
+struct Rows<'a> {
+    sparsity: &'a Sparsity,
+    rows: Range<usize>,
+    inertia: &'a [f64],
+    held: &'a [bool],
+}
+
+impl Rows<'_> {
+    /// Adds to the blocks of the rows, on several threads where there are many.
+    fn add_inertia(self, blocks: &mut [Block]) {
+        let Self { sparsity, rows, inertia, held } = self;
+        let offset = |row: usize| sparsity.offsets()[row] - sparsity.offsets()[rows.start];
+        if blocks.len() > PARALLEL_BLOCKS && rows.len() > 1 {
+            let middle = rows.start + rows.len() / 2;
+            let (own, rest) = blocks.split_at_mut(offset(middle));
+            let part = |rows| Rows { sparsity, rows, inertia, held };
+            rayon::join(
+                || part(rows.start..middle).add_inertia(own),
+                || part(middle..rows.end).add_inertia(rest),
+            );
+            return;
+        }
+        for row in rows.clone() {
+            let (own, columns) =
+                (offset(row)..offset(row + 1), &sparsity.columns()[sparsity.row(row)]);
+            let blocks = &mut blocks[own];
+            for (block, &column) in blocks.iter_mut().zip(columns) {
+                if held[row] || held[column as usize] {
+                    *block = block::ZERO;
+                }
+            }
+            for k in [0, 4, 8] {
+                blocks[0][k] += inertia[row];
+            }
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::linear::block;
 use crate::linear::incomplete_cholesky::IncompleteCholesky;
 use crate::linear::lanes::{Columns, LANES};
-use crate::linear::level_schedule::chunk::{self, Chunk, PerChunk, PerRow, leading_to};
+use crate::linear::level_schedule::chunk::{self, Chunk, LIGHT, PerChunk, PerRow, leading_to};
 use crate::linear::level_schedule::layout::BatchLayout;
 use crate::linear::packed_matrix::{PackedMatrix, PartialProduct};
 use crate::linear::vector::{add_scaled, dot, sum};
@@ -176,8 +176,8 @@ impl ConjugateGradient {
         let Self { solution, residual, direction, products, sums } = self;
         let (direction, products) = (&*direction, &products[..]);
         let vectors = (solution.per_row(), residual.per_row(), image.per_row());
-        chunk::for_each(&layout.chunks, (PerChunk(&mut *sums), vectors), &|chunk,
-                                                                           (
+        chunk::for_each(&layout.chunks, LIGHT, (PerChunk(&mut *sums), vectors), &|chunk,
+                                                                                  (
             PerChunk(sums),
             vectors,
         )| {
@@ -197,7 +197,7 @@ impl ConjugateGradient {
     ) -> f64 {
         let Self { residual, sums, .. } = self;
         let residual = &*residual;
-        chunk::for_each(&layout.chunks, PerChunk(&mut *sums), &|chunk, PerChunk(sums)| {
+        chunk::for_each(&layout.chunks, LIGHT, PerChunk(&mut *sums), &|chunk, PerChunk(sums)| {
             sums[0] = arch.dispatch(Weigh { chunk, residual, image, scale });
         });
         sums.iter().sum()
@@ -206,7 +206,7 @@ impl ConjugateGradient {
     /// Replaces the direction `d` by `z + factor · d`, with `z` the image times a scale.
     fn turn(&mut self, arch: Arch, layout: &BatchLayout, image: &Columns<f32>, turn: Turn) {
         let direction = self.direction.per_row();
-        chunk::for_each(&layout.chunks, direction, &|chunk, PerRow(direction)| {
+        chunk::for_each(&layout.chunks, LIGHT, direction, &|chunk, PerRow(direction)| {
             arch.dispatch(TurnChunk { chunk, image, direction, turn });
         });
     }

@@ -9,7 +9,7 @@ use crate::linear::lane_block::{
 };
 use crate::linear::lanes::{Columns, Double, LANES, Single, widened};
 use crate::linear::level_schedule::chunk::{
-    self, Chunk, PerBlock, PerChunk, PerIrregularEntry, PerRow, leading_to,
+    self, Chunk, LIGHT, PerBlock, PerChunk, PerIrregularEntry, PerRow, leading_to,
 };
 use crate::linear::level_schedule::layout::BatchLayout;
 use crate::linear::level_schedule::row_order::ABSENT;
@@ -116,6 +116,7 @@ impl PackedMatrix {
         let (off_diagonal, irregular) = (&mut self.off_diagonal, &mut self.irregular);
         chunk::for_each(
             &layout.chunks,
+            0,
             (PerBlock(off_diagonal), PerIrregularEntry(irregular), PerChunk(&mut self.parts)),
             &|chunk, (PerBlock(off_diagonal), PerIrregularEntry(irregular), PerChunk(parts))| {
                 let main_diagonal = &mut parts[0];
@@ -126,6 +127,7 @@ impl PackedMatrix {
         let (irregular, parts) = (&self.irregular, &self.parts);
         chunk::for_each(
             &layout.chunks,
+            LIGHT,
             PerRow(self.main_diagonal.each_mut().map(|column| &mut column[..])),
             &|chunk, PerRow(mut rows)| {
                 let first = chunk.rows.start;
@@ -170,7 +172,7 @@ impl PackedMatrix {
         x: &Columns<f64>,
         products: &mut [PartialProduct],
     ) -> f64 {
-        chunk::for_each(&layout.chunks, PerChunk(&mut *products), &|chunk, PerChunk(own)| {
+        chunk::for_each(&layout.chunks, 0, PerChunk(&mut *products), &|chunk, PerChunk(own)| {
             arch.dispatch(Multiply { layout, matrix: self, chunk, x, product: &mut own[0] });
         });
         let mut curvature = products.iter().map(|product| product.curvature).sum();

@@ -161,16 +161,31 @@ impl<A: Split, B: Split, C: Split> Split for (A, B, C) {
     }
 }
 
-/// Works on chunks, each with its own part of the output. Threads that have done theirs take over
-/// others'.
-pub(crate) fn for_each<O: Split>(chunks: &[Chunk], output: O, work: &(impl Fn(&Chunk, O) + Sync)) {
+/// Most rows that one thread works on where each costs little: handing over takes longer.
+pub(crate) const LIGHT: usize = 16_384;
+
+/// Works on chunks, each with its own part of the output, on several threads if they have more than
+/// `grain` rows. Threads that have done their chunks take over others'.
+pub(crate) fn for_each<O: Split>(
+    chunks: &[Chunk],
+    grain: usize,
+    output: O,
+    work: &(impl Fn(&Chunk, O) + Sync),
+) {
     match chunks {
         [] => {}
         [chunk] => work(chunk, output),
-        _ => {
+        [first, .., last] => {
+            let rows = last.rows.end - first.rows.start;
             let (here, there) = chunks.split_at(chunks.len().div_ceil(2));
             let (own, rest) = output.split(here);
-            rayon::join(|| for_each(here, own, work), || for_each(there, rest, work));
+            let both = (|| for_each(here, grain, own, work), || for_each(there, grain, rest, work));
+            if rows > grain {
+                rayon::join(both.0, both.1);
+            } else {
+                both.0();
+                both.1();
+            }
         }
     }
 }
@@ -186,19 +201,13 @@ mod tests {
             let layout = BatchLayout::new(&sparsity);
             let chunks = &layout.chunks;
             assert!(chunks.len() >= expected, "{} chunks", chunks.len());
-            let ranges: [(fn(&Chunk) -> Range<usize>, usize); 4] = [
-                (|chunk| chunk.rows.clone(), layout.rows),
-                (|chunk| chunk.runs.clone(), layout.runs.len()),
-                (|chunk| chunk.blocks.clone(), layout.slots.len()),
-                (|chunk| chunk.irregular.clone(), layout.irregular.len()),
-            ];
-            for (range, end) in ranges {
-                let reached = chunks.iter().fold(0, |reached, chunk| {
-                    assert_eq!(range(chunk).start, reached);
-                    range(chunk).end
-                });
-                assert_eq!(reached, end);
+            let mut reached = [0; 4];
+            for Chunk { rows, runs, blocks, irregular, .. } in chunks {
+                assert_eq!([rows, runs, blocks, irregular].map(|range| range.start), reached);
+                reached = [rows, runs, blocks, irregular].map(|range| range.end);
             }
+            let BatchLayout { rows, runs, slots, irregular, .. } = &layout;
+            assert_eq!(reached, [*rows, runs.len(), slots.len(), irregular.len()]);
         }
     }
 
