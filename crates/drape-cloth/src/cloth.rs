@@ -180,6 +180,11 @@ impl Cloth {
         &self.coordinates
     }
 
+    /// First particle of each panel.
+    pub fn panel_starts(&self) -> impl Iterator<Item = usize> {
+        self.panels.iter().map(|panel| panel.first)
+    }
+
     /// Triangles of the surface.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {

@@ -36,5 +36,5 @@ pub use linear::sparsity::Sparsity;
 pub use report::{Energy, Report, Stop};
 pub use settings::{InitialMatrix, Integrator, LinearSolver, Method, Settings};
 pub use step_filter::{StepFilter, StepLimit, TrialStep};
-pub use system::{Stiffness, System};
+pub use system::{MaterialPoint, Stiffness, System};
 pub use system_check::{Check, check_system};

@@ -14,6 +14,15 @@ pub enum Stiffness {
     Definite,
 }
 
+/// Place of a particle on a smooth sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MaterialPoint {
+    /// Number of the sheet.
+    pub sheet: u32,
+    /// Material coordinates, in m.
+    pub coordinates: [f64; 2],
+}
+
 /// System of particles in three dimensions, with masses, forces and a stiffness. Held particles
 /// move by prescription.
 ///
@@ -66,6 +75,15 @@ pub trait System {
     /// [`Stepper::advance`](crate::Stepper::advance).
     fn sparsity_version(&self) -> u64 {
         0
+    }
+
+    /// Material point of each particle; empty if the particles form no sheets. Read when the
+    /// [`sparsity`](Self::sparsity) is.
+    ///
+    /// From 6 000 particles on, linear systems are then solved in fewer iterations: motions that are
+    /// smooth along the sheets are solved for on a coarse grid.
+    fn material_points(&self) -> Vec<MaterialPoint> {
+        Vec::new()
     }
 
     /// Whether the step in hand is to be given up. Asked in every iteration; the step then ends with

@@ -4,7 +4,7 @@
 
 use crate::error::Error;
 use crate::linear::block_matrix::BlockMatrix;
-use crate::linear::cholesky::Cholesky;
+use crate::linear::cholesky::{Cholesky, Kernel};
 use crate::linear::vector::{dot, norm};
 use crate::system::{Stiffness, System};
 
@@ -188,7 +188,7 @@ fn definite_shift(matrix: BlockMatrix) -> Result<f64, Error> {
         return Ok(f64::INFINITY);
     }
     let free = vec![false; matrix.sparsity().particles()];
-    let mut cholesky = Cholesky::new(matrix.sparsity())?;
+    let mut cholesky = Cholesky::new(matrix.sparsity(), Kernel::Vector)?;
     for power in -16..=0 {
         let shift = 10_f64.powi(power);
         let mut shifted = matrix.clone();

@@ -1,7 +1,8 @@
 //! Sewn world as the solver sees it: a system of its independent particles.
 
 use drape_implicit::{
-    BlockMatrix, Coupling, Sparsity, StepFilter, StepLimit, Stiffness, System, TrialStep,
+    BlockMatrix, Coupling, MaterialPoint, Sparsity, StepFilter, StepLimit, Stiffness, System,
+    TrialStep,
 };
 
 use crate::sewing::node_map::coupled_pairs;
@@ -119,6 +120,17 @@ impl System for ReducedSystem<'_> {
 
     fn sparsity(&self) -> Sparsity {
         self.reduction.sparsity.clone()
+    }
+
+    fn material_points(&self) -> Vec<MaterialPoint> {
+        let all = self.world.material_points();
+        let mut own = vec![None; self.reduction.masses.len()];
+        for (row, point) in self.reduction.rows.iter().zip(all) {
+            if !row.is_tied() {
+                own[row.particle()].get_or_insert(point);
+            }
+        }
+        own.into_iter().flatten().collect()
     }
 
     fn is_cancelled(&self) -> bool {

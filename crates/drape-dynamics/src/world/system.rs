@@ -3,7 +3,9 @@
 
 use std::sync::atomic::Ordering;
 
-use drape_implicit::{BlockMatrix, Sparsity, StepFilter, StepLimit, Stiffness, System, TrialStep};
+use drape_implicit::{
+    BlockMatrix, MaterialPoint, Sparsity, StepFilter, StepLimit, Stiffness, System, TrialStep,
+};
 
 use super::World;
 use super::contact::{Contact, ContactStep};
@@ -99,6 +101,15 @@ impl System for World {
 
     fn sparsity_version(&self) -> u64 {
         self.internal.sparsity_version()
+    }
+
+    fn material_points(&self) -> Vec<MaterialPoint> {
+        let starts: Vec<usize> = self.cloth.panel_starts().collect();
+        let coordinates = self.cloth.coordinates().iter().enumerate();
+        let panel = |particle: usize| starts.partition_point(|&start| start <= particle) as u32;
+        coordinates
+            .map(|(particle, &coordinates)| MaterialPoint { sheet: panel(particle), coordinates })
+            .collect()
     }
 
     fn is_cancelled(&self) -> bool {

@@ -232,6 +232,10 @@ fn check_lengths(
 
 fn solver_for(system: &dyn System, settings: &Settings) -> Result<NonlinearSolver, Error> {
     let sparsity = system.sparsity();
+    let points = system.material_points();
     check_length("sparsity", system.particles(), sparsity.particles())?;
-    Ok(NonlinearSolver::new(SystemMatrix::new(sparsity, settings)?, settings))
+    if !points.is_empty() {
+        check_length("material points", system.particles(), points.len())?;
+    }
+    Ok(NonlinearSolver::new(SystemMatrix::new(sparsity, points, settings)?, settings))
 }

@@ -36,6 +36,8 @@ pub struct BlockMatrix {
     sparsity: Sparsity,
     blocks: Vec<Block>,
     couplings: Vec<Coupling>,
+    /// Whether each particle is held.
+    held: Vec<bool>,
     outside: Option<[usize; 2]>,
 }
 
@@ -59,7 +61,8 @@ impl BlockMatrix {
     #[must_use]
     pub fn zeros(sparsity: Sparsity) -> Self {
         let blocks = vec![block::ZERO; sparsity.blocks()];
-        Self { sparsity, blocks, couplings: Vec::new(), outside: None }
+        let held = vec![false; sparsity.particles()];
+        Self { sparsity, blocks, couplings: Vec::new(), held, outside: None }
     }
 
     /// Sparsity of the matrix.
@@ -94,6 +97,7 @@ impl BlockMatrix {
     pub fn clear(&mut self) {
         self.blocks.par_chunks_mut(PARALLEL_BLOCKS).for_each(|blocks| blocks.fill(block::ZERO));
         self.couplings.clear();
+        self.held.fill(false);
         self.outside = None;
     }
 
@@ -176,11 +180,17 @@ impl BlockMatrix {
         }
     }
 
+    /// Whether a particle is held, and its row and column are empty but for its inertia.
+    pub(crate) fn is_held(&self, particle: usize) -> bool {
+        self.held[particle]
+    }
+
     /// Turns a stiffness into the system matrix of a step: adds the inertia of each particle, in
     /// N/m, to the diagonal, and removes from the rows and columns of held particles all else.
     pub(crate) fn add_inertia(&mut self, inertia: &[f64], held: &[bool]) {
         let rows = Rows { sparsity: &self.sparsity, rows: 0..inertia.len(), inertia, held };
         rows.add_inertia(&mut self.blocks);
+        self.held.copy_from_slice(held);
         self.couplings
             .retain(|coupling| !held[coupling.row as usize] && !held[coupling.column as usize]);
     }

@@ -4,10 +4,11 @@ use faer::Conj;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::perm::PermRef;
-use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
-    LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
+use faer::sparse::linalg::{SupernodalThreshold, amd};
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::{MatMut, Par, Side};
 
@@ -28,6 +29,24 @@ pub(crate) struct Cholesky {
     memory: MemBuffer,
 }
 
+/// Way in which columns are added to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kernel {
+    /// Many at once, with the vector instructions of the machine: the last bits depend on them.
+    Vector,
+    /// One number after the other: the same bits on every machine.
+    Scalar,
+}
+
+impl Kernel {
+    fn threshold(self) -> SupernodalThreshold {
+        match self {
+            Self::Vector => SupernodalThreshold::AUTO,
+            Self::Scalar => SupernodalThreshold::FORCE_SIMPLICIAL,
+        }
+    }
+}
+
 impl core::fmt::Debug for Cholesky {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Cholesky").field("factor", &self.factor.len()).finish_non_exhaustive()
@@ -36,7 +55,7 @@ impl core::fmt::Debug for Cholesky {
 
 impl Cholesky {
     /// Orders and analyses a sparsity.
-    pub(crate) fn new(sparsity: &Sparsity) -> Result<Self, Error> {
+    pub(crate) fn new(sparsity: &Sparsity, kernel: Kernel) -> Result<Self, Error> {
         let blocks = sparsity.blocks();
         let lower = scalar_lower(sparsity);
         let size = lower.nrows();
@@ -46,7 +65,10 @@ impl Cholesky {
             lower.as_ref(),
             Side::Lower,
             SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, size)),
-            Default::default(),
+            CholeskySymbolicParams {
+                supernodal_flop_ratio_threshold: kernel.threshold(),
+                ..Default::default()
+            },
         )
         .map_err(too_large)?;
         let factorise = symbolic.factorize_numeric_llt_scratch::<f64>(PARALLEL, Default::default());
@@ -176,7 +198,7 @@ mod tests {
     #[test]
     fn the_factor_undoes_the_multiplication() {
         let matrix = band(10.0);
-        let mut cholesky = Cholesky::new(matrix.sparsity()).unwrap();
+        let mut cholesky = Cholesky::new(matrix.sparsity(), Kernel::Vector).unwrap();
         assert_eq!(cholesky.factorise(&matrix), Ok(()));
         let expected: Vec<f64> = (0..36).map(|k| (k as f64).cos()).collect();
         let mut x = vec![0.0; 36];
@@ -190,7 +212,7 @@ mod tests {
     #[test]
     fn an_indefinite_matrix_is_reported() {
         let matrix = band(0.5);
-        let mut cholesky = Cholesky::new(matrix.sparsity()).unwrap();
+        let mut cholesky = Cholesky::new(matrix.sparsity(), Kernel::Vector).unwrap();
         assert_eq!(cholesky.factorise(&matrix), Err(NotDefinite));
     }
 }

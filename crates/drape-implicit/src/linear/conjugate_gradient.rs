@@ -1,14 +1,13 @@
-//! Conjugate gradients with the incomplete Cholesky factor as preconditioner, truncated at negative
-//! curvature.
+//! Preconditioned conjugate gradients, truncated at negative curvature.
 
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::linear::block;
-use crate::linear::incomplete_cholesky::IncompleteCholesky;
 use crate::linear::lanes::{Columns, LANES};
 use crate::linear::level_schedule::chunk::{self, Chunk, LIGHT, PerChunk, PerRow, leading_to};
 use crate::linear::level_schedule::layout::BatchLayout;
 use crate::linear::packed_matrix::{PackedMatrix, PartialProduct};
+use crate::linear::preconditioner::{Preconditioner, ScaledResidual};
 use crate::linear::vector::{add_scaled, dot, sum};
 
 /// Reason why conjugate gradients ended.
@@ -40,12 +39,12 @@ pub(crate) struct Target {
     pub energy: f64,
 }
 
-/// Matrix and the factor that preconditions it.
+/// Matrix and its preconditioner.
 pub(crate) struct Preconditioned<'a> {
     pub arch: Arch,
     pub layout: &'a BatchLayout,
     pub matrix: &'a PackedMatrix,
-    pub factor: &'a mut IncompleteCholesky,
+    pub preconditioner: &'a mut Preconditioner,
 }
 
 /// Work space of the iteration: vectors by rows of the layout, with zeros where no particle is.
@@ -114,17 +113,18 @@ impl ConjugateGradient {
     /// as rarely as the method allows: the preconditioned residual stays where the preconditioner
     /// leaves it.
     fn iterate(&mut self, system: Preconditioned<'_>, target: Target, limit: usize) -> Outcome {
-        let Preconditioned { arch, layout, matrix, factor } = system;
+        let Preconditioned { arch, layout, matrix, preconditioner } = system;
         // Keeps the numbers of the preconditioner in the range of single precision.
         let start = {
             let [x, y, z] = &self.residual.0;
             (dot(x, x) + dot(y, y) + dot(z, z)).sqrt()
         };
         let mut scale = start;
-        self.write_image(factor, 1.0 / scale);
-        factor.apply(arch, layout);
-        let mut weight = self.weight(arch, layout, &factor.image, scale);
-        self.turn(arch, layout, &factor.image, Turn { factor: 0.0, scale });
+        self.write_image(preconditioner.image_mut(), 1.0 / scale);
+        let residual = ScaledResidual { numbers: &self.residual, factor: 1.0 / scale };
+        preconditioner.apply(arch, layout, residual);
+        let mut weight = self.weight(arch, layout, preconditioner.image(), scale);
+        self.turn(arch, layout, preconditioner.image(), Turn { factor: 0.0, scale });
         let mut gained = 0.0;
         let mut last_gain = f64::INFINITY;
         for iteration in 1..=limit {
@@ -138,7 +138,7 @@ impl ConjugateGradient {
             }
             let step = weight / curvature;
             let stride = Stride { step, image_factor: 1.0 / scale };
-            let length = self.advance(arch, layout, &mut factor.image, stride).sqrt();
+            let length = self.advance(arch, layout, preconditioner.image_mut(), stride).sqrt();
             let gain = step * weight;
             gained += gain;
             let recent = last_gain + gain;
@@ -146,9 +146,11 @@ impl ConjugateGradient {
             if length <= target.residual || recent <= target.energy * gained {
                 return Outcome { iterations: iteration, ending: Ending::Converged };
             }
-            factor.apply(arch, layout);
-            let next = self.weight(arch, layout, &factor.image, scale);
-            self.turn(arch, layout, &factor.image, Turn { factor: next / weight, scale });
+            let residual = ScaledResidual { numbers: &self.residual, factor: 1.0 / scale };
+            preconditioner.apply(arch, layout, residual);
+            let image = preconditioner.image();
+            let next = self.weight(arch, layout, image, scale);
+            self.turn(arch, layout, image, Turn { factor: next / weight, scale });
             weight = next;
             scale = length;
         }
@@ -156,8 +158,8 @@ impl ConjugateGradient {
     }
 
     /// Writes the residual, times a factor, as the image.
-    fn write_image(&self, preconditioner: &mut IncompleteCholesky, factor: f64) {
-        for (image, residual) in preconditioner.image.0.iter_mut().zip(&self.residual.0) {
+    fn write_image(&self, image: &mut Columns<f32>, factor: f64) {
+        for (image, residual) in image.0.iter_mut().zip(&self.residual.0) {
             for (image, r) in image.iter_mut().zip(residual) {
                 *image = (r * factor) as f32;
             }
@@ -398,11 +400,13 @@ mod tests {
         let schedule = LevelSchedule::new(matrix.sparsity());
         let layout = &schedule.layout;
         let mut packed = PackedMatrix::new(layout);
-        let mut factor = IncompleteCholesky::new(layout);
         let arch = Arch::new();
-        factor.factorise(arch, &schedule, matrix, &mut packed).unwrap();
+        packed.pack(arch, layout, matrix);
+        let mut preconditioner = Preconditioner::new(layout, None);
+        preconditioner.factorise(arch, &schedule, matrix, &packed).unwrap();
         let mut x = b.to_vec();
-        let system = Preconditioned { arch, layout, matrix: &packed, factor: &mut factor };
+        let system =
+            Preconditioned { arch, layout, matrix: &packed, preconditioner: &mut preconditioner };
         let outcome = ConjugateGradient::new(layout).solve(system, &mut x, target, limit);
         (x, outcome)
     }

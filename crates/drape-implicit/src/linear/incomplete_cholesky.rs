@@ -21,7 +21,7 @@ pub(crate) mod schur_complement;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::linear::block_matrix::{BlockMatrix, NotDefinite};
+use crate::linear::block_matrix::NotDefinite;
 use crate::linear::lane_block::are_definite;
 use crate::linear::lanes::{Columns, Double, LANES};
 use crate::linear::level_schedule::LevelSchedule;
@@ -60,24 +60,29 @@ pub(crate) struct IncompleteCholesky {
     pub image: Columns<f32>,
     /// First of [`ATTEMPTS`] to try.
     first_attempt: usize,
+    /// First of [`ATTEMPTS`] to try for a matrix that is not like the one before.
+    least_attempt: usize,
 }
 
 impl IncompleteCholesky {
-    pub(crate) fn new(layout: &BatchLayout) -> Self {
+    /// Makes room for a factor that is compensated at first or, if asked for, stabilised.
+    pub(crate) fn new(layout: &BatchLayout, stabilised: bool) -> Self {
+        let least_attempt = usize::from(stabilised);
         Self {
             elimination: Elimination::new(layout),
             factor: Factor::new(layout),
             image: Columns::new(layout.rows),
-            first_attempt: 0,
+            first_attempt: least_attempt,
+            least_attempt,
         }
     }
 
     /// Forgets which attempt succeeded last, for a matrix that is not like the one before.
     pub(crate) fn forget(&mut self) {
-        self.first_attempt = 0;
+        self.first_attempt = self.least_attempt;
     }
 
-    /// Packs a matrix and factorises it. Returns the number of attempts that failed.
+    /// Factorises a packed matrix. Returns the number of attempts that failed.
     ///
     /// Begins with the attempt that succeeded last or, if that succeeded at once, with the second; but
     /// until [`forget`](Self::forget) the very first is not tried again after it has failed. Tried
@@ -87,10 +92,8 @@ impl IncompleteCholesky {
         &mut self,
         arch: Arch,
         schedule: &LevelSchedule,
-        matrix: &BlockMatrix,
-        packed: &mut PackedMatrix,
+        packed: &PackedMatrix,
     ) -> Result<usize, NotDefinite> {
-        packed.pack(arch, &schedule.layout, matrix);
         arch.dispatch(Factorise { preconditioner: self, schedule, packed })
     }
 
@@ -152,6 +155,7 @@ mod tests {
     use faer::linalg::solvers::DenseSolveCore;
 
     use super::*;
+    use crate::linear::block_matrix::BlockMatrix;
     use crate::linear::level_schedule::sample::rimmed;
     use crate::linear::sparsity::Sparsity;
     use crate::linear::vector::dot;
@@ -179,9 +183,10 @@ mod tests {
 
     fn factorise(matrix: &BlockMatrix) -> Factored {
         let schedule = LevelSchedule::new(matrix.sparsity());
-        let mut incomplete = IncompleteCholesky::new(&schedule.layout);
+        let mut incomplete = IncompleteCholesky::new(&schedule.layout, false);
         let mut packed = PackedMatrix::new(&schedule.layout);
-        let failed = incomplete.factorise(Arch::new(), &schedule, matrix, &mut packed);
+        packed.pack(Arch::new(), &schedule.layout, matrix);
+        let failed = incomplete.factorise(Arch::new(), &schedule, &packed);
         Factored { schedule, incomplete, failed }
     }
 
@@ -253,7 +258,7 @@ mod tests {
         let schedule = LevelSchedule::new(&sparsity);
         assert!(!schedule.updates.irregular.is_empty(), "nothing of this is irregular");
         let mut packed = PackedMatrix::new(&schedule.layout);
-        let mut incomplete = IncompleteCholesky::new(&schedule.layout);
+        let mut incomplete = IncompleteCholesky::new(&schedule.layout, false);
         packed.pack(Arch::new(), &schedule.layout, &matrix);
         let attempt = Attempt { fill: DroppedFill::Compensated(0.0), shift: 0.0 };
         let IncompleteCholesky { elimination, factor, .. } = &mut incomplete;
@@ -335,7 +340,7 @@ mod tests {
             let matrix = rods(12, seed);
             let schedule = LevelSchedule::new(matrix.sparsity());
             let mut packed = PackedMatrix::new(&schedule.layout);
-            let mut incomplete = IncompleteCholesky::new(&schedule.layout);
+            let mut incomplete = IncompleteCholesky::new(&schedule.layout, false);
             let mut holds = |fill: DroppedFill| {
                 packed.pack(Arch::new(), &schedule.layout, &matrix);
                 let IncompleteCholesky { elimination, factor, .. } = &mut incomplete;

@@ -93,8 +93,13 @@ macro_rules! lanes {
             #[inline(always)]
             fn root_and_inverse(self) -> [Self; 2] {
                 let mut roots = [Self::ZERO; 2];
-                for (lane, x) in self.0.into_iter().enumerate() {
-                    [roots[0].0[lane], roots[1].0[lane]] = x.root_and_inverse();
+                let [root, inverse] = &mut roots;
+                // Without branches, which would keep the compiler from vector instructions.
+                for ((root, inverse), x) in root.0.iter_mut().zip(&mut inverse.0).zip(self.0) {
+                    let positive = if x > 0.0 { x } else { 0.0 };
+                    *root = positive.sqrt();
+                    let divisor = if *root > 0.0 { *root } else { <$number>::INFINITY };
+                    *inverse = 1.0 / divisor;
                 }
                 roots
             }

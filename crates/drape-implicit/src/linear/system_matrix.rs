@@ -4,17 +4,19 @@ use pulp::Arch;
 
 use crate::error::Error;
 use crate::linear::block_matrix::{BlockMatrix, NotDefinite};
-use crate::linear::cholesky::Cholesky;
+use crate::linear::cholesky::{Cholesky, Kernel};
+use crate::linear::coarse_level::{CoarseLevel, MIN_PARTICLES};
 use crate::linear::conjugate_gradient::{
     ConjugateGradient, Ending, Outcome, Preconditioned, Target,
 };
-use crate::linear::incomplete_cholesky::IncompleteCholesky;
 use crate::linear::level_schedule::LevelSchedule;
 use crate::linear::packed_matrix::PackedMatrix;
+use crate::linear::preconditioner::Preconditioner;
 use crate::linear::sparsity::Sparsity;
 use crate::linear::vector::{add_scaled, norm};
 use crate::report::Report;
 use crate::settings::{LinearSolver, Settings};
+use crate::system::MaterialPoint;
 
 /// Relative residual above which a factorised solve is not trusted: far above rounding for any
 /// matrix that can be factorised at all, far below what the nonlinear iteration would notice.
@@ -26,6 +28,7 @@ pub(crate) struct SystemMatrix {
     pub matrix: BlockMatrix,
     cholesky: Option<Cholesky>,
     iterative: Option<Iterative>,
+    material_points: Vec<MaterialPoint>,
     /// Whether the present matrix is factorised by Cholesky.
     direct: bool,
     residual: Vec<f64>,
@@ -33,12 +36,18 @@ pub(crate) struct SystemMatrix {
 }
 
 impl SystemMatrix {
-    pub(crate) fn new(sparsity: Sparsity, settings: &Settings) -> Result<Self, Error> {
+    /// Matrix of zeros on a sparsity, with the material points of the particles or none.
+    pub(crate) fn new(
+        sparsity: Sparsity,
+        material_points: Vec<MaterialPoint>,
+        settings: &Settings,
+    ) -> Result<Self, Error> {
         let length = 3 * sparsity.particles();
         let direct = settings.linear_solver == LinearSolver::Cholesky && length > 0;
         Ok(Self {
-            cholesky: if direct { Some(Cholesky::new(&sparsity)?) } else { None },
+            cholesky: if direct { Some(Cholesky::new(&sparsity, Kernel::Vector)?) } else { None },
             iterative: None,
+            material_points,
             direct,
             residual: vec![0.0; length],
             max_iterations: settings.max_linear_iterations,
@@ -46,10 +55,10 @@ impl SystemMatrix {
         })
     }
 
-    /// Forgets which shift the last preconditioner needed, for a matrix that is not like the last.
+    /// Forgets what the last preconditioner was made of, for a matrix that is not like the last.
     pub(crate) fn forget(&mut self) {
         if let Some(iterative) = &mut self.iterative {
-            iterative.factor.forget();
+            iterative.preconditioner.forget();
         }
     }
 
@@ -64,8 +73,9 @@ impl SystemMatrix {
     }
 
     fn precondition(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
-        let matrix = &self.matrix;
-        let iterative = self.iterative.get_or_insert_with(|| Iterative::new(matrix.sparsity()));
+        let Self { matrix, material_points, iterative, .. } = self;
+        let iterative =
+            iterative.get_or_insert_with(|| Iterative::new(matrix.sparsity(), material_points));
         report.pivot_shifts += iterative.factorise(matrix)?;
         Ok(())
     }
@@ -120,17 +130,20 @@ impl SystemMatrix {
 struct Iterative {
     schedule: LevelSchedule,
     packed: PackedMatrix,
-    factor: IncompleteCholesky,
+    preconditioner: Preconditioner,
     gradient: ConjugateGradient,
     arch: Arch,
 }
 
 impl Iterative {
-    fn new(sparsity: &Sparsity) -> Self {
+    fn new(sparsity: &Sparsity, material_points: &[MaterialPoint]) -> Self {
         let schedule = LevelSchedule::new(sparsity);
+        let row_of = &schedule.layout.order.row_of;
+        let coarse = (sparsity.particles() >= MIN_PARTICLES)
+            .then(|| CoarseLevel::new(sparsity, row_of, material_points));
         Self {
             packed: PackedMatrix::new(&schedule.layout),
-            factor: IncompleteCholesky::new(&schedule.layout),
+            preconditioner: Preconditioner::new(&schedule.layout, coarse.flatten()),
             gradient: ConjugateGradient::new(&schedule.layout),
             schedule,
             arch: Arch::new(),
@@ -139,15 +152,16 @@ impl Iterative {
 
     /// Factorises a matrix; returns the number of attempts that failed.
     fn factorise(&mut self, matrix: &BlockMatrix) -> Result<usize, NotDefinite> {
-        let Self { schedule, packed, factor, arch, .. } = self;
-        factor.factorise(*arch, schedule, matrix, packed)
+        let Self { schedule, packed, preconditioner, arch, .. } = self;
+        packed.pack(*arch, &schedule.layout, matrix);
+        preconditioner.factorise(*arch, schedule, matrix, packed)
     }
 
     /// Solves for `x`, which holds the right side on entry.
     fn solve(&mut self, x: &mut [f64], target: Target, limit: usize) -> Outcome {
-        let Self { schedule, packed, factor, gradient, arch } = self;
-        let system =
-            Preconditioned { arch: *arch, layout: &schedule.layout, matrix: packed, factor };
+        let Self { schedule, packed, preconditioner, gradient, arch } = self;
+        let (arch, layout) = (*arch, &schedule.layout);
+        let system = Preconditioned { arch, layout, matrix: packed, preconditioner };
         gradient.solve(system, x, target, limit)
     }
 }
@@ -155,6 +169,70 @@ impl Iterative {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linear::level_schedule::sample::weave;
+
+    /// A sheet of stiff cells, tied to its place a little; its lowest row is held.
+    fn sheet(n: usize) -> (BlockMatrix, Vec<MaterialPoint>) {
+        let sparsity = weave(n);
+        let mut matrix = BlockMatrix::zeros(sparsity.clone());
+        for i in 0..n * n {
+            for slot in sparsity.row(i).skip(1) {
+                let j = sparsity.columns()[slot] as usize;
+                let [x, y] = [(j % n) as f64 - (i % n) as f64, (j / n) as f64 - (i / n) as f64];
+                let [x, y, z] = [x, y, 0.1 * (i as f64).sin()];
+                let spring = [x * x, x * y, x * z, x * y, y * y, y * z, x * z, y * z, z * z];
+                matrix.add(i, i, &spring);
+                matrix.add(j, j, &spring);
+                matrix.add(i, j, &spring.map(|entry| -entry));
+            }
+        }
+        let held: Vec<bool> = (0..n * n).map(|k| k < n).collect();
+        matrix.add_inertia(&vec![1e-3; n * n], &held);
+        let coordinates = |k: usize| [(k % n) as f64, (k / n) as f64];
+        let point = |k| MaterialPoint { sheet: 0, coordinates: coordinates(k) };
+        (matrix, (0..n * n).map(point).collect())
+    }
+
+    /// Solves for a load that is smooth.
+    fn solve(matrix: &BlockMatrix, points: &[MaterialPoint], arch: Arch) -> (usize, Vec<f64>) {
+        let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), points) };
+        iterative.factorise(matrix).unwrap();
+        let size = 3 * matrix.sparsity().particles();
+        let held = |k: usize| matrix.is_held(k / 3);
+        let mut x: Vec<f64> =
+            (0..size).map(|k| if held(k) { 0.0 } else { 1.0 + (k as f64).sin() }).collect();
+        let target = Target { residual: 1e-6 * norm(&x), energy: 0.0 };
+        let Outcome { iterations, ending } = iterative.solve(&mut x, target, 2000);
+        assert_eq!(ending, Ending::Converged);
+        (iterations, x)
+    }
+
+    #[test]
+    fn with_a_coarse_level_iterations_hardly_grow_with_the_sheet() {
+        let iterations = |n: usize, with: bool| {
+            let (matrix, points) = sheet(n);
+            solve(&matrix, if with { &points } else { &[] }, Arch::new()).0
+        };
+        let [small, large] = [80, 160].map(|n| iterations(n, true));
+        let [small_without, large_without] = [80, 160].map(|n| iterations(n, false));
+        println!("{small} {large} with, {small_without} {large_without} without");
+        assert!(2 * large < large_without, "{large} with, {large_without} without");
+        assert!(large < small + small / 3, "{small} of 6 400, {large} of 25 600");
+    }
+
+    #[test]
+    fn neither_threads_nor_vector_instructions_change_a_bit_of_a_large_solve() {
+        let (matrix, points) = sheet(100);
+        let on = |threads: usize, arch: Arch| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| solve(&matrix, &points, arch))
+        };
+        let one = on(1, Arch::new());
+        for threads in [2, 3, 8] {
+            assert!(on(threads, Arch::new()) == one, "{threads} threads");
+        }
+        assert!(on(2, Arch::Scalar) == one, "on a machine with {:?}", Arch::new());
+    }
 
     #[test]
     fn the_vector_instructions_change_no_bit() {
@@ -168,7 +246,7 @@ mod tests {
             matrix.add(i, j, &[-0.8, 0.1, 0.0, 0.2, -0.7, 0.0, 0.1, 0.0, -0.9]);
         }
         let run = |arch: Arch| {
-            let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity()) };
+            let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), &[]) };
             iterative.factorise(&matrix).unwrap();
             let mut x: Vec<f64> = (0..1200).map(|k| (k as f64).sin()).collect();
             let target = Target { residual: 1e-9, energy: 0.0 };
