@@ -28,6 +28,7 @@ pub(crate) struct SystemMatrix {
     pub matrix: BlockMatrix,
     cholesky: Option<Cholesky>,
     iterative: Option<Iterative>,
+    /// Material points for a coarse level, or none.
     material_points: Vec<MaterialPoint>,
     /// Whether the present matrix is factorised by Cholesky.
     direct: bool,
@@ -37,17 +38,22 @@ pub(crate) struct SystemMatrix {
 
 impl SystemMatrix {
     /// Matrix of zeros on a sparsity, with the material points of the particles or none.
+    ///
+    /// Steps that end when little energy is left to gain are preconditioned without a coarse level:
+    /// with it, cloth of 10 201 particles that comes to rest on a cube took half as many matrices
+    /// again, 51 s instead of 33, and a T-shirt of 21 137 only a twentieth less time.
     pub(crate) fn new(
         sparsity: Sparsity,
         material_points: Vec<MaterialPoint>,
         settings: &Settings,
     ) -> Result<Self, Error> {
         let length = 3 * sparsity.particles();
+        let is_worthwhile = length / 3 >= MIN_PARTICLES && settings.energy_tolerance == 0.0;
         let direct = settings.linear_solver == LinearSolver::Cholesky && length > 0;
         Ok(Self {
             cholesky: if direct { Some(Cholesky::new(&sparsity, Kernel::Vector)?) } else { None },
             iterative: None,
-            material_points,
+            material_points: if is_worthwhile { material_points } else { Vec::new() },
             direct,
             residual: vec![0.0; length],
             max_iterations: settings.max_linear_iterations,
@@ -139,11 +145,10 @@ impl Iterative {
     fn new(sparsity: &Sparsity, material_points: &[MaterialPoint]) -> Self {
         let schedule = LevelSchedule::new(sparsity);
         let row_of = &schedule.layout.order.row_of;
-        let coarse = (sparsity.particles() >= MIN_PARTICLES)
-            .then(|| CoarseLevel::new(sparsity, row_of, material_points));
+        let coarse = CoarseLevel::new(sparsity, row_of, material_points);
         Self {
             packed: PackedMatrix::new(&schedule.layout),
-            preconditioner: Preconditioner::new(&schedule.layout, coarse.flatten()),
+            preconditioner: Preconditioner::new(&schedule.layout, coarse),
             gradient: ConjugateGradient::new(&schedule.layout),
             schedule,
             arch: Arch::new(),
