@@ -6,7 +6,8 @@ use crate::linear::block;
 use crate::linear::lanes::{Columns, LANES};
 use crate::linear::level_schedule::chunk::{self, Chunk, LIGHT, PerChunk, PerRow, leading_to};
 use crate::linear::level_schedule::layout::BatchLayout;
-use crate::linear::packed_matrix::{PackedMatrix, PartialProduct};
+use crate::linear::packed_matrix::PackedMatrix;
+use crate::linear::partial_sum::PartialProduct;
 use crate::linear::preconditioner::{Preconditioner, ScaledResidual};
 use crate::linear::vector::{add_scaled, dot, sum};
 
@@ -124,7 +125,12 @@ impl ConjugateGradient {
         let residual = ScaledResidual { numbers: &self.residual, factor: 1.0 / scale };
         preconditioner.apply(arch, layout, residual);
         let mut weight = self.weight(arch, layout, preconditioner.image(), scale);
-        self.turn(arch, layout, preconditioner.image(), Turn { factor: 0.0, scale });
+        self.update_direction(
+            arch,
+            layout,
+            preconditioner.image(),
+            DirectionUpdate { factor: 0.0, scale },
+        );
         let mut gained = 0.0;
         let mut last_gain = f64::INFINITY;
         for iteration in 1..=limit {
@@ -150,7 +156,12 @@ impl ConjugateGradient {
             preconditioner.apply(arch, layout, residual);
             let image = preconditioner.image();
             let next = self.weight(arch, layout, image, scale);
-            self.turn(arch, layout, image, Turn { factor: next / weight, scale });
+            self.update_direction(
+                arch,
+                layout,
+                image,
+                DirectionUpdate { factor: next / weight, scale },
+            );
             weight = next;
             scale = length;
         }
@@ -178,11 +189,8 @@ impl ConjugateGradient {
         let Self { solution, residual, direction, products, sums } = self;
         let (direction, products) = (&*direction, &products[..]);
         let vectors = (solution.per_row(), residual.per_row(), image.per_row());
-        chunk::for_each(&layout.chunks, LIGHT, (PerChunk(&mut *sums), vectors), &|chunk,
-                                                                                  (
-            PerChunk(sums),
-            vectors,
-        )| {
+        let output = (PerChunk(&mut *sums), vectors);
+        chunk::for_each(&layout.chunks, LIGHT, output, &|chunk, (PerChunk(sums), vectors)| {
             let advance = Advance { layout, chunk, direction, products, vectors, stride };
             sums[0] = arch.dispatch(advance);
         });
@@ -200,16 +208,22 @@ impl ConjugateGradient {
         let Self { residual, sums, .. } = self;
         let residual = &*residual;
         chunk::for_each(&layout.chunks, LIGHT, PerChunk(&mut *sums), &|chunk, PerChunk(sums)| {
-            sums[0] = arch.dispatch(Weigh { chunk, residual, image, scale });
+            sums[0] = arch.dispatch(DotWithImage { chunk, residual, image, scale });
         });
         sums.iter().sum()
     }
 
     /// Replaces the direction `d` by `z + factor · d`, with `z` the image times a scale.
-    fn turn(&mut self, arch: Arch, layout: &BatchLayout, image: &Columns<f32>, turn: Turn) {
+    fn update_direction(
+        &mut self,
+        arch: Arch,
+        layout: &BatchLayout,
+        image: &Columns<f32>,
+        update: DirectionUpdate,
+    ) {
         let direction = self.direction.per_row();
         chunk::for_each(&layout.chunks, LIGHT, direction, &|chunk, PerRow(direction)| {
-            arch.dispatch(TurnChunk { chunk, image, direction, turn });
+            arch.dispatch(UpdateDirection { chunk, image, direction, update });
         });
     }
 }
@@ -223,7 +237,7 @@ struct Stride {
 
 /// Factor of the old direction and scale of the image, of which the new one is the sum.
 #[derive(Clone, Copy)]
-struct Turn {
+struct DirectionUpdate {
     factor: f64,
     scale: f64,
 }
@@ -277,14 +291,14 @@ impl WithSimd for Advance<'_> {
 }
 
 /// Dot product of a chunk of the residual and of its image times a scale.
-struct Weigh<'a> {
+struct DotWithImage<'a> {
     chunk: &'a Chunk,
     residual: &'a Columns<f64>,
     image: &'a Columns<f32>,
     scale: f64,
 }
 
-impl WithSimd for Weigh<'_> {
+impl WithSimd for DotWithImage<'_> {
     type Output = f64;
 
     #[inline(always)]
@@ -299,20 +313,20 @@ impl WithSimd for Weigh<'_> {
     }
 }
 
-/// Turns a chunk of the direction.
-struct TurnChunk<'a> {
+/// Updates a chunk of the direction.
+struct UpdateDirection<'a> {
     chunk: &'a Chunk,
     image: &'a Columns<f32>,
     direction: [&'a mut [f64]; 3],
-    turn: Turn,
+    update: DirectionUpdate,
 }
 
-impl WithSimd for TurnChunk<'_> {
+impl WithSimd for UpdateDirection<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { chunk, image, direction, turn: Turn { factor, scale } } = self;
+        let Self { chunk, image, direction, update: DirectionUpdate { factor, scale } } = self;
         for (direction, image) in direction.into_iter().zip(&image.0) {
             update_direction(direction, factor, &image[chunk.rows.clone()], scale);
         }

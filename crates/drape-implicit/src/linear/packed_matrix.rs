@@ -14,6 +14,7 @@ use crate::linear::level_schedule::chunk::{
 use crate::linear::level_schedule::layout::BatchLayout;
 use crate::linear::level_schedule::row_order::ABSENT;
 use crate::linear::level_schedule::run::IrregularEntry;
+use crate::linear::partial_sum::{PartialProduct, PartialSum};
 use crate::linear::vector::{add_scaled, dot};
 
 /// Places of a symmetric block's upper half in the block.
@@ -40,58 +41,6 @@ pub(crate) struct PackedMatrix {
     parts: Vec<PartialSum<6>>,
     /// Blocks outside the sparsity, between rows.
     couplings: Vec<Coupling>,
-}
-
-/// Sum of what a chunk adds to its own rows and to those beyond that its diagonals lead to.
-#[derive(Clone, Debug)]
-pub(crate) struct PartialSum<const N: usize>(pub [Vec<f64>; N]);
-
-impl<const N: usize> PartialSum<N> {
-    fn new(chunk: &Chunk) -> Self {
-        Self(core::array::from_fn(|_| vec![0.0; chunk.reach - chunk.rows.start]))
-    }
-
-    fn clear(&mut self) {
-        for column in &mut self.0 {
-            column.fill(0.0);
-        }
-    }
-
-    /// Adds to a batch of rows, the first counted within the chunk.
-    #[inline(always)]
-    fn add_batch(&mut self, first: usize, batch: [Double; N]) {
-        for (column, lanes) in self.0.iter_mut().zip(batch) {
-            (Double::load(column, first) + lanes).store(column, first);
-        }
-    }
-
-    /// Adds to a row, counted within the chunk.
-    #[inline(always)]
-    fn add(&mut self, row: usize, numbers: [f64; N]) {
-        for (column, number) in self.0.iter_mut().zip(numbers) {
-            column[row] += number;
-        }
-    }
-}
-
-/// Product of a chunk's blocks with a vector.
-#[derive(Debug)]
-pub(crate) struct PartialProduct {
-    pub rows: PartialSum<3>,
-    /// What each irregular entry adds to its column, where that is not a row of the chunk.
-    pub pushes: Vec<[f64; 3]>,
-    /// Dot product with the vector.
-    pub curvature: f64,
-}
-
-impl PartialProduct {
-    pub(crate) fn new(chunk: &Chunk) -> Self {
-        Self {
-            rows: PartialSum::new(chunk),
-            pushes: vec![[0.0; 3]; chunk.irregular.len()],
-            curvature: 0.0,
-        }
-    }
 }
 
 impl PackedMatrix {
