@@ -30,7 +30,6 @@ pub(crate) mod lane_block;
 pub(crate) mod lanes;
 pub(crate) mod level_schedule;
 pub(crate) mod packed_matrix;
-pub(crate) mod partial_sum;
 pub(crate) mod preconditioner;
 pub(crate) mod sparsity;
 pub(crate) mod system_matrix;

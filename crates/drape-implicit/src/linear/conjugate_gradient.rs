@@ -6,8 +6,8 @@ use crate::linear::block;
 use crate::linear::lanes::{Columns, LANES};
 use crate::linear::level_schedule::chunk::{self, Chunk, LIGHT, PerChunk, PerRow, leading_to};
 use crate::linear::level_schedule::layout::BatchLayout;
+use crate::linear::level_schedule::partial_sum::PartialProduct;
 use crate::linear::packed_matrix::PackedMatrix;
-use crate::linear::partial_sum::PartialProduct;
 use crate::linear::preconditioner::{Preconditioner, ScaledResidual};
 use crate::linear::vector::{add_scaled, dot, sum};
 
@@ -188,7 +188,8 @@ impl ConjugateGradient {
     ) -> f64 {
         let Self { solution, residual, direction, products, sums } = self;
         let (direction, products) = (&*direction, &products[..]);
-        let vectors = (solution.per_row(), residual.per_row(), image.per_row());
+        let vectors =
+            (PerRow::of(&mut solution.0), PerRow::of(&mut residual.0), PerRow::of(&mut image.0));
         let output = (PerChunk(&mut *sums), vectors);
         chunk::for_each(&layout.chunks, LIGHT, output, &|chunk, (PerChunk(sums), vectors)| {
             let advance = Advance { layout, chunk, direction, products, vectors, stride };
@@ -221,7 +222,7 @@ impl ConjugateGradient {
         image: &Columns<f32>,
         update: DirectionUpdate,
     ) {
-        let direction = self.direction.per_row();
+        let direction = PerRow::of(&mut self.direction.0);
         chunk::for_each(&layout.chunks, LIGHT, direction, &|chunk, PerRow(direction)| {
             arch.dispatch(UpdateDirection { chunk, image, direction, update });
         });

@@ -7,8 +7,6 @@
 
 use core::ops::{Add, Mul, Sub};
 
-use crate::linear::level_schedule::chunk::PerRow;
-
 /// Number of lanes: one register of the widest instructions in double precision, and few enough
 /// that the short levels of a level schedule fill them.
 pub(crate) const LANES: usize = 8;
@@ -168,11 +166,6 @@ impl<T: Copy + Default> Columns<T> {
     pub(crate) fn new(rows: usize) -> Self {
         let column = || vec![T::default(); rows];
         Self([column(), column(), column()])
-    }
-
-    /// Output of chunks.
-    pub(crate) fn per_row(&mut self) -> PerRow<'_, T, 3> {
-        PerRow(self.0.each_mut().map(|column| &mut column[..]))
     }
 }
 

@@ -21,6 +21,7 @@
 
 pub(crate) mod chunk;
 pub(crate) mod layout;
+pub(crate) mod partial_sum;
 pub(crate) mod row_order;
 pub(crate) mod run;
 #[cfg(test)]

@@ -12,9 +12,9 @@ use crate::linear::level_schedule::chunk::{
     self, Chunk, LIGHT, PerBlock, PerChunk, PerIrregularEntry, PerRow, leading_to,
 };
 use crate::linear::level_schedule::layout::BatchLayout;
+use crate::linear::level_schedule::partial_sum::{PartialProduct, PartialSum};
 use crate::linear::level_schedule::row_order::ABSENT;
 use crate::linear::level_schedule::run::IrregularEntry;
-use crate::linear::partial_sum::{PartialProduct, PartialSum};
 use crate::linear::vector::{add_scaled, dot};
 
 /// Places of a symmetric block's upper half in the block.
@@ -74,32 +74,30 @@ impl PackedMatrix {
             },
         );
         let (irregular, parts) = (&self.irregular, &self.parts);
-        chunk::for_each(
-            &layout.chunks,
-            LIGHT,
-            PerRow(self.main_diagonal.each_mut().map(|column| &mut column[..])),
-            &|chunk, PerRow(mut rows)| {
-                let first = chunk.rows.start;
-                for (column, part) in rows.iter_mut().zip(&parts[chunk.index].0) {
-                    column.copy_from_slice(&part[..column.len()]);
+        chunk::for_each(&layout.chunks, LIGHT, PerRow::of(&mut self.main_diagonal), &|chunk,
+                                                                                      PerRow(
+            mut rows,
+        )| {
+            let first = chunk.rows.start;
+            for (column, part) in rows.iter_mut().zip(&parts[chunk.index].0) {
+                column.copy_from_slice(&part[..column.len()]);
+            }
+            for (earlier, shared) in leading_to(&layout.chunks, chunk.index) {
+                let beyond = &parts[earlier.index].0;
+                for (column, part) in rows.iter_mut().zip(beyond) {
+                    let part = &part[shared.start - earlier.rows.start..][..shared.len()];
+                    add_scaled(&mut column[shared.start - first..], 1.0, part);
                 }
-                for (earlier, shared) in leading_to(&layout.chunks, chunk.index) {
-                    let beyond = &parts[earlier.index].0;
-                    for (column, part) in rows.iter_mut().zip(beyond) {
-                        let part = &part[shared.start - earlier.rows.start..][..shared.len()];
-                        add_scaled(&mut column[shared.start - first..], 1.0, part);
-                    }
+            }
+            for &entry in &chunk.incoming {
+                let IrregularEntry { column, slot, .. } = layout.irregular[entry as usize];
+                let short = &irregular[entry as usize];
+                let lost = rounding(&matrix.blocks()[slot as usize], short);
+                for (rows, lost) in rows.iter_mut().zip(lost) {
+                    rows[column as usize - first] += lost;
                 }
-                for &entry in &chunk.incoming {
-                    let IrregularEntry { column, slot, .. } = layout.irregular[entry as usize];
-                    let short = &irregular[entry as usize];
-                    let lost = rounding(&matrix.blocks()[slot as usize], short);
-                    for (rows, lost) in rows.iter_mut().zip(lost) {
-                        rows[column as usize - first] += lost;
-                    }
-                }
-            },
-        );
+            }
+        });
     }
 
     /// Blocks on the main diagonal of the batch that begins at a row.

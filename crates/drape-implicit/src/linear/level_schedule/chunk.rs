@@ -5,16 +5,6 @@
 
 use core::ops::Range;
 
-use super::layout::BatchLayout;
-use super::run::Run;
-use crate::linear::lanes::LANES;
-
-/// Fewest rows of a chunk, so that its work outweighs handing it to a thread.
-const MIN_ROWS: usize = 1024;
-
-/// Most chunks of a layout.
-const MAX_CHUNKS: usize = 64;
-
 /// Consecutive runs with their rows, blocks and irregular entries.
 #[derive(Clone, Debug)]
 pub(crate) struct Chunk {
@@ -29,62 +19,6 @@ pub(crate) struct Chunk {
     pub reach: usize,
     /// Irregular entries of earlier chunks whose columns are rows of this one, ascending.
     pub incoming: Vec<u32>,
-}
-
-impl Chunk {
-    /// Divides the runs of a layout.
-    pub(crate) fn divide(layout: &BatchLayout) -> Vec<Self> {
-        let target = MIN_ROWS.max(layout.rows.div_ceil(MAX_CHUNKS));
-        let mut chunks: Vec<Self> = Vec::new();
-        let mut first = 0;
-        for (last, run) in layout.runs.iter().enumerate() {
-            let rows = run.end - layout.runs[first].start;
-            let is_last = last + 1 == layout.runs.len();
-            if is_last || (rows >= target && layout.rows - run.end >= target) {
-                chunks.push(Self::of(layout, first..last + 1));
-                first = last + 1;
-            }
-        }
-        if let [first, ..] = &mut chunks[..] {
-            first.rows.start = 0;
-        }
-        if let [.., last] = &mut chunks[..] {
-            last.rows.end = layout.rows;
-            last.reach = layout.rows;
-        }
-        for (index, chunk) in chunks.iter_mut().enumerate() {
-            chunk.index = index;
-        }
-        for (index, entry) in layout.irregular.iter().enumerate() {
-            let column = entry.column as usize;
-            let target = chunks.partition_point(|chunk| chunk.rows.end <= column);
-            let target = &mut chunks[target];
-            if !target.irregular.contains(&index) {
-                target.incoming.push(index as u32);
-            }
-        }
-        chunks
-    }
-
-    fn of(layout: &BatchLayout, runs: Range<usize>) -> Self {
-        let own = &layout.runs[runs.clone()];
-        let (first, last) = (&own[0], &own[own.len() - 1]);
-        let batches = last.len() / LANES;
-        let end = |run: &Run| {
-            let offsets = layout.diagonals[run.diagonals.clone()].iter().map(|own| own.offset);
-            run.end + offsets.max().unwrap_or(0)
-        };
-        let irregular = |batch: usize| &layout.irregular_of[batch];
-        Self {
-            index: 0,
-            rows: first.start..last.end,
-            blocks: first.blocks..last.blocks_of(batches).start,
-            irregular: irregular(first.batches).start..irregular(last.batches + batches - 1).end,
-            reach: own.iter().map(end).fold(last.end, usize::max),
-            incoming: Vec::new(),
-            runs,
-        }
-    }
 }
 
 /// Earlier chunks whose diagonals lead to rows of a chunk, and these rows.
@@ -108,6 +42,12 @@ pub(crate) struct PerChunk<'a, T>(pub &'a mut [T]);
 
 /// Columns of one number per row.
 pub(crate) struct PerRow<'a, T, const N: usize>(pub [&'a mut [T]; N]);
+
+impl<'a, T, const N: usize> PerRow<'a, T, N> {
+    pub(crate) fn of(columns: &'a mut [Vec<T>; N]) -> Self {
+        Self(columns.each_mut().map(|column| &mut column[..]))
+    }
+}
 
 /// One value per off-diagonal block.
 pub(crate) struct PerBlock<'a, T>(pub &'a mut [T]);
@@ -193,6 +133,7 @@ pub(crate) fn for_each<O: Split>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linear::level_schedule::layout::BatchLayout;
     use crate::linear::level_schedule::sample::{rimmed, weave};
 
     #[test]

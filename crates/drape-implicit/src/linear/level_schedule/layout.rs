@@ -8,6 +8,12 @@ use super::run::{BlockAddress, Diagonal, IrregularEntry, Run};
 use crate::linear::lanes::LANES;
 use crate::linear::sparsity::Sparsity;
 
+/// Fewest rows of a chunk, so that its work outweighs handing it to a thread.
+const MIN_ROWS: usize = 1024;
+
+/// Most chunks of a layout.
+const MAX_CHUNKS: usize = 64;
+
 /// Layout of a matrix for elimination in batches.
 #[derive(Debug)]
 pub(crate) struct BatchLayout {
@@ -84,7 +90,7 @@ impl BatchLayout {
         layout.find_slots(sparsity);
         layout.find_pivots();
         layout.find_look_ahead();
-        layout.chunks = Chunk::divide(&layout);
+        layout.find_chunks();
         layout
     }
 
@@ -244,6 +250,57 @@ impl BatchLayout {
             let last = diagonals.chain(columns).max().map_or(0, |last| last as usize);
             look_ahead = look_ahead.max(index + 1).max(last + 1);
             run.look_ahead = look_ahead;
+        }
+    }
+
+    /// Divides the runs into chunks.
+    fn find_chunks(&mut self) {
+        let target = MIN_ROWS.max(self.rows.div_ceil(MAX_CHUNKS));
+        let mut chunks: Vec<Chunk> = Vec::new();
+        let mut first = 0;
+        for (last, run) in self.runs.iter().enumerate() {
+            let rows = run.end - self.runs[first].start;
+            let is_last = last + 1 == self.runs.len();
+            if is_last || (rows >= target && self.rows - run.end >= target) {
+                chunks.push(Chunk { index: chunks.len(), ..self.chunk(first..last + 1) });
+                first = last + 1;
+            }
+        }
+        if let [first, ..] = &mut chunks[..] {
+            first.rows.start = 0;
+        }
+        if let [.., last] = &mut chunks[..] {
+            last.rows.end = self.rows;
+            last.reach = self.rows;
+        }
+        self.chunks = chunks;
+        for index in 0..self.irregular.len() {
+            let target = self.chunk_of(self.irregular[index].column as usize);
+            let target = &mut self.chunks[target];
+            if !target.irregular.contains(&index) {
+                target.incoming.push(index as u32);
+            }
+        }
+    }
+
+    /// Chunk of some runs, without what comes in.
+    fn chunk(&self, runs: Range<usize>) -> Chunk {
+        let own = &self.runs[runs.clone()];
+        let (first, last) = (&own[0], &own[own.len() - 1]);
+        let batches = last.len() / LANES;
+        let end = |run: &Run| {
+            let offsets = self.diagonals[run.diagonals.clone()].iter().map(|own| own.offset);
+            run.end + offsets.max().unwrap_or(0)
+        };
+        let irregular = |batch: usize| &self.irregular_of[batch];
+        Chunk {
+            index: 0,
+            rows: first.start..last.end,
+            blocks: first.blocks..last.blocks_of(batches).start,
+            irregular: irregular(first.batches).start..irregular(last.batches + batches - 1).end,
+            reach: own.iter().map(end).fold(last.end, usize::max),
+            incoming: Vec::new(),
+            runs,
         }
     }
 

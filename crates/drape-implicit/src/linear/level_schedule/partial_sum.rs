@@ -1,7 +1,7 @@
 //! Partial sums: what one chunk adds to its own rows and to others'.
 
+use super::chunk::Chunk;
 use crate::linear::lanes::Double;
-use crate::linear::level_schedule::chunk::Chunk;
 
 /// Sum of what a chunk adds to its own rows and to those beyond that its diagonals lead to.
 #[derive(Clone, Debug)]
