@@ -9,8 +9,8 @@
 //! ```
 //!
 //! with the bilinear [interpolation] `$P$` from a grid over each sheet and the [projection]
-//! `$P^T A\,P$` of the matrix on it. This is an additive two-level preconditioner \[SBG96\]: it is
-//! positive definite because both terms are semi-definite and one of them is definite.
+//! `$P^T A\,P$` of the matrix on it. This is an additive two-level preconditioner \[SBG96\]. It is
+//! positive definite, because its first term is and its second is semi-definite.
 //!
 //! The coarse matrix is that of the first matrix of a step: smooth motions meet much the same
 //! stiffness all along it.

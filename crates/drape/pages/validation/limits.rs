@@ -43,13 +43,13 @@ pub(crate) const LIMITS: &[&str] = &[
      with the moment times the curvature, and such a yarn gives way.",
     "The drape coefficients of two fabrics have been compared, once each (`drapemeter-cotton`, \
      `drapemeter-wool`; ten\n\
-     starts for each study). Matsudaira's wool drapes to 48.8 % where 49.8 was measured, in \
+     starts for each study). Matsudaira's wool drapes to 48.7 % where 49.8 was measured, in \
      five or six folds where\n\
      five were counted; his cotton to 84.8 % where 82.9 was measured, in five or six folds \
      where two were counted.\n\
      What their sheets leave open, which is shear and the building up of the bending friction, \
      moves the wool from\n\
-     45.6 to 53.0 % and the cotton from 73.2 to 87.4 %; most of the cotton's range is the \
+     45.6 to 52.9 % and the cotton from 73.2 to 87.4 %; most of the cotton's range is the \
      friction's. Without\n\
      friction they drape to 40.4 and 62.3 %. At 0.7 of the spacing the wool is 1.7 points off, \
      the cotton 0.2\n\
