@@ -51,7 +51,7 @@ pub(crate) const LIMITS: &[&str] = &[
      moves the wool from\n\
      45.6 to 52.9 % and the cotton from 73.2 to 87.4 %; most of the cotton's range is the \
      friction's. Without\n\
-     friction they drape to 40.4 and 62.3 %. At 0.7 of the spacing the wool is 1.7 points off, \
+     friction they drape to 40.4 and 62.3 %. At 0.7 of the spacing the wool is 1.6 points off, \
      the cotton 0.2\n\
      (`grid-wool`, `grid-cotton`). Turned on the disc they drape the same, for the grid lies \
      along the yarns and\n\
