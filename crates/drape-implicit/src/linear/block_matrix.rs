@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::linear::block::{self, Block};
 use crate::linear::sparsity::Sparsity;
 
-/// Blocks that one thread writes at the most where there are more.
+/// Largest number of blocks that one thread writes, if there are more.
 const PARALLEL_BLOCKS: usize = 16_384;
 
 /// Symmetric sparse matrix of 3x3 blocks, upper half stored; a stiffness is in N/m.
@@ -205,7 +205,8 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// Adds to the blocks of the rows, on several threads where there are many.
+    /// Adds the inertia to the blocks of the rows and empties those of held particles, on several
+    /// threads if there are many.
     fn add_inertia(self, blocks: &mut [Block]) {
         let Self { sparsity, rows, inertia, held } = self;
         let offset = |row: usize| sparsity.offsets()[row] - sparsity.offsets()[rows.start];

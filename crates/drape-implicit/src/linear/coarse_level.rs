@@ -52,8 +52,7 @@ pub(crate) struct CoarseLevel {
 }
 
 impl CoarseLevel {
-    /// Coarse level for the matrices of a sparsity, with the row and the material point of each
-    /// particle. `None` without material points, or if there are too many nodes.
+    /// Coarse level for the matrices of a sparsity; `row_of` holds the row of each particle. `None` without material points, or if there are too many nodes.
     pub(crate) fn new(
         sparsity: &Sparsity,
         row_of: &[u32],
@@ -75,7 +74,7 @@ impl CoarseLevel {
         })
     }
 
-    /// Forgets the coarse matrix, for a step that is not like the one before.
+    /// Marks the coarse matrix as that of an earlier step, so that the next update projects anew.
     pub(crate) fn forget(&mut self) {
         self.is_stale = true;
     }
@@ -176,7 +175,7 @@ impl WithSimd for Interpolate<'_> {
 mod tests {
     use super::*;
     use crate::linear::level_schedule::layout::BatchLayout;
-    use crate::linear::level_schedule::sample::rimmed;
+    use crate::linear::level_schedule::sample::{rimmed, spring, springs};
     use crate::linear::vector::dot;
 
     /// Springs on a square with a rim, tied to its place a little, some of it held; two sheets.
@@ -191,18 +190,10 @@ mod tests {
         let sparsity = rimmed(n);
         let particles = sparsity.particles();
         let layout = BatchLayout::new(&sparsity);
-        let mut matrix = BlockMatrix::zeros(sparsity.clone());
-        for i in 0..particles {
-            for slot in sparsity.row(i).skip(1) {
-                let j = sparsity.columns()[slot] as usize;
-                let [x, y, z] = [0.1, 0.2, 0.3].map(|phase| (slot as f64 + phase).sin());
-                let spring = [x * x, x * y, x * z, x * y, y * y, y * z, x * z, y * z, z * z];
-                let spring = core::array::from_fn(|k| spring[k] + f64::from(k % 4 == 0));
-                matrix.add(i, i, &spring);
-                matrix.add(j, j, &spring);
-                matrix.add(i, j, &spring.map(|entry| -entry));
-            }
-        }
+        let mut matrix = springs(sparsity, |slot, _| {
+            let own = spring([0.1, 0.2, 0.3].map(|phase| (slot as f64 + phase).sin()));
+            core::array::from_fn(|k| own[k] + f64::from(k % 4 == 0))
+        });
         let held: Vec<bool> = (0..particles).map(|k| k < n / 2).collect();
         matrix.add_inertia(&vec![1e-3; particles], &held);
         let point = |k: usize| {

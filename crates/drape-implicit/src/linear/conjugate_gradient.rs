@@ -4,9 +4,9 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::linear::block;
 use crate::linear::lanes::{Columns, LANES};
-use crate::linear::level_schedule::chunk::{self, Chunk, LIGHT, PerChunk, PerRow, leading_to};
+use crate::linear::level_schedule::chunk::{self, Chunk, LIGHT, PerChunk, PerRow};
 use crate::linear::level_schedule::layout::BatchLayout;
-use crate::linear::level_schedule::partial_sum::PartialProduct;
+use crate::linear::level_schedule::partial_sum::{PartialProduct, add_earlier};
 use crate::linear::packed_matrix::PackedMatrix;
 use crate::linear::preconditioner::{Preconditioner, ScaledResidual};
 use crate::linear::vector::{add_scaled, dot, sum};
@@ -263,13 +263,8 @@ impl WithSimd for Advance<'_> {
         let (PerRow(solution), PerRow(mut residual), PerRow(image)) = vectors;
         let Stride { step, image_factor } = stride;
         let first = chunk.rows.start;
-        for (earlier, shared) in leading_to(&layout.chunks, chunk.index) {
-            let beyond = &products[earlier.index].rows.0;
-            for (residual, product) in residual.iter_mut().zip(beyond) {
-                let product = &product[shared.start - earlier.rows.start..][..shared.len()];
-                add_scaled(&mut residual[shared.start - first..], -step, product);
-            }
-        }
+        let product_of = |own: &Chunk| &products[own.index].rows;
+        add_earlier(&mut residual, -step, (&layout.chunks, chunk), product_of);
         for &entry in &chunk.incoming {
             let entry = entry as usize;
             let row = layout.irregular[entry].column as usize - first;

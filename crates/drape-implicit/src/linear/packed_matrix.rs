@@ -9,13 +9,13 @@ use crate::linear::lane_block::{
 };
 use crate::linear::lanes::{Columns, Double, LANES, Single, widened};
 use crate::linear::level_schedule::chunk::{
-    self, Chunk, LIGHT, PerBlock, PerChunk, PerIrregularEntry, PerRow, leading_to,
+    self, Chunk, LIGHT, PerBlock, PerChunk, PerIrregularEntry, PerRow,
 };
 use crate::linear::level_schedule::layout::BatchLayout;
-use crate::linear::level_schedule::partial_sum::{PartialProduct, PartialSum};
+use crate::linear::level_schedule::partial_sum::{PartialProduct, PartialSum, add_earlier};
 use crate::linear::level_schedule::row_order::ABSENT;
 use crate::linear::level_schedule::run::IrregularEntry;
-use crate::linear::vector::{add_scaled, dot};
+use crate::linear::vector::dot;
 
 /// Places of a symmetric block's upper half in the block.
 const UPPER_HALF: [usize; 6] = [0, 1, 2, 4, 5, 8];
@@ -82,13 +82,7 @@ impl PackedMatrix {
             for (column, part) in rows.iter_mut().zip(&parts[chunk.index].0) {
                 column.copy_from_slice(&part[..column.len()]);
             }
-            for (earlier, shared) in leading_to(&layout.chunks, chunk.index) {
-                let beyond = &parts[earlier.index].0;
-                for (column, part) in rows.iter_mut().zip(beyond) {
-                    let part = &part[shared.start - earlier.rows.start..][..shared.len()];
-                    add_scaled(&mut column[shared.start - first..], 1.0, part);
-                }
-            }
+            add_earlier(&mut rows, 1.0, (&layout.chunks, chunk), |own| &parts[own.index]);
             for &entry in &chunk.incoming {
                 let IrregularEntry { column, slot, .. } = layout.irregular[entry as usize];
                 let short = &irregular[entry as usize];
@@ -295,24 +289,14 @@ fn pick<'a>(blocks: &'a [Block], slot: u32, none: &'a Block) -> &'a Block {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::level_schedule::sample::rimmed;
+    use crate::linear::level_schedule::sample::{rimmed, spring, springs};
+    use crate::linear::vector::add_scaled;
 
     /// Springs between the points of a lattice with a chain around it, with numbers that single
     /// precision has to round, and no springs to anything else.
     fn lattice(n: usize) -> BlockMatrix {
-        let sparsity = rimmed(n);
-        let mut matrix = BlockMatrix::zeros(sparsity.clone());
-        for i in 0..sparsity.particles() {
-            for slot in sparsity.row(i).skip(1) {
-                let j = sparsity.columns()[slot] as usize;
-                let [x, y, z] = [0.1, 0.2, 0.3].map(|phase| (slot as f64 + phase).sin());
-                let spring = [x * x, x * y, x * z, x * y, y * y, y * z, x * z, y * z, z * z];
-                matrix.add(i, i, &spring);
-                matrix.add(j, j, &spring);
-                matrix.add(i, j, &spring.map(|entry| -entry));
-            }
-        }
-        matrix
+        let number = |slot: usize, phase: f64| (slot as f64 + phase).sin();
+        springs(rimmed(n), |slot, _| spring([0.1, 0.2, 0.3].map(|phase| number(slot, phase))))
     }
 
     struct Product {

@@ -70,7 +70,7 @@ impl Preconditioner {
         &mut self.factor.image
     }
 
-    /// Turns the image, which holds a scaled residual, into the preconditioned one.
+    /// Applies the preconditioner to the image, which holds the scaled residual.
     pub(crate) fn apply(&mut self, arch: Arch, layout: &BatchLayout, residual: ScaledResidual<'_>) {
         let Self { factor, coarse } = self;
         match coarse {

@@ -174,23 +174,14 @@ impl Iterative {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::level_schedule::sample::weave;
+    use crate::linear::level_schedule::sample::{spring, springs, weave};
 
     /// A sheet of stiff cells, tied to its place a little; its lowest row is held.
     fn sheet(n: usize) -> (BlockMatrix, Vec<MaterialPoint>) {
-        let sparsity = weave(n);
-        let mut matrix = BlockMatrix::zeros(sparsity.clone());
-        for i in 0..n * n {
-            for slot in sparsity.row(i).skip(1) {
-                let j = sparsity.columns()[slot] as usize;
-                let [x, y] = [(j % n) as f64 - (i % n) as f64, (j / n) as f64 - (i / n) as f64];
-                let [x, y, z] = [x, y, 0.1 * (i as f64).sin()];
-                let spring = [x * x, x * y, x * z, x * y, y * y, y * z, x * z, y * z, z * z];
-                matrix.add(i, i, &spring);
-                matrix.add(j, j, &spring);
-                matrix.add(i, j, &spring.map(|entry| -entry));
-            }
-        }
+        let mut matrix = springs(weave(n), |_, [i, j]| {
+            let [x, y] = [(j % n) as f64 - (i % n) as f64, (j / n) as f64 - (i / n) as f64];
+            spring([x, y, 0.1 * (i as f64).sin()])
+        });
         let held: Vec<bool> = (0..n * n).map(|k| k < n).collect();
         matrix.add_inertia(&vec![1e-3; n * n], &held);
         let coordinates = |k: usize| [(k % n) as f64, (k / n) as f64];
@@ -219,8 +210,7 @@ mod tests {
             solve(&matrix, if with { &points } else { &[] }, Arch::new()).0
         };
         let [small, large] = [80, 160].map(|n| iterations(n, true));
-        let [small_without, large_without] = [80, 160].map(|n| iterations(n, false));
-        println!("{small} {large} with, {small_without} {large_without} without");
+        let large_without = iterations(160, false);
         assert!(2 * large < large_without, "{large} with, {large_without} without");
         assert!(large < small + small / 3, "{small} of 6 400, {large} of 25 600");
     }

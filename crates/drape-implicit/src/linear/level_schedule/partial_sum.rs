@@ -1,7 +1,8 @@
 //! Partial sums: what one chunk adds to its own rows and to others'.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, leading_to};
 use crate::linear::lanes::Double;
+use crate::linear::vector::add_scaled;
 
 /// Sum of what a chunk adds to its own rows and to those beyond that its diagonals lead to.
 #[derive(Clone, Debug)]
@@ -18,7 +19,8 @@ impl<const N: usize> PartialSum<N> {
         }
     }
 
-    /// Adds to a batch of rows, the first counted within the chunk.
+    /// Adds one number per axis and lane to a batch of rows. The first row is counted within the
+    /// chunk.
     #[inline(always)]
     pub(crate) fn add_batch(&mut self, first: usize, batch: [Double; N]) {
         for (column, lanes) in self.0.iter_mut().zip(batch) {
@@ -26,11 +28,28 @@ impl<const N: usize> PartialSum<N> {
         }
     }
 
-    /// Adds to a row, counted within the chunk.
+    /// Adds one number per axis to a row, which is counted within the chunk.
     #[inline(always)]
     pub(crate) fn add(&mut self, row: usize, numbers: [f64; N]) {
         for (column, number) in self.0.iter_mut().zip(numbers) {
             column[row] += number;
+        }
+    }
+}
+
+/// Adds to the rows of a chunk what earlier chunks add to them, times a factor. `sums` are those of
+/// all chunks.
+#[inline(always)]
+pub(crate) fn add_earlier<'a, const N: usize>(
+    rows: &mut [&mut [f64]; N],
+    factor: f64,
+    (chunks, chunk): (&[Chunk], &Chunk),
+    sums: impl Fn(&Chunk) -> &'a PartialSum<N>,
+) {
+    for (earlier, shared) in leading_to(chunks, chunk.index) {
+        for (rows, sum) in rows.iter_mut().zip(&sums(earlier).0) {
+            let sum = &sum[shared.start - earlier.rows.start..][..shared.len()];
+            add_scaled(&mut rows[shared.start - chunk.rows.start..], factor, sum);
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Sparsities of cloth, for tests.
 
+use crate::linear::block::Block;
+use crate::linear::block_matrix::BlockMatrix;
 use crate::linear::sparsity::Sparsity;
 
 /// Couplings of woven cloth: neighbours, those beyond them, and those across a cell.
@@ -40,4 +42,28 @@ pub(crate) fn rimmed(n: usize) -> Sparsity {
         [[first + k, first + next], [first + k, edge[k]], [first + k, edge[next]]]
     });
     Sparsity::from_pairs(first + edge.len(), lattice.chain(links)).unwrap()
+}
+
+/// Stiffness of a spring along a direction.
+pub(crate) fn spring([x, y, z]: [f64; 3]) -> Block {
+    [x * x, x * y, x * z, x * y, y * y, y * z, x * z, y * z, z * z]
+}
+
+/// Stiffness of springs between all particles that are coupled, and of nothing else. `stiffness` is
+/// that of the spring of a slot and its two particles.
+pub(crate) fn springs(
+    sparsity: Sparsity,
+    stiffness: impl Fn(usize, [usize; 2]) -> Block,
+) -> BlockMatrix {
+    let mut matrix = BlockMatrix::zeros(sparsity.clone());
+    for i in 0..sparsity.particles() {
+        for slot in sparsity.row(i).skip(1) {
+            let j = sparsity.columns()[slot] as usize;
+            let spring = stiffness(slot, [i, j]);
+            matrix.add(i, i, &spring);
+            matrix.add(j, j, &spring);
+            matrix.add(i, j, &spring.map(|entry| -entry));
+        }
+    }
+    matrix
 }
