@@ -233,6 +233,31 @@ fn a_killed_sweep_goes_on_to_the_table_of_a_serial_one() {
 }
 
 #[test]
+fn a_run_that_outlives_its_sweep_is_waited_for() {
+    let bench = Bench::new("[[axis]]\nkey = \"time.end\"\nvalues = [2.0]\n");
+    let mut sweep = bench.begin();
+    let run = loop {
+        if let Some(run) = children(sweep.id()).first() {
+            break *run;
+        }
+        assert!(sweep.try_wait().unwrap().is_none(), "it had no run");
+    };
+    // The run may not have come as far as its folder.
+    kill(run, "-STOP");
+    kill(sweep.id(), "-KILL");
+    sweep.wait().unwrap();
+    let sweep = bench.begin();
+    std::thread::sleep(Duration::from_secs(1));
+    let beside = children(sweep.id());
+    kill(run, "-CONT");
+    let ended = sweep.wait_with_output().unwrap();
+    assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
+    assert!(beside.is_empty(), "a second run of the point began");
+    assert_eq!(bench.table()[0]["outcome"], "ok");
+    assert_eq!(bench.rows()[0]["retries"], "0");
+}
+
+#[test]
 fn an_interrupted_sweep_ends_its_runs_and_goes_on() {
     for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
         let bench = Bench::new("[[axis]]\nkey = \"time.end\"\nvalues = [500.0, 600.0]\n");

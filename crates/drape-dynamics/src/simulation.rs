@@ -339,7 +339,6 @@ impl Simulation {
         if let (true, Some(seconds)) = (self.is_at_rest(), self.phases.motion_seconds) {
             self.set_in_motion(seconds)?;
         }
-        let over = self.stepping.ticks() >= self.ticks_to_do();
         Ok(Step {
             time: self.time(),
             dt,
@@ -348,7 +347,7 @@ impl Simulation {
             report,
             events: self.outcome.events[told..].to_vec(),
             phase: self.phase(),
-            finished: self.is_at_rest() || self.outcome.status != Status::Ok || over,
+            finished: self.outcome.status != Status::Ok || self.is_over(),
         })
     }
 
@@ -551,6 +550,11 @@ impl Simulation {
 
     fn is_at_rest(&self) -> bool {
         self.rest.is_at_rest(self.stepping.clock().tick())
+    }
+
+    /// Returns whether nothing is left to do: the cloth is at rest, or the time is over.
+    fn is_over(&self) -> bool {
+        self.is_at_rest() || self.stepping.ticks() >= self.ticks_to_do()
     }
 
     fn has_settled(&self) -> bool {

@@ -76,10 +76,11 @@ impl Place {
         }
     }
 
-    /// Returns whether a run is writing to the folder, as one may that outlived its sweep.
+    /// Returns whether a process of the point still goes, as one may that outlived its sweep: it has
+    /// the lock of its log.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        let file = File::options().write(true).open(self.folder.join("run.lock"));
+        let file = File::options().write(true).open(self.log());
         file.is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
     }
 

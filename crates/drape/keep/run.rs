@@ -46,8 +46,8 @@ pub struct EndedRun {
     pub summary: Summary,
     /// Folder of the results.
     pub output: Output,
-    /// Cloth and bodies at the end, unless no frame was made.
-    pub last: Option<Snapshot>,
+    /// Cloth and bodies at the end.
+    pub last: Snapshot,
     keeper: Keeper,
     _lock: Lock,
 }
@@ -127,16 +127,23 @@ impl KeptRun {
         let goal = Goal::new(&simulation);
         let mut progress = KeptProgress { recorder, keeper, goal, last: None, watcher };
         let mut summary = simulation.run(&mut progress)?;
-        let KeptProgress { keeper, last, recorder, .. } = progress;
+        let KeptProgress { mut keeper, last, recorder, .. } = progress;
+        let recorded = recorder.save()?;
         drop(recorder);
         if let (Status::Interrupted, Some(limit)) = (&summary.status, keeper.reached()) {
             summary.reason = Some(limit.to_owned());
         }
         output.summary(&summary)?;
+        // A run that is cut off before here repeats its last steps, to the same summary.
+        if matches!(summary.status, Status::Ok | Status::DidNotSettle) {
+            keeper.keep(&simulation.saved(), &recorded)?;
+        }
         save_last(&folder)?;
-        let last =
-            last.map(|frame| Snapshot { positions: frame.positions, ..simulation.snapshot() });
-        Ok(EndedRun { summary, output, last, keeper, _lock: lock })
+        let mut at_end = simulation.snapshot();
+        if let Some(frame) = last {
+            at_end.positions = frame.positions;
+        }
+        Ok(EndedRun { summary, output, last: at_end, keeper, _lock: lock })
     }
 }
 

@@ -26,8 +26,9 @@ pub trait Progress {
         Ok(())
     }
 
-    /// Returns whether a checkpoint is wanted after this step. One is made at the end of each phase,
-    /// when the run is interrupted, and at its end.
+    /// Returns whether a checkpoint is wanted after this step. One is made at the end of each phase
+    /// and when the run is interrupted, but none at its end: from there on only a longer run goes on,
+    /// for which [`Simulation::saved`] is kept after its summary.
     fn is_checkpoint_due(&self) -> bool {
         false
     }
@@ -66,7 +67,9 @@ impl Simulation {
             self.emit_frame(progress)?;
         }
         let mut is_long = false;
-        loop {
+        // A checkpoint of the end leaves no step to do.
+        let mut is_over = self.is_over();
+        while !is_over {
             let before =
                 Before { intervals: self.frame_intervals(), phases: self.phases.begun.len() };
             let start = (is_long && self.world.cancel.is_some()).then(|| self.saved());
@@ -84,9 +87,11 @@ impl Simulation {
             };
             is_long = began.elapsed() >= LONG_STEP;
             progress.step(&step, self.stepping.ticks());
-            if self.end_step(&step, before, progress)? {
-                break;
-            }
+            is_over = self.end_step(&step, before, progress)?;
+        }
+        if self.outcome.status == Status::Ok && self.settles() && !self.has_settled() {
+            self.outcome.status = Status::DidNotSettle;
+            self.outcome.reason = self.parts.first_slide();
         }
         self.outcome.measures = measures(&self.parts, &mut self.world);
         self.outcome.warnings = self.outcome.events.clone();
@@ -108,8 +113,8 @@ impl Simulation {
         if step.finished || is_due || phase_ended {
             self.emit_frame(progress)?;
         }
-        let ended_well = step.finished && self.outcome.status == Status::Ok;
-        if is_interrupted || phase_ended || ended_well || progress.is_checkpoint_due() {
+        let is_wanted = is_interrupted || phase_ended || progress.is_checkpoint_due();
+        if is_wanted && !step.finished {
             progress.checkpoint(&self.saved())?;
         }
         if is_interrupted {
@@ -119,10 +124,6 @@ impl Simulation {
             }
             self.outcome.status = Status::Interrupted;
             return Ok(true);
-        }
-        if step.finished && ended_well && self.settles() && !self.has_settled() {
-            self.outcome.status = Status::DidNotSettle;
-            self.outcome.reason = self.parts.first_slide();
         }
         Ok(step.finished)
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use clap::Args;
-use drape::dynamics::{Snapshot, Summary};
+use drape::dynamics::Summary;
 use drape::frames::Recording;
 use drape::keep::{EndedRun, Keeping, KeptRun};
 use drape::report::Picture;
@@ -57,12 +57,10 @@ pub(crate) struct Job<'a> {
     pub(crate) options: &'a RunOptions,
 }
 
-/// What a job draws at its end.
+/// How a job draws its end.
 struct Shown {
     view: [Option<f64>; 2],
     is_garment: bool,
-    /// Last frame, unless no picture is asked for.
-    last: Option<Snapshot>,
 }
 
 impl Job<'_> {
@@ -76,10 +74,10 @@ impl Job<'_> {
         let mut progress = RunProgress::new(scene);
         let ended = run.run(&mut progress);
         progress.finish();
-        let mut ended = ended?;
-        let last = ended.last.take().filter(|_| !options.no_picture);
-        let shown = Shown { view, is_garment, last };
-        draw(&shown, &ended, folder)?;
+        let ended = ended?;
+        if !options.no_picture {
+            draw(&Shown { view, is_garment }, &ended, folder)?;
+        }
         let summary = ended.close();
         if !options.json {
             say(describe(&summary))?;
@@ -94,9 +92,8 @@ impl Job<'_> {
 
 /// Stores the view and the pictures; of an interrupted run those that take no time.
 fn draw(shown: &Shown, ended: &EndedRun, folder: &Path) -> Result<(), Failure> {
-    let EndedRun { summary, output, .. } = ended;
-    let Shown { view, is_garment, last } = shown;
-    let Some(last) = last else { return Ok(()) };
+    let EndedRun { summary, output, last, .. } = ended;
+    let Shown { view, is_garment } = shown;
     if let Some(since) = signal::since() {
         if since <= PICTURE_MAX {
             let picture = Pictures::new(last)?.draw(*view, picture::SIZE)?;

@@ -167,8 +167,10 @@ impl<'a> Worker<'a> {
         let failed = |what: &str, error: &dyn std::fmt::Display| {
             Failure::Output(format!("cannot {what}: {error}"))
         };
-        let file = File::create(&log)
-            .map_err(|error| failed(&format!("write {}", log.display()), &error))?;
+        // The process has the lock of its log as long as it goes, even where this program is killed
+        // as soon as it has started it.
+        let file = File::create(&log).and_then(|file| file.lock().map(|()| file));
+        let file = file.map_err(|error| failed(&format!("write {}", log.display()), &error))?;
         let mut command = Command::new(&self.program);
         arguments(&mut command);
         command.args(["--quiet", "--progress", "none", "--threads"]);
