@@ -121,8 +121,17 @@ impl SceneFile {
     /// Whether surfaces are kept apart: if the scene does not say, wherever steps can be limited.
     /// Explicit steps cannot, and the particles of Breen's model repel each other at a spacing.
     pub(crate) fn keeps_surfaces_apart(&self) -> bool {
-        let is = |key: &Option<String>, word: &str| key.as_deref() == Some(word);
-        let cannot = is(&self.solver.integrator, "explicit") || is(&self.model, "breen-1994");
+        let cannot = self.is_explicit() || self.is_breen();
         self.contact.surfaces.unwrap_or(!cannot)
+    }
+
+    /// Whether the integrator is explicit.
+    pub(crate) fn is_explicit(&self) -> bool {
+        self.solver.integrator.as_deref() == Some("explicit")
+    }
+
+    /// Whether the cloth is the particles of Breen's model.
+    pub(crate) fn is_breen(&self) -> bool {
+        self.model.as_deref() == Some("breen-1994")
     }
 }

@@ -211,6 +211,32 @@ fn a_disc_turns_with_its_grain() {
 }
 
 #[test]
+fn a_disc_follows_its_circle_unless_its_grid_is_given() {
+    let area = |scene: &Scene| scene.cloth.masses().iter().sum::<f64>() / 0.12;
+    let read_disc = |spacing: f64, more: &str| {
+        let disc = format!("disc = 0.2\nspacing = {spacing}{more}");
+        read(&with("rectangle = [0.2, 0.3]", &disc)).unwrap()
+    };
+    let circle = std::f64::consts::PI * 0.01;
+    for spacing in [0.1, 0.07, 0.03, 0.01, 0.004] {
+        let scene = read_disc(spacing, "");
+        let radii = scene.cloth.coordinates().iter().map(|[u, v]| u.hypot(*v));
+        let on_circle = radii.clone().filter(|radius| (radius - 0.1).abs() < 1e-12).count();
+        assert!(radii.into_iter().all(|radius| radius < 0.1 + 1e-12), "at {spacing}");
+        // A polygon with its corners on the circle.
+        let angle = std::f64::consts::TAU / on_circle as f64;
+        let polygon = 0.5 * on_circle as f64 * angle.sin() * 0.01;
+        assert!((area(&scene) / polygon - 1.0).abs() < 1e-12, "at {spacing}");
+        assert!(on_circle as f64 * spacing > 0.8 * std::f64::consts::TAU * 0.1, "at {spacing}");
+        let stepped = read_disc(spacing, "\ngrid = [0, 0]");
+        assert!((area(&stepped) / circle - 1.0).abs() < 1e-12, "at {spacing}");
+        assert!(stepped.cloth.coordinates().contains(&[0.0, 0.0]), "at {spacing}");
+    }
+    let breen = format!("model = \"breen-1994\"\n{}", with("rectangle = [0.2, 0.3]", "disc = 0.2"));
+    assert!((area(&read(&breen).unwrap()) / circle - 1.0).abs() < 1e-12);
+}
+
+#[test]
 fn a_ring_is_held_around_its_hole() {
     let shape = "disc = 0.3\nhole = 0.1";
     let text = with("rectangle = [0.2, 0.3]", shape);

@@ -3,7 +3,6 @@
 mod allowances;
 pub(crate) mod cost;
 pub(crate) mod distance;
-mod lattice;
 mod layer;
 mod placed_panel;
 mod seam_order;
@@ -24,10 +23,10 @@ use crate::file::garment::GarmentFile;
 use crate::scene::material::Material;
 use crate::scene::seam::{Seam, SeamPairs};
 
-use self::lattice::node_numbers;
 use self::layer::layer;
 use self::placed_panel::{Piece, placed_panel};
 use self::seam_order::PlacedSeam;
+use crate::check::panel::cut_lattice::node_numbers;
 
 /// Garment as its panels and its seams.
 pub(crate) struct CutGarment {

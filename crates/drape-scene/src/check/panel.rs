@@ -1,5 +1,7 @@
 //! Panels of a scene that it describes itself: rectangles and discs.
 
+pub(crate) mod cut_lattice;
+mod disc;
 pub(crate) mod folds;
 pub(crate) mod noise;
 mod placement;
@@ -223,10 +225,11 @@ fn lattice(
         (Some(size), None, None) => {
             Lattice::rectangle_at(grain, grid, size.map(|side| side * unit), spacing)
         }
-        (None, Some(disc), hole) => {
+        (None, Some(diameter), hole) => {
             let round = match hole {
-                None => Lattice::disc_on(grid, radius(disc), spacing),
-                Some(hole) => Lattice::ring_on(grid, [hole, disc].map(radius), spacing),
+                None if has_rim(checker, entry) => disc::disc(radius(diameter), spacing),
+                None => Lattice::disc_on(grid, radius(diameter), spacing),
+                Some(hole) => Lattice::ring_on(grid, [hole, diameter].map(radius), spacing),
             };
             round.map(|round| round.with_grain(grain))
         }
@@ -263,6 +266,12 @@ fn lattice(
         checker.fail(&place, format!("panel \"{}\": {error}", excerpt(&entry.name)), &help);
     };
     lattice.map_err(report).ok()
+}
+
+/// Returns whether a disc has a rim of triangles: a grid that begins at a place has none, and Breen's
+/// particles know none.
+fn has_rim(checker: &Checker<'_>, entry: &PanelFile) -> bool {
+    entry.grid.is_none() && !checker.file.is_breen()
 }
 
 /// Says which spacing suits a panel of a size, in m, in place of a spacing, in m.

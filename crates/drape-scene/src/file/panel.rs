@@ -16,7 +16,8 @@ pub(crate) struct PanelFile {
     /// Width × height of a rectangle: weft × warp where no grain is given.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) rectangle: Option<[Given<Length>; 2]>,
-    /// Diameter of a disc.
+    /// Diameter of a disc. Triangles along its rim follow the circle; the rim is stepped, along the
+    /// cells, where the disc has a `hole` or a `grid`, and in Breen's model.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]
     pub(crate) disc: Option<Given<Length>>,
     /// Diameter of the hole in a disc's middle; no hole if missing.
@@ -28,6 +29,8 @@ pub(crate) struct PanelFile {
     #[serde(default)]
     pub(crate) grain: Given<Angle>,
     /// Position of a particle from the middle, weft × warp; a particle is in the middle if missing.
+    /// A disc without it has particles anywhere and a round rim; with it the rim is stepped, and a
+    /// drape takes about half of the time.
     pub(crate) grid: Option<[Given<Length>; 2]>,
     /// Distance between its particles; that of the scene if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]

@@ -1,14 +1,15 @@
 //! Panels of a cut pattern at their places.
 
+use drape_cloth::Grain;
 use drape_input::toml_key;
 use drape_pattern::{CutPattern, Pattern, Placement};
 
 use crate::check::checker::Checker;
 use crate::check::fabrics::material_index;
 use crate::check::garment::allowances::allowances;
-use crate::check::garment::lattice::lattice;
 use crate::check::garment::layer::{layer, worn_at};
 use crate::check::panel::PlacedPanel;
+use crate::check::panel::cut_lattice::cut_lattice;
 use crate::check::panel::folds::{FoldLine, UnfoldedPanel, folded};
 use crate::check::panel::noise::Noise;
 use crate::file::garment::{GarmentFile, GarmentPanelFile};
@@ -49,7 +50,8 @@ pub(crate) fn placed_panel(
 ) -> Option<PlacedPanel> {
     let &Piece { key, entry, pattern, cut, index, numbers, first } = piece;
     let (panel, own) = (piece.panel(), piece.own());
-    let allowances = allowances(pattern, cut, index);
+    let allowances: Vec<_> =
+        allowances(pattern, cut, index).iter().map(|own| own.numbered(numbers)).collect();
     let cut = &cut.panels[index];
     let placement = placement(checker, piece);
     let layer_key = format!("{key}.panel.{}.layer", toml_key(panel.name()));
@@ -76,11 +78,14 @@ pub(crate) fn placed_panel(
         Some(name) => material_index(checker, &fabric_key, name),
         None => material_index(checker, &fabric_key, fabric),
     };
-    let lattice = lattice(cut, numbers, panel.grain(), &allowances).map_err(|error| {
-        let message = format!("panel \"{}\": {error}", panel.name());
-        let help = "choose another spacing, and report the pattern";
-        checker.fail(&format!("{key}.pattern"), message, help);
-    });
+    let grain = Grain::from_degrees(panel.grain().to_degrees());
+    let lattice = cut_lattice(cut, numbers, grain);
+    let lattice =
+        lattice.and_then(|lattice| lattice.with_allowances(&allowances)).map_err(|error| {
+            let message = format!("panel \"{}\": {error}", panel.name());
+            let help = "choose another spacing, and report the pattern";
+            checker.fail(&format!("{key}.pattern"), message, help);
+        });
     let lines = panel.folds().iter().map(|fold| FoldLine { ends: fold.ends, angle: fold.angle });
     let unfolded = UnfoldedPanel { lattice: lattice.ok()?, lines };
     let lattice = folded(checker, key, panel.name(), unfolded)?;

@@ -34,10 +34,9 @@ pub(crate) fn sewing_settings(checker: &mut Checker<'_>, is_plain: bool) -> Opti
         }
         return None;
     }
-    let explicit = file.solver.integrator.as_deref() == Some("explicit");
     for (wrong, key, word) in [
-        (explicit, "solver.integrator", "explicit"),
-        (file.model.as_deref() == Some("breen-1994"), "model", "breen-1994"),
+        (file.is_explicit(), "solver.integrator", "explicit"),
+        (file.is_breen(), "model", "breen-1994"),
     ] {
         if wrong {
             let message = format!("\"{word}\" cannot sew");

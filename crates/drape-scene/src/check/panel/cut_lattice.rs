@@ -3,8 +3,6 @@
 use drape_cloth::{Grain, Lattice, Mesh};
 use drape_pattern::Cut;
 
-use crate::check::garment::allowances::AllowanceLine;
-
 /// Returns the number of each node of a cut in its lattice: those of the grid come first, row by
 /// row, then those of the outline.
 pub(crate) fn node_numbers(cut: &Cut) -> Vec<u32> {
@@ -17,13 +15,11 @@ pub(crate) fn node_numbers(cut: &Cut) -> Vec<u32> {
     cut.lattice.iter().map(number).map(Option::unwrap_or_default).collect()
 }
 
-/// Makes the lattice of a cut, with the numbers of its nodes, an angle of its grain, in rad, and
-/// allowances.
-pub(crate) fn lattice(
+/// Returns the lattice of a cut, with the numbers of its nodes and its grain.
+pub(crate) fn cut_lattice(
     cut: &Cut,
     numbers: &[u32],
-    grain: f64,
-    allowances: &[AllowanceLine],
+    grain: Grain,
 ) -> Result<Lattice, drape_cloth::Error> {
     let mut coordinates = vec![[0.0; 2]; numbers.len()];
     let mut grid = vec![None; numbers.len()];
@@ -38,6 +34,5 @@ pub(crate) fn lattice(
         cells: cut.quads.iter().map(|quad| quad.map(|node| numbers[node as usize])).collect(),
         triangles: cut.triangles.iter().map(|t| t.map(|node| numbers[node as usize])).collect(),
     };
-    let allowances: Vec<_> = allowances.iter().map(|own| own.numbered(numbers)).collect();
-    Lattice::from_mesh(mesh, Grain::from_degrees(grain.to_degrees()))?.with_allowances(&allowances)
+    Lattice::from_mesh(mesh, grain)
 }
