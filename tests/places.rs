@@ -97,9 +97,37 @@ fn outside(folders: &Folders, change: (&str, &str)) {
     folders.scene(change);
     let message = folders.fails(&RUN, 3);
     assert!(message.contains("own/towel.toml:"), "{message}");
+    folders.succeeds(&[&RUN[..], &remedy(&message, "--allow-path")].concat());
+}
+
+/// Returns the option that a message advises, with its value.
+fn remedy<'a>(message: &'a str, option: &str) -> [&'a str; 2] {
     let words: Vec<&str> = message.split_whitespace().collect();
-    let allow = words.windows(2).find(|pair| pair[0] == "--allow-path").expect("a remedy");
-    folders.succeeds(&[&RUN[..], allow].concat());
+    let pair = words.windows(2).find(|pair| pair[0] == option).expect("a remedy");
+    [pair[0], pair[1]]
+}
+
+#[test]
+fn a_file_that_is_larger_than_usual_is_read_where_the_user_asks_for_it() {
+    let folders = Folders::new();
+    let mut pattern =
+        "length = \"mm\"\n[panel.flap]\ngrain = 0\nrectangle = [200, 100]\n".to_owned();
+    pattern += &"# a remark of a program that writes patterns\n".repeat(500_000);
+    fs::write(folders.at("current/flap.toml"), pattern).expect("written");
+    let check = ["check", "flap.toml"];
+    let message = folders.fails(&check, 3);
+    folders.succeeds(&[&check[..], &remedy(&message, "--raise-limits")].concat());
+    // A sweep hands the option on to its runs.
+    let remark = format!("# {}\n", "-".repeat(1 << 20));
+    folders.scene(("name", &format!("{remark}name")));
+    let message = folders.fails(&RUN, 3);
+    let raise = remedy(&message, "--raise-limits");
+    folders.succeeds(&[&RUN[..], &raise].concat());
+    let study = "scene = \"towel.toml\"\n[[axis]]\nkey = \"time.end\"\nvalues = [0.02]\n";
+    fs::write(folders.at("own/study.toml"), study).expect("written");
+    let sweep = ["sweep", "run", "../own/study.toml"];
+    folders.fails(&sweep, 3);
+    folders.succeeds(&[&sweep[..], &raise].concat());
 }
 
 #[test]

@@ -73,6 +73,11 @@ struct Options {
     /// times [default: those in their own folder and in the working folder].
     #[arg(long, global = true, value_name = "PATH")]
     allow_path: Vec<PathBuf>,
+    /// Reads files up to N times as large as usual: TOML of 1 MiB, patterns and standard input of 16,
+    /// tables of 32, meshes and their motions of 256.
+    #[arg(long, global = true, value_name = "N", default_value_t = 1, hide_default_value = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    raise_limits: u32,
 }
 
 #[derive(Subcommand)]
@@ -124,8 +129,10 @@ impl CommandLine {
     /// Executes the command on a thread of the pool: work that comes from another thread is handed
     /// over each time.
     pub(crate) fn execute(&self) -> Result<(), Failure> {
-        let Options { threads, quiet, verbose, progress, ref allow_path } = self.options;
+        let Options { threads, quiet, verbose, progress, ref allow_path, raise_limits } =
+            self.options;
         input::allow(allow_path);
+        input::raise(raise_limits);
         Console { quiet, verbose, progress }.install();
         let bench = matches!(self.command, Command::Bench(_)).then_some(1);
         if let Some(threads) = threads.or(bench) {

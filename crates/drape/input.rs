@@ -8,13 +8,13 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use drape::input::{Diagnostic, Diagnostics, Document, Setting};
+use drape::input::{Diagnostic, Diagnostics, Document, Setting, SizeLimit, raise_size_limits};
 
 /// Name of standard input in messages.
 const NAME: &str = "<standard input>";
 
-/// Most bytes of standard input that are read; drafts of patterns have some hundred kilobytes.
-const LARGEST: u64 = 1 << 24;
+/// Limit of standard input, that of a pattern.
+const LIMIT: SizeLimit = SizeLimit::new("inputs", 1 << 24);
 
 /// Text of standard input, or why there is none.
 static TEXT: OnceLock<Result<String, String>> = OnceLock::new();
@@ -30,6 +30,20 @@ pub(crate) fn allow(paths: &[PathBuf]) {
 /// Returns what the user allows input to name.
 pub(crate) fn allowed() -> &'static [PathBuf] {
     ALLOWED.get().map_or(&[], Vec::as_slice)
+}
+
+/// Factor of the limits of the sizes of files.
+static RAISED: OnceLock<u32> = OnceLock::new();
+
+/// Raises the limits of the sizes of files by a factor.
+pub(crate) fn raise(factor: u32) {
+    raise_size_limits(*RAISED.get_or_init(|| factor));
+}
+
+/// Returns the option by which another process raises its limits likewise, if it has to.
+pub(crate) fn raised() -> Option<[String; 2]> {
+    let factor = RAISED.get().filter(|factor| **factor > 1);
+    factor.map(|factor| ["--raise-limits".to_owned(), factor.to_string()])
 }
 
 /// Values that the user sets in place of those of the files of a command.
@@ -62,10 +76,11 @@ pub(crate) fn document(path: &Path) -> Result<Document, Diagnostics> {
 
 fn read() -> Result<String, String> {
     let mut bytes = Vec::new();
-    let read = std::io::stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes);
+    let most = LIMIT.bytes();
+    let read = std::io::stdin().lock().take(most.saturating_add(1)).read_to_end(&mut bytes);
     read.map_err(|error| format!("cannot be read: {error}"))?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(format!("has more than {LARGEST} bytes"));
+    if bytes.len() as u64 > most {
+        return Err(format!("has more than {most} bytes, which --raise-limits changes"));
     }
     String::from_utf8(bytes).map_err(|_| "is not UTF-8".into())
 }

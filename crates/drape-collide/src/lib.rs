@@ -17,7 +17,9 @@ mod surface;
 
 pub use body::{Body, Mesh, NearestSurface, Pose, Shape, SignedDistance};
 pub use error::Error;
-pub use mesh_io::{PointCache, Triangulation, parse_mesh, read_mesh};
+pub use mesh_io::{
+    MESH_BYTES_MAX, PointCache, Triangulation, parse_mesh, read_mesh, read_mesh_within,
+};
 pub use mesh_repair::{
     EdgeLengths, Hole, MeshInspection, Places, RepairNote, RepairSettings, Repaired, repair,
 };

@@ -17,6 +17,6 @@ mod stl;
 mod triangulation;
 
 pub(crate) use merge::{Merged, doubled_area, merge_coincident_vertices};
-pub use mesh_file::{parse_mesh, read_mesh};
+pub use mesh_file::{MESH_BYTES_MAX, parse_mesh, read_mesh, read_mesh_within};
 pub use point_cache::PointCache;
 pub use triangulation::Triangulation;

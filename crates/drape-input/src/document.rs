@@ -2,6 +2,8 @@
 //!
 //! Every crate that reads TOML goes through [`Document`], so all mistakes look alike.
 
+pub(crate) mod size_limit;
+
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -17,12 +19,10 @@ use crate::node::{Node, Value};
 use crate::places::{Misplaced, Places};
 use crate::setting::{Setting, SettingError};
 use crate::spelling::closest;
+use size_limit::SizeLimit;
 
-/// Largest TOML file that is read, in bytes.
-///
-/// Sheets, fabrics and scenes have a few kilobytes; the limit keeps a wrong path from filling the
-/// memory.
-const LARGEST: u64 = 1 << 20;
+/// Limit of TOML files: sheets, fabrics and scenes have a few kilobytes.
+const LIMIT: SizeLimit = SizeLimit::new("TOML files", 1 << 20);
 
 /// Largest number of letters of a key path in a message.
 const KEY_MAX: usize = 120;
@@ -138,7 +138,7 @@ impl Document {
     /// Reads a file.
     ///
     /// # Errors
-    /// The file is missing, larger than a mebibyte, or not UTF-8.
+    /// The file is missing, larger than a mebibyte unless limits are raised, or not UTF-8.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
         let path = path.as_ref();
         let fail = |message: String| Diagnostic::new(path, message);
@@ -147,13 +147,8 @@ impl Document {
         if !metadata.is_file() {
             return Err(fail("this is not a file".into()).help("name a TOML file").into());
         }
-        if metadata.len() > LARGEST {
-            return Err(fail(format!(
-                "the file has {} bytes, more than {LARGEST}",
-                metadata.len()
-            ))
-            .help("a TOML input has a few kilobytes: is this the right file?")
-            .into());
+        if let Err(refused) = LIMIT.check(metadata.len()) {
+            return Err(fail(refused.to_string()).help(refused.help()).into());
         }
         let text = std::fs::read_to_string(path)
             .map_err(|e| fail(format!("cannot read the file: {e}")).help("save it as UTF-8"))?;

@@ -3,7 +3,7 @@
 //! # Tour
 //!
 //! * `document`: [`Document`], the text of a TOML file with its path; it decodes the text into a
-//!   structure and locates a key for a message.
+//!   structure and locates a key for a message. [`SizeLimit`], how large files may be.
 //! * `decode`: what decodes it, with all mistakes at once, and [`Faults`], which say what was left out.
 //! * `grammar`: mistakes of the text itself.
 //! * `given`: [`Given`], a number of a structure that may stand with a unit; `unit`: the units.
@@ -33,6 +33,7 @@ mod unit;
 
 pub use decode::Faults;
 pub use diagnostic::{Diagnostic, Diagnostics};
+pub use document::size_limit::{SizeLimit, TooLarge, raise_size_limits};
 pub use document::{Document, nearest_file};
 pub use figure::{excerpt, figure, figure_below, figures, tidy};
 pub use given::{

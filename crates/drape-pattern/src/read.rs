@@ -25,7 +25,7 @@ mod unit;
 
 use std::path::Path;
 
-use drape_input::{Diagnostic, Diagnostics, Document};
+use drape_input::{Diagnostic, Diagnostics, Document, SizeLimit};
 use serde_json::Value;
 
 use crate::error::Error;
@@ -38,8 +38,8 @@ pub use seams::{Place, SeamKeys};
 pub use toml_file::keys::pattern_schema;
 pub use unit::Unit;
 
-/// Largest file that is read, in bytes; drafts with all their drawings have some hundred kilobytes.
-const LARGEST: u64 = 1 << 24;
+/// Limit of pattern files: drafts with all their drawings have some hundred kilobytes.
+const LIMIT: SizeLimit = SizeLimit::new("patterns", 1 << 24);
 
 /// Endings of the files that hold patterns.
 const ENDINGS: [&str; 4] = ["toml", "json", "svg", "dxf"];
@@ -181,10 +181,8 @@ fn document(path: &Path) -> Result<Document, Diagnostics> {
         // The reader of other files says what is missing.
         return Document::read(path);
     };
-    if size > LARGEST {
-        let message = format!("the file has {size} bytes, more than {LARGEST}");
-        let help = "a pattern has some hundred kilobytes: is this the right file?";
-        return Err(Diagnostic::new(path, message).help(help).into());
+    if let Err(refused) = LIMIT.check(size) {
+        return Err(Diagnostic::new(path, refused.to_string()).help(refused.help()).into());
     }
     let bytes = std::fs::read(path).map_err(|error| {
         Diagnostic::new(path, format!("cannot read the file: {error}")).help("make it readable")

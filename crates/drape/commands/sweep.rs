@@ -101,7 +101,8 @@ fn export(arguments: &SweepExportArguments) -> Result<(), Failure> {
     let options: Result<Vec<PathBuf>, Failure> = options.collect();
     let options = options?
         .into_iter()
-        .flat_map(|path| ["--allow-path".to_owned(), path.display().to_string()]);
+        .flat_map(|path| ["--allow-path".to_owned(), path.display().to_string()])
+        .chain(input::raised().into_iter().flatten());
     let output = whole(study.output())?;
     let batch = Batch {
         program: std::env::current_exe().map_err(here)?,

@@ -7,8 +7,9 @@ use super::triangulation::Triangulation;
 use super::{obj, ply, stl};
 use crate::error::Error;
 
-/// Largest size of a mesh file, in bytes: a million triangles take a tenth of it.
-const BYTES_MAX: u64 = 1 << 28;
+/// Largest size of a file of a mesh or of its motion, in bytes: a tenth of it holds a million
+/// triangles, and all of it twenty thousand vertices for a thousand frames.
+pub const MESH_BYTES_MAX: u64 = 1 << 28;
 
 /// Reads a Wavefront OBJ, STL (text or binary) or PLY (text or binary) file, by the extension of
 /// its name.
@@ -20,9 +21,17 @@ const BYTES_MAX: u64 = 1 << 28;
 /// # Errors
 /// If the file is none of these, is cut off, is no regular file or is longer than 256 MiB.
 pub fn read_mesh(path: impl AsRef<Path>) -> Result<Triangulation, Error> {
+    read_mesh_within(path, MESH_BYTES_MAX)
+}
+
+/// Reads a mesh file of at most `limit` bytes, as [`read_mesh`] does.
+///
+/// # Errors
+/// As for [`read_mesh`], with the limit in place of 256 MiB.
+pub fn read_mesh_within(path: impl AsRef<Path>, limit: u64) -> Result<Triangulation, Error> {
     let path = path.as_ref();
     let parser = parser(path)?;
-    parse(path, &read_bytes(path, BYTES_MAX)?, parser)
+    parse(path, &read_bytes(path, limit)?, parser)
 }
 
 /// Returns the triangles of the content of a file, as [`read_mesh`] does of the file.

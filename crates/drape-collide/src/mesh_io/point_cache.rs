@@ -2,11 +2,8 @@
 
 use std::path::Path;
 
-use super::mesh_file::read_bytes;
+use super::mesh_file::{MESH_BYTES_MAX, read_bytes};
 use crate::error::Error;
-
-/// Largest size of a point cache, in bytes: twenty thousand vertices for a thousand frames.
-const BYTES_MAX: u64 = 1 << 28;
 
 /// Size of the header before the coordinates, in bytes.
 const HEADER: usize = 32;
@@ -21,17 +18,25 @@ pub struct PointCache {
 }
 
 impl PointCache {
-    /// Reads a point cache.
+    /// Reads a point cache of at most [`MESH_BYTES_MAX`].
     ///
     /// Its content, little-endian: `POINTCACHE2` and a zero byte; the version 1; number of
     /// vertices; first frame; frames per sample; number of samples; and the coordinates as 32-bit
     /// floats, sample after sample.
     ///
     /// # Errors
-    /// A file that is no point cache, is cut off, or has a coordinate that is not finite.
+    /// A file that is longer, is no point cache, is cut off, or has a coordinate that is not finite.
     pub fn read(path: impl AsRef<Path>) -> Result<PointCache, Error> {
+        Self::read_within(path, MESH_BYTES_MAX)
+    }
+
+    /// Reads a point cache of at most `limit` bytes, as [`read`](Self::read) does.
+    ///
+    /// # Errors
+    /// As for [`read`](Self::read).
+    pub fn read_within(path: impl AsRef<Path>, limit: u64) -> Result<PointCache, Error> {
         let path = path.as_ref();
-        let bytes = read_bytes(path, BYTES_MAX)?;
+        let bytes = read_bytes(path, limit)?;
         parse(&bytes).map_err(|reason| Error::MalformedFile { path: path.to_path_buf(), reason })
     }
 }

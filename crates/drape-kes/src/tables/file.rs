@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use drape_input::{Diagnostic, Diagnostics};
+use drape_input::{Diagnostic, Diagnostics, SizeLimit};
 use encoding_rs::Encoding;
 
 use crate::tables::channel_rows;
@@ -11,10 +11,8 @@ use crate::tables::grid::{Grid, Separator, separator};
 use crate::tables::layout::Layout;
 use crate::tables::spreadsheet;
 
-/// Largest table that is read, in bytes: half a million points.
-///
-/// A curve has some hundred; the limit keeps a wrong path from filling the memory.
-const LARGEST: u64 = 32 << 20;
+/// Limit of tables: half a million points, where a curve has some hundred.
+const LIMIT: SizeLimit = SizeLimit::new("tables", 32 << 20);
 
 /// Grids of a file, with what was found about its characters.
 #[derive(Clone, Debug)]
@@ -37,11 +35,8 @@ pub(crate) fn read(path: &Path, layout: &Layout) -> Result<TableFile, Diagnostic
     if !found.is_file() {
         return Err(Diagnostic::new(path, "this is not a file").help("name a table").into());
     }
-    let size = found.len();
-    if size > LARGEST {
-        return Err(Diagnostic::new(path, format!("the file has {size} bytes"))
-            .help("a curve has some thousand lines: is this the right file?")
-            .into());
+    if let Err(refused) = LIMIT.check(found.len()) {
+        return Err(Diagnostic::new(path, refused.to_string()).help(refused.help()).into());
     }
     parse(path, &std::fs::read(path).map_err(unreadable)?, layout)
 }

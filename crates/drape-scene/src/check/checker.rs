@@ -4,12 +4,17 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-use drape_collide::{Triangulation, parse_mesh, read_mesh};
-use drape_input::{Diagnostic, Diagnostics, Document, Faults, closest, excerpt, figure, tidy};
+use drape_collide::{MESH_BYTES_MAX, Triangulation, parse_mesh, read_mesh_within};
+use drape_input::{
+    Diagnostic, Diagnostics, Document, Faults, SizeLimit, closest, excerpt, figure, tidy,
+};
 
 use crate::check::documents::Documents;
 use crate::check::memory::particles_max;
 use crate::file::SceneFile;
+
+/// Limit of meshes and of their motions.
+pub(crate) const MESH_LIMIT: SizeLimit = SizeLimit::new("meshes", MESH_BYTES_MAX);
 
 /// File of a scene that is being checked, with the mistakes found so far.
 pub(crate) struct Checker<'a> {
@@ -85,7 +90,7 @@ impl<'a> Checker<'a> {
     pub(crate) fn mesh(&self, path: &Path) -> Result<Triangulation, drape_collide::Error> {
         match self.given(path) {
             Some(document) => parse_mesh(path, document.text().as_bytes()),
-            None => read_mesh(path),
+            None => read_mesh_within(path, MESH_LIMIT.bytes()),
         }
     }
 

@@ -178,6 +178,7 @@ impl<'a> Worker<'a> {
         for path in input::allowed() {
             command.arg("--allow-path").arg(path);
         }
+        command.args(input::raised().iter().flatten());
         command.stdin(Stdio::null()).stdout(output).stderr(file);
         // No process starts after the others were ended.
         let mut running = self.running();

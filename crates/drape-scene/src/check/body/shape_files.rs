@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use drape_collide::{Mesh, PointCache, Triangulation};
 use drape_input::Misplaced;
 
-use crate::check::checker::Checker;
+use crate::check::checker::{Checker, MESH_LIMIT};
 use crate::file::body::MeshBodyFile;
 use crate::scene::motion::{ShapeMotion, check_frame};
 
@@ -76,7 +76,7 @@ pub(crate) fn read_shapes(
     let frames = match (file.point_cache(), &file.frames) {
         (Some(cache), None) => {
             let path = scene.beside(cache)?;
-            let cache = PointCache::read(&path)?;
+            let cache = PointCache::read_within(&path, MESH_LIMIT.bytes())?;
             let paths = vec![path; cache.samples.len()];
             Frames { stride: cache.frames_per_sample, paths, samples: cache.samples }
         }

@@ -1,0 +1,82 @@
+//! Limits of the sizes of input files.
+
+use std::fmt;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Factor of all limits in this process.
+static FACTOR: AtomicU64 = AtomicU64::new(1);
+
+/// Largest size of a kind of input file, which keeps a wrong path from filling the memory.
+///
+/// ```
+/// use drape_input::SizeLimit;
+///
+/// let limit = SizeLimit::new("tables", 1 << 20);
+/// assert!(limit.check(1 << 20).is_ok());
+/// let refused = limit.check(1 + (1 << 20)).unwrap_err();
+/// assert_eq!(refused.to_string(), "the file has 1048577 bytes, more than 1048576");
+/// assert!(refused.help().ends_with("--raise-limits 2 reads it"));
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct SizeLimit {
+    kind: &'static str,
+    bytes: u64,
+}
+
+/// Refusal of a file that is larger than its kind may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TooLarge {
+    kind: &'static str,
+    bytes: u64,
+    limit: u64,
+}
+
+impl SizeLimit {
+    /// Returns the limit of a kind of files, in the plural, in bytes.
+    #[must_use]
+    pub const fn new(kind: &'static str, bytes: u64) -> Self {
+        Self { kind, bytes }
+    }
+
+    /// Returns the limit in this process, in bytes.
+    #[must_use]
+    pub fn bytes(self) -> u64 {
+        self.bytes.saturating_mul(FACTOR.load(Ordering::Relaxed))
+    }
+
+    /// Refuses a file of so many bytes, if it is larger.
+    ///
+    /// # Errors
+    /// [`TooLarge`].
+    pub fn check(self, bytes: u64) -> Result<(), TooLarge> {
+        let Self { kind, bytes: limit } = self;
+        if bytes <= self.bytes() { Ok(()) } else { Err(TooLarge { kind, bytes, limit }) }
+    }
+}
+
+/// Multiplies all limits in this process by a factor of 1 or more, for a user who asks for it.
+pub fn raise_size_limits(factor: u32) {
+    FACTOR.store(u64::from(factor.max(1)), Ordering::Relaxed);
+}
+
+impl TooLarge {
+    /// Returns the remedy.
+    #[must_use]
+    pub fn help(&self) -> String {
+        let factor = self.bytes.div_ceil(self.limit.max(1));
+        let kind = self.kind;
+        format!(
+            "{kind} are seldom so large: is this the right file? --raise-limits {factor} reads it"
+        )
+    }
+}
+
+impl fmt::Display for TooLarge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { bytes, limit, .. } = self;
+        let limit = limit.saturating_mul(FACTOR.load(Ordering::Relaxed));
+        write!(f, "the file has {bytes} bytes, more than {limit}")
+    }
+}
+
+impl std::error::Error for TooLarge {}
