@@ -132,7 +132,7 @@ impl CommandLine {
         let Options { threads, quiet, verbose, progress, ref allow_path, raise_limits } =
             self.options;
         input::allow(allow_path);
-        input::raise(raise_limits);
+        drape::input::raise_size_limits(raise_limits);
         Console { quiet, verbose, progress }.install();
         let bench = matches!(self.command, Command::Bench(_)).then_some(1);
         if let Some(threads) = threads.or(bench) {

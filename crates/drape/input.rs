@@ -8,7 +8,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use drape::input::{Diagnostic, Diagnostics, Document, Setting, SizeLimit, raise_size_limits};
+use drape::input::{Diagnostic, Diagnostics, Document, Setting, SizeLimit, size_limit_factor};
 
 /// Name of standard input in messages.
 const NAME: &str = "<standard input>";
@@ -32,18 +32,10 @@ pub(crate) fn allowed() -> &'static [PathBuf] {
     ALLOWED.get().map_or(&[], Vec::as_slice)
 }
 
-/// Factor of the limits of the sizes of files.
-static RAISED: OnceLock<u32> = OnceLock::new();
-
-/// Raises the limits of the sizes of files by a factor.
-pub(crate) fn raise(factor: u32) {
-    raise_size_limits(*RAISED.get_or_init(|| factor));
-}
-
-/// Returns the option by which another process raises its limits likewise, if it has to.
+/// Returns the option by which another process reads files as large as this one, if it needs one.
 pub(crate) fn raised() -> Option<[String; 2]> {
-    let factor = RAISED.get().filter(|factor| **factor > 1);
-    factor.map(|factor| ["--raise-limits".to_owned(), factor.to_string()])
+    let factor = size_limit_factor();
+    (factor > 1).then(|| ["--raise-limits".to_owned(), factor.to_string()])
 }
 
 /// Values that the user sets in place of those of the files of a command.

@@ -64,7 +64,7 @@ pub enum Error {
     },
 
     /// A file is longer than any that is read.
-    #[error("{} has {bytes} bytes, and at most {limit} are read; simplify the mesh, shorten the motion, or raise the limit", path.display())]
+    #[error("{} has {bytes} bytes, and at most {limit} are read; simplify the mesh, shorten the motion, or raise the limit (--raise-limits)", path.display())]
     FileTooLong {
         /// The file.
         path: PathBuf,

@@ -33,7 +33,7 @@ mod unit;
 
 pub use decode::Faults;
 pub use diagnostic::{Diagnostic, Diagnostics};
-pub use document::size_limit::{SizeLimit, TooLarge, raise_size_limits};
+pub use document::size_limit::{SizeLimit, TooLarge, raise_size_limits, size_limit_factor};
 pub use document::{Document, nearest_file};
 pub use figure::{excerpt, figure, figure_below, figures, tidy};
 pub use given::{

@@ -1,10 +1,10 @@
 //! Limits of the sizes of input files.
 
 use std::fmt;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Factor of all limits in this process.
-static FACTOR: AtomicU64 = AtomicU64::new(1);
+static FACTOR: AtomicU32 = AtomicU32::new(1);
 
 /// Largest size of a kind of input file, which keeps a wrong path from filling the memory.
 ///
@@ -29,6 +29,8 @@ pub struct TooLarge {
     kind: &'static str,
     bytes: u64,
     limit: u64,
+    /// Limit where no one has raised it, in bytes.
+    usual: u64,
 }
 
 impl SizeLimit {
@@ -41,7 +43,7 @@ impl SizeLimit {
     /// Returns the limit in this process, in bytes.
     #[must_use]
     pub fn bytes(self) -> u64 {
-        self.bytes.saturating_mul(FACTOR.load(Ordering::Relaxed))
+        self.bytes.saturating_mul(u64::from(size_limit_factor()))
     }
 
     /// Refuses a file of so many bytes, if it is larger.
@@ -49,22 +51,28 @@ impl SizeLimit {
     /// # Errors
     /// [`TooLarge`].
     pub fn check(self, bytes: u64) -> Result<(), TooLarge> {
-        let Self { kind, bytes: limit } = self;
-        if bytes <= self.bytes() { Ok(()) } else { Err(TooLarge { kind, bytes, limit }) }
+        let Self { kind, bytes: usual } = self;
+        let limit = self.bytes();
+        if bytes <= limit { Ok(()) } else { Err(TooLarge { kind, bytes, limit, usual }) }
     }
 }
 
 /// Multiplies all limits in this process by a factor of 1 or more, for a user who asks for it.
 pub fn raise_size_limits(factor: u32) {
-    FACTOR.store(u64::from(factor.max(1)), Ordering::Relaxed);
+    FACTOR.store(factor.max(1), Ordering::Relaxed);
+}
+
+/// Returns the factor of all limits in this process.
+pub fn size_limit_factor() -> u32 {
+    FACTOR.load(Ordering::Relaxed)
 }
 
 impl TooLarge {
     /// Returns the remedy.
     #[must_use]
     pub fn help(&self) -> String {
-        let factor = self.bytes.div_ceil(self.limit.max(1));
-        let kind = self.kind;
+        let Self { kind, bytes, usual, .. } = self;
+        let factor = bytes.div_ceil(*usual.max(&1));
         format!(
             "{kind} are seldom so large: is this the right file? --raise-limits {factor} reads it"
         )
@@ -74,7 +82,6 @@ impl TooLarge {
 impl fmt::Display for TooLarge {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { bytes, limit, .. } = self;
-        let limit = limit.saturating_mul(FACTOR.load(Ordering::Relaxed));
         write!(f, "the file has {bytes} bytes, more than {limit}")
     }
 }
