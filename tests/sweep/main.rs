@@ -234,7 +234,7 @@ fn a_killed_sweep_goes_on_to_the_table_of_a_serial_one() {
 
 #[test]
 fn a_run_that_outlives_its_sweep_is_waited_for() {
-    let bench = Bench::new("[[axis]]\nkey = \"time.end\"\nvalues = [2.0]\n");
+    let bench = Bench::new("[[axis]]\nkey = \"time.end\"\nvalues = [20.0]\n");
     let mut sweep = bench.begin();
     let run = loop {
         if let Some(run) = children(sweep.id()).first() {

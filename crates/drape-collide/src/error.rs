@@ -64,7 +64,7 @@ pub enum Error {
     },
 
     /// A file is longer than any that is read.
-    #[error("{} has {bytes} bytes, and at most {limit} are read; simplify the mesh, shorten the motion, or raise the limit (--raise-limits)", path.display())]
+    #[error("{} has {bytes} bytes, and at most {limit} are read; simplify the mesh or shorten the motion, or read it with --raise-limits {times}", path.display())]
     FileTooLong {
         /// The file.
         path: PathBuf,
@@ -72,6 +72,8 @@ pub enum Error {
         bytes: u64,
         /// The greatest length.
         limit: u64,
+        /// The least number of times the usual greatest length that it fits in.
+        times: u64,
     },
 
     /// A mesh file is not well-formed.

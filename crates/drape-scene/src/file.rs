@@ -125,12 +125,12 @@ impl SceneFile {
         self.contact.surfaces.unwrap_or(!cannot)
     }
 
-    /// Whether the integrator is explicit.
+    /// Returns whether the integrator is explicit.
     pub(crate) fn is_explicit(&self) -> bool {
         self.solver.integrator.as_deref() == Some("explicit")
     }
 
-    /// Whether the cloth is the particles of Breen's model.
+    /// Returns whether the scene has Breen's model.
     pub(crate) fn is_breen(&self) -> bool {
         self.model.as_deref() == Some("breen-1994")
     }

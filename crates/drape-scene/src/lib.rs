@@ -13,6 +13,7 @@ mod error;
 mod file;
 mod read;
 
+pub use check::checker::MESH_LIMIT;
 pub use error::Error;
 #[cfg(feature = "schema")]
 pub use file::schema::scene_schema;

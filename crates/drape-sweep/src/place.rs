@@ -76,8 +76,8 @@ impl Place {
         }
     }
 
-    /// Returns whether a process of the point still goes, as one may that outlived its sweep: it has
-    /// the lock of its log.
+    /// Returns whether a process of the point is running, such as one that outlived its sweep: it
+    /// holds the lock of its log.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         let file = File::options().write(true).open(self.log());

@@ -72,7 +72,8 @@ pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
     }
     if metadata.len() > limit {
         let (path, bytes) = (path.to_path_buf(), metadata.len());
-        return Err(Error::FileTooLong { path, bytes, limit });
+        let times = bytes.div_ceil(MESH_BYTES_MAX);
+        return Err(Error::FileTooLong { path, bytes, limit, times });
     }
     let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(fail)?;

@@ -14,7 +14,7 @@ use crate::check::memory::particles_max;
 use crate::file::SceneFile;
 
 /// Limit of meshes and of their motions.
-pub(crate) const MESH_LIMIT: SizeLimit = SizeLimit::new("meshes", MESH_BYTES_MAX);
+pub const MESH_LIMIT: SizeLimit = SizeLimit::new("meshes", MESH_BYTES_MAX);
 
 /// File of a scene that is being checked, with the mistakes found so far.
 pub(crate) struct Checker<'a> {

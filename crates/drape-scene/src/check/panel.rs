@@ -227,8 +227,11 @@ fn lattice(
         }
         (None, Some(diameter), hole) => {
             let round = match hole {
-                None if has_rim(checker, entry) => disc::disc(radius(diameter), spacing),
-                None => Lattice::disc_on(grid, radius(diameter), spacing),
+                None => {
+                    let rimmed = has_rim(checker, entry);
+                    let rimmed = rimmed.then(|| disc::disc(radius(diameter), spacing)).flatten();
+                    rimmed.map_or_else(|| Lattice::disc_on(grid, radius(diameter), spacing), Ok)
+                }
                 Some(hole) => Lattice::ring_on(grid, [hole, diameter].map(radius), spacing),
             };
             round.map(|round| round.with_grain(grain))
@@ -268,8 +271,7 @@ fn lattice(
     lattice.map_err(report).ok()
 }
 
-/// Returns whether a disc has a rim of triangles: a grid that begins at a place has none, and Breen's
-/// particles know none.
+/// Returns whether a disc may have a rim of triangles: not with a `grid`, and not in Breen's model.
 fn has_rim(checker: &Checker<'_>, entry: &PanelFile) -> bool {
     entry.grid.is_none() && !checker.file.is_breen()
 }

@@ -3,8 +3,11 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use drape::collide::{MeshInspection, Places, RepairSettings, Triangulation, read_mesh, repair};
+use drape::collide::{
+    MeshInspection, Places, RepairSettings, Triangulation, read_mesh_within, repair,
+};
 use drape::input::{Diagnostic, Diagnostics};
+use drape::scene::MESH_LIMIT;
 
 use crate::failure::Failure;
 use drape::file;
@@ -43,7 +46,8 @@ struct ReadMesh {
 
 fn read(path: &Path, measure: Measure) -> Result<ReadMesh, Diagnostics> {
     let fail = |message: String| Diagnostics::from(Diagnostic::new(path, message));
-    let mesh = read_mesh(path).map_err(|error| fail(error.to_string()))?;
+    let mesh =
+        read_mesh_within(path, MESH_LIMIT.bytes()).map_err(|error| fail(error.to_string()))?;
     let finite = |vertex: &[f64; 3]| vertex.iter().all(|x| x.abs() < 1e9);
     if mesh.triangles.is_empty() || !mesh.vertices.iter().all(finite) {
         return Err(fail("the mesh has no triangles, or coordinates that are no positions".into()));
