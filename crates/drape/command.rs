@@ -18,6 +18,7 @@ use crate::commands::schema::{self, SchemaArguments};
 use crate::commands::shell::{self, CompletionsArguments, ManArguments};
 use crate::commands::show::picture::{self, PictureArguments};
 use crate::commands::show::view::{self, ViewArguments};
+use crate::commands::sweep::converge::{self, ConvergeArguments};
 use crate::commands::sweep::{self, SweepCommand};
 use crate::commands::test::{self, TestArguments};
 use crate::commands::validate::{self, ValidateArguments};
@@ -97,6 +98,8 @@ enum Command {
     /// Runs a scene, a fit or a test many times, with values from a study, and makes one table of all.
     #[command(subcommand)]
     Sweep(SweepCommand),
+    /// Runs a scene at several spacings and extrapolates its measures to a spacing of 0.
+    Converge(ConvergeArguments),
     /// Compares simulations with exact solutions and measurements.
     Validate(ValidateArguments),
     /// Tests specimens of a fabric in simulated KES instruments and compares the loops with its
@@ -152,6 +155,7 @@ impl Command {
             Self::Run(arguments) => run::run(arguments),
             Self::Resume(arguments) => resume::resume(arguments),
             Self::Sweep(command) => sweep::sweep(command),
+            Self::Converge(arguments) => converge::converge(arguments),
             Self::Validate(arguments) => validate::validate(arguments),
             Self::Test(arguments) => test::test(arguments),
             Self::Check(arguments) => check::check(arguments),

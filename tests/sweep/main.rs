@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod base;
+mod converge;
 mod setting;
 
 use std::collections::BTreeMap;

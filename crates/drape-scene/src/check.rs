@@ -16,7 +16,7 @@ mod garment;
 mod hash;
 pub(crate) mod memory;
 mod motion;
-mod panel;
+pub(crate) mod panel;
 mod pins;
 mod solver;
 mod start;

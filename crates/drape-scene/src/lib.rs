@@ -4,6 +4,7 @@
 mod contact_stiffness;
 mod needs;
 mod scene;
+mod spacings;
 mod surfaces;
 mod tangle;
 
@@ -32,5 +33,6 @@ pub use scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
 pub use scene::{
     Environment, MeshSource, MovingBody, Output, Scene, Schedule, Source, SourcePart, Start, View,
 };
+pub use spacings::{Spacing, spacings};
 pub use surfaces::StartSurfaces;
 pub use tangle::{Overlap, Tangle};

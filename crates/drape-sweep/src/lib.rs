@@ -9,10 +9,12 @@
 //! * `place`: [`Place`], where a point has its results, its lock and its record:
 //!   [`Record`], what came of it; `manifest`: the list of all points.
 //! * `table`: [`Table`], inputs, measures and records of all points; `effects`: means over levels.
+//! * `convergence`: [`Convergence`], what the spacing of a grid leaves in a measure.
 //! * `engine`: files by which others run a study: Slurm, HyperQueue, Dask.
 
 mod axes;
 mod base;
+mod convergence;
 mod effects;
 mod engine;
 mod error;
@@ -27,6 +29,7 @@ mod table;
 
 pub use axes::{Axis, AxisKind};
 pub use base::Base;
+pub use convergence::{Approach, Convergence, GridValue, ORDER};
 pub use effects::{Interaction, MainEffect, Mean, interaction, main_effect};
 pub use engine::{Batch, Engine};
 pub use error::Error;

@@ -2,9 +2,10 @@
 //!
 //! The study, its points, their keys and their table are those of `drape::sweep`. [`run`] shares the
 //! points out to jobs, each of which is a process of this program, started by [`worker`]. [`study`]
-//! reads the study.
+//! reads the study. [`converge`] is a command of its own, whose study is that of the spacing.
 
 mod collect;
+pub(crate) mod converge;
 mod run;
 mod study;
 mod worker;

@@ -1,6 +1,7 @@
 //! Page of a study: main effects and interactions of its axes on the measures of its runs.
 
 mod axis;
+pub(crate) mod converge;
 mod digits;
 mod unit;
 
@@ -51,24 +52,32 @@ pub(crate) fn page(study: &Study, table: &Table) -> Result<String, Error> {
             study.base_file().display()
         ),
     ];
-    let failures = outcomes.iter().enumerate();
-    let failures = failures.filter(|(_, outcome)| !matches!(&outcome[..], "ok" | "not run"));
-    let message = table.records.last().map(|column| &column.cells);
-    let failures = failures.map(|(row, outcome)| {
+    let failures = failures(table, |row| {
         let values = axes
             .iter()
             .map(|axis| format!("{} {}", axis.column.name, axis.name(&axis.column.cells[row])));
-        let message = message.map_or("", |cells| cells[row].as_str());
-        [values.collect::<Vec<_>>().join(", "), format!("{outcome}: {message}").replace('\n', " ")]
+        values.collect::<Vec<_>>().join(", ")
     });
     let page = StudyPage {
         version: VERSION.into(),
         title: study.file().file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         facts,
-        failures: failures.collect(),
+        failures,
         measures: measures.map(|measure| effects(&axes, &ShownMeasure::new(measure))).collect(),
     };
     page.to_html()
+}
+
+/// Returns the values, which a function names, and the message of each run that failed.
+fn failures(table: &Table, values: impl Fn(usize) -> String) -> Vec<[String; 2]> {
+    let outcomes = table.records[0].cells.iter().enumerate();
+    let failed = outcomes.filter(|(_, outcome)| !matches!(&outcome[..], "ok" | "not run"));
+    let message = table.records.last().map(|column| &column.cells);
+    let row = |(row, outcome): (usize, &String)| {
+        let message = message.map_or("", |cells| cells[row].as_str());
+        [values(row), format!("{outcome}: {message}").replace('\n', " ")]
+    };
+    failed.map(row).collect()
 }
 
 /// Returns the effects of the axes on a measure.

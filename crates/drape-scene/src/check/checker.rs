@@ -16,6 +16,9 @@ use crate::file::SceneFile;
 /// Limit of meshes and of their motions.
 pub const MESH_LIMIT: SizeLimit = SizeLimit::new("meshes", MESH_BYTES_MAX);
 
+/// Units of the lengths of a file, in m.
+pub(crate) const UNITS: [(&str, f64); 3] = [("m", 1.0), ("cm", 0.01), ("mm", 0.001)];
+
 /// File of a scene that is being checked, with the mistakes found so far.
 pub(crate) struct Checker<'a> {
     /// Content of the file.
@@ -60,8 +63,7 @@ impl<'a> Checker<'a> {
             mistakes: Vec::new(),
             keys: BTreeSet::new(),
         };
-        let units = [("m", 1.0), ("cm", 0.01), ("mm", 0.001)];
-        checker.unit = checker.choice("length", file.length.as_deref(), &units);
+        checker.unit = checker.choice("length", file.length.as_deref(), &UNITS);
         checker
     }
 

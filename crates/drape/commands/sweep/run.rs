@@ -49,7 +49,6 @@ pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
     if arguments.list {
         return chosen.iter().try_for_each(|point| list(&study, point));
     }
-    signal::watch();
     // A part does not know the keys of the rest.
     if arguments.shard.is_none() {
         write_manifest(&study, &points)?;
@@ -59,38 +58,44 @@ pub(crate) fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
         let record = Place::new(&study, point).record();
         record.is_some_and(|record| record.outcome == Outcome::WorkerFailed)
     });
+    let again = format!("drape sweep run {}", arguments.study.study.display());
+    let Ran { counts, failure } = run_points(&study, &chosen, arguments.jobs, &again)?;
+    say_written(counts)?;
+    failure.map_or(Ok(()), Err)
+}
+
+/// What came of points that were run.
+pub(super) struct Ran {
+    /// Their numbers, in words.
+    pub(super) counts: String,
+    /// Why not all of them were run.
+    pub(super) failure: Option<Failure>,
+}
+
+/// Runs points by so many jobs at once, as many as there are threads if there is no number; `again` is
+/// the command that goes on where it ended early.
+pub(super) fn run_points(
+    study: &Study,
+    points: &[&Point],
+    jobs: Option<u16>,
+    again: &str,
+) -> Result<Ran, Failure> {
+    signal::watch();
     let threads = rayon::current_num_threads();
-    let jobs = arguments.jobs.map_or(threads, usize::from).min(chosen.len().max(1));
+    let jobs = jobs.map_or(threads, usize::from).min(points.len().max(1));
     let sweep = Sweep {
-        worker: Worker::new(&study, (threads / jobs).max(1))?,
-        study: &study,
-        points: &chosen,
+        worker: Worker::new(study, (threads / jobs).max(1))?,
+        study,
+        points,
         next: AtomicUsize::new(0),
         counts: Mutex::default(),
-        bar: progress::bar(chosen.len() as u64, "{pos}/{len} points, {eta} left"),
+        bar: progress::bar(points.len() as u64, "{pos}/{len} points, {eta} left"),
     };
     let failures = sweep.run(jobs);
     sweep.bar.finish_and_clear();
     let counts = sweep.counts.into_inner().unwrap_or_else(PoisonError::into_inner);
-    say_written(counts.describe(chosen.len()))?;
-    if let Some(failure) = failures.into_iter().next() {
-        return Err(failure);
-    }
-    let place = arguments.study.study.display();
-    if let Some(signal) = signal::received() {
-        let message = format!("interrupted; go on with `drape sweep run {place}`");
-        return Err(Failure::Interrupted { signal, message });
-    }
-    if counts.workers > 0 {
-        let rest = if counts.in_a_row >= FAILED_MAX { ", and the rest is left" } else { "" };
-        let message = format!(
-            "{} points could not be run on this machine, though tried {TRIES} times each{rest}; try \
-             again with `drape sweep run {place}`",
-            counts.workers
-        );
-        return Err(Failure::Output(message));
-    }
-    Ok(())
+    let failure = failures.into_iter().next().or_else(|| counts.failure(again));
+    Ok(Ran { counts: counts.describe(points.len()), failure })
 }
 
 /// Writes the list of all points, unless it is there. Sweeps that begin at once write the same.
@@ -175,6 +180,22 @@ impl Counts {
             }
         }
         text
+    }
+
+    /// Returns why not all points were run, if that is so.
+    fn failure(&self, again: &str) -> Option<Failure> {
+        if let Some(signal) = signal::received() {
+            let message = format!("interrupted; go on with `{again}`");
+            return Some(Failure::Interrupted { signal, message });
+        }
+        let rest = if self.in_a_row >= FAILED_MAX { ", and the rest is left" } else { "" };
+        (self.workers > 0).then(|| {
+            Failure::Output(format!(
+                "{} points could not be run on this machine, though tried {TRIES} times each{rest}; try \
+                 again with `{again}`",
+                self.workers
+            ))
+        })
     }
 }
 

@@ -8,21 +8,34 @@ pub(super) fn with_scatter(mean: Option<Mean>) -> String {
     let Some(Mean { value, deviation, .. }) = mean else { return "–".into() };
     match deviation {
         Some(deviation) if deviation > 0.0 && deviation >= 1e-12 * value.abs() => {
-            let places = places(deviation, 2);
-            if places > PLACES_MAX || value.abs().max(deviation) >= 1e7 {
-                return format!("{value:.3e} ± {deviation:.1e}");
+            match decimals(value, deviation) {
+                Some(places) => format!("{value:.places$} ± {deviation:.places$}"),
+                None => format!("{value:.3e} ± {deviation:.1e}"),
             }
-            format!("{value:.places$} ± {deviation:.places$}")
         }
         _ => number(value),
     }
+}
+
+/// Returns a number with the decimals that a mean of this deviation has.
+pub(super) fn like_scatter(value: f64, deviation: f64) -> String {
+    match decimals(value, deviation).filter(|_| deviation >= 1e-12 * value.abs()) {
+        Some(places) => format!("{value:.places$}"),
+        None => number(value),
+    }
+}
+
+/// Returns the decimals of a mean with its deviation; `None` if both have an exponent.
+fn decimals(value: f64, deviation: f64) -> Option<usize> {
+    let places = places(deviation, 2);
+    (places <= PLACES_MAX && value.abs().max(deviation) < 1e7).then_some(places)
 }
 
 /// Most decimals of a cell.
 const PLACES_MAX: usize = 6;
 
 /// Returns a number with four digits.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
     }

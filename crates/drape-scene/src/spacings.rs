@@ -1,0 +1,63 @@
+//! Spacings that a scene names, with their keys.
+
+use drape_input::{Diagnostics, Document, Given, Length};
+
+use crate::check::checker::UNITS;
+use crate::check::panel::SPACING;
+use crate::file::SceneFile;
+
+/// Distance between particles that a scene names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spacing {
+    /// Key in the file: `spacing`, `panel.0.spacing`, `garment.0.spacing`.
+    pub key: String,
+    /// Value, in m.
+    pub value: f64,
+}
+
+/// Returns the spacing of a scene, and after it those of the panels and garments that have their own.
+/// The spacing of a scene is the usual one if it names none, and is left out if no part has it.
+///
+/// # Errors
+/// Mistakes of the grammar, of spelling and of types.
+pub fn spacings(document: &Document) -> Result<Vec<Spacing>, Diagnostics> {
+    let file: SceneFile = document.decode()?;
+    let unit = UNITS.iter().find(|(name, _)| file.length.as_deref() == Some(name));
+    let unit = unit.map_or(1.0, |(_, unit)| *unit);
+    let parts = file.panel.iter().enumerate().map(|(index, own)| ("panel", index, own.spacing));
+    let garments = file.garment.iter().enumerate();
+    let parts = parts.chain(garments.map(|(index, own)| ("garment", index, own.spacing)));
+    let own = |(kind, index, spacing): (&str, usize, Option<Given<Length>>)| {
+        let key = format!("{kind}.{index}.spacing");
+        spacing.map(|spacing| Spacing { key, value: spacing * unit })
+    };
+    let own: Vec<Option<Spacing>> = parts.map(own).collect();
+    let is_used = file.spacing.is_some() || own.iter().any(Option::is_none) || own.is_empty();
+    let common = file.spacing.map_or(SPACING, |spacing| spacing * unit);
+    let common = is_used.then(|| Spacing { key: "spacing".into(), value: common });
+    Ok(common.into_iter().chain(own.into_iter().flatten()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_spacings_are_found_in_metres() {
+        let text = "length = \"mm\"\nspacing = 20\n[[panel]]\nname = \"a\"\nfabric = \"f\"\n\
+                    [[panel]]\nname = \"b\"\nfabric = \"f\"\nspacing = \"0.5 cm\"\n\
+                    [[garment]]\npattern = \"p.toml\"\nfabric = \"f\"\nspacing = 8\n\
+                    [time]\nstep = 0.005\nend = 1\n";
+        let found = spacings(&Document::new("scene.toml", text)).expect("a scene");
+        let found: Vec<(&str, f64)> =
+            found.iter().map(|own| (own.key.as_str(), (1e6 * own.value).round() / 1e6)).collect();
+        let expected =
+            [("spacing", 0.02), ("panel.1.spacing", 0.005), ("garment.0.spacing", 0.008)];
+        assert_eq!(found, expected);
+        let own = text.replace("spacing = 20\n[[panel]]\nname = \"a\"\nfabric = \"f\"\n", "");
+        let found = spacings(&Document::new("scene.toml", own)).expect("a scene");
+        assert_eq!(found[0].key, "panel.0.spacing");
+        let usual = spacings(&Document::new("scene.toml", "[time]\nstep = 0.005\nend = 1\n"));
+        assert_eq!(usual.expect("a scene")[0].value, SPACING);
+    }
+}
