@@ -44,6 +44,7 @@ pub use measure::triangle_strain::TriangleStrain;
 pub use panel::allowance::Allowance;
 pub use panel::fold::Fold;
 pub use panel::grain::Grain;
+pub use panel::interpolation::Interpolation;
 pub use panel::lattice::{Cell, Lattice};
 pub use panel::mesh::Mesh;
 pub use reference::cloth::Reference;

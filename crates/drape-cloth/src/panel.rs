@@ -10,7 +10,7 @@
 //! from which masses and connector areas follow. `lattice` is the panel, `cut` makes rectangles,
 //! discs and rings, `mesh` takes panels that were cut elsewhere (`drape-pattern`), with a rim of
 //! triangles. `grain` relates the yarns to the panel's own frame; `fold` and `folded` bend a panel
-//! at rest along lines; `allowance` adds mass along an outline; `clip` and `triangle` are plane
+//! at rest along lines; `interpolation` relates two grids of a panel; `allowance` adds mass along an outline; `clip` and `triangle` are plane
 //! geometry.
 //!
 //! Called by the readers of scenes; handed on to `Cloth::new`. Nothing here moves or knows a law.
@@ -21,6 +21,7 @@ pub(crate) mod cut;
 pub(crate) mod fold;
 pub(crate) mod folded;
 pub(crate) mod grain;
+pub(crate) mod interpolation;
 pub(crate) mod lattice;
 pub(crate) mod mesh;
 pub(crate) mod triangle;

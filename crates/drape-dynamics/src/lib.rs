@@ -20,6 +20,7 @@ pub use record::snapshot::{Body, Snapshot};
 pub use record::step_hashes::StepHashes;
 pub use record::summary::{Contacts, Phase, PhaseName, Solver, Status, Strain, Summary};
 pub use record::topology::{Part, Topology};
+pub use simulation::coarser_grid::GridRecord;
 pub use simulation::prescription::BodyTarget;
 pub use simulation::run::Progress;
 pub use simulation::saved::SavedSimulation;

@@ -3,12 +3,15 @@
 //! A run has up to three phases: a garment is sewn, the cloth comes to rest, bodies and pins move.
 //! Steps are made by the chapter `stepping`; after each of them the simulation asks whether the
 //! phase, or the run, is over. `run.rs` makes them all, watched; `saved.rs` is what a run goes on
-//! from after it was interrupted; `prescription.rs` is what a program does between steps.
+//! from after it was interrupted; `coarser_grid.rs` lets the cloth come to rest on coarser grids first;
+//! `prescription.rs` is what a program does between steps.
 
+pub(crate) mod coarser_grid;
 pub(crate) mod prescription;
 pub(crate) mod run;
 pub(crate) mod saved;
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -17,6 +20,7 @@ use drape_scene::{Relaxation, Scene, Source};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::simulation::coarser_grid::{CoarserGrid, GridRecord};
 use crate::measure::garment_parts::GarmentParts;
 use crate::measure::open_seam::{OpenSeam, STRETCHED_MAX};
 use crate::measure::{fallen, note_slides};
@@ -91,6 +95,10 @@ pub struct Simulation {
     spacing: f64,
     source: Source,
     stopwatch: Stopwatch,
+    /// Coarser grids on which the cloth is still to come to rest, the next one first.
+    coarser: VecDeque<CoarserGrid>,
+    /// What came of those before.
+    grids: Vec<GridRecord>,
 }
 
 /// Phases of a run.
@@ -161,7 +169,8 @@ impl Simulation {
     ///
     /// # Errors
     /// When the solver cannot be set up.
-    pub fn with_scheme(scene: Scene, scheme: Scheme) -> Result<Self, Error> {
+    pub fn with_scheme(mut scene: Scene, scheme: Scheme) -> Result<Self, Error> {
+        let coarser = CoarserGrid::of_scene(&mut scene, &scheme)?;
         let spacings = scene.panels.iter().flat_map(|panel| panel.lattice.spacing);
         let spacing = spacings.fold(f64::INFINITY, f64::min);
         let (schedule, source) = (scene.schedule, scene.source.clone());
@@ -196,6 +205,8 @@ impl Simulation {
             spacing,
             source,
             stopwatch: Stopwatch::start(),
+            coarser,
+            grids: Vec::new(),
         })
     }
 
@@ -207,13 +218,19 @@ impl Simulation {
 
     /// Gives up the step in hand as soon as a flag is set, wherever the solver is in it.
     pub fn give_up_when(&mut self, flag: Arc<AtomicBool>) {
+        self.coarser.iter_mut().for_each(|grid| grid.give_up_when(&flag));
         self.world.cancel = Some(flag);
     }
 
     /// Returns the time so far, in s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.stepping.time()
+        self.coarser.front().map_or_else(|| self.stepping.time(), CoarserGrid::time)
+    }
+
+    /// Returns the time so far, in ticks of the clock.
+    pub(crate) fn ticks(&self) -> usize {
+        self.coarser.front().map_or_else(|| self.stepping.ticks(), CoarserGrid::ticks)
     }
 
     /// Returns cloth and bodies now.
@@ -314,6 +331,9 @@ impl Simulation {
     /// # Errors
     /// When the step cannot be solved even in parts; the state is then the last good one.
     pub fn step(&mut self) -> Result<Step, drape_implicit::Error> {
+        if !self.coarser.is_empty() {
+            return self.step_on_coarser_grid();
+        }
         let told = self.outcome.events.len();
         let MadeStep { ticks, report } =
             self.stepping.advance(&mut self.world, &mut self.statistics)?;
@@ -368,6 +388,7 @@ impl Simulation {
             scene_hash: self.source.hash.clone(),
             particles: cloth.particles(),
             phases: self.phases.begun.clone(),
+            coarser_grids: self.grids.clone(),
             steps: self.statistics.steps,
             frames: self.frame_times.len(),
             frame_times: self.frame_times.clone(),
@@ -554,7 +575,7 @@ impl Simulation {
 
     /// Returns whether nothing is left to do: the cloth is at rest, or the time is over.
     fn is_over(&self) -> bool {
-        self.is_at_rest() || self.stepping.ticks() >= self.ticks_to_do()
+        self.is_at_rest() || self.ticks() >= self.ticks_to_do()
     }
 
     fn has_settled(&self) -> bool {

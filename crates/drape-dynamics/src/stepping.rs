@@ -118,6 +118,12 @@ impl Stepping {
         self.control.next(self.ticks) as f64 * self.clock.tick()
     }
 
+    /// Lets the clock begin at a time, in ticks.
+    pub(crate) fn start_at(&mut self, ticks: usize) {
+        self.ticks = ticks;
+        self.state.time = self.time();
+    }
+
     /// Lets the run end after so many more seconds of steps that are not longer than the first.
     pub(crate) fn end_after(&mut self, seconds: f64) {
         self.clock.end = self.time() + seconds;

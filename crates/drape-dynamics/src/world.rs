@@ -48,7 +48,7 @@ use self::momentum_removal::MomentumRemoval;
 use self::motion_clock::MotionClock;
 use self::pins::{LoadTimes, Pins};
 
-pub(crate) use self::contact::Contact;
+pub(crate) use self::contact::{Contact, PlacedSurfaces};
 pub use self::energy_balance::Energy;
 pub(crate) use self::energy_balance::EnergyBalance;
 pub use self::pins::PinLoad;
@@ -201,6 +201,17 @@ impl World {
             let stored = self.internal.stored(&self.cloth, &self.state);
             self.balance = Some(EnergyBalance::new(stored, 0.0));
         }
+    }
+
+    /// Begins at a time, in s, with cloth at rest at other places, in m, whose seams are closed there.
+    pub(crate) fn begin_at(&mut self, time: f64, placed: &PlacedSurfaces<'_>) -> Result<(), Error> {
+        if let Some(surfaces) = self.contact.surfaces_mut() {
+            surfaces.place(time, placed)?;
+        }
+        self.finish_sewing(time, placed.positions);
+        // Gravity has grown on the grid before.
+        self.gravity.finish_ramp(time);
+        Ok(())
     }
 
     /// Time of the last change that a scene prescribes, in s: full gravity, full size of bodies,

@@ -18,6 +18,7 @@ pub(crate) mod memory;
 mod motion;
 pub(crate) mod panel;
 mod pins;
+pub(crate) mod refinement;
 mod solver;
 mod start;
 mod time;
@@ -81,6 +82,7 @@ pub(crate) fn check(
     let spacings = placed.iter().flat_map(|own| own.panel.lattice.spacing);
     let spacing = spacings.fold(f64::INFINITY, f64::min);
     let relaxation = time::relaxation(checker, spacing.min(1.0));
+    refinement::check(checker);
     let motion_seconds = time::motion_seconds(checker);
     let solver = solver::solver(checker);
     let environment = environment(checker);
@@ -168,6 +170,7 @@ pub(crate) fn check(
             },
         },
         name: file.name.clone().unwrap_or_else(|| "unnamed".into()),
+        coarser: Vec::new(),
     };
     hold(&mut scene);
     let mut scene = start::check_start(checker, scene)?;

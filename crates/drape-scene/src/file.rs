@@ -24,7 +24,7 @@ use self::contact::ContactFile;
 use self::garment::{GarmentFile, SewFile};
 use self::panel::PanelFile;
 use self::pin::PinFile;
-use self::run::{MotionPhaseFile, OutputFile, SettleFile, SolverFile, TimeFile};
+use self::run::{MotionPhaseFile, OutputFile, RefineFile, SettleFile, SolverFile, TimeFile};
 
 /// Scene of drape: cloth, bodies, contact, time.
 #[derive(Debug, Deserialize)]
@@ -77,6 +77,9 @@ pub(crate) struct SceneFile {
     /// Run to rest, without momentum: the lengths of its steps are no durations, and the run ends
     /// when the cloth is at rest; in time if missing.
     pub(crate) settle: Option<SettleFile>,
+    /// Coarser grids, with `[settle]` only: garments are sewn and cloth comes to rest on them first, one
+    /// after the other.
+    pub(crate) refine: Option<RefineFile>,
     /// Phase that follows when the cloth has come to rest, with `[settle]` only; bodies and pins
     /// move from the start if missing.
     pub(crate) motion: Option<MotionPhaseFile>,

@@ -6,6 +6,7 @@ use drape_input::Document;
 
 use crate::check::check;
 use crate::check::documents::Documents;
+use crate::check::refinement::coarser_scenes;
 use crate::error::Error;
 use crate::file::SceneFile;
 use crate::scene::Scene;
@@ -59,6 +60,9 @@ impl Scene {
         fabrics: FabricReader<'_>,
     ) -> Result<Self, Error> {
         let (file, faults) = scene.decode_with_faults::<SceneFile>()?;
-        check(&Documents { scene, others, fabrics }, &file, faults)
+        let documents = Documents { scene, others, fabrics };
+        let mut checked = check(&documents, &file, faults)?;
+        checked.coarser = coarser_scenes(&documents, &file)?;
+        Ok(checked)
     }
 }

@@ -109,6 +109,8 @@ pub struct Scene {
     pub solver: SolverSettings,
     /// Results that the scene asks for.
     pub output: Output,
+    /// The scene on coarser grids, from the coarsest on, on which the cloth comes to rest first.
+    pub coarser: Vec<Scene>,
 }
 
 /// Source of a scene.

@@ -1,6 +1,6 @@
 //! Spacings that a scene names, with their keys.
 
-use drape_input::{Diagnostics, Document, Given, Length};
+use drape_input::{Diagnostics, Document, Given, Length, Setting, figure};
 
 use crate::check::checker::UNITS;
 use crate::check::panel::SPACING;
@@ -13,6 +13,18 @@ pub struct Spacing {
     pub key: String,
     /// Value, in m.
     pub value: f64,
+}
+
+impl Spacing {
+    /// Returns the setting of a multiple of it.
+    ///
+    /// # Panics
+    /// Never: its key is one of a scene.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Setting {
+        let value = format!("\"{} mm\"", figure(1e3 * factor * self.value));
+        Setting::new(&self.key, &value).expect("a key and a text of TOML")
+    }
 }
 
 /// Returns the spacing of a scene, and after it those of the panels and garments that have their own.

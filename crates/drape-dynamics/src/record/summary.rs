@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::record::step_hashes::StepHashes;
+use crate::simulation::coarser_grid::GridRecord;
 use crate::world::Energy;
 
 /// Summary of a run: the content of `summary.json`.
@@ -22,6 +23,9 @@ pub struct Summary {
     pub particles: usize,
     /// Phases in their order.
     pub phases: Vec<Phase>,
+    /// Coarser grids on which the cloth came to rest before, with their own steps.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub coarser_grids: Vec<GridRecord>,
     /// Number of steps.
     pub steps: usize,
     /// Number of frames, the first at the start.

@@ -55,6 +55,8 @@ struct Before {
     /// Intervals of frames that are over.
     intervals: usize,
     phases: usize,
+    /// Coarser grids that are still to come.
+    grids: usize,
 }
 
 impl Simulation {
@@ -63,15 +65,18 @@ impl Simulation {
     /// # Errors
     /// Only those of the watcher.
     pub fn run(&mut self, progress: &mut dyn Progress) -> Result<Summary, Error> {
-        if self.frame_times.is_empty() {
+        if self.frame_times.is_empty() && self.coarser.is_empty() {
             self.emit_frame(progress)?;
         }
         let mut is_long = false;
         // A checkpoint of the end leaves no step to do.
         let mut is_over = self.is_over();
         while !is_over {
-            let before =
-                Before { intervals: self.frame_intervals(), phases: self.phases.begun.len() };
+            let before = Before {
+                intervals: self.frame_intervals(),
+                phases: self.phases.begun.len(),
+                grids: self.coarser.len(),
+            };
             let start = (is_long && self.world.cancel.is_some()).then(|| self.saved());
             let began = Instant::now();
             let step = match self.step() {
@@ -86,7 +91,7 @@ impl Simulation {
                 }
             };
             is_long = began.elapsed() >= LONG_STEP;
-            progress.step(&step, self.stepping.ticks());
+            progress.step(&step, self.ticks());
             is_over = self.end_step(&step, before, progress)?;
         }
         if self.outcome.status == Status::Ok && self.settles() && !self.has_settled() {
@@ -108,7 +113,8 @@ impl Simulation {
         progress: &mut dyn Progress,
     ) -> Result<bool, Error> {
         let is_interrupted = !step.finished && progress.is_interrupted();
-        let phase_ended = self.phases.begun.len() > before.phases;
+        let phase_ended =
+            self.phases.begun.len() > before.phases || self.coarser.len() < before.grids;
         let is_due = self.frame_intervals() > before.intervals;
         if step.finished || is_due || phase_ended {
             self.emit_frame(progress)?;
@@ -146,11 +152,15 @@ impl Simulation {
 
     /// Intervals of frames that are over.
     fn frame_intervals(&self) -> usize {
-        self.stepping.ticks() / self.stepping.clock().ticks_per_frame
+        self.ticks() / self.stepping.clock().ticks_per_frame
     }
 
-    /// Hands the next frame to the watcher.
+    /// Hands the next frame to the watcher. There is none on coarser grids, whose particles are others,
+    /// but that of the start where the run ends on one.
     fn emit_frame(&mut self, progress: &mut dyn Progress) -> Result<(), Error> {
+        if !self.coarser.is_empty() && self.outcome.status == Status::Ok {
+            return Ok(());
+        }
         let mut frame = self.frame();
         frame.pressures = at_particles(&mut self.world, &frame.positions);
         progress.frame(&frame)?;

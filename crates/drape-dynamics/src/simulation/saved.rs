@@ -8,6 +8,7 @@ use drape_checkpoint::Checkpoint;
 use drape_scene::Relaxation;
 use serde::{Deserialize, Serialize};
 
+use super::coarser_grid::GridRecord;
 use super::{LastStep, Phases, Simulation};
 use crate::error::Error;
 use crate::measure::garment_parts::VerticalExtent;
@@ -19,13 +20,24 @@ use crate::stepping::saved::SavedStepping;
 use crate::world::saved::SavedWorld;
 
 /// Names of the sections of a checkpoint.
-const SECTIONS: [&str; 3] = ["world", "stepping", "run"];
+const SECTIONS: [&str; 4] = ["world", "stepping", "run", "grid"];
 
 /// State of a run between two steps, from which it resumes.
 #[derive(Debug, Clone)]
 pub struct SavedSimulation {
     world: SavedWorld,
     stepping: SavedStepping,
+    run: SavedRun,
+    /// The coarser grid that world and stepping are of, if they are not those of the finest.
+    grid: Option<SavedGrid>,
+}
+
+/// Coarser grid that a run is on.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct SavedGrid {
+    /// Number of coarser grids from this one on.
+    remaining: usize,
+    /// State of its simulation apart from world and stepping.
     run: SavedRun,
 }
 
@@ -41,6 +53,7 @@ struct SavedRun {
     events: Vec<String>,
     frame_times: Vec<f64>,
     time: PastTime,
+    grids: Vec<GridRecord>,
 }
 
 /// State of a garment: its vertical extent when it began to hang, and the time at which it slid, in s.
@@ -62,10 +75,11 @@ impl SavedSimulation {
     /// # Errors
     /// None that is known: every value can be written.
     pub fn write(&self, to: &mut Checkpoint) -> Result<(), Error> {
-        let [world, stepping, run] = SECTIONS;
+        let [world, stepping, run, grid] = SECTIONS;
         to.put(world, &self.world)?;
         to.put(stepping, &self.stepping)?;
-        Ok(to.put(run, &self.run)?)
+        to.put(run, &self.run)?;
+        Ok(to.put(grid, &self.grid)?)
     }
 
     /// Takes the sections from a checkpoint.
@@ -73,8 +87,13 @@ impl SavedSimulation {
     /// # Errors
     /// Sections that are missing or have other values.
     pub fn read(from: &Checkpoint) -> Result<Self, Error> {
-        let [world, stepping, run] = SECTIONS;
-        Ok(Self { world: from.get(world)?, stepping: from.get(stepping)?, run: from.get(run)? })
+        let [world, stepping, run, grid] = SECTIONS;
+        Ok(Self {
+            world: from.get(world)?,
+            stepping: from.get(stepping)?,
+            run: from.get(run)?,
+            grid: from.get(grid)?,
+        })
     }
 }
 
@@ -82,23 +101,32 @@ impl Simulation {
     /// Returns all that the run needs to go on.
     #[must_use]
     pub fn saved(&self) -> SavedSimulation {
-        let garments = self.parts.garments.iter();
+        if let Some(grid) = self.coarser.front() {
+            let SavedSimulation { world, stepping, run, .. } = grid.saved();
+            let grid = Some(SavedGrid { remaining: self.coarser.len(), run });
+            return SavedSimulation { world, stepping, run: self.saved_run(), grid };
+        }
         SavedSimulation {
             world: self.world.saved(),
             stepping: self.stepping.saved(),
-            run: SavedRun {
-                criteria: self.rest.criteria,
-                quiet_ticks: self.rest.quiet_ticks(),
-                phases: self.phases.clone(),
-                garments: garments
-                    .map(|own| SavedGarment { hung: own.hung, slid: own.slid })
-                    .collect(),
-                statistics: self.statistics.clone(),
-                last: self.last,
-                events: self.outcome.events.clone(),
-                frame_times: self.frame_times.clone(),
-                time: self.stopwatch.time(),
-            },
+            run: self.saved_run(),
+            grid: None,
+        }
+    }
+
+    fn saved_run(&self) -> SavedRun {
+        let garments = self.parts.garments.iter();
+        SavedRun {
+            criteria: self.rest.criteria,
+            quiet_ticks: self.rest.quiet_ticks(),
+            phases: self.phases.clone(),
+            garments: garments.map(|own| SavedGarment { hung: own.hung, slid: own.slid }).collect(),
+            statistics: self.statistics.clone(),
+            last: self.last,
+            events: self.outcome.events.clone(),
+            frame_times: self.frame_times.clone(),
+            time: self.stopwatch.time(),
+            grids: self.grids.clone(),
         }
     }
 
@@ -108,20 +136,27 @@ impl Simulation {
     /// # Errors
     /// [`Error::Unfit`], and errors of the solver for the scene; the simulation is then of no use.
     pub fn resume(&mut self, saved: SavedSimulation) -> Result<(), Error> {
-        let SavedSimulation { world, stepping, run } = saved;
-        let unfit = |reason: String| Error::Unfit { reason };
+        let SavedSimulation { world, stepping, run, grid } = saved;
+        let unfit = |reason: &str| Error::Unfit { reason: reason.into() };
         if run.garments.len() != self.parts.garments.len() {
-            return Err(unfit("the garments are others".into()));
+            return Err(unfit("the garments are others"));
         }
-        if run.frame_times.is_empty() || run.phases.begun.is_empty() {
-            return Err(unfit("it has no frame or no phase".into()));
+        if run.phases.begun.is_empty() {
+            return Err(unfit("it has no phase"));
         }
-        let is_sewn = !world.is_sewing && !self.parts.seams.is_empty();
-        self.world.resume(world).map_err(unfit)?;
-        if is_sewn {
-            self.stepping.reduce(&self.world, &self.parts.seams)?;
+        match grid {
+            Some(SavedGrid { remaining, run }) => {
+                if !(1..=self.coarser.len()).contains(&remaining) {
+                    return Err(unfit("the coarser grids are others"));
+                }
+                self.coarser.drain(..self.coarser.len() - remaining);
+                self.coarser[0].resume(SavedSimulation { world, stepping, run, grid: None })?;
+            }
+            None => {
+                self.coarser.clear();
+                self.resume_world(world, stepping)?;
+            }
         }
-        self.stepping.resume(&mut self.world, stepping).map_err(unfit)?;
         for (garment, SavedGarment { hung, slid }) in
             self.parts.garments.iter_mut().zip(run.garments)
         {
@@ -131,8 +166,19 @@ impl Simulation {
         (self.phases, self.statistics, self.last) = (run.phases, run.statistics, run.last);
         self.outcome.status = Status::Ok;
         (self.outcome.events, self.frame_times) = (run.events, run.frame_times);
+        self.grids = run.grids;
         self.stopwatch = Stopwatch::resumed(run.time);
         Ok(())
+    }
+
+    fn resume_world(&mut self, world: SavedWorld, stepping: SavedStepping) -> Result<(), Error> {
+        let unfit = |reason: String| Error::Unfit { reason };
+        let is_sewn = !world.is_sewing && !self.parts.seams.is_empty();
+        self.world.resume(world).map_err(unfit)?;
+        if is_sewn {
+            self.stepping.reduce(&self.world, &self.parts.seams)?;
+        }
+        self.stepping.resume(&mut self.world, stepping).map_err(unfit)
     }
 
     /// Lets the run go on for so many seconds beyond its end. Returns false, and changes nothing,

@@ -24,6 +24,11 @@ impl Gravity {
         self.ramp_start = time;
     }
 
+    /// Ends the ramp at a time, in s.
+    pub(crate) fn finish_ramp(&mut self, time: f64) {
+        self.ramp_start = time - self.ramp;
+    }
+
     /// Time at which the ramp begins, in s.
     pub(crate) fn ramp_start(&self) -> f64 {
         self.ramp_start

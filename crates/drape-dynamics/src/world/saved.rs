@@ -39,6 +39,18 @@ pub(crate) struct SavedWorld {
 struct SavedSurfaces {
     contact: SavedContact,
     intersections_found: usize,
+    growth: Option<SavedGrowth>,
+}
+
+/// Growth of distances that began in the run.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct SavedGrowth {
+    /// Time until surfaces keep their whole distances, in s.
+    pub(crate) seconds: f64,
+    /// Time at which it began, in s.
+    pub(crate) start: f64,
+    /// Fraction of the distances that was kept then.
+    pub(crate) fraction: f64,
 }
 
 impl World {
@@ -52,6 +64,7 @@ impl World {
             contact: surfaces.map(|own| SavedSurfaces {
                 contact: own.contact.saved(),
                 intersections_found: own.intersections_found,
+                growth: own.saved_growth(),
             }),
             is_sewing: springs.is_some(),
             stiffening: springs.and_then(ClosingSprings::stiffening),
@@ -91,6 +104,7 @@ impl World {
                 let resumed = own.contact.resume(&saved.cloth.positions, &surfaces.contact);
                 resumed.map_err(|error| error.to_string())?;
                 own.intersections_found = surfaces.intersections_found;
+                own.restore_growth(surfaces.growth);
             }
             (Contact::Particles(_), None) => {}
             _ => return Err("the contact is of another kind".into()),

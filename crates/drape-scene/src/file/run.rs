@@ -52,6 +52,16 @@ pub(crate) struct SettleFile {
     pub(crate) inertia: Option<bool>,
 }
 
+/// Coarser grids on which the cloth comes to rest first.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RefineFile {
+    /// Spacings of the coarser grids, from the coarsest on. Panels and garments with a spacing of their
+    /// own keep its ratio to that of the scene.
+    pub(crate) spacings: Vec<Given<Length>>,
+}
+
 /// Phase that follows when the cloth has come to rest.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

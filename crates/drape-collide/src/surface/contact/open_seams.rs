@@ -12,7 +12,7 @@ const LEAST: f64 = 1e-12;
 /// Open seams of a surface, with the largest gap that contact assumes between the sides of each.
 ///
 /// It is limited where the sides lie nearer to each other at the start than the gap is wide.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone)]
 pub(super) struct OpenSeams {
     /// Widest gap of each class of vertices, in m; empty if no seam is open.
     widest: Vec<f64>,

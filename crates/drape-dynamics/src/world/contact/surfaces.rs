@@ -11,6 +11,7 @@ use drape_implicit::{StepLimit, TrialStep};
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
 
 use super::step::{ContactEnergy, ContactStep};
+use crate::world::saved::SavedGrowth;
 
 /// Fraction of the distance that surfaces keep by which what moves by prescription may deviate from
 /// a straight path within a step; what turns faster is given more steps.
@@ -30,6 +31,8 @@ pub(crate) struct Surfaces {
     start: Vec<f64>,
     inflation: Option<Inflating>,
     growth: Option<DistanceGrowth>,
+    /// Time at which the growth of distances begins, in s.
+    growth_start: f64,
     /// Fraction of the distances that is kept at the start, 0 to 1.
     pub(crate) start_growth_fraction: f64,
     moving: Vec<MovingSurface>,
@@ -84,6 +87,17 @@ struct MovingSurface {
     is_floor: bool,
 }
 
+/// Cloth and bodies at new places.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlacedSurfaces<'a> {
+    /// Positions of the particles, in m.
+    pub(crate) positions: &'a [f64],
+    /// Positions of the bodies' vertices, in m.
+    pub(crate) bodies: &'a [f64],
+    /// Time over which distances that are too short grow, in s.
+    pub(crate) growth_seconds: f64,
+}
+
 impl Surfaces {
     /// Surfaces of a scene that has been checked, at its start.
     pub(crate) fn new(scene: &Scene) -> Result<Self, Error> {
@@ -112,6 +126,7 @@ impl Surfaces {
                 positions: bodies.clone(),
             }),
             growth,
+            growth_start: 0.0,
             moving: moving.collect(),
             vertices,
             speed_max: scene.stopped_speed(),
@@ -199,8 +214,48 @@ impl Surfaces {
 
     /// Whether the distances should have grown long before a time, in s, and have not.
     pub(crate) fn growth_is_stuck(&self, time: f64) -> bool {
-        let late = |growth: DistanceGrowth| time >= PATIENCE * growth.seconds;
+        let late = |growth: DistanceGrowth| time >= self.growth_start + PATIENCE * growth.seconds;
         self.contact.growth_fraction() < 1.0 && self.growth.is_some_and(late)
+    }
+
+    /// Returns the number of intersections of sewn cloth and bodies at other places.
+    pub(crate) fn intersections_when_sewn(&mut self, placed: &PlacedSurfaces<'_>) -> Option<usize> {
+        self.contact.intersections_when_sewn(placed.positions, placed.bodies).ok()
+    }
+
+    /// Places sewn cloth and bodies anew at a time, in s, where they intersect nowhere. Distances shrink to
+    /// what there is, and grow again.
+    ///
+    /// # Errors
+    /// Positions that are not finite, or another number of coordinates of bodies.
+    pub(crate) fn place(&mut self, time: f64, placed: &PlacedSurfaces<'_>) -> Result<(), Error> {
+        self.contact.close_seams();
+        self.contact.place_bodies(placed.bodies)?;
+        self.contact.shrink_to_separation(placed.positions)?;
+        if self.contact.growth_fraction() < 1.0 {
+            let seconds = self.growth.map_or(placed.growth_seconds, |growth| growth.seconds);
+            self.growth = Some(DistanceGrowth { seconds });
+            self.growth_start = time;
+            self.start_growth_fraction = self.contact.growth_fraction();
+        }
+        Ok(())
+    }
+
+    /// Returns the growth of distances, to be restored.
+    pub(crate) fn saved_growth(&self) -> Option<SavedGrowth> {
+        let fraction = self.start_growth_fraction;
+        self.growth.map(|DistanceGrowth { seconds }| SavedGrowth {
+            seconds,
+            start: self.growth_start,
+            fraction,
+        })
+    }
+
+    /// Restores the growth of distances.
+    pub(crate) fn restore_growth(&mut self, saved: Option<SavedGrowth>) {
+        let Some(SavedGrowth { seconds, start, fraction }) = saved else { return };
+        self.growth = Some(DistanceGrowth { seconds });
+        (self.growth_start, self.start_growth_fraction) = (start, fraction);
     }
 
     /// Opens a step and returns the energy of contact at its start if that is asked for.

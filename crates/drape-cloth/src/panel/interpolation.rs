@@ -1,0 +1,192 @@
+//! Interpolation from the particles of a panel to those of another grid of the same panel.
+
+use crate::panel::lattice::Lattice;
+use crate::panel::triangle::twice_area;
+
+/// Most that a weight is below 0: how far a particle outside of all triangles may be beyond one, as a
+/// fraction of the triangle's height.
+const OUTSIDE_MAX: f64 = 0.5;
+
+/// Interpolation from the particles of a panel to those of another grid of the same panel, linear on
+/// the triangles of the first.
+///
+/// ```
+/// use drape_cloth::{Interpolation, Lattice};
+///
+/// let [coarse, fine] = [Lattice::disc(0.1, 0.02)?, Lattice::disc(0.1, 0.007)?];
+/// let flat = |lattice: &Lattice| -> Vec<f64> {
+///     lattice.coordinates.iter().flat_map(|&[u, v]| [u, 0.5 * v, 1.0]).collect()
+/// };
+/// let found = Interpolation::new(&coarse, &fine).apply(&flat(&coarse));
+/// assert!(found.iter().zip(flat(&fine)).all(|(a, b)| (a - b).abs() < 1e-12));
+/// # Ok::<(), drape_cloth::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Interpolation {
+    /// Corners of a triangle for each particle, and their weights.
+    rows: Vec<([u32; 3], [f64; 3])>,
+}
+
+/// Triangles of a panel by the square fields that they touch.
+struct Fields<'a> {
+    coordinates: &'a [[f64; 2]],
+    triangles: Vec<[u32; 3]>,
+    low: [f64; 2],
+    size: f64,
+    counts: [usize; 2],
+    /// Numbers of the triangles in each field.
+    members: Vec<Vec<u32>>,
+}
+
+impl Interpolation {
+    /// Prepares the interpolation between two grids of one panel.
+    ///
+    /// A particle that lies outside of all triangles, as between a chord of a curved edge and the edge,
+    /// has the values of the nearest one, extended.
+    #[must_use]
+    pub fn new(from: &Lattice, to: &Lattice) -> Self {
+        let fields = Fields::new(from);
+        Self { rows: to.coordinates.iter().map(|&point| fields.locate(point)).collect() }
+    }
+
+    /// Returns the values at the particles, three numbers for each, from those of the other grid.
+    ///
+    /// # Panics
+    /// If there are fewer values than that grid has particles.
+    #[must_use]
+    pub fn apply(&self, values: &[f64]) -> Vec<f64> {
+        let of = |&(corners, weights): &([u32; 3], [f64; 3])| {
+            [0, 1, 2].map(|axis| {
+                let value = |corner: u32| values[3 * corner as usize + axis];
+                corners.iter().zip(weights).map(|(&corner, weight)| weight * value(corner)).sum::<f64>()
+            })
+        };
+        self.rows.iter().flat_map(of).collect()
+    }
+}
+
+impl<'a> Fields<'a> {
+    fn new(lattice: &'a Lattice) -> Self {
+        let coordinates = lattice.coordinates.as_slice();
+        let size = lattice.spacing[0].max(lattice.spacing[1]);
+        let end = |axis: usize, pick: fn(f64, f64) -> f64| {
+            coordinates.iter().map(|point| point[axis]).reduce(pick).unwrap_or(0.0)
+        };
+        let low = [0, 1].map(|axis| end(axis, f64::min));
+        let counts =
+            [0, 1].map(|axis| ((end(axis, f64::max) - low[axis]) / size) as usize + 1);
+        let mut fields = Self {
+            coordinates,
+            triangles: lattice.triangles(),
+            low,
+            size,
+            counts,
+            members: vec![Vec::new(); counts[0] * counts[1]],
+        };
+        for (index, triangle) in fields.triangles.iter().enumerate() {
+            let corners = triangle.map(|corner| fields.coordinates[corner as usize]);
+            let ends = [f64::min, f64::max].map(|pick| {
+                [0, 1].map(|axis| corners.iter().map(|own| own[axis]).fold(corners[0][axis], pick))
+            });
+            let [first, last] = ends.map(|point| fields.field(point));
+            for row in first[1]..=last[1] {
+                for column in first[0]..=last[0] {
+                    fields.members[row * counts[0] + column].push(index as u32);
+                }
+            }
+        }
+        fields
+    }
+
+    /// Returns column and row of the field of a point; that at the border for one beyond it.
+    fn field(&self, point: [f64; 2]) -> [usize; 2] {
+        [0, 1].map(|axis| {
+            let place = (point[axis] - self.low[axis]) / self.size;
+            (place.max(0.0) as usize).min(self.counts[axis] - 1)
+        })
+    }
+
+    /// Returns the triangle that has a point, or the nearest one, with the weights of its corners.
+    fn locate(&self, point: [f64; 2]) -> ([u32; 3], [f64; 3]) {
+        let [column, row] = self.field(point);
+        let mut best: Option<(f64, u32)> = None;
+        for ring in 0..self.counts[0].max(self.counts[1]) {
+            let range = |at: usize, count: usize| at.saturating_sub(ring)..(at + ring + 1).min(count);
+            for row in range(row, self.counts[1]) {
+                for column in range(column, self.counts[0]) {
+                    for &index in &self.members[row * self.counts[0] + column] {
+                        let outside = self.distance(point, index);
+                        let is_nearer = best.is_none_or(|(least, other)| {
+                            outside < least || (outside == least && index < other)
+                        });
+                        if is_nearer {
+                            best = Some((outside, index));
+                        }
+                    }
+                }
+            }
+            // What lies beyond the ring is farther than its fields are wide.
+            if best.is_some_and(|(least, _)| least <= ring as f64 * self.size) {
+                break;
+            }
+        }
+        let triangle = best.map_or(0, |(_, index)| index);
+        let corners = self.triangles[triangle as usize];
+        (corners, limited(self.weights(point, triangle)))
+    }
+
+    /// Returns the barycentric coordinates of a point in a triangle.
+    fn weights(&self, point: [f64; 2], triangle: u32) -> [f64; 3] {
+        let corners = self.triangles[triangle as usize];
+        let [a, b, c] = corners.map(|corner| self.coordinates[corner as usize]);
+        let whole = twice_area([a, b, c]);
+        [[point, b, c], [a, point, c], [a, b, point]].map(|part| twice_area(part) / whole)
+    }
+
+    /// Returns the distance of a point from a triangle, 0 inside.
+    fn distance(&self, point: [f64; 2], triangle: u32) -> f64 {
+        if self.weights(point, triangle).iter().all(|&weight| weight >= -1e-12) {
+            return 0.0;
+        }
+        let corners =
+            self.triangles[triangle as usize].map(|corner| self.coordinates[corner as usize]);
+        let side = |index: usize| {
+            let [a, b] = [corners[index], corners[(index + 1) % 3]];
+            let along = [b[0] - a[0], b[1] - a[1]];
+            let own = [point[0] - a[0], point[1] - a[1]];
+            let square = along[0] * along[0] + along[1] * along[1];
+            let t = ((own[0] * along[0] + own[1] * along[1]) / square).clamp(0.0, 1.0);
+            (own[0] - t * along[0]).hypot(own[1] - t * along[1])
+        };
+        (0..3).map(side).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Returns weights of which none is too far below 0, with the sum 1.
+fn limited(weights: [f64; 3]) -> [f64; 3] {
+    let limited = weights.map(|weight| weight.max(-OUTSIDE_MAX));
+    let sum: f64 = limited.iter().sum();
+    limited.map(|weight| weight / sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_on_a_curved_edge_are_those_of_the_nearest_triangle() {
+        let coarse = Lattice::rectangle(0.2, 0.1, 0.05).expect("a panel");
+        let mut fine = Lattice::rectangle(0.2, 0.1, 0.01).expect("a panel");
+        // A particle beyond the side, and one far from the panel.
+        fine.coordinates[0] = [0.05, -0.002];
+        fine.coordinates[1] = [-3.0, 0.05];
+        let flat: Vec<f64> =
+            coarse.coordinates.iter().flat_map(|&[u, v]| [u, v, 2.0 * u - v]).collect();
+        let found = Interpolation::new(&coarse, &fine).apply(&flat);
+        let expected = [0.05, -0.002, 0.102];
+        assert!(found[..3].iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+        let far = &found[3..6];
+        assert!(far[0] > -0.1 && (0.0..0.1).contains(&far[1]), "{far:?}");
+        assert!(fine.coordinates.len() == 21 * 11 && found.len() == 3 * fine.coordinates.len());
+    }
+}

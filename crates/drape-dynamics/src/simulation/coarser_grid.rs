@@ -1,0 +1,198 @@
+//! Coarser grids: the cloth is sewn and comes to rest on them first, and is carried from each to the
+//! next finer one.
+//!
+//! A coarser grid is a simulation of its own. At rest its positions are interpolated to the particles
+//! of the next, which begins there at rest, with closed seams. Where the interpolated cloth intersects
+//! something the next grid begins from its own start, as if there were no coarser one.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use drape_cloth::Interpolation;
+use drape_scene::{Panel, Scene};
+use serde::{Deserialize, Serialize};
+
+use super::saved::SavedSimulation;
+use super::{Simulation, Step};
+use crate::error::Error;
+use crate::record::summary::{Phase, PhaseName, Status};
+use crate::sewing::node_map::merge;
+use crate::stepping::Scheme;
+use crate::world::PlacedSurfaces;
+
+/// Number of first steps over which distances grow again that the interpolation made too short.
+const GROWTH_STEPS: f64 = 20.0;
+
+/// Coarser grid on which the cloth comes to rest, and its relation to the next one.
+#[derive(Debug)]
+pub(super) struct CoarserGrid {
+    simulation: Box<Simulation>,
+    /// Interpolation of each panel, with the number of its first coordinate.
+    panels: Vec<(usize, Interpolation)>,
+}
+
+/// What came of a coarser grid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GridRecord {
+    /// Smallest distance of particles before deformation, in m.
+    pub spacing: f64,
+    /// Number of particles.
+    pub particles: usize,
+    /// Number of steps.
+    pub steps: usize,
+    /// Iterations of conjugate gradients, of all linear solves.
+    pub linear_iterations: usize,
+    /// Time at its end, in s.
+    pub end: f64,
+    /// Whether the next grid began with its cloth.
+    pub carried: bool,
+}
+
+/// Cloth at rest on a coarser grid, at the places of the next one's particles.
+struct CarriedCloth {
+    ticks: usize,
+    positions: Vec<f64>,
+    bodies: Option<Vec<f64>>,
+}
+
+impl CoarserGrid {
+    /// Takes the coarser grids out of a scene, each with its relation to the next.
+    pub(super) fn of_scene(
+        scene: &mut Scene,
+        scheme: &Scheme,
+    ) -> Result<VecDeque<Self>, Error> {
+        let coarser = std::mem::take(&mut scene.coarser);
+        let mut panels: Vec<Vec<Panel>> = coarser.iter().map(|own| own.panels.clone()).collect();
+        panels.push(scene.panels.clone());
+        let grids = coarser.into_iter().zip(panels.windows(2)).map(|(scene, pair)| {
+            let panels = pair[0].iter().zip(&pair[1]).map(|(from, to)| {
+                (3 * from.first, Interpolation::new(&from.lattice, &to.lattice))
+            });
+            let panels = panels.collect();
+            let simulation = Box::new(Simulation::with_scheme(scene, scheme.clone())?);
+            Ok(Self { simulation, panels })
+        });
+        grids.collect()
+    }
+
+    pub(super) fn give_up_when(&mut self, flag: &Arc<AtomicBool>) {
+        self.simulation.give_up_when(flag.clone());
+    }
+
+    pub(super) fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    pub(super) fn ticks(&self) -> usize {
+        self.simulation.ticks()
+    }
+
+    pub(super) fn saved(&self) -> SavedSimulation {
+        self.simulation.saved()
+    }
+
+    pub(super) fn resume(&mut self, saved: SavedSimulation) -> Result<(), Error> {
+        self.simulation.resume(saved)
+    }
+
+    /// Returns the cloth at the places of the next grid's particles.
+    fn carried(&self) -> CarriedCloth {
+        let positions = &self.simulation.world.state.positions;
+        let surfaces = self.simulation.world.contact.surfaces();
+        let panels = self.panels.iter();
+        CarriedCloth {
+            ticks: self.ticks(),
+            positions: panels.flat_map(|(first, own)| own.apply(&positions[*first..])).collect(),
+            bodies: surfaces.map(|own| own.contact.body_positions().to_vec()),
+        }
+    }
+
+    /// Returns what came of it.
+    fn record(&self) -> GridRecord {
+        let simulation = &self.simulation;
+        GridRecord {
+            spacing: simulation.spacing,
+            particles: simulation.world.cloth.particles(),
+            steps: simulation.statistics.steps,
+            linear_iterations: simulation.statistics.solver().linear_iterations,
+            end: self.time(),
+            carried: false,
+        }
+    }
+}
+
+impl Simulation {
+    /// Advances by one step on a coarser grid; at its end the next one begins.
+    pub(super) fn step_on_coarser_grid(&mut self) -> Result<Step, drape_implicit::Error> {
+        let told = self.outcome.events.len();
+        let grid = &mut self.coarser[0];
+        let mut step = grid.simulation.step()?;
+        if !step.finished {
+            return Ok(step);
+        }
+        let at_rest = grid.simulation.outcome.status == Status::Ok && grid.simulation.is_at_rest();
+        let reason = grid.simulation.outcome.reason.clone();
+        let reason = reason.unwrap_or_else(|| "it did not come to rest".into());
+        let mut record = grid.record();
+        let carried = at_rest.then(|| grid.carried());
+        self.coarser.pop_front();
+        let begun = match (carried, self.coarser.front_mut()) {
+            (None, _) => Err(reason),
+            (Some(carried), Some(next)) => next.simulation.begin_with(carried)?,
+            (Some(carried), None) => self.begin_with(carried)?,
+        };
+        record.carried = begun.is_ok();
+        if let Err(reason) = begun {
+            self.outcome.events.push(format!(
+                "the grid of {:.1} mm is of no use: {reason}; the next one begins from its own start",
+                1e3 * record.spacing
+            ));
+        }
+        self.grids.push(record);
+        step.events.extend_from_slice(&self.outcome.events[told..]);
+        step.finished = false;
+        Ok(step)
+    }
+
+    /// Begins at rest with cloth that a coarser grid gives; returns why it cannot, and changes nothing
+    /// then.
+    fn begin_with(
+        &mut self,
+        carried: CarriedCloth,
+    ) -> Result<Result<(), String>, drape_implicit::Error> {
+        let CarriedCloth { ticks, mut positions, bodies } = carried;
+        let is_sewn = !self.parts.seams.is_empty();
+        if is_sewn {
+            merge(&self.parts.seams, self.world.cloth.masses(), &mut positions);
+        }
+        let placed = PlacedSurfaces {
+            positions: &positions,
+            bodies: bodies.as_deref().unwrap_or_default(),
+            growth_seconds: GROWTH_STEPS * self.stepping.clock().step,
+        };
+        if let Some(surfaces) = self.world.contact.surfaces_mut() {
+            match surfaces.intersections_when_sewn(&placed) {
+                Some(0) => {}
+                Some(count) => {
+                    return Ok(Err(format!("its cloth has {count} intersections on the next")));
+                }
+                None => return Ok(Err("its bodies are others".into())),
+            }
+        }
+        self.stepping.start_at(ticks);
+        let time = self.stepping.time();
+        self.parts.garments.iter_mut().for_each(|garment| garment.hang(&positions));
+        if self.world.begin_at(time, &placed).is_err() {
+            return Ok(Err("its cloth cannot be placed on the next".into()));
+        }
+        let relaxation = self.rest.criteria;
+        self.world.set_relaxing(relaxation.is_some_and(|own| !own.inertia));
+        if is_sewn {
+            self.stepping.reduce(&self.world, &self.parts.seams)?;
+        }
+        self.phases.begun = vec![Phase { name: PhaseName::Relax, start: time, frame: 0 }];
+        self.restart(relaxation)?;
+        Ok(Ok(()))
+    }
+}
