@@ -89,6 +89,25 @@ fn a_sewn_strip_hangs_like_one_that_is_not_and_alike_on_two_threads() {
 }
 
 #[test]
+fn a_sewn_strip_carried_from_a_coarser_grid_hangs_like_one_sewn_on_its_own_and_alike_on_three_threads()
+ {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = changed("seam-strip", &[], folder.path());
+    let direct = run(&scene, 1);
+    let refined = [("[settle]", "[settle]\n[refine]\nspacings = [0.0083]")];
+    let scene = changed("seam-strip", &refined, folder.path());
+    let [one, two, three] = [2, 3, 4].map(|threads| run(&scene, threads));
+    assert_eq!(one["state_hash"], two["state_hash"]);
+    assert_eq!(one["state_hash"], three["state_hash"]);
+    let grid = &one["coarser_grids"][0];
+    assert_eq!((&grid["carried"], &one["settled"]), (&true.into(), &true.into()));
+    assert_eq!(one["contact"]["intersections"], 0);
+    assert_eq!(number(&one["measures"]["seam_gap_max"]), 0.0);
+    let [carried, direct] = [&one, &direct].map(|own| number(&own["measures"]["lowest"]));
+    assert!((carried - direct).abs() < 1e-3, "{carried} m against {direct} m");
+}
+
+#[test]
 fn a_flounce_three_times_as_long_as_its_band_is_gathered() {
     let folder = tempfile::tempdir().expect("a folder");
     let shipped = root().join("scenes/patterns/gather.toml");

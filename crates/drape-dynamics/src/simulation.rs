@@ -20,7 +20,6 @@ use drape_scene::{Relaxation, Scene, Source};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::simulation::coarser_grid::{CoarserGrid, GridRecord};
 use crate::measure::garment_parts::GarmentParts;
 use crate::measure::open_seam::{OpenSeam, STRETCHED_MAX};
 use crate::measure::{fallen, note_slides};
@@ -33,6 +32,7 @@ use crate::record::summary::{Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
 use crate::sewing::closing_springs::SeamState;
 use crate::sewing::node_map::merge;
+use crate::simulation::coarser_grid::{CoarserGrid, GridRecord};
 use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
 use crate::world::{Energy, PinLoad, World};
 
@@ -151,6 +151,8 @@ pub struct Step {
     pub events: Vec<String>,
     /// Phase of the run.
     pub phase: PhaseName,
+    /// Spacing of the coarser grid on which it was made, in m; `None` on that of the scene.
+    pub coarser_grid: Option<f64>,
     /// Whether the simulation is over.
     pub finished: bool,
 }
@@ -367,6 +369,7 @@ impl Simulation {
             report,
             events: self.outcome.events[told..].to_vec(),
             phase: self.phase(),
+            coarser_grid: None,
             finished: self.outcome.status != Status::Ok || self.is_over(),
         })
     }

@@ -126,6 +126,35 @@ fn rest_and_the_motion_after_it_go_on_to_the_same_bits() {
     goes_on(|| over_a_ball(scene, ""), 23);
 }
 
+/// Watcher that notes on which grids steps are made.
+#[derive(Default)]
+struct Grids(Vec<Option<f64>>);
+
+impl Progress for Grids {
+    fn step(&mut self, step: &drape_dynamics::Step, _: usize) {
+        if self.0.last() != Some(&step.coarser_grid) {
+            self.0.push(step.coarser_grid);
+        }
+    }
+}
+
+#[test]
+fn cloth_carried_from_coarser_grids_goes_on_to_the_same_bits() {
+    let scene = "contact.surfaces = true\ntime = { step = 0.005, end = 20 }\n\
+                 settle = { speed = 0.02, residual = 0.02 }\nrefine.spacings = [0.07, 0.03]\n";
+    let scene = || over_a_ball(scene, "");
+    let mut grids = Grids::default();
+    let summary = Simulation::new(scene()).unwrap().run(&mut grids).unwrap();
+    let [coarse, middle] = &summary.coarser_grids[..] else { panic!("{summary:?}") };
+    assert!(coarse.carried && middle.carried && summary.settled, "{summary:?}");
+    assert!(middle.end > coarse.end && summary.simulated_seconds > middle.end);
+    let passed: Vec<_> = grids.0.iter().map(|own| own.map(|own| (1e3 * own).round())).collect();
+    assert_eq!(passed, [Some(70.0), Some(28.0), None]);
+    // No frame is of a coarser grid.
+    assert!(summary.frame_times[0] >= middle.end);
+    goes_on(scene, 11);
+}
+
 const FABRIC: &str = r#"name = "plain"
 density = 0.15
 thickness = 0.0003

@@ -176,7 +176,7 @@ pub(crate) fn check(
     let mut scene = start::check_start(checker, scene)?;
     let note = scene.stiffness_note();
     scene.source.notes.extend(note);
-    if !scene.garments.is_empty() && relaxation.is_some() {
+    if !scene.garments.is_empty() && relaxation.is_some() && file.refine.is_none() {
         scene.source.notes.extend(cost(scene.cloth.particles(), spacing));
     }
     Ok(scene)

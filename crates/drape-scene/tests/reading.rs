@@ -268,6 +268,44 @@ fn rest_is_defined_by_its_table() {
 }
 
 #[test]
+fn coarser_grids_have_their_spacings_and_mistakes_their_remedies() {
+    let grids = |more: &str| {
+        read(&with("", more)).map(|scene| {
+            scene.coarser.iter().map(|own| (1e4 * own.spacing()).round() / 10.0).collect::<Vec<_>>()
+        })
+    };
+    let found = grids("[settle]\n[refine]\nspacings = [\"4 cm\", 0.02]");
+    assert_eq!(found.expect("two grids"), [40.0, 20.0]);
+    for (wrong, part, right) in [
+        ("[refine]\nspacings = [0.02]", "add [settle]", "[settle]\n[refine]\nspacings = [0.02]"),
+        (
+            "[settle]\n[refine]\nspacings = [0.02, 0.04]",
+            "the coarsest comes first",
+            "[settle]\n[refine]\nspacings = [0.04, 0.02]",
+        ),
+        (
+            "[settle]\n[refine]\nspacings = [0.0105]",
+            "a grid of 10.5 mm before one of 10 mm",
+            "[settle]\n[refine]\nspacings = [0.011]",
+        ),
+        (
+            "[settle]\n[refine]\nspacings = []",
+            "such as [0.02]",
+            "[settle]\n[refine]\nspacings = [0.02]",
+        ),
+        (
+            "[settle]\n[refine]\nspacings = [0.3, 0.02]",
+            "a grid of 300 mm",
+            "[settle]\n[refine]\nspacings = [0.02]",
+        ),
+    ] {
+        let mistakes = grids(wrong).expect_err(wrong).to_string();
+        assert!(mistakes.contains(part) && mistakes.contains("refine"), "{wrong}: {mistakes}");
+        assert!(grids(right).is_ok(), "{right}");
+    }
+}
+
+#[test]
 fn a_mistake_is_answered_at_its_line_with_its_value() {
     let cases = [
         ("step = 0.004", "step = -1", "-1", 7),

@@ -86,7 +86,10 @@ impl RunProgress {
         let slow: String =
             slow(step, self.step).into_iter().map(|reason| ", ".to_owned() + &reason).collect();
         let (phase, iterations) = (phase_name(step.phase), step.report.iterations);
-        format!("{phase}: t {:.4} s, {motion}, {iterations} iterations{slow}", step.time)
+        let grid =
+            step.coarser_grid.map(|spacing| format!(" on a grid of {:.1} mm", 1e3 * spacing));
+        let grid = grid.unwrap_or_default();
+        format!("{phase}{grid}: t {:.4} s, {motion}, {iterations} iterations{slow}", step.time)
     }
 
     pub(crate) fn finish(&self) {
@@ -103,7 +106,7 @@ impl Watcher for RunProgress {
         if console.progress == ProgressKind::Json {
             tell(json!({
                 "scene": self.name, "phase": step.phase, "done": done, "time": step.time,
-                "dt": step.dt, "speed_max": step.speed_max, "imbalance": step.imbalance,
+                "coarser_grid": step.coarser_grid, "dt": step.dt, "speed_max": step.speed_max, "imbalance": step.imbalance,
                 "iterations": step.report.iterations, "rejected": step.report.rejected,
                 "slow": slow(step, self.step),
             }));

@@ -58,7 +58,11 @@ impl Interpolation {
         let of = |&(corners, weights): &([u32; 3], [f64; 3])| {
             [0, 1, 2].map(|axis| {
                 let value = |corner: u32| values[3 * corner as usize + axis];
-                corners.iter().zip(weights).map(|(&corner, weight)| weight * value(corner)).sum::<f64>()
+                corners
+                    .iter()
+                    .zip(weights)
+                    .map(|(&corner, weight)| weight * value(corner))
+                    .sum::<f64>()
             })
         };
         self.rows.iter().flat_map(of).collect()
@@ -73,8 +77,7 @@ impl<'a> Fields<'a> {
             coordinates.iter().map(|point| point[axis]).reduce(pick).unwrap_or(0.0)
         };
         let low = [0, 1].map(|axis| end(axis, f64::min));
-        let counts =
-            [0, 1].map(|axis| ((end(axis, f64::max) - low[axis]) / size) as usize + 1);
+        let counts = [0, 1].map(|axis| ((end(axis, f64::max) - low[axis]) / size) as usize + 1);
         let mut fields = Self {
             coordinates,
             triangles: lattice.triangles(),
@@ -111,7 +114,8 @@ impl<'a> Fields<'a> {
         let [column, row] = self.field(point);
         let mut best: Option<(f64, u32)> = None;
         for ring in 0..self.counts[0].max(self.counts[1]) {
-            let range = |at: usize, count: usize| at.saturating_sub(ring)..(at + ring + 1).min(count);
+            let range =
+                |at: usize, count: usize| at.saturating_sub(ring)..(at + ring + 1).min(count);
             for row in range(row, self.counts[1]) {
                 for column in range(column, self.counts[0]) {
                     for &index in &self.members[row * self.counts[0] + column] {

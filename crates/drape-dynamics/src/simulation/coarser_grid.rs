@@ -58,17 +58,15 @@ struct CarriedCloth {
 
 impl CoarserGrid {
     /// Takes the coarser grids out of a scene, each with its relation to the next.
-    pub(super) fn of_scene(
-        scene: &mut Scene,
-        scheme: &Scheme,
-    ) -> Result<VecDeque<Self>, Error> {
+    pub(super) fn of_scene(scene: &mut Scene, scheme: &Scheme) -> Result<VecDeque<Self>, Error> {
         let coarser = std::mem::take(&mut scene.coarser);
         let mut panels: Vec<Vec<Panel>> = coarser.iter().map(|own| own.panels.clone()).collect();
         panels.push(scene.panels.clone());
         let grids = coarser.into_iter().zip(panels.windows(2)).map(|(scene, pair)| {
-            let panels = pair[0].iter().zip(&pair[1]).map(|(from, to)| {
-                (3 * from.first, Interpolation::new(&from.lattice, &to.lattice))
-            });
+            let panels = pair[0]
+                .iter()
+                .zip(&pair[1])
+                .map(|(from, to)| (3 * from.first, Interpolation::new(&from.lattice, &to.lattice)));
             let panels = panels.collect();
             let simulation = Box::new(Simulation::with_scheme(scene, scheme.clone())?);
             Ok(Self { simulation, panels })
@@ -128,6 +126,7 @@ impl Simulation {
         let told = self.outcome.events.len();
         let grid = &mut self.coarser[0];
         let mut step = grid.simulation.step()?;
+        step.coarser_grid = Some(grid.simulation.spacing);
         if !step.finished {
             return Ok(step);
         }
@@ -194,5 +193,61 @@ impl Simulation {
         self.phases.begun = vec![Phase { name: PhaseName::Relax, start: time, frame: 0 }];
         self.restart(relaxation)?;
         Ok(Ok(()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use drape_input::Document;
+
+    use super::*;
+    use crate::world::check::FABRIC;
+
+    /// Two level sheets, 10 mm apart.
+    fn sheets() -> Simulation {
+        let text = "spacing = 0.02\nfabric.plain.file = \"plain.toml\"\n[[panel]]\nname = \"sheet\"\n\
+                    fabric = \"plain\"\nrectangle = [0.1, 0.1]\nturn = [-90, 0, 0]\n\
+                    stack = { count = 2, step = [0, 0.01, 0] }\n\
+                    [[pin]]\npanel = \"sheet\"\nedge = \"top\"\n\
+                    [time]\nstep = 0.005\nend = 1\n[settle]\n";
+        let fabric = Document::new("plain.toml", FABRIC);
+        let scene = Scene::from_documents(&Document::new("scene.toml", text), &[fabric]);
+        Simulation::new(scene.expect("a right scene")).expect("a solver")
+    }
+
+    #[test]
+    fn cloth_that_would_intersect_is_not_carried_and_leaves_the_grid_at_its_start() {
+        let [mut own, mut other] = [sheets(), sheets()];
+        let mut positions = own.positions().to_vec();
+        let half = positions.len() / 2;
+        // A particle in the middle of the lower sheet is above the upper one.
+        positions[3 * (half / 6) + 1] += 0.015;
+        let carried = CarriedCloth { ticks: 100, positions, bodies: Some(Vec::new()) };
+        let begun = own.begin_with(carried).expect("a solver");
+        assert!(begun.expect_err("it intersects").contains("intersections"), "a reason");
+        for _ in 0..3 {
+            own.step().expect("a step");
+            other.step().expect("a step");
+        }
+        assert_eq!(own.state_hash(), other.state_hash());
+        assert_eq!(own.time(), other.time());
+    }
+
+    #[test]
+    fn cloth_nearer_than_surfaces_keep_is_carried_with_shrunk_distances() {
+        let mut own = sheets();
+        let mut positions = own.positions().to_vec();
+        let half = positions.len() / 2;
+        positions[half..].iter_mut().skip(1).step_by(3).for_each(|y| *y -= 0.01 - 5e-5);
+        let carried = CarriedCloth { ticks: 100, positions, bodies: Some(Vec::new()) };
+        own.begin_with(carried).expect("a solver").expect("no intersection");
+        let surfaces = |own: &Simulation| {
+            own.world.contact.surfaces().expect("surfaces").contact.growth_fraction()
+        };
+        assert!(surfaces(&own) < 1.0 && own.time() > 0.0);
+        for _ in 0..60 {
+            own.step().expect("a step");
+        }
+        assert_eq!(surfaces(&own), 1.0);
     }
 }
