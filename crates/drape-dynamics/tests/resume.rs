@@ -138,21 +138,39 @@ impl Progress for Grids {
     }
 }
 
+/// Scene that comes to rest over a ball on coarser grids first.
+fn refined(contact: &str, spacings: &str) -> Scene {
+    let scene = format!(
+        "contact = {{ surfaces = true{contact} }}\ntime = {{ step = 0.005, end = 20 }}\n\
+         settle = {{ speed = 0.02, residual = 0.02 }}\nrefine.spacings = {spacings}\n"
+    );
+    over_a_ball(&scene, "")
+}
+
 #[test]
 fn cloth_carried_from_coarser_grids_goes_on_to_the_same_bits() {
-    let scene = "contact.surfaces = true\ntime = { step = 0.005, end = 20 }\n\
-                 settle = { speed = 0.02, residual = 0.02 }\nrefine.spacings = [0.07, 0.03]\n";
-    let scene = || over_a_ball(scene, "");
+    let scene = || refined(", offset = 0.003", "[0.04, 0.03]");
     let mut grids = Grids::default();
     let summary = Simulation::new(scene()).unwrap().run(&mut grids).unwrap();
     let [coarse, middle] = &summary.coarser_grids[..] else { panic!("{summary:?}") };
     assert!(coarse.carried && middle.carried && summary.settled, "{summary:?}");
     assert!(middle.end > coarse.end && summary.simulated_seconds > middle.end);
     let passed: Vec<_> = grids.0.iter().map(|own| own.map(|own| (1e3 * own).round())).collect();
-    assert_eq!(passed, [Some(70.0), Some(28.0), None]);
+    assert_eq!(passed, [Some(40.0), Some(31.0), None]);
     // No frame is of a coarser grid.
     assert!(summary.frame_times[0] >= middle.end);
     goes_on(scene, 11);
+}
+
+#[test]
+fn cloth_that_would_intersect_on_the_next_grid_is_left_and_said() {
+    // The grid is as coarse as the ball, whose triangles are finer.
+    let scene = || refined("", "[0.07]");
+    let summary = Simulation::new(scene()).unwrap().run(&mut ()).unwrap();
+    assert!(!summary.coarser_grids[0].carried && summary.settled, "{summary:?}");
+    assert!(summary.warnings[0].contains("begins from its own start"), "{:?}", summary.warnings);
+    assert_eq!((summary.frame_times[0], summary.contact.intersections), (0.0, 0));
+    goes_on(scene, 17);
 }
 
 const FABRIC: &str = r#"name = "plain"

@@ -274,8 +274,8 @@ fn coarser_grids_have_their_spacings_and_mistakes_their_remedies() {
             scene.coarser.iter().map(|own| (1e4 * own.spacing()).round() / 10.0).collect::<Vec<_>>()
         })
     };
-    let found = grids("[settle]\n[refine]\nspacings = [\"4 cm\", 0.02]");
-    assert_eq!(found.expect("two grids"), [40.0, 20.0]);
+    let found = grids("[settle]\n[refine]\nspacings = [\"5 cm\", 0.02]");
+    assert_eq!(found.expect("two grids"), [50.0, 20.0]);
     for (wrong, part, right) in [
         ("[refine]\nspacings = [0.02]", "add [settle]", "[settle]\n[refine]\nspacings = [0.02]"),
         (
