@@ -92,9 +92,12 @@ fn a_sewn_strip_hangs_like_one_that_is_not_and_alike_on_two_threads() {
 fn a_sewn_strip_carried_from_a_coarser_grid_hangs_like_one_sewn_on_its_own_and_alike_on_three_threads()
  {
     let folder = tempfile::tempdir().expect("a folder");
-    let scene = changed("seam-strip", &[], folder.path());
+    // A clamp that ends at 20 mm on both grids: the friction of bending keeps a little of the coarse one's
+    // fall, and would keep much more where that is clamped elsewhere.
+    let clamp = ("radius = 0.0165", "radius = 0.0245");
+    let scene = changed("seam-strip", &[clamp], folder.path());
     let direct = run(&scene, 1);
-    let refined = [("[settle]", "[settle]\n[refine]\nspacings = [0.0083]")];
+    let refined = [clamp, ("[settle]", "[settle]\n[refine]\nspacings = [0.01]")];
     let scene = changed("seam-strip", &refined, folder.path());
     let [one, two, three] = [2, 3, 4].map(|threads| run(&scene, threads));
     assert_eq!(one["state_hash"], two["state_hash"]);

@@ -18,9 +18,10 @@ pub use record::frame::Frame;
 pub use record::recorder::{Output, Recorder, SavedRecorder, prepare_folder};
 pub use record::snapshot::{Body, Snapshot};
 pub use record::step_hashes::StepHashes;
-pub use record::summary::{Contacts, Phase, PhaseName, Solver, Status, Strain, Summary};
+pub use record::summary::{
+    Contacts, GridRecord, Phase, PhaseName, Solver, Status, Strain, Summary,
+};
 pub use record::topology::{Part, Topology};
-pub use simulation::coarser_grid::GridRecord;
 pub use simulation::prescription::BodyTarget;
 pub use simulation::run::Progress;
 pub use simulation::saved::SavedSimulation;

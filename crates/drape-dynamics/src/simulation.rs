@@ -15,6 +15,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use drape_cloth::Interpolation;
 use drape_implicit::{Report, Stop};
 use drape_scene::{Relaxation, Scene, Source};
 use serde::{Deserialize, Serialize};
@@ -28,11 +29,10 @@ use crate::record::snapshot::Snapshot;
 use crate::record::state_hash::state_hash;
 use crate::record::statistics::Statistics;
 use crate::record::stopwatch::Stopwatch;
-use crate::record::summary::{Phase, PhaseName, Status, Strain, Summary};
+use crate::record::summary::{GridRecord, Phase, PhaseName, Status, Strain, Summary};
 use crate::record::topology::Topology;
 use crate::sewing::closing_springs::SeamState;
 use crate::sewing::node_map::merge;
-use crate::simulation::coarser_grid::{CoarserGrid, GridRecord};
 use crate::stepping::{MadeStep, PhaseSteps, RestDetector, Scheme, StepMotion, Stepping};
 use crate::world::{Energy, PinLoad, World};
 
@@ -99,6 +99,16 @@ pub struct Simulation {
     coarser: VecDeque<CoarserGrid>,
     /// What came of those before.
     grids: Vec<GridRecord>,
+    /// Number of next steps after which the memories of friction begin anew.
+    steps_to_forget: usize,
+}
+
+/// Coarser grid on which the cloth comes to rest, and its relation to the next one.
+#[derive(Debug)]
+struct CoarserGrid {
+    simulation: Box<Simulation>,
+    /// Interpolation of each panel, with the number of its first coordinate.
+    panels: Vec<(usize, Interpolation)>,
 }
 
 /// Phases of a run.
@@ -209,6 +219,7 @@ impl Simulation {
             stopwatch: Stopwatch::start(),
             coarser,
             grids: Vec::new(),
+            steps_to_forget: 0,
         })
     }
 
@@ -350,6 +361,10 @@ impl Simulation {
         let imbalance = self.stepping.acceleration(&self.world, dt) / GRAVITY;
         self.last = LastStep { speed_max, imbalance };
         self.stepping.adapt_to_displacement(ticks, speed_max * dt);
+        if self.steps_to_forget > 0 {
+            self.steps_to_forget -= 1;
+            self.world.forget();
+        }
         match self.world.closing_springs().is_some() {
             true => self.check_seams()?,
             false => {
@@ -522,17 +537,6 @@ impl Simulation {
             );
             self.end_early(Status::HeldTogether, reason);
         }
-    }
-
-    /// Warning about a run that ended before surfaces kept their whole distances.
-    fn unfinished_growth(&self) -> Option<String> {
-        let fraction = self.world.contact.growth_fraction();
-        (fraction < 1.0 && self.outcome.status == Status::Ok).then(|| {
-            format!(
-                "surfaces keep only {:.2} % of their distances yet: the run ended before contact.grow",
-                100.0 * fraction
-            )
-        })
     }
 
     /// Notes why a step could not be made.

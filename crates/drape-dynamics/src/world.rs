@@ -214,6 +214,20 @@ impl World {
         Ok(())
     }
 
+    /// Lets the memories of friction and the balance of the energy begin anew from where the cloth is, as if
+    /// it had come there in one go.
+    pub(crate) fn forget(&mut self) {
+        let velocities = std::mem::take(&mut self.state.velocities);
+        let positions = std::mem::take(&mut self.state.positions);
+        self.internal.forget(&positions);
+        self.state = self.cloth.state(positions).expect("a place for every particle");
+        self.state.velocities = velocities;
+        if self.with_balance {
+            let stored = self.internal.stored(&self.cloth, &self.state);
+            self.balance = Some(EnergyBalance::new(stored, self.kinetic_energy()));
+        }
+    }
+
     /// Time of the last change that a scene prescribes, in s: full gravity, full size of bodies,
     /// and releases of pins.
     pub(crate) fn last_change(&self) -> f64 {

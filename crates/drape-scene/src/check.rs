@@ -18,10 +18,9 @@ pub(crate) mod memory;
 mod motion;
 pub(crate) mod panel;
 mod pins;
-pub(crate) mod refinement;
 mod solver;
 mod start;
-mod time;
+pub(crate) mod time;
 
 use std::collections::BTreeSet;
 
@@ -82,7 +81,7 @@ pub(crate) fn check(
     let spacings = placed.iter().flat_map(|own| own.panel.lattice.spacing);
     let spacing = spacings.fold(f64::INFINITY, f64::min);
     let relaxation = time::relaxation(checker, spacing.min(1.0));
-    refinement::check(checker);
+    time::refinement(checker);
     let motion_seconds = time::motion_seconds(checker);
     let solver = solver::solver(checker);
     let environment = environment(checker);

@@ -2,15 +2,17 @@
 
 use std::path::Path;
 
-use drape_input::Document;
+use drape_input::{Diagnostics, Document, Setting, figure};
 
 use crate::check::check;
+use crate::check::checker::UNITS;
 use crate::check::documents::Documents;
-use crate::check::refinement::coarser_scenes;
+use crate::check::time::REFINE;
 use crate::error::Error;
 use crate::file::SceneFile;
 use crate::scene::Scene;
 use crate::scene::material::{FabricReader, read_fabric};
+use crate::spacings::{Spacing, spacings};
 
 impl Scene {
     /// Reads a scene and everything it names. Its fabrics are in files of fabrics.
@@ -65,4 +67,36 @@ impl Scene {
         checked.coarser = coarser_scenes(&documents, &file)?;
         Ok(checked)
     }
+}
+
+/// Returns the scene of a file, which has been checked, on its coarser grids.
+///
+/// # Errors
+/// What keeps it from being simulated there.
+fn coarser_scenes(documents: &Documents<'_>, file: &SceneFile) -> Result<Vec<Scene>, Error> {
+    let Some(refine) = &file.refine else { return Ok(Vec::new()) };
+    let unit = UNITS.iter().find(|(name, _)| file.length.as_deref() == Some(name));
+    let unit = unit.map_or(1.0, |(_, unit)| *unit);
+    let own = spacings(documents.scene)?;
+    let grids = refine.spacings.iter().enumerate();
+    grids.map(|(index, spacing)| on_grid(documents, &own, (index, *spacing * unit))).collect()
+}
+
+/// Returns the scene on the grid of a number and a spacing, in m.
+fn on_grid(
+    documents: &Documents<'_>,
+    own: &[Spacing],
+    (index, spacing): (usize, f64),
+) -> Result<Scene, Error> {
+    let settings: Vec<Setting> =
+        own.iter().map(|part| part.scaled(spacing / own[0].value)).collect();
+    let scene = documents.scene.clone().with_settings(&settings)?;
+    let (mut file, faults) = scene.decode_with_faults::<SceneFile>()?;
+    file.refine = None;
+    let documents = Documents { scene: &scene, ..*documents };
+    check(&documents, &file, faults).map_err(|error| {
+        let message = format!("a grid of {} mm: {error}", figure(1e3 * spacing));
+        let mistake = documents.scene.at(&format!("{REFINE}[{index}]"), message);
+        Diagnostics::from(mistake.help("take a finer one, or leave it out")).into()
+    })
 }

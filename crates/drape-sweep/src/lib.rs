@@ -14,7 +14,6 @@
 
 mod axes;
 mod base;
-mod convergence;
 mod effects;
 mod engine;
 mod error;
@@ -29,7 +28,6 @@ mod table;
 
 pub use axes::{Axis, AxisKind};
 pub use base::Base;
-pub use convergence::{Approach, Convergence, GridValue, ORDER};
 pub use effects::{Interaction, MainEffect, Mean, interaction, main_effect};
 pub use engine::{Batch, Engine};
 pub use error::Error;
@@ -37,6 +35,7 @@ pub use error::Error;
 pub use file::study_schema;
 pub use manifest::manifest;
 pub use measure::Measure;
+pub use measure::convergence::{Approach, Convergence, GridValue, ORDER};
 pub use place::{Outcome, Place, PlaceLock, Record};
 pub use point::{Point, Shard};
 pub use study::{Keep, Study};

@@ -1,4 +1,7 @@
-//! Measures: values of the summaries that a study names.
+//! Measures: values of the summaries that a study names, and what a grid leaves in them
+//! (`convergence.rs`).
+
+pub(crate) mod convergence;
 
 use drape_input::{Quantity, UnitError, parse_unit};
 

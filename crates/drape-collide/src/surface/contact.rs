@@ -17,6 +17,7 @@ mod growth;
 mod obstacles;
 mod open_seams;
 mod pinch;
+mod placing;
 mod settings;
 mod summary;
 mod surface_contact;

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use crate::record::step_hashes::StepHashes;
-use crate::simulation::coarser_grid::GridRecord;
 use crate::world::Energy;
 
 /// Summary of a run: the content of `summary.json`.
@@ -68,6 +67,23 @@ pub struct Summary {
     /// Place of the seam that was open when the run ended early, in m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place: Option<[f64; 3]>,
+}
+
+/// What came of a coarser grid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GridRecord {
+    /// Smallest distance of particles before deformation, in m.
+    pub spacing: f64,
+    /// Number of particles.
+    pub particles: usize,
+    /// Number of steps.
+    pub steps: usize,
+    /// Iterations of conjugate gradients, of all linear solves.
+    pub linear_iterations: usize,
+    /// Time at its end, in s.
+    pub end: f64,
+    /// Whether the next grid began with its cloth.
+    pub carried: bool,
 }
 
 /// Phase of a run.

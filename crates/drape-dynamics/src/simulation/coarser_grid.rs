@@ -11,12 +11,11 @@ use std::sync::atomic::AtomicBool;
 
 use drape_cloth::Interpolation;
 use drape_scene::{Panel, Scene};
-use serde::{Deserialize, Serialize};
 
 use super::saved::SavedSimulation;
-use super::{Simulation, Step};
+use super::{CoarserGrid, Simulation, Step};
 use crate::error::Error;
-use crate::record::summary::{Phase, PhaseName, Status};
+use crate::record::summary::{GridRecord, Phase, PhaseName, Status};
 use crate::sewing::node_map::merge;
 use crate::stepping::Scheme;
 use crate::world::PlacedSurfaces;
@@ -24,30 +23,9 @@ use crate::world::PlacedSurfaces;
 /// Number of first steps over which distances grow again that the interpolation made too short.
 const GROWTH_STEPS: f64 = 20.0;
 
-/// Coarser grid on which the cloth comes to rest, and its relation to the next one.
-#[derive(Debug)]
-pub(super) struct CoarserGrid {
-    simulation: Box<Simulation>,
-    /// Interpolation of each panel, with the number of its first coordinate.
-    panels: Vec<(usize, Interpolation)>,
-}
-
-/// What came of a coarser grid.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct GridRecord {
-    /// Smallest distance of particles before deformation, in m.
-    pub spacing: f64,
-    /// Number of particles.
-    pub particles: usize,
-    /// Number of steps.
-    pub steps: usize,
-    /// Iterations of conjugate gradients, of all linear solves.
-    pub linear_iterations: usize,
-    /// Time at its end, in s.
-    pub end: f64,
-    /// Whether the next grid began with its cloth.
-    pub carried: bool,
-}
+/// Number of first steps in which the interpolated cloth, which is bent at the lines of the coarser grid
+/// alone, becomes smooth; a step of 5 ms leaves a hundredth of such bends.
+const SMOOTHING_STEPS: usize = 3;
 
 /// Cloth at rest on a coarser grid, at the places of the next one's particles.
 struct CarriedCloth {
@@ -190,6 +168,7 @@ impl Simulation {
         if is_sewn {
             self.stepping.reduce(&self.world, &self.parts.seams)?;
         }
+        self.steps_to_forget = SMOOTHING_STEPS;
         self.phases.begun = vec![Phase { name: PhaseName::Relax, start: time, frame: 0 }];
         self.restart(relaxation)?;
         Ok(Ok(()))

@@ -150,6 +150,17 @@ impl Simulation {
         Ok(())
     }
 
+    /// Warning about a run that ended before surfaces kept their whole distances.
+    fn unfinished_growth(&self) -> Option<String> {
+        let fraction = self.world.contact.growth_fraction();
+        (fraction < 1.0 && self.outcome.status == Status::Ok).then(|| {
+            format!(
+                "surfaces keep only {:.2} % of their distances yet: the run ended before contact.grow",
+                100.0 * fraction
+            )
+        })
+    }
+
     /// Intervals of frames that are over.
     fn frame_intervals(&self) -> usize {
         self.ticks() / self.stepping.clock().ticks_per_frame

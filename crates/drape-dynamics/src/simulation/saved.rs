@@ -8,13 +8,12 @@ use drape_checkpoint::Checkpoint;
 use drape_scene::Relaxation;
 use serde::{Deserialize, Serialize};
 
-use super::coarser_grid::GridRecord;
 use super::{LastStep, Phases, Simulation};
 use crate::error::Error;
 use crate::measure::garment_parts::VerticalExtent;
 use crate::record::statistics::Statistics;
 use crate::record::stopwatch::{PastTime, Stopwatch};
-use crate::record::summary::Status;
+use crate::record::summary::{GridRecord, Status};
 use crate::stepping::RestDetector;
 use crate::stepping::saved::SavedStepping;
 use crate::world::saved::SavedWorld;
@@ -54,6 +53,7 @@ struct SavedRun {
     frame_times: Vec<f64>,
     time: PastTime,
     grids: Vec<GridRecord>,
+    steps_to_forget: usize,
 }
 
 /// State of a garment: its vertical extent when it began to hang, and the time at which it slid, in s.
@@ -127,6 +127,7 @@ impl Simulation {
             frame_times: self.frame_times.clone(),
             time: self.stopwatch.time(),
             grids: self.grids.clone(),
+            steps_to_forget: self.steps_to_forget,
         }
     }
 
@@ -166,7 +167,7 @@ impl Simulation {
         (self.phases, self.statistics, self.last) = (run.phases, run.statistics, run.last);
         self.outcome.status = Status::Ok;
         (self.outcome.events, self.frame_times) = (run.events, run.frame_times);
-        self.grids = run.grids;
+        (self.grids, self.steps_to_forget) = (run.grids, run.steps_to_forget);
         self.stopwatch = Stopwatch::resumed(run.time);
         Ok(())
     }

@@ -21,7 +21,7 @@ use crate::error::Error;
 
 pub(crate) use self::particle_bodies::ParticleBodies;
 pub(crate) use self::step::{ContactEnergy, ContactStep};
-pub(crate) use self::surfaces::{PlacedSurfaces, Surfaces};
+pub(crate) use self::surfaces::{PlacedSurfaces, SavedGrowth, Surfaces};
 
 /// Contact of a world.
 #[derive(Debug)]

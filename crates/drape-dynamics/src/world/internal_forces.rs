@@ -123,6 +123,13 @@ impl InternalForces {
         self.seams = Some(BentSeams { bending, state });
     }
 
+    /// Lets the memory of the seams begin anew at positions, in m.
+    pub(crate) fn forget(&mut self, positions: &[f64]) {
+        if let Some(BentSeams { bending, state }) = &mut self.seams {
+            *state = bending.state(positions).expect("a place for every particle");
+        }
+    }
+
     /// Memory of the seams.
     pub(crate) fn seam_state(&self) -> Option<&SeamState> {
         self.seams.as_ref().map(|seams| &seams.state)

@@ -8,7 +8,7 @@ use drape_collide::SavedContact;
 use serde::{Deserialize, Serialize};
 
 use super::World;
-use super::contact::Contact;
+use super::contact::{Contact, SavedGrowth};
 use super::energy_balance::EnergyBalance;
 use super::internal_forces::SavedForces;
 use crate::sewing::closing_springs::{ClosingSprings, Stiffening};
@@ -40,17 +40,6 @@ struct SavedSurfaces {
     contact: SavedContact,
     intersections_found: usize,
     growth: Option<SavedGrowth>,
-}
-
-/// Growth of distances that began in the run.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub(crate) struct SavedGrowth {
-    /// Time until surfaces keep their whole distances, in s.
-    pub(crate) seconds: f64,
-    /// Time at which it began, in s.
-    pub(crate) start: f64,
-    /// Fraction of the distances that was kept then.
-    pub(crate) fraction: f64,
 }
 
 impl World {

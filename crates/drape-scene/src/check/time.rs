@@ -1,10 +1,11 @@
-//! Times of a simulation: steps, relaxation, motion.
+//! Times of a simulation: steps, relaxation and the grids on which the cloth comes to rest, motion.
 
-use drape_input::Given;
+use drape_input::{Given, figure};
 
 use crate::check::checker::Checker;
 use crate::scene::clock::Clock;
 use crate::scene::relaxation::Relaxation;
+use crate::spacings::spacings;
 
 /// Time between frames when the scene does not say, in s.
 const FRAME_INTERVAL: f64 = 0.04;
@@ -35,6 +36,15 @@ const REST_RESIDUAL: f64 = 1e-3;
 /// took as long, and with half the spacing about a quarter less; the energy stored at rest changed
 /// by 0.2 %, on a sphere by 4 %.
 const STRIDE: f64 = 0.25;
+
+/// Key of the coarser grids.
+pub(crate) const REFINE: &str = "refine.spacings";
+
+/// Smallest ratio of the spacings of two grids.
+const GRID_RATIO_MIN: f64 = 1.1;
+
+/// Largest number of coarser grids.
+const GRIDS_MAX: usize = 8;
 
 /// Checks steps, their end, and the times of frames.
 pub(crate) fn clock(checker: &mut Checker<'_>) -> Clock {
@@ -112,6 +122,39 @@ pub(crate) fn relaxation(checker: &mut Checker<'_>, spacing: f64) -> Option<Rela
     checker.within("settle.stride", stride, 1e-7..=1.0, help);
     let inertia = settle.inertia.unwrap_or(false);
     Some(Relaxation { speed, residual, stride, inertia })
+}
+
+/// Checks the spacings of the coarser grids, and that the cloth comes to rest on them.
+pub(crate) fn refinement(checker: &mut Checker<'_>) {
+    let Some(refine) = &checker.file.refine else { return };
+    if checker.file.settle.is_none() {
+        let message = "cloth that does not come to rest has no coarser grids";
+        checker.fail("refine", message, "add [settle], or leave [refine] out");
+    }
+    if !(1..=GRIDS_MAX).contains(&refine.spacings.len()) {
+        let message = format!("{} coarser grids", refine.spacings.len());
+        checker.fail(REFINE, message, &format!("name 1 to {GRIDS_MAX}, such as [0.02]"));
+        return;
+    }
+    let unit = checker.unit;
+    let Ok(own) = spacings(checker.document()) else { return };
+    let grids = refine.spacings.iter().map(|spacing| *spacing * unit);
+    let grids: Vec<f64> = grids.chain([own[0].value]).collect();
+    // A comparison that NaN fails.
+    let too_close =
+        grids.windows(2).position(|pair| !(pair[0] >= 0.999_999 * GRID_RATIO_MIN * pair[1]));
+    if let Some(index) = too_close {
+        let message = format!(
+            "a grid of {} mm before one of {} mm",
+            figure(1e3 * grids[index]),
+            figure(1e3 * grids[index + 1])
+        );
+        let help = format!(
+            "the coarsest comes first and each is {GRID_RATIO_MIN} times as coarse as the next or more, the \
+             last one against the spacing of the scene"
+        );
+        checker.fail(&format!("{REFINE}[{index}]"), message, &help);
+    }
 }
 
 /// Checks the time for which bodies and pins move when the cloth has come to rest, in s, if they do

@@ -31,23 +31,20 @@ use crate::vector::{Matrix, at, outer};
 /// [`is_inside_body`](SurfaceContact::is_inside_body).
 #[derive(Debug)]
 pub struct SurfaceContact {
-    surface: Surface,
+    pub(super) surface: Surface,
     stiffness: f64,
-    obstacles: Obstacles,
+    pub(super) obstacles: Obstacles,
     tracked: TrackedPairs,
-    active: ActivePairs,
+    pub(super) active: ActivePairs,
     friction: SurfaceFriction,
     pub(super) limiter: StepLimiter,
     intersection_test: IntersectionTest,
     pinch: Pinch,
-    growth: Growth,
-    open_seams: OpenSeams,
+    pub(super) growth: Growth,
+    pub(super) open_seams: OpenSeams,
     /// Positions of all vertices at which an evaluation is asked for, in m.
     trial: Placement,
 }
-
-/// Fraction of the smallest distance over its minimum separation that shrunk distances keep.
-const SEPARATION_KEPT: f64 = 0.9;
 
 /// State of a [`SurfaceContact`] between two steps: stretches of friction, positions of the bodies,
 /// pinched vertices and the fraction of distances that is kept.
@@ -466,56 +463,6 @@ impl SurfaceContact {
         Ok(())
     }
 
-    /// Shrinks all distances until no pair is below its minimum separation at the free vertices'
-    /// positions, in m.
-    ///
-    /// # Errors
-    /// Positions that are not finite, or too many pairs.
-    pub fn shrink_to_separation(&mut self, positions: &[f64]) -> Result<(), Error> {
-        let ratio = SEPARATION_KEPT * self.summary_at(positions)?.min_ratio;
-        if ratio < 1.0 {
-            self.growth.fraction *= ratio;
-            self.set_growth_fraction(self.growth.fraction);
-        }
-        Ok(())
-    }
-
-    /// Puts the bodies' vertices at flat positions, in m, between two steps.
-    ///
-    /// # Errors
-    /// Another number of coordinates.
-    pub fn place_bodies(&mut self, bodies: &[f64]) -> Result<(), Error> {
-        let (needed, found) = (self.obstacles.start.len(), bodies.len());
-        if found != needed {
-            return Err(Error::WrongLength { what: "coordinates of bodies", found, needed });
-        }
-        self.obstacles.restore(bodies);
-        self.active.invalidate();
-        Ok(())
-    }
-
-    /// Returns the number of intersections with closed seams at other places: the free vertices' and the
-    /// bodies' positions, in m. The contact stays as it is.
-    ///
-    /// # Errors
-    /// Positions that are not finite, or another number of coordinates of bodies.
-    pub fn intersections_when_sewn(
-        &mut self,
-        positions: &[f64],
-        bodies: &[f64],
-    ) -> Result<usize, Error> {
-        let (memory, open_seams) = (self.memory(), self.open_seams.clone());
-        let seam_gaps = self.surface.separations.seam_gaps.clone();
-        self.close_seams();
-        let placed = self.place_bodies(bodies);
-        let found = placed.and_then(|()| Ok(self.intersections(positions)?.len()));
-        self.open_seams = open_seams;
-        self.surface.separations.seam_gaps = seam_gaps;
-        self.drop_pairs();
-        self.restore(&memory);
-        found
-    }
-
     /// Increases the fraction of the distances that is kept in a step from the free vertices'
     /// positions, in m, which is then to be opened: as much of the increment as the nearest pair
     /// has room for, and never below the fraction of the last step.
@@ -632,7 +579,7 @@ impl SurfaceContact {
     }
 
     /// Sets the fraction of distances that is kept from the next detection on.
-    fn set_growth_fraction(&mut self, fraction: f64) {
+    pub(super) fn set_growth_fraction(&mut self, fraction: f64) {
         if self.surface.separations.growth_fraction != fraction {
             self.surface.separations.growth_fraction = fraction;
             self.drop_pairs();
@@ -640,7 +587,7 @@ impl SurfaceContact {
     }
 
     /// Drops all pairs, whose distances have changed.
-    fn drop_pairs(&mut self) {
+    pub(super) fn drop_pairs(&mut self) {
         self.active.invalidate();
         self.tracked.clear();
     }

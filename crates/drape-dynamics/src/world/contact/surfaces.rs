@@ -8,10 +8,11 @@ use std::ops::Range;
 
 use drape_collide::{Body, Error, PairDistance, Shape, SurfaceContact, SurfaceStep, Triangulation};
 use drape_implicit::{StepLimit, TrialStep};
+use serde::{Deserialize, Serialize};
+
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
 
 use super::step::{ContactEnergy, ContactStep};
-use crate::world::saved::SavedGrowth;
 
 /// Fraction of the distance that surfaces keep by which what moves by prescription may deviate from
 /// a straight path within a step; what turns faster is given more steps.
@@ -85,6 +86,17 @@ struct MovingSurface {
     motion: BodyMotion,
     /// Whether it is a floor, whose corners are too far out for their paths to matter.
     is_floor: bool,
+}
+
+/// Growth of distances that began in the run.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct SavedGrowth {
+    /// Time until surfaces keep their whole distances, in s.
+    pub(crate) seconds: f64,
+    /// Time at which it began, in s.
+    pub(crate) start: f64,
+    /// Fraction of the distances that was kept then.
+    pub(crate) fraction: f64,
 }
 
 /// Cloth and bodies at new places.

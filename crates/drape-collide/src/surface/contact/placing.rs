@@ -1,0 +1,59 @@
+//! Placing: cloth and bodies at other places between two steps.
+
+use super::surface_contact::SurfaceContact;
+use crate::error::Error;
+
+/// Fraction of the smallest distance over its minimum separation that shrunk distances keep.
+const SEPARATION_KEPT: f64 = 0.9;
+
+impl SurfaceContact {
+    /// Shrinks all distances until no pair is below its minimum separation at the free vertices'
+    /// positions, in m.
+    ///
+    /// # Errors
+    /// Positions that are not finite, or too many pairs.
+    pub fn shrink_to_separation(&mut self, positions: &[f64]) -> Result<(), Error> {
+        let ratio = SEPARATION_KEPT * self.summary_at(positions)?.min_ratio;
+        if ratio < 1.0 {
+            self.growth.fraction *= ratio;
+            self.set_growth_fraction(self.growth.fraction);
+        }
+        Ok(())
+    }
+
+    /// Puts the bodies' vertices at flat positions, in m, between two steps.
+    ///
+    /// # Errors
+    /// Another number of coordinates.
+    pub fn place_bodies(&mut self, bodies: &[f64]) -> Result<(), Error> {
+        let (needed, found) = (self.obstacles.start.len(), bodies.len());
+        if found != needed {
+            return Err(Error::WrongLength { what: "coordinates of bodies", found, needed });
+        }
+        self.obstacles.restore(bodies);
+        self.active.invalidate();
+        Ok(())
+    }
+
+    /// Returns the number of intersections with closed seams at other places: the free vertices' and the
+    /// bodies' positions, in m. The contact stays as it is.
+    ///
+    /// # Errors
+    /// Positions that are not finite, or another number of coordinates of bodies.
+    pub fn intersections_when_sewn(
+        &mut self,
+        positions: &[f64],
+        bodies: &[f64],
+    ) -> Result<usize, Error> {
+        let (memory, open_seams) = (self.memory(), self.open_seams.clone());
+        let seam_gaps = self.surface.separations.seam_gaps.clone();
+        self.close_seams();
+        let placed = self.place_bodies(bodies);
+        let found = placed.and_then(|()| Ok(self.intersections(positions)?.len()));
+        self.open_seams = open_seams;
+        self.surface.separations.seam_gaps = seam_gaps;
+        self.drop_pairs();
+        self.restore(&memory);
+        found
+    }
+}
