@@ -161,7 +161,8 @@ pub struct Step {
     pub events: Vec<String>,
     /// Phase of the run.
     pub phase: PhaseName,
-    /// Spacing of the coarser grid on which it was made, in m; `None` on that of the scene.
+    /// Spacing of the coarser grid on which it was made, in m; `None` on that of the scene, whose cloth is at
+    /// its start until then.
     pub coarser_grid: Option<f64>,
     /// Whether the simulation is over.
     pub finished: bool,

@@ -163,6 +163,67 @@ fn cloth_carried_from_coarser_grids_goes_on_to_the_same_bits() {
 }
 
 #[test]
+fn a_run_that_is_interrupted_on_a_coarser_grid_has_a_frame_and_goes_on() {
+    /// Watcher that ends a run after three steps.
+    #[derive(Default)]
+    struct Interrupter(Keeper);
+
+    impl Progress for Interrupter {
+        fn step(&mut self, step: &drape_dynamics::Step, ticks: usize) {
+            self.0.step(step, ticks);
+        }
+
+        fn frame(&mut self, frame: &Frame) -> Result<(), Error> {
+            self.0.frame(frame)
+        }
+
+        fn checkpoint(&mut self, saved: &SavedSimulation) -> Result<(), Error> {
+            self.0.checkpoint(saved)
+        }
+
+        fn is_interrupted(&self) -> bool {
+            self.0.steps == 3
+        }
+    }
+
+    let scene = || refined(", offset = 0.003", "[0.03]");
+    let whole = Simulation::new(scene()).unwrap().run(&mut ()).unwrap();
+    let mut watcher = Interrupter::default();
+    let interrupted = Simulation::new(scene()).unwrap().run(&mut watcher).unwrap();
+    assert_eq!(interrupted.status, drape_dynamics::Status::Interrupted);
+    assert_eq!((interrupted.frames, watcher.0.frames.len()), (1, 1));
+    let mut resumed = Simulation::new(scene()).unwrap();
+    resumed.resume(saved(&watcher.0.kept[0])).unwrap();
+    assert_eq!(told(&whole), told(&resumed.run(&mut ()).unwrap()));
+}
+
+#[test]
+fn a_run_whose_time_is_over_on_a_coarser_grid_ends_there() {
+    let mut scene = refined(", offset = 0.003", "[0.03]");
+    scene.schedule.clock.end = 0.02;
+    let summary = Simulation::new(scene).unwrap().run(&mut ()).unwrap();
+    assert_eq!(summary.status, drape_dynamics::Status::DidNotSettle);
+    assert_eq!((summary.frames, summary.steps, summary.simulated_seconds), (1, 0, 0.02));
+}
+
+#[test]
+fn what_moves_after_rest_moves_on_the_last_grid() {
+    let motion = "[motion]\nseconds = 0.05\n";
+    let scene = format!(
+        "contact = {{ surfaces = true, offset = 0.003 }}\ntime = {{ step = 0.005, end = 20 }}\n\
+         settle = {{ speed = 0.02, residual = 0.02 }}\nrefine.spacings = [0.03]\n{motion}"
+    );
+    let scene = || over_a_ball(&scene, "");
+    let summary = Simulation::new(scene()).unwrap().run(&mut ()).unwrap();
+    let names: Vec<_> = summary.phases.iter().map(|phase| format!("{:?}", phase.name)).collect();
+    assert_eq!(names, ["Relax", "Simulate"]);
+    let [rest, motion] = &summary.phases[..] else { panic!("{summary:?}") };
+    assert!(summary.coarser_grids[0].carried && rest.start == summary.coarser_grids[0].end);
+    assert!((summary.simulated_seconds - motion.start - 0.05).abs() < 1e-9, "{summary:?}");
+    goes_on(scene, 13);
+}
+
+#[test]
 fn cloth_that_would_intersect_on_the_next_grid_is_left_and_said() {
     // The grid is as coarse as the ball, whose triangles are finer.
     let scene = || refined("", "[0.07, 0.03]");

@@ -13,7 +13,7 @@ use drape_cloth::Interpolation;
 use drape_scene::{Panel, Scene};
 
 use super::saved::SavedSimulation;
-use super::{CoarserGrid, Simulation, Step};
+use super::{CoarserGrid, Outcome, Simulation, Step};
 use crate::error::Error;
 use crate::record::summary::{GridRecord, Phase, PhaseName, Status};
 use crate::sewing::node_map::merge;
@@ -40,13 +40,17 @@ impl CoarserGrid {
         let coarser = std::mem::take(&mut scene.coarser);
         let mut panels: Vec<Vec<Panel>> = coarser.iter().map(|own| own.panels.clone()).collect();
         panels.push(scene.panels.clone());
-        let grids = coarser.into_iter().zip(panels.windows(2)).map(|(scene, pair)| {
+        let end = scene.schedule.clock.end;
+        let grids = coarser.into_iter().zip(panels.windows(2)).map(|(mut scene, pair)| {
+            scene.schedule.clock.end = end;
             let panels = pair[0]
                 .iter()
                 .zip(&pair[1])
                 .map(|(from, to)| (3 * from.first, Interpolation::new(&from.lattice, &to.lattice)));
             let panels = panels.collect();
-            let simulation = Box::new(Simulation::with_scheme(scene, scheme.clone())?);
+            let mut simulation = Box::new(Simulation::with_scheme(scene, scheme.clone())?);
+            // What moves after rest does so on the last grid.
+            simulation.phases.motion_seconds = None;
             Ok(Self { simulation, panels })
         });
         grids.collect()
@@ -103,23 +107,44 @@ impl Simulation {
     pub(super) fn step_on_coarser_grid(&mut self) -> Result<Step, drape_implicit::Error> {
         let told = self.outcome.events.len();
         let grid = &mut self.coarser[0];
-        let mut step = grid.simulation.step()?;
-        step.coarser_grid = Some(grid.simulation.spacing);
-        if !step.finished {
-            return Ok(step);
-        }
-        let at_rest = grid.simulation.outcome.status == Status::Ok && grid.simulation.is_at_rest();
-        let reason = grid.simulation.outcome.reason.clone();
-        let reason = reason.unwrap_or_else(|| "it did not come to rest".into());
-        let mut record = grid.record();
-        let carried = at_rest.then(|| grid.carried());
-        self.coarser.pop_front();
-        let begun = match (carried, self.coarser.front_mut()) {
-            (None, _) => Err(reason),
-            (Some(carried), Some(next)) => next.simulation.begin_with(carried)?,
-            (Some(carried), None) => self.begin_with(carried)?,
+        let spacing = Some(grid.simulation.spacing);
+        let step = match grid.simulation.step() {
+            Ok(step) => {
+                let goes_on = !step.finished;
+                let step = Step { coarser_grid: spacing, finished: self.is_over(), ..step };
+                if goes_on || step.finished {
+                    return Ok(step);
+                }
+                Some(step)
+            }
+            Err(error @ drape_implicit::Error::Cancelled) => return Err(error),
+            Err(error) => {
+                grid.simulation.fail(&error);
+                None
+            }
         };
-        record.carried = begun.is_ok();
+        self.leave_coarser_grid()?;
+        let mut events = self.outcome.events[told..].to_vec();
+        // A grid on which a step failed is left at once.
+        let mut step = step.map_or_else(|| self.step(), Ok)?;
+        events.append(&mut step.events);
+        Ok(Step { events, finished: self.is_over(), ..step })
+    }
+
+    /// Goes on to the next grid, with the cloth of this one if it is at rest.
+    fn leave_coarser_grid(&mut self) -> Result<(), drape_implicit::Error> {
+        let Some(grid) = self.coarser.pop_front() else { return Ok(()) };
+        let Outcome { status, reason, .. } = &grid.simulation.outcome;
+        let begun =
+            match (*status == Status::Ok && grid.simulation.is_at_rest(), self.coarser.front_mut())
+            {
+                (true, Some(next)) => next.simulation.begin_with(grid.carried())?,
+                (true, None) => self.begin_with(grid.carried())?,
+                (false, _) => {
+                    Err(reason.clone().unwrap_or_else(|| "it did not come to rest".into()))
+                }
+            };
+        let record = GridRecord { carried: begun.is_ok(), ..grid.record() };
         if let Err(reason) = begun {
             self.outcome.events.push(format!(
                 "the grid of {:.1} mm is of no use: {reason}; the next one begins from its own start",
@@ -127,9 +152,7 @@ impl Simulation {
             ));
         }
         self.grids.push(record);
-        step.events.extend_from_slice(&self.outcome.events[told..]);
-        step.finished = false;
-        Ok(step)
+        Ok(())
     }
 
     /// Begins at rest with cloth that a coarser grid gives; returns why it cannot, and changes nothing
@@ -154,7 +177,7 @@ impl Simulation {
                 Some(count) => {
                     return Ok(Err(format!("its cloth has {count} intersections on the next")));
                 }
-                None => return Ok(Err("its bodies are others".into())),
+                None => return Ok(Err("it has other bodies than the next".into())),
             }
         }
         self.stepping.start_at(ticks);

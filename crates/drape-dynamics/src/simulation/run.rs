@@ -98,6 +98,9 @@ impl Simulation {
             self.outcome.status = Status::DidNotSettle;
             self.outcome.reason = self.parts.first_slide();
         }
+        if self.frame_times.is_empty() {
+            self.emit_frame(progress)?;
+        }
         self.outcome.measures = measures(&self.parts, &mut self.world);
         self.outcome.warnings = self.outcome.events.clone();
         self.outcome.warnings.extend(warnings(&self.parts, &self.world));
