@@ -26,6 +26,9 @@ use self::panel::PanelFile;
 use self::pin::PinFile;
 use self::run::{MotionPhaseFile, OutputFile, RefineFile, SettleFile, SolverFile, TimeFile};
 
+/// Units of the lengths of a file, in m.
+pub(crate) const UNITS: [(&str, f64); 3] = [("m", 1.0), ("cm", 0.01), ("mm", 0.001)];
+
 /// Scene of drape: cloth, bodies, contact, time.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -121,6 +124,12 @@ pub(crate) struct FabricFile {
 }
 
 impl SceneFile {
+    /// Returns the unit of its lengths, in m; that of a file without one where its own is unknown.
+    pub(crate) fn unit(&self) -> f64 {
+        let unit = UNITS.iter().find(|(name, _)| self.length.as_deref() == Some(name));
+        unit.map_or(1.0, |(_, unit)| *unit)
+    }
+
     /// Whether surfaces are kept apart: if the scene does not say, wherever steps can be limited.
     /// Explicit steps cannot, and the particles of Breen's model repel each other at a spacing.
     pub(crate) fn keeps_surfaces_apart(&self) -> bool {

@@ -5,7 +5,6 @@ use std::path::Path;
 use drape_input::{Diagnostics, Document, Setting, figure};
 
 use crate::check::check;
-use crate::check::checker::UNITS;
 use crate::check::documents::Documents;
 use crate::check::time::REFINE;
 use crate::error::Error;
@@ -75,11 +74,11 @@ impl Scene {
 /// What keeps it from being simulated there.
 fn coarser_scenes(documents: &Documents<'_>, file: &SceneFile) -> Result<Vec<Scene>, Error> {
     let Some(refine) = &file.refine else { return Ok(Vec::new()) };
-    let unit = UNITS.iter().find(|(name, _)| file.length.as_deref() == Some(name));
-    let unit = unit.map_or(1.0, |(_, unit)| *unit);
     let own = spacings(documents.scene)?;
     let grids = refine.spacings.iter().enumerate();
-    grids.map(|(index, spacing)| on_grid(documents, &own, (index, *spacing * unit))).collect()
+    grids
+        .map(|(index, spacing)| on_grid(documents, &own, (index, *spacing * file.unit())))
+        .collect()
 }
 
 /// Returns the scene on the grid of a number and a spacing, in m.

@@ -2,7 +2,6 @@
 
 use drape_input::{Diagnostics, Document, Given, Length, Setting, figure};
 
-use crate::check::checker::UNITS;
 use crate::check::panel::SPACING;
 use crate::file::SceneFile;
 
@@ -34,8 +33,7 @@ impl Spacing {
 /// Mistakes of the grammar, of spelling and of types.
 pub fn spacings(document: &Document) -> Result<Vec<Spacing>, Diagnostics> {
     let file: SceneFile = document.decode()?;
-    let unit = UNITS.iter().find(|(name, _)| file.length.as_deref() == Some(name));
-    let unit = unit.map_or(1.0, |(_, unit)| *unit);
+    let unit = file.unit();
     let parts = file.panel.iter().enumerate().map(|(index, own)| ("panel", index, own.spacing));
     let garments = file.garment.iter().enumerate();
     let parts = parts.chain(garments.map(|(index, own)| ("garment", index, own.spacing)));

@@ -23,8 +23,8 @@ use crate::world::PlacedSurfaces;
 /// Number of first steps over which distances grow again that the interpolation made too short.
 const GROWTH_STEPS: f64 = 20.0;
 
-/// Number of first steps in which the interpolated cloth, which is bent at the lines of the coarser grid
-/// alone, becomes smooth; a step of 5 ms leaves a hundredth of such bends.
+/// Number of first steps in which the interpolated cloth becomes smooth, which is bent at the lines of the
+/// coarser grid alone; the memories of friction begin behind them.
 const SMOOTHING_STEPS: usize = 3;
 
 /// Cloth at rest on a coarser grid, at the places of the next one's particles.

@@ -11,13 +11,10 @@ use drape_input::{
 
 use crate::check::documents::Documents;
 use crate::check::memory::particles_max;
-use crate::file::SceneFile;
+use crate::file::{SceneFile, UNITS};
 
 /// Limit of meshes and of their motions.
 pub const MESH_LIMIT: SizeLimit = SizeLimit::new("meshes", MESH_BYTES_MAX);
-
-/// Units of the lengths of a file, in m.
-pub(crate) const UNITS: [(&str, f64); 3] = [("m", 1.0), ("cm", 0.01), ("mm", 0.001)];
 
 /// File of a scene that is being checked, with the mistakes found so far.
 pub(crate) struct Checker<'a> {
