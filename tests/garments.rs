@@ -99,6 +99,9 @@ fn a_sewn_strip_carried_from_a_coarser_grid_hangs_like_one_sewn_on_its_own_and_a
     let direct = run(&scene, 1);
     let refined = [clamp, ("[settle]", "[settle]\n[refine]\nspacings = [0.01]")];
     let scene = changed("seam-strip", &refined, folder.path());
+    let described = drape().arg("check").arg(&scene).output().expect("it runs");
+    let described = String::from_utf8_lossy(&described.stdout).into_owned();
+    assert!(described.contains("at rest first on a grid of 10.0 mm, 66 particles"), "{described}");
     let [one, two, three] = [2, 3, 4].map(|threads| run(&scene, threads));
     assert_eq!(one["state_hash"], two["state_hash"]);
     assert_eq!(one["state_hash"], three["state_hash"]);

@@ -81,6 +81,11 @@ pub(crate) fn scene(scene: &Scene) -> String {
         scene.schedule.clock.step,
         scene.schedule.clock.end
     );
+    for grid in &scene.coarser {
+        let (particles, spacing) = (grid.cloth.particles(), 1e3 * grid.spacing());
+        let _ =
+            writeln!(text, "  at rest first on a grid of {spacing:.1} mm, {particles} particles");
+    }
     for panel in &scene.panels {
         let [across, along] = panel.lattice.spacing;
         let material = &scene.materials[panel.material];
