@@ -197,9 +197,14 @@ impl World {
         let state = self.cloth.state(positions.to_vec());
         self.state = state.expect("a place for every particle");
         self.pins.release(HoldUntil::Sewn, time);
+        self.begin_balance();
+    }
+
+    /// Begins the balance of the energy from the present state, if it is asked for.
+    fn begin_balance(&mut self) {
         if self.with_balance {
             let stored = self.internal.stored(&self.cloth, &self.state);
-            self.balance = Some(EnergyBalance::new(stored, 0.0));
+            self.balance = Some(EnergyBalance::new(stored, self.kinetic_energy()));
         }
     }
 
@@ -222,10 +227,7 @@ impl World {
         self.internal.forget(&positions);
         self.state = self.cloth.state(positions).expect("a place for every particle");
         self.state.velocities = velocities;
-        if self.with_balance {
-            let stored = self.internal.stored(&self.cloth, &self.state);
-            self.balance = Some(EnergyBalance::new(stored, self.kinetic_energy()));
-        }
+        self.begin_balance();
     }
 
     /// Time of the last change that a scene prescribes, in s: full gravity, full size of bodies,

@@ -15,14 +15,19 @@ pub struct Spacing {
 }
 
 impl Spacing {
-    /// Returns the setting of a multiple of it.
+    /// Setting of the key to a multiple of the spacing.
     ///
     /// # Panics
     /// Never: its key is one of a scene.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Setting {
-        let value = format!("\"{} mm\"", figure(1e3 * factor * self.value));
-        Setting::new(&self.key, &value).expect("a key and a text of TOML")
+        Setting::new(&self.key, &self.scaled_value(factor)).expect("a key and a text of TOML")
+    }
+
+    /// Value of TOML of a multiple of it, such as `"20 mm"` with its quotes.
+    #[must_use]
+    pub fn scaled_value(&self, factor: f64) -> String {
+        format!("\"{} mm\"", figure(1e3 * factor * self.value))
     }
 }
 

@@ -4,12 +4,12 @@
 //!
 //! * `file`: TOML form of a study; `study`: [`Study`], read and checked; `base`: [`Base`], what its
 //!   points are runs of; `axes`: [`Axis`] and its levels, samples of ranges and of the errors of
-//!   fitted fabrics; `measure`: [`Measure`], a value of all summaries.
+//!   fitted fabrics; `measure`: [`Measure`], a value of all summaries, and
+//!   [`Convergence`], its limit as the spacing goes to 0.
 //! * `point`: [`Point`], one run of a study; `key`: digests of what it reads.
 //! * `place`: [`Place`], where a point has its results, its lock and its record:
 //!   [`Record`], what came of it; `manifest`: the list of all points.
 //! * `table`: [`Table`], inputs, measures and records of all points; `effects`: means over levels.
-//! * `convergence`: [`Convergence`], what the spacing of a grid leaves in a measure.
 //! * `engine`: files by which others run a study: Slurm, HyperQueue, Dask.
 
 mod axes;

@@ -3,8 +3,7 @@
 use crate::panel::lattice::Lattice;
 use crate::panel::triangle::twice_area;
 
-/// Most that a weight is below 0: how far a particle outside of all triangles may be beyond one, as a
-/// fraction of the triangle's height.
+/// Limit of the extrapolation: barycentric coordinates are this far below 0 at most.
 const OUTSIDE_MAX: f64 = 0.5;
 
 /// Interpolation from the particles of a panel to those of another grid of the same panel, linear on
@@ -27,14 +26,14 @@ pub struct Interpolation {
     rows: Vec<([u32; 3], [f64; 3])>,
 }
 
-/// Triangles of a panel by the square fields that they touch.
-struct Fields<'a> {
+/// Triangles of a panel in square bins, each in all bins that its bounding box meets.
+struct Bins<'a> {
     coordinates: &'a [[f64; 2]],
     triangles: Vec<[u32; 3]>,
     low: [f64; 2],
     size: f64,
     counts: [usize; 2],
-    /// Numbers of the triangles in each field.
+    /// Numbers of the triangles in each bin.
     members: Vec<Vec<u32>>,
 }
 
@@ -45,8 +44,8 @@ impl Interpolation {
     /// has the values of the nearest one, extended.
     #[must_use]
     pub fn new(from: &Lattice, to: &Lattice) -> Self {
-        let fields = Fields::new(from);
-        Self { rows: to.coordinates.iter().map(|&point| fields.locate(point)).collect() }
+        let bins = Bins::new(from);
+        Self { rows: to.coordinates.iter().map(|&point| bins.locate(point)).collect() }
     }
 
     /// Returns the values at the particles, three numbers for each, from those of the other grid.
@@ -69,7 +68,7 @@ impl Interpolation {
     }
 }
 
-impl<'a> Fields<'a> {
+impl<'a> Bins<'a> {
     fn new(lattice: &'a Lattice) -> Self {
         let coordinates = lattice.coordinates.as_slice();
         let size = lattice.spacing[0].max(lattice.spacing[1]);
@@ -78,7 +77,7 @@ impl<'a> Fields<'a> {
         };
         let low = [0, 1].map(|axis| end(axis, f64::min));
         let counts = [0, 1].map(|axis| ((end(axis, f64::max) - low[axis]) / size) as usize + 1);
-        let mut fields = Self {
+        let mut bins = Self {
             coordinates,
             triangles: lattice.triangles(),
             low,
@@ -86,23 +85,23 @@ impl<'a> Fields<'a> {
             counts,
             members: vec![Vec::new(); counts[0] * counts[1]],
         };
-        for (index, triangle) in fields.triangles.iter().enumerate() {
-            let corners = triangle.map(|corner| fields.coordinates[corner as usize]);
+        for (index, triangle) in bins.triangles.iter().enumerate() {
+            let corners = triangle.map(|corner| bins.coordinates[corner as usize]);
             let ends = [f64::min, f64::max].map(|pick| {
                 [0, 1].map(|axis| corners.iter().map(|own| own[axis]).fold(corners[0][axis], pick))
             });
-            let [first, last] = ends.map(|point| fields.field(point));
+            let [first, last] = ends.map(|point| bins.bin(point));
             for row in first[1]..=last[1] {
                 for column in first[0]..=last[0] {
-                    fields.members[row * counts[0] + column].push(index as u32);
+                    bins.members[row * counts[0] + column].push(index as u32);
                 }
             }
         }
-        fields
+        bins
     }
 
-    /// Returns column and row of the field of a point; that at the border for one beyond it.
-    fn field(&self, point: [f64; 2]) -> [usize; 2] {
+    /// Returns column and row of the bin of a point; that at the border for one beyond it.
+    fn bin(&self, point: [f64; 2]) -> [usize; 2] {
         [0, 1].map(|axis| {
             let place = (point[axis] - self.low[axis]) / self.size;
             (place.max(0.0) as usize).min(self.counts[axis] - 1)
@@ -111,7 +110,7 @@ impl<'a> Fields<'a> {
 
     /// Returns the triangle that has a point, or the nearest one, with the weights of its corners.
     fn locate(&self, point: [f64; 2]) -> ([u32; 3], [f64; 3]) {
-        let [column, row] = self.field(point);
+        let [column, row] = self.bin(point);
         let mut best: Option<(f64, u32)> = None;
         for ring in 0..self.counts[0].max(self.counts[1]) {
             let range =
@@ -129,7 +128,7 @@ impl<'a> Fields<'a> {
                     }
                 }
             }
-            // What lies beyond the ring is farther than its fields are wide.
+            // What lies beyond the ring is farther than its bins are wide.
             if best.is_some_and(|(least, _)| least <= ring as f64 * self.size) {
                 break;
             }
@@ -166,7 +165,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// Returns weights of which none is too far below 0, with the sum 1.
+/// Returns barycentric coordinates that are at least −[`OUTSIDE_MAX`] before their sum is made 1.
 fn limited(weights: [f64; 3]) -> [f64; 3] {
     let limited = weights.map(|weight| weight.max(-OUTSIDE_MAX));
     let sum: f64 = limited.iter().sum();

@@ -46,7 +46,8 @@ pub(crate) struct ConvergeArguments {
     json: bool,
 }
 
-/// Smallest ratio of neighbouring spacings: differences of closer grids are those of their edges.
+/// Smallest ratio of neighbouring spacings. The values of closer grids differ mostly by where their edges
+/// fall.
 const RATIO_MIN: f64 = 1.1;
 
 /// Ends of the names of the measures that are printed where none is named, but of edges, which are parts
@@ -137,16 +138,16 @@ fn plan(arguments: &ConvergeArguments, spacings: &[f64]) -> Result<(Study, Vec<P
     Ok((study, points))
 }
 
-/// Returns each key of a spacing with its values on the grids, in m.
-fn own_spacings(document: &Document, grids: &[f64]) -> Result<Vec<(String, Vec<f64>)>, Failure> {
+/// Returns each key of a spacing with its values of TOML on the grids, which are in m.
+fn own_spacings(document: &Document, grids: &[f64]) -> Result<Vec<(String, Vec<String>)>, Failure> {
     let own = spacings(document)?;
     let common = own[0].value;
-    let values = |own: &Spacing| grids.iter().map(|grid| grid * own.value / common).collect();
+    let values = |own: &Spacing| grids.iter().map(|grid| own.scaled_value(grid / common)).collect();
     Ok(own.iter().map(|own| (own.key.clone(), values(own))).collect())
 }
 
 /// Returns the text of a study whose axis is the spacing.
-fn study_text(scene: &Path, set: &[Setting], spacings: &[(String, Vec<f64>)]) -> String {
+fn study_text(scene: &Path, set: &[Setting], spacings: &[(String, Vec<String>)]) -> String {
     let name = scene.file_name().unwrap_or_default().to_string_lossy();
     let mut text = format!("scene = {}\nkeep = \"last\"\n", toml_string(&name));
     if !set.is_empty() {
@@ -154,8 +155,6 @@ fn study_text(scene: &Path, set: &[Setting], spacings: &[(String, Vec<f64>)]) ->
         let _ = write!(text, "[set]\n{}\n", lines.join("\n"));
     }
     for (key, values) in spacings {
-        let values: Vec<String> =
-            values.iter().map(|value| format!("\"{} mm\"", figure(1e3 * value))).collect();
         let _ = write!(
             text,
             "[[axis]]\nkey = \"{key}\"\nvalues = [{}]\ntogether = \"spacing\"\n",

@@ -21,7 +21,7 @@ const PARTS: usize = 60;
 pub(crate) struct Converged {
     /// Runs that came to their end, coarsest first.
     pub(crate) spacings: Vec<Grid>,
-    /// Measures that at least two of them have, and that differ.
+    /// Measures that two runs or more have, with values that differ.
     pub(crate) measures: Vec<ConvergedMeasure>,
 }
 

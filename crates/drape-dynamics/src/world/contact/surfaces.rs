@@ -8,9 +8,8 @@ use std::ops::Range;
 
 use drape_collide::{Body, Error, PairDistance, Shape, SurfaceContact, SurfaceStep, Triangulation};
 use drape_implicit::{StepLimit, TrialStep};
-use serde::{Deserialize, Serialize};
-
 use drape_scene::{BodyMotion, DistanceGrowth, Inflation, MotionResolution, Scene, StartSurfaces};
+use serde::{Deserialize, Serialize};
 
 use super::step::{ContactEnergy, ContactStep};
 
