@@ -1,16 +1,21 @@
 //! Joints of the cloth: vertices that are one point, and vertices on an edge between two others.
 //!
 //! The manifest says which vertices a run sews. While its seams are open they are apart, and the two
-//! sides of a seam are two cloths: only what is one point in a frame is joined there.
+//! sides of a seam are two cloths: only what is one point in a frame is joined there. A run counts a
+//! seam as closed some steps before it merges its vertices; from then on the sides may intersect
+//! within that gap.
 
 use std::collections::BTreeMap;
 
 use crate::distance::{Closest, point_segment};
 use crate::triangle::Vertex;
 
-/// Distance from its edge within which a tied vertex lies on it, over the largest coordinate: the
-/// rounding of the point that the run computes.
+/// Distance within which two points are one, over the largest coordinate: the rounding of a point that
+/// the run computes.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Gap at which a run counts a seam as closed, in m.
+pub(crate) const CLOSED: f64 = 1e-4;
 
 /// Vertices that are joined.
 #[derive(Debug, Clone)]
@@ -34,17 +39,18 @@ impl Sewn {
         Joints::new(vertices, self.pairs.iter().copied(), self.ties.iter().copied())
     }
 
-    /// Returns the joints of what is one point at some positions, in m.
-    pub(crate) fn joined_at(&self, positions: &[[f64; 3]]) -> Joints {
+    /// Returns the joints of what is apart by at most a gap, in m, or by rounding, at some positions,
+    /// in m.
+    pub(crate) fn joined_within(&self, gap: f64, positions: &[[f64; 3]]) -> Joints {
         let at = |vertex: u32| positions[vertex as usize];
-        let pairs = self.pairs.iter().copied().filter(|&[a, b]| at(a) == at(b));
-        let lies_between = |[own, a, b]: [u32; 3]| {
-            let point = at(own);
+        let is_near = |vertex: u32, edge: [u32; 2]| {
+            let point = at(vertex);
             let size = point.into_iter().fold(1.0, |size: f64, x| size.max(x.abs()));
-            let Closest { squared, .. } = point_segment(point, [at(a), at(b)]);
-            squared.sqrt() <= ROUNDING * size
+            let Closest { squared, .. } = point_segment(point, edge.map(at));
+            squared.sqrt() <= gap.max(ROUNDING * size)
         };
-        let ties = self.ties.iter().copied().filter(|&tie| lies_between(tie));
+        let pairs = self.pairs.iter().copied().filter(|&[a, b]| is_near(a, [b, b]));
+        let ties = self.ties.iter().copied().filter(|&[own, a, b]| is_near(own, [a, b]));
         Joints::new(positions.len(), pairs, ties)
     }
 }

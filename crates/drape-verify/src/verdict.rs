@@ -10,7 +10,7 @@ use crate::distance::triangle_distance;
 use crate::grid::{Aabb, Grid};
 use crate::inside::{EnclosedPiece, enclosed};
 use crate::intersection::{folded_flat, has_area, segment_intersects, triangles_intersect};
-use crate::joints::Joints;
+use crate::joints::{CLOSED, Joints};
 use crate::mesh::{Mesh, PartNumber};
 use crate::triangle::{EDGES, Triangle, joined};
 
@@ -56,7 +56,7 @@ pub struct Verdict {
     /// Number of pairs whose bounding boxes overlap; all others are disjoint.
     pub pairs: usize,
     /// Number of pairs that intersect where they are not joined. Touching counts, and so do the two sides
-    /// of a seam that is open.
+    /// of a seam that is open by more than 0.1 mm.
     pub intersections: usize,
     /// Pieces of cloth that lie wholly inside a body.
     pub enclosed: Vec<EnclosedPiece>,
@@ -139,6 +139,8 @@ struct State<'a> {
     positions: &'a [[f64; 3]],
     /// Vertices that are one point.
     joints: Joints,
+    /// Vertices that count as one point, for they will be merged.
+    closed: Joints,
     /// Growth fraction of the minimum separation, 0 to 1.
     growth: f64,
 }
@@ -153,9 +155,9 @@ struct Limits {
 pub(crate) fn verify(mesh: &Mesh, frame: Frame) -> Verdict {
     let Frame { number, file, time, growth, cloth, bodies, .. } = frame;
     let positions = [cloth, bodies].concat();
-    let joints = mesh.sewn.joined_at(&positions);
+    let [joints, closed] = [0.0, CLOSED].map(|gap| mesh.sewn.joined_within(gap, &positions));
     let enclosed = enclosed(mesh, &joints, &positions);
-    let found = State { mesh, positions: &positions, joints, growth }.search();
+    let found = State { mesh, positions: &positions, joints, closed, growth }.search();
     Verdict {
         number,
         file,
@@ -197,23 +199,28 @@ impl State<'_> {
         self.mesh.triangles[triangle].map(|vertex| self.positions[vertex as usize])
     }
 
+    /// Returns two triangles with the vertices that some joints make one.
+    fn triangles(&self, pair: [usize; 2], joints: &Joints) -> [Triangle; 2] {
+        pair.map(|triangle| Triangle {
+            corners: self.corners(triangle),
+            vertices: self.mesh.triangles[triangle].map(|vertex| joints.vertex(vertex)),
+        })
+    }
+
     /// Tests a pair and adds it to the findings.
     fn pair(&self, pair: [usize; 2], found: &mut Found) {
         if pair.iter().all(|&triangle| self.mesh.is_body(triangle)) {
             return;
         }
         found.pairs += 1;
-        let triangles = pair.map(|triangle| Triangle {
-            corners: self.corners(triangle),
-            vertices: self.mesh.triangles[triangle].map(|vertex| self.joints.vertex(vertex)),
-        });
+        let triangles = self.triangles(pair, &self.closed);
         if intersect(triangles) {
             found.intersections += 1;
             let corners = || triangles.iter().flat_map(|triangle| triangle.corners);
             let middle = [0, 1, 2].map(|axis| corners().map(|x| x[axis]).sum::<f64>() / 6.0);
             found.worst.push(self.listed(pair, middle, [0.0; 2]));
         } else {
-            self.measure(pair, triangles, found);
+            self.measure(pair, self.triangles(pair, &self.joints), found);
         }
         if found.worst.len() > 100 * LISTED_MAX {
             found.sort();

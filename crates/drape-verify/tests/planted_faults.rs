@@ -230,6 +230,11 @@ fn sides_of_an_open_seam_that_cross_are_found() {
         let verdict = sewn(apart(-0.05, -depth), [0.05, -0.05, 0.1]);
         assert_eq!(verdict.intersections, 1, "{depth}: {verdict:?}");
     }
+    // Within the gap of a seam that counts as closed its sides may intersect, beyond it not.
+    let across = |gap: f64| {
+        sewn([[0.0, -gap, -0.1 * gap], [0.1, -gap, 0.1 * gap]], [0.05, 0.1, 0.0]).intersections
+    };
+    assert_eq!([5e-5, 2e-4].map(across), [0, 1]);
     // One pair of twins has met, and the other side goes through.
     let verdict = sewn([[0.0, 0.0, 0.0], [0.06, -0.05, -0.01]], [0.05, -0.04, 0.1]);
     assert_eq!(verdict.intersections, 1, "{verdict:?}");
