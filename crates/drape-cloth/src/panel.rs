@@ -11,8 +11,7 @@
 //! discs and rings, `mesh` takes panels that were cut elsewhere (`drape-pattern`), with a rim of
 //! triangles. `grain` relates the yarns to the panel's own frame; `fold` and `folded` bend a panel
 //! at rest along lines; `interpolation` relates two grids of a panel; `allowance` adds mass along an
-//! outline; `clip` and `triangle` are plane
-//! geometry.
+//! outline; `clip` and `triangle` are plane geometry.
 //!
 //! Called by the readers of scenes; handed on to `Cloth::new`. Nothing here moves or knows a law.
 

@@ -99,7 +99,7 @@ pub struct Simulation {
     coarser: VecDeque<CoarserGrid>,
     /// What came of those before.
     grids: Vec<GridRecord>,
-    /// Number of steps still to be made after each of which the memories of friction begin anew.
+    /// Number of coming steps after each of which the memories of friction are reset.
     steps_to_forget: usize,
 }
 

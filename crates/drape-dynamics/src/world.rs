@@ -200,7 +200,7 @@ impl World {
         self.begin_balance();
     }
 
-    /// Begins the balance of the energy from the present state, if it is asked for.
+    /// Starts the energy balance at the present state, where the run keeps one.
     fn begin_balance(&mut self) {
         if self.with_balance {
             let stored = self.internal.stored(&self.cloth, &self.state);

@@ -24,7 +24,7 @@ impl Spacing {
         Setting::new(&self.key, &self.scaled_value(factor)).expect("a key and a text of TOML")
     }
 
-    /// Value of TOML of a multiple of it, such as `"20 mm"` with its quotes.
+    /// TOML value of a multiple of the spacing, such as `"20 mm"`, quotes included.
     #[must_use]
     pub fn scaled_value(&self, factor: f64) -> String {
         format!("\"{} mm\"", figure(1e3 * factor * self.value))

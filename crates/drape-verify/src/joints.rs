@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 use crate::distance::{Closest, point_segment};
 use crate::triangle::Vertex;
 
-/// Distance within which two points are one, over the largest coordinate: the rounding of a point that
-/// the run computes.
+/// Distance from its edge within which a tied vertex lies on it, over the largest coordinate: the
+/// rounding of the point that the run computes.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Gap at which a run counts a seam as closed, in m.
@@ -39,18 +39,21 @@ impl Sewn {
         Joints::new(vertices, self.pairs.iter().copied(), self.ties.iter().copied())
     }
 
-    /// Returns the joints of what is apart by at most a gap, in m, or by rounding, at some positions,
-    /// in m.
+    /// Returns the joints of the seams whose gap is at most a width, in m, at some positions, in m. A
+    /// tied vertex may also lie off its edge by rounding.
     pub(crate) fn joined_within(&self, gap: f64, positions: &[[f64; 3]]) -> Joints {
         let at = |vertex: u32| positions[vertex as usize];
-        let is_near = |vertex: u32, edge: [u32; 2]| {
-            let point = at(vertex);
-            let size = point.into_iter().fold(1.0, |size: f64, x| size.max(x.abs()));
-            let Closest { squared, .. } = point_segment(point, edge.map(at));
-            squared.sqrt() <= gap.max(ROUNDING * size)
+        let distance = |vertex: u32, edge: [u32; 2]| {
+            let Closest { squared, .. } = point_segment(at(vertex), edge.map(at));
+            squared.sqrt()
         };
-        let pairs = self.pairs.iter().copied().filter(|&[a, b]| is_near(a, [b, b]));
-        let ties = self.ties.iter().copied().filter(|&[own, a, b]| is_near(own, [a, b]));
+        let pairs = self.pairs.iter().copied();
+        let pairs = pairs.filter(|&[a, b]| distance(a, [b, b]) <= gap);
+        let lies_on = |[own, a, b]: [u32; 3]| {
+            let size = at(own).into_iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+            distance(own, [a, b]) <= gap.max(ROUNDING * size)
+        };
+        let ties = self.ties.iter().copied().filter(|&tie| lies_on(tie));
         Joints::new(positions.len(), pairs, ties)
     }
 }

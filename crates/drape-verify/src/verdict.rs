@@ -139,7 +139,7 @@ struct State<'a> {
     positions: &'a [[f64; 3]],
     /// Vertices that are one point.
     joints: Joints,
-    /// Vertices that count as one point, for they will be merged.
+    /// Vertices of closed seams, merged or about to be.
     closed: Joints,
     /// Growth fraction of the minimum separation, 0 to 1.
     growth: f64,
@@ -199,7 +199,7 @@ impl State<'_> {
         self.mesh.triangles[triangle].map(|vertex| self.positions[vertex as usize])
     }
 
-    /// Returns two triangles with the vertices that some joints make one.
+    /// Returns two triangles of the frame, with their vertices numbered by given joints.
     fn triangles(&self, pair: [usize; 2], joints: &Joints) -> [Triangle; 2] {
         pair.map(|triangle| Triangle {
             corners: self.corners(triangle),

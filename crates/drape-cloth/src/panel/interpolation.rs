@@ -33,7 +33,7 @@ struct Bins<'a> {
     low: [f64; 2],
     size: f64,
     counts: [usize; 2],
-    /// Numbers of the triangles in each bin.
+    /// Triangles in each bin, by their indices; the bins are row by row.
     members: Vec<Vec<u32>>,
 }
 
@@ -100,7 +100,7 @@ impl<'a> Bins<'a> {
         bins
     }
 
-    /// Returns column and row of the bin of a point; that at the border for one beyond it.
+    /// Returns the column and the row of the bin that a point is in, or of the nearest bin.
     fn bin(&self, point: [f64; 2]) -> [usize; 2] {
         [0, 1].map(|axis| {
             let place = (point[axis] - self.low[axis]) / self.size;
@@ -165,7 +165,7 @@ impl<'a> Bins<'a> {
     }
 }
 
-/// Returns barycentric coordinates that are at least −[`OUTSIDE_MAX`] before their sum is made 1.
+/// Returns barycentric coordinates limited to at least −[`OUTSIDE_MAX`] and divided by their sum.
 fn limited(weights: [f64; 3]) -> [f64; 3] {
     let limited = weights.map(|weight| weight.max(-OUTSIDE_MAX));
     let sum: f64 = limited.iter().sum();

@@ -46,8 +46,8 @@ pub(crate) struct ConvergeArguments {
     json: bool,
 }
 
-/// Smallest ratio of neighbouring spacings. The values of closer grids differ mostly by where their edges
-/// fall.
+/// Smallest ratio of neighbouring spacings. Below it, results differ more by where grid lines meet the
+/// outlines than by the spacing.
 const RATIO_MIN: f64 = 1.1;
 
 /// Ends of the names of the measures that are printed where none is named, but of edges, which are parts
@@ -138,7 +138,7 @@ fn plan(arguments: &ConvergeArguments, spacings: &[f64]) -> Result<(Study, Vec<P
     Ok((study, points))
 }
 
-/// Returns each key of a spacing with its values of TOML on the grids, which are in m.
+/// Returns each key of a spacing with its TOML values for grids, given by their spacings, in m.
 fn own_spacings(document: &Document, grids: &[f64]) -> Result<Vec<(String, Vec<String>)>, Failure> {
     let own = spacings(document)?;
     let common = own[0].value;
