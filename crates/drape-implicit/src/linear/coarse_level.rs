@@ -30,7 +30,7 @@ use projection::Projection;
 
 /// Fewest particles with which the coarse level saves time: with 10 000 it saves as much as it
 /// takes.
-pub(crate) const MIN_PARTICLES: usize = 15_000;
+pub(crate) const MIN_PARTICLES: usize = 8_000;
 
 /// Relative shift of the main diagonal of the coarse matrix, which may be singular to rounding where
 /// nodes share their only particles.
@@ -174,8 +174,7 @@ impl WithSimd for Interpolate<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::level_schedule::layout::BatchLayout;
-    use crate::linear::level_schedule::sample::{rimmed, spring, springs};
+    use crate::linear::level_schedule::sample::{layout, rimmed, spring, springs};
     use crate::linear::vector::dot;
 
     /// Springs on a square with a rim, tied to its place a little, some of it held; two sheets.
@@ -189,7 +188,7 @@ mod tests {
     fn sheets(n: usize) -> Sheets {
         let sparsity = rimmed(n);
         let particles = sparsity.particles();
-        let layout = BatchLayout::new(&sparsity);
+        let layout = layout(&sparsity, 1);
         let mut matrix = springs(sparsity, |slot, _| {
             let own = spring([0.1, 0.2, 0.3].map(|phase| (slot as f64 + phase).sin()));
             core::array::from_fn(|k| own[k] + f64::from(k % 4 == 0))

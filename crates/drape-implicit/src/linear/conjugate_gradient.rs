@@ -6,7 +6,7 @@ use crate::linear::block;
 use crate::linear::lanes::{Columns, LANES};
 use crate::linear::level_schedule::chunk::{self, Chunk, LIGHT, PerChunk, PerRow};
 use crate::linear::level_schedule::layout::BatchLayout;
-use crate::linear::level_schedule::partial_sum::{PartialProduct, add_earlier};
+use crate::linear::level_schedule::partial_sum::{PartialProduct, add_others};
 use crate::linear::packed_matrix::PackedMatrix;
 use crate::linear::preconditioner::{Preconditioner, ScaledResidual};
 use crate::linear::vector::{add_scaled, dot, sum};
@@ -264,7 +264,7 @@ impl WithSimd for Advance<'_> {
         let Stride { step, image_factor } = stride;
         let first = chunk.rows.start;
         let product_of = |own: &Chunk| &products[own.index].rows;
-        add_earlier(&mut residual, -step, (&layout.chunks, chunk), product_of);
+        add_others(&mut residual, -step, (&layout.chunks, chunk), product_of);
         for &entry in &chunk.incoming {
             let entry = entry as usize;
             let row = layout.irregular[entry].column as usize - first;
@@ -277,6 +277,7 @@ impl WithSimd for Advance<'_> {
         let mut square = 0.0;
         let own = &products[chunk.index].rows.0;
         for ((residual, product), image) in residual.into_iter().zip(own).zip(image) {
+            let product = &product[first - chunk.window.start..];
             square += update_residual(step, residual, product, Image { image, image_factor });
         }
         for (solution, direction) in solution.into_iter().zip(&direction.0) {
@@ -378,6 +379,7 @@ mod tests {
     use super::*;
     use crate::linear::block_matrix::BlockMatrix;
     use crate::linear::level_schedule::LevelSchedule;
+    use crate::linear::level_schedule::partition::Partition;
     use crate::linear::sparsity::Sparsity;
     use crate::linear::vector::norm;
 
@@ -407,7 +409,7 @@ mod tests {
         target: Target,
         limit: usize,
     ) -> (Vec<f64>, Outcome) {
-        let schedule = LevelSchedule::new(matrix.sparsity());
+        let schedule = LevelSchedule::new(matrix.sparsity(), &Partition::new(matrix.sparsity()));
         let layout = &schedule.layout;
         let mut packed = PackedMatrix::new(layout);
         let arch = Arch::new();

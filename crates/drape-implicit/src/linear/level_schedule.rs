@@ -15,13 +15,19 @@
 //! *diagonals* of a *run* of batches. A block on no diagonal, such as those along an outline, is an
 //! *irregular entry* and is computed by itself.
 //!
+//! Particles of a large matrix are first divided into parts, which are eliminated side by side, and
+//! separators, which are eliminated after them ([`partition`]). Each has levels of its own.
+//!
 //! Built once per sparsity, in this order: rows ([`row_order`]), runs and places of blocks
-//! ([`layout`]), the division of the runs among threads ([`chunk`]), updates of the elimination
-//! ([`updates`]).
+//! ([`layout`]), the runs of each part ([`part`]), the division of the runs among threads for all
+//! that needs no order ([`chunk`]), updates of the elimination ([`updates`]).
 
 pub(crate) mod chunk;
+pub(crate) mod later_blocks;
 pub(crate) mod layout;
+pub(crate) mod part;
 pub(crate) mod partial_sum;
+pub(crate) mod partition;
 pub(crate) mod row_order;
 pub(crate) mod run;
 #[cfg(test)]
@@ -30,6 +36,7 @@ pub(crate) mod updates;
 
 use crate::linear::sparsity::Sparsity;
 use layout::BatchLayout;
+use partition::Partition;
 use updates::UpdateTable;
 
 /// Layout of a sparsity in batches, and the updates of its elimination.
@@ -40,8 +47,8 @@ pub(crate) struct LevelSchedule {
 }
 
 impl LevelSchedule {
-    pub(crate) fn new(sparsity: &Sparsity) -> Self {
-        let layout = BatchLayout::new(sparsity);
+    pub(crate) fn new(sparsity: &Sparsity, partition: &Partition) -> Self {
+        let layout = BatchLayout::new(sparsity, partition);
         let updates = UpdateTable::new(sparsity, &layout);
         Self { layout, updates }
     }

@@ -12,7 +12,7 @@ use crate::linear::level_schedule::chunk::{
     self, Chunk, LIGHT, PerBlock, PerChunk, PerIrregularEntry, PerRow,
 };
 use crate::linear::level_schedule::layout::BatchLayout;
-use crate::linear::level_schedule::partial_sum::{PartialProduct, PartialSum, add_earlier};
+use crate::linear::level_schedule::partial_sum::{PartialProduct, PartialSum, add_others};
 use crate::linear::level_schedule::row_order::ABSENT;
 use crate::linear::level_schedule::run::IrregularEntry;
 use crate::linear::vector::dot;
@@ -80,13 +80,13 @@ impl PackedMatrix {
         )| {
             let first = chunk.rows.start;
             for (column, part) in rows.iter_mut().zip(&parts[chunk.index].0) {
-                column.copy_from_slice(&part[..column.len()]);
+                column.copy_from_slice(&part[first - chunk.window.start..][..column.len()]);
             }
-            add_earlier(&mut rows, 1.0, (&layout.chunks, chunk), |own| &parts[own.index]);
+            add_others(&mut rows, 1.0, (&layout.chunks, chunk), |own| &parts[own.index]);
             for &entry in &chunk.incoming {
                 let IrregularEntry { column, slot, .. } = layout.irregular[entry as usize];
                 let short = &irregular[entry as usize];
-                let lost = rounding(&matrix.blocks()[slot as usize], short);
+                let lost = rounding(&slot.copy(matrix.blocks(), &block::ZERO), short);
                 for (rows, lost) in rows.iter_mut().zip(lost) {
                     rows[column as usize - first] += lost;
                 }
@@ -125,7 +125,7 @@ impl PackedMatrix {
             curvature += 2.0 * dot(&here, &x.at(row));
             for (row, numbers) in [(row, here), (column, there)] {
                 let chunk = &layout.chunks[layout.chunk_of(row)];
-                products[chunk.index].rows.add(row - chunk.rows.start, numbers);
+                products[chunk.index].rows.add(row - chunk.window.start, numbers);
             }
         }
         curvature
@@ -154,7 +154,7 @@ impl WithSimd for Pack<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { layout, chunk, blocks, packed } = self;
         let PackedChunk { off_diagonal, irregular, main_diagonal } = packed;
-        let first = chunk.rows.start;
+        let first = chunk.window.start;
         main_diagonal.clear();
         for run in &layout.runs[chunk.runs.clone()] {
             let diagonals = &layout.diagonals[run.diagonals.clone()];
@@ -174,23 +174,23 @@ impl WithSimd for Pack<'_> {
                 for ((diagonal, slots), above) in diagonals.iter().zip(slots).zip(above) {
                     let mut block = [Double::ZERO; 9];
                     for (lane, &slot) in slots.iter().enumerate() {
-                        let source = pick(blocks, slot, &block::ZERO);
+                        let source = slot.copy(blocks, &block::ZERO);
                         for (entry, value) in block.iter_mut().zip(source) {
-                            entry.0[lane] = *value;
+                            entry.0[lane] = value;
                         }
                     }
                     let lost = round(&block, above);
                     main_diagonal.add_batch(row - first, lost);
-                    main_diagonal.add_batch(row - first + diagonal.offset, lost);
+                    main_diagonal.add_batch(diagonal.column(row) - first, lost);
                 }
                 for index in layout.irregular_of[run.batches + batch].clone() {
                     let IrregularEntry { lane, column, slot } = layout.irregular[index];
-                    let block = &blocks[slot as usize];
+                    let block = slot.copy(blocks, &block::ZERO);
                     let short = &mut irregular[index - chunk.irregular.start];
-                    for (short, value) in short.iter_mut().zip(block) {
+                    for (short, value) in short.iter_mut().zip(&block) {
                         *short = *value as f32;
                     }
-                    let lost = rounding(block, short);
+                    let lost = rounding(&block, short);
                     main_diagonal.add(row - first + lane as usize, lost);
                     if chunk.rows.contains(&(column as usize)) {
                         main_diagonal.add(column as usize - first, lost);
@@ -217,7 +217,7 @@ impl WithSimd for Multiply<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { layout, matrix, chunk, x, product } = self;
         let PartialProduct { rows, pushes, curvature } = product;
-        let first = chunk.rows.start;
+        let first = chunk.window.start;
         rows.clear();
         *curvature = 0.0;
         for run in &layout.runs[chunk.runs.clone()] {
@@ -227,7 +227,7 @@ impl WithSimd for Multiply<'_> {
                 let mut sum = symmetric_product(&matrix.main_diagonal(row), here);
                 let blocks = &matrix.off_diagonal[run.blocks_of(batch)];
                 for (diagonal, block) in diagonals.iter().zip(blocks) {
-                    let column = row + diagonal.offset;
+                    let column = diagonal.column(row);
                     let wide = widened(block);
                     let there = lane_block::product(&wide, x.load(column));
                     for (sum, there) in sum.iter_mut().zip(there) {
@@ -255,7 +255,7 @@ impl WithSimd for Multiply<'_> {
             }
         }
         for (x, sums) in x.0.iter().zip(&rows.0) {
-            *curvature += dot(&x[first..chunk.reach], sums);
+            *curvature += dot(&x[chunk.window.clone()], sums);
         }
     }
 }
@@ -289,7 +289,7 @@ fn pick<'a>(blocks: &'a [Block], slot: u32, none: &'a Block) -> &'a Block {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::level_schedule::sample::{rimmed, spring, springs};
+    use crate::linear::level_schedule::sample::{layout, rimmed, spring, springs};
     use crate::linear::vector::add_scaled;
 
     /// Springs between the points of a lattice with a chain around it, with numbers that single
@@ -304,8 +304,8 @@ mod tests {
         curvature: f64,
     }
 
-    fn multiply(matrix: &BlockMatrix, x: impl Fn(usize) -> f64) -> Product {
-        let layout = BatchLayout::new(matrix.sparsity());
+    fn multiply(matrix: &BlockMatrix, parts: usize, x: impl Fn(usize) -> f64) -> Product {
+        let layout = layout(matrix.sparsity(), parts);
         let mut packed = PackedMatrix::new(&layout);
         packed.pack(Arch::new(), &layout, matrix);
         let mut columns = Columns::new(layout.rows);
@@ -319,7 +319,7 @@ mod tests {
         let mut sum = Columns::new(layout.rows);
         for (chunk, product) in layout.chunks.iter().zip(&products) {
             for (sum, part) in sum.0.iter_mut().zip(&product.rows.0) {
-                add_scaled(&mut sum[chunk.rows.start..], 1.0, part);
+                add_scaled(&mut sum[chunk.window.start..], 1.0, part);
             }
             for &entry in &chunk.incoming {
                 let source = &layout.chunks[layout.chunk_of_entry(entry as usize)];
@@ -333,7 +333,7 @@ mod tests {
 
     #[test]
     fn the_product_is_the_matrixs_own_to_single_precision() {
-        for (n, coupled) in [(13, 0), (70, 0), (70, 40)] {
+        for (n, coupled, parts) in [(13, 0, 1), (70, 0, 1), (70, 40, 1), (13, 0, 2), (70, 40, 3)] {
             let mut matrix = lattice(n);
             let last = matrix.sparsity().particles() - 1;
             for k in 0..coupled {
@@ -344,7 +344,7 @@ mod tests {
             let x: Vec<f64> = (0..3 * (last + 1)).map(|k| (k as f64).cos()).collect();
             let mut exact = vec![0.0; x.len()];
             matrix.multiply(&x, &mut exact);
-            let Product { numbers, curvature } = multiply(&matrix, |k| x[k]);
+            let Product { numbers, curvature } = multiply(&matrix, parts, |k| x[k]);
             for (k, (product, exact)) in numbers.into_iter().zip(&exact).enumerate() {
                 assert!((product - exact).abs() < 1e-6, "entry {k}: {product}, {exact}");
             }
@@ -359,9 +359,13 @@ mod tests {
         let largest = |product: Product| -> f64 {
             product.numbers.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()))
         };
-        for (n, axis) in [13, 70].into_iter().flat_map(|n| (0..3).map(move |axis| (n, axis))) {
-            let push = largest(multiply(&lattice(n), |k| if k % 3 == axis { 1.0 } else { 0.0 }));
-            assert!(push < 1e-14, "axis {axis} of {n}: {push:e}");
+        let cases = [(13, 1), (70, 1), (70, 4)];
+        for ((n, parts), axis) in
+            cases.into_iter().flat_map(|case| [0, 1, 2].map(|axis| (case, axis)))
+        {
+            let unit = |k: usize| if k % 3 == axis { 1.0 } else { 0.0 };
+            let push = largest(multiply(&lattice(n), parts, unit));
+            assert!(push < 1e-14, "axis {axis} of {n} in {parts} parts: {push:e}");
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::linear::conjugate_gradient::{
     ConjugateGradient, Ending, Outcome, Preconditioned, Target,
 };
 use crate::linear::level_schedule::LevelSchedule;
+use crate::linear::level_schedule::partition::Partition;
 use crate::linear::packed_matrix::PackedMatrix;
 use crate::linear::preconditioner::Preconditioner;
 use crate::linear::sparsity::Sparsity;
@@ -28,8 +29,9 @@ pub(crate) struct SystemMatrix {
     pub matrix: BlockMatrix,
     cholesky: Option<Cholesky>,
     iterative: Option<Iterative>,
-    /// Material points for a coarse level, or none.
     material_points: Vec<MaterialPoint>,
+    /// Whether systems are preconditioned with a coarse level.
+    with_coarse_level: bool,
     /// Whether the present matrix is factorised by Cholesky.
     direct: bool,
     residual: Vec<f64>,
@@ -53,7 +55,8 @@ impl SystemMatrix {
         Ok(Self {
             cholesky: if direct { Some(Cholesky::new(&sparsity, Kernel::Vector)?) } else { None },
             iterative: None,
-            material_points: if is_worthwhile { material_points } else { Vec::new() },
+            material_points,
+            with_coarse_level: is_worthwhile,
             direct,
             residual: vec![0.0; length],
             max_iterations: settings.max_linear_iterations,
@@ -79,9 +82,10 @@ impl SystemMatrix {
     }
 
     fn precondition(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
-        let Self { matrix, material_points, iterative, .. } = self;
-        let iterative =
-            iterative.get_or_insert_with(|| Iterative::new(matrix.sparsity(), material_points));
+        let Self { matrix, material_points, with_coarse_level, iterative, .. } = self;
+        let iterative = iterative.get_or_insert_with(|| {
+            Iterative::new(matrix.sparsity(), material_points, *with_coarse_level)
+        });
         report.pivot_shifts += iterative.factorise(matrix)?;
         Ok(())
     }
@@ -142,10 +146,11 @@ struct Iterative {
 }
 
 impl Iterative {
-    fn new(sparsity: &Sparsity, material_points: &[MaterialPoint]) -> Self {
-        let schedule = LevelSchedule::new(sparsity);
+    fn new(sparsity: &Sparsity, points: &[MaterialPoint], with_coarse_level: bool) -> Self {
+        let schedule = LevelSchedule::new(sparsity, &Partition::new(sparsity));
         let row_of = &schedule.layout.order.row_of;
-        let coarse = CoarseLevel::new(sparsity, row_of, material_points);
+        let coarse =
+            with_coarse_level.then(|| CoarseLevel::new(sparsity, row_of, points)).flatten();
         Self {
             packed: PackedMatrix::new(&schedule.layout),
             preconditioner: Preconditioner::new(&schedule.layout, coarse),
@@ -191,7 +196,7 @@ mod tests {
 
     /// Solves for a load that is smooth.
     fn solve(matrix: &BlockMatrix, points: &[MaterialPoint], arch: Arch) -> (usize, Vec<f64>) {
-        let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), points) };
+        let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), points, true) };
         iterative.factorise(matrix).unwrap();
         let size = 3 * matrix.sparsity().particles();
         let held = |k: usize| matrix.is_held(k / 3);
@@ -241,7 +246,7 @@ mod tests {
             matrix.add(i, j, &[-0.8, 0.1, 0.0, 0.2, -0.7, 0.0, 0.1, 0.0, -0.9]);
         }
         let run = |arch: Arch| {
-            let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), &[]) };
+            let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), &[], false) };
             iterative.factorise(&matrix).unwrap();
             let mut x: Vec<f64> = (0..1200).map(|k| (k as f64).sin()).collect();
             let target = Target { residual: 1e-9, energy: 0.0 };

@@ -1,7 +1,9 @@
 //! Elimination: turns a packed matrix into a factor, batch by batch.
 
+use pulp::{Arch, Simd, WithSimd};
+
 use super::dropped_fill::{DroppedFill, DroppedUpdate, Square};
-use super::factor::Factor;
+use super::factor::{Factor, FactorRows};
 use super::schur_complement::SchurComplement;
 use crate::linear::lane_block::{
     SymmetricBlocks, are_definite, determinant, inverse, lane_of, symmetric_of_product,
@@ -10,6 +12,7 @@ use crate::linear::lane_block::{
 use crate::linear::lanes::{Double, LANES, Number, Single, narrowed, widened};
 use crate::linear::level_schedule::LevelSchedule;
 use crate::linear::level_schedule::layout::BatchLayout;
+use crate::linear::level_schedule::part::{Group, Part};
 use crate::linear::level_schedule::row_order::ABSENT;
 use crate::linear::level_schedule::run::{IrregularEntry, Run};
 use crate::linear::level_schedule::updates::{IrregularUpdate, UpdateTarget};
@@ -31,15 +34,53 @@ pub(crate) struct Attempt {
     pub shift: f64,
 }
 
-/// Schur complement and work space of an elimination.
+/// Eliminations of the parts and of the separators.
 #[derive(Debug)]
 pub(crate) struct Elimination {
+    parts: Vec<GroupWork>,
+    separators: GroupWork,
+}
+
+/// Schur complement and work space of a part or of the separators.
+#[derive(Debug)]
+struct GroupWork {
     schur: SchurComplement,
     batch: BatchWork,
 }
 
+/// Matrix to factorise, and how.
+#[derive(Clone, Copy)]
+pub(crate) struct Input<'a> {
+    pub schedule: &'a LevelSchedule,
+    pub packed: &'a PackedMatrix,
+    pub attempt: Attempt,
+}
+
+/// Consecutive parts, with their work space and their rows of the factor.
+struct Parts<'a> {
+    parts: &'a [Part],
+    work: &'a mut [GroupWork],
+    factor: FactorRows<'a>,
+}
+
+/// Elimination of a part or of a separator.
+struct GroupElimination<'a, 'f> {
+    input: Input<'a>,
+    group: &'a Group,
+    work: &'a mut GroupWork,
+    factor: &'a mut FactorRows<'f>,
+    /// Runs before this one are in the Schur complement.
+    loaded: usize,
+}
+
+/// Copies all separators to their Schur complement.
+struct LoadSeparators<'a> {
+    input: Input<'a>,
+    schur: &'a mut SchurComplement,
+}
+
 /// Work space of the batch that is being eliminated.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct BatchWork {
     /// Blocks that its diagonals subtract from the pivots of their columns.
     squares: Vec<Square<Single>>,
@@ -68,50 +109,114 @@ impl Batch<'_> {
 
 impl Elimination {
     pub(crate) fn new(layout: &BatchLayout) -> Self {
+        let part = |part| GroupWork::new(SchurComplement::of_part(layout, part));
         Self {
-            schur: SchurComplement::new(layout),
-            batch: BatchWork {
-                squares: Vec::with_capacity(layout.max_diagonals),
-                subtracted: Vec::with_capacity(layout.max_diagonals),
-                irregular_squares: Vec::with_capacity(layout.max_irregular),
-            },
+            parts: layout.parts.iter().map(part).collect(),
+            separators: GroupWork::new(SchurComplement::of_separators(layout)),
         }
     }
 
-    /// Factorises a packed matrix. Returns false if a pivot collapses; the factor is then
-    /// unfinished.
+    /// Factorises a packed matrix, the parts side by side. Returns false if a pivot collapses; the
+    /// factor is then unfinished.
+    pub(crate) fn eliminate(&mut self, arch: Arch, input: Input<'_>, factor: &mut Factor) -> bool {
+        let Self { parts, separators } = self;
+        let layout = &input.schedule.layout;
+        factor.is_diagonal = false;
+        let all = Parts { parts: &layout.parts, work: parts, factor: factor.rows() };
+        if !all.eliminate(arch, input) {
+            return false;
+        }
+        arch.dispatch(LoadSeparators { input, schur: &mut separators.schur });
+        for part in parts {
+            separators.schur.add_part(&part.schur);
+        }
+        let factor = &mut factor.rows();
+        layout.separators.iter().all(|group| {
+            let (work, loaded) = (&mut *separators, group.runs.end);
+            arch.dispatch(GroupElimination { input, group, work, factor, loaded })
+        })
+    }
+}
+
+impl Parts<'_> {
+    /// Eliminates the parts side by side; all of them, because it depends on the threads in which of
+    /// them a pivot collapses first.
+    fn eliminate(self, arch: Arch, input: Input<'_>) -> bool {
+        let Self { parts, work, mut factor } = self;
+        if let ([part], [work]) = (parts, &mut *work) {
+            work.schur.clear_separators();
+            let (group, factor, loaded) = (&part.own, &mut factor, part.own.runs.start);
+            return arch.dispatch(GroupElimination { input, group, work, factor, loaded });
+        }
+        let (here, there) = parts.split_at(parts.len() / 2);
+        let (own, others) = work.split_at_mut(here.len());
+        let (factor, more) = factor.split_before(&there[0].own);
+        let here = Self { parts: here, work: own, factor };
+        let there = Self { parts: there, work: others, factor: more };
+        let (a, b) = rayon::join(|| here.eliminate(arch, input), || there.eliminate(arch, input));
+        a && b
+    }
+}
+
+impl Attempt {
+    /// Factor of the main diagonal.
+    fn scale(&self) -> f64 {
+        1.0 + self.shift
+    }
+}
+
+impl WithSimd for LoadSeparators<'_> {
+    type Output = ();
+
     #[inline(always)]
-    pub(crate) fn eliminate(
-        &mut self,
-        schedule: &LevelSchedule,
-        packed: &PackedMatrix,
-        attempt: Attempt,
-        factor: &mut Factor,
-    ) -> bool {
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self {
+            input: Input { schedule: LevelSchedule { layout, .. }, packed, attempt },
+            schur,
+        } = self;
+        for run in
+            layout.separators.iter().flat_map(|separator| &layout.runs[separator.runs.clone()])
+        {
+            schur.load(layout, run, packed, attempt.scale());
+        }
+    }
+}
+
+impl WithSimd for GroupElimination<'_, '_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> bool {
+        let Self { input: Input { schedule, packed, attempt }, .. } = self;
+        let Self { group, work, factor, mut loaded, .. } = self;
         let layout = &schedule.layout;
-        let scale = 1.0 + attempt.shift;
+        let scale = attempt.scale();
         let floor = Double::of(PIVOT_COLLAPSE * scale.powi(3));
-        let mut loaded = 0;
-        for run in &layout.runs {
+        for run in &layout.runs[group.runs.clone()] {
             while loaded < run.look_ahead {
-                self.schur.load(layout, &layout.runs[loaded], packed, scale);
+                work.schur.load(layout, &layout.runs[loaded], packed, scale);
                 loaded += 1;
             }
             for (index, row) in (run.start..run.end).step_by(LANES).enumerate() {
-                let pivot = widened(&self.schur.pivots(run, index));
+                let pivot = widened(&work.schur.pivots(run, index));
                 if !are_definite(&pivot, floor * determinant(&packed.main_diagonal(row))) {
                     return false;
                 }
                 let inverse = inverse(&pivot, determinant(&pivot));
-                factor.inverse_pivots[run.batches + index] = inverse;
+                *factor.inverse_pivot_of(run, index) = inverse;
                 let short = narrowed(&inverse);
                 let batch = Batch { schedule, run, index, fill: attempt.fill };
-                self.eliminate_diagonals(batch, &short, factor);
-                self.eliminate_irregular(batch, &short, factor);
+                work.eliminate_diagonals(batch, &short, factor);
+                work.eliminate_irregular(batch, &short, factor);
             }
         }
-        factor.is_diagonal = false;
         true
+    }
+}
+
+impl GroupWork {
+    fn new(schur: SchurComplement) -> Self {
+        Self { schur, batch: BatchWork::default() }
     }
 
     /// Computes the rows of `U` of a batch that lie on diagonals, and subtracts their updates.
@@ -120,7 +225,7 @@ impl Elimination {
         &mut self,
         batch: Batch<'_>,
         inverse: &SymmetricBlocks<Single>,
-        factor: &mut Factor,
+        factor: &mut FactorRows<'_>,
     ) {
         let Self { schur, batch: BatchWork { squares, subtracted, .. } } = self;
         let Batch { schedule: LevelSchedule { layout, updates }, run, index, fill } = batch;
@@ -128,7 +233,7 @@ impl Elimination {
         let diagonals = run.diagonals.clone();
         squares.clear();
         subtracted.clear();
-        let upper = &mut factor.upper[run.blocks_of(index)];
+        let upper = factor.upper_of(run, index);
         for (diagonal, upper) in upper.iter_mut().enumerate() {
             let block = schur.off_diagonal(run, diagonal, index);
             *upper = symmetric_times(inverse, &block);
@@ -140,13 +245,14 @@ impl Elimination {
             let block = schur.off_diagonal(run, left, index);
             let a = &layout.diagonals[diagonal];
             let target = &layout.runs[a.run as usize];
-            let place = (row + a.offset).wrapping_sub(target.start);
+            let pivots = schur.place(target.numbers);
+            let place = a.column(row).wrapping_sub(target.start);
             for update in &updates.regular[updates.regular_of[diagonal].clone()] {
                 let right = update.right as usize;
                 if update.target != ABSENT {
                     let product = transposed_times(&block, &upper[right]);
                     let column = (6 + 9 * update.target as usize) * target.len();
-                    let first = (target.numbers + column).wrapping_add(place);
+                    let first = (pivots + column).wrapping_add(place);
                     schur.subtract(first, target.len(), &product);
                     continue;
                 }
@@ -163,8 +269,7 @@ impl Elimination {
                 }
             }
             // Later diagonals add nothing to it: updates are with later ones only.
-            let pivots = target.numbers.wrapping_add(place);
-            schur.subtract(pivots, target.len(), &subtracted[left]);
+            schur.subtract(pivots.wrapping_add(place), target.len(), &subtracted[left]);
         }
     }
 
@@ -175,35 +280,34 @@ impl Elimination {
         &mut self,
         batch: Batch<'_>,
         inverse: &SymmetricBlocks<Single>,
-        factor: &mut Factor,
+        factor: &mut FactorRows<'_>,
     ) {
         let Self { schur, batch: BatchWork { squares, irregular_squares, .. } } = self;
         let Batch { schedule: LevelSchedule { layout, updates }, run, index, fill } = batch;
-        let Factor { upper, irregular, .. } = factor;
         let own = layout.irregular_of[run.batches + index].clone();
+        let (upper, irregular) = factor.rows_of(run, index, own.clone());
         irregular_squares.clear();
         for entry in own.clone() {
-            let block = schur.block_at(layout.irregular_address(entry));
+            let block = schur.block_at(run.irregular_address(entry));
             let IrregularEntry { lane, column, .. } = layout.irregular[entry];
             let scaled = symmetric_times(&lane_of(inverse, lane), &block);
             let square = Square::new(symmetric_of_product(&block, &scaled), fill);
             schur.subtract_at(layout.pivots[column as usize], &square.blocks);
-            irregular[entry] = scaled;
+            irregular[entry - own.start] = scaled;
             irregular_squares.push(square);
         }
         let count = run.diagonals.len();
-        let upper = &upper[run.blocks_of(index)];
         let of_batch = updates.irregular_of[run.batches + index].clone();
         for &IrregularUpdate { lane, left, right, target } in &updates.irregular[of_batch] {
             let [left, right] = [left as usize, right as usize];
             let address = match left.checked_sub(count) {
                 None => run.address(left, batch.first_row() + lane as usize),
-                Some(entry) => layout.irregular_address(own.start + entry),
+                Some(entry) => run.irregular_address(own.start + entry),
             };
             let block = schur.block_at(address);
             let scaled = match right.checked_sub(count) {
                 None => lane_of(&upper[right], lane),
-                Some(entry) => irregular[own.start + entry],
+                Some(entry) => irregular[entry],
             };
             match target {
                 UpdateTarget::Block(address) => {

@@ -1,10 +1,12 @@
-//! Finished factor `Uᵀ D U` and its triangular solves.
+//! Finished factor `Uᵀ D U`.
 
-use crate::linear::lane_block::{
-    Blocks, SymmetricBlocks, determinant, inverse, product, symmetric_product, transposed_product,
-};
-use crate::linear::lanes::{Columns, Double, LANES, Single, narrowed, widened};
+use core::ops::Range;
+
+use crate::linear::lane_block::{Blocks, SymmetricBlocks, determinant, inverse};
+use crate::linear::lanes::{Double, LANES, Single};
 use crate::linear::level_schedule::layout::BatchLayout;
+use crate::linear::level_schedule::part::Group;
+use crate::linear::level_schedule::run::Run;
 use crate::linear::packed_matrix::PackedMatrix;
 
 /// Factor `Uᵀ D U` of a matrix, with `U` unit upper triangular on the matrix's own sparsity.
@@ -23,6 +25,66 @@ pub(crate) struct Factor {
     pub is_diagonal: bool,
 }
 
+/// Some consecutive rows of a factor.
+pub(crate) struct FactorRows<'a> {
+    upper: &'a mut [Blocks<Single>],
+    irregular: &'a mut [Blocks<f32>],
+    inverse_pivots: &'a mut [SymmetricBlocks<Double>],
+    /// First of its blocks, irregular entries and batches in the factor.
+    first: [usize; 3],
+}
+
+impl FactorRows<'_> {
+    /// Splits the rows before those of a group from the others.
+    pub(crate) fn split_before(self, group: &Group) -> (Self, Self) {
+        let Self { upper, irregular, inverse_pivots, first } = self;
+        let next = [group.blocks.start, group.irregular.start, group.batches.start];
+        let (upper, more_upper) = upper.split_at_mut(next[0] - first[0]);
+        let (irregular, more_irregular) = irregular.split_at_mut(next[1] - first[1]);
+        let (inverse_pivots, more_pivots) = inverse_pivots.split_at_mut(next[2] - first[2]);
+        let rest = Self {
+            upper: more_upper,
+            irregular: more_irregular,
+            inverse_pivots: more_pivots,
+            first: next,
+        };
+        (Self { upper, irregular, inverse_pivots, first }, rest)
+    }
+
+    /// Inverse pivots of a batch of a run.
+    #[inline(always)]
+    pub(crate) fn inverse_pivot_of(
+        &mut self,
+        run: &Run,
+        batch: usize,
+    ) -> &mut SymmetricBlocks<Double> {
+        &mut self.inverse_pivots[run.batches + batch - self.first[2]]
+    }
+
+    /// Blocks of a batch of a run on its diagonals.
+    #[inline(always)]
+    pub(crate) fn upper_of(&mut self, run: &Run, batch: usize) -> &mut [Blocks<Single>] {
+        let blocks = run.blocks_of(batch);
+        &mut self.upper[blocks.start - self.first[0]..blocks.end - self.first[0]]
+    }
+
+    /// Blocks of a batch of a run on its diagonals, and some irregular entries.
+    #[inline(always)]
+    pub(crate) fn rows_of(
+        &mut self,
+        run: &Run,
+        batch: usize,
+        irregular: Range<usize>,
+    ) -> (&[Blocks<Single>], &mut [Blocks<f32>]) {
+        let [blocks, entries, _] = self.first;
+        let upper = run.blocks_of(batch);
+        (
+            &self.upper[upper.start - blocks..upper.end - blocks],
+            &mut self.irregular[irregular.start - entries..irregular.end - entries],
+        )
+    }
+}
+
 impl Factor {
     pub(crate) fn new(layout: &BatchLayout) -> Self {
         Self {
@@ -31,6 +93,12 @@ impl Factor {
             inverse_pivots: vec![[Double::ZERO; 6]; layout.main_slots.len()],
             is_diagonal: false,
         }
+    }
+
+    /// All rows.
+    pub(crate) fn rows(&mut self) -> FactorRows<'_> {
+        let Self { upper, irregular, inverse_pivots, .. } = self;
+        FactorRows { upper, irregular, inverse_pivots, first: [0; 3] }
     }
 
     /// Makes this the factor of the main diagonal of a matrix alone.
@@ -43,78 +111,4 @@ impl Factor {
             *pivot = inverse(&main, determinant(&main));
         }
     }
-
-    /// Turns the image `r` into `(Uᵀ D U)⁻¹ r`.
-    #[inline(always)]
-    pub(crate) fn apply(&self, layout: &BatchLayout, image: &mut Columns<f32>) {
-        if self.is_diagonal {
-            for run in &layout.runs {
-                let pivots = self.inverse_pivots[run.batches..].iter();
-                for (row, pivot) in (run.start..run.end).step_by(LANES).zip(pivots) {
-                    divide(pivot, image, row);
-                }
-            }
-        } else {
-            self.solve_lower(layout, image);
-            self.solve_upper(layout, image);
-        }
-    }
-
-    /// Applies `D⁻¹ U⁻ᵀ`, by forward substitution.
-    #[inline(always)]
-    fn solve_lower(&self, layout: &BatchLayout, image: &mut Columns<f32>) {
-        let Self { upper, irregular, inverse_pivots, .. } = self;
-        for run in &layout.runs {
-            let diagonals = &layout.diagonals[run.diagonals.clone()];
-            let starts = (run.start..run.end).step_by(LANES);
-            for ((batch, row), pivot) in starts.enumerate().zip(&inverse_pivots[run.batches..]) {
-                let here = image.load(row);
-                let blocks = &upper[run.blocks_of(batch)];
-                for (diagonal, block) in diagonals.iter().zip(blocks) {
-                    let column = row + diagonal.offset;
-                    let [x, y, z] = image.load(column);
-                    let [a, b, c] = transposed_product(block, here);
-                    image.store(column, [x - a, y - b, z - c]);
-                }
-                let own = layout.irregular_of[run.batches + batch].clone();
-                for (entry, block) in layout.irregular[own.clone()].iter().zip(&irregular[own]) {
-                    let here = image.at(row + entry.lane as usize);
-                    image.subtract(entry.column as usize, transposed_product(block, here));
-                }
-                divide(pivot, image, row);
-            }
-        }
-    }
-
-    /// Applies `U⁻¹`, by backward substitution.
-    #[inline(always)]
-    fn solve_upper(&self, layout: &BatchLayout, image: &mut Columns<f32>) {
-        let Self { upper, irregular, .. } = self;
-        for run in layout.runs.iter().rev() {
-            let diagonals = &layout.diagonals[run.diagonals.clone()];
-            for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
-                let blocks = &upper[run.blocks_of(batch)];
-                let mut sum = [Single::ZERO; 3];
-                for (diagonal, block) in diagonals.iter().zip(blocks) {
-                    let more = product(block, image.load(row + diagonal.offset));
-                    for (sum, more) in sum.iter_mut().zip(more) {
-                        *sum = *sum + more;
-                    }
-                }
-                let [x, y, z] = image.load(row);
-                image.store(row, [x - sum[0], y - sum[1], z - sum[2]]);
-                let own = layout.irregular_of[run.batches + batch].clone();
-                for (entry, block) in layout.irregular[own.clone()].iter().zip(&irregular[own]) {
-                    let there = image.at(entry.column as usize);
-                    image.subtract(row + entry.lane as usize, product(block, there));
-                }
-            }
-        }
-    }
-}
-
-/// Applies inverse pivots, in double precision: stiff and soft directions may be far apart in them.
-#[inline(always)]
-fn divide(pivot: &SymmetricBlocks<Double>, image: &mut Columns<f32>, row: usize) {
-    image.store(row, narrowed(&symmetric_product(pivot, widened(&image.load(row)))));
 }

@@ -15,20 +15,21 @@ pub(crate) struct Chunk {
     /// Off-diagonal blocks.
     pub blocks: Range<usize>,
     pub irregular: Range<usize>,
-    /// End of the rows that the diagonals lead to.
-    pub reach: usize,
-    /// Irregular entries of earlier chunks whose columns are rows of this one, ascending.
+    /// Rows that the diagonals lead to, its own among them.
+    pub window: Range<usize>,
+    /// Irregular entries of other chunks whose columns are rows of this one, ascending.
     pub incoming: Vec<u32>,
 }
 
-/// Earlier chunks whose diagonals lead to rows of a chunk, and these rows.
+/// Other chunks whose diagonals lead to rows of a chunk, and these rows.
 pub(crate) fn leading_to(
     chunks: &[Chunk],
     index: usize,
 ) -> impl Iterator<Item = (&Chunk, Range<usize>)> {
     let rows = &chunks[index].rows;
-    let earlier = chunks[..index].iter().filter(|earlier| earlier.reach > rows.start);
-    earlier.map(|earlier| (earlier, rows.start..earlier.reach.min(rows.end)))
+    let shared = |other: &Chunk| rows.start.max(other.window.start)..rows.end.min(other.window.end);
+    let others = chunks.iter().filter(move |other| other.index != index);
+    others.map(move |other| (other, shared(other))).filter(|(_, shared)| !shared.is_empty())
 }
 
 /// Output that consecutive chunks write, each its own part.
@@ -134,12 +135,13 @@ pub(crate) fn for_each<O: Split>(
 mod tests {
     use super::*;
     use crate::linear::level_schedule::layout::BatchLayout;
-    use crate::linear::level_schedule::sample::{rimmed, weave};
+    use crate::linear::level_schedule::sample::{layout, rimmed, weave};
 
     #[test]
     fn chunks_cover_all_rows_blocks_and_entries_once_and_in_order() {
-        for (sparsity, expected) in [(weave(20), 1), (weave(100), 7), (rimmed(80), 5)] {
-            let layout = BatchLayout::new(&sparsity);
+        let cases = [(weave(20), 1, 1), (weave(100), 1, 7), (rimmed(80), 1, 5), (weave(100), 3, 7)];
+        for (sparsity, parts, expected) in cases {
+            let layout = layout(&sparsity, parts);
             let chunks = &layout.chunks;
             assert!(chunks.len() >= expected, "{} chunks", chunks.len());
             let mut reached = [0; 4];
@@ -154,7 +156,7 @@ mod tests {
 
     #[test]
     fn every_column_beyond_a_chunk_is_reached_by_its_diagonals_or_comes_in() {
-        let layout = BatchLayout::new(&rimmed(80));
+        let layout = layout(&rimmed(80), 1);
         let incoming: usize = layout.chunks.iter().map(|chunk| chunk.incoming.len()).sum();
         let beyond = |chunk: &&Chunk, entry: usize| {
             !chunk.rows.contains(&(layout.irregular[entry].column as usize))

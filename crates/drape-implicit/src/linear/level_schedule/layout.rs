@@ -3,6 +3,9 @@
 use core::ops::Range;
 
 use super::chunk::Chunk;
+use super::later_blocks::{BlockSlot, LaterBlock, LaterBlocks};
+use super::part::{Group, Part};
+use super::partition::Partition;
 use super::row_order::{ABSENT, RowOrder};
 use super::run::{BlockAddress, Diagonal, IrregularEntry, Run};
 use crate::linear::lanes::LANES;
@@ -20,12 +23,16 @@ pub(crate) struct BatchLayout {
     pub order: RowOrder,
     /// Number of rows, margins and padding included.
     pub rows: usize,
-    /// Runs in the order of elimination.
+    /// Runs in the order of their rows.
     pub runs: Vec<Run>,
+    /// Parts, eliminated side by side.
+    pub parts: Vec<Part>,
+    /// Separators, eliminated one after the other once the parts are.
+    pub separators: Vec<Group>,
     pub chunks: Vec<Chunk>,
     pub diagonals: Vec<Diagonal>,
     /// Slot of the matrix for each lane of each off-diagonal block of the batches.
-    pub slots: Vec<[u32; LANES]>,
+    pub slots: Vec<[BlockSlot; LANES]>,
     /// Slot of the matrix for each lane of the main diagonal of each batch.
     pub main_slots: Vec<[u32; LANES]>,
     pub irregular: Vec<IrregularEntry>,
@@ -39,39 +46,36 @@ pub(crate) struct BatchLayout {
     pub max_diagonals: usize,
     /// Largest number of irregular entries of a batch.
     pub max_irregular: usize,
-    /// Numbers in the Schur complement.
-    pub numbers: usize,
-    /// First number of the irregular entries in the Schur complement.
-    first_irregular: usize,
+    /// Numbers of all parts in the Schur complement; those of the separators follow.
+    pub part_numbers: usize,
 }
 
 /// Distance of a block from the main diagonal, and the run of its column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Distance {
-    offset: usize,
+    /// Whether the block couples a part to a separator: such columns are eliminated last.
+    crosses: bool,
+    offset: isize,
     run: u32,
 }
 
-/// Run whose place in the order is not known yet.
+/// Run whose place among all is not known yet.
 struct FoundRun {
     start: usize,
     end: usize,
     diagonals: Vec<Distance>,
 }
 
-/// Slot and column of an off-diagonal block.
-struct SlotColumn {
-    slot: usize,
-    column: usize,
-}
-
 impl BatchLayout {
-    pub(crate) fn new(sparsity: &Sparsity) -> Self {
-        let order = RowOrder::new(sparsity);
+    pub(crate) fn new(sparsity: &Sparsity, partition: &Partition) -> Self {
+        let order = RowOrder::new(sparsity, partition);
+        let later = LaterBlocks::new(sparsity, &order);
         let mut layout = Self {
             rows: order.particles.len(),
             order,
             runs: Vec::new(),
+            parts: Vec::new(),
+            separators: Vec::new(),
             chunks: Vec::new(),
             diagonals: Vec::new(),
             slots: Vec::new(),
@@ -82,42 +86,56 @@ impl BatchLayout {
             run_of_row: Vec::new(),
             max_diagonals: 0,
             max_irregular: 0,
-            numbers: 0,
-            first_irregular: 0,
+            part_numbers: 0,
         };
-        layout.find_runs(sparsity);
+        layout.find_runs(&later);
         layout.extend_margins();
-        layout.find_slots(sparsity);
-        layout.find_pivots();
+        layout.find_slots(sparsity, &later);
+        let runs_of = layout.runs_of_groups();
+        layout.find_numbers(&runs_of);
+        layout.find_parts(&runs_of);
         layout.find_look_ahead();
         layout.find_chunks();
         layout
     }
 
-    /// Divides the levels into runs, the last level first, because a diagonal names the run that
-    /// its columns lie in.
-    fn find_runs(&mut self, sparsity: &Sparsity) {
+    /// Divides the levels into runs, the last to be eliminated first, because a diagonal names the
+    /// run that its columns lie in.
+    fn find_runs(&mut self, later: &LaterBlocks) {
         let mut found: Vec<FoundRun> = Vec::new();
-        // Counted from the end until the number of runs is known.
+        // Counted in the order of finding until all are found.
         let mut run_of_row = vec![0; self.order.particles.len()];
-        for level in self.order.levels.windows(2).rev() {
-            let first = found.len();
-            for start in (level[0]..level[1]).step_by(LANES).rev() {
-                let own = self.shared_distances(sparsity, start, &run_of_row);
-                let part = |a: &[Distance], b: &[Distance]| a.iter().all(|x| b.contains(x));
-                match found[first..].last_mut() {
-                    Some(run) if part(&own, &run.diagonals) => run.start = start,
-                    Some(run) if part(&run.diagonals, &own) => {
-                        run.start = start;
-                        run.diagonals = own;
+        let groups = self.order.levels.len();
+        let separators = (1..groups).step_by(2).rev();
+        for group in separators.chain((0..groups).step_by(2).rev()) {
+            for level in self.order.levels[group].windows(2).rev() {
+                let first = found.len();
+                for start in (level[0]..level[1]).step_by(LANES).rev() {
+                    let own = self.shared_distances(later, start, &run_of_row);
+                    let part = |a: &[Distance], b: &[Distance]| a.iter().all(|x| b.contains(x));
+                    match found[first..].last_mut() {
+                        Some(run) if part(&own, &run.diagonals) => run.start = start,
+                        Some(run) if part(&run.diagonals, &own) => {
+                            run.start = start;
+                            run.diagonals = own;
+                        }
+                        _ => {
+                            let end = start + LANES;
+                            found.push(FoundRun { start, end, diagonals: own });
+                        }
                     }
-                    _ => found.push(FoundRun { start, end: start + LANES, diagonals: own }),
+                    run_of_row[start..start + LANES].fill(found.len() as u32 - 1);
                 }
-                run_of_row[start..start + LANES].fill(found.len() as u32 - 1);
             }
         }
-        let last = found.len() as u32 - u32::from(!found.is_empty());
-        for FoundRun { start, end, diagonals } in found.into_iter().rev() {
+        let mut by_rows: Vec<usize> = (0..found.len()).collect();
+        by_rows.sort_unstable_by_key(|&run| found[run].start);
+        let mut place = vec![0; found.len()];
+        for (index, &run) in by_rows.iter().enumerate() {
+            place[run] = index as u32;
+        }
+        for run in by_rows {
+            let FoundRun { start, end, ref diagonals } = found[run];
             let (first, count) = (self.diagonals.len(), diagonals.len());
             self.runs.push(Run {
                 start,
@@ -125,30 +143,46 @@ impl BatchLayout {
                 diagonals: first..first + count,
                 blocks: 0,
                 batches: 0,
-                numbers: self.numbers,
+                irregular: 0,
+                numbers: 0,
+                numbers_end: 0,
                 look_ahead: 0,
             });
-            self.numbers += (end - start) * (6 + 9 * count);
             self.max_diagonals = self.max_diagonals.max(count);
-            let counted = diagonals.into_iter();
-            self.diagonals.extend(
-                counted.map(|Distance { offset, run }| Diagonal { offset, run: last - run }),
-            );
+            self.diagonals.extend(diagonals.iter().map(|&Distance { offset, run, .. }| Diagonal {
+                offset,
+                run: place[run as usize],
+            }));
         }
-        self.run_of_row = run_of_row.into_iter().map(|run| last.saturating_sub(run)).collect();
+        self.run_of_row = run_of_row
+            .into_iter()
+            .map(|run: u32| place.get(run as usize).copied().unwrap_or(0))
+            .collect();
     }
 
-    /// Distances that at least two rows of the batch from a row on have in common, ascending.
+    /// Runs of each part and separator.
+    fn runs_of_groups(&self) -> Vec<Range<usize>> {
+        let before = |row: usize| self.runs.partition_point(|run| run.start < row);
+        let runs = |levels: &Vec<usize>| before(levels[0])..before(levels[levels.len() - 1]);
+        self.order.levels.iter().map(runs).collect()
+    }
+
+    /// Distances that at least two rows of the batch from a row on have in common, in the order in
+    /// which their columns are eliminated.
     fn shared_distances(
         &self,
-        sparsity: &Sparsity,
+        later: &LaterBlocks,
         start: usize,
         run_of_row: &[u32],
     ) -> Vec<Distance> {
         let mut distances = Vec::new();
         for row in start..start + LANES {
-            for SlotColumn { column, .. } in self.off_diagonal(sparsity, row) {
-                distances.push(Distance { offset: column - row, run: run_of_row[column] });
+            for block in later.of(row) {
+                distances.push(Distance {
+                    crosses: self.order.rank(row).0 != self.order.rank(block.column).0,
+                    offset: block.column as isize - row as isize,
+                    run: run_of_row[block.column],
+                });
             }
         }
         distances.sort_unstable();
@@ -156,41 +190,26 @@ impl BatchLayout {
         shared.map(|same| same[0]).collect()
     }
 
-    /// Adds rows and numbers at the ends: all batches of a run have blocks at all its distances,
-    /// and blocks of zeros may lead beyond the last row.
+    /// Adds rows at the end: all batches of a run have blocks at all its distances, and blocks of
+    /// zeros may lead beyond the last row.
     fn extend_margins(&mut self) {
         for run in &self.runs {
             for diagonal in &self.diagonals[run.diagonals.clone()] {
-                let target = &self.runs[diagonal.run as usize];
-                let end = run.end + diagonal.offset;
-                self.rows = self.rows.max(end);
-                let last = target.number(target.diagonals.len(), 0) - target.len();
-                self.numbers = self.numbers.max(last + end.saturating_sub(target.start));
+                self.rows = self.rows.max(diagonal.column(run.end));
             }
         }
     }
 
-    /// Off-diagonal blocks of a row.
-    fn off_diagonal(&self, sparsity: &Sparsity, row: usize) -> impl Iterator<Item = SlotColumn> {
-        let slots = match self.order.particles[row] {
-            ABSENT => 0..0,
-            particle => sparsity.row(particle as usize),
-        };
-        slots.skip(1).map(|slot| {
-            let column = self.order.row_of[sparsity.columns()[slot] as usize] as usize;
-            SlotColumn { slot, column }
-        })
-    }
-
     /// Gives every block of the sparsity its place, on a diagonal if one leads to its column.
-    fn find_slots(&mut self, sparsity: &Sparsity) {
+    fn find_slots(&mut self, sparsity: &Sparsity, later: &LaterBlocks) {
         for index in 0..self.runs.len() {
             let run = self.runs[index].clone();
             self.runs[index].blocks = self.slots.len();
             self.runs[index].batches = self.main_slots.len();
+            self.runs[index].irregular = self.irregular.len();
             for start in (run.start..run.end).step_by(LANES) {
                 let mut main = [ABSENT; LANES];
-                let mut blocks = vec![[ABSENT; LANES]; run.diagonals.len()];
+                let mut blocks = vec![[BlockSlot::ABSENT; LANES]; run.diagonals.len()];
                 let mut irregular = Vec::new();
                 for lane in 0..LANES {
                     let row = start + lane;
@@ -198,8 +217,7 @@ impl BatchLayout {
                     if particle != ABSENT {
                         main[lane] = sparsity.row(particle as usize).start as u32;
                     }
-                    for SlotColumn { slot, column } in self.off_diagonal(sparsity, row) {
-                        let slot = slot as u32;
+                    for &LaterBlock { slot, column } in later.of(row) {
                         match self.diagonal(&run, row, column) {
                             Some(diagonal) => blocks[diagonal][lane] = slot,
                             None => irregular.push(IrregularEntry {
@@ -218,19 +236,22 @@ impl BatchLayout {
                 self.irregular_of.push(first..self.irregular.len());
             }
         }
-        self.first_irregular = self.numbers;
-        self.numbers += 9 * self.irregular.len();
     }
 
     /// Diagonal of a run, counted within it, that leads from a row to a column.
     fn diagonal(&self, run: &Run, row: usize, column: usize) -> Option<usize> {
         self.diagonals[run.diagonals.clone()].iter().position(|d| {
             let run = &self.runs[d.run as usize];
-            row + d.offset == column && (run.start..run.end).contains(&column)
+            d.column(row) == column && (run.start..run.end).contains(&column)
         })
     }
 
-    fn find_pivots(&mut self) {
+    /// Gives every run its numbers in the Schur complement, those of the parts first.
+    fn find_numbers(&mut self, runs_of: &[Range<usize>]) {
+        let parts = runs_of.iter().step_by(2).cloned().flatten();
+        self.part_numbers = self.number_runs(parts, 0);
+        let separators = runs_of.iter().skip(1).step_by(2).cloned().flatten();
+        self.number_runs(separators, self.part_numbers);
         self.pivots = vec![BlockAddress::default(); self.rows];
         for run in &self.runs {
             for row in run.start..run.end {
@@ -240,16 +261,82 @@ impl BatchLayout {
         }
     }
 
-    fn find_look_ahead(&mut self) {
-        let mut look_ahead = 0;
-        for (index, run) in self.runs.iter_mut().enumerate() {
-            let diagonals = self.diagonals[run.diagonals.clone()].iter().map(|d| d.run);
+    /// Gives runs their numbers from a first one on. Returns the end of all.
+    fn number_runs(&mut self, runs: impl Iterator<Item = usize>, first: usize) -> usize {
+        let mut numbers = first;
+        for index in runs {
+            let end = self.runs.get(index + 1).map_or(self.irregular.len(), |next| next.irregular);
+            let run = &mut self.runs[index];
+            run.numbers = numbers;
+            numbers = run.number(run.diagonals.len(), 0) + 9 * (end - run.irregular);
+            run.numbers_end = numbers;
+        }
+        numbers
+    }
+
+    fn find_parts(&mut self, runs_of: &[Range<usize>]) {
+        let group = |runs: &Range<usize>| Group::new(&self.runs, runs.clone(), &self.irregular_of);
+        let separators: Vec<Group> = runs_of.iter().skip(1).step_by(2).map(group).collect();
+        let parts = runs_of.iter().step_by(2).map(|runs| self.part(group(runs), &separators));
+        self.parts = parts.collect();
+        self.separators = separators;
+    }
+
+    /// Part of some runs, with what it changes of the separators.
+    fn part(&self, own: Group, separators: &[Group]) -> Part {
+        let mut window = own.rows.clone();
+        let mut reached = vec![false; separators.len()];
+        for run in &self.runs[own.runs.clone()] {
+            let diagonals = &self.diagonals[run.diagonals.clone()];
+            include(&mut window, self.rows_of(run));
             let batches = &self.irregular_of[run.batches..][..run.len() / LANES];
             let irregular = batches.iter().flat_map(|batch| &self.irregular[batch.clone()]);
-            let columns = irregular.map(|entry| self.run_of_row[entry.column as usize]);
-            let last = diagonals.chain(columns).max().map_or(0, |last| last as usize);
-            look_ahead = look_ahead.max(index + 1).max(last + 1);
-            run.look_ahead = look_ahead;
+            let runs = irregular.map(|entry| self.run_of_row[entry.column as usize]);
+            for run in runs.chain(diagonals.iter().map(|diagonal| diagonal.run)) {
+                let holds = |separator: &Group| separator.runs.contains(&(run as usize));
+                if let Some(separator) = separators.iter().position(holds) {
+                    reached[separator] = true;
+                }
+            }
+        }
+        let reached = || separators.iter().zip(&reached).filter(|pair| *pair.1).map(|pair| pair.0);
+        let mut numbers: Option<Range<usize>> = None;
+        for separator in reached() {
+            include(&mut window, separator.rows.clone());
+            include(numbers.get_or_insert(separator.numbers.clone()), separator.numbers.clone());
+        }
+        Part {
+            window,
+            separators: reached().map(|separator| separator.rows.clone()).collect(),
+            separator_numbers: numbers.unwrap_or_default(),
+            own,
+        }
+    }
+
+    /// Rows of a run and those that its diagonals lead to.
+    fn rows_of(&self, run: &Run) -> Range<usize> {
+        let mut rows = run.start..run.end;
+        for diagonal in &self.diagonals[run.diagonals.clone()] {
+            include(&mut rows, diagonal.column(run.start)..diagonal.column(run.end));
+        }
+        rows
+    }
+
+    fn find_look_ahead(&mut self) {
+        let groups = self.parts.iter().map(|part| &part.own).chain(&self.separators);
+        for group in groups.cloned().collect::<Vec<_>>() {
+            let mut look_ahead = 0;
+            for index in group.runs.clone() {
+                let run = &self.runs[index];
+                let diagonals = self.diagonals[run.diagonals.clone()].iter().map(|d| d.run);
+                let batches = &self.irregular_of[run.batches..][..run.len() / LANES];
+                let irregular = batches.iter().flat_map(|batch| &self.irregular[batch.clone()]);
+                let columns = irregular.map(|entry| self.run_of_row[entry.column as usize]);
+                let targets = diagonals.chain(columns).map(|target| target as usize);
+                let last = targets.filter(|target| group.runs.contains(target)).max();
+                look_ahead = look_ahead.max(index + 1).max(last.map_or(0, |last| last + 1));
+                self.runs[index].look_ahead = look_ahead;
+            }
         }
     }
 
@@ -268,10 +355,11 @@ impl BatchLayout {
         }
         if let [first, ..] = &mut chunks[..] {
             first.rows.start = 0;
+            first.window.start = 0;
         }
         if let [.., last] = &mut chunks[..] {
             last.rows.end = self.rows;
-            last.reach = self.rows;
+            last.window.end = self.rows;
         }
         self.chunks = chunks;
         for index in 0..self.irregular.len() {
@@ -285,23 +373,13 @@ impl BatchLayout {
 
     /// Chunk of some runs, without what comes in.
     fn chunk(&self, runs: Range<usize>) -> Chunk {
-        let own = &self.runs[runs.clone()];
-        let (first, last) = (&own[0], &own[own.len() - 1]);
-        let batches = last.len() / LANES;
-        let end = |run: &Run| {
-            let offsets = self.diagonals[run.diagonals.clone()].iter().map(|own| own.offset);
-            run.end + offsets.max().unwrap_or(0)
-        };
-        let irregular = |batch: usize| &self.irregular_of[batch];
-        Chunk {
-            index: 0,
-            rows: first.start..last.end,
-            blocks: first.blocks..last.blocks_of(batches).start,
-            irregular: irregular(first.batches).start..irregular(last.batches + batches - 1).end,
-            reach: own.iter().map(end).fold(last.end, usize::max),
-            incoming: Vec::new(),
-            runs,
+        let Group { rows, blocks, irregular, .. } =
+            Group::new(&self.runs, runs.clone(), &self.irregular_of);
+        let mut window = rows.clone();
+        for run in &self.runs[runs.clone()] {
+            include(&mut window, self.rows_of(run));
         }
+        Chunk { index: 0, rows, blocks, irregular, window, incoming: Vec::new(), runs }
     }
 
     /// Number of the chunk that a row lies in.
@@ -312,12 +390,6 @@ impl BatchLayout {
     /// Number of the chunk that an irregular entry lies in.
     pub(crate) fn chunk_of_entry(&self, index: usize) -> usize {
         self.chunks.partition_point(|chunk| chunk.irregular.end <= index)
-    }
-
-    /// Address of an irregular entry in the Schur complement.
-    #[inline(always)]
-    pub(crate) fn irregular_address(&self, index: usize) -> BlockAddress {
-        BlockAddress { first: (self.first_irregular + 9 * index) as u32, stride: 1 }
     }
 
     /// Address in the Schur complement of the block of a row and a later one, if the sparsity has
@@ -332,18 +404,23 @@ impl BatchLayout {
             entry.column as usize == column && entry.lane as usize == row % LANES
         };
         let index = self.irregular[range.clone()].iter().position(is)?;
-        Some(self.irregular_address(range.start + index))
+        Some(run.irregular_address(range.start + index))
     }
+}
+
+/// Widens a range so that it includes another.
+fn include(range: &mut Range<usize>, other: Range<usize>) {
+    *range = range.start.min(other.start)..range.end.max(other.end);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::level_schedule::sample::{rimmed, weave};
+    use crate::linear::level_schedule::sample::{layout, rimmed, weave};
 
     #[test]
     fn the_surroundings_of_a_lattice_do_not_widen_its_runs() {
-        let layout = BatchLayout::new(&rimmed(40));
+        let layout = layout(&rimmed(40), 1);
         assert!(layout.max_diagonals <= 6, "{} diagonals in a run", layout.max_diagonals);
         // Each link has three blocks.
         assert!(layout.irregular.len() <= 3 * 156, "{} irregular", layout.irregular.len());
@@ -352,29 +429,35 @@ mod tests {
     #[test]
     fn every_block_has_one_place() {
         let few = Sparsity::from_pairs(9, [[0, 8], [3, 4], [1, 7]]).unwrap();
-        for sparsity in [weave(11), rimmed(12), few] {
-            let layout = BatchLayout::new(&sparsity);
-            let slots = layout.slots.iter().chain(&layout.main_slots).flatten().copied();
-            let found = slots.filter(|&slot| slot != ABSENT);
-            let irregular = layout.irregular.iter().map(|entry| entry.slot);
-            let mut found: Vec<u32> = found.chain(irregular).collect();
+        let cases = [(weave(11), 1), (weave(11), 3), (rimmed(12), 1), (rimmed(12), 2), (few, 1)];
+        for (sparsity, parts) in cases {
+            let layout = layout(&sparsity, parts);
+            let main = layout.main_slots.iter().flatten().filter(|&&slot| slot != ABSENT);
+            let slots = layout.slots.iter().flatten().filter(|&&slot| slot != BlockSlot::ABSENT);
+            let irregular = layout.irregular.iter().map(|entry| &entry.slot);
+            let off_diagonal = slots.chain(irregular).map(|slot| slot.slot());
+            let mut found: Vec<usize> =
+                main.map(|&slot| slot as usize).chain(off_diagonal).collect();
             found.sort_unstable();
-            assert_eq!(found, (0..sparsity.blocks() as u32).collect::<Vec<_>>());
+            assert_eq!(found, (0..sparsity.blocks()).collect::<Vec<_>>());
         }
     }
 
     #[test]
     fn no_row_of_a_run_waits_for_another() {
-        for sparsity in [weave(11), rimmed(12)] {
-            let layout = BatchLayout::new(&sparsity);
+        for (sparsity, parts) in [(weave(11), 1), (weave(24), 3), (rimmed(12), 1), (rimmed(12), 2)]
+        {
+            let layout = layout(&sparsity, parts);
+            let rank = |row: usize| layout.order.rank(row);
             for run in &layout.runs {
                 for diagonal in &layout.diagonals[run.diagonals.clone()] {
                     let target = &layout.runs[diagonal.run as usize];
-                    assert!(target.start >= run.end, "{run:?} leads to {target:?}");
+                    assert!(rank(target.start) > rank(run.end - 1), "{run:?} leads to {target:?}");
                 }
                 for batch in &layout.irregular_of[run.batches..][..run.len() / LANES] {
                     for entry in &layout.irregular[batch.clone()] {
-                        assert!(entry.column as usize >= run.end, "{run:?} leads to {entry:?}");
+                        let column = rank(entry.column as usize);
+                        assert!(column > rank(run.end - 1), "{run:?} leads to {entry:?}");
                     }
                 }
             }
@@ -382,8 +465,16 @@ mod tests {
     }
 
     #[test]
+    fn cuts_along_levels_leave_blocks_on_their_diagonals() {
+        let [whole, cut] = [1, 4].map(|parts| layout(&weave(80), parts));
+        let [rows, irregular] = [cut.rows - whole.rows, cut.irregular.len()];
+        assert!(irregular < whole.irregular.len() * 5 / 4, "{irregular} irregular blocks");
+        assert!(rows < whole.rows / 10, "{rows} rows more than {}", whole.rows);
+    }
+
+    #[test]
     fn cloth_needs_six_diagonals() {
-        let layout = BatchLayout::new(&weave(40));
+        let layout = layout(&weave(40), 1);
         assert_eq!(layout.max_diagonals, 6);
         let irregular = layout.irregular.len();
         assert!(irregular < 200, "{irregular} of 9200 blocks are irregular");

@@ -4,13 +4,13 @@ use super::chunk::{Chunk, leading_to};
 use crate::linear::lanes::Double;
 use crate::linear::vector::add_scaled;
 
-/// Sum of what a chunk adds to its own rows and to those beyond that its diagonals lead to.
+/// Sum of what a chunk adds to the rows of its window: its own and those that its diagonals lead to.
 #[derive(Clone, Debug)]
 pub(crate) struct PartialSum<const N: usize>(pub [Vec<f64>; N]);
 
 impl<const N: usize> PartialSum<N> {
     pub(crate) fn new(chunk: &Chunk) -> Self {
-        Self(core::array::from_fn(|_| vec![0.0; chunk.reach - chunk.rows.start]))
+        Self(core::array::from_fn(|_| vec![0.0; chunk.window.len()]))
     }
 
     pub(crate) fn clear(&mut self) {
@@ -20,7 +20,7 @@ impl<const N: usize> PartialSum<N> {
     }
 
     /// Adds one number per axis and lane to a batch of rows. The first row is counted within the
-    /// chunk.
+    /// window.
     #[inline(always)]
     pub(crate) fn add_batch(&mut self, first: usize, batch: [Double; N]) {
         for (column, lanes) in self.0.iter_mut().zip(batch) {
@@ -28,7 +28,7 @@ impl<const N: usize> PartialSum<N> {
         }
     }
 
-    /// Adds one number per axis to a row, which is counted within the chunk.
+    /// Adds one number per axis to a row, which is counted within the window.
     #[inline(always)]
     pub(crate) fn add(&mut self, row: usize, numbers: [f64; N]) {
         for (column, number) in self.0.iter_mut().zip(numbers) {
@@ -37,18 +37,18 @@ impl<const N: usize> PartialSum<N> {
     }
 }
 
-/// Adds to the rows of a chunk what earlier chunks add to them, times a factor. `sums` are those of
+/// Adds to the rows of a chunk what other chunks add to them, times a factor. `sums` are those of
 /// all chunks.
 #[inline(always)]
-pub(crate) fn add_earlier<'a, const N: usize>(
+pub(crate) fn add_others<'a, const N: usize>(
     rows: &mut [&mut [f64]; N],
     factor: f64,
     (chunks, chunk): (&[Chunk], &Chunk),
     sums: impl Fn(&Chunk) -> &'a PartialSum<N>,
 ) {
-    for (earlier, shared) in leading_to(chunks, chunk.index) {
-        for (rows, sum) in rows.iter_mut().zip(&sums(earlier).0) {
-            let sum = &sum[shared.start - earlier.rows.start..][..shared.len()];
+    for (other, shared) in leading_to(chunks, chunk.index) {
+        for (rows, sum) in rows.iter_mut().zip(&sums(other).0) {
+            let sum = &sum[shared.start - other.window.start..][..shared.len()];
             add_scaled(&mut rows[shared.start - chunk.rows.start..], factor, sum);
         }
     }

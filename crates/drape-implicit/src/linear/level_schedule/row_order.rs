@@ -1,59 +1,132 @@
 //! Rows of the elimination: the particles by level, each level padded to whole batches.
 
+use super::partition::Partition;
 use crate::linear::lanes::LANES;
 use crate::linear::sparsity::Sparsity;
 
 /// Marker of a row without a particle, a lane without a block, or a block outside the sparsity.
 pub(crate) const ABSENT: u32 = u32::MAX;
 
-/// Rows before the first and, at the least, after the last: the blocks of zeros of a batch may lead
-/// that far.
-const MARGIN: usize = LANES;
-
-/// Rows of the particles in the order of elimination.
+/// Rows of the particles: parts and separators one after the other, each by levels.
 #[derive(Debug)]
 pub(crate) struct RowOrder {
     /// Row of each particle.
     pub row_of: Vec<u32>,
     /// Particle of each row, or [`ABSENT`] in margins and padding.
     pub particles: Vec<u32>,
-    /// First row of each level, and the end of the last level.
-    pub levels: Vec<usize>,
+    /// First row of each level of each group, and the end of its last level.
+    pub levels: Vec<Vec<usize>>,
+    /// Whether each row belongs to a separator.
+    is_separator: Vec<bool>,
 }
 
 impl RowOrder {
-    pub(crate) fn new(sparsity: &Sparsity) -> Self {
-        let mut row_of = vec![0; sparsity.particles()];
-        let mut particles = vec![ABSENT; MARGIN];
-        let mut levels = Vec::new();
-        for level in sorted(sparsity) {
-            levels.push(particles.len());
-            for particle in level {
-                row_of[particle as usize] = particles.len() as u32;
-                particles.push(particle);
-            }
-            particles.resize(particles.len().next_multiple_of(LANES), ABSENT);
+    pub(crate) fn new(sparsity: &Sparsity, partition: &Partition) -> Self {
+        let neighbours = Neighbours::new(sparsity);
+        let mut level_of = vec![ABSENT; sparsity.particles()];
+        let groups: Vec<Vec<Vec<u32>>> = partition
+            .groups
+            .iter()
+            .map(|group| sorted(group, &neighbours, &mut level_of))
+            .collect();
+        // The blocks of zeros of a batch may lead as far beyond a run as the run is long.
+        let margin = match &groups[..] {
+            [_] => LANES,
+            groups => groups.iter().flatten().map(Vec::len).max().unwrap_or(0),
+        };
+        let mut order = Self {
+            row_of: vec![0; sparsity.particles()],
+            particles: vec![ABSENT; margin.next_multiple_of(LANES)],
+            levels: Vec::new(),
+            is_separator: Vec::new(),
+        };
+        for (index, group) in groups.into_iter().enumerate() {
+            order.add_group(group);
+            order.is_separator.resize(order.particles.len(), index % 2 == 1);
         }
-        levels.push(particles.len());
-        particles.resize(particles.len() + MARGIN, ABSENT);
-        Self { row_of, particles, levels }
+        order.particles.resize(order.particles.len() + LANES, ABSENT);
+        order.is_separator.resize(order.particles.len(), false);
+        order
+    }
+
+    fn add_group(&mut self, levels: Vec<Vec<u32>>) {
+        let mut starts = Vec::with_capacity(levels.len() + 1);
+        for level in levels {
+            starts.push(self.particles.len());
+            for particle in level {
+                self.row_of[particle as usize] = self.particles.len() as u32;
+                self.particles.push(particle);
+            }
+            self.particles.resize(self.particles.len().next_multiple_of(LANES), ABSENT);
+        }
+        starts.push(self.particles.len());
+        self.levels.push(starts);
+    }
+
+    /// Key that ascends in the order of elimination.
+    #[inline]
+    pub(crate) fn rank(&self, row: usize) -> (bool, usize) {
+        (self.is_separator[row], row)
     }
 }
 
-/// Particles of each level, ascending.
-fn sorted(sparsity: &Sparsity) -> Vec<Vec<u32>> {
-    let mut level_of = vec![0; sparsity.particles()];
-    let mut levels: Vec<Vec<u32>> = Vec::new();
-    for particle in 0..sparsity.particles() {
-        let own: usize = level_of[particle];
-        for slot in sparsity.row(particle).skip(1) {
-            let later = &mut level_of[sparsity.columns()[slot] as usize];
-            *later = (*later).max(own + 1);
+/// Particles coupled to each particle.
+struct Neighbours {
+    first: Vec<usize>,
+    particles: Vec<u32>,
+}
+
+impl Neighbours {
+    fn new(sparsity: &Sparsity) -> Self {
+        let count = sparsity.particles();
+        let pairs = || {
+            (0..count).flat_map(|particle| {
+                let slots = sparsity.row(particle).skip(1);
+                slots.map(move |slot| [particle, sparsity.columns()[slot] as usize])
+            })
+        };
+        let mut first = vec![0; count + 1];
+        for [a, b] in pairs() {
+            first[a + 1] += 1;
+            first[b + 1] += 1;
         }
-        if own >= levels.len() {
-            levels.resize(own + 1, Vec::new());
+        for particle in 0..count {
+            first[particle + 1] += first[particle];
         }
-        levels[own].push(particle as u32);
+        let mut end = first.clone();
+        let mut particles = vec![0; first[count]];
+        for [a, b] in pairs() {
+            for [own, other] in [[a, b], [b, a]] {
+                particles[end[own]] = other as u32;
+                end[own] += 1;
+            }
+        }
+        Self { first, particles }
     }
+
+    fn of(&self, particle: u32) -> &[u32] {
+        &self.particles[self.first[particle as usize]..self.first[particle as usize + 1]]
+    }
+}
+
+/// Particles of each level of a group, ascending. The levels of particles of no group so far are absent on
+/// entry.
+fn sorted(group: &[u32], neighbours: &Neighbours, level_of: &mut [u32]) -> Vec<Vec<u32>> {
+    let mut levels: Vec<Vec<u32>> = Vec::new();
+    for &particle in group {
+        let earlier = neighbours.of(particle).iter().map(|&other| level_of[other as usize]);
+        let own = earlier.filter(|&level| level != ABSENT).max().map_or(0, |level| level + 1);
+        level_of[particle as usize] = own;
+        if own as usize >= levels.len() {
+            levels.resize(own as usize + 1, Vec::new());
+        }
+        levels[own as usize].push(particle);
+    }
+    // Groups do not wait for each other.
+    for &particle in group {
+        level_of[particle as usize] = ABSENT;
+    }
+    // Else no diagonal would lead from a part that is eliminated backwards to a separator.
+    levels.iter_mut().for_each(|level| level.sort_unstable());
     levels
 }

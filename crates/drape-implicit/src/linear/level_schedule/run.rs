@@ -3,6 +3,7 @@
 
 use core::ops::Range;
 
+use super::later_blocks::BlockSlot;
 use crate::linear::lanes::LANES;
 
 /// Batches of a level that share their diagonals.
@@ -16,10 +17,13 @@ pub(crate) struct Run {
     /// First of its batches.
     pub batches: usize,
     /// First of its numbers in the Schur complement: six columns of its rows for the pivots, then
-    /// nine for each diagonal.
+    /// nine for each diagonal, then nine numbers for each irregular entry.
     pub numbers: usize,
+    pub numbers_end: usize,
+    /// First of its irregular entries.
+    pub irregular: usize,
     /// Look-ahead: number of runs, counted from the first of all, that the elimination of this run
-    /// and of those before it reads or changes.
+    /// and of those before it in its part reads or changes within the part.
     pub look_ahead: usize,
 }
 
@@ -50,15 +54,30 @@ impl Run {
         let first = self.number(diagonal, 0) + row - self.start;
         BlockAddress { first: first as u32, stride: self.len() as u32 }
     }
+
+    /// Address of an irregular entry.
+    #[inline(always)]
+    pub(crate) fn irregular_address(&self, index: usize) -> BlockAddress {
+        let first = self.number(self.diagonals.len(), 0) + 9 * (index - self.irregular);
+        BlockAddress { first: first as u32, stride: 1 }
+    }
 }
 
 /// Off-diagonal blocks of the rows of a run, all at one distance from their columns.
 #[derive(Clone, Debug)]
 pub(crate) struct Diagonal {
-    /// Column less row.
-    pub offset: usize,
+    /// Column less row. Negative where a separator lies before the part.
+    pub offset: isize,
     /// Run that the columns lie in.
     pub run: u32,
+}
+
+impl Diagonal {
+    /// Column of a row.
+    #[inline(always)]
+    pub(crate) fn column(&self, row: usize) -> usize {
+        row.wrapping_add_signed(self.offset)
+    }
 }
 
 /// Off-diagonal block on no diagonal.
@@ -68,8 +87,7 @@ pub(crate) struct IrregularEntry {
     pub lane: u32,
     /// Row of its column.
     pub column: u32,
-    /// Slot in the matrix.
-    pub slot: u32,
+    pub slot: BlockSlot,
 }
 
 /// Place of a single block in the Schur complement: its numbers are a stride apart.

@@ -2,7 +2,14 @@
 
 use crate::linear::block::Block;
 use crate::linear::block_matrix::BlockMatrix;
+use crate::linear::level_schedule::layout::BatchLayout;
+use crate::linear::level_schedule::partition::Partition;
 use crate::linear::sparsity::Sparsity;
+
+/// Layout in a number of parts.
+pub(crate) fn layout(sparsity: &Sparsity, parts: usize) -> BatchLayout {
+    BatchLayout::new(sparsity, &Partition::into_parts(sparsity, parts))
+}
 
 /// Couplings of woven cloth: neighbours, those beyond them, and those across a cell.
 pub(crate) fn weave(n: usize) -> Sparsity {

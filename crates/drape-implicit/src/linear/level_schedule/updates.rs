@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use super::later_blocks::BlockSlot;
 use super::layout::BatchLayout;
 use super::row_order::ABSENT;
 use super::run::{BlockAddress, Run};
@@ -98,7 +99,7 @@ impl UpdateTable {
                     .position(|d| d.run == b.run && a.offset + d.offset == b.offset)
                     .map_or(ABSENT, |place| place as u32);
                 let coupled = |row: usize| {
-                    let ends = [row + a.offset, row + b.offset].map(|row| particles.get(row));
+                    let ends = [a.column(row), b.column(row)].map(|row| particles.get(row));
                     matches!(ends, [Some(&a), Some(&b)] if a != ABSENT && b != ABSENT
                         && sparsity.slot(a as usize, b as usize).is_some())
                 };
@@ -130,8 +131,8 @@ impl UpdateTable {
         let slots = &layout.slots[run.blocks_of(batch)];
         let diagonals = layout.diagonals[run.diagonals.clone()].iter().zip(slots).enumerate();
         let mut blocks: Vec<LaneBlock> = diagonals
-            .filter(|(_, (_, slots))| slots[lane] != ABSENT)
-            .map(|(number, (diagonal, _))| LaneBlock { number, column: row + diagonal.offset })
+            .filter(|(_, (_, slots))| slots[lane] != BlockSlot::ABSENT)
+            .map(|(number, (diagonal, _))| LaneBlock { number, column: diagonal.column(row) })
             .collect();
         let entries = &layout.irregular[layout.irregular_of[run.batches + batch].clone()];
         let own = entries.iter().enumerate().filter(|(_, entry)| entry.lane as usize == lane);
@@ -144,7 +145,7 @@ impl UpdateTable {
                 if later.number < count && !by_lane.contains(&[earlier.number, later.number]) {
                     continue;
                 }
-                let in_order = earlier.column < later.column;
+                let in_order = layout.order.rank(earlier.column) < layout.order.rank(later.column);
                 let [left, right] = if in_order { [earlier, later] } else { [later, earlier] };
                 let target = match layout.address(left.column, right.column) {
                     Some(block) => UpdateTarget::Block(block),

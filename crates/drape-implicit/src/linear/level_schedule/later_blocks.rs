@@ -1,0 +1,87 @@
+//! Later blocks: the off-diagonal blocks of each row whose columns are eliminated after it.
+
+use super::row_order::RowOrder;
+use crate::linear::block::Block;
+use crate::linear::sparsity::Sparsity;
+
+/// Mark of a slot whose block is transposed: its column is eliminated before its row.
+const TRANSPOSED: u32 = 1 << 31;
+
+/// Block of the matrix, or its transpose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct BlockSlot(u32);
+
+impl BlockSlot {
+    /// No block: a lane with zeros.
+    pub(crate) const ABSENT: Self = Self(u32::MAX);
+
+    /// Slot of the matrix.
+    #[inline(always)]
+    pub(crate) fn slot(self) -> usize {
+        (self.0 & !TRANSPOSED) as usize
+    }
+
+    /// Copy of the block, or of none.
+    #[inline(always)]
+    pub(crate) fn copy(self, blocks: &[Block], none: &Block) -> Block {
+        if self == Self::ABSENT {
+            return *none;
+        }
+        let block = &blocks[self.slot()];
+        let [a, b, c, d, e, f, g, h, i] = *block;
+        if self.0 & TRANSPOSED == 0 { *block } else { [a, d, g, b, e, h, c, f, i] }
+    }
+}
+
+/// Block of a row and its column.
+#[derive(Clone, Copy)]
+pub(super) struct LaterBlock {
+    pub slot: BlockSlot,
+    pub column: usize,
+}
+
+/// Later blocks of all rows.
+pub(super) struct LaterBlocks {
+    first: Vec<usize>,
+    blocks: Vec<LaterBlock>,
+}
+
+impl LaterBlocks {
+    pub(super) fn new(sparsity: &Sparsity, order: &RowOrder) -> Self {
+        let ordered = || {
+            (0..sparsity.particles()).flat_map(|particle| {
+                let row = order.row_of[particle] as usize;
+                sparsity.row(particle).skip(1).map(move |slot| {
+                    let column = order.row_of[sparsity.columns()[slot] as usize] as usize;
+                    if order.rank(row) < order.rank(column) {
+                        (row, LaterBlock { slot: BlockSlot(slot as u32), column })
+                    } else {
+                        (
+                            column,
+                            LaterBlock { slot: BlockSlot(slot as u32 | TRANSPOSED), column: row },
+                        )
+                    }
+                })
+            })
+        };
+        let rows = order.particles.len();
+        let mut first = vec![0; rows + 1];
+        for (row, _) in ordered() {
+            first[row + 1] += 1;
+        }
+        for row in 0..rows {
+            first[row + 1] += first[row];
+        }
+        let mut end = first.clone();
+        let mut blocks = vec![LaterBlock { slot: BlockSlot::ABSENT, column: 0 }; first[rows]];
+        for (row, block) in ordered() {
+            blocks[end[row]] = block;
+            end[row] += 1;
+        }
+        Self { first, blocks }
+    }
+
+    pub(super) fn of(&self, row: usize) -> &[LaterBlock] {
+        &self.blocks[self.first[row]..self.first[row + 1]]
+    }
+}
