@@ -80,7 +80,7 @@ pub trait System {
     /// Material point of each particle; empty if the particles form no sheets. Read when the
     /// [`sparsity`](Self::sparsity) is.
     ///
-    /// From 15 000 particles on, linear systems are then solved in fewer iterations: motions that are
+    /// From 8 000 particles on, linear systems are then solved in fewer iterations: motions that are
     /// smooth along the sheets are solved for on a coarse grid. Steps with an
     /// [energy tolerance](crate::Settings::energy_tolerance) do without.
     fn material_points(&self) -> Vec<MaterialPoint> {

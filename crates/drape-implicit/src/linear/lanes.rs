@@ -169,20 +169,12 @@ impl<T: Copy + Default> Columns<T> {
     }
 }
 
-impl<T: Copy + Add<Output = T> + Sub<Output = T>> Columns<T> {
+impl<T: Copy> Columns<T> {
     /// Numbers of a row.
     #[inline(always)]
     pub(crate) fn at(&self, row: usize) -> [T; 3] {
         let [x, y, z] = &self.0;
         [x[row], y[row], z[row]]
-    }
-
-    /// Subtracts from the numbers of a row.
-    #[inline(always)]
-    pub(crate) fn subtract(&mut self, row: usize, numbers: [T; 3]) {
-        for (column, number) in self.0.iter_mut().zip(numbers) {
-            column[row] = column[row] - number;
-        }
     }
 }
 
@@ -191,20 +183,5 @@ impl Columns<f64> {
     pub(crate) fn load(&self, at: usize) -> [Double; 3] {
         let [x, y, z] = &self.0;
         [Double::load(x, at), Double::load(y, at), Double::load(z, at)]
-    }
-}
-
-impl Columns<f32> {
-    #[inline(always)]
-    pub(crate) fn load(&self, at: usize) -> [Single; 3] {
-        let [x, y, z] = &self.0;
-        [Single::load(x, at), Single::load(y, at), Single::load(z, at)]
-    }
-
-    #[inline(always)]
-    pub(crate) fn store(&mut self, at: usize, lanes: [Single; 3]) {
-        for (column, lanes) in self.0.iter_mut().zip(lanes) {
-            lanes.store(column, at);
-        }
     }
 }

@@ -11,6 +11,7 @@ use crate::linear::lanes::{Columns, Double, LANES, Single, widened};
 use crate::linear::level_schedule::chunk::{
     self, Chunk, LIGHT, PerBlock, PerChunk, PerIrregularEntry, PerRow,
 };
+use crate::linear::level_schedule::later_blocks::{BlockSlot, TRANSPOSITION};
 use crate::linear::level_schedule::layout::BatchLayout;
 use crate::linear::level_schedule::partial_sum::{PartialProduct, PartialSum, add_others};
 use crate::linear::level_schedule::row_order::ABSENT;
@@ -86,7 +87,7 @@ impl PackedMatrix {
             for &entry in &chunk.incoming {
                 let IrregularEntry { column, slot, .. } = layout.irregular[entry as usize];
                 let short = &irregular[entry as usize];
-                let lost = rounding(&slot.copy(matrix.blocks(), &block::ZERO), short);
+                let lost = rounding(&slot.copy(matrix.blocks()), short);
                 for (rows, lost) in rows.iter_mut().zip(lost) {
                     rows[column as usize - first] += lost;
                 }
@@ -172,20 +173,14 @@ impl WithSimd for Pack<'_> {
                 let own = own.start - chunk.blocks.start..own.end - chunk.blocks.start;
                 let above = &mut off_diagonal[own];
                 for ((diagonal, slots), above) in diagonals.iter().zip(slots).zip(above) {
-                    let mut block = [Double::ZERO; 9];
-                    for (lane, &slot) in slots.iter().enumerate() {
-                        let source = slot.copy(blocks, &block::ZERO);
-                        for (entry, value) in block.iter_mut().zip(source) {
-                            entry.0[lane] = value;
-                        }
-                    }
+                    let block = gather(blocks, slots);
                     let lost = round(&block, above);
                     main_diagonal.add_batch(row - first, lost);
                     main_diagonal.add_batch(diagonal.column(row) - first, lost);
                 }
                 for index in layout.irregular_of[run.batches + batch].clone() {
                     let IrregularEntry { lane, column, slot } = layout.irregular[index];
-                    let block = slot.copy(blocks, &block::ZERO);
+                    let block = slot.copy(blocks);
                     let short = &mut irregular[index - chunk.irregular.start];
                     for (short, value) in short.iter_mut().zip(&block) {
                         *short = *value as f32;
@@ -258,6 +253,35 @@ impl WithSimd for Multiply<'_> {
             *curvature += dot(&x[chunk.window.clone()], sums);
         }
     }
+}
+
+/// Blocks of a batch on a diagonal.
+#[inline(always)]
+fn gather(blocks: &[Block], slots: &[BlockSlot; LANES]) -> Blocks<Double> {
+    let mut gathered = [Double::ZERO; 9];
+    let mut transposed = 0;
+    for (lane, slot) in slots.iter().enumerate() {
+        for (entry, value) in gathered.iter_mut().zip(slot.stored(blocks, &block::ZERO)) {
+            entry.0[lane] = *value;
+        }
+        transposed += usize::from(slot.is_transposed());
+    }
+    if transposed == 0 {
+        return gathered;
+    }
+    if slots.iter().all(|&slot| slot.is_transposed() || slot == BlockSlot::ABSENT) {
+        // As in all of a part that is eliminated backwards.
+        TRANSPOSITION.iter().for_each(|&[a, b]| gathered.swap(a, b));
+        return gathered;
+    }
+    for (lane, _) in slots.iter().enumerate().filter(|(_, slot)| slot.is_transposed()) {
+        for [a, b] in TRANSPOSITION {
+            let entry = gathered[a].0[lane];
+            gathered[a].0[lane] = gathered[b].0[lane];
+            gathered[b].0[lane] = entry;
+        }
+    }
+    gathered
 }
 
 /// Symmetric part of what rounding takes from a block.

@@ -78,7 +78,7 @@ impl Preconditioner {
                 let ScaledResidual { numbers, factor: scale } = residual;
                 let apply = || factor.apply(arch, layout);
                 rayon::join(apply, || coarse.solve(arch, numbers, scale));
-                coarse.add_correction(arch, &mut factor.image);
+                coarse.add_correction(arch, layout, &mut factor.image);
             }
             None => factor.apply(arch, layout),
         }

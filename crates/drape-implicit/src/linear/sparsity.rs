@@ -41,8 +41,8 @@ impl Sparsity {
         if offsets.last() != Some(&columns.len()) {
             return fault(rows, "the last row offset must be the number of columns listed");
         }
-        if u32::try_from(columns.len()).is_err() {
-            return fault(rows, "more than 2³² blocks");
+        if i32::try_from(columns.len()).is_err() {
+            return fault(rows, "more than 2³¹ blocks");
         }
         for row in 0..rows {
             if offsets[row + 1] <= offsets[row] || offsets[row + 1] > columns.len() {

@@ -23,13 +23,22 @@ pub(super) struct Cell {
 }
 
 /// Particle in a cell.
+///
+/// Weights are in single precision, because reading them takes most of the time. All that uses them
+/// rounds alike.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     pub particle: u32,
     row: u32,
     /// Weights of the nodes of the cell; zeros while the particle is held.
-    pub weights: [f64; 4],
-    bilinear: [f64; 4],
+    pub weights: [f32; 4],
+}
+
+/// Cell of a row's particle and its weights there; zeros where no particle is.
+#[derive(Clone, Copy, Debug, Default)]
+struct RowPoint {
+    cell: u32,
+    weights: [f32; 4],
 }
 
 /// Interpolation: the cells with their points, those of a cell one after the other.
@@ -39,6 +48,9 @@ pub(super) struct Interpolation {
     pub nodes: usize,
     pub cells: Vec<Cell>,
     pub points: Vec<Point>,
+    /// Weights of the points while they are free.
+    bilinear: Vec<[f32; 4]>,
+    by_row: Vec<RowPoint>,
 }
 
 /// Grid over a sheet.
@@ -52,7 +64,7 @@ struct Grid {
 /// Place in a grid.
 struct Place {
     cell: [usize; 2],
-    weights: [f64; 4],
+    weights: [f32; 4],
 }
 
 impl Interpolation {
@@ -61,9 +73,23 @@ impl Interpolation {
         for (particle, point) in material_points.iter().enumerate() {
             sheets.entry(point.sheet).or_default().push(particle);
         }
-        let mut all = Self { nodes: 0, cells: Vec::new(), points: Vec::new() };
+        let mut all = Self {
+            nodes: 0,
+            cells: Vec::new(),
+            points: Vec::new(),
+            bilinear: Vec::new(),
+            by_row: Vec::new(),
+        };
         for particles in sheets.into_values() {
             all.add_sheet(&particles, row_of, material_points);
+        }
+        all.bilinear = all.points.iter().map(|point| point.weights).collect();
+        let rows = row_of.iter().max().map_or(0, |&last| last as usize + 1);
+        all.by_row = vec![RowPoint::default(); rows];
+        for (cell, Cell { points, .. }) in all.cells.iter().enumerate() {
+            for &Point { row, weights, .. } in &all.points[points.clone()] {
+                all.by_row[row as usize] = RowPoint { cell: cell as u32, weights };
+            }
         }
         all
     }
@@ -74,7 +100,7 @@ impl Interpolation {
         for &particle in particles {
             let Place { cell: [u, v], weights } = grid.place(all[particle].coordinates);
             let (particle, row) = (particle as u32, row_of[particle]);
-            let point = Point { particle, row, weights, bilinear: weights };
+            let point = Point { particle, row, weights };
             cells.entry([v, u]).or_default().push(point);
         }
         let mut nodes: BTreeMap<[usize; 2], u32> = BTreeMap::new();
@@ -93,9 +119,11 @@ impl Interpolation {
 
     /// Takes the weights of held particles away, and gives others theirs back.
     pub(super) fn hold(&mut self, matrix: &BlockMatrix) {
-        for point in &mut self.points {
+        let Self { points, bilinear, by_row, .. } = self;
+        for (point, bilinear) in points.iter_mut().zip(bilinear) {
             let held = matrix.is_held(point.particle as usize);
-            point.weights = if held { [0.0; 4] } else { point.bilinear };
+            point.weights = if held { [0.0; 4] } else { *bilinear };
+            by_row[point.row as usize].weights = point.weights;
         }
     }
 
@@ -108,7 +136,7 @@ impl Interpolation {
             for point in &self.points[points.clone()] {
                 for (sums, number) in cell.iter_mut().zip(numbers.at(point.row as usize)) {
                     for (sum, weight) in sums.iter_mut().zip(point.weights) {
-                        *sum += weight * number;
+                        *sum += f64::from(weight) * number;
                     }
                 }
             }
@@ -120,17 +148,32 @@ impl Interpolation {
         }
     }
 
-    /// Adds numbers of the nodes, interpolated, to those of the particles.
+    /// Adds numbers of the nodes, interpolated, to those of consecutive rows.
     #[inline(always)]
-    pub(super) fn add(&self, numbers: &[f64], image: &mut Columns<f32>) {
-        for Cell { nodes, points } in &self.cells {
-            let corners = nodes.map(|node| &numbers[3 * node as usize..][..3]);
-            for Point { row, weights: [a, b, c, d], .. } in &self.points[points.clone()] {
-                for (axis, column) in image.0.iter_mut().enumerate() {
-                    let [x, y, z, w] = corners.map(|corner| corner[axis]);
-                    column[*row as usize] += (a * x + b * y + c * z + d * w) as f32;
+    pub(super) fn add(&self, numbers: &[f64], first: usize, rows: [&mut [f32]; 3]) {
+        let Some(points) = self.by_row.get(first..) else { return };
+        let [xs, ys, zs] = rows;
+        let mut last = u32::MAX;
+        let mut corners = [[0.0; 3]; 4];
+        for (((RowPoint { cell, weights }, x), y), z) in points.iter().zip(xs).zip(ys).zip(zs) {
+            if *cell != last {
+                // Neighbours are of the same cell mostly.
+                last = *cell;
+                let nodes = self.cells.get(*cell as usize).map_or([0; 4], |cell| cell.nodes);
+                corners = nodes.map(|node| {
+                    let at = 3 * node as usize;
+                    [numbers[at], numbers[at + 1], numbers[at + 2]]
+                });
+            }
+            let mut sums = [0.0; 3];
+            for (corner, weight) in corners.iter().zip(weights) {
+                for (sum, number) in sums.iter_mut().zip(corner) {
+                    *sum += number * f64::from(*weight);
                 }
             }
+            *x += sums[0] as f32;
+            *y += sums[1] as f32;
+            *z += sums[2] as f32;
         }
     }
 }
@@ -159,7 +202,8 @@ impl Grid {
         });
         let cell = [0, 1].map(|axis| (scaled[axis] as usize).min(self.cells[axis] - 1));
         let [x, y] = [0, 1].map(|axis| scaled[axis] - cell[axis] as f64);
-        let weights = [(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y];
+        let weights =
+            [(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y].map(|w| w as f32);
         Place { cell, weights }
     }
 }
@@ -198,7 +242,11 @@ mod tests {
             }
         }
         let mut image = Columns::new(4000);
-        interpolation.add(places.as_flattened(), &mut image);
+        interpolation.add(
+            places.as_flattened(),
+            0,
+            image.0.each_mut().map(|column| &mut column[..]),
+        );
         for (k, MaterialPoint { coordinates: [u, v], .. }) in points.iter().enumerate() {
             let found = image.at(rows[k] as usize);
             for (found, expected) in found.into_iter().zip([1.0, *u, *v]) {

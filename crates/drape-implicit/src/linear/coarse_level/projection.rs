@@ -139,7 +139,7 @@ impl Projection {
 fn add_weighted(partial: &mut [[f64; 4]; 9], block: &Block, column: &Point) {
     for (partial, entry) in partial.iter_mut().zip(block) {
         for (partial, weight) in partial.iter_mut().zip(column.weights) {
-            *partial += entry * weight;
+            *partial += entry * f64::from(weight);
         }
     }
 }
@@ -149,7 +149,7 @@ fn add_weighted(partial: &mut [[f64; 4]; 9], block: &Block, column: &Point) {
 fn add_outer(sums: &mut CornerSums, partial: &[[f64; 4]; 9], row: &Point) {
     for (sums, partial) in sums.iter_mut().zip(partial) {
         for (corners, sum) in sums.iter_mut().enumerate() {
-            *sum += row.weights[corners / 4] * partial[corners % 4];
+            *sum += f64::from(row.weights[corners / 4]) * partial[corners % 4];
         }
     }
 }

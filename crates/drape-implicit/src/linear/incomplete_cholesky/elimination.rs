@@ -80,7 +80,7 @@ struct LoadSeparators<'a> {
 }
 
 /// Work space of the batch that is being eliminated.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct BatchWork {
     /// Blocks that its diagonals subtract from the pivots of their columns.
     squares: Vec<Square<Single>>,
@@ -109,10 +109,10 @@ impl Batch<'_> {
 
 impl Elimination {
     pub(crate) fn new(layout: &BatchLayout) -> Self {
-        let part = |part| GroupWork::new(SchurComplement::of_part(layout, part));
+        let part = |part| GroupWork::new(layout, SchurComplement::of_part(layout, part));
         Self {
             parts: layout.parts.iter().map(part).collect(),
-            separators: GroupWork::new(SchurComplement::of_separators(layout)),
+            separators: GroupWork::new(layout, SchurComplement::of_separators(layout)),
         }
     }
 
@@ -170,14 +170,12 @@ impl WithSimd for LoadSeparators<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self {
-            input: Input { schedule: LevelSchedule { layout, .. }, packed, attempt },
-            schur,
-        } = self;
-        for run in
-            layout.separators.iter().flat_map(|separator| &layout.runs[separator.runs.clone()])
-        {
-            schur.load(layout, run, packed, attempt.scale());
+        let Self { input: Input { schedule, packed, attempt }, schur } = self;
+        let layout = &schedule.layout;
+        for separator in &layout.separators {
+            for run in &layout.runs[separator.runs.clone()] {
+                schur.load(layout, run, packed, attempt.scale());
+            }
         }
     }
 }
@@ -215,8 +213,13 @@ impl WithSimd for GroupElimination<'_, '_> {
 }
 
 impl GroupWork {
-    fn new(schur: SchurComplement) -> Self {
-        Self { schur, batch: BatchWork::default() }
+    fn new(layout: &BatchLayout, schur: SchurComplement) -> Self {
+        let batch = BatchWork {
+            squares: Vec::with_capacity(layout.max_diagonals),
+            subtracted: Vec::with_capacity(layout.max_diagonals),
+            irregular_squares: Vec::with_capacity(layout.max_irregular),
+        };
+        Self { schur, batch }
     }
 
     /// Computes the rows of `U` of a batch that lie on diagonals, and subtracts their updates.

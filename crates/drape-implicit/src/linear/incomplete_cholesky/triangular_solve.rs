@@ -20,53 +20,75 @@ use crate::linear::level_schedule::part::Part;
 /// Work space of the triangular solves.
 #[derive(Debug)]
 pub(crate) struct TriangularSolve {
-    /// Vectors of the parts; none where there is one part.
-    windows: Vec<Window>,
+    /// Numbers of each part in the rows of its window, those of separators.
+    windows: Vec<Columns<f32>>,
 }
 
-/// Vector of a part: the rows of its window.
-#[derive(Debug)]
-struct Window {
+/// Consecutive rows of a vector.
+struct Rows<'a> {
     first: usize,
-    image: Columns<f32>,
+    columns: [&'a mut [f32]; 3],
 }
 
-impl Window {
-    fn new(part: &Part) -> Self {
-        Self { first: part.window.start, image: Columns::new(part.window.len()) }
+impl<'a> Rows<'a> {
+    fn of(first: usize, columns: &'a mut Columns<f32>) -> Self {
+        Self { first, columns: columns.0.each_mut().map(|column| &mut column[..]) }
     }
 
-    fn local(&self, rows: &Range<usize>) -> Range<usize> {
-        rows.start - self.first..rows.end - self.first
+    /// Splits the rows before a row from the others.
+    fn split_before(self, row: usize) -> (Self, Self) {
+        let Self { first, mut columns } = self;
+        let split = |rest: &mut &'a mut [f32]| rest.split_off_mut(..row - first);
+        let here = columns.each_mut().map(|rest| split(rest).unwrap_or_default());
+        (Self { first, columns: here }, Self { first: row, columns })
     }
 
-    fn clear(&mut self, rows: &Range<usize>) {
-        let local = self.local(rows);
-        self.image.0.iter_mut().for_each(|column| column[local.clone()].fill(0.0));
+    fn contains(&self, row: usize) -> bool {
+        row.wrapping_sub(self.first) < self.columns[0].len()
     }
 
-    /// Adds rows to those of a vector.
-    fn add_to(&self, image: &mut Columns<f32>, rows: &Range<usize>) {
-        let local = self.local(rows);
-        for (column, own) in image.0.iter_mut().zip(&self.image.0) {
-            let sums = column[rows.clone()].iter_mut();
-            sums.zip(&own[local.clone()]).for_each(|(sum, own)| *sum += own);
+    /// Numbers of a batch of rows.
+    #[inline(always)]
+    fn load(&self, row: usize) -> [Single; 3] {
+        let [x, y, z] = &self.columns;
+        let at = row - self.first;
+        [Single::load(x, at), Single::load(y, at), Single::load(z, at)]
+    }
+
+    #[inline(always)]
+    fn store(&mut self, row: usize, lanes: [Single; 3]) {
+        for (column, lanes) in self.columns.iter_mut().zip(lanes) {
+            lanes.store(column, row - self.first);
         }
     }
 
-    /// Copies rows of a vector.
-    fn copy(&mut self, image: &Columns<f32>, rows: &Range<usize>) {
-        let local = self.local(rows);
-        for (own, column) in self.image.0.iter_mut().zip(&image.0) {
-            own[local.clone()].copy_from_slice(&column[rows.clone()]);
+    /// Subtracts from the numbers of a batch of rows.
+    #[inline(always)]
+    fn subtract_batch(&mut self, row: usize, [a, b, c]: [Single; 3]) {
+        let [x, y, z] = self.load(row);
+        self.store(row, [x - a, y - b, z - c]);
+    }
+
+    /// Numbers of a row.
+    #[inline(always)]
+    fn at(&self, row: usize) -> [f32; 3] {
+        let [x, y, z] = &self.columns;
+        let at = row - self.first;
+        [x[at], y[at], z[at]]
+    }
+
+    /// Subtracts from the numbers of a row.
+    #[inline(always)]
+    fn subtract(&mut self, row: usize, numbers: [f32; 3]) {
+        for (column, number) in self.columns.iter_mut().zip(numbers) {
+            column[row - self.first] -= number;
         }
     }
 }
 
 impl TriangularSolve {
     pub(crate) fn new(layout: &BatchLayout) -> Self {
-        let several = layout.parts.len() > 1;
-        Self { windows: layout.parts.iter().filter(|_| several).map(Window::new).collect() }
+        Self { windows: layout.parts.iter().map(|part| Columns::new(part.window.len())).collect() }
     }
 
     /// Turns the image `r` into `(Uᵀ D U)⁻¹ r`.
@@ -78,36 +100,54 @@ impl TriangularSolve {
         image: &mut Columns<f32>,
     ) {
         let solver = Solver { arch, layout, factor };
+        let BatchLayout { parts, separators, .. } = layout;
         if factor.is_diagonal {
             return solver.sweep(Direction::Across, 0..layout.runs.len(), image);
         }
-        if self.windows.is_empty() {
-            for part in &layout.parts {
-                solver.sweep(Direction::Forward, part.own.runs.clone(), image);
-                solver.sweep(Direction::Backward, part.own.runs.clone(), image);
-            }
-            return;
+        solver.sweep_parts(Direction::Forward, parts, &mut self.windows, Rows::of(0, image));
+        for (part, window) in parts.iter().zip(&self.windows) {
+            part.add_separators(window, image);
         }
-        solver.solve_forward(&layout.parts, &mut self.windows, image);
-        for (window, part) in self.windows.iter().zip(&layout.parts) {
-            part.separators.iter().for_each(|rows| window.add_to(image, rows));
-        }
-        for separator in &layout.separators {
+        for separator in separators {
             solver.sweep(Direction::Forward, separator.runs.clone(), image);
         }
-        for separator in layout.separators.iter().rev() {
+        for separator in separators.iter().rev() {
             solver.sweep(Direction::Backward, separator.runs.clone(), image);
         }
-        for (window, part) in self.windows.iter_mut().zip(&layout.parts) {
-            part.separators.iter().for_each(|rows| window.copy(image, rows));
+        for (part, window) in parts.iter().zip(&mut self.windows) {
+            part.copy_separators(image, window);
         }
-        let rows = image.0.each_mut().map(|column| &mut column[..]);
-        let solution = Rows { first: 0, rows };
-        solver.solve_backward(&layout.parts, &mut self.windows, solution);
+        solver.sweep_parts(Direction::Backward, parts, &mut self.windows, Rows::of(0, image));
     }
 }
 
-/// Factor that the parts are solved with.
+impl Part {
+    /// Rows of a separator in the window.
+    fn local(&self, rows: &Range<usize>) -> Range<usize> {
+        rows.start - self.window.start..rows.end - self.window.start
+    }
+
+    /// Adds the numbers of separators to those of a vector.
+    fn add_separators(&self, window: &Columns<f32>, image: &mut Columns<f32>) {
+        for rows in &self.separators {
+            for (column, own) in image.0.iter_mut().zip(&window.0) {
+                let sums = column[rows.clone()].iter_mut();
+                sums.zip(&own[self.local(rows)]).for_each(|(sum, own)| *sum += own);
+            }
+        }
+    }
+
+    /// Copies the numbers of separators from a vector.
+    fn copy_separators(&self, image: &Columns<f32>, window: &mut Columns<f32>) {
+        for rows in &self.separators {
+            for (own, column) in window.0.iter_mut().zip(&image.0) {
+                own[self.local(rows)].copy_from_slice(&column[rows.clone()]);
+            }
+        }
+    }
+}
+
+/// Factor that is solved with.
 #[derive(Clone, Copy)]
 struct Solver<'a> {
     arch: Arch,
@@ -115,67 +155,39 @@ struct Solver<'a> {
     factor: &'a Factor,
 }
 
-/// Consecutive rows of a vector.
-struct Rows<'a> {
-    first: usize,
-    rows: [&'a mut [f32]; 3],
-}
-
-impl Rows<'_> {
-    /// Splits the rows before a row from the others.
-    fn split_before(mut self, row: usize) -> (Self, Self) {
-        let count = row - self.first;
-        let rows = self.rows.each_mut().map(|rows| rows.split_off_mut(..count).unwrap_or_default());
-        (Self { first: self.first, rows }, Self { first: row, rows: self.rows })
-    }
-}
-
 impl Solver<'_> {
-    /// Takes a step of the solution for some runs, on all rows.
+    /// Takes a step of the solution for some runs whose diagonals do not cross.
     fn sweep(self, direction: Direction, runs: Range<usize>, image: &mut Columns<f32>) {
         let Self { arch, layout, factor } = self;
-        arch.dispatch(Sweep { layout, factor, direction, runs, first: 0, image });
+        let separators = Rows { first: 0, columns: [&mut [], &mut [], &mut []] };
+        let own = Rows::of(0, image);
+        arch.dispatch(Sweep { layout, factor, direction, runs, own, separators });
     }
 
-    /// Takes a step of the solution for a part, on the rows of its window.
-    fn sweep_part(self, direction: Direction, part: &Part, window: &mut Window) {
-        let Self { arch, layout, factor } = self;
-        let (runs, first, image) = (part.own.runs.clone(), window.first, &mut window.image);
-        arch.dispatch(Sweep { layout, factor, direction, runs, first, image });
-    }
-
-    /// Solves for parts by forward substitution, side by side.
-    fn solve_forward(self, parts: &[Part], windows: &mut [Window], image: &Columns<f32>) {
+    /// Takes a step of the solution for parts, side by side. `rows` begin at the first part or before
+    /// it and end before the next one, so that the separator after each part is among its rows.
+    fn sweep_parts(
+        self,
+        direction: Direction,
+        parts: &[Part],
+        windows: &mut [Columns<f32>],
+        rows: Rows<'_>,
+    ) {
         if let ([part], [window]) = (parts, &mut *windows) {
-            window.copy(image, &part.own.rows);
-            part.separators.iter().for_each(|rows| window.clear(rows));
-            return self.sweep_part(Direction::Forward, part, window);
-        }
-        let (here, there) = parts.split_at(parts.len() / 2);
-        let (own, others) = windows.split_at_mut(here.len());
-        rayon::join(
-            || self.solve_forward(here, own, image),
-            || self.solve_forward(there, others, image),
-        );
-    }
-
-    /// Solves for parts by backward substitution, side by side, and writes their rows.
-    fn solve_backward(self, parts: &[Part], windows: &mut [Window], solution: Rows<'_>) {
-        if let ([part], [window]) = (parts, &mut *windows) {
-            self.sweep_part(Direction::Backward, part, window);
-            let (_, mut own) = solution.split_before(part.own.rows.start);
-            let solved = window.local(&part.own.rows);
-            for (rows, column) in own.rows.iter_mut().zip(&window.image.0) {
-                rows[..solved.len()].copy_from_slice(&column[solved.clone()]);
+            if matches!(direction, Direction::Forward) {
+                window.0.iter_mut().for_each(|column| column.fill(0.0));
             }
-            return;
+            let Self { arch, layout, factor } = self;
+            let (_, own) = rows.split_before(part.own.rows.start);
+            let (runs, separators) = (part.own.runs.clone(), Rows::of(part.window.start, window));
+            return arch.dispatch(Sweep { layout, factor, direction, runs, own, separators });
         }
         let (here, there) = parts.split_at(parts.len() / 2);
         let (own, others) = windows.split_at_mut(here.len());
-        let (before, after) = solution.split_before(there[0].own.rows.start);
+        let (before, after) = rows.split_before(there[0].own.rows.start);
         rayon::join(
-            || self.solve_backward(here, own, before),
-            || self.solve_backward(there, others, after),
+            || self.sweep_parts(direction, here, own, before),
+            || self.sweep_parts(direction, there, others, after),
         );
     }
 }
@@ -191,14 +203,14 @@ enum Direction {
     Across,
 }
 
-/// Step of the solution for some runs, on a vector that begins with a row.
+/// Step of the solution for some runs, on their rows and on those of separators.
 struct Sweep<'a> {
     layout: &'a BatchLayout,
     factor: &'a Factor,
     direction: Direction,
     runs: Range<usize>,
-    first: usize,
-    image: &'a mut Columns<f32>,
+    own: Rows<'a>,
+    separators: Rows<'a>,
 }
 
 impl WithSimd for Sweep<'_> {
@@ -217,54 +229,62 @@ impl WithSimd for Sweep<'_> {
 impl Sweep<'_> {
     #[inline(always)]
     fn forward(&mut self) {
-        let Self { layout, factor, runs, first, image, .. } = self;
+        let Self { layout, factor, runs, own, separators, .. } = self;
         let Factor { upper, irregular, inverse_pivots, .. } = factor;
         for run in &layout.runs[runs.clone()] {
-            let diagonals = &layout.diagonals[run.diagonals.clone()];
+            let (inside, crossing) = layout.diagonals[run.diagonals.clone()].split_at(run.crossing);
             let starts = (run.start..run.end).step_by(LANES);
             for ((batch, row), pivot) in starts.enumerate().zip(&inverse_pivots[run.batches..]) {
-                let row = row - *first;
-                let here = image.load(row);
-                let blocks = &upper[run.blocks_of(batch)];
-                for (diagonal, block) in diagonals.iter().zip(blocks) {
-                    let column = diagonal.column(row);
-                    let [x, y, z] = image.load(column);
-                    let [a, b, c] = transposed_product(block, here);
-                    image.store(column, [x - a, y - b, z - c]);
+                let here = own.load(row);
+                let (upper, across) = upper[run.blocks_of(batch)].split_at(run.crossing);
+                for (diagonal, block) in inside.iter().zip(upper) {
+                    own.subtract_batch(diagonal.column(row), transposed_product(block, here));
                 }
-                let own = layout.irregular_of[run.batches + batch].clone();
-                for (entry, block) in layout.irregular[own.clone()].iter().zip(&irregular[own]) {
-                    let here = image.at(row + entry.lane as usize);
-                    let column = entry.column as usize - *first;
-                    image.subtract(column, transposed_product(block, here));
+                for (diagonal, block) in crossing.iter().zip(across) {
+                    let product = transposed_product(block, here);
+                    separators.subtract_batch(diagonal.column(row), product);
                 }
-                divide(pivot, image, row);
+                let entries = layout.irregular_of[run.batches + batch].clone();
+                let blocks = &irregular[entries.clone()];
+                for (entry, block) in layout.irregular[entries].iter().zip(blocks) {
+                    let column = entry.column as usize;
+                    let product = transposed_product(block, own.at(row + entry.lane as usize));
+                    if own.contains(column) {
+                        own.subtract(column, product);
+                    } else {
+                        separators.subtract(column, product);
+                    }
+                }
+                divide(pivot, own, row);
             }
         }
     }
 
     #[inline(always)]
     fn backward(&mut self) {
-        let Self { layout, factor, runs, first, image, .. } = self;
+        let Self { layout, factor, runs, own, separators, .. } = self;
         let Factor { upper, irregular, .. } = factor;
         for run in layout.runs[runs.clone()].iter().rev() {
-            let diagonals = &layout.diagonals[run.diagonals.clone()];
+            let (inside, crossing) = layout.diagonals[run.diagonals.clone()].split_at(run.crossing);
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
-                let row = row - *first;
-                let blocks = &upper[run.blocks_of(batch)];
+                let (upper, across) = upper[run.blocks_of(batch)].split_at(run.crossing);
                 let mut sum = [Single::ZERO; 3];
-                for (diagonal, block) in diagonals.iter().zip(blocks) {
-                    let more = product(block, image.load(diagonal.column(row)));
+                let near = inside.iter().zip(upper).map(|pair| (pair, &*own));
+                let far = crossing.iter().zip(across).map(|pair| (pair, &*separators));
+                for ((diagonal, block), rows) in near.chain(far) {
+                    let more = product(block, rows.load(diagonal.column(row)));
                     for (sum, more) in sum.iter_mut().zip(more) {
                         *sum = *sum + more;
                     }
                 }
-                let [x, y, z] = image.load(row);
-                image.store(row, [x - sum[0], y - sum[1], z - sum[2]]);
-                let own = layout.irregular_of[run.batches + batch].clone();
-                for (entry, block) in layout.irregular[own.clone()].iter().zip(&irregular[own]) {
-                    let there = image.at(entry.column as usize - *first);
-                    image.subtract(row + entry.lane as usize, product(block, there));
+                own.subtract_batch(row, sum);
+                let entries = layout.irregular_of[run.batches + batch].clone();
+                let blocks = &irregular[entries.clone()];
+                for (entry, block) in layout.irregular[entries].iter().zip(blocks) {
+                    let column = entry.column as usize;
+                    let rows = if own.contains(column) { &*own } else { &*separators };
+                    let product = product(block, rows.at(column));
+                    own.subtract(row + entry.lane as usize, product);
                 }
             }
         }
@@ -275,7 +295,7 @@ impl Sweep<'_> {
         for run in &self.layout.runs[self.runs.clone()] {
             let pivots = self.factor.inverse_pivots[run.batches..].iter();
             for (row, pivot) in (run.start..run.end).step_by(LANES).zip(pivots) {
-                divide(pivot, self.image, row - self.first);
+                divide(pivot, &mut self.own, row);
             }
         }
     }
@@ -283,6 +303,6 @@ impl Sweep<'_> {
 
 /// Applies inverse pivots, in double precision: stiff and soft directions may be far apart in them.
 #[inline(always)]
-fn divide(pivot: &SymmetricBlocks<Double>, image: &mut Columns<f32>, row: usize) {
-    image.store(row, narrowed(&symmetric_product(pivot, widened(&image.load(row)))));
+fn divide(pivot: &SymmetricBlocks<Double>, rows: &mut Rows<'_>, row: usize) {
+    rows.store(row, narrowed(&symmetric_product(pivot, widened(&rows.load(row)))));
 }

@@ -1,7 +1,7 @@
 //! Later blocks: the off-diagonal blocks of each row whose columns are eliminated after it.
 
 use super::row_order::RowOrder;
-use crate::linear::block::Block;
+use crate::linear::block::{self, Block};
 use crate::linear::sparsity::Sparsity;
 
 /// Mark of a slot whose block is transposed: its column is eliminated before its row.
@@ -21,17 +21,30 @@ impl BlockSlot {
         (self.0 & !TRANSPOSED) as usize
     }
 
-    /// Copy of the block, or of none.
     #[inline(always)]
-    pub(crate) fn copy(self, blocks: &[Block], none: &Block) -> Block {
-        if self == Self::ABSENT {
-            return *none;
+    pub(crate) fn is_transposed(self) -> bool {
+        self != Self::ABSENT && self.0 & TRANSPOSED != 0
+    }
+
+    /// Block of the matrix, not transposed, or `none`.
+    #[inline(always)]
+    pub(crate) fn stored<'a>(self, blocks: &'a [Block], none: &'a Block) -> &'a Block {
+        if self == Self::ABSENT { none } else { &blocks[self.slot()] }
+    }
+
+    /// Copy of the block.
+    #[inline(always)]
+    pub(crate) fn copy(self, blocks: &[Block]) -> Block {
+        let mut block = *self.stored(blocks, &block::ZERO);
+        if self.is_transposed() {
+            TRANSPOSITION.iter().for_each(|&[a, b]| block.swap(a, b));
         }
-        let block = &blocks[self.slot()];
-        let [a, b, c, d, e, f, g, h, i] = *block;
-        if self.0 & TRANSPOSED == 0 { *block } else { [a, d, g, b, e, h, c, f, i] }
+        block
     }
 }
+
+/// Entries of a block that change places where it is transposed.
+pub(crate) const TRANSPOSITION: [[usize; 2]; 3] = [[1, 3], [2, 6], [5, 7]];
 
 /// Block of a row and its column.
 #[derive(Clone, Copy)]

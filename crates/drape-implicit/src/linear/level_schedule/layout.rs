@@ -141,6 +141,7 @@ impl BatchLayout {
                 start,
                 end,
                 diagonals: first..first + count,
+                crossing: diagonals.iter().filter(|distance| !distance.crosses).count(),
                 blocks: 0,
                 batches: 0,
                 irregular: 0,
@@ -175,11 +176,12 @@ impl BatchLayout {
         start: usize,
         run_of_row: &[u32],
     ) -> Vec<Distance> {
+        let is_separator = &self.order.is_separator;
         let mut distances = Vec::new();
         for row in start..start + LANES {
             for block in later.of(row) {
                 distances.push(Distance {
-                    crosses: self.order.rank(row).0 != self.order.rank(block.column).0,
+                    crosses: is_separator[row] != is_separator[block.column],
                     offset: block.column as isize - row as isize,
                     run: run_of_row[block.column],
                 });
@@ -284,11 +286,14 @@ impl BatchLayout {
 
     /// Part of some runs, with what it changes of the separators.
     fn part(&self, own: Group, separators: &[Group]) -> Part {
-        let mut window = own.rows.clone();
+        let mut window: Option<Range<usize>> = None;
         let mut reached = vec![false; separators.len()];
         for run in &self.runs[own.runs.clone()] {
             let diagonals = &self.diagonals[run.diagonals.clone()];
-            include(&mut window, self.rows_of(run));
+            for diagonal in &diagonals[run.crossing..] {
+                let rows = diagonal.column(run.start)..diagonal.column(run.end);
+                include(window.get_or_insert(rows.clone()), rows);
+            }
             let batches = &self.irregular_of[run.batches..][..run.len() / LANES];
             let irregular = batches.iter().flat_map(|batch| &self.irregular[batch.clone()]);
             let runs = irregular.map(|entry| self.run_of_row[entry.column as usize]);
@@ -302,11 +307,11 @@ impl BatchLayout {
         let reached = || separators.iter().zip(&reached).filter(|pair| *pair.1).map(|pair| pair.0);
         let mut numbers: Option<Range<usize>> = None;
         for separator in reached() {
-            include(&mut window, separator.rows.clone());
+            include(window.get_or_insert(separator.rows.clone()), separator.rows.clone());
             include(numbers.get_or_insert(separator.numbers.clone()), separator.numbers.clone());
         }
         Part {
-            window,
+            window: window.unwrap_or_default(),
             separators: reached().map(|separator| separator.rows.clone()).collect(),
             separator_numbers: numbers.unwrap_or_default(),
             own,
@@ -357,10 +362,6 @@ impl BatchLayout {
             first.rows.start = 0;
             first.window.start = 0;
         }
-        if let [.., last] = &mut chunks[..] {
-            last.rows.end = self.rows;
-            last.window.end = self.rows;
-        }
         self.chunks = chunks;
         for index in 0..self.irregular.len() {
             let target = self.chunk_of(self.irregular[index].column as usize);
@@ -373,8 +374,10 @@ impl BatchLayout {
 
     /// Chunk of some runs, without what comes in.
     fn chunk(&self, runs: Range<usize>) -> Chunk {
-        let Group { rows, blocks, irregular, .. } =
+        let Group { blocks, irregular, .. } =
             Group::new(&self.runs, runs.clone(), &self.irregular_of);
+        let end = self.runs.get(runs.end).map_or(self.rows, |next| next.start);
+        let rows = self.runs[runs.start].start..end;
         let mut window = rows.clone();
         for run in &self.runs[runs.clone()] {
             include(&mut window, self.rows_of(run));

@@ -22,7 +22,7 @@ pub(crate) struct Group {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Part {
     pub own: Group,
-    /// Rows that its diagonals and irregular entries lead to, its own among them.
+    /// Rows beyond its own that its diagonals and irregular entries lead to.
     pub window: Range<usize>,
     /// Rows of the separators that it is coupled to.
     pub separators: Vec<Range<usize>>,
@@ -35,14 +35,15 @@ impl Group {
     /// entries of each batch.
     pub(super) fn new(all: &[Run], runs: Range<usize>, irregular_of: &[Range<usize>]) -> Self {
         let [start, end] = [runs.start, runs.end].map(|run| Place::of(all, run, irregular_of));
+        let own = &all[runs.clone()];
         Self {
-            rows: start.row..end.row,
+            rows: start.row..own.last().map_or(start.row, |last| last.end),
             batches: start.batch..end.batch,
             blocks: start.block..end.block,
             irregular: start.irregular..end.irregular,
-            numbers: match &all[runs.clone()] {
+            numbers: match own {
                 [] => 0..0,
-                own => own[0].numbers..own[own.len() - 1].numbers_end,
+                [first, ..] => first.numbers..own[own.len() - 1].numbers_end,
             },
             runs,
         }

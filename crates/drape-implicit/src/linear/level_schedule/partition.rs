@@ -2,11 +2,11 @@
 
 use crate::linear::sparsity::Sparsity;
 
-/// Most particles of a matrix that is eliminated in one part, and of each part of a larger one.
-///
-/// With a part per 10 000, 5 000 and 2 500 of 20 000 to 40 000 particles conjugate gradients took up to
-/// a tenth more iterations than with one part, on curtain and swing.
-const MAX_PARTICLES: usize = 8_000;
+/// Fewest particles of a matrix that is divided.
+const MIN_PARTICLES: usize = 8_000;
+
+/// Most particles of a part.
+const PART: usize = 16_000;
 
 /// Most parts.
 const MAX_PARTS: usize = 16;
@@ -29,8 +29,11 @@ impl Partition {
     /// Partition into as many parts as the particles are worth: a function of the sparsity, never of
     /// the threads.
     pub(crate) fn new(sparsity: &Sparsity) -> Self {
-        let parts = sparsity.particles().div_ceil(MAX_PARTICLES);
-        Self::into_parts(sparsity, parts.clamp(1, MAX_PARTS))
+        let parts = match sparsity.particles() {
+            ..MIN_PARTICLES => 1,
+            particles => particles.div_ceil(PART).next_power_of_two().clamp(2, MAX_PARTS),
+        };
+        Self::into_parts(sparsity, parts)
     }
 
     /// Partition into a number of parts.

@@ -17,7 +17,7 @@ pub(crate) struct RowOrder {
     /// First row of each level of each group, and the end of its last level.
     pub levels: Vec<Vec<usize>>,
     /// Whether each row belongs to a separator.
-    is_separator: Vec<bool>,
+    pub is_separator: Vec<bool>,
 }
 
 impl RowOrder {
@@ -29,19 +29,19 @@ impl RowOrder {
             .iter()
             .map(|group| sorted(group, &neighbours, &mut level_of))
             .collect();
-        // The blocks of zeros of a batch may lead as far beyond a run as the run is long.
-        let margin = match &groups[..] {
-            [_] => LANES,
-            groups => groups.iter().flatten().map(Vec::len).max().unwrap_or(0),
-        };
+        // The blocks of zeros of a batch may lead as far beyond its target as its run is long. Beside
+        // other groups they must not meet these.
+        let longest = groups.iter().flatten().map(Vec::len).max().unwrap_or(0);
+        let margin = if groups.len() == 1 { 0 } else { longest.next_multiple_of(LANES) };
         let mut order = Self {
             row_of: vec![0; sparsity.particles()],
-            particles: vec![ABSENT; margin.next_multiple_of(LANES)],
+            particles: vec![ABSENT; LANES.max(margin)],
             levels: Vec::new(),
             is_separator: Vec::new(),
         };
         for (index, group) in groups.into_iter().enumerate() {
             order.add_group(group);
+            order.particles.resize(order.particles.len() + margin, ABSENT);
             order.is_separator.resize(order.particles.len(), index % 2 == 1);
         }
         order.particles.resize(order.particles.len() + LANES, ABSENT);

@@ -12,6 +12,8 @@ pub(crate) struct Run {
     pub start: usize,
     pub end: usize,
     pub diagonals: Range<usize>,
+    /// First of these, counted within the run, that leads from a part to a separator.
+    pub crossing: usize,
     /// First of its off-diagonal blocks, which are ordered by batch, then by diagonal.
     pub blocks: usize,
     /// First of its batches.
