@@ -409,7 +409,8 @@ mod tests {
         target: Target,
         limit: usize,
     ) -> (Vec<f64>, Outcome) {
-        let schedule = LevelSchedule::new(matrix.sparsity(), &Partition::new(matrix.sparsity()));
+        let schedule =
+            LevelSchedule::new(matrix.sparsity(), &Partition::into_parts(matrix.sparsity(), 1));
         let layout = &schedule.layout;
         let mut packed = PackedMatrix::new(layout);
         let arch = Arch::new();

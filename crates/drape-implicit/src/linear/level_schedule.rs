@@ -23,6 +23,7 @@
 //! that needs no order ([`chunk`]), updates of the elimination ([`updates`]).
 
 pub(crate) mod chunk;
+mod grouped;
 pub(crate) mod later_blocks;
 pub(crate) mod layout;
 pub(crate) mod part;

@@ -29,9 +29,8 @@ pub(crate) struct SystemMatrix {
     pub matrix: BlockMatrix,
     cholesky: Option<Cholesky>,
     iterative: Option<Iterative>,
+    /// Material points for parts and a coarse level, or none.
     material_points: Vec<MaterialPoint>,
-    /// Whether systems are preconditioned with a coarse level.
-    with_coarse_level: bool,
     /// Whether the present matrix is factorised by Cholesky.
     direct: bool,
     residual: Vec<f64>,
@@ -41,9 +40,10 @@ pub(crate) struct SystemMatrix {
 impl SystemMatrix {
     /// Matrix of zeros on a sparsity, with the material points of the particles or none.
     ///
-    /// Steps that end when little energy is left to gain are preconditioned without a coarse level:
-    /// with it, cloth of 10 201 particles that comes to rest on a cube took half as many matrices
-    /// again, 51 s instead of 33, and a T-shirt of 21 137 only a twentieth less time.
+    /// Steps that end when little energy is left to gain are preconditioned without a coarse level, in
+    /// one part: with it, cloth of 10 201 particles that comes to rest on a cube took half as many
+    /// matrices again, 51 s instead of 33, and a T-shirt of 21 137 only a twentieth less time. Parts
+    /// are for the stabilised factor, which goes with it.
     pub(crate) fn new(
         sparsity: Sparsity,
         material_points: Vec<MaterialPoint>,
@@ -55,8 +55,7 @@ impl SystemMatrix {
         Ok(Self {
             cholesky: if direct { Some(Cholesky::new(&sparsity, Kernel::Vector)?) } else { None },
             iterative: None,
-            material_points,
-            with_coarse_level: is_worthwhile,
+            material_points: if is_worthwhile { material_points } else { Vec::new() },
             direct,
             residual: vec![0.0; length],
             max_iterations: settings.max_linear_iterations,
@@ -82,10 +81,9 @@ impl SystemMatrix {
     }
 
     fn precondition(&mut self, report: &mut Report) -> Result<(), NotDefinite> {
-        let Self { matrix, material_points, with_coarse_level, iterative, .. } = self;
-        let iterative = iterative.get_or_insert_with(|| {
-            Iterative::new(matrix.sparsity(), material_points, *with_coarse_level)
-        });
+        let Self { matrix, material_points, iterative, .. } = self;
+        let iterative =
+            iterative.get_or_insert_with(|| Iterative::new(matrix.sparsity(), material_points));
         report.pivot_shifts += iterative.factorise(matrix)?;
         Ok(())
     }
@@ -146,11 +144,15 @@ struct Iterative {
 }
 
 impl Iterative {
-    fn new(sparsity: &Sparsity, points: &[MaterialPoint], with_coarse_level: bool) -> Self {
-        let schedule = LevelSchedule::new(sparsity, &Partition::new(sparsity));
+    /// With material points the matrix is divided into parts and has a coarse level.
+    fn new(sparsity: &Sparsity, material_points: &[MaterialPoint]) -> Self {
+        let partition = match material_points {
+            [] => Partition::into_parts(sparsity, 1),
+            _ => Partition::new(sparsity),
+        };
+        let schedule = LevelSchedule::new(sparsity, &partition);
         let row_of = &schedule.layout.order.row_of;
-        let coarse =
-            with_coarse_level.then(|| CoarseLevel::new(sparsity, row_of, points)).flatten();
+        let coarse = CoarseLevel::new(sparsity, row_of, material_points);
         Self {
             packed: PackedMatrix::new(&schedule.layout),
             preconditioner: Preconditioner::new(&schedule.layout, coarse),
@@ -196,7 +198,7 @@ mod tests {
 
     /// Solves for a load that is smooth.
     fn solve(matrix: &BlockMatrix, points: &[MaterialPoint], arch: Arch) -> (usize, Vec<f64>) {
-        let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), points, true) };
+        let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), points) };
         iterative.factorise(matrix).unwrap();
         let size = 3 * matrix.sparsity().particles();
         let held = |k: usize| matrix.is_held(k / 3);
@@ -246,7 +248,7 @@ mod tests {
             matrix.add(i, j, &[-0.8, 0.1, 0.0, 0.2, -0.7, 0.0, 0.1, 0.0, -0.9]);
         }
         let run = |arch: Arch| {
-            let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), &[], false) };
+            let mut iterative = Iterative { arch, ..Iterative::new(matrix.sparsity(), &[]) };
             iterative.factorise(&matrix).unwrap();
             let mut x: Vec<f64> = (0..1200).map(|k| (k as f64).sin()).collect();
             let target = Target { residual: 1e-9, energy: 0.0 };

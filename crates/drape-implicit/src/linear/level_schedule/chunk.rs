@@ -103,7 +103,7 @@ impl<A: Split, B: Split, C: Split> Split for (A, B, C) {
 }
 
 /// Most rows that one thread works on where each costs little: handing over takes longer.
-pub(crate) const LIGHT: usize = 16_384;
+pub(crate) const LIGHT: usize = 4_096;
 
 /// Works on chunks, each with its own part of the output, on several threads if they have more than
 /// `grain` rows. Threads that have done their chunks take over others'.

@@ -1,5 +1,6 @@
 //! Later blocks: the off-diagonal blocks of each row whose columns are eliminated after it.
 
+use super::grouped::Grouped;
 use super::row_order::RowOrder;
 use crate::linear::block::{self, Block};
 use crate::linear::sparsity::Sparsity;
@@ -8,7 +9,7 @@ use crate::linear::sparsity::Sparsity;
 const TRANSPOSED: u32 = 1 << 31;
 
 /// Block of the matrix, or its transpose.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct BlockSlot(u32);
 
 impl BlockSlot {
@@ -47,54 +48,25 @@ impl BlockSlot {
 pub(crate) const TRANSPOSITION: [[usize; 2]; 3] = [[1, 3], [2, 6], [5, 7]];
 
 /// Block of a row and its column.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LaterBlock {
     pub slot: BlockSlot,
     pub column: usize,
 }
 
-/// Later blocks of all rows.
-pub(super) struct LaterBlocks {
-    first: Vec<usize>,
-    blocks: Vec<LaterBlock>,
-}
-
-impl LaterBlocks {
-    pub(super) fn new(sparsity: &Sparsity, order: &RowOrder) -> Self {
-        let ordered = || {
-            (0..sparsity.particles()).flat_map(|particle| {
-                let row = order.row_of[particle] as usize;
-                sparsity.row(particle).skip(1).map(move |slot| {
-                    let column = order.row_of[sparsity.columns()[slot] as usize] as usize;
-                    if order.rank(row) < order.rank(column) {
-                        (row, LaterBlock { slot: BlockSlot(slot as u32), column })
-                    } else {
-                        (
-                            column,
-                            LaterBlock { slot: BlockSlot(slot as u32 | TRANSPOSED), column: row },
-                        )
-                    }
-                })
-            })
-        };
-        let rows = order.particles.len();
-        let mut first = vec![0; rows + 1];
-        for (row, _) in ordered() {
-            first[row + 1] += 1;
-        }
-        for row in 0..rows {
-            first[row + 1] += first[row];
-        }
-        let mut end = first.clone();
-        let mut blocks = vec![LaterBlock { slot: BlockSlot::ABSENT, column: 0 }; first[rows]];
-        for (row, block) in ordered() {
-            blocks[end[row]] = block;
-            end[row] += 1;
-        }
-        Self { first, blocks }
-    }
-
-    pub(super) fn of(&self, row: usize) -> &[LaterBlock] {
-        &self.blocks[self.first[row]..self.first[row + 1]]
-    }
+/// Later blocks of each row.
+pub(super) fn later_blocks(sparsity: &Sparsity, order: &RowOrder) -> Grouped<LaterBlock> {
+    let blocks = (0..sparsity.particles()).flat_map(|particle| {
+        let row = order.row_of[particle] as usize;
+        sparsity.row(particle).skip(1).map(move |slot| {
+            let column = order.row_of[sparsity.columns()[slot] as usize] as usize;
+            if order.rank(row) < order.rank(column) {
+                (row, LaterBlock { slot: BlockSlot(slot as u32), column })
+            } else {
+                let slot = BlockSlot(slot as u32 | TRANSPOSED);
+                (column, LaterBlock { slot, column: row })
+            }
+        })
+    });
+    Grouped::new(order.particles.len(), blocks)
 }

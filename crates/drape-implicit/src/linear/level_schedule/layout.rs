@@ -3,7 +3,8 @@
 use core::ops::Range;
 
 use super::chunk::Chunk;
-use super::later_blocks::{BlockSlot, LaterBlock, LaterBlocks};
+use super::grouped::Grouped;
+use super::later_blocks::{BlockSlot, LaterBlock, later_blocks};
 use super::part::{Group, Part};
 use super::partition::Partition;
 use super::row_order::{ABSENT, RowOrder};
@@ -69,7 +70,7 @@ struct FoundRun {
 impl BatchLayout {
     pub(crate) fn new(sparsity: &Sparsity, partition: &Partition) -> Self {
         let order = RowOrder::new(sparsity, partition);
-        let later = LaterBlocks::new(sparsity, &order);
+        let later = later_blocks(sparsity, &order);
         let mut layout = Self {
             rows: order.particles.len(),
             order,
@@ -101,7 +102,7 @@ impl BatchLayout {
 
     /// Divides the levels into runs, the last to be eliminated first, because a diagonal names the
     /// run that its columns lie in.
-    fn find_runs(&mut self, later: &LaterBlocks) {
+    fn find_runs(&mut self, later: &Grouped<LaterBlock>) {
         let mut found: Vec<FoundRun> = Vec::new();
         // Counted in the order of finding until all are found.
         let mut run_of_row = vec![0; self.order.particles.len()];
@@ -172,7 +173,7 @@ impl BatchLayout {
     /// which their columns are eliminated.
     fn shared_distances(
         &self,
-        later: &LaterBlocks,
+        later: &Grouped<LaterBlock>,
         start: usize,
         run_of_row: &[u32],
     ) -> Vec<Distance> {
@@ -203,7 +204,7 @@ impl BatchLayout {
     }
 
     /// Gives every block of the sparsity its place, on a diagonal if one leads to its column.
-    fn find_slots(&mut self, sparsity: &Sparsity, later: &LaterBlocks) {
+    fn find_slots(&mut self, sparsity: &Sparsity, later: &Grouped<LaterBlock>) {
         for index in 0..self.runs.len() {
             let run = self.runs[index].clone();
             self.runs[index].blocks = self.slots.len();

@@ -2,9 +2,6 @@
 
 use crate::linear::sparsity::Sparsity;
 
-/// Fewest particles of a matrix that is divided.
-const MIN_PARTICLES: usize = 8_000;
-
 /// Most particles of a part.
 const PART: usize = 16_000;
 
@@ -16,8 +13,12 @@ const MAX_PARTS: usize = 16;
 /// Consecutive levels of the particles' own order make a part, about equally many particles each. A
 /// separator holds the particles of a part that are coupled to later parts. Without them no two
 /// parts are coupled: this is a dissection \[Geo73\] along one direction. Cuts along levels leave the
-/// diagonals of the runs whole; with cuts across the longer side of a sheet most blocks beside a
-/// separator were irregular.
+/// diagonals of the runs whole: with cuts across a sheet curtain and swing of 40 000 particles took 1.6
+/// and 1.4 times as long in eight parts as in one, at as many iterations.
+///
+/// Parts are for stabilised factors with a coarse level: in 2, 4 and 8 parts these two took 0 to 10 %
+/// more iterations. With compensated factors those of 10 000 took a quarter more in two parts and
+/// twice as many in four.
 #[derive(Debug)]
 pub(crate) struct Partition {
     /// Parts and, between them, separators; each with its particles in the order of elimination.
@@ -26,14 +27,10 @@ pub(crate) struct Partition {
 }
 
 impl Partition {
-    /// Partition into as many parts as the particles are worth: a function of the sparsity, never of
-    /// the threads.
+    /// Partition of a large matrix: a function of its sparsity, never of the threads.
     pub(crate) fn new(sparsity: &Sparsity) -> Self {
-        let parts = match sparsity.particles() {
-            ..MIN_PARTICLES => 1,
-            particles => particles.div_ceil(PART).next_power_of_two().clamp(2, MAX_PARTS),
-        };
-        Self::into_parts(sparsity, parts)
+        let parts = sparsity.particles().div_ceil(PART).next_power_of_two();
+        Self::into_parts(sparsity, parts.clamp(2, MAX_PARTS))
     }
 
     /// Partition into a number of parts.
@@ -144,7 +141,7 @@ mod tests {
 
     #[test]
     fn one_part_is_the_particles_own_order() {
-        let Partition { groups } = Partition::new(&weave(20));
+        let Partition { groups } = Partition::into_parts(&weave(20), 1);
         assert_eq!(groups, [(0..400).collect::<Vec<u32>>()]);
     }
 }

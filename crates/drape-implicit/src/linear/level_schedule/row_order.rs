@@ -1,5 +1,6 @@
 //! Rows of the elimination: the particles by level, each level padded to whole batches.
 
+use super::grouped::Grouped;
 use super::partition::Partition;
 use crate::linear::lanes::LANES;
 use crate::linear::sparsity::Sparsity;
@@ -22,7 +23,7 @@ pub(crate) struct RowOrder {
 
 impl RowOrder {
     pub(crate) fn new(sparsity: &Sparsity, partition: &Partition) -> Self {
-        let neighbours = Neighbours::new(sparsity);
+        let neighbours = neighbours(sparsity);
         let mut level_of = vec![ABSENT; sparsity.particles()];
         let groups: Vec<Vec<Vec<u32>>> = partition
             .groups
@@ -71,50 +72,21 @@ impl RowOrder {
 }
 
 /// Particles coupled to each particle.
-struct Neighbours {
-    first: Vec<usize>,
-    particles: Vec<u32>,
+fn neighbours(sparsity: &Sparsity) -> Grouped<u32> {
+    let count = sparsity.particles();
+    let pairs = (0..count).flat_map(|particle| {
+        let others = sparsity.columns()[sparsity.row(particle)][1..].iter();
+        others.flat_map(move |&other| [(particle, other), (other as usize, particle as u32)])
+    });
+    Grouped::new(count, pairs)
 }
 
-impl Neighbours {
-    fn new(sparsity: &Sparsity) -> Self {
-        let count = sparsity.particles();
-        let pairs = || {
-            (0..count).flat_map(|particle| {
-                let slots = sparsity.row(particle).skip(1);
-                slots.map(move |slot| [particle, sparsity.columns()[slot] as usize])
-            })
-        };
-        let mut first = vec![0; count + 1];
-        for [a, b] in pairs() {
-            first[a + 1] += 1;
-            first[b + 1] += 1;
-        }
-        for particle in 0..count {
-            first[particle + 1] += first[particle];
-        }
-        let mut end = first.clone();
-        let mut particles = vec![0; first[count]];
-        for [a, b] in pairs() {
-            for [own, other] in [[a, b], [b, a]] {
-                particles[end[own]] = other as u32;
-                end[own] += 1;
-            }
-        }
-        Self { first, particles }
-    }
-
-    fn of(&self, particle: u32) -> &[u32] {
-        &self.particles[self.first[particle as usize]..self.first[particle as usize + 1]]
-    }
-}
-
-/// Particles of each level of a group, ascending. The levels of particles of no group so far are absent on
-/// entry.
-fn sorted(group: &[u32], neighbours: &Neighbours, level_of: &mut [u32]) -> Vec<Vec<u32>> {
+/// Particles of each level of a group, ascending. `level_of` is all absent on entry and on return.
+fn sorted(group: &[u32], neighbours: &Grouped<u32>, level_of: &mut [u32]) -> Vec<Vec<u32>> {
     let mut levels: Vec<Vec<u32>> = Vec::new();
     for &particle in group {
-        let earlier = neighbours.of(particle).iter().map(|&other| level_of[other as usize]);
+        let earlier =
+            neighbours.of(particle as usize).iter().map(|&other| level_of[other as usize]);
         let own = earlier.filter(|&level| level != ABSENT).max().map_or(0, |level| level + 1);
         level_of[particle as usize] = own;
         if own as usize >= levels.len() {
