@@ -259,26 +259,18 @@ impl WithSimd for Multiply<'_> {
 #[inline(always)]
 fn gather(blocks: &[Block], slots: &[BlockSlot; LANES]) -> Blocks<Double> {
     let mut gathered = [Double::ZERO; 9];
-    let mut transposed = 0;
     for (lane, slot) in slots.iter().enumerate() {
         for (entry, value) in gathered.iter_mut().zip(slot.stored(blocks, &block::ZERO)) {
             entry.0[lane] = *value;
         }
-        transposed += usize::from(slot.is_transposed());
     }
-    if transposed == 0 {
-        return gathered;
-    }
-    if slots.iter().all(|&slot| slot.is_transposed() || slot == BlockSlot::ABSENT) {
-        // As in all of a part that is eliminated backwards.
-        TRANSPOSITION.iter().for_each(|&[a, b]| gathered.swap(a, b));
-        return gathered;
-    }
-    for (lane, _) in slots.iter().enumerate().filter(|(_, slot)| slot.is_transposed()) {
-        for [a, b] in TRANSPOSITION {
-            let entry = gathered[a].0[lane];
-            gathered[a].0[lane] = gathered[b].0[lane];
-            gathered[b].0[lane] = entry;
+    for (lane, slot) in slots.iter().enumerate() {
+        if slot.is_transposed() {
+            for [a, b] in TRANSPOSITION {
+                let entry = gathered[a].0[lane];
+                gathered[a].0[lane] = gathered[b].0[lane];
+                gathered[b].0[lane] = entry;
+            }
         }
     }
     gathered

@@ -269,13 +269,11 @@ impl Sweep<'_> {
             for (batch, row) in (run.start..run.end).step_by(LANES).enumerate() {
                 let (upper, across) = upper[run.blocks_of(batch)].split_at(run.crossing);
                 let mut sum = [Single::ZERO; 3];
-                let near = inside.iter().zip(upper).map(|pair| (pair, &*own));
-                let far = crossing.iter().zip(across).map(|pair| (pair, &*separators));
-                for ((diagonal, block), rows) in near.chain(far) {
-                    let more = product(block, rows.load(diagonal.column(row)));
-                    for (sum, more) in sum.iter_mut().zip(more) {
-                        *sum = *sum + more;
-                    }
+                for (diagonal, block) in inside.iter().zip(upper) {
+                    add(&mut sum, product(block, own.load(diagonal.column(row))));
+                }
+                for (diagonal, block) in crossing.iter().zip(across) {
+                    add(&mut sum, product(block, separators.load(diagonal.column(row))));
                 }
                 own.subtract_batch(row, sum);
                 let entries = layout.irregular_of[run.batches + batch].clone();
@@ -298,6 +296,13 @@ impl Sweep<'_> {
                 divide(pivot, &mut self.own, row);
             }
         }
+    }
+}
+
+#[inline(always)]
+fn add(sum: &mut [Single; 3], more: [Single; 3]) {
+    for (sum, more) in sum.iter_mut().zip(more) {
+        *sum = *sum + more;
     }
 }
 
