@@ -26,6 +26,7 @@ pub(crate) mod chunk;
 mod grouped;
 pub(crate) mod later_blocks;
 pub(crate) mod layout;
+mod levels;
 pub(crate) mod part;
 pub(crate) mod partial_sum;
 pub(crate) mod partition;

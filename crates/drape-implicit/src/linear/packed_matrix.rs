@@ -11,7 +11,7 @@ use crate::linear::lanes::{Columns, Double, LANES, Single, widened};
 use crate::linear::level_schedule::chunk::{
     self, Chunk, LIGHT, PerBlock, PerChunk, PerIrregularEntry, PerRow,
 };
-use crate::linear::level_schedule::later_blocks::{BlockSlot, TRANSPOSITION};
+use crate::linear::level_schedule::later_blocks::BlockSlot;
 use crate::linear::level_schedule::layout::BatchLayout;
 use crate::linear::level_schedule::partial_sum::{PartialProduct, PartialSum, add_others};
 use crate::linear::level_schedule::row_order::ABSENT;
@@ -266,7 +266,7 @@ fn gather(blocks: &[Block], slots: &[BlockSlot; LANES]) -> Blocks<Double> {
     }
     for (lane, slot) in slots.iter().enumerate() {
         if slot.is_transposed() {
-            for [a, b] in TRANSPOSITION {
+            for [a, b] in [[1, 3], [2, 6], [5, 7]] {
                 let entry = gathered[a].0[lane];
                 gathered[a].0[lane] = gathered[b].0[lane];
                 gathered[b].0[lane] = entry;

@@ -127,6 +127,11 @@ impl Sparsity {
         self.offsets[row]..self.offsets[row + 1]
     }
 
+    /// Particles that a particle is coupled to and that come after it.
+    pub(crate) fn later(&self, particle: usize) -> &[u32] {
+        &self.columns[self.row(particle)][1..]
+    }
+
     /// Slot that couples two particles, given in either order; `None` if they are not coupled.
     #[must_use]
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {

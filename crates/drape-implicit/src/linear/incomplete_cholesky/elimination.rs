@@ -34,7 +34,7 @@ pub(crate) struct Attempt {
     pub shift: f64,
 }
 
-/// Eliminations of the parts and of the separators.
+/// Work spaces of an elimination: one for each part, and one for the separators.
 #[derive(Debug)]
 pub(crate) struct Elimination {
     parts: Vec<GroupWork>,
@@ -69,7 +69,7 @@ struct GroupElimination<'a, 'f> {
     group: &'a Group,
     work: &'a mut GroupWork,
     factor: &'a mut FactorRows<'f>,
-    /// Runs before this one are in the Schur complement.
+    /// First run that is not copied to the Schur complement yet.
     loaded: usize,
 }
 

@@ -17,9 +17,10 @@ use crate::linear::packed_matrix::PackedMatrix;
 #[derive(Debug)]
 pub(crate) struct SchurComplement {
     numbers: Vec<f32>,
-    /// Numbers of the layout that the first ones are.
+    /// Range of the layout's numbers that is stored first.
     own: Range<usize>,
-    /// Numbers of separators that follow these: what the part adds to them.
+    /// Range of the layout's numbers that is stored after it: those of separators, from which the part
+    /// subtracts.
     separators: Range<usize>,
 }
 
@@ -50,12 +51,12 @@ impl SchurComplement {
         }
     }
 
-    /// Sets what the part adds to separators to zero.
+    /// Clears the numbers of the separators.
     pub(crate) fn clear_separators(&mut self) {
         self.numbers[self.own.len()..].fill(0.0);
     }
 
-    /// Adds what a part has subtracted from separators; this is their Schur complement.
+    /// Adds the numbers of the separators as a part left them, to the Schur complement of these.
     pub(crate) fn add_part(&mut self, part: &Self) {
         let added = &part.numbers[part.own.len()..][..part.separators.len()];
         let first = part.separators.start.saturating_sub(self.own.start);

@@ -36,16 +36,10 @@ impl BlockSlot {
     /// Copy of the block.
     #[inline(always)]
     pub(crate) fn copy(self, blocks: &[Block]) -> Block {
-        let mut block = *self.stored(blocks, &block::ZERO);
-        if self.is_transposed() {
-            TRANSPOSITION.iter().for_each(|&[a, b]| block.swap(a, b));
-        }
-        block
+        let stored = self.stored(blocks, &block::ZERO);
+        if self.is_transposed() { block::transposed(stored) } else { *stored }
     }
 }
-
-/// Entries of a block that change places where it is transposed.
-pub(crate) const TRANSPOSITION: [[usize; 2]; 3] = [[1, 3], [2, 6], [5, 7]];
 
 /// Block of a row and its column.
 #[derive(Clone, Copy, Debug, Default)]

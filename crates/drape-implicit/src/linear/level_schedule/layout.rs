@@ -113,10 +113,10 @@ impl BatchLayout {
                 let first = found.len();
                 for start in (level[0]..level[1]).step_by(LANES).rev() {
                     let own = self.shared_distances(later, start, &run_of_row);
-                    let part = |a: &[Distance], b: &[Distance]| a.iter().all(|x| b.contains(x));
+                    let holds = |b: &[Distance], a: &[Distance]| a.iter().all(|x| b.contains(x));
                     match found[first..].last_mut() {
-                        Some(run) if part(&own, &run.diagonals) => run.start = start,
-                        Some(run) if part(&run.diagonals, &own) => {
+                        Some(run) if holds(&run.diagonals, &own) => run.start = start,
+                        Some(run) if holds(&own, &run.diagonals) => {
                             run.start = start;
                             run.diagonals = own;
                         }
@@ -197,9 +197,7 @@ impl BatchLayout {
     /// zeros may lead beyond the last row.
     fn extend_margins(&mut self) {
         for run in &self.runs {
-            for diagonal in &self.diagonals[run.diagonals.clone()] {
-                self.rows = self.rows.max(diagonal.column(run.end));
-            }
+            self.rows = self.rows.max(self.rows_of(run).end);
         }
     }
 
@@ -249,7 +247,7 @@ impl BatchLayout {
         })
     }
 
-    /// Gives every run its numbers in the Schur complement, those of the parts first.
+    /// Assigns each run its range of numbers of the Schur complement. Those of the parts come first.
     fn find_numbers(&mut self, runs_of: &[Range<usize>]) {
         let parts = runs_of.iter().step_by(2).cloned().flatten();
         self.part_numbers = self.number_runs(parts, 0);
@@ -264,7 +262,7 @@ impl BatchLayout {
         }
     }
 
-    /// Gives runs their numbers from a first one on. Returns the end of all.
+    /// Assigns runs their ranges of numbers, from a first number on. Returns the end of all.
     fn number_runs(&mut self, runs: impl Iterator<Item = usize>, first: usize) -> usize {
         let mut numbers = first;
         for index in runs {
@@ -295,11 +293,8 @@ impl BatchLayout {
                 let rows = diagonal.column(run.start)..diagonal.column(run.end);
                 include(window.get_or_insert(rows.clone()), rows);
             }
-            let batches = &self.irregular_of[run.batches..][..run.len() / LANES];
-            let irregular = batches.iter().flat_map(|batch| &self.irregular[batch.clone()]);
-            let runs = irregular.map(|entry| self.run_of_row[entry.column as usize]);
-            for run in runs.chain(diagonals.iter().map(|diagonal| diagonal.run)) {
-                let holds = |separator: &Group| separator.runs.contains(&(run as usize));
+            for target in self.targets(run) {
+                let holds = |separator: &Group| separator.runs.contains(&target);
                 if let Some(separator) = separators.iter().position(holds) {
                     reached[separator] = true;
                 }
@@ -319,6 +314,15 @@ impl BatchLayout {
         }
     }
 
+    /// Runs that the columns of a run lie in.
+    fn targets(&self, run: &Run) -> impl Iterator<Item = usize> {
+        let diagonals = self.diagonals[run.diagonals.clone()].iter().map(|d| d.run);
+        let batches = &self.irregular_of[run.batches..][..run.len() / LANES];
+        let irregular = batches.iter().flat_map(|batch| &self.irregular[batch.clone()]);
+        let columns = irregular.map(|entry| self.run_of_row[entry.column as usize]);
+        diagonals.chain(columns).map(|target| target as usize)
+    }
+
     /// Rows of a run and those that its diagonals lead to.
     fn rows_of(&self, run: &Run) -> Range<usize> {
         let mut rows = run.start..run.end;
@@ -334,12 +338,7 @@ impl BatchLayout {
             let mut look_ahead = 0;
             for index in group.runs.clone() {
                 let run = &self.runs[index];
-                let diagonals = self.diagonals[run.diagonals.clone()].iter().map(|d| d.run);
-                let batches = &self.irregular_of[run.batches..][..run.len() / LANES];
-                let irregular = batches.iter().flat_map(|batch| &self.irregular[batch.clone()]);
-                let columns = irregular.map(|entry| self.run_of_row[entry.column as usize]);
-                let targets = diagonals.chain(columns).map(|target| target as usize);
-                let last = targets.filter(|target| group.runs.contains(target)).max();
+                let last = self.targets(run).filter(|target| group.runs.contains(target)).max();
                 look_ahead = look_ahead.max(index + 1).max(last.map_or(0, |last| last + 1));
                 self.runs[index].look_ahead = look_ahead;
             }

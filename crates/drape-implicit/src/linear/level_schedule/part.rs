@@ -22,7 +22,7 @@ pub(crate) struct Group {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Part {
     pub own: Group,
-    /// Rows beyond its own that its diagonals and irregular entries lead to.
+    /// Range of rows of the separators that it is coupled to, with a margin for blocks of zeros.
     pub window: Range<usize>,
     /// Rows of the separators that it is coupled to.
     pub separators: Vec<Range<usize>>,

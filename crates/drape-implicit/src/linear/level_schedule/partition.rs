@@ -1,5 +1,6 @@
 //! Partition: particles in parts that are eliminated side by side, with separators between them.
 
+use super::levels::Levels;
 use crate::linear::sparsity::Sparsity;
 
 /// Most particles of a part.
@@ -38,7 +39,7 @@ impl Partition {
         let part_of = parts(sparsity, count);
         let mut separates = vec![false; part_of.len()];
         for particle in 0..part_of.len() {
-            for &other in later(sparsity, particle) {
+            for &other in sparsity.later(particle) {
                 let other = other as usize;
                 if part_of[particle] != part_of[other] {
                     let is_first = part_of[particle] < part_of[other];
@@ -50,8 +51,8 @@ impl Partition {
         for (particle, &part) in part_of.iter().enumerate() {
             groups[2 * part + usize::from(separates[particle])].push(particle as u32);
         }
-        // From both sides towards a separator: where a wave of the elimination begins beside one,
-        // the factor is worse.
+        // Backwards, so that the elimination of a part ends at a separator, and does not begin there:
+        // the factor is better.
         for part in 1..count {
             if part % 2 == 1 || part + 1 == count {
                 groups[2 * part].reverse();
@@ -61,33 +62,18 @@ impl Partition {
     }
 }
 
-/// Part of each particle: consecutive levels, of about equally many particles.
+/// Part of each particle. A part is a range of levels; all have about equally many particles.
 fn parts(sparsity: &Sparsity, count: usize) -> Vec<usize> {
-    let mut level_of = vec![0; sparsity.particles()];
-    for particle in 0..level_of.len() {
-        let next = level_of[particle] + 1;
-        for &other in later(sparsity, particle) {
-            let level: &mut usize = &mut level_of[other as usize];
-            *level = (*level).max(next);
-        }
-    }
-    let mut sizes = vec![0; level_of.iter().max().map_or(0, |last| last + 1)];
-    level_of.iter().for_each(|&level| sizes[level] += 1);
+    let particles = sparsity.particles();
+    let all: Vec<u32> = (0..particles as u32).collect();
+    let mut part_of = vec![0; particles];
     let mut before = 0;
-    let part_of_level: Vec<usize> = sizes
-        .into_iter()
-        .map(|size| {
-            let part = before * count / level_of.len();
-            before += size;
-            part
-        })
-        .collect();
-    level_of.into_iter().map(|level| part_of_level[level]).collect()
-}
-
-/// Particles of larger number that a particle is coupled to.
-fn later(sparsity: &Sparsity, particle: usize) -> &[u32] {
-    &sparsity.columns()[sparsity.row(particle)][1..]
+    for level in Levels::new(sparsity).of(&all) {
+        let part = before * count / particles;
+        level.iter().for_each(|&particle| part_of[particle as usize] = part);
+        before += level.len();
+    }
+    part_of
 }
 
 #[cfg(test)]
@@ -109,7 +95,7 @@ mod tests {
                 }
             }
             for particle in 0..particles {
-                for &other in later(&sparsity, particle) {
+                for &other in sparsity.later(particle) {
                     let [a, b] = [particle, other as usize].map(|one| group_of[one]);
                     assert!(a == b || a % 2 == 1 || b % 2 == 1, "{a} and {b} are coupled");
                 }

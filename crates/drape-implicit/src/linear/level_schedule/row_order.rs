@@ -1,6 +1,6 @@
 //! Rows of the elimination: the particles by level, each level padded to whole batches.
 
-use super::grouped::Grouped;
+use super::levels::Levels;
 use super::partition::Partition;
 use crate::linear::lanes::LANES;
 use crate::linear::sparsity::Sparsity;
@@ -23,13 +23,9 @@ pub(crate) struct RowOrder {
 
 impl RowOrder {
     pub(crate) fn new(sparsity: &Sparsity, partition: &Partition) -> Self {
-        let neighbours = neighbours(sparsity);
-        let mut level_of = vec![ABSENT; sparsity.particles()];
-        let groups: Vec<Vec<Vec<u32>>> = partition
-            .groups
-            .iter()
-            .map(|group| sorted(group, &neighbours, &mut level_of))
-            .collect();
+        let mut levels = Levels::new(sparsity);
+        let groups = partition.groups.iter().map(|group| levels.of(group));
+        let groups: Vec<Vec<Vec<u32>>> = groups.collect();
         // The blocks of zeros of a batch may lead as far beyond its target as its run is long. Beside
         // other groups they must not meet these.
         let longest = groups.iter().flatten().map(Vec::len).max().unwrap_or(0);
@@ -69,36 +65,4 @@ impl RowOrder {
     pub(crate) fn rank(&self, row: usize) -> (bool, usize) {
         (self.is_separator[row], row)
     }
-}
-
-/// Particles coupled to each particle.
-fn neighbours(sparsity: &Sparsity) -> Grouped<u32> {
-    let count = sparsity.particles();
-    let pairs = (0..count).flat_map(|particle| {
-        let others = sparsity.columns()[sparsity.row(particle)][1..].iter();
-        others.flat_map(move |&other| [(particle, other), (other as usize, particle as u32)])
-    });
-    Grouped::new(count, pairs)
-}
-
-/// Particles of each level of a group, ascending. `level_of` is all absent on entry and on return.
-fn sorted(group: &[u32], neighbours: &Grouped<u32>, level_of: &mut [u32]) -> Vec<Vec<u32>> {
-    let mut levels: Vec<Vec<u32>> = Vec::new();
-    for &particle in group {
-        let earlier =
-            neighbours.of(particle as usize).iter().map(|&other| level_of[other as usize]);
-        let own = earlier.filter(|&level| level != ABSENT).max().map_or(0, |level| level + 1);
-        level_of[particle as usize] = own;
-        if own as usize >= levels.len() {
-            levels.resize(own as usize + 1, Vec::new());
-        }
-        levels[own as usize].push(particle);
-    }
-    // Groups do not wait for each other.
-    for &particle in group {
-        level_of[particle as usize] = ABSENT;
-    }
-    // Else no diagonal would lead from a part that is eliminated backwards to a separator.
-    levels.iter_mut().for_each(|level| level.sort_unstable());
-    levels
 }
