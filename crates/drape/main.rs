@@ -9,6 +9,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use console::signal;
+use failure::Failure;
 
 // What a person types, and what is done.
 mod command;
@@ -30,13 +31,31 @@ const PANICKED: &str = "error: this is a mistake of the program, not of its inpu
 fn main() -> ExitCode {
     signal::let_large_files_fail();
     let command = command::CommandLine::parse();
+    ended(|| command.execute())
+}
+
+/// Exit code of a command, which is executed and whose failure is told.
+fn ended(command: impl FnOnce() -> Result<(), Failure>) -> ExitCode {
     // A panic has told where it was; what the command wrote until then is whole.
-    match catch_unwind(AssertUnwindSafe(|| command.execute())) {
+    match catch_unwind(AssertUnwindSafe(command)) {
         Ok(Ok(())) => ExitCode::SUCCESS,
         Ok(Err(failure)) => failure.report(),
         Err(_) => {
             console::tell(PANICKED);
             ExitCode::from(70)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_ends_with_70() {
+        let codes =
+            [ended(|| panic!("a mistake")), ended(|| Ok(())), ended(|| Err(Failure::Batch))];
+        let right = [ExitCode::from(70), ExitCode::SUCCESS, ExitCode::from(3)];
+        assert_eq!(codes.map(|code| format!("{code:?}")), right.map(|code| format!("{code:?}")));
     }
 }

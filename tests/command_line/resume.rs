@@ -5,9 +5,14 @@
 #![allow(clippy::unwrap_used)]
 
 use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
+
+use drape::dynamics::Step;
+use drape::input::Document;
+use drape::keep::{Keeping, KeptRun, RunRequest, Watcher, end_at};
 
 use serde_json::Value;
 
@@ -227,6 +232,45 @@ fn one_run_at_a_time_writes_to_a_folder() {
     child.wait().unwrap();
     // The lock is gone with its process.
     ran(&["run", CASES[2].scene, "--until", "0.01", "--force", "-o", place, "--no-picture"], 0);
+}
+
+/// Watcher of a program that panics after some steps.
+struct Panicking(usize);
+
+impl Watcher for Panicking {
+    fn step(&mut self, _: &Step, _: f64) {
+        assert!(self.0 > 0, "a mistake of the program");
+        self.0 -= 1;
+    }
+
+    fn is_interrupted(&self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn a_run_whose_program_panics_goes_on_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let [whole, out] = ["whole", "panicked"].map(|name| folder.path().join(name));
+    let scene = root().join("scenes/cube.toml");
+    let named = ["run", scene.to_str().unwrap(), "--until", "0.1", "--no-picture", "-o"];
+    ran(&[&named[..], &[whole.to_str().unwrap()]].concat(), 5);
+
+    let mut read = drape::scene_of(&Document::read(&scene).unwrap()).unwrap();
+    end_at(&mut read, 0.1).unwrap();
+    let request = RunRequest::new(&scene, Some(0.1), 0.0);
+    let program = PathBuf::from(env!("CARGO_BIN_EXE_drape"));
+    let run = KeptRun::begin(read, &out, &request, &Keeping { program, ..Keeping::default() });
+    let run = run.unwrap();
+    let panicked = catch_unwind(AssertUnwindSafe(|| run.run(&mut Panicking(3)).map(drop)));
+    assert!(panicked.is_err());
+    let status: Value =
+        serde_json::from_slice(&std::fs::read(out.join("status.json")).unwrap()).unwrap();
+    assert_eq!(status["state"], "panicked", "{status}");
+    assert_eq!(checkpoints(&out).len(), 2);
+
+    ran(&["resume", out.to_str().unwrap(), "--no-picture"], 5);
+    assert!(results(&out) == results(&whole));
 }
 
 /// Returns the checkpoints of a folder with their bytes, the oldest first.

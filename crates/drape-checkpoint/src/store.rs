@@ -232,6 +232,24 @@ mod tests {
     }
 
     #[test]
+    fn files_of_other_names_are_not_touched() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let names = ["checkpoint-7.bin", "checkpoint-+0000001.bin", "checkpoint-abcdefgh.bin"];
+        let paths = names.map(|name| folder.path().join(name));
+        paths.iter().for_each(|path| std::fs::write(path, "theirs").expect("written"));
+        Store::new(folder.path()).clear().expect("it can be read");
+        assert!(paths.iter().all(|path| path.is_file() && number_of(path).is_none()));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_folder_that_cannot_be_synchronised_is_told() {
+        let folder = tempfile::tempdir().expect("a folder");
+        assert!(sync_folder(folder.path()).is_ok());
+        assert!(sync_folder(&folder.path().join("missing")).is_err());
+    }
+
+    #[test]
     fn numbers_go_on_beyond_eight_digits() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let store = Store::new(folder.path());
