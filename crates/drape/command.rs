@@ -39,6 +39,7 @@ Exit codes:
   8    a run came to --max-wall, --max-memory or --max-disk; `drape resume` goes on
   70   the program failed in a way that it should not
   130  interrupted (143: terminated); `drape resume` goes on
+  134  no memory was left; `drape resume` goes on from the last checkpoint
 
 Results that are there already, of a run, a fit, an export or `new`, are replaced with --force
 only; pages and figures are replaced always. Data go to stdout, messages and progress to stderr;

@@ -85,6 +85,21 @@ fn parts_with_their_own_spacing_keep_its_ratio() {
 }
 
 #[test]
+fn each_grid_keeps_the_coarser_ones_of_the_scene() {
+    let bench = Bench::new("");
+    bench.cantilever();
+    let scene = std::fs::read_to_string(bench.path("scene.toml")).unwrap();
+    let refined = scene + "[refine]\nspacings = [0.02, \"14 mm\"]\n";
+    std::fs::write(bench.path("scene.toml"), refined).unwrap();
+    let command = ["converge", "scene.toml", "--spacings", "20,14,10", "--results", "grids"];
+    bench.ran(&command, 0);
+    let table = std::fs::read_to_string(bench.path("grids/table.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    let grids = |line: &str| line.matches(" mm").count() - 1;
+    assert_eq!([1, 2, 3].map(|row| grids(lines[row])), [0, 1, 2], "{table}");
+}
+
+#[test]
 fn wrong_spacings_and_scenes_are_refused_before_any_run() {
     let bench = Bench::new("");
     for (spacings, part) in [

@@ -33,6 +33,6 @@ pub use scene::solver::{Integrator, LinearSolver, Method, SolverSettings};
 pub use scene::{
     Environment, MeshSource, MovingBody, Output, Scene, Schedule, Source, SourcePart, Start, View,
 };
-pub use spacings::{Spacing, spacings};
+pub use spacings::{Spacing, coarser_spacings, spacings};
 pub use surfaces::StartSurfaces;
 pub use tangle::{Overlap, Tangle};

@@ -53,6 +53,16 @@ pub fn spacings(document: &Document) -> Result<Vec<Spacing>, Diagnostics> {
     Ok(common.into_iter().chain(own.into_iter().flatten()).collect())
 }
 
+/// Returns the spacings of a scene's coarser grids, in m, the coarsest first.
+///
+/// # Errors
+/// Mistakes of the grammar, of spelling and of types.
+pub fn coarser_spacings(document: &Document) -> Result<Vec<f64>, Diagnostics> {
+    let file: SceneFile = document.decode()?;
+    let spacings = file.refine.iter().flat_map(|refine| &refine.spacings);
+    Ok(spacings.map(|spacing| *spacing * file.unit()).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,4 +1,4 @@
-//! Space: what a run needs of memory and disk, and whether there is so much.
+//! Space: what a run needs of memory and disk, and whether the disk has it.
 
 use std::path::{Path, PathBuf};
 
@@ -17,18 +17,10 @@ pub fn describe_needs(needs: &Needs) -> String {
     )
 }
 
-/// Refuses a run that the memory cannot hold, or whose results do not fit where its folder is.
+/// Refuses a run whose results do not fit where its folder is.
 pub(super) fn check_space(scene: &Scene, folder: &Path) -> Result<(), Diagnostics> {
-    let needs = scene.needs();
-    if !can_reserve(needs.memory) {
-        let message = format!(
-            "a run takes about {} of memory, and the system does not give it",
-            in_words(needs.memory)
-        );
-        let help = "end other programs, raise the limit of this one (ulimit -v), or write a larger spacing";
-        return Err(Diagnostic::new(&scene.source.file, message).help(help).into());
-    }
     let Some(free) = free(folder) else { return Ok(()) };
+    let needs = scene.needs();
     if needs.disk_min() <= free {
         return Ok(());
     }
@@ -40,11 +32,6 @@ pub(super) fn check_space(scene: &Scene, folder: &Path) -> Result<(), Diagnostic
     );
     let help = "name another folder with -o, or write fewer frames: a larger output.every or a larger spacing";
     Err(Diagnostic::new(&scene.source.file, message).help(help).into())
-}
-
-/// Returns whether the system gives so many bytes of memory at once; they are given back.
-fn can_reserve(bytes: u64) -> bool {
-    usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok())
 }
 
 /// Returns the space that is free where a folder is or would be, in bytes, if the system says it.
@@ -69,12 +56,6 @@ fn in_words(bytes: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn memory_is_reserved_or_refused() {
-        assert!(can_reserve(0) && can_reserve(1 << 20));
-        assert!(!can_reserve(1 << 60) && !can_reserve(u64::MAX));
-    }
 
     #[test]
     fn space_is_that_of_the_folder_above() {

@@ -35,10 +35,10 @@ fn available() -> Option<u64> {
         let cached = page_cache(&read("/sys/fs/cgroup/memory.stat"));
         limit.saturating_sub(taken.saturating_sub(cached))
     });
-    // A run has to reserve what it may take at most, twice what it takes at least.
+    // The address space that threads reserve for what they will allocate is not taken yet.
     let own = address_space(&read("/proc/self/limits")).map(|limit| {
-        let taken = kilobytes(&read("/proc/self/status"), "VmSize:").unwrap_or_default();
-        limit.saturating_sub(taken) / 2
+        let taken = kilobytes(&read("/proc/self/status"), "VmRSS:").unwrap_or_default();
+        limit.saturating_sub(taken)
     });
     [of_machine, of_group, own].into_iter().flatten().min()
 }

@@ -57,7 +57,7 @@ pub(crate) struct SettleFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RefineFile {
-    /// Spacings of the coarser grids, from the coarsest on. Panels and garments with a spacing of their
+    /// Spacings of the coarser grids, from the coarsest on, 8 at most. Panels and garments with a spacing of their
     /// own keep its ratio to that of the scene.
     pub(crate) spacings: Vec<Given<Length>>,
 }

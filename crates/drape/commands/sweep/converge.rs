@@ -10,7 +10,7 @@ use clap::Args;
 use drape::file;
 use drape::input::{Document, Setting, figure, toml_string};
 use drape::reports::VERSION;
-use drape::scene::{Spacing, spacings};
+use drape::scene::{Spacing, coarser_spacings, spacings};
 use drape::sweep::{Point, Study, Table};
 
 use super::run::{Ran, run_points};
@@ -25,7 +25,8 @@ pub(crate) struct ConvergeArguments {
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// Spacings in mm, two or more, each at least a tenth larger than the next, such as 20,14,10. Panels
-    /// and garments with a spacing of their own keep its ratio to that of the scene.
+    /// and garments with a spacing of their own keep its ratio to that of the scene, and each grid begins on
+    /// the coarser ones of [refine] that are a tenth coarser or more.
     #[arg(long, value_name = "MM,MM", value_delimiter = ',', required = true)]
     spacings: Vec<f64>,
     /// Measure to print, a key of summary.json such as measures.lowest; may be given several times
@@ -138,12 +139,24 @@ fn plan(arguments: &ConvergeArguments, spacings: &[f64]) -> Result<(Study, Vec<P
     Ok((study, points))
 }
 
-/// Returns each key of a spacing with its TOML values for grids, given by their spacings, in m.
+/// Returns each key of a spacing with its TOML values for grids, given by their spacings, in m. Of the
+/// coarser grids of the scene, each grid keeps those that are coarse enough for it.
 fn own_spacings(document: &Document, grids: &[f64]) -> Result<Vec<(String, Vec<String>)>, Failure> {
     let own = spacings(document)?;
     let common = own[0].value;
     let values = |own: &Spacing| grids.iter().map(|grid| own.scaled_value(grid / common)).collect();
-    Ok(own.iter().map(|own| (own.key.clone(), values(own))).collect())
+    let mut keys: Vec<_> = own.iter().map(|own| (own.key.clone(), values(own))).collect();
+    let coarser = coarser_spacings(document)?;
+    if !coarser.is_empty() {
+        let kept = |grid: &f64| {
+            let kept = coarser.iter().filter(|own| **own >= (1.0 - 1e-9) * RATIO_MIN * grid);
+            let kept: Vec<String> =
+                kept.map(|own| format!("\"{} mm\"", figure(1e3 * own))).collect();
+            format!("[{}]", kept.join(", "))
+        };
+        keys.push(("refine.spacings".into(), grids.iter().map(kept).collect()));
+    }
+    Ok(keys)
 }
 
 /// Returns the text of a study whose axis is the spacing.
