@@ -22,7 +22,10 @@ impl Default for Safeguards {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{CcdFilter, ContactDistances, Detector, Surface, SurfaceParts, intersections};
+    use crate::{
+        CcdFilter, ContactDistances, Detector, StepFraction, StepLimit, Surface, SurfaceParts,
+        intersections,
+    };
 
     const DISTANCES: ContactDistances =
         ContactDistances { activation_distance: 1e-3, min_separation: 1e-4 };
@@ -135,6 +138,24 @@ mod tests {
         {
             assert!(height < 0.0 && met, "at {height}, met {met}");
         }
+    }
+
+    #[test]
+    fn a_pair_that_approaches_keeps_a_tenth_of_its_clearance() {
+        let (apart, down) = (1e-3, 0.9e-3);
+        let (surface, positions) = triangles(apart);
+        let mut detector = Detector::default();
+        let pairs = detector.detect(&surface, &positions, MARGIN).unwrap();
+        let limit = |down: f64| {
+            let upper = (0..18).map(|k| if k > 8 && k % 3 == 2 { -down } else { 0.0 });
+            let displacements: Vec<f64> = upper.collect();
+            CcdFilter::default().common_fraction(pairs, &positions, &displacements).unwrap()
+        };
+        let found = limit(down);
+        let room = 0.9 * (apart - 2.0 * DISTANCES.min_separation);
+        assert!((found.value * down - room).abs() < 1e-9, "{found:?}");
+        assert_eq!(found.limit, StepLimit::Contact);
+        assert_eq!(limit(0.5 * room), StepFraction { value: 1.0, limit: StepLimit::None });
     }
 
     #[test]
