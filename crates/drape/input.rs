@@ -4,6 +4,7 @@
 //! seen from the current folder.
 
 use std::borrow::Cow;
+use std::ffi::OsString;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -32,10 +33,13 @@ pub(crate) fn allowed() -> &'static [PathBuf] {
     ALLOWED.get().map_or(&[], Vec::as_slice)
 }
 
-/// Returns the option by which another process reads files as large as this one, if it needs one.
-pub(crate) fn raised() -> Option<[String; 2]> {
+/// Returns the options by which another process may read what this one may.
+pub(crate) fn options() -> Vec<OsString> {
+    let whole = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
+    let paths = allowed().iter().map(|path| ["--allow-path".into(), whole(path).into_os_string()]);
     let factor = size_limit_factor();
-    (factor > 1).then(|| ["--raise-limits".to_owned(), factor.to_string()])
+    let raised = (factor > 1).then(|| ["--raise-limits".into(), factor.to_string().into()]);
+    paths.chain(raised).flatten().collect()
 }
 
 /// Values that the user sets in place of those of the files of a command.

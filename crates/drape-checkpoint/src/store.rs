@@ -236,7 +236,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let names = ["checkpoint-7.bin", "checkpoint-+0000001.bin", "checkpoint-abcdefgh.bin"];
         let paths = names.map(|name| folder.path().join(name));
-        paths.iter().for_each(|path| std::fs::write(path, "theirs").expect("written"));
+        paths.iter().for_each(|path| fs::write(path, "theirs").expect("written"));
         Store::new(folder.path()).clear().expect("it can be read");
         assert!(paths.iter().all(|path| path.is_file() && number_of(path).is_none()));
     }

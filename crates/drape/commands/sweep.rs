@@ -10,7 +10,7 @@ mod run;
 mod study;
 mod worker;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use drape::file;
@@ -93,25 +93,17 @@ fn export(arguments: &SweepExportArguments) -> Result<(), Failure> {
         _ => (Engine::Dask, "dask_sweep.py"),
     };
     let chunk = arguments.chunk.map_or_else(|| chunk(&study, &points), |chunk| chunk as usize);
-    let whole = |path: &Path| {
-        std::path::absolute(path)
-            .map_err(|error| Failure::Output(format!("{}: {error}", path.display())))
-    };
     let here = |error| Failure::Output(format!("the current folder: {error}"));
-    let options = input::allowed().iter().map(|path| whole(path));
-    let options: Result<Vec<PathBuf>, Failure> = options.collect();
-    let options = options?
-        .into_iter()
-        .flat_map(|path| ["--allow-path".to_owned(), path.display().to_string()])
-        .chain(input::raised().into_iter().flatten());
-    let output = whole(study.output())?;
+    let options = input::options();
+    let output = std::path::absolute(study.output())
+        .map_err(|error| Failure::Output(format!("{}: {error}", study.output().display())))?;
     let batch = Batch {
         program: std::env::current_exe().map_err(here)?,
         folder: std::env::current_dir().map_err(here)?,
         study: arguments.study.study.clone(),
         is_elsewhere: arguments.study.results.is_some(),
         output,
-        options: options.collect(),
+        options: options.iter().map(|own| own.to_string_lossy().into_owned()).collect(),
         tasks: points.len().div_ceil(chunk),
     };
     let text = batch.file(engine);

@@ -28,9 +28,9 @@ pub(crate) struct PanelFile {
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(-180.0, 180.0)))]
     #[serde(default)]
     pub(crate) grain: Given<Angle>,
-    /// Position of a particle from the middle, weft × warp; a particle is in the middle if missing.
-    /// A disc without it has particles anywhere and a round rim; with it the rim is stepped, and a
-    /// drape takes about half of the time.
+    /// Offset of one particle from the middle of the panel, weft × warp, from which the lattice goes
+    /// on; 0 if missing. A disc with a `grid` has a stepped rim, and its drape takes about half of the
+    /// time; without it the rim is round.
     pub(crate) grid: Option<[Given<Length>; 2]>,
     /// Distance between its particles; that of the scene if missing.
     #[cfg_attr(feature = "schema", schemars(transform = drape_input::positive))]

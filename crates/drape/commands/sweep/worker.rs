@@ -175,10 +175,7 @@ impl<'a> Worker<'a> {
         arguments(&mut command);
         command.args(["--quiet", "--progress", "none", "--threads"]);
         command.arg(self.threads.to_string());
-        for path in input::allowed() {
-            command.arg("--allow-path").arg(path);
-        }
-        command.args(input::raised().iter().flatten());
+        command.args(input::options());
         command.stdin(Stdio::null()).stdout(output).stderr(file);
         // No process starts after the others were ended.
         let mut running = self.running();

@@ -1,6 +1,15 @@
 //! Bodies of a surface contact, which move vertex by vertex.
 
+use crate::error::Error;
 use crate::surface::placement::Placement;
+
+/// Checks the number of coordinates of bodies.
+pub(super) fn check_bodies(bodies: &[f64], needed: usize) -> Result<(), Error> {
+    if bodies.len() == needed {
+        return Ok(());
+    }
+    Err(Error::WrongLength { what: "coordinates of bodies", found: bodies.len(), needed })
+}
 
 /// Vertices of bodies on straight trajectories in the open step.
 #[derive(Debug)]

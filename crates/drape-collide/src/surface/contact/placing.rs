@@ -1,5 +1,6 @@
 //! Placing: cloth and bodies at other places between two steps.
 
+use super::obstacles::check_bodies;
 use super::surface_contact::SurfaceContact;
 use crate::error::Error;
 
@@ -26,10 +27,7 @@ impl SurfaceContact {
     /// # Errors
     /// Another number of coordinates.
     pub fn place_bodies(&mut self, bodies: &[f64]) -> Result<(), Error> {
-        let (needed, found) = (self.obstacles.start.len(), bodies.len());
-        if found != needed {
-            return Err(Error::WrongLength { what: "coordinates of bodies", found, needed });
-        }
+        check_bodies(bodies, self.obstacles.start.len())?;
         self.obstacles.restore(bodies);
         self.active.invalidate();
         Ok(())

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::active_pairs::{ActivePair, ActivePairs};
 use super::growth::Growth;
-use super::obstacles::Obstacles;
+use super::obstacles::{Obstacles, check_bodies};
 use super::open_seams::OpenSeams;
 use super::pinch::{Pinch, PinchedVertices, vertices_of};
 use super::settings::{PinchPolicy, SurfaceSettings};
@@ -69,11 +69,7 @@ impl SurfaceMemory {
     /// Checks that this is the memory of a contact.
     fn check(&self, contact: &SurfaceContact) -> Result<(), Error> {
         let Self { stretches, bodies, pinch, growth_fraction } = self;
-        let needed = contact.obstacles.start.len();
-        if bodies.len() != needed {
-            let (what, found) = ("coordinates of bodies", bodies.len());
-            return Err(Error::WrongLength { what, found, needed });
-        }
+        check_bodies(bodies, contact.obstacles.start.len())?;
         let free = contact.surface.free_count();
         if !pinch.is_empty() && pinch.len() != free {
             let (what, found) = ("pinch states", pinch.len());
@@ -99,11 +95,7 @@ impl SurfaceContact {
     ) -> Result<SurfaceContact, Error> {
         let groups = surface.group_distances().len();
         settings.check(groups)?;
-        let needed = 3 * (surface.vertex_count() - surface.free_count());
-        if bodies.len() != needed {
-            let (what, found) = ("coordinates of bodies", bodies.len());
-            return Err(Error::WrongLength { what, found, needed });
-        }
+        check_bodies(&bodies, 3 * (surface.vertex_count() - surface.free_count()))?;
         let distances = surface.group_distances().iter();
         let activation_distance = distances.map(|own| own.activation_distance).fold(0.0, f64::max);
         let edge = surface.median_edge_length();
