@@ -203,3 +203,18 @@ pub(crate) fn branch_of_each_point(curve: &Curve) -> Vec<usize> {
     }
     branches
 }
+
+#[cfg(test)]
+mod tests {
+    use drape_kes::{Direction, Test};
+
+    use super::*;
+
+    #[test]
+    fn a_reversal_ends_the_branch_before() {
+        let curvature = vec![0.0, 1.0, 2.0, 1.0, 0.0, -1.0, 0.0];
+        let moment = curvature.clone();
+        let curve = Curve::new(Test::Bending, Direction::Warp, curvature, moment).expect("a loop");
+        assert_eq!(branch_of_each_point(&curve), [0, 0, 0, 1, 1, 1, 2]);
+    }
+}
