@@ -267,7 +267,55 @@ fn derivatives(
 
 #[cfg(test)]
 mod tests {
+    use drape_lm::{Settings, minimise};
+
     use super::*;
+
+    /// Line through points with noise, every other one of which has four times the weight.
+    struct Line {
+        weights: Vec<f64>,
+    }
+
+    impl Problem for Line {
+        fn residual_count(&self) -> usize {
+            self.weights.len()
+        }
+
+        fn residuals(&self, parameters: &[f64], out: &mut [f64]) {
+            for (i, residual) in out.iter_mut().enumerate() {
+                let noise = [0.1, -0.2, 0.3, -0.1, -0.1][i % 5];
+                *residual = parameters[0] + (parameters[1] - 1.0) * i as f64 - noise;
+            }
+        }
+
+        fn weights(&self) -> &[f64] {
+            &self.weights
+        }
+    }
+
+    #[test]
+    fn profiles_of_a_weighted_line_are_its_standard_errors() {
+        let line = Line { weights: (0..40).map(|i| [1.0, 4.0][i % 2]).collect() };
+        let parameters = ["offset", "slope"].map(|name| {
+            let parameter = Parameter::new(0.5).between(-10.0, 10.0);
+            NamedParameter { name, parameter }
+        });
+        let own = parameters.each_ref().map(|named| named.parameter);
+        let report = minimise(&line, &own, &Settings::default());
+        let unweighted = &report.parameters;
+        let end = FitEnd { parameters: &parameters, report: &report, unweighted };
+        let [wald, profile] = [Intervals::Wald, Intervals::Profile]
+            .map(|intervals| uncertainty(&line, &end, intervals).estimates);
+        for (wald, profile) in wald.iter().zip(&profile) {
+            let [wald, profile] =
+                [wald, profile].map(|own| own.interval.clone().expect("an interval"));
+            let width = wald[1] - wald[0];
+            assert!(
+                (0..2).all(|k| (wald[k] - profile[k]).abs() < 1e-3 * width),
+                "{wald:?} {profile:?}"
+            );
+        }
+    }
 
     #[test]
     fn neighbours_that_are_alike_count_less() {
