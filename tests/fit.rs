@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use assert_cmd::Command;
+use drape::fit::parameter_key;
+use drape::kes::{Direction, Test};
 
 fn drape() -> Command {
     Command::cargo_bin("drape").expect("it is built")
@@ -50,6 +52,12 @@ fn the_law_can_be_chosen_by_hand() {
     let bending = fabric["warp"]["bending"].as_table().expect("a law");
     assert!(bending.contains_key("piecewise"), "{bending:?}");
     assert!(!bending.contains_key("friction"), "his law has none: {bending:?}");
+    // Parameters are in the file under the keys that are told for them.
+    for parameter in ["slope", "intercept", "knot"] {
+        let key = parameter_key(Test::Bending, Direction::Warp, parameter).expect("a key");
+        let own = key.strip_prefix("warp.bending.piecewise.").expect("a key of the law");
+        assert!(bending["piecewise"][own].is_float(), "{key}");
+    }
 }
 
 #[test]
