@@ -205,4 +205,10 @@ mod tests {
         assert!(long.to_string().len() < 300, "{long}");
         std::fs::remove_dir_all(&folder).expect("removed");
     }
+
+    #[test]
+    fn paths_are_quoted_for_a_shell_where_they_need_that() {
+        let quoted = ["/a/b-1.toml", "my files/a", "it's"].map(|path| shell(Path::new(path)));
+        assert_eq!(quoted, ["/a/b-1.toml", "'my files/a'", r"'it'\''s'"]);
+    }
 }

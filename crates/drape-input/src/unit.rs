@@ -429,4 +429,22 @@ mod tests {
         }
         assert!(parse_quantity("thick", Quantity::Length).is_err());
     }
+
+    #[test]
+    fn units_of_force_are_multiples_of_the_newton() {
+        // By hand from 1 kgf = 9.806 65 N and 1 gf/mm = 1 kgf/m.
+        let cases = [
+            ("kgf", Quantity::Force, 9.806_65),
+            ("kg", Quantity::Force, 9.806_65),
+            ("cN", Quantity::Force, 0.01),
+            ("kgf/m", Quantity::ForcePerWidth, 9.806_65),
+            ("gf/mm", Quantity::ForcePerWidth, 9.806_65),
+            ("kgf/cm", Quantity::ForcePerWidth, 980.665),
+            ("cN/cm", Quantity::ForcePerWidth, 1.0),
+        ];
+        for (text, quantity, factor) in cases {
+            let unit = parse_unit(text, &[quantity]).unwrap();
+            assert!((unit.factor / factor - 1.0).abs() < 1e-14, "{text}: {}", unit.factor);
+        }
+    }
 }

@@ -117,6 +117,7 @@ fn text_exports_of_the_automatic_instruments() {
     assert_eq!((sheet.w, sheet.t0, sheet.lc), (Some(14.2), Some(0.62), Some(0.31)));
     let miu = [Direction::Warp, Direction::Weft].map(|direction| sheet.values(direction).miu);
     assert_eq!(miu, [Some(0.18), Some(0.19)], "{}", draft.text);
+    assert!(sheet.miu.is_some_and(|miu| (miu - 0.185).abs() < 1e-12), "{:?}", sheet.miu);
     for words in [
         "encoding = \"Shift_JIS\"",
         "header = 6",

@@ -374,4 +374,11 @@ mod tests {
         };
         assert_eq!(block.rows.len(), 1);
     }
+
+    #[test]
+    fn columns_of_numbers_may_have_gaps_but_no_words() {
+        let text = "Strain,Note,Empty,Load\n1,first,,3\n2,4,,\n3,5,,7\n";
+        let [block] = &of(text, Lines::default())[..] else { panic!("not one block") };
+        assert_eq!(block.number_columns(), [0, 3]);
+    }
 }
