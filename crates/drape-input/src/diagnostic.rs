@@ -101,6 +101,7 @@ fn shorten(text: String) -> String {
 /// let later = Diagnostic::new("a.toml", "too late").on_line(9);
 /// let earlier = Diagnostic::new("a.toml", "too early").on_line(2);
 /// let mistakes = Diagnostics::check(vec![later, earlier]).expect_err("there are two");
+/// assert_eq!(mistakes.0[0].line, Some(2));
 /// assert_eq!(mistakes.to_string(), "a.toml:2: too early\na.toml:9: too late");
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -3,12 +3,13 @@
 use drape_input::{Diagnostics, Document, Given, Length, Setting, figure};
 
 use crate::check::panel::SPACING;
+use crate::check::time::REFINE;
 use crate::file::SceneFile;
 
 /// Distance between particles that a scene names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spacing {
-    /// Key in the file: `spacing`, `panel.0.spacing`, `garment.0.spacing`.
+    /// Key in the file: `spacing`, `panel.0.spacing`, `garment.0.spacing`, `refine.spacings.0`.
     pub key: String,
     /// Value, in m.
     pub value: f64,
@@ -53,14 +54,18 @@ pub fn spacings(document: &Document) -> Result<Vec<Spacing>, Diagnostics> {
     Ok(common.into_iter().chain(own.into_iter().flatten()).collect())
 }
 
-/// Returns the spacings of a scene's coarser grids, in m, the coarsest first.
+/// Returns the spacings of a scene's coarser grids, the coarsest first.
 ///
 /// # Errors
 /// Mistakes of the grammar, of spelling and of types.
-pub fn coarser_spacings(document: &Document) -> Result<Vec<f64>, Diagnostics> {
+pub fn coarser_spacings(document: &Document) -> Result<Vec<Spacing>, Diagnostics> {
     let file: SceneFile = document.decode()?;
-    let spacings = file.refine.iter().flat_map(|refine| &refine.spacings);
-    Ok(spacings.map(|spacing| *spacing * file.unit()).collect())
+    let grids = file.refine.iter().flat_map(|refine| &refine.spacings).enumerate();
+    let own = |(index, spacing): (usize, &Given<Length>)| Spacing {
+        key: format!("{REFINE}.{index}"),
+        value: *spacing * file.unit(),
+    };
+    Ok(grids.map(own).collect())
 }
 
 #[cfg(test)]

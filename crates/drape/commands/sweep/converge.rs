@@ -149,9 +149,8 @@ fn own_spacings(document: &Document, grids: &[f64]) -> Result<Vec<(String, Vec<S
     let coarser = coarser_spacings(document)?;
     if !coarser.is_empty() {
         let kept = |grid: &f64| {
-            let kept = coarser.iter().filter(|own| **own >= (1.0 - 1e-9) * RATIO_MIN * grid);
-            let kept: Vec<String> =
-                kept.map(|own| format!("\"{} mm\"", figure(1e3 * own))).collect();
+            let kept = coarser.iter().filter(|own| own.value >= (1.0 - 1e-9) * RATIO_MIN * grid);
+            let kept: Vec<String> = kept.map(|own| own.scaled_value(1.0)).collect();
             format!("[{}]", kept.join(", "))
         };
         keys.push(("refine.spacings".into(), grids.iter().map(kept).collect()));
