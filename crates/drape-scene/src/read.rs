@@ -6,12 +6,11 @@ use drape_input::{Diagnostics, Document, Setting, figure};
 
 use crate::check::check;
 use crate::check::documents::Documents;
-use crate::check::time::REFINE;
 use crate::error::Error;
 use crate::file::SceneFile;
 use crate::scene::Scene;
 use crate::scene::material::{FabricReader, read_fabric};
-use crate::spacings::{Spacing, spacings};
+use crate::spacings::{REFINE, Spacing, spacings};
 
 impl Scene {
     /// Reads a scene and everything it names. Its fabrics are in files of fabrics.

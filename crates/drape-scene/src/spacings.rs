@@ -3,8 +3,10 @@
 use drape_input::{Diagnostics, Document, Given, Length, Setting, figure};
 
 use crate::check::panel::SPACING;
-use crate::check::time::REFINE;
 use crate::file::SceneFile;
+
+/// Key of the coarser grids.
+pub(crate) const REFINE: &str = "refine.spacings";
 
 /// Distance between particles that a scene names.
 #[derive(Debug, Clone, PartialEq)]

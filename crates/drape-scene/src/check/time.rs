@@ -5,7 +5,7 @@ use drape_input::{Given, figure};
 use crate::check::checker::Checker;
 use crate::scene::clock::Clock;
 use crate::scene::relaxation::Relaxation;
-use crate::spacings::spacings;
+use crate::spacings::{REFINE, spacings};
 
 /// Time between frames when the scene does not say, in s.
 const FRAME_INTERVAL: f64 = 0.04;
@@ -36,9 +36,6 @@ const REST_RESIDUAL: f64 = 1e-3;
 /// took as long, and with half the spacing about a quarter less; the energy stored at rest changed
 /// by 0.2 %, on a sphere by 4 %.
 const STRIDE: f64 = 0.25;
-
-/// Key of the coarser grids.
-pub(crate) const REFINE: &str = "refine.spacings";
 
 /// Smallest ratio of the spacings of two grids.
 const GRID_RATIO_MIN: f64 = 1.1;
