@@ -133,9 +133,11 @@ impl Cloth {
         }
         let tangents = yarn_tangents(&lattice.yarns(), first, areas.len());
         self.tangents.extend(tangents);
-        let base = self.panels.iter().map(GridPanel::length).sum();
-        let start = PanelStart { particle: first, base };
-        self.panels.push(GridPanel::new(lattice, fabric, start, &bending));
+        for grid in &lattice.grids {
+            let base = self.panels.iter().map(GridPanel::length).sum();
+            let start = PanelStart { particle: first, base };
+            self.panels.push(GridPanel::new((lattice, grid), fabric, start, &bending));
+        }
         let areas_of_mass = lattice.areas_of_mass(&areas);
         self.masses.extend(areas_of_mass.iter().map(|area| area * fabric.density));
         self.coordinates.extend(&lattice.coordinates);
@@ -180,7 +182,7 @@ impl Cloth {
         &self.coordinates
     }
 
-    /// First particle of each panel.
+    /// First particle of each panel, and of each grid of a graded one.
     pub fn panel_starts(&self) -> impl Iterator<Item = usize> {
         self.panels.iter().map(|panel| panel.first)
     }

@@ -67,6 +67,9 @@ pub enum Error {
         /// Problem with the fold.
         what: &'static str,
     },
+    /// Panel that is to be graded, and is folded or graded.
+    #[error("a panel that is folded, or graded already, cannot be graded")]
+    Graded,
     /// Panel with a rim of triangles in a model that has none.
     #[error(
         "the model of Breen, House & Wozny has no rims: cut the panel as a rectangle or a disc"

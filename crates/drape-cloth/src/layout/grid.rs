@@ -6,6 +6,7 @@ use drape_fabric::{BendingBatch, Fabric, LANES, ShearBatch, TractionBatch};
 use crate::layout::connectors::{BendingConnectors, Segment, Triple, segments};
 use crate::layout::sparsity::Sparsity;
 use crate::measure::turning_angle::second_difference_of;
+use crate::panel::grid::Grid;
 use crate::panel::lattice::Lattice;
 
 /// Largest number of blocks in a row of the upper half of the matrix.
@@ -108,37 +109,38 @@ pub(crate) struct CornerEdges {
 }
 
 impl GridPanel {
-    /// Lays out a panel.
+    /// Lays out a grid of a panel.
     pub(crate) fn new(
-        lattice: &Lattice,
+        (lattice, grid): (&Lattice, &Grid),
         fabric: &Fabric,
         start: PanelStart,
         bending: &[BendingConnectors; 2],
     ) -> Self {
         let first = start.particle;
-        let stride = lattice.columns;
-        let points = lattice.grid.len();
+        let stride = grid.columns;
+        let points = grid.points.len();
         let margin = 2 * stride + 1;
         let length = points + 2 * margin + LANES;
-        let mut index_of = vec![0; lattice.coordinates.len()];
+        let mut index_of = vec![None; lattice.coordinates.len()];
         let mut particles = vec![first; length];
-        for (point, particle) in lattice.grid.iter().enumerate() {
+        for (point, particle) in grid.points.iter().enumerate() {
             if let Some(particle) = particle {
-                index_of[*particle as usize] = margin + point;
+                index_of[*particle as usize] = Some(margin + point);
                 particles[margin + point] = first + particle;
             }
         }
+        let first = grid.particles().next().map_or(first, |particle| first + particle);
         let mut corner_areas = [(); 4].map(|()| vec![0.0; length]);
         let mut cells = Vec::new();
         for (cell, areas) in lattice.cells.iter().zip(lattice.shear_areas()) {
-            let index = index_of[cell.corners[0] as usize];
+            let Some(index) = index_of[cell.corners[0] as usize] else { continue };
             cells.push(index);
             for (column, area) in corner_areas.iter_mut().zip(areas) {
                 column[index] = area;
             }
         }
-        let lines = lattice.yarns();
-        let [across, along] = lattice.spacing;
+        let lines = grid.yarns();
+        let [across, along] = grid.spacing;
         let sides = [(&fabric.warp, along, stride), (&fabric.weft, across, 1)];
         let yarns = [0, 1].map(|direction| {
             let (laws, rest, step) = sides[direction];
@@ -155,21 +157,21 @@ impl GridPanel {
                 triples: Vec::new(),
             };
             for Segment { ends, area } in segments(lattice, &lines[direction], direction) {
-                let index = index_of[ends[0] as usize];
+                let Some(index) = index_of[ends[0] as usize] else { continue };
                 yarns.segments.push(index);
                 yarns.segment_areas[index] = area;
             }
             for Triple { particles, area } in &bending[direction].triples {
-                let index = index_of[particles[1] as usize];
+                let Some(index) = index_of[particles[1] as usize] else { continue };
                 yarns.triples.push(index);
                 yarns.triple_areas[index] = *area;
             }
             for (node, curvature) in bending[direction].folds.iter().enumerate() {
-                yarns.folds[index_of[node]] += curvature;
+                index_of[node].iter().for_each(|&index| yarns.folds[index] += curvature);
             }
             yarns
         });
-        let occupied: Vec<bool> = lattice.grid.iter().map(Option::is_some).collect();
+        let occupied: Vec<bool> = grid.points.iter().map(Option::is_some).collect();
         Self {
             points,
             stride,

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::panel::clip::area_within;
 use crate::panel::grain::Grain;
+use crate::panel::grid::Grid;
 use crate::panel::lattice::{Cell, Lattice};
 
 /// Largest number of particles of one panel; more points to a spacing in the wrong unit.
@@ -231,8 +232,7 @@ impl Lattice {
             rim: Vec::new(),
             folds: Vec::new(),
             allowances: Vec::new(),
-            grid,
-            columns,
+            grids: vec![Grid { spacing, points: grid, columns }],
         })
     }
 }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::panel::fold::Fold;
 use crate::panel::grain::Grain;
+use crate::panel::grid::Grid;
 use crate::panel::triangle::twice_area;
 
 /// Panel before deformation: particles on a grid along the yarns, and the cells between them.
@@ -25,7 +26,8 @@ use crate::panel::triangle::twice_area;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lattice {
-    /// Distance of the particles along the weft and along the warp, in m.
+    /// Distance of the particles along the weft and along the warp, in m; the least in a
+    /// [graded](Lattice::graded) panel.
     pub spacing: [f64; 2],
     /// Material coordinates of the particles, in m.
     pub coordinates: Vec<[f64; 2]>,
@@ -38,15 +40,15 @@ pub struct Lattice {
     pub(crate) size: Option<[f64; 2]>,
     /// Cells, row by row along the warp.
     pub cells: Vec<Cell>,
-    /// Triangles between the cells and the outline, anticlockwise; empty in panels without a rim.
+    /// Triangles between the cells and the outline, and between cells of two sizes, anticlockwise;
+    /// empty in panels without a rim.
     pub rim: Vec<[u32; 3]>,
     /// Lines along which the panel is folded at rest.
     pub(crate) folds: Vec<Fold>,
     /// Area of cloth that lies along the outline at each particle, in m²; empty without allowances.
     pub(crate) allowances: Vec<f64>,
-    /// Particle at each grid point, `columns` to a row.
-    pub(crate) grid: Vec<Option<u32>>,
-    pub(crate) columns: usize,
+    /// Grids of the particles: one, or in a [graded](Lattice::graded) panel several, the finest first.
+    pub(crate) grids: Vec<Grid>,
 }
 
 /// Cell of a [`Lattice`].
@@ -108,19 +110,11 @@ impl Lattice {
 
     /// Runs of consecutive particles along the yarns: of the warp, then of the weft.
     pub(crate) fn yarns(&self) -> [Vec<Vec<u32>>; 2] {
-        let rows = self.grid.len() / self.columns;
-        let point = |column: usize, row: usize| self.grid[row * self.columns + column];
-        let warp = (0..self.columns).map(|c| (0..rows).map(|r| point(c, r)).collect());
-        let weft = (0..rows).map(|r| (0..self.columns).map(|c| point(c, r)).collect());
-        let split = |lines: Vec<Vec<Option<u32>>>| {
-            let runs = |line: Vec<Option<u32>>| -> Vec<Vec<u32>> {
-                line.split(Option::is_none)
-                    .map(|run| run.iter().flatten().copied().collect())
-                    .collect()
-            };
-            lines.into_iter().flat_map(runs).filter(|run: &Vec<u32>| run.len() > 1).collect()
-        };
-        [split(warp.collect()), split(weft.collect())]
+        let mut all = [Vec::new(), Vec::new()];
+        for grid in &self.grids {
+            all.iter_mut().zip(grid.yarns()).for_each(|(all, own)| all.extend(own));
+        }
+        all
     }
 
     /// Areas of the particles, in m².

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::panel::cut::PARTICLES_MAX;
 use crate::panel::grain::Grain;
+use crate::panel::grid::Grid;
 use crate::panel::lattice::{Cell, Lattice};
 use crate::panel::triangle::twice_area;
 
@@ -173,8 +174,7 @@ impl Lattice {
             rim: mesh.triangles,
             folds: Vec::new(),
             allowances: Vec::new(),
-            grid,
-            columns,
+            grids: vec![Grid { spacing: mesh.spacing, points: grid, columns }],
         })
     }
 }

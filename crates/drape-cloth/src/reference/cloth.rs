@@ -1,11 +1,14 @@
 //! The reference cloth: all connectors in lists, and loops over them.
 
+use std::collections::BTreeSet;
+
 use drape_fabric::{BendingLaw, Fabric, Law, ShearLaw, TractionLaw};
 
 use crate::layout::connectors::{BendingConnectors, Segment, Triple, segments};
 use crate::layout::sparsity::Sparsity;
 use crate::measure::block::{Matrix, identity, outer, sum, transposed};
 use crate::measure::vector::{add, add_at, scale};
+use crate::panel::grid::Grid;
 use crate::panel::lattice::Lattice;
 use crate::reference::connector::{Connector, Corner, CornerBlocks, Edge, commit_memory};
 use crate::reference::stencil::ReferenceStencil;
@@ -118,16 +121,32 @@ impl Reference {
             let stencils = ReferenceStencil::of(lattice, fabric, near, &bending);
             self.stencils.extend(stencils.into_iter().map(|stencil| stencil.shifted(first)));
         }
-        let [across, along] = lattice.spacing;
+        for grid in &lattice.grids {
+            self.add_yarns((lattice, grid), fabric, first, &bending);
+        }
+    }
+
+    /// Adds the segments and triples of a grid of a panel.
+    fn add_yarns(
+        &mut self,
+        (lattice, grid): (&Lattice, &Grid),
+        fabric: &Fabric,
+        first: u32,
+        bending: &[BendingConnectors; 2],
+    ) {
+        let Self { sparsity, .. } = self;
+        let particles: BTreeSet<u32> = grid.particles().collect();
+        let [across, along] = grid.spacing;
         let sides = [(&fabric.warp, along), (&fabric.weft, across)];
-        for (direction, yarns) in lattice.yarns().iter().enumerate() {
+        for (direction, yarns) in grid.yarns().iter().enumerate() {
             let (laws, measure) = sides[direction];
             for Segment { ends, area } in segments(lattice, yarns, direction) {
                 let ends = ends.map(|p| first + p);
                 let segment = Connector::new(laws.traction, ends, measure, sparsity);
                 self.segments.push(segment.with_area(area));
             }
-            for &Triple { particles, area } in &bending[direction].triples {
+            let own = |triple: &&Triple| particles.contains(&triple.particles[1]);
+            for &Triple { particles, area } in bending[direction].triples.iter().filter(own) {
                 let fold = bending[direction].folds.get(particles[1] as usize);
                 let fold = fold.copied().unwrap_or(0.0);
                 let particles = particles.map(|p| first + p);

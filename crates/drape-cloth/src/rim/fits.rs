@@ -51,7 +51,10 @@ impl PanelFits {
         neighbourhoods: &Neighbourhoods<'_>,
         bending: &[BendingConnectors; 2],
     ) -> Self {
-        let spacing = (lattice.spacing[0] * lattice.spacing[1]).sqrt();
+        let mut spacings = vec![lattice.spacing; lattice.coordinates.len()];
+        for grid in &lattice.grids {
+            grid.particles().for_each(|particle| spacings[particle as usize] = grid.spacing);
+        }
         let (mut stencils, mut tangents) = (Vec::new(), Vec::new());
         for middle in 0..lattice.coordinates.len() as u32 {
             let at = middle as usize;
@@ -61,7 +64,8 @@ impl PanelFits {
             let mut nodes = neighbourhoods.around(middle);
             let points: Vec<_> =
                 nodes.iter().map(|&node| lattice.coordinates[node as usize]).collect();
-            let fit = QuadraticFit::new(&points, spacing);
+            let [across, along] = spacings[at];
+            let fit = QuadraticFit::new(&points, (across * along).sqrt());
             nodes.truncate(fit.first[0].len());
             let areas = [0, 1].map(|direction| bending[direction].stencil_areas[at]);
             if areas.iter().any(|&area| area > 0.0) {

@@ -128,8 +128,15 @@ pub fn rectangle([width, height]: [f64; 2], degrees: f64, spacing: f64) -> Latti
     shape(&format!("M0 0 L{w} 0 L{w} -{h} L0 -{h} Z"), degrees, spacing)
 }
 
+/// A panel whose spacing grows with the distance from a slanting line.
+pub fn graded(lattice: &Lattice) -> Lattice {
+    let [u, v] = lattice.grain.to_material(lattice.middle);
+    let distance = |[x, y]: [f64; 2]| (0.6 * (x - u) + 0.8 * (y - v)).abs();
+    lattice.graded(|point| 0.006 + 0.5 * distance(point)).expect("it is not folded")
+}
+
 /// All panels of the patterns in the repository at 10 mm, as they lie and with the grain rotated by
-/// 45°.
+/// 45°, and those that are large enough graded, too.
 pub static GARMENTS: LazyLock<Vec<(String, Lattice)>> = LazyLock::new(garments);
 
 fn garments() -> Vec<(String, Lattice)> {
@@ -147,7 +154,12 @@ fn garments() -> Vec<(String, Lattice)> {
             let cut = Cutter::new(0.01).cut(&pattern).expect("it can be cut");
             for (panel, cut) in pattern.panels().iter().zip(&cut.panels) {
                 let name = format!("{file} {} {angle}°", panel.name());
-                all.push((name, lattice(cut, panel.grain().to_degrees())));
+                let uniform = lattice(cut, panel.grain().to_degrees());
+                let graded = graded(&uniform);
+                if graded.coordinates.len() < uniform.coordinates.len() {
+                    all.push((format!("{name} graded"), graded));
+                }
+                all.push((name, uniform));
             }
         }
     }

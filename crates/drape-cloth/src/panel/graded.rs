@@ -1,0 +1,361 @@
+//! Graded panels: cells of two, four and eight spacings where the cloth needs no finer ones.
+//!
+//! ```text
+//!    ┌───────┬───────┬───┬───┐
+//!    │       │     ╱ ├───┼───┤    Large cells have a grid of their own. Those that touch finer cells are
+//!    │       │   ╱───├───┼───┤    cut into triangles, whose corners are the nodes of both: no node lies
+//!    │       │ ╱   ╲ ├───┼───┤    between two others without being tied to them.
+//!    └───────┴───────┴───┴───┘
+//! ```
+//!
+//! The triangles belong to the rim: traction, shear and bending about their corners are those of the
+//! triangles at an outline.
+
+use crate::error::Error;
+use crate::panel::grid::Grid;
+use crate::panel::lattice::{Cell, Lattice};
+
+/// Largest level: a cell of a level has sides of `2^level` spacings.
+const LEVEL_MAX: u8 = 3;
+
+/// Tolerance of the areas of a full cell and of a ratio of spacings: rounding.
+const ROUNDING_ERROR: f64 = 1e-9;
+
+/// Levels of the cells of a grid, row by row.
+struct Levels {
+    columns: usize,
+    rows: usize,
+    cells: Vec<Option<CellLevel>>,
+}
+
+/// Cell of a panel with its level.
+#[derive(Debug, Clone, Copy)]
+struct CellLevel {
+    /// Index among the cells of the panel.
+    index: usize,
+    level: u8,
+    /// Highest level that it may have.
+    limit: u8,
+}
+
+/// Square of cells that are joined: its first column, its first row and its level.
+#[derive(Debug, Clone, Copy)]
+struct Block {
+    column: usize,
+    row: usize,
+    level: u8,
+}
+
+impl Block {
+    /// Number of cells along a side.
+    fn side(self) -> usize {
+        1 << self.level
+    }
+
+    /// Points at its corners (u, v) = (0, 0), (1, 0), (1, 1), (0, 1): their columns and rows.
+    fn corners(self) -> [[usize; 2]; 4] {
+        let (column, row, side) = (self.column, self.row, self.side());
+        [[column, row], [column + side, row], [column + side, row + side], [column, row + side]]
+    }
+}
+
+impl Lattice {
+    /// Returns the panel with cells of two, four and eight spacings where `spacing_max`, the largest
+    /// spacing that is allowed at some material coordinates, in m, permits them.
+    ///
+    /// Cells beside the outline keep their size, so that the outline keeps its nodes. Two cells that
+    /// touch differ by a factor of two at most. The particles are numbered grid by grid, the finest
+    /// first; the nodes of the outline of a panel that was cut elsewhere follow.
+    ///
+    /// ```
+    /// use drape_cloth::Lattice;
+    ///
+    /// let fine = Lattice::rectangle(0.3, 0.3, 0.005)?;
+    /// // Fine along a diagonal.
+    /// let graded = fine.graded(|[u, v]| 0.005 + 0.5 * (u - v).abs())?;
+    /// assert!(graded.coordinates.len() < fine.coordinates.len() / 2);
+    /// assert!((graded.area() - 0.09).abs() < 1e-12);
+    /// # Ok::<(), drape_cloth::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When the panel is folded, or graded already.
+    pub fn graded(&self, spacing_max: impl Fn([f64; 2]) -> f64) -> Result<Self, Error> {
+        let [grid] = self.grids.as_slice() else { return Err(Error::Graded) };
+        if !self.folds.is_empty() {
+            return Err(Error::Graded);
+        }
+        let mut levels = Levels::of(self, grid, spacing_max);
+        levels.raise();
+        levels.balance();
+        Ok(self.joined(grid, &levels))
+    }
+
+    /// Returns the panel with the cells of its grid joined by their levels.
+    fn joined(&self, grid: &Grid, levels: &Levels) -> Self {
+        let node = |[column, row]: [usize; 2]| grid.points[row * grid.columns + column];
+        let mut numbers = vec![None; self.coordinates.len()];
+        let mut coordinates = Vec::new();
+        let mut keep = |node: u32| {
+            let number = coordinates.len() as u32;
+            coordinates.push(self.coordinates[node as usize]);
+            numbers[node as usize] = Some(number);
+            number
+        };
+        let mut grids = Vec::new();
+        for level in 0..=LEVEL_MAX {
+            let step = 1 << level;
+            let columns = grid.columns.div_ceil(step);
+            let rows = (grid.points.len() / grid.columns).div_ceil(step);
+            let places = (0..rows).flat_map(|row| (0..columns).map(move |c| [step * c, step * row]));
+            let own = |&place: &[usize; 2]| levels.at_point(place) == Some(level);
+            let points: Vec<_> =
+                places.map(|place| Some(place).filter(own).and_then(node).map(&mut keep)).collect();
+            if points.iter().any(Option::is_some) {
+                let spacing = grid.spacing.map(|spacing| step as f64 * spacing);
+                grids.push(Grid { spacing, points, columns });
+            }
+        }
+        let in_grid = grid.particles().count();
+        (in_grid..self.coordinates.len()).for_each(|node| {
+            keep(node as u32);
+        });
+
+        let number = |node: u32| numbers[node as usize];
+        let at = |place: [usize; 2]| node(place).and_then(number);
+        let mut cells = Vec::new();
+        let all = |nodes: [u32; 3]| nodes.map(|node| number(node).unwrap_or_default());
+        let mut rim: Vec<[u32; 3]> = self.rim.iter().map(|&triangle| all(triangle)).collect();
+        for block in levels.blocks() {
+            let Block { column, row, level } = block;
+            let Some(cell) = levels.cell(column, row).map(|own| &self.cells[own.index]) else {
+                continue;
+            };
+            let places = block.corners();
+            let corners = places.map(|place| at(place).unwrap_or_default());
+            let even = ((column >> level) + (row >> level)).is_multiple_of(2);
+            if places.iter().all(|&place| levels.at_point(place) == Some(level)) {
+                let parts = (block.side() * block.side()) as f64;
+                let quadrants = cell.quadrants.map(|area| parts * area);
+                cells.push(Cell { corners, quadrants, even });
+            } else {
+                let middles = [0, 1, 2, 3].map(|side| {
+                    let (from, to) = (places[side], places[(side + 1) % 4]);
+                    at([0, 1].map(|k| (from[k] + to[k]) / 2))
+                });
+                rim.extend(triangulated(corners, middles, even));
+            }
+        }
+        let mut allowances =
+            vec![0.0; if self.allowances.is_empty() { 0 } else { coordinates.len() }];
+        for (number, &area) in numbers.iter().zip(&self.allowances) {
+            if let Some(number) = number {
+                allowances[*number as usize] = area;
+            }
+        }
+        Self { coordinates, cells, rim, allowances, grids, ..self.clone() }
+    }
+}
+
+impl Levels {
+    /// Returns the cells of a panel, all of level 0, with their limits.
+    fn of(lattice: &Lattice, grid: &Grid, spacing_max: impl Fn([f64; 2]) -> f64) -> Self {
+        let [columns, rows] = [grid.columns - 1, grid.points.len() / grid.columns - 1];
+        let mut places = vec![0; lattice.coordinates.len()];
+        for (point, particle) in grid.points.iter().enumerate() {
+            particle.iter().for_each(|&particle| places[particle as usize] = point);
+        }
+        let quarter = 0.25 * grid.spacing[0] * grid.spacing[1];
+        let finest = grid.spacing[0].max(grid.spacing[1]);
+        let mut cells = vec![None; columns * rows];
+        for (index, cell) in lattice.cells.iter().enumerate() {
+            let is_full = |&area: &f64| (area - quarter).abs() <= ROUNDING_ERROR * quarter;
+            let allowed = cell.corners.map(|node| spacing_max(lattice.coordinates[node as usize]));
+            let ratio = allowed.into_iter().fold(f64::MAX, f64::min) / finest;
+            let fits = |level: &u8| ratio >= f64::from(1_u32 << level) * (1.0 - ROUNDING_ERROR);
+            let limit = (1..=LEVEL_MAX).take_while(fits).last().unwrap_or(0);
+            let limit = if cell.quadrants.iter().all(is_full) { limit } else { 0 };
+            let point = places[cell.corners[0] as usize];
+            cells[point / grid.columns * columns + point % grid.columns] =
+                Some(CellLevel { index, level: 0, limit });
+        }
+        Self { columns, rows, cells }
+    }
+
+    fn cell(&self, column: usize, row: usize) -> Option<CellLevel> {
+        let inside = column < self.columns && row < self.rows;
+        if inside { self.cells[row * self.columns + column] } else { None }
+    }
+
+    /// Returns the level of the node at a point; nothing where a larger cell takes its place.
+    fn at_point(&self, [column, row]: [usize; 2]) -> Option<u8> {
+        let around = [[1, 1], [0, 1], [1, 0], [0, 0]];
+        let levels = around.iter().filter_map(|&[left, below]| {
+            self.cell(column.checked_sub(left)?, row.checked_sub(below)?).map(|own| own.level)
+        });
+        let level = levels.min().unwrap_or(0);
+        let is_on = |place: usize| place.is_multiple_of(1 << level);
+        (is_on(column) && is_on(row)).then_some(level)
+    }
+
+    /// Squares of cells of one level, row by row.
+    fn blocks(&self) -> impl Iterator<Item = Block> {
+        let places =
+            (0..self.rows).flat_map(|row| (0..self.columns).map(move |column| [column, row]));
+        places.filter_map(|[column, row]| {
+            let level = self.cell(column, row)?.level;
+            let is_on = |place: usize| place.is_multiple_of(1 << level);
+            (is_on(column) && is_on(row)).then_some(Block { column, row, level })
+        })
+    }
+
+    fn set(&mut self, block: Block, level: u8) {
+        let side = block.side();
+        for row in block.row..block.row + side {
+            for column in block.column..block.column + side {
+                if let Some(cell) = &mut self.cells[row * self.columns + column] {
+                    cell.level = level;
+                }
+            }
+        }
+    }
+
+    /// Cells of a block and those around it; nothing for one outside of the panel.
+    fn around(&self, block: Block) -> impl Iterator<Item = Option<CellLevel>> {
+        let side = block.side();
+        // Counted from one cell before the block.
+        let range = move |first: usize| first..first + side + 2;
+        range(block.row).flat_map(move |row| {
+            range(block.column).map(move |column| {
+                self.cell(column.checked_sub(1)?, row.checked_sub(1)?)
+            })
+        })
+    }
+
+    /// Joins cells, four to one, as far as their limits allow and cells lie all around them.
+    fn raise(&mut self) {
+        for level in 1..=LEVEL_MAX {
+            let side = 1 << level;
+            for row in (0..=self.rows.saturating_sub(side)).step_by(side) {
+                for column in (0..=self.columns.saturating_sub(side)).step_by(side) {
+                    let block = Block { column, row, level };
+                    let mut inside = (row..row + side)
+                        .flat_map(|row| (column..column + side).map(move |column| [column, row]));
+                    let may = inside.all(|[column, row]| {
+                        let own = self.cell(column, row);
+                        own.is_some_and(|own| own.level + 1 == level && own.limit >= level)
+                    });
+                    if may && self.around(block).all(|own| own.is_some()) {
+                        self.set(block, level);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Parts blocks beside which a cell is smaller than half of them, and those that have no corner
+    /// among blocks of their size.
+    fn balance(&mut self) {
+        loop {
+            let parted: Vec<Block> = self
+                .blocks()
+                .filter(|&block| {
+                    let is_small =
+                        |own: Option<CellLevel>| own.is_some_and(|own| own.level + 1 < block.level);
+                    let is_own = |place| self.at_point(place) == Some(block.level);
+                    self.around(block).any(is_small) || !block.corners().into_iter().any(is_own)
+                })
+                .collect();
+            if parted.is_empty() {
+                return;
+            }
+            parted.into_iter().for_each(|block| self.set(block, block.level - 1));
+        }
+    }
+}
+
+/// Returns the triangles of a square with the given corners, anticlockwise, and the nodes in the
+/// middles of its sides, where smaller cells have some.
+fn triangulated(corners: [u32; 4], middles: [Option<u32>; 4], even: bool) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::new();
+    let mut polygon = Vec::new();
+    for (k, corner) in corners.into_iter().enumerate() {
+        match (middles[(k + 3) % 4], middles[k]) {
+            (Some(before), Some(after)) => triangles.push([before, corner, after]),
+            _ => polygon.push(corner),
+        }
+        polygon.extend(middles[k]);
+    }
+    // A fan about a middle, or about a corner where there is none: no three nodes lie on a line.
+    let about = middles.iter().flatten().next().or(corners.get(usize::from(!even)));
+    let start = polygon.iter().position(|node| Some(node) == about).unwrap_or(0);
+    polygon.rotate_left(start);
+    let fan = polygon[1..].windows(2).map(|pair| [polygon[0], pair[0], pair[1]]);
+    triangles.extend(fan);
+    triangles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn disc() -> Lattice {
+        Lattice::disc(0.15, 0.005).expect("a disc")
+    }
+
+    /// Coordinates of the ends of all sides of an outline.
+    fn outline(lattice: &Lattice) -> Vec<[[f64; 2]; 2]> {
+        let ends = lattice.outline().into_iter();
+        let mut sides: Vec<_> = ends
+            .map(|side| {
+                let mut ends = side.map(|node| lattice.coordinates[node as usize]);
+                ends.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+                ends
+            })
+            .collect();
+        sides.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+        sides
+    }
+
+    #[test]
+    fn the_outline_and_the_area_stay_and_no_side_has_a_node_within() {
+        let fine = disc();
+        for slope in [0.1, 0.3, 1.0, 10.0] {
+            let graded = fine.graded(|[u, v]| 0.004 + slope * (u - v).abs()).expect("a panel");
+            assert!(graded.coordinates.len() < fine.coordinates.len(), "{slope}");
+            assert!((graded.area() / fine.area() - 1.0).abs() < 1e-12, "{slope}");
+            // A node within a side would leave it to one triangle, as the outline is.
+            assert_eq!(outline(&graded), outline(&fine), "{slope}");
+        }
+        let grids = fine.graded(|_| 1.0).expect("a panel").grids;
+        let spacings: Vec<f64> = grids.iter().map(|grid| (1e3 * grid.spacing[0]).round()).collect();
+        assert_eq!(spacings, [5.0, 10.0, 20.0, 40.0]);
+    }
+
+    #[test]
+    fn the_spacing_is_nowhere_larger_than_allowed() {
+        let allowed = |[u, v]: [f64; 2]| 0.005 + 0.4 * (u - 0.5 * v).abs();
+        let graded = disc().graded(allowed).expect("a panel");
+        for triangle in graded.triangles() {
+            let points = triangle.map(|node| graded.coordinates[node as usize]);
+            let side = [0, 1].map(|axis| {
+                let all = points.map(|point| point[axis]);
+                all.into_iter().fold(f64::MIN, f64::max) - all.into_iter().fold(f64::MAX, f64::min)
+            });
+            for point in points {
+                assert!(side[0].max(side[1]) <= allowed(point) + 1e-12, "{points:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_fine_everywhere_stays_as_it_is_and_folded_and_graded_panels_are_refused() {
+        let fine = disc();
+        assert_eq!(fine.graded(|_| 0.009).expect("a panel"), fine);
+        let graded = fine.graded(|_| 1.0).expect("a panel");
+        assert_eq!(graded.graded(|_| 1.0), Err(Error::Graded));
+        let fold = crate::Fold { ends: [[-0.2, 0.0], [0.2, 0.0]], angle: 1.0 };
+        let folded = fine.with_folds(&[fold]).expect("a fold");
+        assert_eq!(folded.graded(|_| 1.0), Err(Error::Graded));
+    }
+}
