@@ -56,9 +56,13 @@ use crate::state::State;
 pub struct Cloth {
     masses: Vec<f64>,
     areas: Vec<f64>,
+    spacings: Vec<f64>,
     coordinates: Vec<[f64; 2]>,
     triangles: Vec<[u32; 3]>,
     tangents: Vec<[YarnTangent; 2]>,
+    /// First particle of each panel.
+    starts: Vec<usize>,
+    /// Grids of the panels; a graded panel has several.
     pub(crate) panels: Vec<GridPanel>,
     pub(crate) strips: Vec<Strip>,
     pub(crate) rims: Vec<Rim>,
@@ -96,9 +100,11 @@ impl Cloth {
         let mut cloth = Self {
             masses: Vec::new(),
             areas: Vec::new(),
+            spacings: Vec::new(),
             coordinates: Vec::new(),
             triangles: Vec::new(),
             tangents: Vec::new(),
+            starts: Vec::new(),
             panels: Vec::new(),
             strips: Vec::new(),
             rims: Vec::new(),
@@ -118,6 +124,7 @@ impl Cloth {
 
     fn add_panel(&mut self, lattice: &Lattice, fabric: &Fabric) {
         let first = self.particles() as u32;
+        self.starts.push(first as usize);
         let areas = lattice.areas();
         let neighbourhoods = Neighbourhoods::of(lattice);
         let bending = BendingConnectors::of(lattice, &areas, neighbourhoods.is_some());
@@ -140,6 +147,7 @@ impl Cloth {
         }
         let areas_of_mass = lattice.areas_of_mass(&areas);
         self.masses.extend(areas_of_mass.iter().map(|area| area * fabric.density));
+        self.spacings.extend(lattice.spacings());
         self.coordinates.extend(&lattice.coordinates);
         self.triangles.extend(lattice.triangles().iter().map(|t| t.map(|p| first + p)));
         self.areas.extend(areas);
@@ -176,15 +184,22 @@ impl Cloth {
         &self.areas
     }
 
+    /// Distances of the particles on the grid of each, in m.
+    #[must_use]
+    pub fn spacings(&self) -> &[f64] {
+        &self.spacings
+    }
+
     /// Material coordinates of the particles (u along the weft, v along the warp), in m.
     #[must_use]
     pub fn coordinates(&self) -> &[[f64; 2]] {
         &self.coordinates
     }
 
-    /// First particle of each panel, and of each grid of a graded one.
-    pub fn panel_starts(&self) -> impl Iterator<Item = usize> {
-        self.panels.iter().map(|panel| panel.first)
+    /// First particle of each panel.
+    #[must_use]
+    pub fn panel_starts(&self) -> &[usize] {
+        &self.starts
     }
 
     /// Triangles of the surface.

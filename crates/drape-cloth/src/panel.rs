@@ -9,9 +9,10 @@
 //!
 //! from which masses and connector areas follow. `lattice` is the panel, `cut` makes rectangles,
 //! discs and rings, `mesh` takes panels that were cut elsewhere (`drape-pattern`), with a rim of
-//! triangles. `grain` relates the yarns to the panel's own frame; `fold` and `folded` bend a panel
-//! at rest along lines; `interpolation` relates two grids of a panel; `allowance` adds mass along an
-//! outline; `clip` and `triangle` are plane geometry.
+//! triangles, `graded` joins cells of a panel to larger ones, each size on a `grid` of its own.
+//! `grain` relates the yarns to the panel's own frame; `fold` and `folded` bend a panel at rest along
+//! lines; `interpolation` relates two grids of a panel; `allowance` adds mass along an outline; `clip`
+//! and `triangle` are plane geometry.
 //!
 //! Called by the readers of scenes; handed on to `Cloth::new`. Nothing here moves or knows a law.
 

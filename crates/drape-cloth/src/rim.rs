@@ -1,5 +1,5 @@
 //! Rim of a panel: traction and shear of the triangles between the full cells and the outline, and
-//! bending where no triple of the grid has its middle.
+//! between cells of two sizes; bending where no triple of a grid has its middle.
 //!
 //! ```text
 //!    ┌───┬───┬──╱        ┌┐  full cells: `kernel`

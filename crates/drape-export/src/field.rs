@@ -1,20 +1,18 @@
 //! Fields: quantities on the cloth, a number for each vertex.
 
-mod curvature;
 mod strain;
 
 use std::path::PathBuf;
 use std::str::FromStr;
 
 use drape_collide::NearestSurface;
-use drape_frames::{Frame, Recording};
+use drape_frames::vector::{difference, length};
+use drape_frames::{Frame, Recording, curvatures};
 use rayon::prelude::*;
 
-use self::curvature::curvatures;
 use self::strain::{RestTriangle, StrainOf};
 use crate::error::Error;
 use crate::scale;
-use crate::vector::{difference, length};
 
 /// Quantity on the cloth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -5,7 +5,7 @@
 //! A [`Clip`] is what is written: frames of a recording with their times. Each format has a function
 //! that writes a clip, or a frame of it.
 //!
-//! Layers, lowest first: `error`, `name`, `colour`, `scale`, `vector`; `normal`; `clip` chooses frames; `mesh` divides
+//! Layers, lowest first: `error`, `name`, `colour`, `scale`; `normal`; `clip` chooses frames; `mesh` divides
 //! them into panels and bodies; `field` has numbers at their vertices; `format` and `view` write
 //! them.
 
@@ -15,7 +15,6 @@ mod colour;
 mod name;
 mod normal;
 mod scale;
-mod vector;
 
 mod clip;
 mod mesh;

@@ -8,8 +8,7 @@
 use std::collections::HashMap;
 
 use drape_frames::Frame;
-
-use crate::vector::{area_vector, difference, dot, length, sum};
+use drape_frames::vector::{area_vector, difference, dot, length, sum};
 
 /// Cosine of the angle between two triangles of a body beyond which their edge is a crease: 40°,
 /// more than the facets of a round body differ by, and less than the edges of a box.

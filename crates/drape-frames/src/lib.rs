@@ -7,7 +7,7 @@
 //!
 //! Layers, lowest first: `error`; `text`, `array` and `obj` read files; `manifest`, `topology`, `index`
 //! and `energy_table` are what all frames share; `obj_frames` and `array_frames` read a frame of either
-//! format; `recording` ties them to a folder.
+//! format; `recording` ties them to a folder. `surface` measures surfaces of triangles.
 
 mod error;
 
@@ -22,6 +22,9 @@ mod index;
 mod manifest;
 mod topology;
 
+// Surfaces.
+mod surface;
+
 // Frames.
 mod array_frames;
 mod frame;
@@ -33,4 +36,6 @@ pub use error::Error;
 pub use frame::Frame;
 pub use manifest::{Manifest, Part};
 pub use recording::Recording;
+pub use surface::curvature::curvatures;
+pub use surface::vector;
 pub use topology::Topology;

@@ -21,6 +21,8 @@ pub struct MaterialPoint {
     pub sheet: u32,
     /// Material coordinates, in m.
     pub coordinates: [f64; 2],
+    /// Distance of the nearest particles, in m.
+    pub spacing: f64,
 }
 
 /// System of particles in three dimensions, with masses, forces and a stiffness. Held particles

@@ -120,6 +120,10 @@ pub(crate) fn of_run(error: drape::keep::Error) -> PyErr {
             "another run is writing to {}; wait for its end, or give another folder",
             folder.display()
         ),
+        Error::GradedBy { folder } => format!(
+            "{} holds the run that grading.run names; give another folder",
+            folder.display()
+        ),
         Error::Interrupted { folder } => format!(
             "{0} holds a run that was interrupted; go on with drape.resume({0:?}), or begin anew \
              with replace=True",

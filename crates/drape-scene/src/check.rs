@@ -105,6 +105,8 @@ pub(crate) fn check(
     }
     let pins = pins.into_iter().map(|checked| checked.pin).collect();
     let sewing = sewing_settings(checker, seams.is_empty());
+    let graded_by = file.grading.as_ref().map(|grading| &grading.run);
+    let graded_by = graded_by.and_then(|folder| checker.locate("grading.run", folder));
     let folder = file.output.folder.as_ref();
     let folder = folder.and_then(|folder| checker.locate("output.folder", folder));
     // Seams and the start need sound panels.
@@ -145,6 +147,7 @@ pub(crate) fn check(
         parts: content.parts(),
         notes,
         contact_limits: Vec::new(),
+        graded_by,
     };
     let mut scene = Scene {
         source,

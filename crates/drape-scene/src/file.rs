@@ -24,7 +24,9 @@ use self::contact::ContactFile;
 use self::garment::{GarmentFile, SewFile};
 use self::panel::PanelFile;
 use self::pin::PinFile;
-use self::run::{MotionPhaseFile, OutputFile, RefineFile, SettleFile, SolverFile, TimeFile};
+use self::run::{
+    GradingFile, MotionPhaseFile, OutputFile, RefineFile, SettleFile, SolverFile, TimeFile,
+};
 
 /// Units of the lengths of a file, in m.
 pub(crate) const UNITS: [(&str, f64); 3] = [("m", 1.0), ("cm", 0.01), ("mm", 0.001)];
@@ -83,6 +85,9 @@ pub(crate) struct SceneFile {
     /// Coarser grids, with `[settle]` only: garments are sewn and cloth comes to rest on them first, one
     /// after the other.
     pub(crate) refine: Option<RefineFile>,
+    /// Larger distances between particles where the cloth is flat, by the curvature of an earlier run;
+    /// none if missing. Panels only, not garments.
+    pub(crate) grading: Option<GradingFile>,
     /// Phase that follows when the cloth has come to rest, with `[settle]` only; bodies and pins
     /// move from the start if missing.
     pub(crate) motion: Option<MotionPhaseFile>,

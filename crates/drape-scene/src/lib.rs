@@ -2,6 +2,7 @@
 
 // Values
 mod contact_stiffness;
+mod grading;
 mod needs;
 mod scene;
 mod spacings;

@@ -128,6 +128,8 @@ pub struct Source {
     /// What contact cannot promise on the bodies, a sentence each: where a body passes through its
     /// own surface.
     pub contact_limits: Vec<String>,
+    /// Folder of the run that panels are graded by, if they are.
+    pub graded_by: Option<PathBuf>,
 }
 
 /// Part of what a scene was read from.

@@ -24,6 +24,15 @@ pub enum Error {
         /// The folder.
         folder: PathBuf,
     },
+    /// The folder holds the run that the panels are graded by: give another folder.
+    #[error(
+        "{} holds the run that grading.run names; give another folder with -o",
+        folder.display()
+    )]
+    GradedBy {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// The run ends before its first step: give a later end.
     #[error("--until {end}: a step takes {step} s already")]
     End {

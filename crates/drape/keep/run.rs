@@ -80,6 +80,11 @@ impl KeptRun {
         if RunRequest::is_interrupted(folder) && !keeping.replace {
             return Err(Error::Interrupted { folder: folder.to_owned() });
         }
+        let place = |folder: &Path| folder.canonicalize().ok();
+        let graded_by = scene.source.graded_by.as_deref().and_then(place);
+        if graded_by.is_some() && graded_by == place(folder) {
+            return Err(Error::GradedBy { folder: folder.to_owned() });
+        }
         check_space(&scene, folder)?;
         let lock = Lock::take(folder)?;
         let output = prepare_folder(folder, keeping.replace)?;

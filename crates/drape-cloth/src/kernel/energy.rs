@@ -6,7 +6,7 @@ use drape_fabric::{BatchLaw, LANES, Lanes};
 
 use crate::kernel::buffers::{StripBuffers, StripTrial};
 use crate::kernel::memories::{GridMemories, GridMemoriesMut};
-use crate::layout::columns::{VectorColumns, lanes};
+use crate::layout::columns::{VectorColumns, is_vacant, lanes};
 use crate::layout::grid::GridPanel;
 use crate::layout::strip::Strip;
 
@@ -141,9 +141,14 @@ pub(crate) fn stored(buffers: &mut StripBuffers, trial: &StripTrial<'_>) -> f64 
     sums.iter().sum()
 }
 
-/// First indices, in the buffers, of the batches of a strip's own points.
-fn own_batches(panel: &GridPanel, strip: &Strip) -> impl Iterator<Item = usize> {
-    (panel.margin..panel.margin + strip.points.len()).step_by(LANES)
+/// First indices, in the buffers, of the batches of a strip's own points that have a connector.
+fn own_batches<'a>(panel: &'a GridPanel, strip: &'a Strip) -> impl Iterator<Item = usize> + 'a {
+    let batches = (panel.margin..panel.margin + strip.points.len()).step_by(LANES);
+    batches.filter(|&start| {
+        let areas = |column: &[f64]| is_vacant(lanes(column, strip.batch(start).panel));
+        let yarns = panel.yarns.iter().flat_map(|own| [&own.segment_areas, &own.triple_areas]);
+        !yarns.chain(&panel.corner_areas).all(|column| areas(column))
+    })
 }
 
 /// Adds energies per area times areas.

@@ -8,7 +8,7 @@
 use drape_fabric::{BatchLaw, LANES, Lanes, Responses};
 
 use crate::kernel::buffers::{Edges, StripBuffers, StripTrial};
-use crate::layout::columns::{VectorLanes, lanes, put};
+use crate::layout::columns::{VectorLanes, is_vacant, lanes, put};
 use crate::layout::grid::CornerAtEdge;
 use crate::measure::vector::{add, dot, scale, subtract};
 
@@ -40,11 +40,15 @@ fn compute_tensions(buffers: &mut StripBuffers, trial: &StripTrial<'_>, directio
     let indices = panel.margin - panel.stride..panel.margin + strip.points.len();
     for start in indices.step_by(LANES) {
         let at = strip.batch(start);
+        let areas = lanes(&yarns.segment_areas, at.panel);
+        if is_vacant(areas) {
+            put(&mut buffers.tensions[direction], start, &[0.0; LANES]);
+            continue;
+        }
         let memory = trial.memories.traction[direction].batch(at.cloth);
         let strains = buffers.strains(yarns, direction, at);
         let mut responses = Responses::default();
         yarns.traction.respond::<false>(&memory, &strains, &mut responses);
-        let areas = lanes(&yarns.segment_areas, at.panel);
         let inverse = 1.0 / yarns.length;
         let mut tensions = [0.0; LANES];
         for lane in 0..LANES {
@@ -61,11 +65,15 @@ fn compute_corner_loads(buffers: &mut StripBuffers, trial: &StripTrial<'_>, corn
     let indices = panel.margin - panel.stride - 1..panel.margin + strip.points.len();
     for start in indices.step_by(LANES) {
         let at = strip.batch(start);
+        let areas = lanes(&panel.corner_areas[corner], at.panel);
+        if is_vacant(areas) {
+            put(&mut buffers.corner_loads[corner], start, &[0.0; LANES]);
+            continue;
+        }
         let memory = trial.memories.shear[corner].batch(at.cloth);
         let sines = buffers.sines(panel, corner, at);
         let mut responses = Responses::default();
         panel.shear.respond::<false>(&memory, &sines, &mut responses);
-        let areas = lanes(&panel.corner_areas[corner], at.panel);
         let mut loads = [0.0; LANES];
         for lane in 0..LANES {
             loads[lane] = responses.load[lane] * areas[lane];
@@ -83,6 +91,10 @@ fn compute_moments(buffers: &mut StripBuffers, trial: &StripTrial<'_>, direction
     let indices = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
     for start in indices.step_by(LANES) {
         let at = strip.batch(start);
+        if is_vacant(lanes(&yarns.triple_areas, at.panel)) {
+            buffers.moments[direction].put(start, &VectorLanes::zero().0);
+            continue;
+        }
         let memory = trial.memories.bending[direction].batch(at.cloth);
         let triples = buffers.triples(yarns, &trial.memories.normals, at);
         let moments = triples.moments(&memory, inverse_square);

@@ -15,7 +15,7 @@
 use drape_fabric::{BatchLaw, LANES, Lanes, Responses};
 
 use crate::kernel::buffers::{StripBuffers, StripTrial};
-use crate::layout::columns::{lanes, put};
+use crate::layout::columns::{is_vacant, lanes, put};
 use crate::layout::grid::{BLOCKS, CornerAtEdge, CornerEdges, NO_BLOCK};
 use crate::measure::half::{HALF, IN_HALF, TRANSPOSED};
 use crate::measure::vector::dot;
@@ -73,11 +73,17 @@ fn compute_shear_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, kind
     let CornerEdges { warp: to_warp, weft: to_weft } = panel.corner_edges(corner);
     for start in indices.step_by(LANES) {
         let at = strip.batch(start);
+        let areas = lanes(&panel.corner_areas[corner], at.panel);
+        if is_vacant(areas) {
+            put(&mut buffers.corner_loads[corner], start, &[0.0; LANES]);
+            put(&mut buffers.corner_tangents[corner], start, &[0.0; LANES]);
+            buffers.shear_blocks[corner].put(start, &[[0.0; LANES]; 9]);
+            continue;
+        }
         let memory = trial.memories.shear[corner].batch(at.cloth);
         let sines = buffers.sines(panel, corner, at);
         let mut responses = Responses::default();
         panel.shear.respond::<true>(&memory, &sines, &mut responses);
-        let areas = lanes(&panel.corner_areas[corner], at.panel);
         let mut loads = [0.0; LANES];
         let mut slopes = [0.0; LANES];
         for lane in 0..LANES {
@@ -124,6 +130,10 @@ fn compute_bending_blocks(buffers: &mut StripBuffers, trial: &StripTrial<'_>, ki
     let indices = panel.margin - yarns.step..panel.margin + strip.points.len() + yarns.step;
     for start in indices.step_by(LANES) {
         let at = strip.batch(start);
+        if is_vacant(lanes(&yarns.triple_areas, at.panel)) {
+            buffers.bending_blocks[direction].put(start, &[[0.0; LANES]; 6]);
+            continue;
+        }
         let memory = trial.memories.bending[direction].batch(at.cloth);
         let triples = buffers.triples(yarns, &trial.memories.normals, at);
         let blocks = triples.blocks(&memory, inverse_square, definite);
@@ -150,11 +160,15 @@ fn edge_blocks(
     let yarns = &panel.yarns[direction];
     let (edges, other) = (&buffers.edges[direction], &buffers.edges[1 - direction]);
     let at = strip.batch(start);
+    let areas = lanes(&yarns.segment_areas, at.panel);
+    // An edge without an area is beside no cell, and has no corner either.
+    if is_vacant(areas) {
+        return [[0.0; LANES]; 6];
+    }
     let memory = trial.memories.traction[direction].batch(at.cloth);
     let strains = buffers.strains(yarns, direction, at);
     let mut responses = Responses::default();
     yarns.traction.respond::<true>(&memory, &strains, &mut responses);
-    let areas = lanes(&yarns.segment_areas, at.panel);
     let (units, inverse) = (edges.unit.batch(start), lanes(&edges.inverse, start));
     let rest = 1.0 / yarns.length;
 

@@ -57,6 +57,12 @@ pub(crate) fn lanes_if_any(column: &[f64], start: usize) -> Option<&Lanes> {
     (!column.is_empty()).then(|| lanes(column, start))
 }
 
+/// Returns whether no connector of a batch exists, as where a panel has a hole or larger cells.
+#[inline(always)]
+pub(crate) fn is_vacant(areas: &Lanes) -> bool {
+    areas.iter().all(|area| *area == 0.0)
+}
+
 /// Writes a batch into a column from `start` on.
 #[inline(always)]
 pub(crate) fn put(column: &mut [f64], start: usize, values: &Lanes) {

@@ -107,7 +107,8 @@ impl Lattice {
             let step = 1 << level;
             let columns = grid.columns.div_ceil(step);
             let rows = (grid.points.len() / grid.columns).div_ceil(step);
-            let places = (0..rows).flat_map(|row| (0..columns).map(move |c| [step * c, step * row]));
+            let places =
+                (0..rows).flat_map(|row| (0..columns).map(move |c| [step * c, step * row]));
             let own = |&place: &[usize; 2]| levels.at_point(place) == Some(level);
             let points: Vec<_> =
                 places.map(|place| Some(place).filter(own).and_then(node).map(&mut keep)).collect();
@@ -226,9 +227,8 @@ impl Levels {
         // Counted from one cell before the block.
         let range = move |first: usize| first..first + side + 2;
         range(block.row).flat_map(move |row| {
-            range(block.column).map(move |column| {
-                self.cell(column.checked_sub(1)?, row.checked_sub(1)?)
-            })
+            range(block.column)
+                .map(move |column| self.cell(column.checked_sub(1)?, row.checked_sub(1)?))
         })
     }
 

@@ -117,6 +117,23 @@ impl Lattice {
         all
     }
 
+    /// Largest distance of neighbouring particles along the weft and along the warp, in m.
+    #[must_use]
+    pub fn spacing_max(&self) -> [f64; 2] {
+        self.grids.last().map_or(self.spacing, |grid| grid.spacing)
+    }
+
+    /// Distances of the particles on the grid of each, the mean of those along weft and warp, in m; on
+    /// the outline those of the finest grid.
+    pub(crate) fn spacings(&self) -> Vec<f64> {
+        let mean = |[across, along]: [f64; 2]| (across * along).sqrt();
+        let mut spacings = vec![mean(self.spacing); self.coordinates.len()];
+        for grid in &self.grids {
+            grid.particles().for_each(|node| spacings[node as usize] = mean(grid.spacing));
+        }
+        spacings
+    }
+
     /// Areas of the particles, in m².
     pub(crate) fn areas(&self) -> Vec<f64> {
         let mut areas = vec![0.0; self.coordinates.len()];

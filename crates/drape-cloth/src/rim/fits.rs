@@ -51,10 +51,7 @@ impl PanelFits {
         neighbourhoods: &Neighbourhoods<'_>,
         bending: &[BendingConnectors; 2],
     ) -> Self {
-        let mut spacings = vec![lattice.spacing; lattice.coordinates.len()];
-        for grid in &lattice.grids {
-            grid.particles().for_each(|particle| spacings[particle as usize] = grid.spacing);
-        }
+        let spacings = lattice.spacings();
         let (mut stencils, mut tangents) = (Vec::new(), Vec::new());
         for middle in 0..lattice.coordinates.len() as u32 {
             let at = middle as usize;
@@ -64,8 +61,7 @@ impl PanelFits {
             let mut nodes = neighbourhoods.around(middle);
             let points: Vec<_> =
                 nodes.iter().map(|&node| lattice.coordinates[node as usize]).collect();
-            let [across, along] = spacings[at];
-            let fit = QuadraticFit::new(&points, (across * along).sqrt());
+            let fit = QuadraticFit::new(&points, spacings[at]);
             nodes.truncate(fit.first[0].len());
             let areas = [0, 1].map(|direction| bending[direction].stencil_areas[at]);
             if areas.iter().any(|&area| area > 0.0) {

@@ -104,11 +104,16 @@ impl System for World {
     }
 
     fn material_points(&self) -> Vec<MaterialPoint> {
-        let starts: Vec<usize> = self.cloth.panel_starts().collect();
-        let coordinates = self.cloth.coordinates().iter().enumerate();
+        let starts = self.cloth.panel_starts();
+        let points = self.cloth.coordinates().iter().zip(self.cloth.spacings());
         let panel = |particle: usize| starts.partition_point(|&start| start <= particle) as u32;
-        coordinates
-            .map(|(particle, &coordinates)| MaterialPoint { sheet: panel(particle), coordinates })
+        points
+            .enumerate()
+            .map(|(particle, (&coordinates, &spacing))| MaterialPoint {
+                sheet: panel(particle),
+                coordinates,
+                spacing,
+            })
             .collect()
     }
 

@@ -1,6 +1,6 @@
 //! Strain of a triangle along warp and weft, and its shear.
 
-use crate::vector::{dot, length};
+use drape_frames::vector::{dot, length};
 
 /// Component of a strain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

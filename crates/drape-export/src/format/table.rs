@@ -2,11 +2,11 @@
 
 use std::io::Write;
 
+use drape_frames::vector::{area_vector, difference, length};
 use drape_frames::{EnergyTable, Frame, Recording};
 
 use crate::clip::Clip;
 use crate::error::Error;
-use crate::vector::{area_vector, difference, length};
 
 /// Names of the columns of every run, with their units.
 const COLUMNS: [&str; 7] = [

@@ -5,7 +5,7 @@ use pulp::Arch;
 use crate::error::Error;
 use crate::linear::block_matrix::{BlockMatrix, NotDefinite};
 use crate::linear::cholesky::{Cholesky, Kernel};
-use crate::linear::coarse_level::{CoarseLevel, MIN_PARTICLES};
+use crate::linear::coarse_level::CoarseLevel;
 use crate::linear::conjugate_gradient::{
     ConjugateGradient, Ending, Outcome, Preconditioned, Target,
 };
@@ -50,7 +50,8 @@ impl SystemMatrix {
         settings: &Settings,
     ) -> Result<Self, Error> {
         let length = 3 * sparsity.particles();
-        let is_worthwhile = length / 3 >= MIN_PARTICLES && settings.energy_tolerance == 0.0;
+        let is_worthwhile =
+            settings.energy_tolerance == 0.0 && CoarseLevel::is_worthwhile(&material_points);
         let direct = settings.linear_solver == LinearSolver::Cholesky && length > 0;
         Ok(Self {
             cholesky: if direct { Some(Cholesky::new(&sparsity, Kernel::Vector)?) } else { None },
@@ -192,7 +193,7 @@ mod tests {
         let held: Vec<bool> = (0..n * n).map(|k| k < n).collect();
         matrix.add_inertia(&vec![1e-3; n * n], &held);
         let coordinates = |k: usize| [(k % n) as f64, (k / n) as f64];
-        let point = |k| MaterialPoint { sheet: 0, coordinates: coordinates(k) };
+        let point = |k| MaterialPoint { sheet: 0, coordinates: coordinates(k), spacing: 1.0 };
         (matrix, (0..n * n).map(point).collect())
     }
 

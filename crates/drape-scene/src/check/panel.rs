@@ -3,6 +3,7 @@
 pub(crate) mod cut_lattice;
 mod disc;
 pub(crate) mod folds;
+mod graded;
 pub(crate) mod noise;
 mod placement;
 
@@ -20,6 +21,7 @@ use crate::scene::material::Material;
 use crate::scene::panel::Panel;
 
 use self::folds::{FoldLine, UnfoldedPanel, folded};
+use self::graded::{graded, grading};
 use self::noise::noise;
 use self::placement::Placement;
 
@@ -57,6 +59,7 @@ pub(crate) fn panels(
         checker.fail_file("the scene has no panel", help);
     }
     check_spacing(checker, "spacing", file.spacing);
+    let grading = grading(checker);
     let mut panels: Vec<PlacedPanel> = Vec::new();
     let mut first = 0;
     let names: Vec<&str> = file.panel.iter().map(|panel| panel.name.as_str()).collect();
@@ -70,6 +73,10 @@ pub(crate) fn panels(
         let material = material_index(checker, &format!("{key}.fabric"), &entry.fabric);
         let lattice = lattice(checker, &key, entry, first);
         let lattice = lattice.and_then(|lattice| fold(checker, &key, entry, lattice));
+        let lattice = match &grading {
+            Some(grading) => lattice.and_then(|own| graded(checker, &entry.name, own, grading)),
+            None => lattice,
+        };
         let noise = noise(checker, &format!("{key}.noise"), entry.noise.as_ref());
         let placement = Placement::check(checker, &key, entry, noise);
         let (Some(material), Some(lattice)) = (material, lattice) else { continue };

@@ -62,6 +62,21 @@ pub(crate) struct RefineFile {
     pub(crate) spacings: Vec<Given<Length>>,
 }
 
+/// Larger distances between particles where the cloth is flat.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GradingFile {
+    /// Folder of an earlier run of the scene, such as at twice the spacing, relative to the folder of
+    /// the scene. Curvature is the largest of all its frames.
+    pub(crate) run: String,
+    /// Largest angle by which the cloth turns from one particle to the next where they are farther
+    /// apart than the spacing.
+    #[cfg_attr(feature = "schema", schemars(extend("default" = 30.0)))]
+    #[cfg_attr(feature = "schema", schemars(transform = drape_input::within(0.1, 90.0)))]
+    pub(crate) angle: Option<Given<Angle>>,
+}
+
 /// Phase that follows when the cloth has come to rest.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

@@ -88,6 +88,11 @@ pub(crate) fn scene(scene: &Scene) -> String {
     }
     for panel in &scene.panels {
         let [across, along] = panel.lattice.spacing;
+        let most = panel.lattice.spacing_max();
+        let flat = match most == panel.lattice.spacing {
+            true => String::new(),
+            false => format!(", where it is flat up to {:.5} × {:.5} m", most[0], most[1]),
+        };
         let material = &scene.materials[panel.material];
         let layer = match panel.layer {
             0 => String::new(),
@@ -95,7 +100,7 @@ pub(crate) fn scene(scene: &Scene) -> String {
         };
         let _ = writeln!(
             text,
-            "  panel \"{}\": {layer}{} particles, spacing {across:.5} × {along:.5} m, of {}",
+            "  panel \"{}\": {layer}{} particles, spacing {across:.5} × {along:.5} m{flat}, of {}",
             panel.name,
             panel.lattice.coordinates.len(),
             material.file.display()

@@ -220,6 +220,7 @@ mod tests {
             MaterialPoint {
                 sheet: (k % 3) as u32,
                 coordinates: [radius * angle.cos(), 0.3 * radius * angle.sin()],
+                spacing: 1.0,
             }
         };
         let points: Vec<_> = (0..4000).map(point).collect();

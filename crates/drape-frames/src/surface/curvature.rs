@@ -1,14 +1,18 @@
 //! Curvature of a surface of triangles, from the normals at its vertices \[Rus04\].
 
-use crate::vector::{Vector, area_vector, cross, difference, dot, length, sum};
+use crate::surface::vector::{Vector, area_vector, cross, difference, dot, length, sum};
 
-/// Returns the largest size of a principal curvature of each triangle, in 1/m; 0 for one without
-/// area.
+/// Returns the largest size of a principal curvature of each triangle, in 1/m, from the positions of
+/// the vertices, in m; 0 for one without area.
 ///
 /// In the plane of a triangle the second fundamental form turns each edge into the difference of the
 /// normals at its ends. The three edges give six equations for its three coefficients, which are
 /// solved by least squares \[Rus04\].
-pub(super) fn curvatures(positions: &[Vector], triangles: &[[u32; 3]]) -> Vec<f64> {
+///
+/// # Panics
+/// If there is no position of a corner.
+#[must_use]
+pub fn curvatures(positions: &[Vector], triangles: &[[u32; 3]]) -> Vec<f64> {
     let normals = normals(positions, triangles);
     let of = |corners: &[u32; 3]| {
         let places = corners.map(|corner| positions[corner as usize]);

@@ -1,0 +1,4 @@
+//! Surfaces of triangles: vectors, and curvature.
+
+pub(crate) mod curvature;
+pub mod vector;

@@ -1,0 +1,54 @@
+//! Check of grading: panels whose particles are farther apart where the cloth is flat.
+
+use drape_cloth::Lattice;
+use drape_input::{Given, excerpt};
+
+use crate::check::checker::Checker;
+use crate::grading::Grading;
+
+/// Largest angle by which cloth turns between particles if the scene gives none, in degrees.
+const ANGLE: f64 = 30.0;
+
+/// Reads the curvatures that panels are graded by, if they are.
+pub(crate) fn grading(checker: &mut Checker<'_>) -> Option<Grading> {
+    let entry = checker.file.grading.as_ref()?;
+    let refused = match checker.file.panel.is_empty() {
+        true => Some("the scene has no [[panel]]; garments are not graded"),
+        false if checker.file.is_breen() => Some("particles of Breen's model are on one grid"),
+        false => None,
+    };
+    if let Some(message) = refused {
+        checker.fail("grading", message, "leave [grading] out");
+        return None;
+    }
+    let angle = entry.angle.map_or(ANGLE, Given::value);
+    let sound = checker.within("grading.angle", angle, 0.1..=90.0, "in degrees");
+    let folder = checker.locate("grading.run", &entry.run)?;
+    let read = Grading::read(&folder, angle.to_radians());
+    let help = "run the scene without [grading] first, at a larger spacing and with a folder of its own: \
+                drape run SCENE --set spacing='\"10 mm\"' -o FOLDER";
+    read.map_err(|error| checker.fail("grading.run", error.to_string(), help))
+        .ok()
+        .filter(|_| sound)
+}
+
+/// Returns a panel of a name with larger cells where its curvature allows them.
+pub(crate) fn graded(
+    checker: &mut Checker<'_>,
+    name: &str,
+    lattice: Lattice,
+    grading: &Grading,
+) -> Option<Lattice> {
+    let Some(spacing_max) = grading.spacing_max(name) else {
+        let message = format!("that run has no panel \"{}\"", excerpt(name));
+        checker.fail("grading.run", message, "name a run of this scene");
+        return None;
+    };
+    let graded = lattice.graded(spacing_max);
+    let help = "leave the folds or [grading] out";
+    graded
+        .map_err(|error| {
+            checker.fail("grading", format!("panel \"{}\": {error}", excerpt(name)), help)
+        })
+        .ok()
+}

@@ -1,0 +1,161 @@
+//! Grading: where panels may be coarser, by the curvature that an earlier run of the scene has.
+
+use std::path::Path;
+
+use drape_frames::{Error, Recording, curvatures};
+
+/// Largest curvatures of the panels of a run, at their material coordinates.
+#[derive(Debug, Clone)]
+pub(crate) struct Grading {
+    panels: Vec<(String, CurvatureMap)>,
+    /// Largest angle, in rad, by which cloth turns from one particle to the next.
+    angle: f64,
+}
+
+/// Largest curvature in square bins over a panel, row by row.
+#[derive(Debug, Clone)]
+struct CurvatureMap {
+    low: [f64; 2],
+    size: f64,
+    columns: usize,
+    /// In 1/m.
+    bins: Vec<f64>,
+}
+
+impl Grading {
+    /// Reads the curvatures of all frames of a run.
+    ///
+    /// # Errors
+    /// When the folder holds no run, or its files are not as a run writes them.
+    pub(crate) fn read(folder: &Path, angle: f64) -> Result<Self, Error> {
+        let run = Recording::open(folder)?;
+        let triangles = &run.topology().cloth;
+        let mut largest = vec![0.0; triangles.len()];
+        for number in 0..run.frames() {
+            let own = curvatures(&run.frame(number)?.cloth, triangles);
+            largest
+                .iter_mut()
+                .zip(own)
+                .for_each(|(most, own): (&mut f64, f64)| *most = most.max(own));
+        }
+        let mut first = 0;
+        let panels = run.manifest().panels.iter().map(|panel| {
+            let own = first..first + panel.triangles;
+            first = own.end;
+            let map = CurvatureMap::of(
+                &run.topology().material,
+                (&triangles[own.clone()], &largest[own]),
+            );
+            (panel.name.clone(), map)
+        });
+        Ok(Self { panels: panels.collect(), angle })
+    }
+
+    /// Returns the largest spacing that is allowed at the material coordinates of a panel, in m, as a
+    /// function of them; nothing for a panel that the run does not have.
+    pub(crate) fn spacing_max(&self, panel: &str) -> Option<impl Fn([f64; 2]) -> f64> {
+        let (_, map) = self.panels.iter().find(|(name, _)| name == panel)?;
+        Some(|point| self.angle / map.around(point))
+    }
+}
+
+impl CurvatureMap {
+    /// Returns the map of some triangles with their curvatures. Its bins are as wide as the particles
+    /// of the run are apart.
+    fn of(material: &[[f64; 2]], (triangles, curvatures): (&[[u32; 3]], &[f64])) -> Self {
+        let corners = |triangle: &[u32; 3]| triangle.map(|corner| material[corner as usize]);
+        let points = || triangles.iter().flat_map(corners);
+        let end = |axis: usize, pick: fn(f64, f64) -> f64| {
+            points().map(|point| point[axis]).reduce(pick).unwrap_or(0.0)
+        };
+        let area = |triangle: &[u32; 3]| {
+            let [a, b, c] = corners(triangle);
+            0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+        };
+        // Two triangles to a particle.
+        let mean = triangles.iter().map(area).sum::<f64>() / triangles.len().max(1) as f64;
+        let size = (2.0 * mean).sqrt().max(f64::MIN_POSITIVE);
+        let low = [0, 1].map(|axis| end(axis, f64::min));
+        let [columns, rows] =
+            [0, 1].map(|axis| ((end(axis, f64::max) - low[axis]) / size) as usize + 1);
+        let mut map = Self { low, size, columns, bins: vec![0.0; columns * rows] };
+        for (triangle, &curvature) in triangles.iter().zip(curvatures) {
+            for point in corners(triangle) {
+                let [column, row] = map.bin(point);
+                let most = &mut map.bins[row * columns + column];
+                *most = most.max(curvature);
+            }
+        }
+        map
+    }
+
+    /// Returns the column and the row of the bin that a point is in, or of the nearest one.
+    fn bin(&self, point: [f64; 2]) -> [usize; 2] {
+        let counts = [self.columns, self.bins.len() / self.columns];
+        [0, 1].map(|axis| {
+            let place = (point[axis] - self.low[axis]) / self.size;
+            (place.max(0.0) as usize).min(counts[axis] - 1)
+        })
+    }
+
+    /// Returns the largest curvature in the bin of a point and in those around it: on another grid
+    /// folds may lie elsewhere.
+    fn around(&self, point: [f64; 2]) -> f64 {
+        let near = |place: usize| place.saturating_sub(1)..place + 2;
+        let [column, row] = self.bin(point);
+        let rows = near(row).filter_map(|row| self.bins.chunks(self.columns).nth(row));
+        let bins = rows.flat_map(|row| near(column).filter_map(|column| row.get(column)));
+        bins.copied().fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write;
+
+    use super::*;
+
+    /// Radius of the bent half of a sheet, in m.
+    const RADIUS: f64 = 0.05;
+
+    /// Folder of a run of a sheet of 200 × 100 mm with particles at 10 mm, one half of which is bent.
+    fn run() -> tempfile::TempDir {
+        let folder = tempfile::tempdir().expect("a folder");
+        let manifest = r#"{ "format": 1, "guarded": false, "panels": [
+            { "name": "sheet", "vertices": 231, "triangles": 400 } ], "bodies": [] }
+"#;
+        std::fs::write(folder.path().join("surfaces.json"), manifest).expect("it is written");
+        let mut text = String::from("# metres, y up; t = 0.5 s\n");
+        let points = (0..231).map(|k| [0.01 * f64::from(k % 21), 0.01 * f64::from(k / 21)]);
+        for [u, v] in points.clone() {
+            let angle = (u - 0.1).max(0.0) / RADIUS;
+            let [x, y] = [u.min(0.1) + RADIUS * angle.sin(), RADIUS * (1.0 - angle.cos())];
+            writeln!(text, "v {x} {y} {v}").expect("it is written");
+        }
+        points.for_each(|[u, v]| writeln!(text, "vt {u} {v}").expect("it is written"));
+        for first in (0..210).filter(|k| k % 21 < 20).map(|k| k + 1) {
+            let [a, b, c, d] = [first, first + 1, first + 22, first + 21];
+            writeln!(text, "f {a} {b} {c}\nf {a} {c} {d}").expect("it is written");
+        }
+        std::fs::write(folder.path().join("frame-00000.obj"), text).expect("it is written");
+        folder
+    }
+
+    #[test]
+    fn the_spacing_is_that_angle_over_the_curvature_of_the_run() {
+        let folder = run();
+        let angle = 0.2;
+        let grading = Grading::read(folder.path(), angle).expect("a run");
+        let spacing_max = grading.spacing_max("sheet").expect("it has the panel");
+        for v in [0.004, 0.05, 0.096] {
+            let found = spacing_max([0.15, v]) / (angle * RADIUS);
+            assert!((found - 1.0).abs() < 0.15, "{found} at {v}");
+            assert!(spacing_max([0.04, v]) > 1e3, "{} at {v}", spacing_max([0.04, v]));
+        }
+        // Beyond the sheet, what the nearest part allows.
+        assert_eq!(spacing_max([0.3, -1.0]), spacing_max([0.2, 0.0]));
+        assert!(grading.spacing_max("sleeve").is_none());
+        let nowhere = Grading::read(&folder.path().join("nowhere"), angle);
+        assert!(matches!(nowhere, Err(Error::NotARun { .. })));
+    }
+}
