@@ -81,7 +81,7 @@ fn a_panel_is_coarser_where_an_earlier_run_was_flat_and_the_remedies_work() {
     }
     let checked = drape(at, &[&["check", "rail.toml"], &grading[..]].concat());
     let told = text(&checked.stdout);
-    assert!(told.contains("where it is flat up to 0.01000"), "{told}");
+    assert!(told.contains("where it is flat up to 0.02000"), "{told}");
 
     // Its own folder, a panel that the run does not have, an angle out of range.
     let own_folder = graded("coarse", &["--force"]);

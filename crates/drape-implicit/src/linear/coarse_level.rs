@@ -30,10 +30,9 @@ use crate::system::MaterialPoint;
 use interpolation::Interpolation;
 use projection::Projection;
 
-/// Fewest particles at the finest spacing with which the coarse level saves time: with 10 000 it saves as much as it
-/// takes on one thread, and more on two, where it is solved beside the incomplete factor. With 4 900 it
-/// takes a tenth more time than it saves. A disc of 4 059 particles, 12 840 at its finest spacing, took
-/// 91 000 iterations with it and 226 000 without.
+/// Fewest particles at the finest spacing with which the coarse level saves time: with 10 000 it saves
+/// as much as it takes on one thread, and more on two, where it is solved beside the incomplete factor.
+/// With 4 900 it takes a tenth more time than it saves.
 const MIN_PARTICLES: f64 = 8_000.0;
 
 /// Relative shift of the main diagonal of the coarse matrix, which may be singular to rounding where
