@@ -272,3 +272,36 @@ fn tables_of_results_are_read_in_rows_and_in_columns() {
     assert_eq!(of(Direction::Weft, Symbol::Em), Some(4.5), "{}", draft.text);
     assert!(sheet.w.is_some_and(|w| (w - 14.2).abs() < 1e-12), "{}", draft.text);
 }
+
+#[test]
+fn a_sheet_beside_the_folder_of_exports_names_them_from_its_own_folder() {
+    let head = "Direction,Warp\r\nStrain (%),Load (gf/cm)\r\n";
+    let rows = rows(&tensile(), |_, [q, f]| format!("{q:.5},{f:.6}"));
+    let text = format!("{head}{rows}");
+    let folder = folder(&[("exports/pull.csv", text.as_bytes()), ("sheets/notes.txt", b"none\n")]);
+    let [exports, sheets] = ["exports", "sheets"].map(|name| folder.path().join(name));
+    let draft = SheetDraft::of_folder(&exports, &sheets).unwrap_or_else(|error| panic!("{error}"));
+    assert!(draft.text.contains("file = \"../exports/pull.csv\""), "{}", draft.text);
+    let draft = SheetDraft::of_folder(&exports, &exports).unwrap_or_else(|error| panic!("{error}"));
+    assert!(draft.text.contains("file = \"pull.csv\""), "{}", draft.text);
+}
+
+#[test]
+fn two_tests_side_by_side_in_a_file_are_two_curves() {
+    let pull = tensile();
+    let bend = looped(2.5, 0.1, 0.04);
+    let head = "Direction,Warp\r\nStrain (%),Load (gf/cm),Curvature (1/cm),Moment (gf.cm/cm)\r\n";
+    let row = |index: usize| {
+        let pair = |points: &[[f64; 2]]| match points.get(index) {
+            Some([q, f]) => format!("{q:.5},{f:.6}"),
+            None => ",".to_owned(),
+        };
+        format!("{},{}\r\n", pair(&pull), pair(&bend))
+    };
+    let text = (0..pull.len().max(bend.len())).map(row).collect::<String>();
+    let folder = folder(&[("both.csv", format!("{head}{text}").as_bytes())]);
+    let (draft, sheet) = drafted(folder.path());
+    let mut tests: Vec<Test> = sheet.curves.iter().map(|curve| curve.test).collect();
+    tests.sort();
+    assert_eq!(tests, [Test::Tensile, Test::Bending], "{}", draft.text);
+}

@@ -124,6 +124,16 @@ fn grams_for_milligrams_are_refused_with_the_right_unit() {
 }
 
 #[test]
+fn a_rigidity_that_no_fabric_has_is_refused_with_what_it_may_mean() {
+    for (b, meant) in [("0.001", "\"0.001 mN.m\""), ("30", "\"30 uN.m\"")] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let text = format!("name = \"poplin\"\n[warp]\nB = {b}\n");
+        std::fs::write(folder.path().join("sheet.toml"), text).expect("written");
+        says(&refusal(Sheet::read(folder.path())), &[b, "did you mean", meant]);
+    }
+}
+
+#[test]
 fn a_reversed_sign_is_turned_and_told() {
     let turned: Vec<_> = shear().into_iter().map(|(a, f)| (a, -f)).collect();
     // The loop of a load with the wrong sign is right once the sign is.

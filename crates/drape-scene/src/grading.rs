@@ -1,5 +1,6 @@
 //! Grading: where panels may be coarser, by the curvature that an earlier run of the scene has.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use drape_frames::{Error, Recording, curvatures};
@@ -12,14 +13,12 @@ pub(crate) struct Grading {
     angle: f64,
 }
 
-/// Largest curvature in square bins over a panel, row by row.
+/// Largest curvature, in 1/m, in square bins over a panel.
 #[derive(Debug, Clone)]
 struct CurvatureMap {
-    low: [f64; 2],
+    /// Side of a bin, in m.
     size: f64,
-    columns: usize,
-    /// In 1/m.
-    bins: Vec<f64>,
+    bins: BTreeMap<[i64; 2], f64>,
 }
 
 impl Grading {
@@ -33,10 +32,9 @@ impl Grading {
         let mut largest = vec![0.0; triangles.len()];
         for number in 0..run.frames() {
             let own = curvatures(&run.frame(number)?.cloth, triangles);
-            largest
-                .iter_mut()
-                .zip(own)
-                .for_each(|(most, own): (&mut f64, f64)| *most = most.max(own));
+            for (most, own) in largest.iter_mut().zip(own) {
+                *most = f64::max(*most, own);
+            }
         }
         let mut first = 0;
         let panels = run.manifest().panels.iter().map(|panel| {
@@ -64,48 +62,34 @@ impl CurvatureMap {
     /// of the run are apart.
     fn of(material: &[[f64; 2]], (triangles, curvatures): (&[[u32; 3]], &[f64])) -> Self {
         let corners = |triangle: &[u32; 3]| triangle.map(|corner| material[corner as usize]);
-        let points = || triangles.iter().flat_map(corners);
-        let end = |axis: usize, pick: fn(f64, f64) -> f64| {
-            points().map(|point| point[axis]).reduce(pick).unwrap_or(0.0)
-        };
         let area = |triangle: &[u32; 3]| {
             let [a, b, c] = corners(triangle);
             0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
         };
         // Two triangles to a particle.
         let mean = triangles.iter().map(area).sum::<f64>() / triangles.len().max(1) as f64;
-        let size = (2.0 * mean).sqrt().max(f64::MIN_POSITIVE);
-        let low = [0, 1].map(|axis| end(axis, f64::min));
-        let [columns, rows] =
-            [0, 1].map(|axis| ((end(axis, f64::max) - low[axis]) / size) as usize + 1);
-        let mut map = Self { low, size, columns, bins: vec![0.0; columns * rows] };
+        let mut map = Self { size: (2.0 * mean).sqrt(), bins: BTreeMap::new() };
         for (triangle, &curvature) in triangles.iter().zip(curvatures) {
             for point in corners(triangle) {
-                let [column, row] = map.bin(point);
-                let most = &mut map.bins[row * columns + column];
+                let most = map.bins.entry(map.bin(point)).or_insert(0.0);
                 *most = most.max(curvature);
             }
         }
         map
     }
 
-    /// Returns the column and the row of the bin that a point is in, or of the nearest one.
-    fn bin(&self, point: [f64; 2]) -> [usize; 2] {
-        let counts = [self.columns, self.bins.len() / self.columns];
-        [0, 1].map(|axis| {
-            let place = (point[axis] - self.low[axis]) / self.size;
-            (place.max(0.0) as usize).min(counts[axis] - 1)
-        })
+    /// Returns the bin that a point is in.
+    fn bin(&self, point: [f64; 2]) -> [i64; 2] {
+        point.map(|coordinate| (coordinate / self.size).floor() as i64)
     }
 
-    /// Returns the largest curvature in the bin of a point and in those around it: on another grid
-    /// folds may lie elsewhere.
+    /// Returns the largest curvature in the bin of a point and in those around it, because folds may
+    /// lie elsewhere on another grid; infinity where the run has no cloth.
     fn around(&self, point: [f64; 2]) -> f64 {
-        let near = |place: usize| place.saturating_sub(1)..place + 2;
-        let [column, row] = self.bin(point);
-        let rows = near(row).filter_map(|row| self.bins.chunks(self.columns).nth(row));
-        let bins = rows.flat_map(|row| near(column).filter_map(|column| row.get(column)));
-        bins.copied().fold(0.0, f64::max)
+        let [u, v] = self.bin(point).map(|place| [-1, 0, 1].map(|step| place.saturating_add(step)));
+        let near = u.into_iter().flat_map(|u| v.map(|v| [u, v]));
+        let found = near.filter_map(|bin| self.bins.get(&bin).copied());
+        found.reduce(f64::max).unwrap_or(f64::INFINITY)
     }
 }
 
@@ -152,8 +136,8 @@ mod tests {
             assert!((found - 1.0).abs() < 0.15, "{found} at {v}");
             assert!(spacing_max([0.04, v]) > 1e3, "{} at {v}", spacing_max([0.04, v]));
         }
-        // Beyond the sheet, what the nearest part allows.
-        assert_eq!(spacing_max([0.3, -1.0]), spacing_max([0.2, 0.0]));
+        // Beyond the sheet nothing is known.
+        assert_eq!(spacing_max([0.3, -1.0]), 0.0);
         assert!(grading.spacing_max("sleeve").is_none());
         let nowhere = Grading::read(&folder.path().join("nowhere"), angle);
         assert!(matches!(nowhere, Err(Error::NotARun { .. })));

@@ -66,17 +66,15 @@ impl Shape {
         Shape { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]] }
     }
 
-    fn text(&self, material: bool) -> String {
+    /// OBJ of the shape, with material coordinates if it has some.
+    fn text(&self, material: &[[f64; 2]]) -> String {
         let mut text = String::new();
         // All digits: the last bit counts.
         for [x, y, z] in &self.vertices {
             writeln!(text, "v {x:?} {y:?} {z:?}").unwrap();
         }
-        if material {
-            for (k, _) in self.vertices.iter().enumerate() {
-                let along = k as f64;
-                writeln!(text, "vt {along} {}", along * along).unwrap();
-            }
+        for [u, v] in material {
+            writeln!(text, "vt {u} {v}").unwrap();
         }
         for corners in &self.triangles {
             let [a, b, c] = corners.map(|corner| corner + 1);
@@ -94,6 +92,8 @@ struct Planted {
     twins: &'static str,
     /// Half of the minimum separation, in m.
     separation: f64,
+    /// Material coordinates, in m; metres apart if empty.
+    material: Vec<[f64; 2]>,
 }
 
 impl Planted {
@@ -126,10 +126,15 @@ impl Planted {
             let shifted = panel.triangles.iter().map(|corners| corners.map(|k| k + first));
             all.triangles.extend(shifted);
         }
-        let mut frame = all.text(true);
+        let apart = |k: usize| [k as f64, (k * k) as f64];
+        let material = match self.material.is_empty() {
+            true => (0..all.vertices.len()).map(apart).collect(),
+            false => self.material.clone(),
+        };
+        let mut frame = all.text(&material);
         if let Some(body) = &self.body {
             frame.insert_str(0, "# bodies: bodies-00000.obj\n");
-            std::fs::write(folder.join("bodies-00000.obj"), body.text(false)).unwrap();
+            std::fs::write(folder.join("bodies-00000.obj"), body.text(&[])).unwrap();
         }
         std::fs::write(folder.join("frame-00000.obj"), frame).unwrap();
     }
@@ -238,4 +243,20 @@ fn sides_of_an_open_seam_that_cross_are_found() {
     // One pair of twins has met, and the other side goes through.
     let verdict = sewn([[0.0, 0.0, 0.0], [0.06, -0.05, -0.01]], [0.05, -0.04, 0.1]);
     assert_eq!(verdict.intersections, 1, "{verdict:?}");
+}
+
+#[test]
+fn parts_of_a_panel_that_are_close_at_rest_keep_a_quarter_of_their_rest_distance() {
+    // Two triangles with a slit of 1 mm between them at rest, where 2 mm are promised elsewhere.
+    let material: Vec<[f64; 2]> =
+        vec![[0.0, 0.0], [0.1, 0.0], [0.05, 0.1], [0.0, -1e-3], [0.05, -0.1], [0.1, -1e-3]];
+    let at = |gap: f64| {
+        let place = |&[u, v]: &[f64; 2]| [u, 0.0, if v == -1e-3 { -gap } else { v }];
+        let vertices = material.iter().map(place);
+        let panel = Shape { vertices: vertices.collect(), triangles: vec![[0, 1, 2], [3, 4, 5]] };
+        let material = material.clone();
+        Planted { panels: vec![panel], separation: 1e-3, material, ..Planted::default() }.verify()
+    };
+    assert!(at(3e-4).holds() && at(2.6e-4).holds(), "{:?}", at(3e-4));
+    assert!(!at(2.4e-4).holds(), "{:?}", at(2.4e-4));
 }

@@ -30,9 +30,11 @@ impl Series {
     pub(crate) fn trim(&mut self) {
         let Pair { deformation, load, .. } = self.pair;
         let empty = |row: &Row, column: usize| row.cells.get(column).is_none_or(Cell::is_empty);
-        if self.several {
-            self.block.rows.retain(|row| !(empty(row, deformation) && empty(row, load)));
-        }
+        let several = self.several;
+        self.block.rows.retain(|row| {
+            let is_neighbours = several || !row.cells.iter().all(Cell::is_empty);
+            !(is_neighbours && empty(row, deformation) && empty(row, load))
+        });
     }
 
     /// Returns the numbers of a column, all finite.
