@@ -184,7 +184,7 @@ impl Cloth {
         &self.areas
     }
 
-    /// Distances of the particles on the grid of each, in m.
+    /// Spacings of the grids that the particles are on, in m.
     #[must_use]
     pub fn spacings(&self) -> &[f64] {
         &self.spacings

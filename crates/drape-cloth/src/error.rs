@@ -67,7 +67,7 @@ pub enum Error {
         /// Problem with the fold.
         what: &'static str,
     },
-    /// Panel that is to be graded, and is folded or graded.
+    /// Panel that cannot be graded: it is folded, or graded already.
     #[error("a panel that is folded, or graded already, cannot be graded")]
     Graded,
     /// Panel with a rim of triangles in a model that has none.

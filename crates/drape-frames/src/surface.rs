@@ -1,4 +1,4 @@
-//! Surfaces of triangles: vectors, and curvature.
+//! Geometry of surfaces of triangles: vectors and curvatures.
 
 pub(crate) mod curvature;
 pub mod vector;

@@ -21,7 +21,7 @@ pub struct MaterialPoint {
     pub sheet: u32,
     /// Material coordinates, in m.
     pub coordinates: [f64; 2],
-    /// Distance of the nearest particles, in m.
+    /// Spacing of the particles around it, in m.
     pub spacing: f64,
 }
 

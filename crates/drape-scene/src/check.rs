@@ -65,7 +65,8 @@ pub(crate) fn check(
     let checker = &mut Checker::new(documents, file, faults);
     let model = solver::model(checker);
     let materials = fabrics::materials(checker, documents.fabrics, model);
-    let mut placed = panel::panels(checker, &materials);
+    let grading = panel::graded::grading(checker);
+    let mut placed = panel::panels(checker, &materials, grading.as_ref());
     let count = placed.iter().map(|own| own.positions.len() / 3).sum();
     let plain = placed.len();
     let (mut seams, mut notes, mut garments) = (Vec::new(), Vec::new(), Vec::new());
@@ -105,8 +106,6 @@ pub(crate) fn check(
     }
     let pins = pins.into_iter().map(|checked| checked.pin).collect();
     let sewing = sewing_settings(checker, seams.is_empty());
-    let graded_by = file.grading.as_ref().map(|grading| &grading.run);
-    let graded_by = graded_by.and_then(|folder| checker.locate("grading.run", folder));
     let folder = file.output.folder.as_ref();
     let folder = folder.and_then(|folder| checker.locate("output.folder", folder));
     // Seams and the start need sound panels.
@@ -147,7 +146,7 @@ pub(crate) fn check(
         parts: content.parts(),
         notes,
         contact_limits: Vec::new(),
-        graded_by,
+        graded_by: grading.map(|grading| grading.folder),
     };
     let mut scene = Scene {
         source,

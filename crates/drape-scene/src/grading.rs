@@ -1,13 +1,15 @@
-//! Grading: where panels may be coarser, by the curvature that an earlier run of the scene has.
+//! Grading: the largest spacing at each point of a panel, from its curvature in an earlier run.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use drape_frames::{Error, Recording, curvatures};
 
 /// Largest curvatures of the panels of a run, at their material coordinates.
 #[derive(Debug, Clone)]
 pub(crate) struct Grading {
+    /// Folder of the run.
+    pub(crate) folder: PathBuf,
     panels: Vec<(String, CurvatureMap)>,
     /// Largest angle, in rad, by which cloth turns from one particle to the next.
     angle: f64,
@@ -46,7 +48,7 @@ impl Grading {
             );
             (panel.name.clone(), map)
         });
-        Ok(Self { panels: panels.collect(), angle })
+        Ok(Self { folder: folder.to_owned(), panels: panels.collect(), angle })
     }
 
     /// Returns the largest spacing that is allowed at the material coordinates of a panel, in m, as a
@@ -102,7 +104,7 @@ mod tests {
     /// Radius of the bent half of a sheet, in m.
     const RADIUS: f64 = 0.05;
 
-    /// Folder of a run of a sheet of 200 × 100 mm with particles at 10 mm, one half of which is bent.
+    /// Run of a sheet of 200 × 100 mm at a spacing of 10 mm, whose half beyond u = 100 mm is bent.
     fn run() -> tempfile::TempDir {
         let folder = tempfile::tempdir().expect("a folder");
         let manifest = r#"{ "format": 1, "guarded": false, "panels": [

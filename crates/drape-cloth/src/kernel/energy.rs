@@ -145,9 +145,9 @@ pub(crate) fn stored(buffers: &mut StripBuffers, trial: &StripTrial<'_>) -> f64 
 fn own_batches<'a>(panel: &'a GridPanel, strip: &'a Strip) -> impl Iterator<Item = usize> + 'a {
     let batches = (panel.margin..panel.margin + strip.points.len()).step_by(LANES);
     batches.filter(|&start| {
-        let areas = |column: &[f64]| is_vacant(lanes(column, strip.batch(start).panel));
         let yarns = panel.yarns.iter().flat_map(|own| [&own.segment_areas, &own.triple_areas]);
-        !yarns.chain(&panel.corner_areas).all(|column| areas(column))
+        let mut areas = yarns.chain(&panel.corner_areas);
+        areas.any(|column| !is_vacant(lanes(column, strip.batch(start).panel)))
     })
 }
 

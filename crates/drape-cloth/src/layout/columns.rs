@@ -57,7 +57,7 @@ pub(crate) fn lanes_if_any(column: &[f64], start: usize) -> Option<&Lanes> {
     (!column.is_empty()).then(|| lanes(column, start))
 }
 
-/// Returns whether no connector of a batch exists, as where a panel has a hole or larger cells.
+/// Returns whether a batch has no connector: all of its areas are zero.
 #[inline(always)]
 pub(crate) fn is_vacant(areas: &Lanes) -> bool {
     areas.iter().all(|area| *area == 0.0)

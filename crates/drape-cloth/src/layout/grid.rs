@@ -129,7 +129,6 @@ impl GridPanel {
                 particles[margin + point] = first + particle;
             }
         }
-        let first = grid.particles().next().map_or(first, |particle| first + particle);
         let mut corner_areas = [(); 4].map(|()| vec![0.0; length]);
         let mut cells = Vec::new();
         for (cell, areas) in lattice.cells.iter().zip(lattice.shear_areas()) {
@@ -176,7 +175,7 @@ impl GridPanel {
             points,
             stride,
             margin,
-            first: first as usize,
+            first: (first + grid.particles().next().unwrap_or(0)) as usize,
             particles,
             occupied,
             yarns,

@@ -3,8 +3,8 @@
 //! ```text
 //!    ┌───────┬───────┬───┬───┐
 //!    │       │     ╱ ├───┼───┤    Large cells have a grid of their own. Those that touch finer cells are
-//!    │       │   ╱───├───┼───┤    cut into triangles, whose corners are the nodes of both: no node lies
-//!    │       │ ╱   ╲ ├───┼───┤    between two others without being tied to them.
+//!    │       │   ╱───├───┼───┤    cut into triangles, whose corners are nodes of both grids, so that
+//!    │       │ ╱   ╲ ├───┼───┤    no node lies within a side.
 //!    └───────┴───────┴───┴───┘
 //! ```
 //!
@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::panel::grid::Grid;
 use crate::panel::lattice::{Cell, Lattice};
 
-/// Largest level: a cell of a level has sides of `2^level` spacings.
+/// Largest level. A cell of level `l` has sides of `2^l` spacings.
 const LEVEL_MAX: u8 = 3;
 
 /// Tolerance of the areas of a full cell and of a ratio of spacings: rounding.
@@ -38,7 +38,7 @@ struct CellLevel {
     limit: u8,
 }
 
-/// Square of cells that are joined: its first column, its first row and its level.
+/// Block: square of cells that become one, by its first column, its first row and its level.
 #[derive(Debug, Clone, Copy)]
 struct Block {
     column: usize,
@@ -52,6 +52,13 @@ impl Block {
         1 << self.level
     }
 
+    /// Columns and rows of its cells.
+    fn cells(self) -> impl Iterator<Item = [usize; 2]> {
+        let Self { column, row, .. } = self;
+        let side = self.side();
+        (row..row + side).flat_map(move |row| (column..column + side).map(move |c| [c, row]))
+    }
+
     /// Points at its corners (u, v) = (0, 0), (1, 0), (1, 1), (0, 1): their columns and rows.
     fn corners(self) -> [[usize; 2]; 4] {
         let (column, row, side) = (self.column, self.row, self.side());
@@ -60,8 +67,8 @@ impl Block {
 }
 
 impl Lattice {
-    /// Returns the panel with cells of two, four and eight spacings where `spacing_max`, the largest
-    /// spacing that is allowed at some material coordinates, in m, permits them.
+    /// Returns the panel with cells of two, four and eight spacings, nowhere larger than `spacing_max`:
+    /// the largest spacing, in m, that is allowed at given material coordinates.
     ///
     /// Cells beside the outline keep their size, so that the outline keeps its nodes. Two cells that
     /// touch differ by a factor of two at most. The particles are numbered grid by grid, the finest
@@ -188,7 +195,7 @@ impl Levels {
         if inside { self.cells[row * self.columns + column] } else { None }
     }
 
-    /// Returns the level of the node at a point; nothing where a larger cell takes its place.
+    /// Returns the level of the node at a point; nothing where a block is that has no node there.
     fn at_point(&self, [column, row]: [usize; 2]) -> Option<u8> {
         let around = [[1, 1], [0, 1], [1, 0], [0, 0]];
         let levels = around.iter().filter_map(|&[left, below]| {
@@ -199,7 +206,7 @@ impl Levels {
         (is_on(column) && is_on(row)).then_some(level)
     }
 
-    /// Squares of cells of one level, row by row.
+    /// Blocks of the panel, row by row.
     fn blocks(&self) -> impl Iterator<Item = Block> {
         let places =
             (0..self.rows).flat_map(|row| (0..self.columns).map(move |column| [column, row]));
@@ -211,12 +218,9 @@ impl Levels {
     }
 
     fn set(&mut self, block: Block, level: u8) {
-        let side = block.side();
-        for row in block.row..block.row + side {
-            for column in block.column..block.column + side {
-                if let Some(cell) = &mut self.cells[row * self.columns + column] {
-                    cell.level = level;
-                }
+        for [column, row] in block.cells() {
+            if let Some(cell) = &mut self.cells[row * self.columns + column] {
+                cell.level = level;
             }
         }
     }
@@ -239,9 +243,7 @@ impl Levels {
             for row in (0..=self.rows.saturating_sub(side)).step_by(side) {
                 for column in (0..=self.columns.saturating_sub(side)).step_by(side) {
                     let block = Block { column, row, level };
-                    let mut inside = (row..row + side)
-                        .flat_map(|row| (column..column + side).map(move |column| [column, row]));
-                    let may = inside.all(|[column, row]| {
+                    let may = block.cells().all(|[column, row]| {
                         let own = self.cell(column, row);
                         own.is_some_and(|own| own.level + 1 == level && own.limit >= level)
                     });
@@ -253,11 +255,11 @@ impl Levels {
         }
     }
 
-    /// Parts blocks beside which a cell is smaller than half of them, and those that have no corner
-    /// among blocks of their size.
+    /// Divides blocks until none touches a cell of less than half its side, and each has a corner that
+    /// no smaller block has.
     fn balance(&mut self) {
         loop {
-            let parted: Vec<Block> = self
+            let divided: Vec<Block> = self
                 .blocks()
                 .filter(|&block| {
                     let is_small =
@@ -266,10 +268,10 @@ impl Levels {
                     self.around(block).any(is_small) || !block.corners().into_iter().any(is_own)
                 })
                 .collect();
-            if parted.is_empty() {
+            if divided.is_empty() {
                 return;
             }
-            parted.into_iter().for_each(|block| self.set(block, block.level - 1));
+            divided.into_iter().for_each(|block| self.set(block, block.level - 1));
         }
     }
 }

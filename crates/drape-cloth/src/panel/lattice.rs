@@ -26,8 +26,8 @@ use crate::panel::triangle::twice_area;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lattice {
-    /// Distance of the particles along the weft and along the warp, in m; the least in a
-    /// [graded](Lattice::graded) panel.
+    /// Distance of the particles along the weft and along the warp, in m; of the finest
+    /// grid in a [graded](Lattice::graded) panel.
     pub spacing: [f64; 2],
     /// Material coordinates of the particles, in m.
     pub coordinates: Vec<[f64; 2]>,
@@ -123,8 +123,8 @@ impl Lattice {
         self.grids.last().map_or(self.spacing, |grid| grid.spacing)
     }
 
-    /// Distances of the particles on the grid of each, the mean of those along weft and warp, in m; on
-    /// the outline those of the finest grid.
+    /// Spacing of the grid of each particle, the geometric mean along weft and warp, in m; that of the
+    /// finest grid for nodes of the outline.
     pub(crate) fn spacings(&self) -> Vec<f64> {
         let mean = |[across, along]: [f64; 2]| (across * along).sqrt();
         let mut spacings = vec![mean(self.spacing); self.coordinates.len()];

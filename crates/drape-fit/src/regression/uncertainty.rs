@@ -271,7 +271,7 @@ mod tests {
 
     use super::*;
 
-    /// Line through points with noise, every other one of which has four times the weight.
+    /// Noisy points on a line. Every second one has four times the weight of the others.
     struct Line {
         weights: Vec<f64>,
     }

@@ -55,8 +55,8 @@ pub(crate) struct CoarseLevel {
 }
 
 impl CoarseLevel {
-    /// Whether it saves time on sheets of some points: by the number of particles that they would have
-    /// at the finest spacing among them.
+    /// Returns whether a coarse level saves time: whether the sheets would have [`MIN_PARTICLES`]
+    /// particles at the finest spacing of their points.
     pub(crate) fn is_worthwhile(material_points: &[MaterialPoint]) -> bool {
         let spacings = || material_points.iter().map(|point| point.spacing);
         let finest = spacings().fold(f64::INFINITY, f64::min);

@@ -3,7 +3,7 @@
 pub(crate) mod cut_lattice;
 mod disc;
 pub(crate) mod folds;
-mod graded;
+pub(crate) mod graded;
 pub(crate) mod noise;
 mod placement;
 
@@ -17,11 +17,12 @@ use crate::check::checker::Checker;
 use crate::check::fabrics::{check_thickness, material_index};
 use crate::check::memory::PARTICLES_MAX;
 use crate::file::panel::{FoldFile, PanelFile};
+use crate::grading::Grading;
 use crate::scene::material::Material;
 use crate::scene::panel::Panel;
 
 use self::folds::{FoldLine, UnfoldedPanel, folded};
-use self::graded::{graded, grading};
+use self::graded::graded;
 use self::noise::noise;
 use self::placement::Placement;
 
@@ -51,6 +52,7 @@ pub(crate) struct PlacedPanel {
 pub(crate) fn panels(
     checker: &mut Checker<'_>,
     materials: &[Option<Material>],
+    grading: Option<&Grading>,
 ) -> Vec<PlacedPanel> {
     let file = checker.file;
     if file.panel.is_empty() && file.garment.is_empty() {
@@ -59,7 +61,6 @@ pub(crate) fn panels(
         checker.fail_file("the scene has no panel", help);
     }
     check_spacing(checker, "spacing", file.spacing);
-    let grading = grading(checker);
     let mut panels: Vec<PlacedPanel> = Vec::new();
     let mut first = 0;
     let names: Vec<&str> = file.panel.iter().map(|panel| panel.name.as_str()).collect();
@@ -73,7 +74,7 @@ pub(crate) fn panels(
         let material = material_index(checker, &format!("{key}.fabric"), &entry.fabric);
         let lattice = lattice(checker, &key, entry, first);
         let lattice = lattice.and_then(|lattice| fold(checker, &key, entry, lattice));
-        let lattice = match &grading {
+        let lattice = match grading {
             Some(grading) => lattice.and_then(|own| graded(checker, &entry.name, own, grading)),
             None => lattice,
         };

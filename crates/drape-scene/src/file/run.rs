@@ -68,7 +68,7 @@ pub(crate) struct RefineFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct GradingFile {
     /// Folder of an earlier run of the scene, such as at twice the spacing, relative to the folder of
-    /// the scene. Curvature is the largest of all its frames.
+    /// the scene. The largest curvature in any of its frames counts.
     pub(crate) run: String,
     /// Largest angle by which the cloth turns from one particle to the next where they are farther
     /// apart than the spacing.

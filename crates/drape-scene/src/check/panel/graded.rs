@@ -9,7 +9,7 @@ use crate::grading::Grading;
 /// Largest angle by which cloth turns between particles if the scene gives none, in degrees.
 const ANGLE: f64 = 30.0;
 
-/// Reads the curvatures that panels are graded by, if they are.
+/// Reads the run that `[grading]` names.
 pub(crate) fn grading(checker: &mut Checker<'_>) -> Option<Grading> {
     let entry = checker.file.grading.as_ref()?;
     let refused = match checker.file.panel.is_empty() {
